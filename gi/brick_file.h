@@ -1,7 +1,7 @@
-// Noun: a brick map (irradiance-atlas 3) on disk, .bkm: a tiled 3D MIP map of data on surfaces or in volumes. A file of
-// chunks (reyes/base/chunk_file.h), one a brick; its header has the channels, the octree, and what the map was made of.
-// Space: that of the points it was made from (world). Threads: const members may be called concurrently; a writer
-// belongs to one thread.
+// Noun: a brick map (irradiance-atlas 3) on disk, .bkm: a tiled 3D MIP map of data on surfaces or in volumes. It is a
+// file of chunks (reyes/base/chunk_file.h), one for each brick; its header has the channels, the octree, and what the
+// map was made from. Space: that of the points it was made from (world). Threads: const members may be called
+// concurrently; a writer belongs to one thread.
 #pragma once
 #include <string>
 
@@ -16,12 +16,13 @@ class BrickFile {
   explicit BrickFile(const std::string& path);  ///< Throws FileError.
 
   const std::vector<CloudChannel>& channels() const { return channels_; }
-  int width() const { return width_; }  ///< Floats of one lookup.
+  int width() const { return width_; }  ///< Floats that one lookup returns.
   const BrickTree& tree() const { return tree_; }
   const MadeFrom& madeFrom() const { return madeFrom_; }
   const std::string& path() const { return file_.path(); }
   uint64_t fileBytes() const { return file_.fileBytes(); }
-  Brick brick(int32_t node) const;  ///< Throws FileError where the file is damaged.
+  Brick brick(int32_t node) const;           ///< Throws DamageError where the file is damaged.
+  void readAll() const { file_.readAll(); }  ///< Throws DamageError if it is damaged anywhere.
 
  private:
   ChunkReader file_;
@@ -33,8 +34,8 @@ class BrickFile {
 
 class BrickFileWriter {
  public:
-  explicit BrickFileWriter(const std::string& path);  ///< Throws FileError, as every member.
-  void add(const Brick& brick);                       ///< In the order of the nodes.
+  explicit BrickFileWriter(const std::string& path);  ///< Throws FileError, like every member.
+  void add(const Brick& brick);                       ///< Bricks must come in the order of their nodes.
   void finish(const std::vector<CloudChannel>& channels, const BrickTree& tree, const MadeFrom& madeFrom);
 
  private:

@@ -1,5 +1,5 @@
-// Verb: lookups in a brick map (irradiance-atlas 3.3), of which the octree is in memory and bricks come through a
-// cache. Space: that of the points it was made from (world). Threads: const members may be called concurrently.
+// Verb: lookups in a brick map (irradiance-atlas 3.3). The octree is in memory, and bricks come through a cache. Space:
+// that of the points it was made from (world). Threads: const members may be called concurrently.
 #pragma once
 #include <memory>
 
@@ -14,20 +14,20 @@ class BrickMap {
   /// Throws FileError. The cache must outlive the map.
   BrickMap(const std::string& path, BrickCache& cache)
       : file_(std::make_unique<const BrickFile>(path)), cache_(&cache), id_(cache.addMap()) {}
-  /// Of a cloud that is small enough to be held whole, nothing left out. Throws FileError.
+  /// Makes a map of a cloud that is small enough to be held whole; nothing is left out. Throws FileError.
   explicit BrickMap(const PointCloud& cloud);
 
-  const BrickFile& file() const { return *file_; }  ///< Pre: it was made of one.
+  const BrickFile& file() const { return *file_; }  ///< Pre: the map was made from a file.
   const std::vector<CloudChannel>& channels() const { return file_ ? file_->channels() : channels_; }
-  int width() const { return file_ ? file_->width() : width_; }  ///< Floats of one lookup.
+  int width() const { return file_ ? file_->width() : width_; }  ///< Floats that one lookup returns.
   bool knows(int surface) const {
     return surface > 0 && surface <= kMostSurfaces && tree().surfaces[static_cast<size_t>(surface)];
   }
 
-  /// Data around P on surfaces that face as N does (N zero: whatever they face), averaged over a cube of half width
-  /// `radius`: linear between voxels and between levels (3.3). Where the finest voxels there are empty, coarser ones
-  /// answer. False: there is nothing near, and `out` (width() floats) is zero. `surface`: what lies on another does not
-  /// count, where the map knows() this one. Throws FileError where the file is damaged.
+  /// Averages data around P on surfaces that face as N does (N zero: on all) over a cube of half width `radius`:
+  /// linearly between voxels and between levels (3.3). Where the finest voxels there are empty, coarser ones answer.
+  /// Returns false where there is no data near; `out` (width() floats) is zero then. `surface`: data of other surfaces
+  /// do not count where the map knows() this one. Throws FileError where the file is damaged.
   bool lookup(const vec3& P, const vec3& N, float radius, float* out, int surface = 0) const;
 
  private:
@@ -40,7 +40,7 @@ class BrickMap {
   BrickPtr cached(int32_t node) const;
   const BrickTree& tree() const { return file_ ? file_->tree() : tree_; }
 
-  std::unique_ptr<const BrickFile> file_;  ///< Null: all is held below.
+  std::unique_ptr<const BrickFile> file_;  ///< Null: the members below hold all bricks.
   BrickCache* cache_ = nullptr;
   uint32_t id_ = 0;
   std::vector<CloudChannel> channels_;

@@ -1,6 +1,6 @@
-// Composer: point clouds and brick maps as shaders know them, bake3d() and texture3d(). What is baked rests in memory
-// until it is written; what is looked up is opened once: brick maps (.bkm) brick by brick, point clouds (.ptc) whole,
-// as bricks. Threads: bake() and lookUp() may be called concurrently; write() after the last of them.
+// Composer: point clouds and brick maps of shaders, bake3d() and texture3d(). Baked points stay in memory until they
+// are written. A file that is looked up is opened once: brick maps (.bkm) brick by brick, point clouds (.ptc) whole, as
+// bricks. Threads: bake() and lookUp() may be called concurrently; write() after the last of them.
 #pragma once
 #include <map>
 #include <mutex>
@@ -15,7 +15,7 @@ namespace tomales {
 
 class CloudFiles final : public CloudServices {
  public:
-  /// searchPath: folders by colons, for reading.
+  /// searchPath: folders separated by colons, for reading.
   explicit CloudFiles(std::string searchPath) : searchPath_(std::move(searchPath)) {}
 
   bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) override;
@@ -24,23 +24,24 @@ class CloudFiles final : public CloudServices {
   bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) override;
   bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) override;
 
-  /// All that was baked, as FILE.ptc. The points of a file are sorted by what they are, so that no bit depends on
+  /// Writes all baked points as FILE.ptc. The points of a file are sorted by their contents, so that no bit depends on
   /// threads or buckets.
   void write(Log& log);
 
  private:
   struct Baked {
     PointCloud cloud;
-    uint64_t dropped = 0;  ///< Points that no file may hold.
+    uint64_t dropped = 0;  ///< Points with values that no file may hold.
   };
   template <class Data>
   struct Opened {
     std::unique_ptr<const Data> data;  ///< Null: it could not be opened.
     std::string problem;
   };
-  /// With `photons`: a photon map, as the irradiance that the nearest tell of. Brick maps hold irradiance as it is.
+  /// Opens a file. If `photons` is not null it is a photon map, opened as the irradiance of the nearest photons. Brick
+  /// maps hold irradiance already.
   const Opened<BrickMap>& opened(const std::string& file, const TmPhotonOptions* photons = nullptr);
-  /// What `make` makes of all points of a file.
+  /// Opens what `make` makes of all points of a file.
   template <class Data, class Key, class Make>
   const Opened<Data>& openedWhole(std::map<Key, Opened<Data>>& known, const Key& key, const std::string& file,
                                   const Make& make);
@@ -49,9 +50,9 @@ class CloudFiles final : public CloudServices {
   std::mutex mutex_;
   std::map<std::string, Baked> baked_;
   std::map<std::tuple<std::string, int, float>, Opened<BrickMap>>
-      opened_;  ///< By file, estimator and greatest distance.
+      opened_;  ///< The keys are file, estimator and greatest distance.
   std::map<std::string, Opened<Diffusion>> diffusing_;
-  std::map<std::pair<std::string, std::string>, Opened<Disks>> disks_;  ///< By file and channel.
+  std::map<std::pair<std::string, std::string>, Opened<Disks>> disks_;  ///< The keys are file and channel.
   BrickCache cache_;
 };
 

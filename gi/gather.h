@@ -1,6 +1,7 @@
-// Verb: final gathering. One irradiance record at one point: stratified cosine-weighted rays over the hemisphere, their
-// hits shaded with direct diffuse light (approximate-gi 4.1, 4.2), and from the same rays the gradients, distances and
-// dominant directions. Also the plain Monte Carlo estimate that the reference uses. Irradiance: results are E/pi.
+// Verb: final gathering. It makes one irradiance record at one point: stratified cosine-weighted rays over the
+// hemisphere, whose hits are shaded with direct diffuse light (approximate-gi 4.1, 4.2). The same rays give the
+// gradients, distances and dominant directions. The plain Monte Carlo estimate that the reference uses is here too.
+// Irradiance: results are E/pi. Space: current. Threads: gather() may be called concurrently.
 #pragma once
 #include "gi/cache/bright_spots.h"
 #include "gi/irradiance_cache.h"
@@ -12,15 +13,15 @@ struct GatherSettings {
   int samples = 600;
   float maxDistance = 1e30f;
   uint32_t seed = 0;
-  Illumination light = Illumination::Lights;  ///< Of what the rays hit.
-  bool curvature = false;                     ///< Fill smoothRadius and the second derivatives, which see occlusion;
-  float maxError = 1;                         ///< smoothRadius is for light that may be so many times as far off.
-  int depth = 1;                              ///< Diffuse bounces between the eye and what the rays hit,
-  bool indirect = false;                      ///< whose shaders ask for indirect light in turn.
-  bool mirrored = true;                       ///< As ShadeContext::mirrored.
-  std::string subset{};  ///< Sets of objects that the rays see; none: as trace:subset of the object says.
-  std::optional<OcclusionQuery>
-      occlusion{};  ///< Instead of light: E/pi is what is not covered of the hemisphere, and no hit is shaded.
+  Illumination light = Illumination::Lights;  ///< The light that shades the hits.
+  bool curvature = false;                     ///< Fill smoothRadius and the second derivatives, with occlusion.
+  float maxError = 1;                         ///< Factor on the error that smoothRadius allows.
+  int depth = 1;                              ///< Diffuse bounces between the eye and the hits.
+  bool indirect = false;                      ///< The shaders of the hits ask for indirect light in turn.
+  bool mirrored = true;                       ///< The same as ShadeContext::mirrored.
+  std::string subset{};  ///< Sets of objects that the rays see; empty: those that trace:subset of the object names.
+  /// Occlusion instead of light: E/pi is the uncovered share of the hemisphere, and no hit is shaded.
+  std::optional<OcclusionQuery> occlusion{};
   bool operator==(const GatherSettings&) const = default;
 };
 
@@ -30,23 +31,23 @@ struct GatherPoint {
   vec3 position, normal;  ///< normal: unit, on the side to gather from
   uint32_t key;           ///< Names the point for random numbers.
   float pixelSize;        ///< Root of the projected pixel area.
-  float edgeLength;       ///< Of its micropolygon, for the origin offset.
-  vec3 drift{0};          ///< As kDriftX.
-  float time = -1;        ///< As kTime.
+  float edgeLength;       ///< Edge of its micropolygon, for the origin offset.
+  vec3 drift{0};          ///< Motion over the shutter, as the channel kDriftX.
+  float time = -1;        ///< Time in [0, 1), or -1 for the whole shutter, as the channel kTime.
 };
 class HitRadiance;
 
-/// What is known of the light before it is gathered. Null: nothing.
+/// Light that is known before it is gathered. Null: nothing is known.
 struct KnownLight {
-  const BrightSpots* spots = nullptr;  ///< Some rays more are aimed at them.
-  const HitRadiance* hits = nullptr;   ///< What they send back.
+  const BrightSpots* spots = nullptr;  ///< Some further rays are aimed at these.
+  const HitRadiance* hits = nullptr;   ///< Radiance of what the rays hit.
 };
-/// `find`: what is bright here, as the hemisphere alone sees it.
+/// Gathers one record. `find`, if not null, gets the bright light that the rays of the hemisphere alone have met.
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point,
                         const GatherSettings& settings, const KnownLight& known, Stats& stats,
                         BrightFind* find = nullptr);
 
-/// The shade groups that rays from a group are to see.
+/// The shade groups that rays from a group may hit; null: all.
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings);
 /// Radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
 inline float spreadOfRays(int samples) { return 1 / std::sqrt(static_cast<float>(samples)); }
@@ -56,8 +57,8 @@ inline float spreadOfRays(int samples) { return 1 / std::sqrt(static_cast<float>
 /// objects.
 inline float slantedOffset(float offset, float cosine) { return offset / std::max(cosine, 0.25f); }
 
-/// Directions of a stratified cosine hemisphere of M x N cells (M rings of equal projected area, N sectors), as the
-/// lecture notes' estimator has them: cell (j, k) is sample j * N + k. Around +z.
+/// Cells of a stratified cosine-weighted hemisphere around +z: M rings of equal projected area by N sectors. Cell (j,
+/// k) is sample j * N + k.
 struct HemisphereCells {
   int rings, sectors;
 };

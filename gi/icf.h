@@ -1,5 +1,5 @@
-// Noun and file: the irradiance cache of a shot (.icf, docs/dfb.md), and what rays answered when it was shaded. With it
-// a .dfb is shaded without a ray: indirect light comes from the records, shadows and emitters from the answers.
+// Noun and file: the irradiance cache of a shot (.icf, docs/dfb.md), and the answers that rays gave when it was shaded.
+// With it a .dfb is shaded without a ray: indirect light comes from the records, shadows and emitters from the answers.
 // Threads: answers may be written and read concurrently.
 #pragma once
 #include "gi/point_cloud.h"
@@ -8,13 +8,14 @@
 
 namespace tomales {
 
-/// All but the answers.
+/// The whole file except for the answers.
 struct IrradianceShot {
   uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers belong to; 0: none do.
   GiSettings settings;
   mat4 cameraFromWorld{1.0f};
-  std::vector<PreparedCache> caches;     ///< In camera space.
-  std::optional<EmitterTable> emitters;  ///< None: curved or cut by trim curves, so that they need their geometry.
+  std::vector<PreparedCache> caches;  ///< In camera space.
+  /// Empty where an emitter is curved or cut by trim curves, which needs its geometry.
+  std::optional<EmitterTable> emitters;
 };
 
 class IcfWriter {
@@ -34,9 +35,10 @@ class IcfFile {
   static std::unique_ptr<IcfFile> open(const std::string& path, std::string& error);
   IrradianceShot takeShot() { return std::move(shot_); }
   const IrradianceShot& shot() const { return shot_; }
-  /// One a batch; empty: the file has none. Nothing: damaged.
+  /// The answers of one bucket, one for each batch; empty: the file has none. Null: they are damaged, which `error`
+  /// explains.
   std::optional<std::vector<RayAnswers>> answers(size_t tile, std::string& error) const;
-  /// Is every bucket's as it was written?
+  /// Checks that the answers of every bucket are as they were written.
   bool intact(std::string& error) const;
   uint64_t size() const { return records_->size(); }
 
@@ -46,8 +48,8 @@ class IcfFile {
   IrradianceShot shot_;
 };
 
-/// Where the records of all caches lie, in world space and without extent: "record", which is 1; "irradiance" (E/pi),
-/// "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
+/// The records of all caches as points in world space, without extent. Channels: "record", which is 1; "irradiance"
+/// (E/pi), "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
 PointCloud recordsOf(const IrradianceShot& shot);
 
 /// Moves records to the camera of another frame; the same bits if it is the same.

@@ -1,5 +1,5 @@
-// Noun: an irradiance cache. Records with position, normal, E, gradients and dominant directions in an octree; an error
-// function says how far each may be used. Over reyes/base alone.
+// Noun: an irradiance cache. It holds records with position, normal, E, gradients and dominant directions in an octree;
+// an error function says how far each may be used. It needs reyes/base alone.
 // Irradiance: E here is irradiance / pi (the RSL convention), as everywhere behind indirectDiffuse().
 // Space: that of the caller, the same for insert and lookup. Threads: lookups are concurrent and lock-free as long as
 // nobody inserts.
@@ -17,32 +17,36 @@ using IrradianceRecords = BlockVector<IrradianceRecord>;
 
 enum class ErrorFunction {
   Screen,   ///< approximate-gi eq. 2 to 5
-  Ward,     ///< Split sphere, with the limits of Screen.
+  Ward,     ///< Ward's split sphere, with the limits of Screen.
   Hessian,  ///< Schwarzhaupt, Jensen, Jarosz 2012
-  Split,    ///< Ward and Heckbert 1992: no limits in pixels, no disputes. To compare with,
-  Plain,    ///< and Screen as published: no disputes, and each record says what its own gradients do.
+  Split,    ///< Ward and Heckbert 1992, for comparison: no limits in pixels, and records do not check each other.
+  /// Screen as published, for comparison: records do not check each other, and each is extrapolated by its own
+  /// gradients alone.
+  Plain,
 };
 
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
-  float kappa = 1;       ///< Eq. 2: records reach 1 / kappa as far. Infinite: nothing is ever reused.
+  float kappa = 1;       ///< Eq. 2: radii are divided by kappa. Infinite: no record is ever reused.
   float maxPixels = 10;  ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist"),
-  float minPixels = 1.5f;  ///< and R-
-  float enough = 0.05f;    ///< Sum of weights that a point is to find; else it gets its own record.
+  float minPixels = 1.5f;  ///< R- of eq. 3, in the same unit.
+  float enough = 0.05f;    ///< Sum of weights that a point needs to be interpolated; with less it gets its own record.
   bool operator==(const CacheSettings&) const = default;
 };
 
 struct IrradianceEstimate {
   vec3 E;
   vec3 dominant[3];
-  float weight = 0;            ///< Sum of weights; 0: nothing usable was found.
-  bool disputed = false;       ///< Records differ by more than their noise explains.
-  bool hasRecord = false;      ///< At this very place.
-  float closest = kInfinity;   ///< The least of the records used: the more there are, the less.
-  float headroom = kInfinity;  ///< No sheet over any of them is lower, though some may have met its edge.
+  float weight = 0;           ///< Sum of weights; 0: nothing usable was found.
+  bool inconsistent = false;  ///< The records used differ by more than their noise explains.
+  bool hasRecord = false;     ///< A record lies at this very place.
+  float closest = kInfinity;  ///< Least closest distance of the records used.
+  /// No occluder over any record used is lower than this, though some records may have met its edge.
+  float occluderHeight = kInfinity;
 };
 
-/// Where irradiance is looked up: records that serve `normal`, turned to `shadingNormal`.
+/// A place at which irradiance is looked up. Records that serve `normal` are chosen, and extrapolated to
+/// `shadingNormal`.
 struct IrradiancePlace {
   vec3 position, normal, shadingNormal;
   float pixelSize;  ///< Root of the projected pixel area.
@@ -50,16 +54,16 @@ struct IrradiancePlace {
 
 class IrradianceCache {
  public:
-  /// `bound` should hold all records; what falls outside still works, only slower.
+  /// `bound` should hold all records; records outside of it still work, only slower.
   IrradianceCache(const Bound3& bound, const CacheSettings& settings);
   IrradianceCache(IrradianceCache&&) noexcept;
   IrradianceCache& operator=(IrradianceCache&&) noexcept;
   ~IrradianceCache();
 
-  /// A record that is off at the place of a new one, by more than noise explains, ends before it; and the new one
-  /// before the old.
+  /// Adds a record. Where an older record is wrong at the new one's place by more than noise explains, its validity
+  /// radius is cut to end before that place, and likewise the new one's at the older place.
   void insert(const IrradianceRecord& record);
-  /// One of records() of an earlier cache with these settings: goes in as it is.
+  /// Adds one of records() of an earlier cache with these settings, unchanged.
   void restore(const IrradianceRecord& record);
   /// Weighted mean of the extrapolated records (eq. 5, 7): those that serve `normal`, turned to `shadingNormal`.
   /// pixelSize: root of the projected pixel area at x.
@@ -67,9 +71,10 @@ class IrradianceCache {
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const {
     return lookup(x, normal, normal, pixelSize);
   }
-  /// The same for many, to out[0] and on: several times as fast where successive places lie close together.
-  /// Records serve so many times wider than they cover, but not beyond disputes, and less where they are
-  /// steep; those of `split` and `plain` do not, as published, nor those of `hessian`, of which enough overlap.
+  /// Looks up many places and writes to out[0] and on. It is several times as fast as single lookups where successive
+  /// places lie close together. Validity radii are multiplied by `wider`, but by less where light is steep, and never
+  /// beyond a disagreement. The factor is not used for `split` and `plain`, which stay as published, nor for `hessian`,
+  /// whose records overlap enough.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider = 1) const;
   const IrradianceRecords& records() const;
   const Bound3& bound() const;

@@ -1,24 +1,25 @@
-// Noun: point clouds as PLY, the format that other programs exchange points in. Streamed: a cloud need not fit in
+// Noun: point clouds as PLY, the format in which programs exchange points. It is streamed: a cloud need not fit in
 // memory.
 //   x y z, nx ny nz, radius, then the channels: NAME for one float, NAME_0 NAME_1 ... for several
-// Read: ASCII and binary of either byte order, any scalar types. red green blue become the channel "Cs" (bytes as
-// 0..1); other properties become channels, runs of NAME_0 NAME_1 ... one of several floats; other elements are skipped.
+// Files that are read may be ASCII or binary of either byte order, with any scalar types. red green blue become the
+// channel "Cs" (bytes as 0..1); other properties become channels, runs of NAME_0 NAME_1 ... one of several floats;
+// other elements are skipped.
 // Threads: none.
 #pragma once
 #include "gi/point_file.h"
 
 namespace tomales {
 
-/// Binary, little-endian. Throws FileError.
+/// Writes binary, little-endian. Throws FileError.
 void writePly(const PointFile& cloud, const std::string& path);
 
 struct PlyFigures {
   uint64_t points = 0;
-  uint64_t dropped = 0;  ///< Without a finite place.
+  uint64_t dropped = 0;  ///< Points without a finite position.
 };
 
-/// PLY -> .ptc, in the order of the file. `radius`: of points that name none. Normals are made unit. Throws FileError:
-/// no PLY, no x y z, a list among the properties of its vertices, or truncated.
+/// Converts PLY to .ptc, in the order of the file. `radius`: for points that have none. Normals are made unit. Throws
+/// FileError: no PLY, no x y z, a list among the properties of its vertices, or truncated.
 PlyFigures convertPly(const std::string& path, const std::string& out, float radius);
 
 }  // namespace tomales

@@ -1,6 +1,6 @@
-// Noun: a point cloud. Oriented disks with any channels of data: photons, irradiance points and baked surfaces alike.
-//   position, normal, radius of every point, then `width()` floats of data, channel after channel
-// Space: world, unless a file's header says otherwise (PRMan's bake3d "coordsystem"). Over reyes/base alone.
+// Noun: a point cloud of oriented disks with any channels of data: photons, irradiance points and baked surfaces alike.
+// Each point has a position, a normal, a radius and `width()` floats of data, channel after channel.
+// Space: world, unless a file's header says otherwise (PRMan's bake3d "coordsystem"). It needs reyes/base alone.
 // Threads: plain data.
 #pragma once
 #include <initializer_list>
@@ -19,28 +19,28 @@ struct CloudChannel {
   bool operator==(const CloudChannel&) const = default;
 };
 
-/// The last channel of clouds that tell surfaces apart: which one a point lies on, 1 .. kMostSurfaces; 0: not known. No
-/// datum of its own: brick maps keep it with their layers (gi/bricks/brick.h).
+/// The last channel of clouds that tell surfaces apart: the number of the surface that a point lies on, 1 ..
+/// kMostSurfaces; 0: not known. It is no data: brick maps keep it with their layers (gi/bricks/brick.h).
 inline const CloudChannel kSurfaceChannel{"__surface", 1};
 constexpr int kMostSurfaces = 127;
 bool tellsSurfaces(const std::vector<CloudChannel>& channels);
-std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels);  ///< Without kSurfaceChannel.
+std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels);  ///< The channels without kSurfaceChannel.
 int widthOf(const std::vector<CloudChannel>& channels);                ///< Floats of one point.
 
 constexpr int kMostWidth = 256;  ///< Floats of a point in a file.
 
-/// As headers of point clouds and brick maps hold them. Reading throws FileError, naming `path`, where they do not add
-/// up.
+/// Writes and reads channels as the headers of point clouds and brick maps hold them. Reading throws FileError, naming
+/// `path`, where they are inconsistent.
 void putChannels(ByteWriter& w, const std::vector<CloudChannel>& channels);
 std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path);
 
-/// What a file was made of, as sums; 0: not known.
+/// Checksums of what a file was made from; 0: not known.
 struct MadeFrom {
-  uint64_t world = 0;   ///< worldSum() of the scene at the start of it all.
-  uint64_t inputs = 0;  ///< What was read, and the settings.
+  uint64_t world = 0;   ///< worldSum() of the scene that the light was traced in.
+  uint64_t inputs = 0;  ///< Sum of the input files and of the settings.
 };
 
-/// What a cloud needs to know of its channels at every point.
+/// Channels, with the facts about them that a cloud needs for every point.
 class CloudChannels {
  public:
   CloudChannels() = default;
@@ -67,24 +67,24 @@ struct PointCloud {
   CloudChannels channels;
   std::vector<vec3> position;
   std::vector<vec3> normal;   ///< Unit; zero: a point of a volume, a sphere.
-  std::vector<float> radius;  ///< Of the disk or sphere; 0: infinitesimal.
-  std::vector<float> data;    ///< width() floats a point.
+  std::vector<float> radius;  ///< Radius of the disk or sphere; 0: infinitesimal.
+  std::vector<float> data;    ///< width() floats for each point.
 
   size_t count() const { return position.size(); }
   int width() const { return channels.width(); }
   const float* at(size_t point) const { return data.data() + point * static_cast<size_t>(width()); }
   /// `values`: width() floats.
   void add(const vec3& P, const vec3& N, float r, const float* values);
-  int surface(size_t point) const;  ///< Of kSurfaceChannel; 0: not known.
+  int surface(size_t point) const;  ///< Value of kSurfaceChannel; 0: not known.
   void reserve(size_t points);
   void clear();          ///< Keeps the channels.
-  Bound3 bound() const;  ///< Of the positions.
+  Bound3 bound() const;  ///< Bound of the positions.
 };
 
-/// First float of a channel among those of a point, -1: there is none of this width (0: of any).
+/// Offset of a channel's first float among those of a point; -1: there is none of this width (0: any width).
 int offsetOf(const std::vector<CloudChannel>& channels, const std::string& name, int width = 0);
 
-/// What files may hold: all finite, no negative radius.
+/// May a file hold this point? All values have to be finite, and the radius not negative.
 bool isValidPoint(const vec3& P, const vec3& N, float radius, std::span<const float> values);
 
 }  // namespace tomales

@@ -1,7 +1,7 @@
-// Noun: a point cloud on disk (.ptc), the one container for photons, irradiance points and baked data. Written as a
-// stream and read chunk by chunk, so that neither ever needs the whole cloud in memory.
-//   header   channels, the count of points, the bound of every chunk, what the file was made of, and a sum of the
+// Noun: a point cloud on disk (.ptc), the one container for photons, irradiance points and baked data. It is written as
+// a stream and read chunk by chunk, so that neither needs the whole cloud in memory.
 //   points chunk    at most kChunkPoints points: positions, normals (octahedral, 2 x 16 bits; 0: none), radii, data
+//   header          channels, the count of points, the bound of every chunk, MadeFrom, and a sum of the points
 // Threads: a reader may be shared; a writer belongs to one thread.
 #pragma once
 #include "gi/point_cloud.h"
@@ -14,11 +14,11 @@ class PointFileWriter {
  public:
   static constexpr size_t kChunkPoints = 1 << 14;
 
-  /// Throws FileError, as every member.
+  /// Throws FileError, like every member.
   PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels);
-  /// A point that is not finite is left out.
+  /// Adds a point; one that is not finite is left out.
   void add(const vec3& P, const vec3& N, float radius, const float* values);
-  /// At most kChunkPoints valid points, as a chunk of their own.
+  /// Adds at most kChunkPoints valid points, as a chunk of their own.
   void addChunk(const PointCloud& points);
   const std::vector<CloudChannel>& channels() const { return pending_.channels; }
   size_t count() const { return written_ + pending_.count(); }
@@ -39,11 +39,11 @@ class PointFile {
   int width() const { return width_; }  ///< Floats of one point's data.
   uint64_t count() const { return count_; }
   const MadeFrom& madeFrom() const { return madeFrom_; }
-  uint64_t contents() const { return contents_; }  ///< Names the channels and points, in their order.
+  uint64_t contents() const { return contents_; }  ///< Checksum of the channels and points, in their order.
   Bound3 bound() const;
   size_t chunkCount() const { return bounds_.size(); }
   const Bound3& chunkBound(size_t chunk) const { return bounds_[chunk]; }
-  void read(size_t chunk, PointCloud& to) const;  ///< Appends; throws FileError.
+  void read(size_t chunk, PointCloud& to) const;  ///< Appends to `to`; throws FileError.
   PointCloud readAll() const;
   const std::string& path() const { return file_.path(); }
   uint64_t fileBytes() const { return file_.fileBytes(); }
@@ -60,7 +60,7 @@ class PointFile {
 /// Throws FileError unless it has a channel "power" or "indirectpower" of three floats.
 void requirePhotons(const PointFile& file);
 
-/// Along a Morton curve, so that chunks are compact in space. Throws FileError.
+/// Writes a cloud, sorted along a Morton curve, so that chunks are compact in space. Throws FileError.
 void writePointFile(const PointCloud& cloud, const std::string& path, const MadeFrom& madeFrom = {});
 
 }  // namespace tomales

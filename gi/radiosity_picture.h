@@ -1,12 +1,13 @@
 // Verb: radiosity maps -> pictures, to look at and for shaders. Charts are packed so that each lies at a multiple of
-// its own width and height: levels of the picture down to a chart's shorter edge hold no texel of two patches.
+// its own width and height: down to the level of a chart's shorter edge, no texel of the picture's MIP map mixes two
+// patches.
 #pragma once
 #include "gi/radiosity/maps.h"
 #include "reyes/image.h"
 
 namespace tomales {
 
-/// Where the charts lie in a picture, by their lower corners in texels.
+/// The placement of charts in a picture: their lower corners in texels.
 struct ChartLayout {
   int width = 0, height = 0;  ///< Powers of two.
   std::vector<glm::ivec2> corner;

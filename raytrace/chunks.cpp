@@ -18,17 +18,18 @@
 namespace tomales {
 namespace {
 
-constexpr int kTile = 64;                ///< Fine polygons of a tile along u or v.
-constexpr int kChunkPolygons = 64 * 64;  ///< At which a chunk is full: docs/decisions/0036-geometry-cache.md
-constexpr size_t kChunkTiles =
-    1024;                   ///< Of more Embree would build with several threads, and bits would depend on how many.
+constexpr int kTile = 64;                ///< Fine polygons along u or v of a tile.
+constexpr int kChunkPolygons = 64 * 64;  ///< A chunk is full at so many: docs/decisions/0036-geometry-cache.md
+/// Tiles of a chunk. Embree would build a larger scene with several threads, and the bits would depend on their
+/// number.
+constexpr size_t kChunkTiles = 1024;
 constexpr int kProbes = 8;  ///< Cells along u and v of the lattice over a tile that shows where its bound is too small.
 constexpr int kSampled = 4;  ///< Polygons along u and v of the part of a tile whose deviation is measured.
 constexpr size_t index(Level level) { return static_cast<size_t>(level); }
 
 int64_t polygons(const CoarseRate& r) { return int64_t{r.nu} * r.nv; }
 
-/// Vertices that are diced later lie in it whatever rounds, and Embree's arithmetic with it.
+/// Grows a bound so that vertices that are diced later lie in it despite rounding, also that of Embree.
 Bound3 withRounding(const Bound3& b) {
   return b.grown(1e-6f * std::max(maxComponent(glm::abs(b.lo)), maxComponent(glm::abs(b.hi))));
 }
@@ -40,14 +41,14 @@ void reportNotFinite(const Object& o, Log& log) {
 
 }  // namespace
 
-/// What will be a tile at each level.
+/// A tile to be, with its rate at each level.
 struct Chunks::Piece {
   UvRect rect;
   std::array<CoarseRate, kLevelsInChunks> rate;
   Bound3 bound;
 };
 
-/// What is known of a patch.
+/// A patch with its pieces.
 struct Chunks::Planned {
   int object = -1;
   uint32_t patch = 0;
@@ -108,14 +109,14 @@ Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) c
   return out;
 }
 
-/// A part of the piece at each level, which hash chooses.
+/// Measures the deviation of a part of the piece at each level. A hash chooses the part.
 void Chunks::measure(Planned& planned, Piece& piece) const {
   const Object& o = scene_.objects[static_cast<size_t>(planned.object)];
   const auto displaced = [&](const UvRect& part, int nu, int nv) {
     Grid g = tomales::dice(scene_, planned.object, planned.patch, part, nu, nv, 1);
     if (displacesForRays(o)) shading_.displace(g);
     if (!isFinite(g)) return g;
-    // Where the displacement bound is too small.
+    // The displacement bound may be too small.
     Bound3 met;
     for (int k = 0; k < g.vertexCount(); ++k) met.extend(g.position(0, k));
     piece.bound.extend(withRounding(met));

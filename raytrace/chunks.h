@@ -1,8 +1,8 @@
-// Surfaces that rays see at several levels, at all but the coarse one: tiles of patches, near ones of one level
-// together in chunks, which are diced when a ray first comes there (docs/decisions/0036-geometry-cache.md). Coarse
-// polygons are those of raytrace/tessellate.h. What stands still, is no light, no part of a solid and not trimmed,
-// where Attribute "trace" "tessellationmode" asks for it; flat patches without displacement are exact as they are and
-// stay out. Space: current. Threads: const members may be called concurrently.
+// Surfaces that rays see at several levels of detail, at all but the coarse one. Patches are cut into tiles; near tiles
+// of one level form a chunk, which is diced when a ray first comes there (docs/decisions/0036-geometry-cache.md). The
+// coarse polygons are those of raytrace/tessellate.h. Patches belong here where Attribute "trace" "tessellationmode"
+// asks for it, if they do not move, emit or belong to a solid and are not trimmed; flat patches without displacement
+// are exact as they are and stay out. Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include <array>
 
@@ -12,7 +12,7 @@
 
 namespace tomales {
 
-/// A rectangle of one patch, cut alike at every level by its neighbours in the patch.
+/// A rectangle of one patch. All levels have the same rectangles, and neighbours share their edges.
 struct Tile {
   int object;
   uint32_t patch;
@@ -23,15 +23,15 @@ struct Tile {
 struct Chunk {
   uint32_t group;
   Level level;
-  Bound3 bound;  ///< No tighter than that of all levels.
+  Bound3 bound;  ///< Holds the vertices of all levels, so it may be larger than this level needs.
   std::vector<Tile> tiles;
 };
 
-/// Lattices of the tiles of a chunk, rows along u, one behind the other.
+/// Lattices of the tiles of a chunk, with rows along u, one after the other.
 struct ChunkMesh {
-  std::vector<vec3> P;      ///< Behind the last lie at least 4 more readable bytes. A tile that is not finite is NaN.
-  std::vector<uint32_t> N;  ///< RISpec side; reyes/base/packed_normal.h
-  std::vector<uint32_t> firstVertex;  ///< Of each tile.
+  std::vector<vec3> P;                ///< At least 4 readable bytes follow the last. A tile that is not finite is NaN.
+  std::vector<uint32_t> N;            ///< Normals on the RISpec side, packed as in reyes/base/packed_normal.h.
+  std::vector<uint32_t> firstVertex;  ///< Indexed by tile.
 
   size_t bytes() const {
     return P.capacity() * sizeof(vec3) + (N.capacity() + firstVertex.capacity()) * sizeof(uint32_t);
@@ -43,23 +43,23 @@ bool hasLevels(const Object& object, uint32_t patch, bool moves);
 
 class Chunks {
  public:
-  /// Leaves out objects that are `elsewhere`. All must outlive this. Dices some of every level that rays see to learn
-  /// how far it is off.
+  /// Makes the chunks of all objects that are not `elsewhere`. All arguments must outlive this. It dices samples of
+  /// every level that rays see, to measure deviations.
   Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const std::vector<bool>& elsewhere,
          Log& log);
 
   const std::vector<Chunk>& all() const { return chunks_; }
   ChunkMesh dice(size_t chunk) const;
-  /// The level at which a ray of this level sees a group; coarse: not here.
+  /// The level at which a ray of this level sees a group; Coarse: its polygons are not here.
   Level levelOf(uint32_t group, Level ray) const { return full_[group] ? Level::Fine : ray; }
   bool has(uint32_t group) const { return present_[group]; }
-  /// Largest distance between polygons that a ray of this level sees here and what they stand for, as far as a part of
-  /// them tells; 0 if it sees none.
+  /// Largest distance between the polygons that a ray of this level sees here and the surface that they stand for, as
+  /// far as samples show; 0 if it sees none.
   float deviation(size_t group, Level ray) const {
     const Level level = levelOf(static_cast<uint32_t>(group), ray);
     return level == Level::Coarse ? 0 : deviations_[group][static_cast<size_t>(level)];
   }
-  /// Unit normal, RISpec side, where tile parameters u, v lead.
+  /// Unit normal on the RISpec side at tile parameters u, v.
   vec3 normal(const ChunkMesh& mesh, size_t chunk, uint32_t tile, float u, float v) const;
   int64_t finePolygons() const { return finePolygons_; }
 
@@ -73,8 +73,8 @@ class Chunks {
   const Scene& scene_;
   const ShadingSystem& shading_;
   Log& log_;
-  std::vector<bool> full_;     ///< Of each group: rays of all levels see the finest.
-  std::vector<bool> present_;  ///< Of each group: some chunk belongs to it.
+  std::vector<bool> full_;     ///< Indexed by group: do rays of all levels see the finest?
+  std::vector<bool> present_;  ///< Indexed by group: does some chunk belong to it?
   std::vector<Chunk> chunks_;
   std::vector<std::array<float, kLevelsInChunks>> deviations_;
   int64_t finePolygons_ = 0;

@@ -8,23 +8,26 @@ namespace tomales {
 namespace {
 
 constexpr float kPolygon_px = 16;
-constexpr float kMediumEdge = 3;          ///< Of medium polygons, in edges of micropolygons.
-constexpr float kLeastPolygon_px = 1.5f;  ///< No polygon is smaller for the sake of its turn: far objects need few.
-constexpr float kTurn = 15 * kPi / 180;   ///< Radians between the normals at the ends of a polygon.
-constexpr float kMostTurn =
-    100 * kPi / 180;  ///< However small: half a circle of one polygon would be its diameter, without area.
+constexpr float kMediumEdge = 3;  ///< Edge of medium polygons over that of micropolygons.
+/// A polygon is not made smaller than this only because the normal turns: far objects need few polygons.
+constexpr float kLeastPolygon_px = 1.5f;
+constexpr float kTurn = 15 * kPi / 180;  ///< Greatest angle in radians between the normals at the ends of a polygon.
+/// The limit on that angle for small polygons: half a circle as one polygon would be its diameter, without area.
+constexpr float kMostTurn = 100 * kPi / 180;
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
-constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not met at its zeros.
-constexpr double kRounding = 1e-3;    ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
-constexpr float kLeastChord = 1e-4f;  ///< Of its distance: the direction of a shorter one has no digits left.
-constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;  ///< Of a patch; levels are diced where rays come.
+constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not sampled at its zeros.
+constexpr double kRounding = 1e-3;  ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
+/// Share of its distance from the eye below which a chord's direction has no digits left.
+constexpr float kLeastChord = 1e-4f;
+/// Limits for one patch; levels are diced only where rays come.
+constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
 
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
 }
 
-/// Longest lattice line of a patch, in pixels, and the most that the normal turns along one, or the line itself: the
-/// rim of a disk turns within its plane.
+/// The longest lattice line of a patch in pixels, and the greatest turn in radians along one: of the normal or of the
+/// line itself, since the rim of a disk turns within its plane.
 struct LineFigures {
   float length_px = 0, turn = 0;
 };
@@ -59,7 +62,7 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
          !camera.outside(bound.grown(o.displacementBound), {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
-/// Without a log: silently.
+/// Limits the number of polygons. log: null reports nothing.
 CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Log* log) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
   if (nu * nv <= most) return {static_cast<int>(nu), static_cast<int>(nv)};
@@ -74,9 +77,9 @@ CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Lo
 
 /// How fine polygons are to be.
 struct Fineness {
-  float edge_px, turn;  ///< The longest that they may be, and the farthest that the normal may turn along one
-  float least_px;       ///< in shorter ones it may turn farther.
-  const char* remedy;   ///< What makes them coarser.
+  float edge_px, turn;  ///< Upper limits of an edge's length and of the normal's turn along it in radians.
+  float least_px;       ///< On shorter edges the normal may turn farther.
+  const char* remedy;   ///< Advice that makes the polygons coarser, for the warning.
 };
 
 Fineness finenessOf(const Attributes& a, float fineness) {
@@ -85,7 +88,7 @@ Fineness finenessOf(const Attributes& a, float fineness) {
           a.areaLight >= 0 ? 0.0f : kLeastPolygon_px * rate, "lower Attribute \"trace\" \"tessellation\""};
 }
 
-/// Micropolygons of `edge` times the edge that ShadingRate asks for, and no smaller ones.
+/// Fineness of polygons with `edge` times the edge that ShadingRate asks for, and no smaller ones.
 Fineness micropolygons(const Attributes& a, float edge) {
   Fineness out = finenessOf(a, kPolygon_px / edge);
   out.least_px = out.edge_px;
@@ -99,14 +102,14 @@ Fineness fixedFineness(const Object& o) {
   return finenessOf(a, std::max(a.trace.tessellation, 1e-3f));
 }
 
-/// A patch as it was probed.
+/// Lattice lines of a patch, diced coarsely.
 class PatchLines {
  public:
   PatchLines(const Scene& scene, const Camera& camera, int object, uint32_t patch)
       : object_(scene.objects[static_cast<size_t>(object)]) {
     const Grid probe = dice(scene, object, patch, UvRect{}, kProbes, kProbes, 1);
     u_ = linesOf(probe, camera, 1, kProbes + 1), v_ = linesOf(probe, camera, kProbes + 1, 1);
-    // Displacement has no normals to judge by beforehand, so it keeps the pixel rate out of view too.
+    // The turn of displaced normals is not known beforehand, so displaced surfaces keep the pixel rate out of view too.
     byPixels_ = displacesForRays(object_) || mayBeSeen(object_, patch, camera);
   }
 

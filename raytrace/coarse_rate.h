@@ -1,4 +1,4 @@
-// How many quadrilaterals a patch becomes for rays along u and v (the rule is in raytrace/tessellate.h).
+// Chooses how many quadrilaterals a patch becomes for rays along u and v (the rule is in raytrace/tessellate.h).
 #pragma once
 #include <array>
 
@@ -11,9 +11,9 @@ namespace tomales {
 struct CoarseRate {
   int nu, nv;
 };
-/// A patch that asks for millions is reported and gets fewer.
+/// The rate of the coarse polygons. A patch that asks for millions is reported and gets fewer.
 CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log);
-/// Of the levels in chunks, the first no coarser than the next and that no coarser than coarseRate().
+/// The rates of the levels in chunks. The first is no coarser than the next, and that no coarser than coarseRate().
 std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch,
                                                    Log& log);
 

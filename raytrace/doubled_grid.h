@@ -1,15 +1,15 @@
-// A grid diced at twice the rate of the polygons that rays see: every second vertex is a corner of one, and those
-// between say how far it is off.
+// A grid diced at twice the rate of the polygons that rays see: every second vertex is a corner of a polygon, and the
+// vertices between show how far it is from the surface.
 #pragma once
 #include "reyes/grid.h"
 
 namespace tomales {
 
-bool isFinite(const Grid& grid);  ///< At all motion keys.
+bool isFinite(const Grid& grid);  ///< Are its positions finite at all motion keys?
 
-/// Of the polygon with corner (i, j), at a motion key: distance of the centre and the middles of the edges from it,
-/// across its plane; along the plane a point may slide without leaving the surface.
+/// Deviation of the polygon with corner (i, j) at a motion key: the greatest distance of the surface's centre and edge
+/// middles from the polygon, across its plane. Along the plane a point may slide without leaving the surface.
 float doubledDeviation(const Grid& grid, int key, int i, int j);
-float doubledDeviation(const Grid& grid, int key);  ///< The largest of all polygons.
+float doubledDeviation(const Grid& grid, int key);  ///< The largest deviation of all polygons.
 
 }  // namespace tomales

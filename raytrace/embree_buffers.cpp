@@ -18,7 +18,7 @@ void shareBuffers(RTCGeometry geometry, const CoarseGroup& g, const Geometry::Ru
                              sizeof(Quad) * run.firstQuad, sizeof(Quad), run.count);
 }
 
-// Embree pads the vertex buffer that it allocates, of which it reads 16 bytes at the last.
+// Embree pads the vertex buffer that it allocates, because it reads 16 bytes at the last vertex.
 void copyBuffers(RTCGeometry geometry, std::vector<Geometry::Run> runs, Geometry& out) {
   const size_t steps = out.meshes[runs.front().mesh].laterP.size() + 1;
   size_t vertexCount = 0, quadCount = 0;

@@ -1,4 +1,4 @@
-// How Embree comes by the quads of a geometry: those of a group where they stand, or copies of several groups'.
+// Gives Embree the quads of a geometry: the buffers of one group, or copies of several groups' quads.
 #pragma once
 #include "raytrace/embree_filters.h"
 
@@ -7,11 +7,11 @@ namespace tomales {
 /// Sets vertices and indices of one run; its group must outlive the geometry.
 void shareBuffers(RTCGeometry geometry, const CoarseGroup& g, const Geometry::Run& run);
 
-/// Copies the quads of runs of out.meshes behind each other, and notes in `out` where each came from. Without memory
-/// for them some are left out, which the device's error tells.
+/// Copies the quads of runs of out.meshes one after the other, and notes in `out` where each came from. If memory runs
+/// out, some quads are left out, and the device's error tells.
 void copyBuffers(RTCGeometry geometry, std::vector<Geometry::Run> runs, Geometry& out);
 
-/// Hits of what trim curves have cut away, or of levels of detail that the ray does not see, do not count.
+/// Sets the filter that rejects hits that trim curves have cut away, and levels of detail that the ray does not see.
 void filterAbsent(RTCGeometry geometry);
 
 }  // namespace tomales

@@ -1,18 +1,18 @@
 #include "raytrace/embree_chunks.h"
 
 #include <map>
+#include <new>
 
 namespace tomales {
 namespace {
 
-// What Embree allocates, as its memory monitor tells it: for each grid polygon, and for a scene.
+// Bytes that Embree allocates for each grid polygon and for a scene, as its memory monitor tells.
 constexpr size_t kPolygonBytes = 22, kSceneBytes = 10000;
 
-constexpr int kPartEdge = 16,
-              kPartPolygons =
-                  kPartEdge * kPartEdge;  ///< Of what an Extent has a box for: 24 bytes where polygons take 9000.
+/// An Extent has one box for so many polygons: 24 bytes where polygons take 9000.
+constexpr int kPartEdge = 16, kPartPolygons = kPartEdge * kPartEdge;
 
-/// A ray among boxes that are a little larger than they say.
+/// Tests a ray against boxes, grown a little for rounding.
 class Slabs {
  public:
   explicit Slabs(const RTCRay& r)
@@ -88,7 +88,7 @@ void EmbreeChunks::boundsOf(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {b.lo.x, b.lo.y, b.lo.z, 0, b.hi.x, b.hi.y, b.hi.z, 0};
 }
 
-// The hits of a chunk name it by the ID of an instance, which Embree takes over from the context.
+// Hits of a chunk carry the ID of an instance, which Embree takes over from the context.
 void EmbreeChunks::intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const auto& members = *static_cast<const Members*>(args->geometryUserPtr);
@@ -120,7 +120,12 @@ std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::met(uint32_t chunk, 
     const auto meets = [&](const Bound3& part) { return slabs.meets(part); };
     if (!meets(extent.whole) || std::none_of(extent.parts.begin(), extent.parts.end(), meets)) return nullptr;
   }
-  return resident(chunk);
+  try {
+    return resident(chunk);
+  } catch (const std::bad_alloc&) {
+    failed_ = true;
+    return nullptr;
+  }
 }
 
 std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::resident(uint32_t chunk) const {
@@ -131,7 +136,7 @@ std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::resident(uint32_t ch
   });
 }
 
-/// The cache makes a slot on one thread at a time.
+/// Notes the bounds of a chunk's vertices. The cache makes a slot on one thread at a time.
 void EmbreeChunks::learnExtent(uint32_t chunk, const ChunkMesh& mesh) const {
   Extent& out = extents_[chunk];
   const std::vector<Tile>& tiles = chunks_.all()[chunk].tiles;
@@ -179,6 +184,7 @@ std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::build(uint32_t chunk
   rtcAttachGeometryByID(out->scene, geometry, 0);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(out->scene);
+  if (rtcGetDeviceError(device_) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   out->sceneBytes += kSceneBytes;
   return out;
 }

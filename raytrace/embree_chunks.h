@@ -1,6 +1,6 @@
-// Private to the files that know Embree: chunks (raytrace/chunks.h) as user geometry. A ray that comes to one goes on
-// in a scene of Embree grids, built when it is not in the cache. Chunks of all levels stand in one scene: rays see
-// those of theirs by mask. Threads: any.
+// Private to the files that use Embree: chunks (raytrace/chunks.h) as user geometry. A ray that meets a chunk's bound
+// goes on in a scene of Embree grids, which is built when it is not in the cache. Chunks of all levels stand in one
+// scene: masks select those of the ray's level. Threads: any.
 #pragma once
 #include <atomic>
 #include <deque>
@@ -18,18 +18,20 @@ class EmbreeChunks {
   ~EmbreeChunks();
   EmbreeChunks(const EmbreeChunks&) = delete;
 
-  /// Adds geometries to a scene, from this ID on, one for each mask. `groups`, `masks` and
-  /// `opaque`: see EmbreeScene. Hits have instance IDs from firstInstance on.
+  /// Adds geometries to a scene, one for each mask, with IDs from `id` on. `groups`, `masks` and `opaque`: see
+  /// EmbreeScene. Hits have instance IDs from firstInstance on.
   void attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance,
               const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
               const std::vector<bool>& opaque);
 
-  /// Of rays that see some of what was attached as this geometry, counted from the first; as Embree knows it.
+  /// Embree's mask of the geometry with this number, counted from the first.
   uint32_t maskOf(size_t geometry) const { return members_[geometry].mask; }
   const Geometry& geometryOf(uint32_t chunk) const { return described_[chunks_.all()[chunk].group]; }
-  /// Unit normal on the RISpec side where a hit lies.
+  /// Unit normal at a hit, on the RISpec side.
   vec3 normal(const PolygonHit& hit) const;
   ResidentFigures figures() const { return cache_.figures(); }
+  /// A ray has passed through a chunk for which there was no memory: Embree lets no exception through.
+  bool failed() const { return failed_.load(std::memory_order_relaxed); }
 
  private:
   struct Resident {
@@ -42,15 +44,15 @@ class EmbreeChunks {
     ~Resident();
     size_t bytes() const { return sizeof(*this) + mesh.bytes() + sceneBytes; }
   };
-  /// What the callbacks of one user geometry know.
+  /// The data of one user geometry's callbacks.
   struct Members {
     EmbreeChunks* owner;
     uint32_t mask;
     std::vector<uint32_t> chunks;
   };
 
-  /// Where the vertices of a chunk lie: tighter than Chunk::bound. Known once they have been made, and kept when they
-  /// go.
+  /// Bounds of the vertices of a chunk, tighter than Chunk::bound. They are known once the vertices have been made, and
+  /// kept when these are freed.
   struct Extent {
     Bound3 whole;
     std::vector<Bound3> parts;
@@ -69,10 +71,11 @@ class EmbreeChunks {
   const Chunks& chunks_;
   RTCDevice device_ = nullptr;
   uint32_t firstInstance_ = 0;
-  std::vector<Geometry> described_;  ///< Of each group.
+  std::vector<Geometry> described_;  ///< Indexed by group.
   std::deque<Members> members_;      ///< Embree keeps their addresses.
   mutable ResidentCache<Resident> cache_;
-  mutable std::vector<Extent> extents_;  ///< Of each chunk.
+  mutable std::atomic<bool> failed_{false};
+  mutable std::vector<Extent> extents_;  ///< Indexed by chunk.
 };
 
 }  // namespace tomales

@@ -17,7 +17,7 @@ bool isOpaque(const RTCFilterFunctionNArguments& args, const Traversal& traversa
                            : static_cast<const Geometry*>(args.geometryUserPtr)->opaque;
 }
 
-/// Rejects what the ray does not see. True: nothing is left to do.
+/// Rejects a hit that the ray does not see. Returns true if nothing is left to do.
 bool rejected(const RTCFilterFunctionNArguments* args, const Traversal& traversal) {
   if (!args->valid[0]) return true;
   if (!traversal.filter) return false;

@@ -1,5 +1,5 @@
-// Private to the files that know Embree: what its filter functions are told of a geometry and of a traversal.
-// Threads: filters run on those of the rays; a Traversal belongs to one ray.
+// Private to the files that use Embree: the data of its filter functions about a geometry and a traversal. Threads:
+// filters run on the threads of the rays; a Traversal belongs to one ray.
 #pragma once
 #include <embree3/rtcore.h>
 
@@ -10,29 +10,30 @@
 
 namespace tomales {
 
-/// Embree's mask of what rays with these bits of RayMask see at a level, or of such a ray.
+/// Embree's mask for rays with these bits of RayMask at a level. Geometries that they see have the same mask.
 inline uint32_t maskAt(uint32_t mask, Level level) { return mask << 4 * static_cast<int>(level); }
 inline uint32_t maskAtAllLevels(uint32_t mask) {
   return maskAt(mask, Level::Fine) | maskAt(mask, Level::Medium) | maskAt(mask, Level::Coarse);
 }
 
-/// The small groups that rays treat alike share one Embree geometry: a geometry of its own for each would cost 65 kB,
-/// and a scene may have a group for every object. Positions and indices are copied for that, about 31 bytes a polygon.
+/// An Embree geometry. Small groups that rays treat alike share one: a geometry of its own for each would cost 65 kB,
+/// and a scene may have a group for every object. Their positions and indices are copied for that, about 31 bytes a
+/// polygon.
 struct Geometry {
-  /// Quads of one mesh, behind each other there and here.
+  /// Successive quads of one mesh, which are successive in the geometry too.
   struct Run {
     uint32_t mesh, firstQuad, count;
     uint32_t firstPrimitive = 0;
   };
 
   bool opaque, flips;
-  uint32_t mask;  ///< Of rays that see it, as Embree knows it; 0 for masters and chunks, which are seen as what they
-                  ///< belong to.
+  /// Embree's mask of rays that see it; 0 for masters and chunks, whose visibility is that of their groups.
+  uint32_t mask;
   DetailShare detail;
   const CoarseGroup* meshes;  ///< All groups, or the one master.
   Run only;
   std::vector<Run> runs{};
-  std::vector<uint32_t> runOfQuad{};  ///< Empty: all belong to `only`.
+  std::vector<uint32_t> runOfQuad{};  ///< Empty: all quads belong to `only`.
 
   struct Place {
     uint32_t mesh, quad;
@@ -43,27 +44,27 @@ struct Geometry {
   }
 };
 
-/// Instances come behind the geometries in the order of Embree's IDs.
+/// Instances follow the geometries in the order of Embree's IDs.
 struct Instances {
   uint32_t firstId = 0;
   std::vector<uint32_t> group;
   std::vector<bool> opaque;
-  std::vector<bool> mirrors;   ///< Takes polygons to such of the other sense.
-  std::vector<uint32_t> mask;  ///< As Embree knows it.
-  uint32_t firstChunk =
-      0;  ///< Hits of chunks have such instance IDs, in their order; what they belong to is their Geometry's.
+  std::vector<bool> mirrors;   ///< The transformation changes the orientation of polygons.
+  std::vector<uint32_t> mask;  ///< Embree's masks.
+  /// Hits of chunks have instance IDs from this on, in the order of chunks; their Geometry holds everything else.
+  uint32_t firstChunk = 0;
 };
 
-/// What filters are given beside the hit. Embree hands back the address of its first member.
+/// The data of one ray for the filters. Embree hands back the address of its first member.
 struct Traversal {
   RTCIntersectContext embree;
-  float shift = 0;  ///< Embree's t of the ray's own origin.
+  float shift = 0;  ///< Embree's t at the ray's own origin.
   float window = 0;
   float tMax = kInfinity;
   HitList* list = nullptr;
   const Instances* instances = nullptr;
   const RayFilter* filter = nullptr;
-  float level = 0;  ///< The ray's number for levels of detail.
+  float level = 0;  ///< Number of the ray, which selects levels of detail.
 
   PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
                  bool leaving, const vec3& normal) const {
@@ -82,14 +83,15 @@ inline bool leaves(const vec3& direction, const vec3& normal, bool flips) {
   return (dot(direction, normal) > 0) != flips;
 }
 
-// Filters of traversals: the context's is asked after the geometry's.
-void rejectUnseen(const RTCFilterFunctionNArguments* args);  ///< Rejects what the ray's RayFilter does.
+// Filters of traversals: Embree calls the context's filter after the geometry's.
+void rejectUnseen(const RTCFilterFunctionNArguments* args);  ///< Rejects hits that the ray's RayFilter rejects.
 void recordNear(
     const RTCFilterFunctionNArguments* args);  ///< Records and rejects hits in the window, accepts those beyond.
-/// Accepts what is opaque beyond the window, which ends the traversal; records and rejects all else.
+/// Accepts opaque hits beyond the window, which ends the traversal; records and rejects all others.
 void recordShadow(const RTCFilterFunctionNArguments* args);
 void recordAll(const RTCFilterFunctionNArguments* args);  ///< Records and rejects every hit.
-/// Of a geometry: rejects hits that trim curves have cut away, and levels of detail that the ray does not see.
+/// The filter of a geometry: rejects hits that trim curves have cut away, and levels of detail that the ray does not
+/// see.
 void rejectAbsent(const RTCFilterFunctionNArguments* args);
 
 }  // namespace tomales

@@ -3,7 +3,10 @@
 #include <atomic>
 #include <deque>
 #include <map>
+#include <new>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 
 #include "raytrace/embree_buffers.h"
@@ -15,7 +18,7 @@ namespace tomales {
 namespace {
 
 constexpr size_t kManyQuads =
-    4096;  ///< A geometry of its own costs less than copies of so many (Geometry in raytrace/embree_filters.h).
+    4096;  ///< A geometry of its own costs less than copies of so many quads (Geometry in raytrace/embree_filters.h).
 
 /// Embree takes no negative tnear: the ray starts `shift` before its origin.
 RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
@@ -28,20 +31,36 @@ RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   return r;
 }
 
+/// Throws std::bad_alloc where memory does not suffice, which Embree says of itself by giving none.
+RTCDevice newDevice() {
+  if (const RTCDevice device = rtcNewDevice(nullptr)) return device;
+  const RTCError error = rtcGetDeviceError(nullptr);
+  if (error == RTC_ERROR_UNSUPPORTED_CPU)
+    throw std::runtime_error("rays cannot be traced: Embree does not know this processor");
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  throw std::runtime_error("rays cannot be traced: Embree does not start (error " + std::to_string(error) +
+                           "); is there too little memory?");
+}
+
 }  // namespace
 
 struct EmbreeScene::Impl {
-  Impl(const std::vector<CoarseGroup>& g, const SharedShapes& s) : groups(g), shapes(s) {}
+  Impl(const std::vector<CoarseGroup>& g, const SharedShapes& s) : groups(g), shapes(s), device(newDevice()) {}
+  ~Impl() {
+    chunks.reset();
+    if (scene) rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
 
   const std::vector<CoarseGroup>& groups;
   const SharedShapes& shapes;
-  bool fades = false;  ///< Some group does.
+  bool fades = false;  ///< Some group fades between levels of detail.
   std::atomic<int64_t> bytes{0};
-  std::deque<Geometry> geometries;  ///< By Embree's geomID; Embree keeps their addresses.
+  std::deque<Geometry> geometries;  ///< Indexed by geomID of Embree; Embree keeps their addresses.
   std::deque<Geometry> masters;
   Instances instances;
   std::optional<EmbreeChunks> chunks;
-  RTCDevice device = nullptr;
+  const RTCDevice device;
   RTCScene scene = nullptr;
 
   static bool countBytes(void* self, ssize_t bytes, bool) {
@@ -71,7 +90,7 @@ struct EmbreeScene::Impl {
     return t;
   }
 
-  /// One geometry of quads of the given groups.
+  /// Adds one geometry with the quads of the given groups.
   void attach(std::vector<Geometry::Run> runs, uint32_t mask, bool opaque) {
     const CoarseGroup& like = groups[runs.front().mesh];
     const auto id = static_cast<unsigned>(geometries.size());
@@ -127,7 +146,7 @@ struct EmbreeScene::Impl {
     for (RTCScene s : scenes) rtcReleaseScene(s);  // the instances hold it
   }
 
-  /// `mask`: as Embree knows it.
+  /// `mask` is Embree's mask.
   void addTo(Surroundings& out, uint32_t geometryId, uint32_t primitive, uint32_t mask) const {
     if (geometryId >= instances.firstChunk) {
       if (chunks->maskOf(geometryId - instances.firstChunk) & mask) out.giveUp();
@@ -153,10 +172,15 @@ struct EmbreeScene::Impl {
             static_cast<int>(instance), corners);
   }
 
+  void requireChunks() const {
+    if (chunks && chunks->failed()) throw std::bad_alloc();
+  }
+
   bool trace(const Ray& ray, float shift, float tNear, uint32_t mask, Traversal& traversal, PolygonHit& out) const {
     RTCRayHit r{rayFrom(ray, shift, tNear, mask), {}};
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &traversal.embree, &r);
+    requireChunks();
     const float t = r.ray.tfar - shift;
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID || t >= ray.tMax) return false;
     const uint32_t instance = r.hit.instID[0];
@@ -178,7 +202,6 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
                          const std::vector<bool>& opaque, bool solids, Log& log, const Chunks* chunks,
                          size_t chunkBytes)
     : impl_(std::make_unique<Impl>(groups, shapes)) {
-  impl_->device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
   impl_->scene = impl_->newScene();
   std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float, uint32_t>, std::vector<Geometry::Run>> alike;
@@ -196,8 +219,8 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
             .push_back(run);
   }
   for (auto& [kind, runs] : alike) impl_->attach(std::move(runs), std::get<0>(kind), std::get<1>(kind));
-  // With several threads the order of primitives in a leaf, and with it which of two hits at equal t is found
-  // first, would depend on their number.
+  // With several threads the order of primitives in a leaf would depend on their number, and with it which of two hits
+  // at equal t is found first.
   const ThreadLimit one(1);
   impl_->attachInstances(groupOf, masks, opaque);
   const uint32_t end = impl_->instances.firstId + static_cast<uint32_t>(impl_->instances.group.size());
@@ -205,16 +228,14 @@ EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedSha
   if (chunks && !chunks->all().empty())
     impl_->chunks.emplace(*chunks, chunkBytes).attach(impl_->device, impl_->scene, end, end, groups, masks, opaque);
   rtcCommitScene(impl_->scene);
-  if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
+  const RTCError error = rtcGetDeviceError(impl_->device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE)
     log.report(Severity::Missing, "trace-embree", {},
                "Embree could not build the scene for rays: they may miss objects");
 }
 
-EmbreeScene::~EmbreeScene() {
-  impl_->chunks.reset();
-  if (impl_->scene) rtcReleaseScene(impl_->scene);
-  if (impl_->device) rtcReleaseDevice(impl_->device);
-}
+EmbreeScene::~EmbreeScene() = default;
 
 bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const {
   Traversal traversal = impl_->traversalOf(ray, ray.filter ? &rejectUnseen : nullptr, 0, 0, nullptr);
@@ -247,7 +268,7 @@ void EmbreeScene::around(const vec3& P, float reach, uint32_t mask, Level level,
 bool EmbreeScene::nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list, PolygonHit& beyond) const {
   list.clear();
   if (ray.surroundings && ray.time == 0 && ray.surroundings->know(ray.origin, window)) {
-    // Rather twice what lies at the end of the window than not at all.
+    // A hit at the end of the window may be found twice, but must not be missed.
     ray.surroundings->meet(ray.direction, window + roundingAt(ray.origin), list);
     if (ray.filter)
       std::erase_if(list, [&](const PolygonHit& hit) { return !ray.filter->passes(hit.group, hit.leaving); });
@@ -264,6 +285,7 @@ bool EmbreeScene::blockedBeyond(const Ray& ray, float window, uint32_t mask, Hit
   Traversal traversal = impl_->traversalOf(ray, &recordShadow, shift, window, &list);
   RTCRay r = rayFrom(ray, shift, window < 0 ? std::max(ray.bias, 0.0f) : 0.0f, mask);
   rtcOccluded1(impl_->scene, &traversal.embree, &r);
+  impl_->requireChunks();
   return r.tfar < 0;
 }
 
@@ -274,6 +296,7 @@ void EmbreeScene::all(const Ray& ray, float window, HitList& list) const {
   Traversal traversal = impl_->traversalOf(line, &recordAll, window, 0, &list);
   RTCRay r = rayFrom(line, window, 0, ~0U);
   rtcOccluded1(impl_->scene, &traversal.embree, &r);
+  impl_->requireChunks();
 }
 
 vec3 EmbreeScene::normal(const PolygonHit& hit) const { return impl_->chunks->normal(hit); }

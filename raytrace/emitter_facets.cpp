@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-/// How far P lies to the left of the edge that leaves corner k, times its length, seen against the normal.
+/// Distance of P to the left of the edge that leaves corner k, times the edge's length, seen against the normal.
 float beside(const EmitterFacet& f, size_t k, const vec3& P) {
   return dot(f.normal, cross(f.corners[(k + 1) % 4] - f.corners[k], P - f.corners[k]));
 }

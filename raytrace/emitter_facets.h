@@ -1,4 +1,4 @@
-// Flat convex polygons of area lights that are meshes, as directions meet them. Space: any; threads: pure.
+// Flat convex polygons of area lights that are meshes, intersected by directions. Space: any; threads: pure.
 #pragma once
 #include <array>
 #include <optional>
@@ -9,10 +9,10 @@ namespace tomales {
 
 struct EmitterFacet {
   std::array<vec3, 4> corners;
-  vec3 normal;  ///< Unit, of the shining side.
+  vec3 normal;  ///< Unit normal of the shining side.
 };
 
-/// Nothing for what is bent or not convex. Two corners may coincide.
+/// Empty if the polygon is not flat or not convex. Two corners may coincide.
 std::optional<EmitterFacet> facetOf(const std::array<vec3, 4>& corners, const vec3& normal);
 
 /// Distance to the facet's shining side along the unit `direction`; infinite if it is not met.

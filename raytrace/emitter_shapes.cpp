@@ -11,11 +11,12 @@ using glm::dvec2;
 using glm::dvec3;
 
 constexpr double kTurn = 2 * 3.14159265358979323846;
-// Below this solid angle (of a lamp of 1 m 30 km away) its formula is rounding, and all of a shape is equally far.
+// Below this solid angle (that of a lamp of 1 m at 30 km) the formula gives rounding errors only, and all points of a
+// shape are equally far.
 constexpr double kLeastSolidAngle = 1e-9;
 constexpr double kLeastCosine = 1e-5;  ///< Rounding leaves points of the emitter's own plane slightly in front of it.
 
-/// What a point sees of a rectangle; names as in the paper.
+/// A rectangle as seen from a point; names as in the paper.
 class SphericalRectangle {
  public:
   SphericalRectangle(const EmitterShape& shape, const vec3& from) {
@@ -27,7 +28,7 @@ class SphericalRectangle {
     x0_ = dot(d, x_) - hx, y0_ = dot(d, y_) - hy, x1_ = x0_ + 2 * hx, y1_ = y0_ + 2 * hy;
     const std::array<dvec3, 4> corners = {dvec3(x0_, y0_, z0_), dvec3(x1_, y0_, z0_), dvec3(x1_, y1_, z0_),
                                           dvec3(x0_, y1_, z0_)};
-    std::array<dvec3, 4> n;  // of the planes through the eye and an edge
+    std::array<dvec3, 4> n;  // normals of the planes through the eye and an edge
     for (size_t i = 0; i < 4; ++i) {
       n[i] = cross(corners[i], corners[(i + 1) % 4]);
       const double length = glm::length(n[i]);
@@ -42,7 +43,7 @@ class SphericalRectangle {
 
   double solidAngle() const { return solidAngle_; }
 
-  /// From the eye to a point of the rectangle.
+  /// Vector from the eye to a point of the rectangle.
   dvec3 sample(const dvec2& xi) const {
     const double au = xi.x * solidAngle_ + k_, fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
     const double cu = std::clamp(std::copysign(1 / std::sqrt(fu * fu + b0_ * b0_), fu), -1.0, 1.0);
@@ -59,7 +60,7 @@ class SphericalRectangle {
   double x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0, z0_ = 0, b0_ = 0, b1_ = 0, k_ = 0, solidAngle_ = 0;
 };
 
-/// The cone x^2 / a^2 + y^2 / b^2 < z^2 that a disk fills. Its four quadrants mirror each other. Density over the
+/// The cone x^2 / a^2 + y^2 / b^2 < z^2 that a disk fills. Its four quadrants mirror each other. The density over the
 /// azimuth is linear in each of a number of steps, so that it is known exactly however eccentric the ellipse.
 class EllipticalCone {
  public:
@@ -70,7 +71,7 @@ class EllipticalCone {
     const dvec3 across = d + height * n;  // from below the eye to the centre, in the plane
     const double off = glm::length(across);
     const dvec3 y = off > 1e-12 * (height + r) ? across / off : glm::normalize(dvec3(disk.u));
-    // The nearest and the farthest point of the rim, and the ray that halves their angle.
+    // The nearest and the farthest point of the rim, and the ray that halves the angle between them.
     const double nearAngle = std::atan2(off - r, height), farAngle = std::atan2(off + r, height);
     const double middle = 0.5 * (nearAngle + farAngle);
     z_ = std::sin(middle) * y - std::cos(middle) * n, y_ = std::cos(middle) * y + std::sin(middle) * n,
@@ -106,10 +107,10 @@ class EllipticalCone {
   }
 
  private:
-  static constexpr size_t kSteps = 16;  ///< Of a quadrant.
+  static constexpr size_t kSteps = 16;  ///< Steps of a quadrant.
   static constexpr double kStep = kTurn / 4 / static_cast<double>(kSteps);
 
-  /// 1 - cosine of the angle from the axis to the rim.
+  /// One less the cosine of the angle from the axis to the rim.
   double versineAt(double phi) const {
     const double k = std::pow(std::cos(phi) / a_, 2) + std::pow(std::sin(phi) / b_, 2);
     return 1 / ((1 + k) * (1 + std::sqrt(k / (1 + k))));
@@ -125,10 +126,10 @@ class EllipticalCone {
 
   dvec3 x_, y_, z_;
   double a_ = 0, b_ = 0, total_ = 0;
-  std::array<double, kSteps + 1> width_{};  ///< versineAt() where steps meet.
+  std::array<double, kSteps + 1> width_{};  ///< versineAt() between the steps.
 };
 
-/// 1 - cosine of the angle from the centre of a sphere to its rim; 0: seen from inside.
+/// One less the cosine of the angle from the centre of a sphere to its rim; 0: seen from inside.
 double coneOf(const EmitterShape& sphere, const dvec3& toCenter) {
   const double sine2 = dot(dvec3(sphere.u), dvec3(sphere.u)) / dot(toCenter, toCenter);
   return sine2 < 1 ? sine2 / (1 + std::sqrt(1 - sine2)) : 0;
@@ -140,7 +141,7 @@ SeenPoint sampleSphere(const EmitterShape& sphere, const vec3& from, const vec2&
   if (!(cone > 0)) return {};
   const double distance = glm::length(d), r = glm::length(dvec3(sphere.u));
   const double versine = xi.x * cone, sine2 = versine * (2 - versine), phi = kTurn * static_cast<double>(xi.y);
-  // Along the ray, from the point nearest to the centre to where it enters.
+  // Along the ray, from the point nearest to the centre to the point where it enters.
   const double miss2 = distance * distance * sine2,
                t = (1 - versine) * distance - std::sqrt(std::max(0.0, r * r - miss2));
   vec3 tangent, bitangent;
@@ -162,14 +163,14 @@ SeenPoint meetSphere(const EmitterShape& sphere, const vec3& from, const dvec3& 
   return {vec3(dvec3(sphere.center) + r * N), vec3(N), static_cast<float>(1 / (kTurn * cone))};
 }
 
-/// The point of a flat shape's plane along a direction, relative to its centre and as parts of u and v.
+/// The point where a direction meets a flat shape's plane, relative to the shape's centre and in units of u and v.
 struct PlanePoint {
   dvec3 P{0};
   double u = 0, v = 0;
   bool seen = false;
 };
-/// Points of the emitter itself, its back above all, lie on either side of its plane by rounding: they must not see
-/// half the sky shine.
+/// Points of the emitter itself, above all on its back, lie on either side of its plane by rounding: they must not see
+/// half of their sky shine.
 bool behind(const EmitterShape& flat, const vec3& from) {
   constexpr double kRounding = 5e-6;
   const dvec3 center = flat.center;
@@ -190,8 +191,8 @@ SeenPoint onFlat(const EmitterShape& flat, const dvec3& fromCenter, double densi
   return {vec3(dvec3(flat.center) + fromCenter), flat.normal, static_cast<float>(density)};
 }
 
-/// Rounding must not lose the whole shape, nor a wrong solid angle brighten it: far or edge-on shapes are sampled by
-/// area.
+/// Rounding must neither lose the whole shape nor brighten it by a wrong solid angle: far or edge-on shapes are sampled
+/// by area.
 bool isSmall(double solidAngle) { return !(solidAngle > kLeastSolidAngle); }
 
 SeenPoint byArea(const EmitterShape& flat, const vec3& from, const vec2& xi) {

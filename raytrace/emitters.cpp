@@ -9,8 +9,8 @@ namespace {
 
 using Corners = std::array<vec3, 4>;
 
-constexpr size_t kMostFacets =
-    256;  ///< That directions are tried against, which costs as much as a ray; of more none are met.
+/// Directions are tested against at most so many facets, which costs as much as a ray; larger emitters are not met.
+constexpr size_t kMostFacets = 256;
 
 float areaOf(const Corners& q) {
   const auto& [a, b, c, d] = q;
@@ -24,7 +24,7 @@ void bilinear(const Corners& q, float u, float v, vec3& P, vec3& normal) {
   normal = cross(glm::mix(b - a, c - d, v), glm::mix(d - a, c - b, u));
 }
 
-/// Where rays see displacement, the polygons are the surface.
+/// Do the polygons stand for a curved surface? Where rays see displacement, the polygons are the surface.
 bool isCurved(const Scene& scene, const Lattice& lattice) {
   const Object& o = scene.objects[static_cast<size_t>(lattice.object)];
   return !displacesForRays(o) && !o.shape().info(lattice.patch).planar;
@@ -77,7 +77,7 @@ std::optional<EmitterShape> rectangle(const EmitterLattice& lattice) {
 }
 
 void addEmitters(const Scene& scene, const CoarseGroup& group, int number, EmitterLight& out) {
-  int round = -1;  // the last object that was
+  int round = -1;  // the last object that was round
   for (const Lattice& lattice : group.lattices) {
     if (lattice.object == round) continue;
     if (const auto shape = roundShape(scene, lattice.object)) {

@@ -9,7 +9,7 @@ namespace tomales {
 namespace {
 
 constexpr float kLeastSpread =
-    5e-4f;  ///< Radius of the footprint of a ray that has none, for each unit of its length: about a pixel.
+    5e-4f;  ///< Radius of the footprint of a ray without one, for each unit of its length: about a pixel.
 
 int primvarFloats(const ShadeGroup& group) {
   return std::accumulate(group.primvars.begin(), group.primvars.end(), 0,
@@ -20,12 +20,12 @@ int widthOf(const std::vector<Primvar>& primvars, std::string_view name) {
   return std::find_if(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name; })->width;
 }
 
-/// The light that a ray brings back where its hit is on the indirect diet of Attribute "indirect".
+/// The radiance of a hit, changed by Attribute "indirect" of its object (bleeding).
 vec3 bled(const vec3& color, const Attributes& a) {
   return glm::mix(vec3(luminance(color)), color, a.indirect.bleeding) * a.indirect.bleedingColor;
 }
 
-/// Indices of the hits, those of one shade group together, in the order of the hits inside it.
+/// Indices of the hits, sorted by shade group, in the order of the hits inside each group.
 std::vector<uint32_t> byGroup(const Scene& scene, const std::vector<Hit>& hits, std::vector<int>& group) {
   std::vector<uint32_t> order;
   order.reserve(hits.size());
@@ -39,8 +39,8 @@ std::vector<uint32_t> byGroup(const Scene& scene, const std::vector<Hit>& hits, 
   return order;
 }
 
-/// A hit later than shutter open is shaded as all else is: the surface stands where it was then, and the ray comes to
-/// it as it came to the moved one. Drift is whatever takes it from there to where the ray met it.
+/// A hit later than shutter open is shaded like all other points: the surface is where it was then, and the ray comes
+/// to it as it came to the moved one. Drift is the motion from there to the hit.
 void bringToOpen(const Scene& scene, const Ray& ray, const Hit& hit, ShadePoints& points, int i) {
   const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
   const float shutter = lerp(scene.options.shutterOpen, scene.options.shutterClose, ray.time);
@@ -51,8 +51,7 @@ void bringToOpen(const Scene& scene, const Ray& ray, const Hit& hit, ShadePoints
   points.set3(kPx, i, hit.atOpen);
 }
 
-/// Parameters and primitive variables are those of the true surface, place and normals those that the ray
-/// met.
+/// Parameters and primitive variables are those of the true surface; place and normals are those of the hit.
 void addPoint(const RayScene::Impl& rays, const Ray& ray, const Hit& hit, SampleName name, ShadePoints& points) {
   const Scene& scene = rays.scene;
   const int i = points.add(name);
@@ -77,7 +76,7 @@ HitMode modeOf(const Attributes& a, RayKind kind) {
   return kind == RayKind::Diffuse ? a.diffuseHitMode : a.specularHitMode;
 }
 
-/// Cs and Os of a point: its primitive variable's or its attribute's.
+/// Cs or Os of a point: its primitive variable, or its attribute.
 vec3 primitiveColor(const ShadeGroup& group, const ShadePoints& points, int i, std::string_view name,
                     const vec3& attribute) {
   const int offset = offsetOf(group.primvars, name);
@@ -85,7 +84,7 @@ vec3 primitiveColor(const ShadeGroup& group, const ShadePoints& points, int i, s
                     : vec3(points.primvar(offset)[i], points.primvar(offset + 1)[i], points.primvar(offset + 2)[i]);
 }
 
-/// Value i of an output that hits can tell. False: there is no such value.
+/// Reads value i of an output that hits provide. Returns false: there is no such value.
 bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const std::string& name,
                 const HitAnswers& answers, uint32_t hit, vec3& out) {
   static const std::map<std::string_view, int> kVectors = {{"P", kPx}, {"N", kNx},       {"Ng", kNgx},
@@ -120,7 +119,7 @@ bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const
   return true;
 }
 
-/// Of hits that shaders ran at `shaded` has what they put out, as ShadeContext::told says.
+/// Writes the outputs of a hit. Where a shader ran, `shaded` has its values, as ShadeContext::told lists them.
 void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, const ShadedPoints* shaded,
           HitAnswers& answers) {
   size_t first = 0;
@@ -154,13 +153,14 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
                          const ShadeContext& context, HitAnswers& answers) const {
   const Scene& scene = impl_->scene;
   ShadeContext hitContext = context;
-  hitContext.answers = nullptr, hitContext.variables = false;  // they are those of the points that the rays leave
+  hitContext.answers = nullptr, hitContext.variables = false;  // they belong to the points that the rays leave
   hitContext.told = answers.outputs.empty() ? nullptr : &answers.outputs;
   answers.color.assign(hits.size(), vec3(0)), answers.opacity.assign(hits.size(), vec3(0));
   std::vector<int> groupOf;
   const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
   const bool diffuse = context.kind == RayKind::Diffuse;
   ShadedPoints shaded;
+  std::vector<vec3> emission;
   for (size_t first = 0, last = 0; first < order.size(); first = last) {
     const int g = groupOf[order[first]];
     while (last < order.size() && groupOf[order[last]] == g) ++last;
@@ -172,15 +172,15 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     const bool shades =
         answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
-    const vec3 emission = diffuse || !context.lampsGlow ? vec3(0) : shading.visibleEmission(g);
+    emission.clear();
+    if (!diffuse && context.lampsGlow) shading.emission(points, emission);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = order[k];
       const int p = static_cast<int>(k - first);
       const vec3 opacity = shades ? shaded.opacity(p) : primitiveColor(group, points, p, "Os", attributes.opacity);
       const vec3 color = shades ? shaded.color(p) : opacity * primitiveColor(group, points, p, "Cs", attributes.color);
-      const bool front = dot(points.get3(kIx, p), points.get3(kNgx, p)) < 0;
       answers.opacity[i] = opacity;
-      answers.color[i] = diffuse ? bled(color, attributes) : color + (front ? emission : vec3(0));
+      answers.color[i] = diffuse ? bled(color, attributes) : emission.empty() ? color : color + emission[k - first];
       tell(group, points, p, i, shades ? &shaded : nullptr, answers);
     }
   }
@@ -190,7 +190,7 @@ void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>
                             const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                             const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const {
   ShadeContext crossing = context;
-  crossing.answers = nullptr;  // they are those of the points that the rays leave first
+  crossing.answers = nullptr;  // they belong to the points that the rays leave first
   std::vector<int> groupOf;
   const std::vector<uint32_t> order = byGroup(impl_->scene, left, groupOf);
   ShadedPoints colors;

@@ -1,4 +1,4 @@
-// What RayScene is made of, shared by trace.cpp and hit_shade.cpp.
+// The members of RayScene, shared by trace.cpp and hit_shade.cpp.
 #pragma once
 #include <map>
 #include <mutex>
@@ -20,23 +20,24 @@ struct RayScene::Impl {
 
   void resolve(const Ray& ray, const PolygonHit& hit, Hit& out) const;
   Hit resolveChunk(const Ray& ray, const PolygonHit& hit) const;
-  /// Is the opacity of the whole group that of its attributes?
+  /// Is the opacity of all points of the group that of its attributes?
   bool knowsOpacity(uint32_t group) const { return opacityIsConstant[group]; }
-  /// Adds the surfaces of solids to what a traversal of all else has found: those up to `window` to the list, and the
-  /// nearest after that, if it is nearer than `beyond`. Returns whether there is a `beyond`.
+  /// Adds the surfaces of solids to the hits of a traversal of everything else: those up to `window` to the list, and
+  /// the nearest after that to `beyond`, if it is nearer. `found`: there was a `beyond`. Returns whether there is one
+  /// now.
   bool addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found, PolygonHit& beyond) const;
   vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
   Level levelOf(const Ray& ray, const vec3& P) const;
-  /// Radius from which on a point stands for polygons of the level at which a ray has met it: what leaves it must see
-  /// none finer, because it lies on those. 0 for groups without levels.
+  /// Least radius of rays that leave a point which a ray has met at this level: they must see no finer polygons,
+  /// because the point lies on polygons of that level. 0 for groups without levels.
   float leastRadius(uint32_t group, Level met, const vec3& P) const;
 
   const Scene& scene;
   const Camera& camera;
   const bool hitList;
   const SharedShapes shapes;
-  const std::vector<CoarseGroup> groups;  ///< Without what is in `shapes`, but for deviation and size.
+  const std::vector<CoarseGroup> groups;  ///< Without the polygons of `shapes`, but with their deviation and size.
   const Chunks chunks;
   const std::vector<bool> opacityIsConstant;
   const std::vector<uint32_t> masks;
@@ -44,12 +45,12 @@ struct RayScene::Impl {
   const EmbreeScene embree;
   const SolidHits solids;
   const Emitters emitters;
-  bool moves = false;  ///< Some polygon does.
+  bool moves = false;  ///< Some polygon moves.
   mutable std::mutex subsetsMutex;
   mutable std::map<std::pair<std::string, std::string>, std::vector<uint8_t>> subsets;
   mutable std::mutex startsMutex;
   mutable std::map<int, Starts> starts;
-  std::vector<float> displacementBounds;  ///< Of each group, where rays do not see the displacement.
+  std::vector<float> displacementBounds;  ///< Indexed by group, where rays do not see the displacement.
 };
 
 }  // namespace tomales

@@ -3,10 +3,11 @@
 namespace tomales {
 namespace {
 
-constexpr int kMostSteps = 32;  ///< A key that none of so many parts ends at is passed within a 64th of the shutter.
-constexpr float kSameTime = 1.0f / 512;  ///< Of the shutter
+/// Keys that fall between the ends of so many parts are missed by at most a 64th of the shutter.
+constexpr int kMostSteps = 32;
+constexpr float kSameTime = 1.0f / 512;  ///< Share of the shutter.
 
-/// Motion keys inside the shutter, as parts of it. Empty: the object stands still.
+/// Motion keys inside the shutter, as shares of it. Empty: the object stands still.
 std::vector<float> keysOf(const Object& o, const Options& options) {
   std::vector<float> keys;
   const auto add = [&](const std::vector<float>& times) {

@@ -1,4 +1,4 @@
-// When the polygons of rays have motion keys. Embree takes keys at equal distances over the shutter.
+// Times of the motion keys of rays' polygons. Embree takes keys at equal distances over the shutter.
 #pragma once
 #include "reyes/scene.h"
 
@@ -7,8 +7,9 @@ namespace tomales {
 /// Do rays with a time exist? Only then is motion worth its memory.
 bool raysHaveTimes(const Scene& scene);
 
-/// For each of scene.groups the times of its motion keys, shutter open first: equally spaced, and as few as meet every
-/// key of its objects. One for what stands still, for area lights, and for all where no rays have times.
+/// The times of the motion keys of each of scene.groups, shutter open first: equally spaced, and as few as meet every
+/// key of its objects. There is one for objects that stand still, for area lights, and for all where no rays have
+/// times.
 std::vector<std::vector<float>> rayTimes(const Scene& scene);
 
 }  // namespace tomales

@@ -1,5 +1,6 @@
-// Slots that are filled when somebody first asks, and emptied, least recently used first, when together they are larger
-// than allowed: then an eighth goes at once. What somebody still holds lives until it is given back. Threads: any.
+// A cache of slots that are filled on demand. When together they exceed the budget, the least recently used ones are
+// emptied until they are an eighth below it. A value that a caller still holds lives until it is released. Threads:
+// any.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -14,14 +15,15 @@ struct ResidentFigures {
   int64_t lookups = 0, misses = 0, mostBytes = 0;
 };
 
-/// T has size_t bytes() const.
+/// T has a member size_t bytes() const.
 template <class T>
 class ResidentCache {
  public:
   ResidentCache(size_t slots, size_t budget)
       : slots_(slots), budget_(static_cast<int64_t>(std::min(budget, size_t{1} << 62))) {}
 
-  /// What slot i holds; make() gives it, as a shared_ptr<const T>, if it is empty. make() asks for no other slot.
+  /// Returns the value of slot i. If it is empty, make() makes it, as a shared_ptr<const T>; make() must not ask for
+  /// another slot.
   template <class Make>
   std::shared_ptr<const T> get(size_t i, const Make& make) {
     Slot& slot = slots_[i];
@@ -47,7 +49,7 @@ class ResidentCache {
   using Gone = std::vector<std::shared_ptr<const T>>;
   static constexpr size_t kStripes = 64;
 
-  /// Every visit writes to it: on a cache line of its own.
+  /// A slot has a cache line of its own, because every visit writes to it.
   struct alignas(64) Slot {
     std::shared_ptr<const T> take(int64_t now) {
       const Hold hold(busy);
@@ -85,7 +87,7 @@ class ResidentCache {
     int64_t bytes;
   };
 
-  /// What it pushes out.
+  /// Adds a slot to the residents, and returns the values that it displaces.
   Gone admit(size_t slot, size_t bytes) {
     Gone gone;
     const std::lock_guard lock(mutex_);
@@ -93,7 +95,7 @@ class ResidentCache {
     residents_.push_back({slot, static_cast<int64_t>(bytes)});
     bytes_ += residents_.back().bytes;
     if (bytes_ > budget_) {
-      std::vector<std::pair<int64_t, Resident>> byAge;  // without the newest
+      std::vector<std::pair<int64_t, Resident>> byAge;  // all but the newest
       for (size_t i = 0; i + 1 < residents_.size(); ++i)
         byAge.emplace_back(slots_[residents_[i].slot].used(), residents_[i]);
       std::sort(byAge.begin(), byAge.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -114,7 +116,7 @@ class ResidentCache {
   std::vector<Slot> slots_;
   std::mutex making_[kStripes];
   const int64_t budget_;
-  std::atomic<int64_t> clock_{0};  ///< Counts what was made: a use after that is younger than the making.
+  std::atomic<int64_t> clock_{0};  ///< Number of values made so far: a use after a value was made is younger than that.
   mutable std::mutex mutex_;
   std::vector<Resident> residents_;
   int64_t misses_ = 0, bytes_ = 0, mostBytes_ = 0;

@@ -17,10 +17,10 @@ bool mayShare(const Object& o) {
          isAffine(o.cameraFromObject.keys.front());
 }
 
-/// Largest factor by which lengths grow, from above: the Frobenius norm, exact within sqrt(3).
+/// Upper bound of the factor by which lengths grow: the Frobenius norm, exact within sqrt(3).
 float growth(const mat3& m) {
   const float columns = dot(m[0], m[0]) + dot(m[1], m[1]) + dot(m[2], m[2]);
-  const float even = std::sqrt(columns / 3);  // exact for what turns and scales evenly
+  const float even = std::sqrt(columns / 3);  // exact for rotations with uniform scale
   const mat3 square = glm::transpose(m) * m;
   const bool isEven = std::abs(square[0][1]) + std::abs(square[0][2]) + std::abs(square[1][2]) +
                           std::abs(square[0][0] - square[1][1]) + std::abs(square[0][0] - square[2][2]) <=
@@ -34,7 +34,7 @@ Bound3 wholeBound(const Prim& prim) {
   return bound;
 }
 
-/// How large an object looks: what is in view before what is not, then by pixels.
+/// Ordering key for how large an object looks in pixels; objects in view count as larger than those out of view.
 std::pair<bool, float> looks(const Object& o, const Bound3& bound, const Camera& camera) {
   const Bound3 box = transformBound(o.cameraFromObject.keys.front(), bound);
   const vec3 nearest = glm::clamp(vec3(0), box.lo, box.hi);
@@ -44,7 +44,8 @@ std::pair<bool, float> looks(const Object& o, const Bound3& bound, const Camera&
                                            std::sqrt(std::max(o.attributes->shadingRate, 1e-4f)))};
 }
 
-/// From current space to that of the object, in double precision: what rounds here is seen by every instance.
+/// Moves a mesh from current space to that of the object, in double precision: every instance shows its rounding
+/// errors.
 void toObjectSpace(const mat4& cameraFromObject, bool flipsNormal, CoarseGroup& mesh) {
   const glm::dmat4 inverse = glm::inverse(glm::dmat4(cameraFromObject));
   const mat3 normals = glm::transpose(mat3(cameraFromObject));
@@ -56,7 +57,7 @@ void toObjectSpace(const mat4& cameraFromObject, bool flipsNormal, CoarseGroup& 
 }  // namespace
 
 SharedShapes shareShapes(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log) {
-  // Objects with the same shape and the same side out, in order.
+  // Objects with the same shape and orientation, in order.
   std::map<std::pair<PrimPtr, bool>, std::vector<int>> alike;
   for (size_t i = 0; i < scene.objects.size(); ++i)
     if (const Object& o = scene.objects[i]; mayShare(o))
@@ -64,7 +65,7 @@ SharedShapes shareShapes(const Scene& scene, const Camera& camera, const Shading
   std::vector<const std::vector<int>*> uses;
   for (const auto& [key, objects] : alike)
     if (objects.size() > 1) uses.push_back(&objects);
-  // Addresses differ from run to run.
+  // The map is sorted by addresses, which differ from run to run.
   std::sort(uses.begin(), uses.end(), [](const auto* a, const auto* b) { return a->front() < b->front(); });
 
   SharedShapes out;

@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kRounding = 1e-5f;  ///< Of a hit's place: surfaces no farther apart may be one, or flush.
+constexpr float kRounding = 1e-5f;  ///< Relative to the hit's position: surfaces no farther apart may be one, or flush.
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// What rays meet of solids (SolidBegin ... SolidEnd): everything of them along the whole line, resolved by
-// reyes/solid.h as the hider does for samples (docs/decisions/0032-solids.md). Space: current. Threads: const members
+// Hits of rays on solids (SolidBegin ... SolidEnd). All intersections along the whole line are resolved by
+// reyes/solid.h, as the hider does for samples (docs/decisions/0032-solids.md). Space: current. Threads: const members
 // may be called concurrently.
 #pragma once
 #include <optional>
@@ -10,12 +10,12 @@ namespace tomales {
 
 class SolidHits {
  public:
-  /// All but `log` must outlive this. `masks`: which rays see a group.
+  /// All arguments but `log` must outlive this. `masks`: the rays that see each group.
   SolidHits(const Scene& scene, const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks, Log& log);
 
   bool none() const { return !embree_; }
-  /// The surfaces of the solids at -window <= t < ray.tMax that the ray, of `mask`, sees, by t; bias and offset play no
-  /// part.
+  /// Finds the surfaces of solids at -window <= t < ray.tMax that the ray, of `mask`, sees, sorted by t. Its bias and
+  /// offset are not used.
   void surfaces(const Ray& ray, float window, uint32_t mask, HitList& out) const;
   size_t bytes() const { return embree_ ? embree_->bytes() : 0; }
 

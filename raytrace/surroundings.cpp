@@ -22,7 +22,7 @@ void Surroundings::add(uint32_t group, uint32_t quad, bool flips, const std::arr
   const vec3 a = corners[0] - origin_, b = corners[1] - origin_, c = corners[2] - origin_, d = corners[3] - origin_;
   const std::array<vec3, 2> normals = trianglesOf({a, b, c, d});
   const std::array<float, 2> heights{dot(normals[0], a), dot(normals[1], c)};
-  const float reach = 1.01f * reach_;  // with rounding
+  const float reach = 1.01f * reach_;  // grown for rounding
   const auto beyond = [&](size_t k) { return std::abs(heights[k]) > reach * glm::length(normals[k]); };
   const vec3 away = glm::max(glm::min(glm::min(a, b), glm::min(c, d)), -glm::max(glm::max(a, b), glm::max(c, d)));
   if ((beyond(0) && beyond(1)) || glm::length(glm::max(away, 0.0f)) > reach) return;
@@ -38,7 +38,7 @@ void Surroundings::meet(const vec3& direction, float window, HitList& list) cons
     alignas(32) float side[8];
     for (size_t k = 0; k < 8; ++k) side[k] = p.x[k] * direction.x + p.y[k] * direction.y + p.z[k] * direction.z;
     const auto [ab, bd, da, bc, cd, unused0, unused1, unused2] = side;
-    // u, v: the shares of the corners that they lead to.
+    // u, v: the weights of the corners that they lead to.
     const auto meetTriangle = [&](size_t k, float x, float u, float v) {
       if (!((x >= 0 && u >= 0 && v >= 0) || (x <= 0 && u <= 0 && v <= 0))) return;
       const float whole = x + u + v;

@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kTile = 64;  ///< Quads of one lattice along u or v: bounds what is diced at once.
+constexpr int kTile = 64;  ///< Quads of one lattice along u or v; it limits what is diced at once.
 
 class Tessellator {
  public:
@@ -33,7 +33,7 @@ class Tessellator {
  private:
   const Object& objectOf(int object) const { return scene_.objects[static_cast<size_t>(object)]; }
 
-  /// Dices at twice the rate: every second vertex is a corner, the others say how far the polygons are off.
+  /// Dices at twice the rate: every second vertex is a corner, and the others show the deviation of the polygons.
   void addTile(int object, uint32_t patch, const UvRect& rect, int nu, int nv, CoarseGroup& out) const {
     const Object& o = objectOf(object);
     const Kept keptOfTile = o.shape().kept(patch, rect);
@@ -66,7 +66,7 @@ class Tessellator {
         const uint32_t a = first + static_cast<uint32_t>(j) * row + static_cast<uint32_t>(i);
         out.latticeOfQuad.push_back(static_cast<uint32_t>(out.lattices.size() - 1));
         if (!leavesQuad(g, 2 * i, 2 * j)) {
-          out.quads.push_back({a, a, a, a});  // Without area, neither rays nor light know it.
+          out.quads.push_back({a, a, a, a});  // A quad without area is invisible to rays and lights.
           continue;
         }
         out.quads.push_back({a, a + 1, a + row + 1, a + row});
@@ -75,7 +75,7 @@ class Tessellator {
       }
   }
 
-  /// Do trim curves leave some of the polygon whose first cell is (i, j)?
+  /// Does a part of the polygon whose first cell is (i, j) remain after trimming?
   static bool leavesQuad(const Grid& g, int i, int j) {
     const auto gone = [&](int du, int dv) {
       return g.kept[static_cast<size_t>((j + dv) * g.nu + i + du)] == Kept::None;
@@ -87,7 +87,7 @@ class Tessellator {
   const Camera& camera_;
   const ShadingSystem& shading_;
   Log& log_;
-  const std::vector<std::vector<float>> times_;  ///< Of each group
+  const std::vector<std::vector<float>> times_;  ///< Indexed by group.
 };
 
 void append(CoarseGroup& to, const CoarseGroup& from) {
@@ -110,7 +110,7 @@ void append(CoarseGroup& to, const CoarseGroup& from) {
   to.coarseDeviation = std::max(to.coarseDeviation, from.coarseDeviation);
 }
 
-/// Gives back what growing reserved beyond need; Embree reads 16 bytes at the last position.
+/// Frees memory that growing reserved beyond need; Embree reads 16 bytes at the last position.
 void fit(CoarseGroup& g) {
   const auto exactly = [](std::vector<vec3>& v, size_t spare) {
     std::vector<vec3> out;
@@ -124,7 +124,7 @@ void fit(CoarseGroup& g) {
   g.quads.shrink_to_fit(), g.latticeOfQuad.shrink_to_fit(), g.lattices.shrink_to_fit();
 }
 
-/// A run of patches of one object: what one thread tessellates at a time.
+/// A run of patches of one object, which one thread tessellates at a time.
 struct Work {
   int object;
   uint32_t first, last;
@@ -146,7 +146,7 @@ float diagonalOf(const Object& o) {
 
 enum class Patches { All, WithoutLevels, WithLevels };
 
-/// A part for each piece of work.
+/// Returns a part of the result for each piece of work.
 std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
                                        const std::vector<Work>& work, Patches which, Log& log) {
   std::vector<CoarseGroup> pieces(work.size());
@@ -155,7 +155,7 @@ std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera,
     const Object& o = scene.objects[static_cast<size_t>(object)];
     const bool withLevels = which == Patches::WithLevels;
     if (withLevels && o.attributes->trace.rate != TessellationMode::Multiresolution)
-      return false;  // or no ray sees its coarse polygons
+      return false;  // other modes have no coarse polygons that rays see
     return which == Patches::All || hasLevels(o, patch, tessellator.moves(object)) == withLevels;
   };
   parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
@@ -206,7 +206,7 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
                                     const std::vector<bool>& elsewhere) {
   std::vector<Work> work;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
-    // What no ray may see still cuts its solid.
+    // An object that no ray sees may still cut its solid.
     const bool needed = scene.objects[i].solid >= 0 || raysNeed(*scene.objects[i].attributes);
     if (needed && (elsewhere.empty() || !elsewhere[i])) addWork(scene, i, work);
   }

@@ -5,12 +5,12 @@
 namespace tomales {
 namespace {
 
-// A chord that turns the surface by 45 degrees lies at most a tenth of its length inside. Long micropolygons stand at
-// silhouettes, where dicing by raster size is coarse in space.
+// A chord along which the surface turns by 45 degrees lies at most a tenth of its length inside. Micropolygons are long
+// at silhouettes, where dicing by raster size is coarse in space.
 constexpr float kChordShare = 0.1f;
-constexpr float kOffsetEpsilon = 1e-5f;  ///< Of distance and size: rounding, where the coarse surface is exact.
+constexpr float kOffsetEpsilon = 1e-5f;  ///< Share of distance and size: rounding, where the coarse surface is exact.
 constexpr float kBias = 1e-4f;           ///< The same for rays without a hit list.
-constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 16;  ///< Of rays, from which on they see these levels.
+constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 16;  ///< Widths of rays from which on they see these levels.
 
 std::vector<uint32_t> masksOf(const Scene& scene) {
   std::vector<uint32_t> masks;
@@ -22,7 +22,8 @@ std::vector<uint32_t> masksOf(const Scene& scene) {
   return masks;
 }
 
-/// Neither a primitive variable nor a shader that shadow rays ask says otherwise.
+/// Returns for each group whether its opacity is that of the attributes, because no primitive variable and no shader of
+/// shadow rays changes it.
 std::vector<bool> constantOpacityOf(const Scene& scene, const ShadingSystem& shading) {
   std::vector<bool> constant;
   for (const ShadeGroup& g : scene.groups) {
@@ -55,7 +56,7 @@ std::vector<uint32_t> groupsOfInstances(const Scene& scene, const SharedShapes& 
   return groups;
 }
 
-/// Lists for each thread: no allocation once they have grown.
+/// Each thread keeps a list: no allocation once it has grown.
 HitList& scratchList() {
   thread_local HitList list;
   return list;
@@ -141,7 +142,7 @@ void RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon, Hit& out
     geometric = normalizeOr(instance->normals * geometric, geometric);
     normal = instance->normals * normal;
   }
-  // Each in its place: a copy of what has just been written in smaller pieces waits for them.
+  // Copying a structure that has just been written in smaller pieces would stall, so each member is assigned in place.
   out.t = polygon.t;
   out.object = instance ? instance->object : l.object, out.patch = l.patch;
   out.u = uv.x, out.v = uv.y;
@@ -164,7 +165,8 @@ Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
           ray.origin + hit.t * ray.direction};
 }
 
-/// As wide as the polygons of a level are from the eye, as if what is met were as far from P as that is from the eye.
+/// The level whose polygons are as wide as the ray, seen from the eye. The hit is assumed to be as far from P as P is
+/// from the eye.
 Level RayScene::Impl::levelOf(const Ray& ray, const vec3& P) const {
   if (chunks.all().empty()) return Level::Fine;
   const float width_px = 2 * std::max(ray.spread * glm::length(P), ray.radius) / std::max(camera.pixelSize(P), 1e-20f);

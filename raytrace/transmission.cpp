@@ -1,12 +1,13 @@
-// Light that passes through what stands between two points.
+// Transmittance of the surfaces between two points.
 #include "raytrace/ray_scene.h"
 
 namespace tomales {
 namespace {
 
-constexpr float kFarEnd = 1e-4f;  ///< Share of a shadow ray that ends before the light, not to meet its surface.
+/// Share of a shadow ray that is cut off before the light, so as not to meet its surface.
+constexpr float kFarEnd = 1e-4f;
 
-/// Adds the surfaces of solids to the list; false if one is opaque beyond the window.
+/// Adds the surfaces of solids to the list. Returns false if one is opaque beyond the window.
 bool addSolids(const RayScene::Impl& scene, const Ray& ray, float window, HitList& list) {
   if (scene.solids.none()) return true;
   thread_local HitList surfaces;
@@ -40,7 +41,7 @@ Layers layersOf(const RayScene::Impl& scene, const Ray& ray) {
   const int origin = offsetting ? effectiveOrigin(list, start) : -1, first = nextHit(list, origin, start);
   out.adjusted = origin >= 0;
   for (size_t i = static_cast<size_t>(first); first >= 0 && i < list.size(); ++i) {
-    // An edge shared by two quads counts once; far hits are as far apart as their rounding.
+    // An edge shared by two quads counts once. For far hits the distance allowed is their rounding error.
     const bool again = i > static_cast<size_t>(first) &&
                        sameSurface(list[i - 1], list[i], std::max(mergeDistance(ray.offset), 1e-6f * list[i].t));
     if (!again) out.hits.push_back(list[i]);
@@ -48,7 +49,7 @@ Layers layersOf(const RayScene::Impl& scene, const Ray& ray) {
   return out;
 }
 
-/// Hits whose opacity is not that of their attributes, to be asked all at once.
+/// Hits whose opacity is not that of their attributes; their shaders run together.
 struct Asked {
   std::vector<size_t> rayOf;
   std::vector<Ray> rays;

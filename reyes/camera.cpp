@@ -9,7 +9,7 @@ Camera::Camera(const Options& o)
       near_(o.nearClip),
       far_(o.farClip),
       planes_(o.clippingPlanes) {
-  // The picture fits into the display's pixels at their upper left, however wide those are (RISpec 3.2 section 4.1.1,
+  // The picture takes the upper left part of the display, whatever the shape of its pixels (RISpec 3.2 section 4.1.1,
   // FrameAspectRatio).
   const vec2 display(xResolution_, yResolution_);
   const float displayAspect = display.x * o.pixelAspect / display.y, aspect = o.frameAspect.value_or(displayAspect);
@@ -42,8 +42,8 @@ Camera::Camera(const Options& o)
 bool Camera::rasterBound(const Bound3& b, Bound2& out) const {
   if (perspective_ && b.lo.z < eyePlane()) return false;
   out = {};
-  // For fixed x the reach to either side is convex in 1/z, so its extremes are at corners; two at either depth have all
-  // x and y.
+  // For fixed x the bound of either side is convex in 1/z, so its extremes are at corners; two corners at either depth
+  // have all x and y.
   for (const float z : {b.lo.z, b.hi.z}) {
     const vec2 blur = glm::abs(defocus(depthKey(z)));
     for (const vec2 corner : {vec2(b.lo), vec2(b.hi)}) {
@@ -68,7 +68,7 @@ bool Camera::clips(const vec2& at, const vec2& lens, float key) const {
 
 bool Camera::outside(const Bound3& b, const PixelRect& window) const {
   const auto beyond = [&](const vec4& plane) {
-    // The corner that lies least to the side that is cut off.
+    // The corner that is least far on the side that is cut off.
     const vec3 least(plane.x > 0 ? b.lo.x : b.hi.x, plane.y > 0 ? b.lo.y : b.hi.y, plane.z > 0 ? b.lo.z : b.hi.z);
     return dot(plane, vec4(least, 1)) > 0;
   };
@@ -78,8 +78,8 @@ bool Camera::outside(const Bound3& b, const PixelRect& window) const {
 bool Camera::outsideWindow(const Bound3& b, const PixelRect& window) const {
   if (b.empty() || b.hi.z < near_) return true;
   // raster_x >= x0  <=>  scale * x + (offset - x0) * z >= 0 for z > 0: a half space through the eye. The frustum is the
-  // intersection of four of them, so a box wholly outside one of them is wholly outside. Defocus adds up to
-  // lens * |z * focusKey + 1| on either side, which is convex in z: corners tell the most.
+  // intersection of four of them, so a box wholly outside one of them is wholly outside. Defocus adds up to lens * |z *
+  // focusKey + 1| on either side, which is convex in z, so its extremes are at corners.
   const auto allNegative = [&](float scale, float constant, int axis, float sign) {
     for (int i = 0; i < 8; ++i) {
       const vec3 c = b.corner(i);

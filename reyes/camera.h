@@ -14,17 +14,18 @@ class Camera {
 
   int xResolution() const { return xResolution_; }
   int yResolution() const { return yResolution_; }
-  /// The pixels that CropWindow asks for (RISpec: abutting windows tile exactly).
+  /// The pixels of CropWindow (RISpec: abutting windows tile exactly).
   PixelRect crop() const { return crop_; }
   bool perspective() const { return perspective_; }
   float nearClip() const { return near_; }
   float farClip() const { return far_; }
 
-  /// What is nearer cannot be diced: half as far as the near plane, so that what that one cuts can be.
+  /// Geometry nearer than this cannot be diced. It is half as far as the near plane, so that surfaces that the near
+  /// plane cuts can be.
   float eyePlane() const { return 0.5f * near_; }
-  /// Finite, and not nearer than the eye plane: `raster` is defined and so is the depth key.
+  /// Is the point finite, and not nearer than the eye plane? Then `raster` is defined, and so is the depth key.
   bool seeable(const vec3& p) const {
-    // Without a branch, which would keep it out of vectors.
+    // A branch would keep it from being vectorised.
     const float nearest = perspective_ ? eyePlane() : -FLT_MAX;
     return (std::abs(p.x) <= FLT_MAX) & (std::abs(p.y) <= FLT_MAX) & (p.z >= nearest) & (p.z <= FLT_MAX);
   }
@@ -33,33 +34,34 @@ class Camera {
     const float w = perspective_ ? 1.0f / p.z : 1.0f;
     return {offset_.x + scale_.x * p.x * w, offset_.y + scale_.y * p.y * w};
   }
-  /// Near and far clipping and clipping planes: is a point cut off? Not tested against the window.
+  /// Is a point cut off by near or far clipping or a clipping plane? It is not tested against the window.
   bool clips(const vec3& p) const;
-  /// The same for what a sample at raster position `at` meets at a depth key, through the point of the lens that shifts
-  /// by `lens` what has a key of focusKey() + 1.
+  /// The same for the point that a sample at raster position `at` meets at a depth key. `lens` is the raster shift of
+  /// its lens point at a key of focusKey() + 1.
   bool clips(const vec2& at, const vec2& lens, float key) const;
   /// A depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
-  /// The least key of what is no nearer than z and not clipped, also where z lies behind the eye.
+  /// Least depth key of points that are no nearer than z and not clipped, also where z lies behind the eye.
   float leastDepthKey(float z) const { return perspective_ ? -1.0f / std::max(z, near_) : z; }
   float zFromDepthKey(float key) const { return perspective_ ? -1.0f / key : key; }
 
-  /// How far, in raster x and y, the rim of the lens moves what has this depth key; 0 on the focal plane, negative
-  /// nearer. Lens point l (unit disk) sees a point at raster + l * defocus(depthKey): exact for a thin lens, as
-  /// the line through the lens meets the focal plane there (RISpec 3.2 section 4.1.2, DepthOfField).
+  /// How far, in raster x and y, the rim of the lens moves a point of this depth key; 0 on the focal plane, negative
+  /// nearer. Lens point l (unit disk) sees a point at raster + l * defocus(depthKey): exact for a thin lens, as the
+  /// line through the lens meets the focal plane there (RISpec 3.2 section 4.1.2, DepthOfField).
   vec2 defocus(float key) const { return lens_ * (key - focusKey_); }
   bool defocuses() const { return lens_ != vec2(0); }
   vec2 lens() const { return lens_; }
   float focusKey() const { return focusKey_; }
 
-  /// Conservative raster bound of a camera-space box, defocus included. False where it reaches nearer than `eyePlane`
-  /// under perspective: the box must be split or culled first.
+  /// Conservative raster bound of a camera-space box, defocus included. Returns false where it is nearer than
+  /// `eyePlane` under perspective: the box must be split or culled first.
   bool rasterBound(const Bound3& b, Bound2& out) const;
 
-  /// True only if no point of the box can be seen through `window`: outside a side of the frustum, nearer than
-  /// `nearClip`, beyond `farClip` or a clipping plane; defocus included. Works for boxes that cross the eye plane.
+  /// Returns true only if no point of the box can be seen through `window`: it lies outside a side of the frustum,
+  /// nearer than `nearClip`, beyond `farClip` or a clipping plane; defocus included. It works for boxes that cross the
+  /// eye plane.
   bool outside(const Bound3& b, const PixelRect& window) const;
-  /// The same but for `farClip` and clipping planes: what a line through the window does not meet.
+  /// The same without `farClip` and clipping planes: no line of sight through the window meets the box.
   bool outsideWindow(const Bound3& b, const PixelRect& window) const;
 
   /// Width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle along

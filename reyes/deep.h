@@ -13,18 +13,18 @@
 
 namespace tomales {
 
-/// One visible micropolygon. Constant shading: all four are the same point, shaded at its centre. Smooth: its corners,
-/// in the order (0,0) (1,0) (0,1) (1,1) of its own (u,v).
+/// One visible micropolygon. With constant shading all four points are the same, shaded at its centre. With smooth
+/// shading they are its corners, in the order (0,0) (1,0) (0,1) (1,1) of its own (u,v).
 struct Facet {
-  int batch;  ///< In DeepTile::batches.
+  int batch;  ///< Index in DeepTile::batches.
   int point[4];
-  bool matte = false;  ///< Attributes::matte: hides what is behind it and leaves no colour and no alpha.
-  float edge = 0;      ///< Left of its points by DeepTile::forgetPoints: ask edgeOf.
+  bool matte = false;  ///< Attributes::matte: it hides what is behind it and leaves no colour and no alpha.
+  float edge = 0;      ///< Edge length kept by DeepTile::forgetPoints(); read it by edgeOf().
 };
 
-/// What the samples of one pixel see of one facet.
+/// The samples of one pixel that see one facet.
 struct Fragment {
-  uint32_t facet;    ///< In DeepTile::facets.
+  uint32_t facet;    ///< Index in DeepTile::facets.
   float z;           ///< Camera-space depth of the nearest of its samples.
   uint64_t samples;  ///< Bit s: sample 64 * word + s of the pixel.
   uint16_t word = 0;
@@ -32,7 +32,7 @@ struct Fragment {
 };
 
 struct DeepPixel {
-  uint32_t first = 0, count = 0;  ///< In DeepTile::fragments, nearest first.
+  uint32_t first = 0, count = 0;  ///< Range in DeepTile::fragments, nearest first.
 };
 
 struct DeepTile {
@@ -41,25 +41,25 @@ struct DeepTile {
   std::vector<Facet> facets;
   std::vector<Fragment> fragments;
   std::vector<DeepPixel> pixels;     ///< rect.width() * rect.height(), rows from the top.
-  std::vector<ShadedPoints> shaded;  ///< Filled by the shade pass, one a batch.
-  std::vector<RayAnswers> answers;   ///< One a batch, of an earlier shade pass; or none.
+  std::vector<ShadedPoints> shaded;  ///< Filled by the shade pass, one for each batch.
+  std::vector<RayAnswers> answers;   ///< Answers of an earlier shade pass, one for each batch; or empty.
 
   const DeepPixel& pixel(int x, int y) const {
     return pixels[static_cast<size_t>((y - rect.y0) * rect.width() + (x - rect.x0))];
   }
-  /// Length of its longer edge.
+  /// Length of the facet's longer edge, in current space.
   float edgeOf(const Facet& facet) const {
     const ShadePoints& batch = batches[static_cast<size_t>(facet.batch)];
     return batch.count() > 0 ? batch.edgeLength(facet.point[0]) : facet.edge;
   }
   size_t bytes() const;
-  /// Gives back what growing reserved beyond need.
+  /// Frees memory that growing reserved beyond need.
   void shrink();
-  /// Keeps what filtering needs of a shaded tile: all but the points.
+  /// Drops the points of a shaded tile and keeps the rest, which filtering needs.
   void forgetPoints();
 };
 
-/// Of a frame; 32768 x 32768 pixels in buckets of 8 x 8.
+/// Limit for a frame, reached by 32768 x 32768 pixels in buckets of 8 x 8.
 constexpr int64_t kMostTiles = int64_t{1} << 24;
 
 struct DeepFrame {
@@ -69,14 +69,14 @@ struct DeepFrame {
   int samplesPerPixel = 1;
   bool complete = true;  ///< False: interrupted, some tiles are empty.
   std::vector<DeepTile>
-      tiles;         ///< Of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.
-  int firstRow = 0;  ///< Of those.
+      tiles;  ///< Tiles of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.
+  int firstRow = 0;  ///< Row of the first of `tiles`.
 
-  /// Tiles are numbered by rows from the top, held or not.
+  /// Tiles are numbered by rows from the top, whether they are in memory or not.
   size_t tileCount() const { return static_cast<size_t>(columns) * static_cast<size_t>(rows); }
   PixelRect rectOf(size_t tile) const;
   int rowOf(int y) const { return (y - padded.y0) / bucketHeight; }
-  /// Rows [first, last) of buckets; tiles that were held stay, others are empty.
+  /// Keeps rows [first, last) of buckets in memory; tiles that were in memory stay, others are empty.
   void hold(int first, int last);
   void holdAll() { hold(0, rows); }
   DeepTile& tile(size_t index) { return tiles[index - static_cast<size_t>(firstRow) * static_cast<size_t>(columns)]; }
@@ -85,9 +85,10 @@ struct DeepFrame {
   }
 };
 
-/// The tiles of a frame, wherever they rest. From any thread; null: it has not been hidden.
+/// Reads the tiles of a frame, in memory or in a file. It may be called from any thread. Null: the tile has not been
+/// hidden.
 using TileReader = std::function<std::shared_ptr<const DeepTile>(size_t tile)>;
-/// Of a frame that holds all of them, which it must outlive.
+/// Reads from a frame that holds all tiles; it must outlive the reader.
 TileReader readerOf(const DeepFrame& frame);
 
 }  // namespace tomales

@@ -14,31 +14,32 @@
 
 namespace tomales {
 
-/// When and where vertices are evaluated: a motion key for each time.
+/// The times at which vertices are evaluated, one motion key each, and the transformation at these.
 struct DiceKeys {
   const std::vector<float>& times;
   const Motion& currentFromObject;
 };
 
-/// pool: where the vertices are kept. Every piece has the vertices that it has alone.
+/// Dices several pieces. Each has its own vertices, shared with no other. pool: provides the memory of the vertices;
+/// may be null.
 Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, int nu, int nv, const DiceKeys& at,
           Pool* pool = nullptr);
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& at);
-/// keys: how many of the object's keyTimes to evaluate, as the camera sees them (all, or 1 for shutter open).
+/// keys: how many of the object's keyTimes to evaluate, with the camera's motion (all, or 1 for shutter open).
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys);
 
-/// A point of the true surface at shutter open, in current space; derivatives by the patch's own u and v.
+/// A point of the true surface at shutter open, in current space, with derivatives by the patch's own u and v.
 struct TrueSurface {
   vec3 P, dPdu, dPdv;
   vec3 normal;  ///< RISpec side, not normalised; 0 where it is not defined.
 };
 TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, float v);
 
-/// Fills one shading point at patch position (u, v): a ray hit. P and normals are evaluated on the true surface;
-/// the caller may overwrite them. `primvarFloats` of the batch must be the object's.
+/// Fills one shading point, a ray hit, at patch position (u, v). P and normals are those of the true surface; the
+/// caller may overwrite them. `primvarFloats` of the batch must be the object's.
 void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, float v, ShadePoints& batch, int index);
-/// Right after evaluatePoint, for a batch with steps: how values change over a footprint of that radius, of which du
-/// and dv become the size.
+/// Fills the steps of a point right after evaluatePoint(), for a batch with steps: the changes of its values over a
+/// footprint of this radius, which also gives du and dv.
 void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, float v, float radius, ShadePoints& batch,
                    int index);
 

@@ -14,14 +14,13 @@ void Grid::allocate(int cellsU, int cellsV, int keys, int primvarFloats, Pool* p
 
 namespace {
 
-/// From a vertex to those that differences are taken from and to, and the positions that they are of.
+/// Index steps from a vertex to the neighbours between which differences are taken, and the positions.
 struct Differences {
   const float *x, *y, *z;
   int uFrom, uTo, vFrom, vTo;
 };
 
-/// The cross product of the differences, and what is left of it as a unit vector; a direction that is missing is (0, 0,
-/// -1).
+/// The cross product of the differences as a unit vector, and its squared length; a missing direction is (0, 0, -1).
 struct Normal {
   float nx, ny, nz, length2;
 };
@@ -35,7 +34,7 @@ struct Normal {
   return {good ? x / length : 0.0f, good ? y / length : 0.0f, good ? z / length : -1.0f, length2};
 }
 
-/// Of vertices [first, end), which have the same differences. How many have no direction at all.
+/// Computes the normals of vertices [first, end), which have the same differences. Returns how many have no direction.
 TOMALES_HOT int fillNormals(const Differences& differences, int first, int end, float* __restrict nx,
                             float* __restrict ny, float* __restrict nz) {
   const Differences d = differences;
@@ -59,8 +58,8 @@ void calculateNormals(const Grid& g, bool flip, float* nx, float* ny, float* nz)
     const Differences d{g.P(0, 0), g.P(0, 1), g.P(0, 2), uFrom, uTo, vFrom, vTo};
     return flip ? Differences{d.x, d.y, d.z, vFrom, vTo, uFrom, uTo} : d;
   };
-  // All rows between the first and the last at once, as if their ends had neighbours too; those are set right
-  // afterwards.
+  // All rows between the first and the last are computed at once, as if their ends had neighbours too; the ends are
+  // corrected afterwards.
   int missing =
       fillNormals(around(1, 0), 1, row - 1, nx, ny, nz) + fillNormals(around(1, g.nv), last + 1, count - 1, nx, ny, nz);
   if (g.nv > 1) missing += fillNormals(around(g.nu > 1 ? 1 : 0, 1), row, last, nx, ny, nz);
@@ -68,7 +67,7 @@ void calculateNormals(const Grid& g, bool flip, float* nx, float* ny, float* nz)
     for (const int i : {0, g.nu}) missing += fillNormals(around(i, j), j * row + i, j * row + i + 1, nx, ny, nz);
   if (missing == 0) return;
 
-  // A pole has no dP/du of its own: step inwards until there is one. A line has none anywhere.
+  // A pole has no dP/du of its own: the nearest row inwards that has one is used. A line has none anywhere.
   const auto length2At = [&](int i, int j) { return normalAt(around(i, j), j * row + i).length2; };
   bool any = false;
   for (int k = 0; k < count && !any; ++k) any = length2At(k % row, k / row) != 0;

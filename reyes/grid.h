@@ -1,9 +1,9 @@
 // Noun: diced pieces of one object, all of (nu+1) x (nv+1) vertices and nu x nv micropolygons, structure of arrays in
-// one aligned block. Large pieces are alone; small ones share a grid, so that what is done once a grid is done once for
-// dozens (docs/decisions/0040-stacked-grids.md). They are stacked: vertex (i, j) of piece p has index (p * (nv+1) + j)
-// * (nu+1) + i, and micropolygon (i, j) number (p * (nv+1) + j) * nu + i; numbers between the last row of a piece and
-// the next piece name nothing. A grid is diced once, shared by the buckets that its bound touches, and freed after the
-// last of them.
+// one aligned block. A large piece has a grid of its own; small ones share a grid, so that the cost of a grid is paid
+// once for dozens of pieces (docs/decisions/0040). They are stacked: vertex (i, j) of piece p has index
+// (p * (nv+1) + j) * (nu+1) + i, and micropolygon (i, j) number (p * (nv+1) + j) * nu + i; numbers between the last row
+// of a piece and the next piece name nothing. A grid is diced once, shared by the buckets that its bound touches, and
+// freed after the last of them.
 #pragma once
 #include "reyes/base/pool.h"
 #include "reyes/scene.h"
@@ -18,46 +18,47 @@ struct PatchPiece {
 
 struct Grid {
   struct Piece : PatchPiece {
-    uint8_t openEdges = 0;  ///< PatchEdge bits: edges that end the surface; the rest join a neighbour.
+    uint8_t openEdges = 0;  ///< PatchEdge bits of the edges that end the surface; the others join a neighbour.
     uint32_t name = 0;      ///< Stable name for random numbers.
   };
 
-  int object = -1;     ///< In Scene::objects.
+  int object = -1;     ///< Index in Scene::objects.
   int nu = 0, nv = 0;  ///< Micropolygons along u and v of a piece.
   std::vector<Piece> pieces = std::vector<Piece>(1);
   int keyCount = 1;  ///< Motion keys of P (times: Object::keyTimes).
   bool displaced = false;
-  bool round =
-      false;  ///< Each piece is one cell and shows the ellipse that touches its four edges. Still and in focus.
-  std::vector<Kept> kept;   ///< What trim curves and the near plane leave of each cell number; empty: everything.
+  /// Each piece is one cell and shows the ellipse that touches its four edges. The grid is still and in focus.
+  bool round = false;
+  /// The part of each cell that trim curves and the near plane keep, by cell number; empty: all of each.
+  std::vector<Kept> kept;
   std::vector<mat3> turns;  ///< Linear part of the motion from key 0 to each key.
 
   int pieceCount() const { return static_cast<int>(pieces.size()); }
   int verticesOfPiece() const { return (nu + 1) * (nv + 1); }
   int vertexCount() const { return pieceCount() * verticesOfPiece(); }
-  /// Micropolygons.
+  /// Number of micropolygons.
   int cellCount() const { return pieceCount() * nu * nv; }
-  /// Their numbers lie below this.
+  /// Upper limit of cell numbers.
   int cellNumbers() const { return (pieceCount() * (nv + 1) - 1) * nu; }
   bool isCell(int number) const { return number / nu % (nv + 1) != nv; }
   int pieceOfCell(int number) const { return number / (nu * (nv + 1)); }
-  /// Its number if the piece were alone.
+  /// The cell's number if its piece were alone.
   int cellInPiece(int number) const { return number % (nu * (nv + 1)); }
   int stride() const { return padded(vertexCount()); }
 
-  /// Arrays, each stride() floats. P in camera space.
+  /// Arrays of stride() floats each. P is in camera space.
   float* P(int key, int axis) { return at(key * 3 + axis); }
   const float* P(int key, int axis) const { return at(key * 3 + axis); }
   float* N(int axis) { return at(keyCount * 3 + axis); }  ///< Shading normal, RISpec side, not normalised.
   const float* N(int axis) const { return at(keyCount * 3 + axis); }
-  float* u() { return at(keyCount * 3 + 3); }  ///< Shader's u, v.
+  float* u() { return at(keyCount * 3 + 3); }  ///< Shader's u and v.
   const float* u() const { return at(keyCount * 3 + 3); }
   float* v() { return at(keyCount * 3 + 4); }
   const float* v() const { return at(keyCount * 3 + 4); }
   float* primvar(int offset) { return at(keyCount * 3 + 5 + offset); }
   const float* primvar(int offset) const { return at(keyCount * 3 + 5 + offset); }
 
-  /// Position on the patch of a point of a cell, given in the cell's own (u,v), 0..1.
+  /// Converts a point of a cell, given in the cell's own (u,v), 0..1, to a position on the patch.
   vec2 onPatch(int cell, const vec2& at) const {
     const UvRect& rect = pieces[static_cast<size_t>(pieceOfCell(cell))].rect;
     const int inPiece = cellInPiece(cell);
@@ -67,8 +68,8 @@ struct Grid {
   vec3 position(int key, int vertex) const { return {P(key, 0)[vertex], P(key, 1)[vertex], P(key, 2)[vertex]}; }
   vec3 normal(int vertex) const { return {N(0)[vertex], N(1)[vertex], N(2)[vertex]}; }
 
-  /// Sets the sizes of pieces and allocates `keys` positions, the normal, u, v and `primvarFloats` arrays for all there
-  /// are, in a pool if one is given.
+  /// Sets the sizes of pieces and allocates arrays for all pieces: `keys` positions, the normal, u, v and
+  /// `primvarFloats`. pool: provides the memory; may be null.
   void allocate(int nu, int nv, int keys, int primvarFloats, Pool* pool = nullptr);
 
  private:
@@ -79,9 +80,9 @@ struct Grid {
   PooledVector<float> block_;
 };
 
-/// Unit normals of the surface that the vertices of motion key 0 span, by centred differences, one-sided at the border;
-/// `flip` turns them (Object::flipsNormal). Where the lattice is degenerate (a pole), the nearest defined row is used.
-/// Pre: one piece.
+/// Computes unit normals of the surface through the vertices of motion key 0, by central differences, one-sided at the
+/// border. `flip` turns them (Object::flipsNormal). Where the lattice is degenerate (a pole), the nearest defined row
+/// is used. Pre: one piece.
 void calculateNormals(const Grid& grid, bool flip, float* nx, float* ny, float* nz);
 
 }  // namespace tomales

@@ -1,9 +1,10 @@
-// Verb: grids -> DeepTile. Samples one bucket: every pixel has a stratified, reproducible set of sample positions and
-// times, and each micropolygon that covers a sample competes for it by depth. Opaque surfaces keep the nearest; others
-// keep all in front of the nearest opaque one, nearest first. Edges: a sample exactly on an edge shared by two
-// micropolygons belongs to one of them (no gap, no double hit). Along the border of a grid that joins a neighbour,
-// micropolygons reach over by the sagitta of the border, so that different rates leave no crack (docs/decisions/0003).
-// Threads: one Hider a bucket, each on its own thread; grids are shared and read only.
+// Verb: grids -> DeepTile. It samples one bucket: every pixel has a stratified, reproducible set of sample positions
+// and times, and each micropolygon that covers a sample competes for it by depth. Of opaque surfaces the nearest is
+// kept; of transparent ones all in front of the nearest opaque one, nearest first.
+// Edges: a sample exactly on an edge shared by two micropolygons belongs to one of them (no gap, no double hit). Along
+// the border of a grid that joins a neighbour, micropolygons reach over by the sagitta of the border, so that different
+// rates leave no crack (docs/decisions/0003).
+// Threads: one Hider for each bucket, each on its own thread; grids are shared and read only.
 #pragma once
 #include <map>
 
@@ -18,7 +19,7 @@ class SamplePattern {
   SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture = {});
   int count() const { return count_; }
   int padded() const { return padded_; }
-  int patternCount() const { return patterns_; }  ///< Enough not to be seen to repeat.
+  int patternCount() const { return patterns_; }  ///< Enough that no repetition is seen.
   int patternOf(int x, int y) const;
   const float* x(int pattern) const { return of(x_, pattern); }  ///< In [0,1) inside the pixel; padded() floats.
   const float* y(int pattern) const { return of(y_, pattern); }
@@ -27,7 +28,7 @@ class SamplePattern {
   const float* lensY(int pattern) const { return of(lensY_, pattern); }
   const float* detail(int pattern) const {
     return of(detail_, pattern);
-  }  ///< In [0,1): what DetailShare divides; those of a pixel are stratified.
+  }  ///< In [0,1), compared with DetailShare; those of a pixel are stratified.
 
  private:
   const float* of(const AlignedVector<float>& values, int pattern) const {
@@ -40,7 +41,7 @@ class SamplePattern {
 
 struct BlurBounds;
 
-/// Where something is seen, over the shutter and the lens.
+/// Bounds over the shutter and the lens, in raster space and in depth keys.
 struct RasterExtent {
   Bound2 bound;
   float dMin = kInfinity;
@@ -50,38 +51,41 @@ struct RasterExtent {
   }
 };
 
-/// Vertices of a grid in raster space, made once a grid by `project` and shared by the buckets.
+/// Vertices of a grid in raster space, made once for each grid by `project` and shared by the buckets.
 struct RasterGrid : RasterExtent {
   std::shared_ptr<const Grid> grid;
-  bool opaque = true;  ///< Hides what is behind it.
+  bool opaque = true;  ///< It hides what is behind it.
   bool matte = false;
-  float facing = 0;  ///< Seen are triangles abc and bdc (reyes/hide/raster.h) whose raster area has this sign; 0: all.
-  DetailShare detail;      ///< Only samples of this share see it.
-  bool clipped = false;    ///< Some vertex is cut off by the near or far plane or a ClippingPlane.
-  bool inSolid = false;    ///< Its hits are crossings for reyes/hide/solids.cpp, and hide nothing before.
-  bool smooth = false;     ///< ShadingInterpolation
-  bool defocused = false;  ///< Some vertex moves visibly with the point of the lens.
+  /// Triangles abc and bdc (reyes/hide/raster.h) are seen if their raster area has this sign; 0: all are.
+  float facing = 0;
+  DetailShare detail;    ///< Only samples of this share see it.
+  bool clipped = false;  ///< Some vertex is cut off by the near or far plane or a ClippingPlane.
+  /// Its hits are crossings for reyes/hide/solids.cpp, and hide nothing before those are resolved.
+  bool inSolid = false;
+  bool smooth = false;                     ///< ShadingInterpolation is "smooth".
+  bool defocused = false;                  ///< Some vertex moves visibly with the point of the lens.
   std::shared_ptr<const BlurBounds> blur;  ///< Null if still and in focus.
-  PooledVector<float> x, y, d;  ///< Raster x, y and depth key (Camera::depthKey): keyCount * stride each, then a tail
-                                ///< to read blocks across the end; borders pushed out.
-  std::vector<RasterExtent> ofPiece;  ///< Empty: one piece.
-  const Prim* trim = nullptr;         ///< Asked what trim curves leave of Grid::kept cells; null: nothing is cut.
-  float trimReach_px = 0;             ///< What is left reaches this much farther, to meet what a neighbour leaves.
+  /// Raster x, y and depth key (Camera::depthKey), borders pushed out: keyCount * stride each, then a tail to read
+  /// blocks across the end.
+  PooledVector<float> x, y, d;
+  std::vector<RasterExtent> ofPiece;  ///< Extent of each piece; empty: there is one piece.
+  const Prim* trim = nullptr;  ///< The shape whose trim curves cut Kept::Part cells (Grid::kept); null: nothing is cut.
+  float trimReach_px = 0;      ///< Trimmed surfaces reach this much farther, to meet their neighbours.
 };
-/// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; several pieces are still, in focus and belong
-/// to no solid. zMin: nearest camera z of the solid that the grid belongs to. pool: where it is kept. opaque: by its
-/// shaders; what may stand before the midpoint of two surfaces hides nothing all the same.
+/// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; a grid of several pieces is still, in focus
+/// and not part of a solid. zMin: nearest camera z of the solid that the grid belongs to. pool: provides the memory.
+/// opaque: by its shaders; with the midpoint filter it hides nothing all the same.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera,
                                           bool opaque, float zMin = kInfinity,
                                           const std::shared_ptr<Pool>& pool = nullptr);
 
-/// What the hider cannot know, or shows badly.
-struct HideDoubts {
-  /// Pixels in which either of two objects, the first with the lower number, is seen by chance: in a quarter of the
-  /// samples or more they lie at the same place, as far as depths can tell. Of what is opaque, still and in focus.
+/// Counts of samples whose result is uncertain or badly shown, from which warnings are made.
+struct HideDiagnostics {
+  /// Pixels in which chance decides which of two objects is seen, the first with the lower number: in a quarter of the
+  /// samples or more their depths differ by less than their error. Only opaque, still surfaces in focus count.
   std::map<std::pair<int, int>, int> samePlaces;
-  /// Visible micropolygons by object: those that are round, still and in focus, and turn so far that their outline has
-  /// corners; and all.
+  /// Visible micropolygons by object: `turned` counts those that are still and in focus and turn so far that a round
+  /// outline has corners; `all` counts all.
   struct Turns {
     int64_t turned = 0, all = 0;
   };
@@ -90,16 +94,16 @@ struct HideDoubts {
 
 class Hider {
  public:
-  /// All but `rect` must outlive the Hider.
+  /// All arguments but `rect` must outlive the Hider.
   Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect);
   ~Hider();
-  /// True if every sample in the bound is already hidden by something opaque nearer than zMin (camera space).
+  /// Is every sample in the bound already hidden by something opaque nearer than zMin (camera space)?
   bool hidden(const Bound2& raster, float zMin) const;
-  /// The same of what has been projected: insert() would find nothing to do.
+  /// The same for a projected grid: insert() would find nothing to do.
   bool hidden(const RasterExtent& extent) const;
   void insert(const std::shared_ptr<const RasterGrid>& grid);
-  /// Collects visible micropolygons into points to shade. The Hider is spent.
-  DeepTile resolve(HideDoubts* doubts = nullptr);
+  /// Collects visible micropolygons into points to shade. The Hider cannot be used after it.
+  DeepTile resolve(HideDiagnostics* diagnostics = nullptr);
 
  private:
   struct Impl;

@@ -14,7 +14,7 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::string> channels;  ///< "R" "G" "B" "A" "Z"
   std::vector<float> pixels;
-  int originX = 0, originY = 0;  ///< Of the data window inside the display window (crop).
+  int originX = 0, originY = 0;  ///< Position of the data window inside the display window (crop).
   int displayWidth = 0, displayHeight = 0;
 
   int channelCount() const { return static_cast<int>(channels.size()); }
@@ -23,80 +23,81 @@ struct Image {
            (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * channels.size();
   }
   const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
-  int channelIndex(const std::string& name) const;  ///< -1: none
+  int channelIndex(const std::string& name) const;  ///< -1: there is none.
 };
 
 /// A separable or radial pixel filter; names and formulas of RISpec 3.2 section 5.1.2, with the repairs that
 /// docs/rib_support.md lists.
 class PixelFilter {
  public:
-  /// Unknown names fall back to gaussian and say so through `known`.
+  /// An unknown name gives gaussian and sets `known` to false.
   PixelFilter(const std::string& name, float xWidth, float yWidth, bool* known = nullptr);
-  float operator()(float x, float y) const;  ///< Offset from the pixel centre, in pixels.
+  float operator()(float x, float y) const;  ///< Weight at an offset from the pixel centre, in pixels.
   bool hasNegativeLobes() const;
-  int reachX() const, reachY() const;  ///< Whole pixels beyond its own that a pixel's filter touches.
+  int reachX() const, reachY() const;  ///< Number of pixels that the filter reaches beyond its own.
  private:
   int kind_;
   float xWidth_, yWidth_;
 };
 
-/// Sample offsets of a pixel pattern, as the filter needs them; supplied by the composer.
+/// Sample positions of the pixel patterns, as the filter needs them; supplied by the composer.
 struct SampleOffsets {
   int count = 0;
   std::vector<std::vector<vec2>> byPattern;  ///< Position inside the pixel, [0,1)^2.
   std::function<int(int x, int y)> patternOf;
 };
 
-/// Where a picture was taken from: kept by shadow maps and deep files. Screen space has x and y in [-1, 1], y up.
+/// The camera of a picture, kept by shadow maps and deep files. Screen space has x and y in [-1, 1], y up.
 struct View {
   mat4 cameraFromWorld{1.0f}, screenFromWorld{1.0f};
 };
 
-/// What Cryptomatte calls things; by Scene::groups.
+/// Names for Cryptomatte, by Scene::groups.
 struct MatteNames {
   std::vector<std::string> objects, materials;
 };
 
 View viewOf(const Camera& camera, const mat4& cameraFromWorld);
 
-/// How far the samples of a deep pixel may be merged: those within `depth` of their distance, those that together are
-/// no more opaque than `opacity`.
+/// Limits of merging the samples of a deep pixel: samples within `depth` of their distance are merged, and samples that
+/// together are no more opaque than `opacity`.
 struct DeepMerge {
   float depth = 1e-3f, opacity = 1.0f / 512;
-  bool opacityOnly = false;  ///< AR AG AB Z ZBack instead of R G B A Z ZBack.
+  bool opacityOnly = false;  ///< Write AR AG AB Z ZBack instead of R G B A Z ZBack.
 };
 
-/// Rows of deep pixels: how many samples each has, then their floats, nearest first.
+/// Rows of deep pixels: the number of samples of each, and their floats, nearest first.
 struct DeepRows {
   int x0 = 0, y0 = 0, width = 0, height = 0;
   std::vector<uint32_t> counts;
   std::vector<float> values;
 };
 
-/// Sums over pixels: of their luminance, and of its standard error by how much the samples of each differ, as if they
-/// were independent (stratified ones are better).
+/// Sums over pixels: of their luminance, and of its standard error. The error is estimated from the differences of each
+/// pixel's samples as if they were independent (stratified ones are better).
 struct PixelNoise {
   double light = 0, error = 0;
 };
 
-/// Filters the crop window of a shaded frame, some rows at a time. Floats of a pixel are those of outputOf(options): R
-/// G B A Z first; colour premultiplied, linear, before exposure; Z by Options::depthFilter, infinite where nothing
-/// opaque was hit. The sums run in a fixed order (rows, columns, fragments), so that buckets, bands and threads leave
-/// no trace. All arguments must outlive it.
+/// Filters the crop window of a shaded frame, some rows at a time. The floats of a pixel are those of
+/// outputOf(options): R G B A Z first; colour premultiplied, linear, before exposure; Z by Options::depthFilter,
+/// infinite where nothing opaque was hit. The sums run in a fixed order (rows, columns, fragments), so the result does
+/// not depend on buckets, bands and threads. All arguments must outlive it.
 class FrameFilter {
  public:
   FrameFilter(const DeepFrame& frame, const Options& options, const SampleOffsets& samples,
               const MatteNames& names = {});
   ~FrameFilter();
-  Image shape() const;  ///< Of the whole: no pixels.
-  /// Takes what a tile shows, which then may go unless needsTiles(). Another tile at a time from any thread.
+  Image shape() const;  ///< The whole picture, without pixels.
+  /// Takes the contributions of a tile, which may be dropped then unless needsTiles(). Any thread may call it, each for
+  /// another tile.
   void resolve(size_t index, const DeepTile& tile);
   bool needsTiles() const;
-  PixelNoise noise() const;  ///< Of what has been resolved.
-  /// Raster rows [y0, y1) of the crop window, from the top: none above those asked for before. Tiles that are not
-  /// resolved are taken from the frame. Afterwards what no lower row needs is forgotten.
+  PixelNoise noise() const;  ///< Noise of the tiles that have been resolved.
+  /// Returns raster rows [y0, y1) of the crop window. Calls must go from the top down. Tiles that are not resolved are
+  /// taken from the frame. Data that no lower row needs are dropped afterwards.
   Image rows(int y0, int y1);
-  DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< The same, before exposure.
+  DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< The same for deep pixels, before exposure.
 
  private:
   struct Impl;
@@ -104,26 +105,28 @@ class FrameFilter {
 };
 Image filterFrame(const DeepFrame& frame, const Options& options, const SampleOffsets& samples);
 
-/// Whole pixels beyond the crop window that some channel's filter touches.
+/// Number of pixels beyond the crop window that some channel's filter reaches.
 vec2 filterReach(const Options& options);
-/// Reports displays, channels and filters that are not understood. False: some filter is unknown.
+/// Reports displays, channels and filters that are not understood. Returns false if some filter is unknown.
 bool checkDisplays(const Options& options, Log& log);
 
-/// Applies exposure to colour and alpha-independent gamma, per Options.
+/// Applies the exposure of Options, gain and gamma, to colours; alpha stays.
 void expose(Image& image, const Options& options);
 
-/// The file of one Display: picks its floats, encodes, quantises and writes band after band to a temporary name; the
-/// last step renames. Type by `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where
-/// the Display's "string transfer" says so. Failures are reported to the log, once.
+/// The file of one Display. It picks the Display's floats, encodes, quantises and writes band after band to an
+/// UnfinishedFile; the last step renames. The format is given by `display.type` or the name's extension (.exr .tif
+/// .png); 8-bit types are sRGB only where the Display's "string transfer" says so. Failures are reported to the log,
+/// once.
 class DisplayFile {
  public:
-  /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: of the Display.
+  /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: that of the Display.
   DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
               const View& view = {}, const MatteNames& names = {});
   ~DisplayFile();
-  /// The next rows from the top, 64 or a multiple, but for the last. False: it cannot be written.
+  /// Writes the next rows from the top: 64 or a multiple, except for the last call. Returns false if it cannot be
+  /// written.
   bool write(const Image& rows);
-  /// Deep Displays are written by these instead.
+  /// Deep Displays use these instead; empty: the Display is not deep.
   std::optional<DeepMerge> deep() const;
   bool write(const DeepRows& rows);
   bool close();
@@ -132,9 +135,9 @@ class DisplayFile {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-/// MakeShadow: what a Display has written serves as it is, so that this checks and copies it.
+/// MakeShadow: a Display's file serves unchanged, so this checks and copies it.
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log);
-/// A whole picture at once.
+/// Writes a whole picture at once.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log);
 std::optional<Image> readImage(const std::string& path, std::string& error);

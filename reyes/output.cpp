@@ -49,9 +49,9 @@ std::vector<std::string> namesIn(const std::string& mode) {
   return out;
 }
 
-/// A request whose parameters say how a channel reaches the picture.
+/// A request whose parameters say how a channel is written.
 struct Asker {
-  std::string name;  ///< For messages.
+  std::string name;  ///< Name for messages.
   const ParamList& params;
   const SourceLoc& where;
 };
@@ -62,7 +62,7 @@ const std::map<std::string, Reduce, std::less<>> kReductions = {{"zmin", Reduce:
                                                                 {"max", Reduce::Max},
                                                                 {"average", Reduce::Average}};
 
-/// What `asker` says about sampling and encoding; what it leaves open stays.
+/// Sets the sampling and encoding that the request's parameters give; others stay.
 void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
   const auto numbers = [&](const char* name, size_t count) -> std::optional<std::vector<float>> {
     const Param* p = findParam(asker.params, name);
@@ -83,7 +83,7 @@ void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
     if (it == kReductions.end())
       channel.sampling.filter = filter->strings[0];
     else
-      channel.sampling.xWidth = channel.sampling.yWidth = 1;  // the samples of the pixel itself
+      channel.sampling.xWidth = channel.sampling.yWidth = 1;  // only the samples of the pixel itself
   }
   if (channel.kind == ChannelKind::Variable && width)
     channel.sampling.xWidth = (*width)[0], channel.sampling.yWidth = (*width)[1];
@@ -157,7 +157,7 @@ class Planner {
     return name + "." + (c.type == ValueType::Color ? kColor : kVector)[component];
   }
 
-  /// -1: there is no such channel, which has been reported.
+  /// Returns -1 if there is no such channel, which has been reported.
   int channelNamed(const std::string& name, const DisplayCall& display, Encoding& encoding) {
     const auto declared = options_.channels.find(name);
     const bool isDeclared = declared != options_.channels.end();

@@ -1,5 +1,5 @@
-// Noun: what the Displays of a frame ask for, worked out of Options. Shading stores the variables, filtering makes the
-// channels, each Display writes some floats of them.
+// Noun: the variables and channels that the Displays of a frame need, derived from Options. Shading stores the
+// variables, filtering makes the channels, and each Display writes some floats of them.
 //
 //   FrameOutput 1--* Variable   floats that shading keeps for every visible point
 //               1--* Channel    floats of a pixel; 0, 1, 2 are always Ci, a and z
@@ -9,23 +9,24 @@
 
 namespace tomales {
 
-/// How the samples around a pixel become its value. Filter: the weighted mean. The others look at the samples that see
-/// a surface: the value of the nearest or the farthest one, the least or the greatest value, the plain mean.
+/// How the samples around a pixel become its value. Filter: the weighted mean. The others use the samples that see a
+/// surface: the value of the nearest or the farthest one, the least or the greatest value, the plain mean.
 enum class Reduce : uint8_t { Filter, ZMin, ZMax, Min, Max, Average };
 
 struct Sampling {
   Reduce reduce = Reduce::Filter;
-  std::string filter = "box";  ///< Of Reduce::Filter.
+  std::string filter = "box";  ///< Used by Reduce::Filter.
   float xWidth = 1, yWidth = 1;
   bool operator==(const Sampling&) const = default;
 };
 
 struct Variable {
-  std::string source;  ///< Of a shader, the surface, a primitive variable, or "lightgroup:NAME".
+  /// An output variable of a shader, a standard variable, a primitive variable, or "lightgroup:NAME".
+  std::string source;
   ValueType type = ValueType::Float;
-  float fill = 0;   ///< Where nobody writes it.
-  int first = 0;    ///< Of its arrays in ShadedPoints::variables.
-  SourceLoc where;  ///< The request that asks for it.
+  float fill = 0;   ///< Value where nothing writes it.
+  int first = 0;    ///< First of its arrays in ShadedPoints::variables.
+  SourceLoc where;  ///< Location of the request that asks for it.
 };
 
 /// Objects, Materials: Cryptomatte, six ranks of id and coverage.
@@ -40,24 +41,24 @@ struct Channel {
   std::string name;
   ChannelKind kind = ChannelKind::Variable;
   ValueType type = ValueType::Color;
-  int variable = -1;        ///< In FrameOutput::variables.
-  bool composited = false;  ///< Colours: what lies behind shines through. Else the nearest surface counts alone.
+  int variable = -1;        ///< Index in FrameOutput::variables.
+  bool composited = false;  ///< Colours: surfaces behind shine through. Otherwise only the nearest surface counts.
   Sampling sampling;
-  float fill = 0;  ///< Of samples that see nothing.
+  float fill = 0;  ///< Value of samples that see nothing.
   int first = 0;   ///< Its first float in a pixel of the frame's picture.
   int width() const { return isMatte(kind) ? 12 : floatsPerValue(type); }
 };
 
-/// What a Display or DisplayChannel asks to be done to values on their way to the file.
+/// The encoding of values that a Display or DisplayChannel asks for.
 struct Encoding {
-  std::optional<std::array<float, 2>> exposure;  ///< Gain, gamma; of Ci on top of the frame's Exposure.
+  std::optional<std::array<float, 2>> exposure;  ///< Gain and gamma; for Ci on top of the frame's Exposure.
   std::optional<Quantize> quantize;
 };
 
 /// One float of a Display.
 struct SelectedFloat {
   int channel, component;
-  std::string name;  ///< In the file: R G B A Z, name.R, name.X, name.
+  std::string name;  ///< Name in the file: R G B A Z, name.R, name.X, name.
   Encoding encoding;
 };
 
@@ -66,23 +67,23 @@ using Selection = std::vector<SelectedFloat>;
 struct FrameOutput {
   std::vector<Variable> variables;
   std::vector<Channel> channels;
-  std::vector<Selection> displays;  ///< As Options::displays.
-  int floatsPerPoint = 0;           ///< Of all variables.
-  int floatsPerPixel = 5;           ///< Of all channels.
-  bool shades = true;               ///< False: depth alone is wanted, opaque surfaces need no shader.
-  /// Names of the floats of the frame's picture, as they stand in a pixel.
+  std::vector<Selection> displays;  ///< In the order of Options::displays.
+  int floatsPerPoint = 0;           ///< Floats of all variables.
+  int floatsPerPixel = 5;           ///< Floats of all channels.
+  bool shades = true;               ///< False: only depth is wanted, so opaque surfaces need no shader.
+  /// Names of the floats of a pixel of the frame's picture, in order.
   std::vector<std::string> names() const;
 };
 
-/// FrameOutput::shades alone.
+/// Computes FrameOutput::shades alone.
 bool shades(const Options& options);
 
 /// Reports channels that are not declared, and parameters that are not understood, if `log` is given.
 FrameOutput outputOf(const Options& options, Log* log = nullptr);
 
-/// Does the type of a Display want depth and nothing else: "shadow", "zfile"?
+/// Is the type of a Display one that has depth and nothing else: "shadow", "zfile"?
 bool writesShadowMap(const DisplayCall& display);
-/// "deepshad", "deepexr": a list of depths in every pixel?
+/// Is it a deep one, with a list of depths in every pixel: "deepshad", "deepexr"?
 bool writesDeep(const DisplayCall& display);
 
 }  // namespace tomales

@@ -4,11 +4,13 @@
 // reyes/image. Threads: concurrent calls are safe, but for those of one reader.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "reyes/base/log.h"
 #include "reyes/base/math.h"
 #include "reyes/shader_api.h"
 
@@ -55,15 +57,17 @@ struct TextureSettings {
   std::string searchPath{};   ///< Folders, by colons.
   std::string cacheFolder{};  ///< Of converted pictures; empty: $TOMALES_TEXTURE_CACHE, or the user's cache folder.
   int64_t memory_bytes = int64_t{1} << 30;
+  std::function<void(const std::string& what)>
+      note{};  ///< Is told what was damaged in the folder and is made anew; called by any thread.
 };
 
 struct TextureFigures {
   int64_t tileRequests = 0, tileMisses = 0, bytesRead = 0;
 };
 
-/// Pictures by name. One that is not a tiled MIP file yet becomes one at its first use, in a folder where files are
-/// named by content, so that no picture is converted twice. Coordinates: s runs right, t down the picture, 0..1
-/// (rispec-table section 10).
+/// Pictures by name, for one frame: what is rewritten while no cache is open is read anew by the next one. A picture
+/// that is not a tiled MIP file yet becomes one at its first use, in a folder where files are named by content, so that
+/// none is converted twice. Coordinates: s runs right, t down the picture, 0..1 (rispec-table section 10).
 class TextureCache {
  public:
   virtual ~TextureCache() = default;
@@ -73,8 +77,16 @@ class TextureCache {
   /// type and textureformat into `text`. False: there is no such picture or no such fact.
   virtual bool info(const std::string& name, const std::string& what, std::vector<float>& numbers,
                     std::string& text) = 0;
-  virtual TextureFigures figures() const = 0;
+  /// What has been counted since the last call, whichever cache was asked: all caches of the process share their tiles.
+  virtual TextureFigures takeFigures() = 0;
 };
+
+/// How the making of a file out of pictures ended. Who cannot read is told of something missing, who cannot write has
+/// no output.
+enum class Making { Done, Unreadable, Unwritable };
+inline Severity severityOf(Making made) {
+  return made == Making::Done ? Severity::Info : made == Making::Unreadable ? Severity::Missing : Severity::Output;
+}
 
 /// A texture file to be made of pictures: MakeTexture and its kin.
 struct TextureRecipe {
@@ -91,15 +103,15 @@ class PictureLibrary {
   /// Null: `error` says why; likewise below.
   virtual std::unique_ptr<PictureReader> open(const std::string& path, std::string& error) const = 0;
   virtual std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const = 0;
-  /// Writes to a temporary name, then renames. A cube becomes a latitude-longitude picture, which is what environment
-  /// lookups read. False: `error` says why, and no file is left behind.
-  virtual bool makeTexture(const TextureRecipe& recipe, std::string& error) const = 0;
+  /// The file is there when it is whole. A cube becomes a latitude-longitude picture, which is what environment lookups
+  /// read. Unless done `error` says why, and no file is left behind.
+  virtual Making makeTexture(const TextureRecipe& recipe, std::string& error) const = 0;
 };
 
 /// Loads the module. Null: it cannot be loaded; `error` says why.
 const PictureLibrary* pictureLibrary(std::string& error);
 /// PictureLibrary::makeTexture.
-bool makeTexture(const TextureRecipe& recipe, std::string& error);
+Making makeTexture(const TextureRecipe& recipe, std::string& error);
 /// A file's reader. Null: `error` says why.
 std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string& error);
 

@@ -1,5 +1,5 @@
 // Noun: a batch of surface points to shade, visible micropolygons and ray hits alike: structure of arrays in current
-// (camera) space. Whoever fills it knows geometry; whoever shades it does not.
+// (camera) space. The code that fills it knows geometry; the code that shades it does not.
 #pragma once
 #include <array>
 
@@ -36,29 +36,30 @@ enum PointChannel : int {
   kDu,
   kDv,
   kArea,  ///< of the micropolygon, or of the ray's footprint
-  kTime,  ///< the part of the shutter, 0..1, at which it is seen, itself at its place at shutter open; negative: all of
-          ///< it
+  /// share of the shutter, 0..1, at which the point is seen (its P is that at shutter open); negative: it is seen over
+  /// the whole shutter
+  kTime,
   kDriftX,
   kDriftY,
-  kDriftZ,  ///< how far deformation takes it over the shutter (ShadeGroup::currentFromOpen does the rest)
+  kDriftZ,  ///< motion by deformation over the shutter; ShadeGroup::currentFromOpen adds that of the transformation
   kFixedChannels
 };
 
-/// What may change from one micropolygon to the next, as a batch with steps holds it: two arrays for each, the change
-/// along the whole of a micropolygon's u edge and of its v edge. Primitive variables follow.
+/// Values that may change from one micropolygon to the next, in a batch with steps. Each has two arrays: the change
+/// along the whole of a micropolygon's u edge, and along its v edge. Primitive variables follow.
 enum PointStep : int { kStepN = 0, kStepS = 3, kStepT = 4, kStepU = 5, kStepV = 6, kStepPrimvars = 7 };
 
 /// Names a point for random numbers: the same point must have the same name for any thread count, bucket size and crop.
-/// Points that share a key and differ in `sequence` draw successive parts of one low-discrepancy sequence, so that what
-/// is averaged over them (the rays of one irradiance record) is stratified as a whole.
+/// Points that share a key and differ in `sequence` draw successive parts of one low-discrepancy sequence, so that a
+/// mean over them (the rays of one irradiance record) is stratified as a whole.
 struct SampleName {
   uint32_t key = 0, sequence = 0;
 };
 
 class ShadePoints {
  public:
-  /// `group`: Scene::groups; `primvarFloats`: the sum of widths of the group's primvars; `steps`: for shaders that ask
-  /// how values change over the surface.
+  /// `group`: Scene::groups; `primvarFloats`: the sum of widths of the group's primvars; `steps`: for shaders that need
+  /// derivatives over the surface.
   ShadePoints(int group, int primvarFloats, bool steps = false)
       : group_(group),
         primvarFloats_(primvarFloats),
@@ -75,19 +76,19 @@ class ShadePoints {
   int add(uint32_t key) { return add(SampleName{key, 0}); }
   void reserve(int count);
   void assign(const ShadePoints& from, int begin,
-              int end);  ///< Pre: of the same group, and like this with steps or without.
+              int end);  ///< Pre: it is of the same group, and has steps or not, like this.
   void clear();
   void rename(int i, SampleName name) { names_[static_cast<size_t>(i)] = name; }
-  /// Points of the air before a surface: they do not move with it, and rays leave them without an offset.
+  /// Points of the air before a surface do not move with it, and rays leave them without an offset.
   void setInAir(bool inAir) { inAir_ = inAir; }
   bool inAir() const { return inAir_; }
-  void shrink();  ///< Gives back what growing reserved beyond need.
+  void shrink();  ///< Frees memory that growing reserved beyond need.
 
   float* channel(int c) { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }
   const float* channel(int c) const { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }
   float* primvar(int offset) { return channel(kFixedChannels + offset); }
   const float* primvar(int offset) const { return channel(kFixedChannels + offset); }
-  /// Pre: hasSteps(). `value`: PointStep; `v`: along v instead of u.
+  /// Pre: hasSteps(). `value`: a PointStep; `v`: along v instead of u.
   float* step(int value, bool v) { return channel(stepChannel(value, v)); }
   const float* step(int value, bool v) const { return channel(stepChannel(value, v)); }
   uint32_t key(int i) const { return names_[static_cast<size_t>(i)].key; }
@@ -118,18 +119,18 @@ class ShadePoints {
 
   int group_, primvarFloats_, channels_;
   bool inAir_ = false;
-  int capacity_ = 0;  ///< Points that the block has room for, a multiple of kLanes.
-  UnsetVector<float>
-      block_;  ///< One array of capacity_ floats a channel; what lies between count() and padded(count()) is finite.
+  int capacity_ = 0;  ///< Points that fit into the block, a multiple of kLanes.
+  /// One array of capacity_ floats for each channel; values between count() and padded(count()) are finite.
+  UnsetVector<float> block_;
   std::vector<SampleName> names_;
 };
 
-/// Colour and opacity of a batch of shaded points, Ci premultiplied. Arrays are padded as ShadePoints' are.
+/// Colour and opacity of a batch of shaded points, Ci premultiplied. Arrays are padded like those of ShadePoints.
 struct ShadedPoints {
   AlignedVector<float> Ci[3], Oi[3];
-  std::vector<AlignedVector<float>> variables;  ///< As FrameOutput::variables; empty where nobody stores them.
-  /// What of Ci and Oi is air before a transparent point, seen beside its surface: where another surface follows
-  /// behind, that one's air holds it too. Empty: there is none.
+  std::vector<AlignedVector<float>> variables;  ///< Values of FrameOutput::variables; empty if they are not stored.
+  /// The part of Ci and Oi that belongs to the air before a transparent point, seen beside its surface: where another
+  /// surface follows behind, that one's air holds it too. Empty: there is none.
   AlignedVector<float> airCi[3], airOi[3];
   void resize(int count);
   vec3 color(int i) const {

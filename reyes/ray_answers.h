@@ -1,6 +1,6 @@
-// Noun: what rays answered when the points of a batch were shaded, so that shading them again traces none. An answer is
-// found by what was asked (the point, the way to the light), so a light that has moved finds none and is traced anew.
-// Threads: one batch is shaded by one thread.
+// Noun: the answers of rays when the points of a batch were shaded, so that shading them again traces none. An answer
+// is found by its question (the point, the direction to the light), so a light that has moved finds none and is traced
+// anew. Threads: one batch is shaded by one thread.
 #pragma once
 #include <array>
 #include <compare>
@@ -19,9 +19,9 @@ struct ShadowQuestion {
 
 struct ShadowAnswer {
   enum Passed : uint8_t { Unknown, Everything, Nothing, Part };
-  uint64_t asked = 0;           ///< Sum of the ways to the light.
-  std::vector<uint8_t> passed;  ///< Passed, of every point.
-  std::vector<vec3> parts;      ///< Of the points that have Part, in order: the fraction.
+  uint64_t asked = 0;           ///< Checksum of the directions to the light.
+  std::vector<uint8_t> passed;  ///< A value of Passed for every point.
+  std::vector<vec3> parts;      ///< The fractions of the points that have Part, in order.
 };
 
 /// E/pi and the dominant directions for red, green and blue.
@@ -30,7 +30,7 @@ using IndirectAnswer = std::array<vec3, 4>;
 struct RayAnswers {
   bool recording = false;
   std::map<ShadowQuestion, ShadowAnswer> shadows;
-  std::map<uint64_t, IndirectAnswer> indirect;  ///< Of points that the irradiance cache does not serve.
+  std::map<uint64_t, IndirectAnswer> indirect;  ///< Answers at points that the irradiance cache does not serve.
 };
 
 }  // namespace tomales

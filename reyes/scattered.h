@@ -1,5 +1,5 @@
-// Noun: shapes of very many patches that are asked for in another order than they lie in memory. Of a
-// particle the way from memory took longer than all that was computed of it.
+// Noun: shapes of very many patches that are used in another order than they lie in memory. Fetching a particle from
+// memory can take longer than computing with it.
 #pragma once
 #include <cstdint>
 
@@ -7,14 +7,14 @@ namespace tomales {
 
 class Scattered {
  public:
-  /// Something will soon be asked of the patch.
+  /// Fetches a patch that will be used soon.
   virtual void prefetch(uint32_t patch) const = 0;
 
  protected:
   ~Scattered() = default;
 };
 
-/// patchOf(item): what will be asked of the shape next.
+/// patchOf(item): the patch that is used next.
 template <class Shape, class Items, class PatchOf>
 void prefetch(const Shape& shape, const Items& items, const PatchOf& patchOf) {
   if (const auto* scattered = dynamic_cast<const Scattered*>(&shape))

@@ -12,8 +12,39 @@ bool sameLayout(const std::vector<Primvar>& a, const std::vector<Primvar>& b) {
   });
 }
 
-// Key times inside the shutter, its opening first. Still, or a closed shutter: that one time. shapeTimes: empty if it
-// keeps its shape.
+bool sameGroup(const ShadeGroup& a, const ShadeGroup& b) {
+  return a.attributes == b.attributes && a.solid == b.solid && a.subtracted == b.subtracted &&
+         a.cameraFromObject == b.cameraFromObject && a.currentFromOpen == b.currentFromOpen &&
+         sameLayout(a.primvars, b.primvars);
+}
+
+/// A hash of all that sameGroup() compares.
+class GroupHash {
+ public:
+  explicit GroupHash(const ShadeGroup& g) {
+    add(std::hash<const void*>()(g.attributes.get()));
+    add(uint64_t{g.solid});
+    add(uint64_t{g.subtracted});
+    add(g.cameraFromObject);
+    for (const float time : g.currentFromOpen.times) add(time);
+    for (const mat4& key : g.currentFromOpen.keys) add(key);
+    for (const Primvar& p : g.primvars) add(std::hash<std::string>()(p.name));
+  }
+  uint64_t value() const { return value_; }
+
+ private:
+  void add(uint64_t x) { value_ = (value_ ^ x) * 0x9e3779b97f4a7c15U, value_ ^= value_ >> 32; }
+  void add(float x) { add(uint64_t{__builtin_bit_cast(uint32_t, x + 0.0f)}); }  // -0 equals 0
+  void add(const mat4& m) {
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 4; ++row) add(m[column][row]);
+  }
+
+  uint64_t value_ = 0;
+};
+
+// Key times inside the shutter, its opening first. A still object, or a closed shutter, has that one time alone.
+// shapeTimes: empty if the shape does not change.
 std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
                               const Options& options) {
   std::vector<float> times{options.shutterOpen};
@@ -35,8 +66,8 @@ float largestScale(const mat4& m) {
   return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
 }
 
-// Motion in the frame of the camera at shutter open, where `m` is the place of the object. Not the camera's own motion
-// at that time, which may lie between two keys: what stands still must not be a rounding away from where the camera
+// Motion relative to the camera at shutter open; `m` is the object's transformation then. It does not use the camera's
+// motion interpolated at that time, which may lie between two keys: a still object must be exactly where the camera
 // sees it.
 Motion heldCamera(const Motion& worldFromObject, float open, const mat4& m) {
   if (!worldFromObject.moving()) return Motion::still(m);
@@ -83,7 +114,7 @@ void Scene::derive(Object& o) const {
   o.currentFromObject = heldCamera(o.worldFromObject, options.shutterOpen, m);
   turnToEye(o, m, options.projection == ProjectionKind::Perspective);
   o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
-  o.displacementBound = 0;  // What grows carries its displacement along.
+  o.displacementBound = 0;  // displacement moves with the object's scale
   for (const float t : o.keyTimes)
     o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject.at(t)));
 }
@@ -96,30 +127,37 @@ void Scene::derive(Procedural& p) const {
     p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject.at(t)));
 }
 
+ShadeGroup Scene::groupFor(const Object& o, int index) const {
+  const mat4 m = o.cameraFromObject.at(options.shutterOpen);
+  ShadeGroup g{.attributes = o.attributes,
+               .cameraFromObject = m,
+               .exampleObject = index,
+               .solid = o.solid >= 0,
+               .subtracted = o.subtracted};
+  if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
+  for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
+  return g;
+}
+
 void Scene::findGroup(Object& o, int index) {
   o.subtracted = o.solid >= 0 && solids[static_cast<size_t>(o.solid)].subtracted(o.solidBlock);
-  const mat4 m = o.cameraFromObject.at(options.shutterOpen);
-  const Motion currentFromOpen =
-      o.currentFromObject.moving() ? o.currentFromObject * Motion::still(glm::inverse(m)) : Motion();
-  o.group = -1;
-  const auto [begin, end] = groupsByAttributes_.equal_range(o.attributes.get());
-  for (auto it = begin; it != end && o.group < 0; ++it) {
-    const ShadeGroup& g = groups[static_cast<size_t>(it->second)];
-    if (g.solid == (o.solid >= 0) && g.subtracted == o.subtracted && g.cameraFromObject == m &&
-        g.currentFromOpen == currentFromOpen && sameLayout(g.primvars, o.shape().primvars()))
-      o.group = it->second;
+  ShadeGroup group = groupFor(o, index);
+  const uint64_t hash = GroupHash(group).value();
+  const auto [begin, end] = groupsByHash_.equal_range(hash);
+  const auto known = std::find_if(
+      begin, end, [&](const auto& entry) { return sameGroup(groups[static_cast<size_t>(entry.second)], group); });
+  if (known != end) {
+    o.group = known->second;
+    return;
   }
-  if (o.group >= 0) return;
   o.group = static_cast<int>(groups.size());
-  groupsByAttributes_.emplace(o.attributes.get(), o.group);
-  ShadeGroup g{o.attributes, m, {}, index, currentFromOpen, o.solid >= 0, o.subtracted};
-  for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
-  groups.push_back(std::move(g));
+  groupsByHash_.emplace(hash, o.group);
+  groups.push_back(std::move(group));
 }
 
 void Scene::freeze() {
   groups.clear();
-  groupsByAttributes_.clear();
+  groupsByHash_.clear();
   for (size_t i = 0; i < objects.size(); ++i) {
     derive(objects[i]);
     objects[i].name = static_cast<uint32_t>(i);
@@ -163,7 +201,7 @@ int Scene::add(Object object) {
 
 void Scene::drop(int object) {
   Object& o = objects[static_cast<size_t>(object)];
-  Object rest;  // whoever walks over all objects still learns what it was, and that no ray meets it
+  Object rest;  // code that goes over all objects still finds its attributes, and that no ray meets it
   rest.attributes = o.attributes, rest.where = o.where, rest.group = o.group;
   o = std::move(rest);
   dropped_.push_back(object);

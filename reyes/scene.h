@@ -1,9 +1,10 @@
-// Noun: everything that one WorldBegin/WorldEnd describes, frozen. Owns the geometry.
+// Noun: everything that one WorldBegin/WorldEnd describes, frozen. It owns the geometry.
 // Threads: once freeze() has run, it changes by add() and drop() alone, which one thread may call while others use the
-// objects and groups that they know of.
+// objects and groups that they know.
 #pragma once
 #include <functional>
 #include <map>
+#include <unordered_map>
 
 #include "reyes/base/stable_vector.h"
 #include "reyes/camera.h"
@@ -23,47 +24,47 @@ struct Object {
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
-  int solid = -1;         ///< In Scene::solids: part of the surface of
-  int solidBlock = -1;    ///< this primitive of it.
-  uint64_t contents = 0;  ///< Sum of what describes its shapes, whatever file that stands in.
+  int solid = -1;         ///< Index in Scene::solids of the solid that it is a part of; -1: none.
+  int solidBlock = -1;    ///< Primitive block of that solid.
+  uint64_t contents = 0;  ///< Checksum of the request that describes its shapes, wherever it is written.
 
   // Filled by Scene::freeze().
   Motion cameraFromObject;   ///< Over the shutter; one key when nothing moves.
-  Motion currentFromObject;  ///< The same with the camera held where it is at shutter open: the motion that rays see.
+  Motion currentFromObject;  ///< The same with the camera fixed where it is at shutter open: the motion that rays see.
   std::vector<float>
       keyTimes;  ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
-  float displacementBound = 0;  ///< Camera space.
+  float displacementBound = 0;  ///< In camera space.
   bool flipsNormal = false;     ///< cameraFromObject mirrors, or Orientation is inside (not both).
   bool subtracted = false;      ///< Its solid lies on the side of its normals, which are turned for shading.
-  int group = -1;               ///< Its ShadeGroup.
-  uint32_t name = 0;            ///< For random numbers: the same for any order in which procedurals are opened.
+  int group = -1;               ///< Index of its ShadeGroup.
+  uint32_t name = 0;            ///< Name for random numbers: the same for any order in which procedurals are opened.
 
   const Prim& shape() const { return *shapes.front(); }
 };
 
-/// Objects whose points may be shaded together: the same attributes, transformation, motion and primvar names, and
-/// alike in or outside of solids.
+/// Objects whose points may be shaded together: they have the same attributes, transformation, motion and primvar
+/// names, and are all parts of solids or none is.
 struct ShadeGroup {
   std::shared_ptr<const Attributes> attributes;
   mat4 cameraFromObject{1.0f};
   std::vector<Primvar> primvars;  ///< Layout only: name, storage, type, width; no values.
   int exampleObject = -1;         ///< Some object of the group, for messages.
-  Motion currentFromOpen{};  ///< Takes places of the group at shutter open to where they are at a time, the camera held
-                             ///< still.
-  bool solid = false;        ///< Parts of solids.
-  bool subtracted = false;   ///< As Object::subtracted.
-  bool steps = false;        ///< Its points have steps (reyes/points.h): set by whoever knows the shaders.
+  /// Transforms positions of the group at shutter open to those at a time, with the camera fixed.
+  Motion currentFromOpen{};
+  bool solid = false;       ///< The objects are parts of solids.
+  bool subtracted = false;  ///< The same as Object::subtracted.
+  bool steps = false;       ///< Its points have steps (reyes/points.h); set by code that knows the shaders.
 };
 
 struct Expansion;
 
-/// Geometry that is described when somebody needs it (RISpec 3.2 section 5.10).
+/// Geometry that is described when it is needed (RISpec 3.2 section 5.10).
 struct Procedural {
   Bound3 bound;  ///< Object space.
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
-  /// Describes it, anew with each call. May be called from several threads.
+  /// Describes the geometry, anew with each call. May be called from several threads.
   std::function<Expansion()> open;
 
   // Filled by Scene::freeze().
@@ -73,11 +74,11 @@ struct Procedural {
   uint32_t name = 0;
 };
 
-/// What a procedural stands for: more of them, perhaps.
+/// The contents of a procedural, which may have further procedurals.
 struct Expansion {
   std::vector<Object> objects;
   std::vector<Procedural> procedurals;
-  std::vector<Solid> solids{};  ///< Those that Object::solid counts.
+  std::vector<Solid> solids{};  ///< The solids that Object::solid counts.
 };
 
 struct Scene {
@@ -87,22 +88,24 @@ struct Scene {
   StableVector<Solid> solids;
   std::vector<Procedural> procedurals;  ///< Not opened yet.
   std::vector<std::shared_ptr<LightCall>> lights;
-  std::map<std::string, mat4> worldFromNamed;  ///< CoordinateSystem
-  SourceLoc where;                             ///< Of WorldBegin.
+  std::map<std::string, mat4> worldFromNamed;  ///< Spaces of CoordinateSystem requests.
+  SourceLoc where;                             ///< Location of WorldBegin.
 
   StableVector<ShadeGroup> groups;  ///< Filled by freeze() and add().
-  /// Fills the derived fields above. Call when all objects and lights are in, and again after changing attributes.
+  /// Fills the derived fields above. Call it when all objects and lights are added, and again after changing
+  /// attributes.
   void freeze();
 
-  bool shutterIsOpen() const { return options.shutterClose > options.shutterOpen; }  ///< Else nothing is blurred.
-  /// Opens a procedural; what comes out has its derived fields but for its groups. Changes nothing here.
+  /// Is the shutter open for some time? Otherwise nothing is blurred.
+  bool shutterIsOpen() const { return options.shutterClose > options.shutterOpen; }
+  /// Opens a procedural. The result has its derived fields except for its groups. The scene does not change.
   Expansion opened(const Procedural& procedural) const;
-  /// Takes the objects of opened(), and their solids, and finds their groups: their indices.
-  /// ShadingSystem::bindNewGroups comes next.
+  /// Adds the objects of opened(), and their solids, and finds their groups. Returns their indices.
+  /// ShadingSystem::bindNewGroups has to be called next.
   std::vector<int> add(Expansion& expansion);
-  /// Forgets the shapes of an object of add() that nobody needs any more.
+  /// Drops the shapes of an object of add() that is not needed any more.
   void drop(int object);
-  /// Replaces procedurals that are wanted by what they stand for, those within included. Before any object is used.
+  /// Replaces procedurals that are wanted by their contents, nested ones included. Call it before any object is used.
   void open(const std::function<bool(const Attributes&)>& wanted);
 
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
@@ -114,14 +117,16 @@ struct Scene {
   void derive(Procedural& procedural) const;
   int add(Object object);
   void findGroup(Object& object, int index);
+  ShadeGroup groupFor(const Object& object, int index) const;
   float displacementBoundOf(const Attributes& attributes, const mat4& cameraFromObject) const;
 
-  /// Requests share one Attributes until something changes, so a look back at equal pointers finds the group fast.
-  std::multimap<const Attributes*, int> groupsByAttributes_;
+  /// By a hash of all that objects of a group have in common. Requests share one Attributes until something changes, so
+  /// equal pointers tell.
+  std::unordered_multimap<uint64_t, int> groupsByHash_;
   std::vector<int> dropped_;  ///< Indices that may be used again.
 };
 
-/// False: read from a .dfb, which leaves shapes out.
+/// False: the scene was read from a .dfb, which leaves shapes out.
 inline bool hasGeometry(const Scene& scene) { return scene.objects.empty() || !scene.objects.front().shapes.empty(); }
 
 std::string objectName(const Object& object);  ///< identifier name, or "object at FILE:LINE"

@@ -92,12 +92,27 @@ struct RayResult {
   std::vector<RayOutput> outputs;  ///< Of the first hit.
 };
 
-/// Parameters of an indirect light (docs/gi.md), bound from the calling `indirectlight`.
+/// What an indirect light asks for where it lights (docs/gi.md).
 struct IndirectQuery {
   int samples = 600;
   float maxError = 1, maxDistance = 1e30f;
-  std::string errorFunction = "screen", radiance = "shader", atlas, subset;
+  std::string errorFunction = "screen", subset;
   int bounces = 1;
+};
+
+/// What gather rays see where they arrive.
+enum class HitRadianceChoice : uint8_t { Shader, Radiosity, Atlas, Points };
+
+/// What indirect lights ask of a frame as a whole.
+struct IndirectRequest {
+  HitRadianceChoice hitRadiance = HitRadianceChoice::Shader;
+  std::string atlas;           ///< Folder of the maps that gather rays look up; empty: none is named.
+  std::optional<int> bounces;  ///< Of photons, if the scene says it.
+};
+
+/// What a volume shader says of the air to photons: for each unit of length of the world, by colour.
+struct MediumColors {
+  vec3 scattering{0.0f}, absorption{0.0f};
 };
 
 /// occlusion() of the hemisphere, weighted by the cosine, where its answers may be interpolated.
@@ -237,10 +252,15 @@ struct LightProbe {
   std::vector<vec2> xi;  ///< In, for lights that are sampled: where one of one sample lies; none: in the middle.
   std::vector<vec3> L;   ///< Out: from P to the light.
   std::vector<vec3> Cl;  ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
+  bool finite = true;    ///< Out: what was not is dark.
 };
 
 /// "surface" ... "imager".
 const char* kindName(TmKind kind);
+/// Of a TmRole; null: there is none of this number.
+const char* roleName(int32_t role);
+/// Parameters that every shader of a kind understands, whether or not it declares them.
+std::span<const TmParamDecl> standardParams(TmKind kind);
 
 /// Which folders shader plugins may be loaded from. A plugin is native code, while a scene, which names shaders and
 /// search paths, may come from a stranger.
@@ -318,11 +338,15 @@ class ShadingSystem {
   /// Imager shader, in place. No-op without one.
   void image(ShadedPixels& pixels) const;
 
-  /// Radiance that an emitter's front adds for camera and specular rays: Cl of its area light, 0 if none or `visible`
-  /// 0.
-  vec3 visibleEmission(int group) const;
+  /// Radiance that each point of a batch adds for camera and specular rays if its object is an emitter: what the area
+  /// light's shader sends from there to where kI begins, on the front. Empty: nothing shines.
+  void emission(const ShadePoints& points, std::vector<vec3>& radiance) const;
   /// The indirect light switched on for a group, if any: what the gather pass must prepare.
   const IndirectQuery* indirectQuery(int group) const;
+  /// Of all indirect lights but filters, what the first says that says it; none: there are no such lights.
+  std::optional<IndirectRequest> indirectRequest() const;
+  /// The largest number of samples that an area light asks for; 0: there is none.
+  int mostAreaSamples() const;
   bool needsRays() const;  ///< Some light or shader will trace.
   bool tracesRays(
       int group) const;  ///< Does its surface shader ask for rays, and not for occlusion() or highlights alone?
@@ -332,8 +356,10 @@ class ShadingSystem {
   LightKind lightKind(
       int light) const;  ///< None: its shader is missing, or it lights nothing diffuse that gather rays see.
   void probe(int light, LightProbe& probe) const;
-  /// Of a light of LightKind::Sky, those of its parameter `portals` that have a place and an area.
+  /// Of a light of LightKind::Sky, those that it names and that have a place and an area.
   std::span<const Portal> portals(int light) const;
+  /// What photons meet inside or outside of a group's surfaces: of its Interior or Exterior.
+  MediumColors medium(int group, bool inside) const;
   /// Does the surface of a group add radiance of its own?
   bool emits(int group) const;
   /// Does it reflect the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable says

@@ -22,7 +22,8 @@ bool Solid::subtracted(int block) const {
 SolidWalk::SolidWalk(const Solid& solid)
     : solid_(&solid), inside_(solid.blocks_.size(), 0), satisfied_(solid.blocks_.size(), 0) {
   for (const Solid::Block& b : solid.blocks_)
-    if (b.takenAway) ++satisfied_[static_cast<size_t>(b.parent)];  // It wants this operand outside, where it is.
+    // being outside is what the difference wants of this operand
+    if (b.takenAway) ++satisfied_[static_cast<size_t>(b.parent)];
 }
 
 void SolidWalk::toggle(int block) {

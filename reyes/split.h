@@ -1,7 +1,7 @@
-// Verb: Scene -> sub-patches small enough to dice, each with its raster bound. Bound, cull, judge, halve; a piece that
-// crosses the near plane is halved until its micropolygons are small there. What no halving makes small ends too: a
-// patch has a budget of visits, of which coarse pieces inherit what is left. Depends on the camera and on ShadingRate,
-// never on buckets, crop or threads. Threads: pure but for the counters and the log.
+// Verb: Scene -> sub-patches small enough to dice, each with its raster bound. The steps are bound, cull, measure,
+// halve. A piece that crosses the near plane is halved until its micropolygons are small there. Pieces that no halving
+// makes small end too: a patch has a budget of visits, whose remainder coarse pieces inherit. The result depends on the
+// camera and on ShadingRate, never on buckets, crop or threads. Threads: pure except for the counters and the log.
 #pragma once
 #include <atomic>
 #include <optional>
@@ -18,52 +18,51 @@ struct SubPatch {
   uint32_t patch;
   UvRect rect;
   int nu, nv;
-  Bound2 raster;  ///< Conservative, over the shutter, displacement included.
-  float zMin;     ///< Nearest camera z, likewise.
-  bool crossesEye =
-      false;            ///< Some of it lies nearer than Camera::eyePlane, and micropolygons there are to be left out.
-  int depth = 0;        ///< Halvings of its patch.
-  bool coarse = false;  ///< Too large for a grid: splitPiece() goes on with it,
-  int64_t visits = 0;   ///< and may look at so many pieces.
-  bool round = false;   ///< A small disk, which is to be shown as one round cell (Grid::round).
+  Bound2 raster;            ///< Conservative raster bound over the shutter, displacement included.
+  float zMin;               ///< Nearest camera z, over the shutter, displacement included.
+  bool crossesEye = false;  ///< A part of it lies nearer than Camera::eyePlane; micropolygons there are to be left out.
+  int depth = 0;            ///< Number of halvings of its patch.
+  bool coarse = false;      ///< It is too large for a grid: splitPiece() splits it further.
+  int64_t visits = 0;       ///< Budget of pieces that splitPiece() may visit.
+  bool round = false;       ///< A small disk, to be shown as one round cell (Grid::round).
 };
 
-/// Where something may be seen, over the shutter, displacement and defocus included.
+/// A bound over the shutter, displacement and defocus included.
 struct Placement {
   Bound2 raster;
-  float zMin;  ///< Camera space.
+  float zMin;  ///< In camera space.
 };
 
-/// Of a box in the space of `cameraFromObject`, at `keyTimes`, that displacement may leave by `margin` (camera space).
-/// `window`: raster pixels that have samples. Nothing: no point of it can be seen there; not `clipped`: no line meets
-/// it there.
+/// Places a box in the space of `cameraFromObject`, at `keyTimes`. Displacement may leave the box by `margin` (camera
+/// space). `window`: raster pixels that have samples. Empty: no point of it can be seen there or, if not `clipped`, no
+/// line of sight meets it there.
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
-/// Without motion, defocus, displacement and the other parts of a solid, nothing of a piece depends on more than its
-/// own vertices.
+/// Does a piece depend on its own vertices alone? That is so without motion, defocus, displacement and other parts of a
+/// solid.
 inline bool standsStillInFocus(const Object& o, const Camera& camera) {
   return o.keyTimes.size() == 1 && !camera.defocuses() && o.solid < 0 && !o.attributes->displacement;
 }
 
-/// Whether a patch of very many pieces is split at once, or left in coarse pieces where that is safe: a frame's pieces
-/// all at once would take memory in proportion to its area.
+/// Is a patch of very many pieces split at once, or left in coarse pieces where that is safe? All of a frame's pieces
+/// at once would take memory in proportion to its area.
 enum class Splitting : uint8_t { Wholly, Lazily };
-/// Set from elsewhere: what is going on may end at once, with any result. Null: never.
+/// Set by other threads: the work may end at once, with any result. Null: never.
 using StopFlag = const std::atomic<bool>*;
 
-/// Splits some patches of an object; what lies wholly outside the window is culled. Order: dots, which need not be
-/// measured, then the others, as given, then by place.
+/// Splits some patches of an object; pieces wholly outside the window are culled. The order is: first dots, which need
+/// not be measured, then the other patches as given, and within a patch by place.
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches,
                                    const Camera& camera, const PixelRect& window, Stats& stats, Log& log,
                                    Splitting splitting = Splitting::Wholly, StopFlag stop = nullptr);
-/// The next pieces of a coarse one, lazily. In the end they are those of splitting wholly.
+/// The next pieces of a coarse one, lazily. In the end they are the same as those of splitting wholly.
 std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera,
                                  const PixelRect& window, Stats& stats, Log& log, StopFlag stop = nullptr);
 
-/// Boxes in object space of all that an object's shapes are over time. Patches are put in order along a curve that
-/// fills space, so that a run of them is compact, however a model scatters them: level 0 has a box for each run of
-/// kLeaf patches, a level above one for kFan boxes below, the last a single one. Instances share it.
+/// A tree of boxes in object space around all of an object's shapes over time. Patches are sorted along a space-filling
+/// curve, so that a run of them is compact in any model: level 0 has a box for each run of kLeaf patches, a level above
+/// one for kFan boxes below, the last a single one. Instances share it.
 class PatchTree {
  public:
   static constexpr uint32_t kLeaf = 64, kFan = 16;

@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// A transformation taken apart: move * turn * stretch (polar decomposition, Shoemake and Duff 1992).
+/// A transformation as move * turn * stretch (polar decomposition, Shoemake and Duff 1992).
 struct Parts {
   vec3 move;
   glm::quat turn;
@@ -32,7 +32,7 @@ bool affineAndRegular(const mat4& m) {
          std::abs(glm::determinant(mat3(m))) > 1e-6f * size;
 }
 
-/// Can the way from a to b be told as a turn? Not if nothing but the place differs, nor through a mirror.
+/// Can the motion from a to b be a rotation? It cannot if only the position differs, nor through a mirror.
 bool mayTurn(const mat4& a, const mat4& b) {
   return mat3(a) != mat3(b) && affineAndRegular(a) && affineAndRegular(b) &&
          (glm::determinant(mat3(a)) > 0) == (glm::determinant(mat3(b)) > 0);

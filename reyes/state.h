@@ -1,4 +1,4 @@
-// Noun: what RIB requests leave behind, frozen at WorldEnd. Options, camera, attributes, shader calls, motion.
+// Noun: the state that RIB requests leave, frozen at WorldEnd: options, camera, attributes, shader calls, motion.
 // Defaults are those of RISpec 3.2 unless a comment says otherwise.
 // Threads: built by one thread (reyes/rib), read by many.
 #pragma once
@@ -16,9 +16,9 @@
 
 namespace tomales {
 
-/// A transformation that may move: keys at increasing times, constant outside. Between keys a rotation turns along its
-/// arc (the shorter one) and place, scale and shear are linear; where a mirror or a projection lies between, all is
-/// linear.
+/// A transformation that may move: keys at increasing times, constant outside. Between keys a rotation follows its arc
+/// (the shorter one), and position, scale and shear are linear. If a mirror or a projection lies between two keys, the
+/// matrix is linear.
 struct Motion {
   static constexpr float kLargestTurn =
       0.17453293f;  ///< 10 degrees: a chord then leaves its circle by 0.4 % of the radius.
@@ -29,8 +29,8 @@ struct Motion {
   bool operator==(const Motion&) const = default;
   bool moving() const { return keys.size() > 1; }
   mat4 at(float time) const;
-  /// With keys in between, so that none turns by more than kLargestTurn from the one before: what follows (a product,
-  /// the vertices of a grid) moves in straight lines between keys.
+  /// Adds keys, so that no key is turned by more than kLargestTurn from the one before: products and grid vertices made
+  /// from them move in straight lines between keys.
   Motion refined() const;
   static Motion still(const mat4& m) { return {{0.0f}, {m}}; }
 };
@@ -44,7 +44,7 @@ struct ShaderCall {
   Motion worldFromShader;  ///< The CTM at the request: points among the parameters are given in that space.
   SourceLoc where;
 
-  /// Shades alike, wherever it is written.
+  /// Equal calls shade alike, wherever they are written.
   bool operator==(const ShaderCall& o) const {
     return name == o.name && params == o.params && worldFromShader == o.worldFromShader;
   }
@@ -54,12 +54,13 @@ struct LightCall {
   ShaderCall shader;
   std::string handle;
   bool area = false;          ///< AreaLightSource: its emitters are the Objects whose attributes name it.
-  bool castsShadows = false;  ///< Attribute "light" "shadows" "on", or shadowname "raytrace"; area lights always do.
-  int index = -1;             ///< In Scene::lights.
+  bool castsShadows = false;  ///< Attribute "light" "shadows" "on"; area lights always do. Its shader may ask for more.
+  int index = -1;             ///< Index in Scene::lights.
 };
 
 struct DisplayCall {
-  std::string name = "ri.pic", type = "file", mode = "rgba";  ///< mode: "rgb", "rgbaz", "z", or names: "Ci,a,z,diffuse"
+  /// mode: "rgb", "rgbaz", "z", or names: "Ci,a,z,diffuse".
+  std::string name = "ri.pic", type = "file", mode = "rgba";
   ParamList params;
   SourceLoc where;
 };
@@ -72,8 +73,9 @@ struct ChannelCall {
   SourceLoc where;
 };
 
-/// Depth of a pixel, of the samples that see something opaque: the least, the greatest, the mean; or the least of the
-/// means of each sample's two nearest surfaces (Woo 1992), the far clipping plane standing in for a second.
+/// How a pixel's depth is made from its samples that see something opaque: the least, the greatest, the mean; or the
+/// least mean of a sample's two nearest surfaces (Woo 1992), where the far clipping plane replaces a missing second
+/// one.
 enum class DepthFilter { Min, Max, Average, Midpoint };
 
 enum class ProjectionKind { Orthographic, Perspective, Null };
@@ -81,7 +83,7 @@ enum class ProjectionKind { Orthographic, Perspective, Null };
 /// Hider "aperture": a regular polygon inscribed in the lens. Fewer than three sides: a disk.
 struct Aperture {
   float sides = 0, angle_degrees = 0;  ///< Counterclockwise in the picture; at 0 a corner points right.
-  float roundness = 0;                 ///< 1: its sides are arcs of the lens's rim; -1: bent inwards as much.
+  float roundness = 0;                 ///< 1: its sides are arcs of the lens's rim; -1: they are bent inwards as much.
   float density = 0;                   ///< 1: dark in the middle, -1: dark at the rim, linearly in between.
 };
 
@@ -100,7 +102,7 @@ struct Options {
   float nearClip = 1e-6f, farClip = 1e30f;  ///< RI_EPSILON, RI_INFINITY
   float shutterOpen = 0, shutterClose = 0;
   float shutterOffset = 0;   ///< Added to the times of motion blocks as they are read.
-  bool sampleMotion = true;  ///< Hider "samplemotion": the camera sees things move.
+  bool sampleMotion = true;  ///< Hider "samplemotion": the camera sees motion.
   float fStop = kInfinity, focalLength = 1, focalDistance = 1;
   Aperture aperture;
   float dofAspect = 1;  ///< Width over height of the circle of confusion.
@@ -109,21 +111,23 @@ struct Options {
   float xFilterWidth = 2, yFilterWidth = 2;
   float exposureGain = 1, exposureGamma = 1;
   Quantize rgbaQuantize{}, depthQuantize{0, 0, 0, 0};
-  bool quantizeGiven = false;                   ///< The RIB said Quantize; else the file's type decides.
+  bool quantizeGiven = false;                   ///< The RIB has a Quantize request; else the file's type decides.
   std::vector<DisplayCall> displays;            ///< Empty: the default Display.
-  std::map<std::string, ChannelCall> channels;  ///< By name.
+  std::map<std::string, ChannelCall> channels;  ///< Indexed by name.
   DepthFilter depthFilter = DepthFilter::Min;
-  vec3 opaqueThreshold{0.996f};  ///< Limits "othreshold": what is behind is not visible.
-  vec3 depthThreshold{1.0f};     ///< Limits "zthreshold": what is clearer has no depth.
+  vec3 opaqueThreshold{0.996f};  ///< Limits "othreshold": a surface of this opacity hides everything behind it.
+  vec3 depthThreshold{1.0f};     ///< Limits "zthreshold": less opaque surfaces have no depth.
   std::optional<ShaderCall> imager;
   int bucketWidth = 32, bucketHeight = 32;
   std::string bucketOrder = "horizontal";  ///< Option "bucket" "order": reyes/frame/bucket_order.h
   int maxRayDepth = 10;                    ///< Bounces of any kind.
-  int gridSize = 256;                      ///< Most micropolygons in a grid.
+  int gridSize = 256;                      ///< Greatest number of micropolygons in a grid.
   std::string hider = "hidden";
   bool jitter = true;
-  float relativeDetail = 1;          ///< Factor of every level-of-detail ruler.
-  std::vector<vec4> clippingPlanes;  ///< Camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
+  float relativeDetail = 1;          ///< Factor on every measured level of detail.
+  std::vector<vec4> clippingPlanes;  ///< In camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
+  bool wantsIndirect = false;        ///< --gi: a scene without an indirect light gets one, for all objects.
+  int indirectSamples = 0;           ///< --draft: rays of an irradiance record; 0: as indirect lights ask.
   int frame = 0;
   std::map<std::string, std::string> searchPaths;  ///< "archive", "texture", "shader", "display", ...
   std::map<std::string, Param> user;               ///< "category:name" of options that shaders may read
@@ -131,7 +135,7 @@ struct Options {
 
 enum class ShadingInterpolation { Constant, Smooth };
 
-/// What a ray learns of a hit: its shader's result, or the colour and opacity of the primitive alone.
+/// The source of a hit's colour and opacity for a ray: its shader, or the primitive's attributes alone.
 enum class HitMode : uint8_t { Shader, Primitive };
 
 struct Visibility {
@@ -139,7 +143,7 @@ struct Visibility {
   bool operator==(const Visibility&) const = default;
 };
 
-/// The part of 0..1 at which something is there: each sample and each ray has a number there, so that levels of detail
+/// The part of 0..1 in which an object exists: each sample and each ray has a number in 0..1, so that levels of detail
 /// that fade into each other divide them without overlap.
 struct DetailShare {
   float lo = 0, hi = 1;
@@ -149,7 +153,8 @@ struct DetailShare {
   bool contains(float x) const { return x >= lo && x < hi; }
 };
 
-/// Which polygons rays see of a surface: those of one rate; of three, by the width of the ray; or micropolygons.
+/// The polygons of a surface that rays see: those of one rate; of three rates, by the width of the ray; or
+/// micropolygons.
 enum class TessellationMode : uint8_t { Fixed, Multiresolution, Full };
 
 /// Immutable once a primitive refers to it; consecutive primitives share one.
@@ -168,18 +173,18 @@ struct Attributes {
   HitMode diffuseHitMode = HitMode::Shader, specularHitMode = HitMode::Shader, transmissionHitMode = HitMode::Shader;
   std::shared_ptr<const ShaderCall> surface, displacement, atmosphere;  ///< null: the default surface; none; none
   std::shared_ptr<const ShaderCall> interior,
-      exterior;                 ///< Of what rays cross that leave the surface inwards, outwards.
-  std::vector<int> lights;      ///< Indices in Scene::lights of those switched on.
-  int areaLight = -1;           ///< This geometry emits for that light.
+      exterior;  ///< Volume shaders of the space that rays cross after leaving the surface inwards and outwards.
+  std::vector<int> lights;      ///< Indices in Scene::lights of lights that are switched on.
+  int areaLight = -1;           ///< Index of the light that this geometry emits for; -1: none.
   float displacementBound = 0;  ///< Radius in the space below.
   std::string displacementBoundSpace = "object";
   Visibility visibility;
   struct Trace {
     std::optional<float> bias, offset;
     bool displacements = false;
-    bool sampleMotion = false;  ///< Rays from here see things move.
+    bool sampleMotion = false;  ///< Rays from this object see motion.
     int maxDiffuseDepth = 1,
-        maxSpecularDepth = 2;  ///< Bounces that follow one from here, beyond none that an earlier object allows.
+        maxSpecularDepth = 2;  ///< Bounces that may follow one at this object; an earlier object's limit still applies.
     std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; empty: all
     float tessellation = 1;
     TessellationMode rate = TessellationMode::Fixed;
@@ -193,14 +198,14 @@ struct Attributes {
     bool operator==(const Indirect&) const = default;
   } indirect;
   struct Photon {
-    std::string globalMap;   ///< Name of the map that this geometry shares; "": chosen for it.
-    std::string causticMap;  ///< Likewise of photons that come by mirrors and glass; "": none are kept.
+    std::string globalMap;   ///< Name of the map that this geometry shares; empty: it is chosen.
+    std::string causticMap;  ///< Name of the map of photons that come by mirrors and glass; empty: none are kept.
     std::string shadingModel = "matte";
     bool operator==(const Photon&) const = default;
   } photon;
-  struct Radiosity {      ///< Of its radiosity map (docs/gi.md).
-    bool screen = true;   ///< texelSize is in pixels, else in units of the world;
-    float texelSize = 4;  ///< 0: it has none.
+  struct Radiosity {      ///< Its radiosity map (docs/gi.md).
+    bool screen = true;   ///< True: texelSize is in pixels; false: in units of the world.
+    float texelSize = 4;  ///< 0: it has no map.
     bool operator==(const Radiosity&) const = default;
   } radiosity;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;

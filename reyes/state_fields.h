@@ -1,5 +1,5 @@
-// Which fields the structures of reyes/state.h have, for reyes/base/pack.h. A structure that gains a field stops the
-// compiler here: add it to the list, and files and sums have it.
+// The fields of the structures of reyes/state.h, for reyes/base/pack.h. A structure that gains a field stops the
+// compiler here: add it to the list, and files and checksums include it.
 #pragma once
 #include "reyes/base/pack.h"
 #include "reyes/state.h"
@@ -67,13 +67,13 @@ void fields(A& a, Options& x) {
          dofAspect, xSamples, ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize,
          depthQuantize, quantizeGiven, displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager,
          bucketWidth, bucketHeight, bucketOrder, maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes,
-         frame, searchPaths, user] = x;
+         wantsIndirect, indirectSamples, frame, searchPaths, user] = x;
   each(a, xResolution, yResolution, pixelAspect, frameAspect, screenWindow, cropWindow, projection, fov, nearClip,
        farClip, shutterOpen, shutterClose, shutterOffset, sampleMotion, fStop, focalLength, focalDistance, aperture,
        dofAspect, xSamples, ySamples, filter, xFilterWidth, yFilterWidth, exposureGain, exposureGamma, rgbaQuantize,
        depthQuantize, quantizeGiven, displays, channels, depthFilter, opaqueThreshold, depthThreshold, imager,
        bucketWidth, bucketHeight, bucketOrder, maxRayDepth, gridSize, hider, jitter, relativeDetail, clippingPlanes,
-       frame, searchPaths, user);
+       wantsIndirect, indirectSamples, frame, searchPaths, user);
 }
 
 template <class A>

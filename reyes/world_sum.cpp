@@ -11,12 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A sum to which shaders add what is known of the files that they name, and not where they are written.
+/// A checksum to which shaders add facts about the files that they name, and not their locations.
 struct WorldSum : ContentSum {
   std::map<std::string, std::string> searchPaths{};
 };
 
-/// Of every file that the name may stand for.
+/// Adds every file that the name may stand for.
 void addFile(WorldSum& sum, const std::string& name, const char* kind) {
   std::vector<std::string> folders = foldersOf(pathOf(sum.searchPaths, kind));
   folders.insert(folders.begin(), ".");
@@ -59,7 +59,7 @@ uint64_t worldSum(const Scene& scene, bool photonsOnly) {
   }
   uint64_t objects = 0;
   for (const Object& o : scene.objects) {
-    // Photons that do not meet an area light come from it all the same.
+    // Photons start at an area light even if they do not meet it.
     if (photonsOnly && !o.attributes->visibility.photon && o.attributes->areaLight < 0) continue;
     auto [attributes, isNew] = known.try_emplace(o.attributes, 0);
     if (isNew) {

@@ -3,8 +3,8 @@
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance that the geometry emits from the side of its normal");
-rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point");
-rsl::FloatParam visible("visible", 1, "0: camera and specular rays do not see it glow");
+rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point", TM_ROLE_SAMPLES);
+rsl::FloatParam visible("visible", 1, "0: camera and specular rays do not see it glow", TM_ROLE_VISIBLE);
 
 void shade(const TmGrid* g) {
   for (int i : rsl::Batch(g)) rsl::set(g->Cl, i, intensity(g, i) * lightcolor(g, i));

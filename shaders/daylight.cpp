@@ -1,6 +1,6 @@
 // Sun and sky: A. J. Preetham, P. Shirley and B. Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999.
-// Equations by their numbers there, coefficients from its appendix. Beside the paper: sunlight is computed at one
-// wavelength for red, green and blue, and ozone, gases and water vapour, which take some per cent, are left out.
+// Equations have the paper's numbers, and coefficients are from its appendix. Differences: sunlight is computed at one
+// wavelength each for red, green and blue; ozone, gases and water vapour, which absorb some per cent, are left out.
 #include "reyes/shader.h"
 
 namespace {
@@ -9,11 +9,12 @@ rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "tint");
 rsl::VectorParam sundirection("sundirection", {0, 1, 0}, "towards the sun");
 rsl::VectorParam zenith("zenith", {0, 1, 0}, "up");
 rsl::FloatParam turbidity("turbidity", 2, "haziness, 1.7 to 10");
-rsl::FloatParam skySamples("samples", 64, "directions for each shaded point");
-rsl::FloatParam visible("visible", 1, "0: specular rays do not see it");
+rsl::FloatParam skySamples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);
+rsl::FloatParam visible("visible", 1, "0: specular rays do not see it", TM_ROLE_VISIBLE);
 rsl::StringParam portals("portals", "",
-                         "CoordinateSystems, the unit squares of which are windows that the sky shines through");
-rsl::FloatParam sunSamples("samples", 8, "directions for each shaded point");
+                         "CoordinateSystems, the unit squares of which are windows that the sky shines through",
+                         TM_ROLE_SKY_PORTALS);
+rsl::FloatParam sunSamples("samples", 8, "directions for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam sunsize("sunsize", 1, "scale of the sun's diameter of 0.53 degrees; its light stays");
 
 constexpr float kUnit_kcd_m2 = 30;      // a radiance of 1
@@ -23,7 +24,7 @@ constexpr float kDegrees = 57.29578f;
 
 struct Heaven {
   rsl::Vec3 up, sun;
-  float T, sunAngle;  // of the sun from the zenith, radians
+  float T, sunAngle;  // turbidity; angle of the sun from the zenith in radians
 
   Heaven(const TmGrid* g, int i)
       : up(rsl::normalize(zenith(g, i))),
@@ -33,7 +34,7 @@ struct Heaven {
   bool isDay() const { return dot(up, sun) > 0; }
 };
 
-/// Perez, Seals and Michalsky (1993), eq. 3.
+/// The distribution of Perez, Seals and Michalsky (1993), eq. 3.
 struct Perez {
   float A, B, C, D, E;
   float operator()(float cosTheta, float gamma) const {
@@ -43,7 +44,7 @@ struct Perez {
 };
 
 struct SkyColor {
-  Perez perez[3];   // Y, x, y
+  Perez perez[3];   // of Y, x and y
   float zenith[3];  // over perez(1, sunAngle)
 
   explicit SkyColor(const Heaven& h) {
@@ -89,7 +90,7 @@ void shadeSky(const TmGrid* g) {
   }
 }
 
-/// Of the sun's light, what passes the atmosphere (appendix 1: air mass, Rayleigh scattering, aerosols).
+/// The share of the sun's light that passes the atmosphere (appendix 1: air mass, Rayleigh scattering, aerosols).
 rsl::Color passing(const Heaven& h) {
   const float mass = 1 / (std::cos(h.sunAngle) + 0.15f * std::pow(93.885f - h.sunAngle * kDegrees, -1.253f));
   const float beta = 0.04608f * h.T - 0.04586f;

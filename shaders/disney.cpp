@@ -1,5 +1,5 @@
 // A principled surface after Burley 2012, "Physically-based shading at Disney" (sections 5.3 to 5.6), without
-// anisotropy and subsurface. Highlights are samples of the lights and of its own two lobes together; reflected rays are
+// anisotropy and subsurface. Highlights combine samples of the lights and of its own two lobes; reflected rays are
 // drawn from the lobes.
 #include "reyes/shader/shadeops.h"
 
@@ -42,7 +42,7 @@ float smithGgx(float nv, float alpha) {
   return 1 / (nv + std::sqrt(a + b - a * b));
 }
 
-/// What the parameters make of one point.
+/// The material of one point, from the parameters.
 struct Material {
   Color base, specular0, sheen;
   float roughness, alpha, coat, coatAlpha, matte;
@@ -57,7 +57,7 @@ struct Material {
     coat = 0.25f * clearcoat(g, i), coatAlpha = rsl::mix(0.1f, 0.001f, clearcoatgloss(g, i));
     matte = 1 - metal;
   }
-  /// Both times pi, for light that is E/pi.
+  /// diffuse() and glossy() are BRDFs times pi, for light that is E/pi. diffuse() includes the sheen.
   Color diffuse(float nl, float nv, float lh) const {
     const float grazing = 0.5f + 2 * lh * lh * roughness;
     const float retro = rsl::mix(1, grazing, fresnelWeight(nl)) * rsl::mix(1, grazing, fresnelWeight(nv));
@@ -72,11 +72,11 @@ struct Material {
   }
 };
 
-/// The two lobes of one point, as something to draw directions from: the half vector H by its distribution times N.H.
+/// The two lobes of one point, from which directions are drawn: the half vector H by its distribution times N.H.
 struct Lobes {
   Vec3 N, V, tangent, bitangent;
   Material material;
-  float nv, coatShare;  ///< Of the directions, what the coat gets.
+  float nv, coatShare;  ///< coatShare: share of the directions that are drawn from the coat.
 
   Lobes(Vec3 n, Vec3 v, const Material& m) : N(n), V(v), material(m), nv(std::max(1e-4f, rsl::dot(n, v))) {
     rsl::orthonormalBasis(N, tangent, bitangent);
@@ -84,14 +84,14 @@ struct Lobes {
                 base = luminance(rsl::mix(m.specular0, Color{1, 1, 1}, F));
     coatShare = coat > 0 ? coat / (coat + base) : 0;
   }
-  /// The cosine included, for light that is E/pi; 0 below the surface.
+  /// BRDF times cosine times pi, for light that is E/pi; 0 below the surface.
   Color value(Vec3 L) const {
     const float nl = rsl::dot(N, L);
     if (nl <= 0) return {};
     const Vec3 H = rsl::normalize(L + V);
     return nl * material.glossy(nl, nv, rsl::dot(N, H), rsl::dot(L, H));
   }
-  /// With which draw() returns L, over solid angle.
+  /// Probability density of draw() over solid angle.
   float density(Vec3 L) const {
     const Vec3 H = rsl::normalize(L + V);
     const float nh = rsl::dot(N, H), vh = rsl::dot(V, H);
@@ -126,7 +126,7 @@ class Glossy {
   }
   const Lobes& operator[](int i) const { return lobes_[static_cast<size_t>(i)]; }
 
-  /// What a sample of the lights adds: the rest comes by addLobeSamples().
+  /// Adds the part of one sample of the lights; addLobeSamples() adds the rest.
   void addLightSample(const TmIlluminance& sample, rsl::Vec3Array& sum) {
     g_->call->lightDensity(g_->host, g_, sample.light, density_.data());
     for (int i : b_) {
@@ -143,7 +143,7 @@ class Glossy {
       for (int i : b_) sum.set(i, sum[i] + cl_[i] * (*this)[i].value(L_[i]));
     }
   }
-  /// What the scene looks like in it. Lamps are left out: light samples bring those.
+  /// Adds reflections of the scene. Lamps are left out, because light samples bring them.
   void addReflections(int rays, rsl::Vec3Array& sum) {
     TmRayOptions options = tmRayDefaults();
     options.drawn = rays, options.passLamps = 1;
@@ -157,7 +157,7 @@ class Glossy {
   }
 
  private:
-  /// Sets L_, 0 where the direction goes below the surface, and density_.
+  /// Sets L_, which is 0 where the direction goes below the surface, and density_.
   void draw(int k, int of) {
     g_->call->stratified(g_->host, g_, k, of, xi0_.data(), xi1_.data());
     for (int i : b_) {
@@ -193,14 +193,14 @@ void shade(const TmGrid* g) {
         diffuse.set(
             i, diffuse[i] + nl * rsl::get(sample.Cl, i) * glossy[i].material.diffuse(nl, glossy[i].nv, rsl::dot(L, H)));
     }
-    // Indirect light is diffuse light: of its direction no more is known than the main one.
+    // Indirect light is diffuse light: only its main direction is known.
     if (shiny && !sample.nonspecular && !sample.isIndirect) glossy.addLightSample(sample, highlight);
   }
   if (shiny) {
     glossy.addLobeSamples(highlight);
     const int rays = static_cast<int>(rsl::clamp(reflections(g), 0, 1 << 14));
     glossy.addReflections(b.rayDepth() > 0 ? std::min(rays, 1) : rays,
-                          mirrored);  // reflected again and again, rays would multiply
+                          mirrored);  // in repeated reflections rays would multiply
   }
   for (int i : b) {
     const Material& m = glossy[i].material;

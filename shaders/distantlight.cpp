@@ -21,7 +21,7 @@ void shadeShadowed(const TmGrid* g) {
 extern const rsl::Shader distantlightShader, shadowdistantShader;
 const rsl::Shader distantlightShader(TM_LIGHT, "distantlight", "parallel light from infinity", TM_LIGHT_SOLAR, shade,
                                      {&intensity, &lightcolor, &from, &to});
-// The same parameters at the same places: they may serve two shaders.
+// The same parameters may serve two shaders at the same places.
 const rsl::Shader shadowdistantShader(TM_LIGHT, "shadowdistant",
                                       "distantlight with shadows: traced, or of a shadow map", TM_LIGHT_SOLAR,
                                       shadeShadowed,

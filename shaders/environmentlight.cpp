@@ -5,17 +5,18 @@
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of the sky, or what multiplies its map");
-rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform");
-rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader");
-rsl::FloatParam samples("samples", 64, "directions for each shaded point");
-rsl::FloatParam visible("visible", 1, "0: specular rays do not see it");
+rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform", TM_ROLE_SKY_MAP);
+rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader", TM_ROLE_SKY_SPACE);
+rsl::FloatParam samples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);
+rsl::FloatParam visible("visible", 1, "0: specular rays do not see it", TM_ROLE_VISIBLE);
 rsl::StringParam portals("portals", "",
-                         "CoordinateSystems, the unit squares of which are windows that the sky shines through");
+                         "CoordinateSystems, the unit squares of which are windows that the sky shines through",
+                         TM_ROLE_SKY_PORTALS);
 
-// The map is seen through a filter of this angle, radians: that of the cells by which its brightness is known.
+// Angle in radians of the filter of map lookups: that of the cells by which the map's brightness is known.
 constexpr float kCell = 0.00614f;
 
-/// environment() looks along world directions: those that stand in the world as L does in the map's space.
+/// environment() takes world directions: those with the coordinates in world space that L has in the map's space.
 rsl::Vec3Array directions(const TmGrid* g) {
   rsl::Vec3Array out(g);
   for (int i : rsl::Batch(g)) out.set(i, rsl::get(g->L, i));

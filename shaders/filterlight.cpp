@@ -1,9 +1,9 @@
-// Art direction of indirect light: what another indirect light brings, with the falloffs of a spotlight, a
-// preferred direction and a colour correction (approximate-gi section 5.3).
+// Art direction of indirect light: the light of another indirect light, with the falloffs of a spotlight, a preferred
+// direction and a colour correction (approximate-gi section 5.3).
 #include "shaders/indirect.h"
 
 namespace {
-rsl::StringParam source("source", "", "handle of the indirect light to filter");
+rsl::StringParam source("source", "", "handle of the indirect light to filter", TM_ROLE_INDIRECT_SOURCE);
 rsl::PointParam from("from", {0, 0, 0}, "position");
 rsl::PointParam to("to", {0, 0, 1}, "a point on the axis");
 rsl::FloatParam coneangle("coneangle", 3.14159265f, "half angle of the cone, radians; pi: everywhere");
@@ -18,7 +18,7 @@ rsl::FloatParam hue("hue", 0, "turns colours around the grey axis; 1 is a full t
 
 constexpr float kPi = 3.14159265f, kMiddleGrey = 0.18f;
 
-/// 1 inside, 0 outside, soft over `delta` before `end`.
+/// 1 inside, 0 outside, smooth over `delta` before `end`.
 float inside(float x, float end, float delta) { return 1 - rsl::smoothstep(end - delta, end, x); }
 
 float falloff(const rsl::Batch& b, int i, rsl::Vec3 N) {

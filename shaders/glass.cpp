@@ -6,14 +6,14 @@ rsl::FloatParam Kr("Kr", 1, "weight of what is mirrored");
 rsl::FloatParam Kt("Kt", 1, "weight of what is seen through it");
 rsl::ColorParam transmitcolor("transmitcolor", {1, 1, 1}, "tint at each surface that light passes");
 
-/// Normals point outwards: light that goes against Ng enters.
+/// Index of refraction at the hit. Normals point outwards: light that goes against Ng enters.
 float etaAt(const rsl::Batch& b, int i) {
   const bool enters = rsl::dot(b.I(i), b.Ng(i)) < 0;
   return enters ? 1 / eta(b.g, i) : eta(b.g, i);
 }
 
-// Seen through other glass or in mirrors, reflections weaker than this are left out, and their share is seen through
-// the glass too: else rays double at every surface.
+// Reflections weaker than this are left out if seen through other glass or in mirrors, and their share is seen through
+// the glass too: otherwise rays would double at every surface.
 constexpr float kLeastMirroring = 0.2f;
 
 void shade(const TmGrid* g) {

@@ -1,17 +1,20 @@
 #include "shaders/indirect.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "tint");
-rsl::FloatParam samples("samples", 600, "rays for each irradiance sample");
-rsl::FloatParam maxerror("maxerror", 1, "kappa of the error function; 0 computes every point");
+rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "tint", TM_ROLE_TINT);
+rsl::FloatParam samples("samples", 600, "rays for each irradiance sample", TM_ROLE_SAMPLES);
+rsl::FloatParam maxerror("maxerror", 1, "kappa of the error function; 0 computes every point", TM_ROLE_MAX_ERROR);
 rsl::StringParam errorfunction("errorfunction", "screen",
-                               "screen, ward, hessian; split and plain: ward and screen as published, to compare with");
-rsl::StringParam radiance("radiance", "shader", "what a gather ray sees: shader, radiosity, atlas or points");
-rsl::StringParam atlas("atlas", "", "directory of brick maps");
-rsl::FloatParam bounces("bounces", 1, "diffuse bounces accounted for");
-rsl::FloatParam maxdist("maxdist", 1e30f, "length of gather rays");
-rsl::StringParam subset("subset", "", "objects that gather rays see");
+                               "screen, ward, hessian; split and plain: ward and screen as published, to compare with",
+                               TM_ROLE_ERROR_FUNCTION);
+rsl::StringParam radiance("radiance", "shader", "what a gather ray sees: shader, radiosity, atlas or points",
+                          TM_ROLE_HIT_RADIANCE);
+rsl::StringParam atlas("atlas", "", "directory of brick maps; of radiance \"points\" one of point clouds",
+                       TM_ROLE_ATLAS);
+rsl::FloatParam bounces("bounces", 1, "diffuse bounces accounted for", TM_ROLE_BOUNCES);
+rsl::FloatParam maxdist("maxdist", 1e30f, "length of gather rays", TM_ROLE_MAX_DISTANCE);
+rsl::StringParam subset("subset", "", "objects that gather rays see", TM_ROLE_SUBSET);
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);

@@ -12,8 +12,8 @@ struct Octave {
   float number;         ///< k
 };
 
-/// One layer over all points, inactive ones too: sum += weight * noise where the point has that layer. `octave` is a
-/// copy, or each store might change it.
+/// Adds one octave to all points, also inactive ones: sum += weight * noise where the point has that octave. `octave`
+/// is a copy, because each store might change a reference.
 RSL_HOT void addOctave(const Octave octave, int n, TmConstVec3 p, const float* counts, float* sum, float* weights) {
   for (int i = 0; i < n; ++i) {
     const float weight = octave.number < counts[i] ? octave.weight : 0.0f;
@@ -22,7 +22,7 @@ RSL_HOT void addOctave(const Octave octave, int n, TmConstVec3 p, const float* c
   }
 }
 
-// Octaves weigh 1/2, 1/4, ... of their sum, so Km bounds the displacement.
+// The weights of octaves are 1/2, 1/4, ... of their sum, so Km bounds the displacement.
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   rsl::Vec3Array p = b.positionsIn(space(g));

@@ -9,7 +9,8 @@ rsl::UniformFloatParam maxdist("maxdist", 1e30f, "what is farther covers nothing
 rsl::UniformFloatParam falloff("falloff", 0, "what is at distance d covers exp(-falloff d); 0: wholly");
 rsl::UniformFloatParam maxvariation(
     "maxvariation", -1,
-    "how far an interpolated share may be off; 0: traced at every point; negative: by irradiance:maxerror");
+    "how far an interpolated share may be off; 0: traced at every point; negative: by irradiance:maxerror",
+    TM_ROLE_MAX_VARIATION);
 rsl::StringParam subset("subset", "", "sets of objects that cover; none: all");
 
 void shade(const TmGrid* g) {

@@ -1,5 +1,5 @@
-// What Ci is the sum of, as output parameters of the standard surface shaders; each premultiplied, as Ci is. Indirect
-// light is left out of `diffuse`, so that ambient + diffuse + indirectdiffuse + specular + reflection = Ci.
+// The parts whose sum is Ci, as output parameters of the standard surface shaders; each is premultiplied, as Ci is.
+// Indirect light is left out of `diffuse`, so that ambient + diffuse + indirectdiffuse + specular + reflection = Ci.
 #pragma once
 #include "reyes/shader.h"
 
@@ -8,7 +8,7 @@ struct DiffuseParts {
   rsl::ColorOutput diffuse{"diffuse", "share of direct diffuse light"};
   rsl::ColorOutput indirectdiffuse{"indirectdiffuse", "share of indirect diffuse light"};
 
-  /// `base`: what ambient() and diffuse() are multiplied by, opacity included.
+  /// `base`: the factor on ambient() and diffuse(), opacity included.
   template <class Ambient, class Diffuse>
   void store(const rsl::Batch& b, TmConstVec3 Nf, const rsl::Vec3Array& fromAmbient, const Ambient& ofAmbient,
              const Diffuse& ofDiffuse) const {

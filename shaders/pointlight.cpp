@@ -5,9 +5,10 @@ rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
 rsl::PointParam from("from", {0, 0, 0}, "position");
 ShadowParams shadow;
-rsl::StringParam sfpx("sfpx", "", "shadow map towards +x"), sfnx("sfnx", "", "towards -x"),
-    sfpy("sfpy", "", "towards +y"), sfny("sfny", "", "towards -y"), sfpz("sfpz", "", "towards +z"),
-    sfnz("sfnz", "", "towards -z");
+rsl::StringParam sfpx("sfpx", "", "shadow map towards +x", TM_ROLE_SHADOW_MAP),
+    sfnx("sfnx", "", "towards -x", TM_ROLE_SHADOW_MAP), sfpy("sfpy", "", "towards +y", TM_ROLE_SHADOW_MAP),
+    sfny("sfny", "", "towards -y", TM_ROLE_SHADOW_MAP), sfpz("sfpz", "", "towards +z", TM_ROLE_SHADOW_MAP),
+    sfnz("sfnz", "", "towards -z", TM_ROLE_SHADOW_MAP);
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
@@ -17,7 +18,7 @@ void shade(const TmGrid* g) {
   }
 }
 
-// Outside its own pyramid a map blocks nothing, so that each point is dimmed by the one that sees it.
+// A map blocks nothing outside of its own pyramid, so each point is dimmed by the map that sees it.
 void shadeShadowed(const TmGrid* g) {
   shade(g);
   for (const rsl::StringParam* map : {&shadow.shadowname, &sfpx, &sfnx, &sfpy, &sfny, &sfpz, &sfnz})
@@ -28,7 +29,7 @@ void shadeShadowed(const TmGrid* g) {
 extern const rsl::Shader pointlightShader, shadowpointShader;
 const rsl::Shader pointlightShader(TM_LIGHT, "pointlight", "light from a point, inverse square", 0, shade,
                                    {&intensity, &lightcolor, &from});
-// The same parameters at the same places: they may serve two shaders.
+// The same parameters may serve two shaders at the same places.
 const rsl::Shader shadowpointShader(TM_LIGHT, "shadowpoint",
                                     "pointlight with shadows: traced, or of a shadow map for each direction", 0,
                                     shadeShadowed,

@@ -1,10 +1,10 @@
-// Shadow maps for lights: parameters, and the share of light that the maps let through. `raytrace` and maps that cannot
-// be read let all light through here; the renderer traces those shadows.
+// Shadow maps for lights: parameters, and the share of light that the maps let through. Here `raytrace` and maps that
+// cannot be read let all light through; the renderer traces those shadows.
 #pragma once
 #include "reyes/shader.h"
 
 struct ShadowParams {
-  rsl::StringParam shadowname{"shadowname", "", "shadow map, or `raytrace`"};
+  rsl::StringParam shadowname{"shadowname", "", "shadow map, or `raytrace`", TM_ROLE_SHADOW_MAP};
   rsl::UniformFloatParam samples{"samples", 16, "lookups in the map for each point"};
   rsl::UniformFloatParam blur{"blur", 0, "softness, as a fraction of the map"};
   rsl::UniformFloatParam width{"width", 1, "scale of the region that is looked up"};

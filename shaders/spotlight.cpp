@@ -36,7 +36,7 @@ extern const rsl::Shader spotlightShader, shadowspotShader;
 const rsl::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point into a soft-edged cone", 0, shade,
                                   {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
                                    &beamdistribution});
-// The same parameters at the same places: they may serve two shaders.
+// The same parameters may serve two shaders at the same places.
 const rsl::Shader shadowspotShader(TM_LIGHT, "shadowspot", "spotlight with shadows: traced, or of a shadow map", 0,
                                    shadeShadowed,
                                    {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle, &beamdistribution,

@@ -29,6 +29,21 @@ void shadeFlame(const TmGrid* g) {
 const rsl::Shader flame(TM_LIGHT, "flame", "a point light that flickers with time", 0, shadeFlame,
                         {&intensity, &flicker, &from, &dimmed});
 
+// An area light writes the radiance that its geometry sends along L; the camera sees the same. Roles tell the renderer
+// which parameter is the number of samples, and which hides the lamp.
+rsl::FloatParam radiance("radiance", 1, "straight ahead"), focus("focus", 1, "power of the cosine to the side");
+rsl::FloatParam points("points", 16, "on the lamp for each shaded point", TM_ROLE_SAMPLES),
+    glows("glows", 1, "0: the camera and mirrors do not see the lamp", TM_ROLE_VISIBLE);
+void shadePanel(const TmGrid* g) {
+  for (int i : rsl::Batch(g)) {
+    const float cosine = -rsl::dot(rsl::normalize(rsl::get(g->L, i)), rsl::get(g->Nl, i));
+    const float share = std::pow(std::max(cosine, 0.0f), focus(g, i));
+    rsl::set(g->Cl, i, radiance(g, i) * share * rsl::Color{1, 1, 1});
+  }
+}
+const rsl::Shader panel(TM_LIGHT, "panel", "a lamp that is brighter from the front", TM_LIGHT_AREA | TM_LIGHT_SHADOWED,
+                        shadePanel, {&radiance, &focus, &points, &glows});
+
 // A volume changes Ci and Oi of what is seen along I.
 rsl::FloatParam extinction("extinction", 0.1f, "share lost for each unit of length, at first");
 void shadeMurk(const TmGrid* g) {
@@ -51,4 +66,4 @@ const rsl::Shader scanlines(TM_IMAGER, "scanlines", "every other row darker", 0,
 
 }  // namespace
 
-TM_SHADER_LIBRARY(ripple, flame, murk, scanlines)
+TM_SHADER_LIBRARY(ripple, flame, panel, murk, scanlines)

@@ -10,6 +10,7 @@
 #include "gi/atlas/world_from_current.h"
 #include "gi/bricks/point_tiles.h"
 #include "gi/photons/medium.h"
+#include "reyes/base/folder_lock.h"
 #include "reyes/base/process.h"
 #include "reyes/base/temporary_folder.h"
 
@@ -18,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kCaustic = ".caustic";  ///< What the names of caustic maps end in.
+constexpr std::string_view kCaustic = ".caustic";  ///< Ending of the names of caustic maps.
 constexpr const char* kVolume = "scene.volume";
-constexpr double kStoredBytes = 2.5 * 36;  ///< Of one emitted photon: so many surfaces, so many bytes.
+/// Bytes of one emitted photon: the mean number of its surfaces times bytes of a stored photon.
+constexpr double kStoredBytes = 2.5 * 36;
 constexpr double kLeastOfMap =
-    1e-3;  ///< Share of its map, by area, that a surface needs for a number: leaves share their photons.
+    1e-3;  ///< Share of its map's area that a surface needs to have a number: leaves share their photons.
 
-/// Size of the objects of each group, as the area of their boxes in the world, so that every camera finds the same
-/// maps.
+/// Area of the boxes of each group's objects in world space, so that every camera finds the same maps.
 std::vector<double> boxAreas(const Scene& scene) {
   std::vector<double> areas(scene.groups.size(), 0.0);
   for (const Object& o : scene.objects) {
@@ -37,7 +38,7 @@ std::vector<double> boxAreas(const Scene& scene) {
   return areas;
 }
 
-/// Counted up when the same inputs begin to make other files.
+/// To be increased when the same inputs begin to make other files.
 constexpr uint32_t kMethod = 9;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
@@ -55,16 +56,7 @@ uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
   return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
 }
 
-/// Of a file that may be missing or damaged: then not known.
-MadeFrom bricksMadeFrom(const fs::path& path) {
-  try {
-    return BrickFile(path.string()).madeFrom();
-  } catch (const FileError&) {
-    return {};
-  }
-}
-
-/// The groups of each map from 1 on; 0: small ones.
+/// Numbers the surfaces of each map from 1; 0: small ones.
 std::vector<int> numbered(const std::vector<std::string>& maps, const std::vector<double>& areas) {
   struct Map {
     double area = 0;
@@ -76,7 +68,8 @@ std::vector<int> numbered(const std::vector<std::string>& maps, const std::vecto
   for (size_t g = 0; g < maps.size(); ++g) {
     Map& map = byName[maps[g]];
     const int number =
-        1 + map.groups++ % kMostSurfaces;  // small ones count too, so that who is small changes no number
+        // small surfaces are counted too, so that the numbers do not depend on which are small
+        1 + map.groups++ % kMostSurfaces;
     out.push_back(areas[g] >= kLeastOfMap * map.area ? number : 0);
   }
   return out;
@@ -85,11 +78,8 @@ std::vector<int> numbered(const std::vector<std::string>& maps, const std::vecto
 }  // namespace
 
 MadeFrom pointsMadeFrom(const fs::path& path) {
-  try {
-    return PointFile(path.string()).madeFrom();
-  } catch (const FileError&) {
-    return {};
-  }
+  std::error_code none;
+  return fs::exists(path, none) ? PointFile(path.string()).madeFrom() : MadeFrom{};
 }
 
 fs::path atlasFile(const fs::path& folder, const std::string& map, const char* extension) {
@@ -102,11 +92,11 @@ fs::path atlasFile(const fs::path& folder, const std::string& map, const char* e
 void makeAtlasFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder))
-    throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
+  if (!fs::is_directory(folder, error))
+    throw WriteError(fmt::format("folder \"{}\" cannot be made: {}", folder.string(), error.message()));
 }
 
-MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
+MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasSettings& settings) {
   const std::vector<double> own = boxAreas(scene);
   std::vector<double> areas = own;
   for (size_t g = 0; g < areas.size(); ++g)
@@ -116,7 +106,7 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
                                                  (kStoredBytes * static_cast<double>(settings.photons.emit)));
   MapNames names;
   names.world = settings.world;
-  double before = 0;  // groups follow each other as objects do in the scene: neighbours in its hierarchy stay together
+  double before = 0;  // groups follow the order of objects in the scene, so neighbours in its hierarchy stay together
   for (size_t g = 0; g < areas.size(); ++g) {
     const std::string& given = scene.groups[g].attributes->photon.globalMap;
     const std::string& caustic = scene.groups[g].attributes->photon.causticMap;
@@ -126,10 +116,9 @@ MapNames mapNames(const Scene& scene, const AtlasSettings& settings) {
     before += areas[g];
   }
   names.surface = numbered(names.global, own);
-  const auto hasMedium = [](const ShadeGroup& g) {
-    return !mediumOf(g.attributes->interior.get(), 1).empty() || !mediumOf(g.attributes->exterior.get(), 1).empty();
-  };
-  if (std::any_of(scene.groups.begin(), scene.groups.end(), hasMedium)) names.volume = kVolume;
+  for (int g = 0; g < static_cast<int>(scene.groups.size()); ++g)
+    for (const bool inside : {true, false})
+      if (!mediumOf(shading.medium(g, inside), 1).empty()) names.volume = kVolume;
   return names;
 }
 
@@ -156,6 +145,10 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
                            const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
                            const AtlasProgress& progress, Stats& stats, Log& log) {
   makeAtlasFolder(folder);
+  const FolderLock lock(folder, [&] {
+    log.report(Severity::Info, "photons-wait", {},
+               "waits for another program that writes photons to \"" + folder.string() + "\"");
+  });
   const char* channel = settings.photons.direct ? kPower : kIndirectPower;
   std::map<std::string, PointFileWriter> files;
   for (const std::string& name : names.all())
@@ -204,7 +197,8 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, file.bound());
   const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
-  const fs::path compact = temporary.path() / "photons.ptc";  // their own chunks lie everywhere, as photons do
+  // chunks of photons spread over the whole scene, so they are sorted first
+  const fs::path compact = temporary.path() / "photons.ptc";
   PointTiles(file).writeCompact(compact.string());
   const PointFile sorted(compact.string());
   const PointTiles tiles(sorted);
@@ -228,7 +222,14 @@ BuiltBricks writeIrradianceBricks(const fs::path& points, const fs::path& out, B
 }
 
 bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const BrickSettings& settings, Stats& stats) {
-  if (bricksMadeFrom(out).inputs == brickInputs(PointFile(points.string()), settings)) return false;
+  std::error_code none;
+  if (fs::exists(out, none)) {
+    const BrickFile kept(out.string());
+    if (kept.madeFrom().inputs == brickInputs(PointFile(points.string()), settings)) {
+      kept.readAll();
+      return false;
+    }
+  }
   const StageTimer timer(stats, "brickmake");
   writeIrradianceBricks(points, out, settings);
   return true;
@@ -250,6 +251,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   }
   returnFreeMemory();
   std::vector<MapFigures> made;
+  int64_t kept = 0;
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"),
                    bricks = atlasFile(folder, name, ".bkm");
@@ -260,9 +262,10 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
       writeIrradiance(from, points, estimate, kPointsInMemory, &figures);
       if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     }
-    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++stats.photons.groupsKept;
+    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
     returnFreeMemory();
   }
+  stats.photons.groupsKept += kept;
   warnOfEstimates(scene, names, made, log);
 }
 

@@ -1,18 +1,19 @@
-// Private to gi: where photon maps come to their limits on the scene at hand, as warnings. The laboratory of
-// docs/chart.md shows what happens beyond. Each names an object of the worst map, with file and line. Deterministic.
+// Private to gi: warns where photon maps reach their limits on the scene at hand. docs/chart.md shows what happens
+// beyond the limits. Each warning names an object of the worst map, with file and line. The result does not depend on
+// threads.
 #pragma once
 #include "gi/atlas.h"
 
 namespace tomales {
 
-/// Of one map. Photons all have about the same power.
+/// Figures of one map. All photons have about the same power.
 struct MapFigures {
   std::string map;
   uint64_t photons = 0;
   EstimateFigures estimates;
 };
 
-/// Most estimates of some map stand on weak ground, of those that have more than a per cent of all photons.
+/// Warns if most estimates of some map are unreliable. Maps with less than a per cent of all photons do not count.
 void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vector<MapFigures>& maps, Log& log);
 
 }  // namespace tomales

@@ -14,7 +14,7 @@ bool holdsDirect(const fs::path& folder) {
       if (entry.path().extension() == ".bkm" &&
           offsetOf(BrickFile(entry.path().string()).channels(), kIndirectIrradiance) >= 0)
         return false;
-    } catch (const FileError&) {  // said when it is used
+    } catch (const FileError&) {  // reported when it is used
     }
   return true;
 }
@@ -66,7 +66,7 @@ std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, con
   try {
     vec3 E(0.0f);
     const vec3 normal = normalizeOr(transformVector(worldFromCurrent_, N), N);
-    // Maps of another scene have numbered their surfaces otherwise.
+    // Maps of another scene have other numbers for their surfaces.
     const int surface =
         world_ != 0 && map->file().madeFrom().world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
     if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface))

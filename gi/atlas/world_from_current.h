@@ -1,4 +1,4 @@
-// Private to gi: points of a frame on their way to files, which are in world space.
+// Private to gi: the transformation of a frame's points to world space, in which files are.
 #pragma once
 #include "reyes/scene.h"
 
@@ -7,7 +7,7 @@ namespace tomales {
 struct WorldFromCurrent {
   mat4 points;
   mat3 normals;
-  float scale;  ///< Length of one of current space.
+  float scale;  ///< Length in world space of one unit of current space.
   explicit WorldFromCurrent(const Scene& scene)
       : points(glm::inverse(scene.cameraFromWorldAtOpen())),
         normals(glm::transpose(mat3(scene.cameraFromWorldAtOpen()))),

@@ -5,10 +5,10 @@
 namespace tomales {
 namespace {
 
-/// Six sides of a box and a few between: more directions than that in one voxel are foliage or noise.
+/// The six sides of a box and a few directions between: more than that in one voxel are foliage or noise.
 constexpr int kMostLayers = 12;
-/// From so many on, surfaces that face alike share one: coarse voxels meet many, and are not asked what finer ones
-/// know.
+/// With so many layers or more, surfaces that face alike share one: coarse voxels meet many surfaces, and finer ones
+/// keep them apart.
 constexpr int kSharedFrom = 6;
 
 }  // namespace
@@ -19,7 +19,7 @@ void BrickAccumulator::clear() {
 }
 
 int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, uint8_t surface, bool& merged) const {
-  // Nearly always one layer or none continues this, which needs no root.
+  // Nearly always one layer or none passes this test, which needs no root.
   const float length2 = dot(normal, normal);
   int32_t within = -1;
   int count = 0;
@@ -27,8 +27,7 @@ int32_t BrickAccumulator::findLayer(int voxel, const vec3& normal, uint8_t surfa
   for (int32_t l = head_[static_cast<size_t>(voxel)]; l >= 0; l = layers_[static_cast<size_t>(l)].next, ++count) {
     const LayerSum& layer = layers_[static_cast<size_t>(l)];
     const float along = dot(layer.normal, normal);
-    // As continues(), but all of it whatever comes first: chance decides, and a processor guesses chance
-    // wrong.
+    // This is continues() without early exit: the branches would be random, and mispredicted.
     const bool candidate = static_cast<bool>((layer.surface == surface) & (along > 0));
     const bool near = static_cast<bool>(
         candidate & (along * along >= kLayerCosine * kLayerCosine * dot(layer.normal, layer.normal) * length2));
@@ -83,7 +82,7 @@ int32_t BrickAccumulator::addToOneOfMany(int voxel, const vec3& normal, float we
 
 float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
   constexpr int half = kBrickWidth / 2;
-  const size_t firstNew = layers_.size();  // the octants of a brick share no voxel, so all that is added to is new
+  const size_t firstNew = layers_.size();  // the octants of a brick share no voxel, so all layers that get data are new
   least_.clear(), most_.clear();
   float spread = 0;
   for (int v = 0; v < kBrickVoxels; ++v) {

@@ -7,7 +7,7 @@ namespace tomales {
 namespace {
 
 constexpr float kMostSteps = 65535;
-constexpr float kShareOfTolerance = 1.0f / 16;  ///< That rounding may take of it.
+constexpr float kShareOfTolerance = 1.0f / 16;  ///< Share of the tolerance that rounding may use.
 
 /// The range of every channel, as its lowest value and the step of 16 bits.
 struct Steps {

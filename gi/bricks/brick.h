@@ -1,6 +1,6 @@
-// Noun: a brick, the tile of a brick map (irradiance-atlas 3.1): 8^3 voxels, of which few are filled. A voxel has a
-// layer for every surface and direction that it faces, each with the mean of the data there. Over point clouds and
-// reyes/base. Threads: plain data.
+// Noun: a brick, the tile of a brick map (irradiance-atlas 3.1): 8^3 voxels, few of which are filled. A voxel has a
+// layer for every surface and direction in it, each with the mean of the data there. It needs point clouds and
+// reyes/base alone. Threads: plain data.
 #pragma once
 #include <array>
 #include <bit>
@@ -16,12 +16,12 @@ namespace tomales {
 
 constexpr int kBrickWidth = 8;  ///< Voxels along an edge.
 constexpr int kBrickVoxels = kBrickWidth * kBrickWidth * kBrickWidth;
-constexpr int kMostLevels = 24;  ///< Of a brick map: voxel coordinates stay exact in int.
+constexpr int kMostLevels = 24;  ///< Voxel coordinates of a map of so many levels stay exact in int.
 
 /// Normals farther apart than this do not share a layer, and do not answer each other's lookups.
 constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (irradiance-atlas 3.2, 3.3)
 
-/// Channels 0 .. width - 1: three, as most data have, without a loop.
+/// Calls work for channels 0 .. width - 1. Three channels, as most data have, need no loop.
 template <class Work>
 inline void forEachChannel(size_t width, const Work& work) {
   if (width == 3) return work(size_t{0}), work(size_t{1}), work(size_t{2});
@@ -30,12 +30,12 @@ inline void forEachChannel(size_t width, const Work& work) {
 
 inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBrickWidth + x; }
 
-/// Which way the data of a layer face, in 32 bits.
+/// The direction and the surface of a layer's data, in 32 bits.
 struct BrickLayer {
   int8_t x = 0, y = 0,
          z = 0;  ///< Mean normal, in 127ths of its length: off by less than half a degree. Zero: volume data.
   uint8_t incoherent : 1 = 0;  ///< Different layers had to be merged: finer bricks tell them apart.
-  uint8_t surface : 7 = 0;     ///< As PointCloud::surface(); 0: not known, or of several.
+  uint8_t surface : 7 = 0;     ///< PointCloud::surface() of the data; 0: not known, or several.
 
   BrickLayer() = default;
   BrickLayer(const vec3& unitNormal, bool isIncoherent, int of = 0)
@@ -45,7 +45,7 @@ struct BrickLayer {
         incoherent(isIncoherent),
         surface(static_cast<uint8_t>(of & kMostSurfaces)) {}
   vec3 normal() const { return normalizeOr(vec3(x, y, z), vec3(0.0f)); }
-  /// N: of unit length; zero: asks for whatever is there. of: 0: likewise, of any surface.
+  /// Does the layer match a lookup? N: unit; zero matches any direction. of: a surface; 0 matches any.
   bool answers(const vec3& N, int of = 0) const {
     if (of != 0 && surface != 0 && of != surface) return false;
     const vec3 n(x, y, z);
@@ -54,25 +54,25 @@ struct BrickLayer {
   }
 
  private:
-  /// As std::lround(), which is a call; in double, because floats would round t + 0.5.
+  /// The same as std::lround(), without a call. It is in double, because floats would round t + 0.5.
   static int8_t part(float v) {
     const double t = 127 * v;
     return static_cast<int8_t>(t + std::copysign(0.5, t));
   }
 };
 
-/// Packed as it is in the file, because a cache holds as many bricks as they are small.
+/// A brick, packed as it is in the file: the smaller its bricks, the more a cache holds.
 class Brick {
  public:
-  /// While it is made: layers in the order of their voxels.
+  /// The parts that a brick is made from, with layers in the order of their voxels.
   struct Parts {
-    std::vector<uint16_t> voxels;  ///< Of each layer.
+    std::vector<uint16_t> voxels;  ///< Voxel of each layer.
     std::vector<BrickLayer> layers;
-    std::vector<float> data;  ///< `width` floats a layer.
+    std::vector<float> data;  ///< `width` floats for each layer.
   };
-  /// Data that may be off by `tolerance` are kept in 16 bits where that suffices.
+  /// Rounds data to 16 bits where that is within `tolerance`.
   Brick(const Parts& parts, int width, float tolerance);
-  /// Of bytes(); nothing if they make no brick of that width.
+  /// Makes a brick from bytes(); empty if they are no brick of that width.
   static std::optional<Brick> of(std::vector<std::byte> bytes, int width);
 
   bool fills(int voxel) const { return head().filled[static_cast<size_t>(voxel) / 64] >> voxel % 64 & 1; }
@@ -91,7 +91,7 @@ class Brick {
     return {first[rank], first[rank + 1]};
   }
   const BrickLayer& layer(size_t i) const { return at<BrickLayer>(sizeof(Head))[i]; }
-  /// sum[k] += weight * value k of the layer.
+  /// Adds weight * value k of the layer to sum[k].
   void add(size_t layer, float weight, float* sum) const {
     if (head().rounded) {
       const auto* low = at<float>(dataAt());
@@ -107,19 +107,19 @@ class Brick {
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:
-  /// Then the layers; the data, or for each channel the lowest and the step and then data in steps; and where the
-  /// layers of each filled voxel begin, if some have several.
+  /// Start of the bytes. The layers follow, then the data, or for each channel its lowest value and its step and then
+  /// the data in steps; and if some voxels have several layers, the first layer of each filled voxel.
   struct Head {
-    std::array<uint64_t, kBrickVoxels / 64> filled{};  ///< A bit a voxel.
-    std::array<uint16_t, kBrickVoxels / 64> before{};  ///< Filled voxels of lower slabs.
+    std::array<uint64_t, kBrickVoxels / 64> filled{};  ///< One bit for each voxel.
+    std::array<uint16_t, kBrickVoxels / 64> before{};  ///< Number of filled voxels in lower slabs.
     uint32_t layers = 0;
     uint8_t rounded = 0, several = 0;
-    uint16_t voxels = 0;  ///< Filled.
+    uint16_t voxels = 0;  ///< Number of filled voxels.
   };
   static_assert(sizeof(Head) == 88);
 
   Brick(std::vector<std::byte> bytes, size_t width) : bytes_(std::move(bytes)), width_(width) {}
-  /// std::popcount(), which is a call for processors that may lack the instruction.
+  /// The same as std::popcount(), without a call on processors that may lack the instruction.
   static size_t countOnes(uint64_t bits) {
     bits -= bits >> 1 & 0x5555555555555555u;
     bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);
@@ -144,7 +144,7 @@ class Brick {
 
 /// Octree node; its brick has the same number. Octant i has bit 0 in x, bit 1 in y, bit 2 in z.
 struct BrickNode {
-  std::array<int32_t, 8> child{-1, -1, -1, -1, -1, -1, -1, -1};  ///< -1: nothing there, or nothing finer to tell.
+  std::array<int32_t, 8> child{-1, -1, -1, -1, -1, -1, -1, -1};  ///< -1: there is nothing, or nothing finer.
 };
 
 /// A cube, halved with every level.
@@ -159,7 +159,7 @@ struct BrickTree {
   BrickCube cube;
   std::vector<BrickNode> nodes;
   int deepest = 0;                            ///< Level of the finest node; the root's is 0.
-  std::bitset<kMostSurfaces + 1> surfaces{};  ///< That the points told; 0: some told none.
+  std::bitset<kMostSurfaces + 1> surfaces{};  ///< The surfaces that the points name; bit 0: some name none.
   int32_t root() const { return static_cast<int32_t>(nodes.size()) - 1; }
 };
 

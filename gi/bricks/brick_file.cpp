@@ -30,12 +30,12 @@ BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
   for (const uint8_t surface : r.getVector<uint8_t>()) tree_.surfaces.set(surface & kMostSurfaces);
   madeFrom_ = r.get<MadeFrom>();
   if (!sound(tree_) || tree_.nodes.size() != file_.count())
-    throw FileError(fmt::format("\"{}\" is damaged: its octree does not add up", path));
+    throw DamageError(path, fmt::format("\"{}\" is damaged: its octree does not add up", path));
 }
 
 Brick BrickFile::brick(int32_t node) const {
   std::optional<Brick> brick = Brick::of(file_.read(static_cast<uint32_t>(node)), width_);
-  if (!brick) throw FileError(fmt::format("\"{}\" is damaged: a brick does not add up", path()));
+  if (!brick) throw DamageError(path(), fmt::format("\"{}\" is damaged: a brick does not add up", path()));
   return std::move(*brick);
 }
 

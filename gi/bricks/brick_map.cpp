@@ -10,12 +10,12 @@ namespace tomales {
 struct BrickMap::Sum {
   float* data = nullptr;
   float weight = 0;
-  int surface = 0;  ///< That is asked for.
-  // Most voxels of a lookup lie in one brick:
-  int level = -1;                         ///< The last was asked for at this level,
-  glm::ivec3 place{0};                    ///< here, in bricks of that level,
-  int foundLevel = -1;                    ///< was found at this one,
-  std::array<int32_t, kMostLevels> path;  ///< below these nodes, the last of which is its own.
+  int surface = 0;  ///< The surface that is asked for.
+  // Most voxels of a lookup lie in one brick, so the last one found is kept.
+  int level = -1;                         ///< Level of the last brick that was searched.
+  glm::ivec3 place{0};                    ///< Its place, in bricks of that level.
+  int foundLevel = -1;                    ///< Level at which a brick was found.
+  std::array<int32_t, kMostLevels> path;  ///< Nodes from the root to that brick.
   BrickPtr brick;
 
   static_assert(kBrickWidth == 1 << 3);
@@ -46,7 +46,7 @@ bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, in
   Sum sum;
   sum.data = out;
   sum.surface = knows(surface) ? surface : 0;
-  // The level whose voxels are as wide as the lookup volume, between two levels unless at either end.
+  // The level whose voxels are as wide as the lookup volume; it lies between two levels unless at either end.
   const float ideal = std::log2(tree().cube.voxelSize(0) / std::max(2 * radius, 1e-30f));
   const float level = std::clamp(ideal, 0.0f, static_cast<float>(tree().deepest));
   const int coarse = static_cast<int>(level);
@@ -61,13 +61,14 @@ bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, in
 
 namespace {
 
-/// One dimension of the voxels that a lookup meets: which, and how much of it lies in each.
-struct Reach {
+/// The voxels that a lookup overlaps in one dimension, and by how much.
+struct VoxelOverlap {
   int first, last;
   std::array<float, 4> overlap;
 
-  /// In voxels, of which there are `end`; `half`: at most one. So it meets three, or four by rounding.
-  Reach(float center, float half, int end) {
+  /// Coordinates are in voxels, of which there are `end`; `half` is at most one. So there are three voxels, or four by
+  /// rounding.
+  VoxelOverlap(float center, float half, int end) {
     const float lo = center - half, hi = center + half;
     first = std::min(static_cast<int>(std::max(lo, 0.0f)), end - 1),
     last = std::min(static_cast<int>(std::max(hi, 0.0f)), end - 1);
@@ -93,7 +94,7 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
   const float h = std::min(halfWidth / voxel, 1.0f);  // farther than two voxels only where the root is still too fine
   if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2))))
     return;
-  const Reach xs(p.x, h, end), ys(p.y, h, end), zs(p.z, h, end);
+  const VoxelOverlap xs(p.x, h, end), ys(p.y, h, end), zs(p.z, h, end);
   std::array<float, kMostWidth> own;
   std::fill_n(own.begin(), width(), 0.0f);
   const float before = std::exchange(sum.weight, 0.0f);
@@ -109,7 +110,8 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
   sum.weight += weight;
 }
 
-/// The brick at this level, or the finest above it: what was left out there says the same.
+/// Finds the brick at this level, or the finest one above it, which holds the same data where finer bricks were left
+/// out.
 void BrickMap::find(int level, const glm::ivec3& place, Sum& sum) const {
   int at = 0;  // the level of the last node above both this brick and the one before
   if (sum.foundLevel < 0) {
@@ -131,7 +133,7 @@ void BrickMap::find(int level, const glm::ivec3& place, Sum& sum) const {
   sum.level = level, sum.place = place, sum.foundLevel = at;
 }
 
-/// Pre: the voxel is filled, and its brick is found.
+/// Adds the layers of a voxel. Pre: the voxel is filled, and its brick is found.
 void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
   const Brick::Range layers = sum.brick->layersOf(sum.indexOf(voxel));
   if (sum.foundLevel == level && level < tree().deepest && depth < 2 && N != vec3(0.0f)) {
@@ -146,8 +148,8 @@ void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, floa
   }
 }
 
-/// Where too many directions met in a voxel, finer ones tell them apart (3.3). That covers every layer of it.
-/// False: nothing is found there.
+/// Adds data of finer voxels, which keep directions apart that were merged in this one (3.3). That replaces every layer
+/// of it. Returns false if nothing is found there.
 bool BrickMap::addFiner(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
   const float before = sum.weight;
   for (int k = 0; k < 8; ++k)
@@ -159,7 +161,7 @@ bool BrickMap::addFiner(int level, const glm::ivec3& voxel, const vec3& N, float
 
 namespace {
 
-/// `points`: in memory or on disk.
+/// `points` may be in memory or on disk.
 template <class Points>
 BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channels, const BrickSettings& settings,
                   const std::string& path, const MadeFrom& madeFrom) {

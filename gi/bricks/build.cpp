@@ -4,13 +4,14 @@
 #include <numeric>
 
 #include "gi/bricks/accumulate.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
 
 using Members = std::vector<uint32_t>;
 
-/// A point as voxels meet it. Flat along its normal, or a sphere where it has none.
+/// A point as it is added to voxels: flat along its normal, or a sphere where it has none.
 struct Spot {
   vec3 center;
   vec3 half;    ///< Half the sides of the box around it.
@@ -19,8 +20,8 @@ struct Spot {
   uint8_t surface;
 };
 
-/// One dimension of the voxels that a point's box meets: which, how much of the box lies in each, and how far
-/// their middles are from its plane.
+/// The voxels that a point's box overlaps in one dimension: which, the share of the box in each, and the height of
+/// their middles over the point's plane.
 struct Shares {
   size_t first, last;
   std::array<float, kBrickWidth> share, height;
@@ -29,7 +30,7 @@ struct Shares {
   Shares(float center, float half, float normal) {
     const float lo = center - half, hi = center + half;
     first = voxelOf(lo), last = voxelOf(hi);
-    const bool hasLength = half > 1e-5f;  // or it lies inside as a whole
+    const bool hasLength = half > 1e-5f;  // else it lies in one voxel as a whole
     for (size_t i = first; i <= last; ++i) {
       const auto at = static_cast<float>(i);
       share[i] = hasLength ? std::max(0.0f, std::min(hi, at + 1) - std::max(lo, at)) / (2 * half) : 1.0f;
@@ -64,14 +65,14 @@ class Builder {
   }
 
  private:
-  /// What one level works on: all that is ever in memory besides the points.
+  /// The data of one level. Only these and the points are in memory.
   struct Level {
     explicit Level(size_t width) : sums(width) {}
     BrickAccumulator sums;
     std::array<Members, 8> parts;
   };
 
-  /// The points that are worked on from now on; all of them.
+  /// Sets the points to work on, and returns the indices of all of them.
   Members use(const PointCloud& cloud) {
     cloud_ = &cloud;
     spots_.clear(), spots_.reserve(cloud.count());
@@ -103,7 +104,7 @@ class Builder {
     return out_.tree.root();
   }
 
-  /// No point of the cube is smaller than half the diagonal of its voxels (irradiance-atlas 3.2).
+  /// Is no point of the cube smaller than half the diagonal of its voxels (irradiance-atlas 3.2)?
   bool fineEnough(int level, const vec3& lo, const Members& members) const {
     if (level >= settings_.maxDepth || members.size() <= 1) return true;
     const float half = 0.5f * std::sqrt(3.0f) * out_.tree.cube.voxelSize(level) / settings_.coarseness;
@@ -121,9 +122,10 @@ class Builder {
     return place * 2 + glm::ivec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1);
   }
 
-  /// Fills the sums of `level` with the cube at `place`, in cubes of that level, and `node` with the children that are
-  /// kept.
+  /// Fills the sums of `level` with the cube at `place` (counted in cubes of that level), and `node` with the children
+  /// that are kept.
   void accumulate(int level, const glm::ivec3& place, const Members& members, BrickNode& node) {
+    throwIfStopped();
     Level& here = at(level);
     here.sums.clear();
     const vec3 lo = corner(level, place);
@@ -141,7 +143,7 @@ class Builder {
     }
   }
 
-  /// The same of points on disk. False: there are none.
+  /// The same for points on disk. Returns false if there are none.
   bool accumulate(const PointTiles& tiles, uint64_t most, int level, const glm::ivec3& place, BrickNode& node) {
     if (tiles.count(level, place) <= most || level == PointTiles::kDeepest || level >= settings_.maxDepth) {
       const Bound3 box = tiles.box(level, place);
@@ -163,7 +165,8 @@ class Builder {
     return true;
   }
 
-  /// The finished sums of a child, one level below: into those of `level`, and to the store unless they say the same.
+  /// Adds the finished sums of a child, one level below, to those of `level`, and stores the child unless the sums say
+  /// the same.
   void addChild(int level, int octant, const BrickNode& child, BrickNode& node) {
     const float spread = at(level).sums.addChild(at(level + 1).sums, octant);
     const bool leaf = std::all_of(child.child.begin(), child.child.end(), [](int32_t c) { return c < 0; });
@@ -173,7 +176,7 @@ class Builder {
       node.child[static_cast<size_t>(octant)] = keep(level + 1, child);
   }
 
-  /// Points by the octants around `middle` that their boxes reach.
+  /// Sorts points into the octants around `middle` that their boxes touch.
   void partition(const Members& members, const vec3& middle, std::array<Members, 8>& parts) const {
     for (Members& part : parts) part.clear();
     for (const uint32_t i : members) {
@@ -194,7 +197,7 @@ class Builder {
     const vec3 p = (s.center - lo) / voxel, h = s.half / voxel, n = s.normal;
     const bool oriented = n != vec3(0.0f);
     const float r = std::max(s.radius / voxel, 1e-3f);
-    const float size = oriented ? r * r : r * r * r;  // area or volume, but for a constant
+    const float size = oriented ? r * r : r * r * r;  // area or volume, up to a constant factor
     const float reach = 0.5f * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     const Shares xs(p.x, h.x, n.x), ys(p.y, h.y, n.y), zs(p.z, h.z, n.z);
     const float* data = cloud_->at(i);
@@ -215,7 +218,7 @@ class Builder {
   BuiltBricks out_;
   const PointCloud* cloud_ = nullptr;
   std::vector<Spot> spots_;
-  std::deque<Level> levels_;  // a deque: deeper levels come while those above are at work
+  std::deque<Level> levels_;  // a deque, because references to upper levels are in use while deeper ones are added
 };
 
 }  // namespace

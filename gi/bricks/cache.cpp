@@ -10,18 +10,17 @@ namespace tomales {
 namespace {
 
 constexpr size_t kShards = 16;         // each with its own lock and share of the budget
-constexpr size_t kBytesOfEntry = 192;  // of the index, the turns and the allocator, in about
+constexpr size_t kBytesOfEntry = 192;  // for the index, the queue and the allocator, roughly
 
 }  // namespace
 
 struct BrickCache::Shard {
   struct Entry {
     BrickPtr brick;
-    int64_t used;  ///< The last of the lookups that asked for it.
+    int64_t used;  ///< Number of the last lookup that asked for it.
   };
-  /// When a brick may have to go: a heap whose first was used the longest ago, as far as it knows. A brick
-  /// that is found again keeps its place in it, so that lookups write nothing but `used`, and gets the right
-  /// one when its turn comes.
+  /// An entry of the eviction queue, a heap with the least recently used brick in front. A lookup writes nothing but
+  /// Entry::used; an entry whose `used` is out of date gets its right place when it comes to the front.
   struct Turn {
     int64_t used;
     uint64_t key;
@@ -29,7 +28,7 @@ struct BrickCache::Shard {
   };
   std::mutex mutex;
   std::unordered_map<uint64_t, Entry> held;
-  std::vector<Turn> turns;  ///< One of each that is held.
+  std::vector<Turn> turns;  ///< One for each brick that is held.
   size_t budget = 0, bytes = 0;
   int64_t lookups = 0, misses = 0;
 

@@ -19,14 +19,14 @@ class BrickCache {
   explicit BrickCache(size_t bytes = kDefaultBytes);
   ~BrickCache();
 
-  /// Brick `brick` of map `map`, from the cache or from `read`.
+  /// Returns brick `brick` of map `map`, from the cache or from `read`.
   BrickPtr get(uint32_t map, uint32_t brick, const std::function<Brick()>& read);
-  /// A number for a map, unlike all others.
+  /// Returns a number for a map, different from all others.
   uint32_t addMap();
 
   int64_t lookups() const;
   int64_t misses() const;
-  size_t bytes() const;  ///< Held now; never above the budget.
+  size_t bytes() const;  ///< Bytes held now; never above the budget.
 
  private:
   struct Shard;

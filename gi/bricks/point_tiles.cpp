@@ -1,5 +1,7 @@
 #include "gi/bricks/point_tiles.h"
 
+#include "reyes/base/stop.h"
+
 namespace tomales {
 namespace {
 
@@ -8,7 +10,7 @@ constexpr uint64_t kPiles = 64;
 
 size_t indexOf(const glm::ivec3& cell) { return static_cast<size_t>((cell.z * kSide + cell.y) * kSide + cell.x); }
 
-/// Of 0 .. kSide^3 - 1 along a Morton curve, in which neighbours are neighbours in space.
+/// Returns cell `number`, 0 .. kSide^3 - 1, along a Morton curve, in which neighbours are neighbours in space.
 glm::ivec3 alongCurve(int number) {
   glm::ivec3 cell(0);
   for (int bit = 0; bit < PointTiles::kDeepest; ++bit)
@@ -25,7 +27,7 @@ bool meet(const Bound3& a, const Bound3& b) {
 BrickCube cubeAround(const Bound3& b) {
   if (b.empty()) return {};
   const float longest = maxComponent(b.size());
-  // A margin, so that the farthest points lie inside and a single one has a volume at all.
+  // The margin puts the farthest points inside, and gives a single point a volume.
   const float size = longest * 1.001f + 1e-5f * maxComponent(glm::max(glm::abs(b.lo), glm::abs(b.hi))) + 1e-30f;
   return {b.center() - vec3(0.5f * size), size};
 }
@@ -52,7 +54,8 @@ glm::ivec3 PointTiles::cellOf(const vec3& P) const {
     const float at = (P[k] - cube_.lo[k]) / cube_.size * static_cast<float>(kSide);
     if (at > 0)
       cell[k] =
-          at < kSide ? static_cast<int>(at) : kSide - 1;  // a cube too large for floats leaves NaN: the first cell
+          // where the cube is too large for floats, NaN goes to the first cell
+          at < kSide ? static_cast<int>(at) : kSide - 1;
   }
   return cell;
 }
@@ -79,7 +82,7 @@ PointCloud PointTiles::around(const Bound3& box, float margin, float radiusScale
   for (size_t chunk = 0; chunk < file_.chunkCount(); ++chunk)
     if (meet(file_.chunkBound(chunk), box.grown(std::max(margin, largestRadius_ * radiusScale))))
       chunks.push_back(chunk);
-  // Room that is not written to is no memory; vectors that grow leave holes of half their size.
+  // Reserved memory that is not written to costs nothing; vectors that grow leave holes of half their size.
   out.reserve(chunks.size() * PointFileWriter::kChunkPoints);
   for (const size_t chunk : chunks) {
     part = {};
@@ -106,6 +109,7 @@ void PointTiles::writeCompact(const std::string& path) const {
   empty.channels = file_.channels();
   std::vector<PointCloud> piles(kPiles, empty);
   for (size_t chunk = 0; chunk < file_.chunkCount(); ++chunk) {
+    throwIfStopped();
     part = {};
     file_.read(chunk, part);
     for (size_t i = 0; i < part.count(); ++i) {

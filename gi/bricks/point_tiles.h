@@ -1,12 +1,12 @@
-// Private to gi: a cloud on disk as an octree of cubes, so that one with more points than memory holds is worked on
-// cube by cube. Threads: one.
+// Private to gi: a cloud on disk as an octree of cubes, so that a cloud larger than memory is processed cube by cube.
+// Threads: one.
 #pragma once
 #include "gi/bricks/brick.h"
 #include "gi/point_file.h"
 
 namespace tomales {
 
-/// The cube around a cloud that brick maps divide.
+/// The cube around a cloud, which brick maps divide.
 BrickCube cubeAround(const Bound3& bound);
 
 class PointTiles {
@@ -18,34 +18,34 @@ class PointTiles {
 
   const PointFile& file() const { return file_; }
   const BrickCube& cube() const { return cube_; }
-  /// Of a cube of some level, at `place` in cubes of that level from the low corner. Neighbours share their border to
-  /// the bit.
+  /// The bound of the cube of some level at `place`, counted in cubes of that level from the low corner. Neighbours
+  /// share their border to the bit.
   Bound3 box(int level, const glm::ivec3& place) const;
   uint64_t count(int level, const glm::ivec3& place) const;
-  /// Whether count() counts this point: every point lies in one cube of each level.
+  /// Does count() count this point? Every point lies in one cube of each level.
   bool contains(int level, const glm::ivec3& place, const vec3& P) const {
     return cellOf(P) >> (kDeepest - level) == place;
   }
   double meanOfData() const { return mean_; }
-  /// Points that lie within `margin` of the box, in the order of the file, or whose radius, scaled, reaches it.
+  /// The points that lie within `margin` of the box, or whose scaled radius reaches it, in the order of the file.
   PointCloud around(const Bound3& box, float margin, float radiusScale = 1) const;
 
-  /// The same points in chunks that are compact in space, whatever the order of the file: so around() reads little.
-  /// Throws FileError.
+  /// Writes the same points in chunks that are compact in space, whatever the order of the file, so that around() reads
+  /// little. Throws FileError.
   void writeCompact(const std::string& path) const;
 
  private:
-  glm::ivec3 cellOf(const vec3& P) const;  ///< Of the smallest cubes.
+  glm::ivec3 cellOf(const vec3& P) const;  ///< Coordinates among the smallest cubes.
 
   const PointFile& file_;
   BrickCube cube_;
-  std::vector<uint32_t> counts_;  ///< Of the smallest cubes.
+  std::vector<uint32_t> counts_;  ///< Number of points in each of the smallest cubes.
   float largestRadius_ = 0;
   double mean_ = 0;
 };
 
-/// Calls `work` with level and place of cubes of no more than `most` points that together are the cloud, in the order
-/// of octants.
+/// Calls `work` with level and place of cubes that together hold the cloud, each with no more than `most` points, in
+/// the order of octants.
 template <class Work>
 void forEachTile(const PointTiles& tiles, uint64_t most, const Work& work, int level = 0,
                  const glm::ivec3& place = glm::ivec3(0)) {

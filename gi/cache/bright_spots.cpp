@@ -7,21 +7,23 @@ namespace tomales {
 namespace {
 
 constexpr size_t kMostSpots = 64, kMostHits = 1 << 15;
-constexpr size_t kLeastHits = 4;  ///< Of a spot: one hit may be a mirror's, or chance.
+constexpr size_t kLeastHits = 4;  ///< A spot needs so many hits: a single one may be a mirror's, or chance.
 constexpr size_t kHitsToSplit = 16;
-constexpr float kNearest = 3;  ///< Radii: the rays of the hemisphere find what is nearer.
+constexpr float kNearest = 3;  ///< In radii of the spot. The rays of the hemisphere find what is nearer.
 constexpr float kRounding = 1e-3f;
-constexpr float kFlat = 0.02f;  ///< Radii, and one less the length of the mean normal: what is flatter is a rectangle.
-constexpr float kGap = 1.4f;    ///< Mean distances between hits, by which they may fall short of a border. Less leaves
-                                ///< noise, more rays miss.
-constexpr float kNarrowest = 0.05f;  ///< Of a rectangle's other edge.
+/// In radii, and one less the length of the mean normal: a flatter cluster becomes a rectangle.
+constexpr float kFlat = 0.02f;
+/// The hits may end so many mean distances between hits before the border. A smaller value leaves noise, a larger one
+/// wastes rays.
+constexpr float kGap = 1.4f;
+constexpr float kNarrowest = 0.05f;  ///< The shorter edge of a rectangle over its longer one, at least.
 
-/// Hits close to each other that look the same way.
+/// Hits close to each other whose surfaces face alike.
 struct Cluster {
   std::span<BrightHit> hits;
   Bound3 bound;
   vec3 mean{0}, normal{0};
-  vec3 variance{0}, turn{0};  ///< Sums of squares around the means, of positions and of normals.
+  vec3 variance{0}, turn{0};  ///< Sums of squared differences from the mean positions and the mean normals.
 
   explicit Cluster(std::span<BrightHit> members) : hits(members) {
     const float count = static_cast<float>(std::max<size_t>(hits.size(), 1));
@@ -45,8 +47,8 @@ struct Cluster {
     return static_cast<size_t>(middle - hits.begin());
   }
 
-  /// Hits do not reach the borders of what they hit, and its corners by even less: by about the distance between hits.
-  /// What is left out is found by the rays of the hemisphere alone, with all their noise.
+  /// The hits end about one distance between hits before the border of the bright surface, and farther before its
+  /// corners. The rays of the hemisphere alone find what is left out, with all their noise.
   float margin() const { return 1 + 2 * kGap / std::sqrt(static_cast<float>(hits.size())); }
   BrightSpots::Spot spot() const {
     float radiance = 0;
@@ -156,7 +158,7 @@ float SpotAim::density(const vec3& direction) const {
   float sum = 0;
   for (const Target& t : targets_) {
     if (t.normal == vec3(0)) {
-      const vec3 chord = direction - t.axis;  // cosines of small angles have no digits left
+      const vec3 chord = direction - t.axis;  // the difference of the cosines of small angles would have no digits left
       if (dot(chord, chord) <= (2 + kRounding) * t.versine) sum += t.density;
       continue;
     }

@@ -1,6 +1,6 @@
-// Noun: where gather rays have found light much brighter than what is around, as rectangles and spheres at which later
-// records aim some of their rays. Over reyes/base alone. Radiance and E/pi are luminances here. Space: that of the
-// caller. Threads: const members may be called concurrently.
+// Noun: the places where gather rays have found light much brighter than its surroundings, as rectangles and spheres.
+// Later records aim some of their rays at them. It needs reyes/base alone. Radiance and E/pi are luminances here.
+// Space: that of the caller. Threads: const members may be called concurrently.
 #pragma once
 #include <vector>
 
@@ -11,10 +11,10 @@ namespace tomales {
 struct BrightHit {
   vec3 position;
   float radiance;
-  vec3 normal;  ///< Of what was hit, on the side that was seen.
+  vec3 normal;  ///< Unit normal of the surface that was hit, on the side that the ray saw.
 };
 
-/// What one record has found.
+/// The bright light that one record has found.
 struct BrightFind {
   float irradiance = 0;
   std::vector<BrightHit> hits;
@@ -25,14 +25,14 @@ class BrightSpots {
   struct Spot {
     vec3 center;
     float radius, radiance;
-    vec3 normal;              ///< Of a rectangle that shines to that side; 0: a sphere.
-    vec2 found{1};            ///< Share of its extents in which hits were: around them is a margin.
-    vec3 halfU{0}, halfV{0};  ///< From the rectangle's centre to the middles of two edges, perpendicular.
+    vec3 normal;              ///< Unit normal of a rectangle, which shines to that side; zero means a sphere.
+    vec2 found{1};            ///< Share of the extents that held hits; a margin surrounds it.
+    vec3 halfU{0}, halfV{0};  ///< Perpendicular vectors from the rectangle's centre to the middles of two edges.
   };
-  /// The same spots for the same finds in the same order.
+  /// Computes the spots anew. The same finds in the same order give the same spots.
   void learn(const std::vector<BrightFind>& finds);
   const std::vector<Spot>& spots() const { return spots_; }
-  /// Mean of all finds.
+  /// Mean E/pi of all finds.
   float irradiance() const {
     return records_ > 0 ? static_cast<float>(irradiance_ / static_cast<double>(records_)) : 0.0f;
   }
@@ -44,39 +44,41 @@ class BrightSpots {
   size_t records_ = 0;
 };
 
-/// Directions from one point to the spots, more towards those from which more light would come.
+/// Chooses directions from one point to the spots, the more often the more light would come from there.
 class SpotAim {
  public:
-  /// As if nothing were in between.
+  /// Weighs the spots as if nothing were between them and the point.
   SpotAim(const BrightSpots& spots, const vec3& position, const vec3& normal);
 
   size_t targets() const { return targets_.size(); }
-  /// A direction to where something of one of them was found. xi: uniform in [0,1); unit.
+  /// Returns a unit direction to the part of one target in which hits were. xi: uniform in [0,1).
   vec3 probe(size_t target, const vec2& xi) const;
-  /// Of each target the share of its light that is expected to arrive, in [0,1].
+  /// Scales the light of each target by the share that is expected to arrive, in [0,1].
   void dim(const std::vector<float>& shares);
   float radiance(size_t target) const { return targets_[target].share / targets_[target].covered; }
 
-  /// E/pi of the spots; 0: there is none to aim at.
+  /// E/pi of all spots; 0 if there is none to aim at.
   float irradiance() const { return irradiance_; }
-  /// Of the cosine-weighted hemisphere, at most: the spots may overlap.
+  /// Upper bound of the share of the cosine-weighted hemisphere that the spots cover: they may overlap.
   float coverage() const { return coverage_; }
-  /// xi: uniform in [0,1); unit.
+  /// Returns a unit direction to a spot. choice, xi: uniform in [0,1).
   vec3 direction(float choice, const vec2& xi) const;
-  /// Of direction() over solid angle.
+  /// Probability density of direction() over solid angle.
   float density(const vec3& direction) const;
 
  private:
-  /// A cone of directions, or a rectangle, whose points are chosen evenly: seen from the side it is much less than the
-  /// cone around it.
+  /// A cone of directions, or a rectangle whose points are chosen evenly. A rectangle seen from the side covers much
+  /// less than the cone around it.
   struct Target {
-    vec3 path, axis;    ///< To its centre; axis: along it, unit.
-    vec3 normal, u, v;  ///< As Spot's; normal 0: a cone.
+    vec3 path, axis;    ///< path leads to the centre; axis is its unit vector.
+    vec3 normal, u, v;  ///< The members of Spot; a zero normal means a cone.
     vec2 found;
-    float versine;         ///< One less the cosine of a cone's half angle.
-    float share, covered;  ///< Of irradiance() and coverage().
-    float upTo = 0;        ///< Of the choice.
-    float density = 0;     ///< Of the choice and of the place: of a cone over solid angle, of a rectangle over area.
+    float versine;         ///< One less the cosine of the cone's half angle.
+    float share, covered;  ///< Parts of irradiance() and of coverage().
+    float upTo = 0;        ///< The shares of the targets up to this one, summed; a choice below it takes one of them.
+    /// Probability density of choosing the target and the place: over solid angle for a cone, over area for a
+    /// rectangle.
+    float density = 0;
 
     vec3 toward(const vec2& xi) const;
     float densityOfPlace() const;

@@ -1,10 +1,11 @@
-// Private to gi/irradiance_cache: what records say of E/pi at other places.
+// Private to gi/irradiance_cache: extrapolates the E/pi of records to other places.
 #pragma once
 #include "gi/cache/irradiance_record.h"
 
 namespace tomales {
 
-/// By its gradients, from its place by a step, and from its normal by a turn, cross(of the record, other).
+/// Change of E/pi that the record's gradients predict. step: from the record's place. turn: cross(record's normal,
+/// other normal).
 inline vec3 changeBy(const IrradianceRecord& r, const vec3& step, const vec3& turn) {
   vec3 change;
   for (int c = 0; c < 3; ++c) change[c] = dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]);
@@ -15,24 +16,25 @@ inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n)
   return glm::max(vec3(0.0f), r.E + changeBy(r, x - r.position, cross(r.normal, n)));
 }
 
-/// step H step of each channel. The step may be that of records that reach farther: beyond its own reach this
-/// one knows nothing.
+/// Returns step^T H step of each channel. The step may be the mean step of records that are valid farther; it is
+/// shortened to `reach`, beyond which this record's H is not known.
 inline vec3 bentBy(const IrradianceRecord& r, const vec3& step, float reach) {
   const vec3 known = step * std::min(1.0f, reach / std::max(glm::length(step), 1e-30f));
   const float a = dot(known, r.tangent), b = dot(known, cross(r.normal, r.tangent));
   return a * a * r.hessian[0] + 2 * a * b * r.hessian[1] + b * b * r.hessian[2];
 }
 
-/// Of records that are all extrapolated to one place. From a step s away, by the gradient there, E is off by
-/// -s H s / 2; and gradients so far away differ by H s. So the mean over the records is off by half the
-/// covariance of gradient and step, which takes no second derivative, and by the mean step's -s H s / 2,
-/// which is little where records lie on all sides. That holds where light bends evenly. Where it ends between
-/// records, as at a shadow's edge, what they say there is apart, and a parabola through it lights the dark.
+/// Mean of records that are all extrapolated to one place, with what it needs to be corrected to the second order. A
+/// record at a distance s is off by -s H s / 2 after extrapolation by its gradient, and gradients so far apart differ
+/// by H s. So the mean over the records is off by half the covariance of gradient and step, which needs no second
+/// derivative, and by -s H s / 2 of the mean step, which is small where records lie on all sides. This holds where the
+/// light changes smoothly. At a shadow's edge between records, their values disagree, and a parabola through them would
+/// light the dark side.
 class MeanExtrapolation {
  public:
   MeanExtrapolation(const vec3& x, const vec3& n) : x_(x), n_(n) {}
 
-  /// As extrapolate().
+  /// Adds extrapolate() of the record with this weight, and returns it.
   vec3 add(const IrradianceRecord& r, float weight) {
     const vec3 turn = cross(r.normal, n_), step = x_ - r.position, change = changeBy(r, step, turn);
     weight_ += weight, step_ += weight * step, turn_ += weight * turn, change_ += weight * change;
@@ -42,14 +44,15 @@ class MeanExtrapolation {
     E_ += weight * E, square_ += weight * E * E;
     return E;
   }
-  // Pre: something was added.
+  // Pre: add() has been called.
   vec3 step() const { return step_ / weight_; }
   vec3 covariance() const {
     vec3 out = change_;
     for (int c = 0; c < 3; ++c) out[c] -= (dot(turn_, rotation_[c]) + dot(step_, translation_[c])) / weight_;
     return out / weight_;
   }
-  /// How far the second order may be believed: 1 where all say the same, 0 where they are kApart off, rms.
+  /// Returns 1 where all records agree and 0 where they differ by kApart of their mean (rms): the second order is to be
+  /// trusted so far.
   vec3 agreement() const {
     constexpr float kApart = 0.3f, kLeast = 1e-30f;
     const vec3 mean = E_ / weight_, variance = square_ / weight_ - mean * mean;
@@ -63,7 +66,7 @@ class MeanExtrapolation {
   vec3 translation_[3] = {vec3(0), vec3(0), vec3(0)}, rotation_[3] = {vec3(0), vec3(0), vec3(0)};
 };
 
-/// Derivatives hold near the record alone: over its validity radius each may at most double or extinguish E.
+/// Derivatives hold near the record alone, so each may at most double or extinguish E over the validity radius.
 inline void limitDerivatives(IrradianceRecord& r, float radius) {
   for (int c = 0; c < 3; ++c) {
     vec3& gradient = r.translationGradient[c];

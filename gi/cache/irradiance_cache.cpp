@@ -9,19 +9,23 @@
 namespace tomales {
 namespace {
 
-constexpr float kFinestPixels = 1;              // of a dispute, at kappa 1
+constexpr float kFinestPixels = 1;              // in pixels, at kappa 1: disagreement shortens no radius below this
 constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
-constexpr float kBehindTolerance = 0.1f;        // of the validity radius,
-constexpr float kBehindPixels = 0.45f;  // and at kappa 1: thin sheets have two sides, however far their records reach
-constexpr float kHeight = 0.5f;         // above a record's plane, of its closest distance,
-constexpr float kHeightFade = 4;        // and from three quarters of that on it counts less
-constexpr float kDispute = 0.1f;   // relative difference of extrapolated values, at kappa 1, that is no longer smooth
-constexpr float kTorn = 0.5f;      // the same between points that see other things
-constexpr float kNoiseMargin = 3;  // standard errors
-constexpr float kDark = 0.1f;      // of the mean E: what is darker is off by fractions of this, not of itself
-constexpr float kSteep = 0.3f;     // of E over a record's reach: it serves no wider
-constexpr size_t kRun = 64;        // lookups that share their candidates, at most
-constexpr float kRunPixels = 24;   // diagonal of what they cover, at most: incoherent points would share too many
+constexpr float kBehindTolerance = 0.1f;        // share of the validity radius
+// the same in pixels, at kappa 1: thin surfaces have two sides, however far their records are valid
+constexpr float kBehindPixels = 0.45f;
+constexpr float kHeight = 0.5f;   // share of the closest distance, above the record's plane
+constexpr float kHeightFade = 4;  // the weight fades from three quarters of that height on
+// relative difference of extrapolated values, at kappa 1, beyond which light does not change smoothly
+constexpr float kDisagreement = 0.1f;
+constexpr float kDiscontinuous = 0.5f;  // the same between points that see different surfaces
+constexpr float kNoiseMargin = 3;       // in standard errors
+constexpr float kDark = 0.1f;  // share of the mean E: darker values are compared with this and not with themselves
+// share of E by which it may change over a record's radius; a steeper record serves no wider
+constexpr float kSteep = 0.3f;
+constexpr size_t kRun = 64;  // greatest number of lookups that share their candidates
+// greatest diagonal of the places of a run: incoherent points would share too many candidates
+constexpr float kRunPixels = 24;
 
 struct Candidate {
   uint32_t record;
@@ -45,14 +49,14 @@ struct Vicinity {
   }
 };
 
-/// What a record may serve, but for rounding.
-struct Reach {
-  float least, most, scale;  ///< Its radius is its size between least and most, times scale.
-  float cosine;              ///< Of the angle between normals, at least.
+/// Bounds of what a record may serve, before rounding.
+struct ValidityBounds {
+  float least, most, scale;  ///< The radius is the record's size, clamped between least and most, times scale.
+  float cosine;              ///< Least cosine of the angle between normals.
 };
 
 /// slack[i] > 0: record i may serve a point at p with normal n.
-TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, const Reach& reach, float* slack) {
+TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, const ValidityBounds& reach, float* slack) {
   const float *x = v.x.data(), *y = v.y.data(), *z = v.z.data(), *nx = v.nx.data(), *ny = v.ny.data(),
               *nz = v.nz.data();
   const float *size = v.size.data(), *limit = v.limit.data();
@@ -72,7 +76,7 @@ struct IrradianceCache::Impl {
   Bound3 bound;
   RecordTree tree{bound};
   IrradianceRecords records{};
-  double luminanceSum = 0;  // of their E
+  double luminanceSum = 0;  // sum over the records' E
 
   float size(const IrradianceRecord& r) const {
     switch (settings.errorFunction) {
@@ -93,7 +97,7 @@ struct IrradianceCache::Impl {
     return settings.errorFunction == ErrorFunction::Split || settings.errorFunction == ErrorFunction::Plain;
   }
 
-  // Distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
+  // Returns the distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
   // same limits.
   float reach(float recordSize, float pixelSize) const {
     const float radius = std::max(std::min(recordSize, settings.maxPixels * pixelSize), settings.minPixels * pixelSize);
@@ -105,52 +109,57 @@ struct IrradianceCache::Impl {
     tree.insert(index, r.position, size(r), reach(size(r), r.pixelSize));
   }
 
-  enum class Dispute { None, Steep, Torn };
+  enum class Disagreement { None, Steep, Discontinuous };
 
-  Dispute disputeOf(const vec3& a, const vec3& b, float noise) const {
-    if (isPublished()) return Dispute::None;
-    const float tolerance =
-        settings.errorFunction == ErrorFunction::Ward ? 4 * kDispute : kDispute;  // as kappa counts there
+  Disagreement disagreementOf(const vec3& a, const vec3& b, float noise) const {
+    if (isPublished()) return Disagreement::None;
+    const float tolerance = settings.errorFunction == ErrorFunction::Ward
+                                ? 4 * kDisagreement
+                                : kDisagreement;  // kappa counts four times there
     const float larger = std::max(luminance(a), luminance(b)),
                 off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
     const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
-    if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Dispute::None;
-    return off > kTorn * std::max(larger, dark) ? Dispute::Torn : Dispute::Steep;
+    if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Disagreement::None;
+    return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
   }
 
-  // Steep light needs no record nearer than a pixel: they would be noise of single pixels, paid with a hemisphere each.
-  // What is torn lies on both sides of something thinner than that.
+  // Where light is steep, no record is needed nearer than a pixel: it would be the noise of single pixels, each paid
+  // with a hemisphere. Where points see different surfaces, something thinner than that lies between them.
   float least(float pixelSize) const { return kFinestPixels * pixelSize / settings.kappa; }
-  float limitBy(Dispute dispute, float distance, float pixelSize) const {
-    if (dispute == Dispute::None) return kInfinity;
-    return dispute == Dispute::Torn ? distance : std::max(distance, least(pixelSize));
+  float limitBy(Disagreement disagreement, float distance, float pixelSize) const {
+    if (disagreement == Disagreement::None) return kInfinity;
+    return disagreement == Disagreement::Discontinuous ? distance : std::max(distance, least(pixelSize));
   }
 
-  // Of an extrapolated value: gradients are as noisy as E over the mean distance of what is seen.
+  // Standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the hits.
   static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
 
-  // The new record knows E at its place, which older ones have been guessing, and they at theirs.
-  void settleDisputes(uint32_t index) {
+  // The new record knows E at its place, which older records have extrapolated, and they know E at theirs. Where the
+  // two disagree, each ends before the other.
+  void limitDisagreeing(uint32_t index) {
     IrradianceRecord& fresh = records[index];
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
       IrradianceRecord& old = records[candidate.record];
       const float distance = glm::length(fresh.position - old.position), fromOld = noiseAt(old, distance),
                   fromFresh = noiseAt(fresh, distance);
-      const Dispute ofOld = disputeOf(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
-      const Dispute ofFresh = disputeOf(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
+      const Disagreement ofOld =
+          disagreementOf(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
+      const Disagreement ofFresh =
+          disagreementOf(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
       old.limit = std::min(old.limit, limitBy(ofOld, distance, old.pixelSize));
       fresh.limit = std::min(fresh.limit, limitBy(ofFresh, distance, fresh.pixelSize));
     }
   }
 
-  // 1 where light does not change over the radius, 0 where it does so by kSteep of itself: beyond, it may end.
+  // Returns 1 where light does not change over the radius, and 0 where it changes by kSteep of itself: a shadow's edge
+  // may lie beyond.
   static float evenness(const IrradianceRecord& r, float radius) {
     const vec3 change = radius * (r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2]);
     const float most = kSteep * (r.E.x + r.E.y + r.E.z);
     return dot(change, change) < most * most ? 1 - dot(change, change) / (most * most) : 0.0f;
   }
 
-  // Smooth down to 0 where the record stops being used, so that interpolation has no seams.
+  // The weight falls smoothly to 0 where the record stops being used, so that interpolation has no seams.
   float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize, float wider) const {
     const float covers = reach(size(r), pixelSize);
     const float radius = std::min(covers * (1 + (wider - 1) * evenness(r, covers)), r.limit);
@@ -160,10 +169,11 @@ struct IrradianceCache::Impl {
     // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless
     // it is no farther than bumps that rays do not see.
     const float tolerance =
-        std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.relief);
+        std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.unseenDisplacement);
     const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
     if (behind >= 1) return 0;
-    // One as high above it as what is closest lies on another surface: R- spans a slot of parallel sides.
+    // A point that is as high above the record as the closest hit lies on another surface: R- may be wider than a slot
+    // between parallel walls.
     const float above = dot(step, r.normal), highest = kHeight * r.closest;
     if (above > 0 && above >= highest) return 0;
     const float upright = above > 0 ? std::min(1.0f, kHeightFade * (1 - above / highest)) : 1.0f;
@@ -178,7 +188,7 @@ struct IrradianceCache::Impl {
     return front * std::max(0.0f, 1 / std::max(error, 1e-4f) - 1);
   }
 
-  // In the order of the records, so that the shape of the tree leaves no trace.
+  // The candidates are in the order of the records, so that the result does not depend on the shape of the tree.
   std::vector<Candidate> candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
     std::vector<Candidate> out;
     tree.visit(
@@ -190,7 +200,7 @@ struct IrradianceCache::Impl {
     return out;
   }
 
-  Reach reachAt(float pixelSize, float wider) const {
+  ValidityBounds boundsAt(float pixelSize, float wider) const {
     constexpr float kRounding = 1e-4f;
     const float angle =
         isWard() ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
@@ -210,7 +220,7 @@ struct IrradianceCache::Impl {
       return lookup(places.subspan(half), out + half, wider, near, found);
     }
     near.clear();
-    const Reach farthest = reachAt(pixelSize, wider);
+    const ValidityBounds farthest = boundsAt(pixelSize, wider);
     const auto reachOf = [&](float recordSize) {
       return farthest.scale * std::max(std::min(recordSize, farthest.most), farthest.least);
     };
@@ -222,7 +232,7 @@ struct IrradianceCache::Impl {
     });
     near.slack.resize(near.records.size());
     for (const IrradiancePlace& p : places) {
-      findSlack(near, p.position, p.normal, reachAt(p.pixelSize, wider), near.slack.data());
+      findSlack(near, p.position, p.normal, boundsAt(p.pixelSize, wider), near.slack.data());
       found.clear();
       for (size_t k = 0; k < near.records.size(); ++k) {
         if (!(near.slack[k] > 0)) continue;
@@ -234,7 +244,7 @@ struct IrradianceCache::Impl {
     }
   }
 
-  // What extrapolating each record by its own gradient leaves out of their mean.
+  // Returns the error of the mean of linearly extrapolated records, to the second order.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
                    float pixelSize) const {
     if (isPublished()) return vec3(0.0f);
@@ -252,17 +262,17 @@ struct IrradianceCache::Impl {
                            float pixelSize) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
     float nearest = kInfinity;
-    Dispute worst = Dispute::None;
+    Disagreement worst = Disagreement::None;
     MeanExtrapolation mean(x, n);
     for (const Candidate& candidate : candidates) {
       const IrradianceRecord& r = records[candidate.record];
       const vec3 E = mean.add(r, candidate.weight);
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front())
-        worst = std::max(worst, disputeOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
+        worst = std::max(worst, disagreementOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
       out.closest = std::min(out.closest, r.closest);
-      out.headroom = std::min(out.headroom, std::max(r.closest, r.limit));
+      out.occluderHeight = std::min(out.occluderHeight, std::max(r.closest, r.limit));
       out.hasRecord |= distance == 0;
       out.E += candidate.weight * E;
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
@@ -270,7 +280,7 @@ struct IrradianceCache::Impl {
     }
     if (out.weight > 0)
       out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight, pixelSize));
-    out.disputed = limitBy(worst, nearest, pixelSize) <= nearest;
+    out.inconsistent = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
   }
@@ -289,7 +299,7 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
   impl.luminanceSum += luminance(record.E);
   if (!(impl.settings.kappa < kInfinity)) return;
   limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
-  impl.settleDisputes(static_cast<uint32_t>(impl.records.size() - 1));
+  impl.limitDisagreeing(static_cast<uint32_t>(impl.records.size() - 1));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
 }
 

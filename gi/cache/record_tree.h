@@ -1,6 +1,6 @@
 // Private to gi/irradiance_cache: an octree of numbered records. Each lies in the node that matches its radius (Ward et
-// al. 1988). How far a record reaches depends on who asks (approximate-gi eq. 3), so nodes know the size of their
-// largest record, of which that is a function.
+// al. 1988). The radius within which a record is valid depends on the lookup (approximate-gi eq. 3) and grows with the
+// record's size, so each node knows the size of its largest record.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -12,7 +12,7 @@ namespace tomales {
 
 class RecordTree {
  public:
-  /// `bound` should hold all records; what falls outside still works, only slower.
+  /// `bound` should hold all records; records outside of it still work, only slower.
   explicit RecordTree(const Bound3& bound)
       : root_(bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())}) {
     nodes_.push_back({});
@@ -32,8 +32,8 @@ class RecordTree {
     }
   }
 
-  /// visit(record), in any order, at least for all that lie within `reach` of `region`. reach(size): of a record of
-  /// that size; it may not fall with the size.
+  /// Calls visit(record), in any order, for at least all records that lie within their reach of `region`. reach(size)
+  /// is the validity radius of a record of that size; it may not fall with the size.
   template <class Reach, class Visit>
   void visit(const Bound3& region, const Reach& reach, const Visit& visit) const {
     for (const uint32_t record : outside_) visit(record);
@@ -45,9 +45,9 @@ class RecordTree {
   static constexpr uint32_t kNoRecord = ~uint32_t{0};
 
   struct Node {
-    float largest = 0;  ///< Size, of this node and all below.
+    float largest = 0;  ///< Size of the largest record of this node and of all below.
     int child[8] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-    uint32_t first = kNoRecord, last = kNoRecord;  ///< A list: next_.
+    uint32_t first = kNoRecord, last = kNoRecord;  ///< Ends of a linked list through next_.
   };
 
   struct Box {
@@ -93,9 +93,9 @@ class RecordTree {
   }
 
   Box root_;
-  BlockVector<Node> nodes_;        ///< Most hold a record or two: memory counts.
-  BlockVector<uint32_t> next_;     ///< Behind each record in its node.
-  std::vector<uint32_t> outside_;  ///< Records beyond the root box.
+  BlockVector<Node> nodes_;        ///< Most nodes hold a record or two, so memory counts.
+  BlockVector<uint32_t> next_;     ///< The record that follows each one in the list of its node.
+  std::vector<uint32_t> outside_;  ///< Records outside of the root box.
 };
 
 }  // namespace tomales

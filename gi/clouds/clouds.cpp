@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kMostIor = 3;  // the rational approximation of inner reflection is made for less
+constexpr float kMostIor = 3;  // the rational approximation of inner reflection holds for smaller values
 
 vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 
@@ -30,7 +30,7 @@ std::vector<CloudChannel> channelsOf(const std::vector<CloudValue>& values) {
   return channels;
 }
 
-/// By position, normal, radius and data, in this order.
+/// Orders points by position, normal, radius and data.
 bool comesBefore(const PointCloud& cloud, uint32_t a, uint32_t b) {
   const auto key = [&](uint32_t i) {
     const vec3 &p = cloud.position[i], &n = cloud.normal[i];
@@ -53,7 +53,7 @@ PointCloud sorted(const PointCloud& cloud) {
   return out;
 }
 
-/// None: of a name that there is not.
+/// Empty: there is no material of this name.
 std::optional<Translucency> materialOf(const TmSubsurfaceOptions& s) {
   const auto triple = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
   if (s.material) return translucencyOf(s.material);
@@ -61,7 +61,7 @@ std::optional<Translucency> materialOf(const TmSubsurfaceOptions& s) {
   return Translucency{triple(s.scattering), triple(s.absorption), s.ior};
 }
 
-/// What subsurface() cannot reckon with; empty: nothing.
+/// Returns why subsurface() cannot use these values; empty: it can.
 std::string problemOf(const TmSubsurfaceOptions& given, const std::optional<Translucency>& material) {
   if (!material) return fmt::format("subsurface material \"{}\" is not known", given.material);
   if (!(material->ior >= 1 && material->ior <= kMostIor))
@@ -73,7 +73,7 @@ std::string problemOf(const TmSubsurfaceOptions& given, const std::optional<Tran
   return {};
 }
 
-/// Throws FileError.
+/// Reads the points, or makes irradiance points of photons. Throws FileError.
 PointCloud cloudOf(const fs::path& path, const TmPhotonOptions* photons) {
   const PointFile file(path.string());
   if (!photons) return file.readAll();

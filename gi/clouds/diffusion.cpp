@@ -29,14 +29,15 @@ uint32_t Diffusion::build(uint32_t begin, uint32_t end) {
   float weights = 0;
   for (uint32_t i = begin; i < end; ++i) {
     const Entry& e = entries_[i];
-    const float weight = e.flux.x + e.flux.y + e.flux.z;  // so that the group stands where its light comes from
+    const float weight = e.flux.x + e.flux.y + e.flux.z;  // so that the group's position is where its light comes from
     group.bound.extend(e.P);
     group.all.flux += e.flux, group.all.area += e.area, group.all.P += weight * e.P, weights += weight;
   }
   group.all.P = weights > 0 ? group.all.P / weights : group.bound.center();
   const vec3 size = group.bound.size();
   group.seen = std::max(group.all.area,
-                        0.5f * dot(size, size));  // however few points it has: of a flat square both are its area
+                        // the area of a flat square equals half its squared diagonal, however few points it has
+                        0.5f * dot(size, size));
   groups_.push_back(group);
   if (end - begin <= kLeaf) return node;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -56,7 +57,7 @@ vec3 Diffusion::at(const vec3& P, const Dipole& dipole, float millimetres, float
     return squareMillimetres * e.flux * dipole.exitance(squareMillimetres * dot(way, way));
   };
   vec3 sum(0);
-  uint32_t open[64];  // halving 2^32 points goes no deeper
+  uint32_t open[64];  // a tree that halves 2^32 points is no deeper
   size_t depth = 0;
   if (!groups_.empty()) open[depth++] = 0;
   while (depth > 0) {

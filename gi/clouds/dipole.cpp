@@ -5,19 +5,19 @@
 namespace tomales {
 namespace {
 
-/// How much the border of the medium reflects inwards: A of the paper, with its rational approximation of Fdr.
+/// The inner reflection at the medium's border: A of the paper, with its rational approximation of Fdr.
 float innerReflection(float ior) {
   const float Fdr = -1.440f / (ior * ior) + 0.710f / ior + 0.668f + 0.0636f * ior;
   return (1 + Fdr) / (1 - Fdr);
 }
 
-/// Diffuse reflectance of a half-space whose single scattering has this albedo (Jensen, Buhler 2002).
+/// Diffuse reflectance of a half-space with this albedo of single scattering (Jensen and Buhler 2002).
 float reflectanceOf(float albedo, float A) {
   const float s = std::sqrt(3 * (1 - albedo));
   return 0.5f * albedo * (1 + std::exp(-4.0f / 3.0f * A * s)) * std::exp(-s);
 }
 
-/// Its inverse, by bisection: it grows with the albedo.
+/// The inverse of reflectanceOf(), by bisection: reflectance grows with the albedo.
 float albedoOf(float reflectance, float A) {
   float low = 0, high = 1;
   for (int step = 0; step < 24; ++step) {

@@ -1,6 +1,7 @@
-// Light that diffuses under the surface of a translucent material: the dipole of Jensen, Marschner, Levoy, Hanrahan
-// 2001 ("A practical model for subsurface light transport"), and its inverse for artists of Jensen, Buhler 2002 ("A
-// rapid hierarchical rendering technique for translucent materials"). Lengths in millimetres. Private to gi.
+// Private to gi: light that diffuses under the surface of a translucent material. Sources: the dipole of Jensen,
+// Marschner, Levoy, Hanrahan 2001 ("A practical model for subsurface light transport"), and its inverse for artists of
+// Jensen and Buhler 2002 ("A rapid hierarchical rendering technique for translucent materials"). Lengths are in
+// millimetres.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -10,25 +11,26 @@
 namespace tomales {
 
 struct Translucency {
-  vec3 scattering, absorption;  ///< Reduced scattering and absorption, 1/mm.
+  vec3 scattering, absorption;  ///< Coefficients of reduced scattering and of absorption, 1/mm.
   float ior;
 };
 
-/// Measured ones, by name (Jensen et al. 2001, figure 5).
+/// Measured coefficients by name (Jensen et al. 2001, figure 5); empty: there is no such material.
 std::optional<Translucency> translucencyOf(std::string_view material);
-/// That which reflects `albedo` of diffuse light, and lets it go `meanFreePath` mm far.
+/// The material that reflects `albedo` of diffuse light, with a mean free path of `meanFreePath` mm.
 Translucency translucencyOf(const vec3& albedo, const vec3& meanFreePath, float ior);
 
 class Dipole {
  public:
   explicit Dipole(const Translucency& material);
-  /// Radiant exitance per incident flux at so many mm2 of squared distance, 1/mm2: Rd of equation 4.
+  /// Radiant exitance per incident flux at a squared distance in mm2, in 1/mm2: Rd of equation 4.
   vec3 exitance(float distance2) const;
-  /// Its integral over a plane: the share of light that comes back.
+  /// The integral of exitance() over a plane: the share of light that comes back.
   vec3 reflectance() const;
 
  private:
-  vec3 albedo_, decay_, real_, virtual_;  ///< Of one scattering; sigma_tr; depth and height of the two sources.
+  /// Albedo of single scattering; sigma_tr in 1/mm; depth and height of the real and the virtual source in mm.
+  vec3 albedo_, decay_, real_, virtual_;
 };
 
 }  // namespace tomales

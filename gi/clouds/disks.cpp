@@ -7,14 +7,16 @@ namespace {
 
 constexpr uint32_t kLeaf = 8;
 constexpr int kDirections = 1024;
-constexpr float kGoldenAngle = 2.399963f;  // of a spiral, whose points are nowhere dense
+// turn between successive directions of a spiral, whose points are evenly spread
+constexpr float kGoldenAngle = 2.399963f;
 constexpr float kReach = 0.625f;
-constexpr float kOwnPlane = 0.3f;  // of its radius: nearer, a disk is that of the point itself, or of its neighbours
+// share of its radius; a disk that is nearer belongs to the point itself or to its neighbours
+constexpr float kOwnPlane = 0.3f;
 
 }  // namespace
 
 void Disks::Sum::add(const Sum& o) {
-  P += o.area * o.P;  // divided by the area when all are in
+  P += o.area * o.P;  // divided by the area when all disks are added
   area += o.area, facing += o.facing, front += o.front, light += o.light, lightFront += o.lightFront;
 }
 
@@ -71,14 +73,14 @@ uint32_t Disks::build(uint32_t begin, uint32_t end) {
   return node;
 }
 
-/// One line of sight on its way through the tree.
-class Disks::Sight {
+/// One line of sight through the tree.
+class Disks::LineOfSight {
  public:
-  Sight(const Disks& disks, const vec3& P, const vec3& d, const DisksQuery& query)
+  LineOfSight(const Disks& disks, const vec3& P, const vec3& d, const DisksQuery& query)
       : disks_(disks), P_(P), d_(d), over_(1.0f / d), query_(query), reach_(query.falloff.maxDistance) {}
 
   void walk() {
-    uint32_t open[64];  // halving 2^32 disks goes no deeper
+    uint32_t open[64];  // a tree that halves 2^32 disks is no deeper
     size_t depth = 0;
     if (!disks_.groups_.empty()) open[depth++] = 0;
     while (depth > 0) {
@@ -106,15 +108,15 @@ class Disks::Sight {
     return std::max({first.x, first.y, first.z, 0.0f}) <= std::min({last.x, last.y, last.z, reach_});
   }
 
-  /// As the part of its bound that lies within a disk across the way, which reaches the corners of a rectangle of what
-  /// it covers and of two to one: then no light comes between neighbours.
+  /// Meets a group as a disk across its direction. The disk reaches the corners of a rectangle of the group's covered
+  /// area with sides of two to one, so that no light comes through between neighbours.
   void meet(const Sum& sum) {
     const vec3 way = sum.P - P_;
     const float t = dot(way, d_);
     const float all = std::sqrt(std::max(0.0f, sum.area * dot(d_, sum.facing * d_))),
                 facing = std::clamp(-dot(sum.front, d_), -all, all);
     const float front = 0.5f * (all + facing), back = 0.5f * (all - facing),
-                across = std::max(front, back);  // fronts of what is closed hide its backs
+                across = std::max(front, back);  // on a closed surface the fronts hide the backs
     if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > kReach * across) return;
     add(t, 1 / (kPi * kReach), front / across, back / across,
         glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
@@ -131,7 +133,7 @@ class Disks::Sight {
     add(t, std::min(1.0f, disk.area / (kPi * r2)), front, 1 - front, front * disk.light);
   }
 
-  /// share: of what counts, where all of it does: disks overlap.
+  /// share: of the disk that counts; disks overlap.
   void add(float t, float share, float front, float back, const vec3& sends) {
     const HitSides sides = query_.falloff.sides;
     const float shown = sides == HitSides::Both ? 1.0f : sides == HitSides::Front ? front : back;
@@ -147,7 +149,7 @@ class Disks::Sight {
   const Disks& disks_;
   const vec3 P_, d_, over_;
   const DisksQuery& query_;
-  float reach_;  ///< Of what still counts
+  float reach_;  ///< Distance beyond which disks do not count.
 };
 
 HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& query) const {
@@ -158,7 +160,7 @@ HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& q
   for (const vec3& whole : directions_) {
     const vec2 d = spread * vec2(whole);
     const vec3 local(d, std::sqrt(std::max(0.0f, 1 - dot(d, d))));
-    Sight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
+    LineOfSight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
     sight.walk();
     out.covered += sight.covered / kDirections, out.radiance += sight.light / static_cast<float>(kDirections);
   }

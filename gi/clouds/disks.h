@@ -1,15 +1,15 @@
-// The disks of a point cloud as what covers a hemisphere and sends light into it (P. Christensen 2008, "Point-Based
-// Approximate Color Bleeding"): a tree, whose groups count as one disk where they are seen under a small angle. Where
-// the paper rasterises disks on a hemisphere, lines of sight meet them here: what is nearer hides what is behind it
-// wherever it is. Private to gi. Threads: built by one; lookups are concurrent. The answer depends on the cloud alone,
-// not on threads.
+// Private to gi: the disks of a point cloud, which cover a hemisphere and send light into it (P. Christensen 2008,
+// "Point-Based Approximate Color Bleeding"). They form a tree, whose groups count as one disk where they are seen under
+// a small angle. The paper rasterises disks on a hemisphere; here lines of sight meet them, so that nearer disks always
+// hide those behind. Threads: one thread builds it; lookups are concurrent. The answer depends on the cloud alone, not
+// on threads.
 #pragma once
 #include "gi/point_cloud.h"
 #include "reyes/shade.h"
 
 namespace tomales {
 
-/// Averages over a hemisphere, weighted by the cosine.
+/// Averages over a hemisphere, weighted by the cosine. radiance: in units of the channel.
 struct HemisphereView {
   float covered = 0;
   vec3 radiance{0.0f};
@@ -17,45 +17,46 @@ struct HemisphereView {
 
 class Disks {
  public:
-  /// channel: of 3 floats, what the front of each disk sends; where there is none, nothing. Areas are those of the
-  /// channel "_area", else of the squares whose diagonals are the diameters, as bake3d() makes them.
+  /// channel: 3 floats, the light that the front of each disk sends; without such a channel disks send none. Areas are
+  /// those of the channel "_area", else of the squares whose diagonals are the disks' diameters, as bake3d() makes
+  /// them.
   Disks(const PointCloud& cloud, const std::string& channel);
   bool sends() const { return sends_; }
 
-  /// N: unit.
+  /// Averages what is seen from P. N: unit.
   HemisphereView seenFrom(const vec3& P, const vec3& N, const DisksQuery& query) const;
 
  private:
   struct Disk {
-    vec3 P, N;  ///< N zero: a sphere.
+    vec3 P, N;  ///< A zero N means a sphere.
     float radius, area;
     vec3 light;
   };
-  /// Of a group or one disk, area by area: what it shows in any direction.
+  /// Sums over the disks of a group, weighted by area, which give its appearance in any direction.
   struct Sum {
-    vec3 P{0.0f};  ///< Mean
+    vec3 P{0.0f};  ///< Mean position.
     float area = 0;
-    mat3 facing{
-        0.0f};  ///< Sum of N N^T: sqrt(area d.facing.d) is what it covers along d, exactly where all faces alike.
-    vec3 front{0.0f};       ///< Sum of N
-    vec3 light{0.0f};       ///< and of the light,
-    mat3 lightFront{0.0f};  ///< and of the light by N, a column for each axis.
+    mat3 facing{/// Sum of N N^T: sqrt(area d.facing.d) is the area covered along d, exactly where all disks face alike.
+                0.0f};
+    vec3 front{0.0f};       ///< Sum of N.
+    vec3 light{0.0f};       ///< Sum of the light.
+    mat3 lightFront{0.0f};  ///< Sum of the light times N, a column for each axis.
     void add(const Sum& other);
   };
   struct Group {
     Sum sum;
     Bound3 bound;
-    float seen;                   ///< Area
-    uint32_t begin, end, second;  ///< The first child follows; 0: a leaf.
+    float seen;                   ///< Area as seen from afar.
+    uint32_t begin, end, second;  ///< The first child follows its parent; second is 0 in a leaf.
   };
-  class Sight;
+  class LineOfSight;
   static Sum sumOf(const Disk& disk);
   uint32_t build(uint32_t begin, uint32_t end);
 
   std::vector<Disk> disks_;
   std::vector<Group> groups_;
   bool sends_ = false;
-  std::vector<vec3> directions_;  ///< Around +z, by the cosine.
+  std::vector<vec3> directions_;  ///< Cosine-weighted directions around +z.
 };
 
 }  // namespace tomales

@@ -7,7 +7,7 @@ namespace {
 
 constexpr float kMostRadius_px = 64;  ///< A disk at the eye must not cover the picture a million times.
 
-/// Three floats of every point, by name.
+/// Returns three floats for every point, by name of a channel.
 std::vector<vec3> valuesOf(const PointCloud& cloud, const std::string& name) {
   std::vector<vec3> out;
   if (name == "normal") {
@@ -40,7 +40,7 @@ float automaticGain(const std::vector<vec3>& values) {
   return *at > 0 ? 0.8f / *at : 1.0f;
 }
 
-/// From above one corner of the box, without perspective: x to the right, z up.
+/// A parallel view from above one corner of the box: x to the right, z up.
 struct Overview {
   vec3 center, right, up, towards;
   float scale;
@@ -67,7 +67,7 @@ class Splatter {
     image.pixels.assign(depth_.size() * 4, 0.0f);
   }
 
-  /// The ellipse that `center` and two half axes span.
+  /// Draws the ellipse with two half axes around `center`.
   void disk(const vec3& center, const vec2& a, const vec2& b, const vec3& color) {
     const vec2 reach = glm::min(glm::sqrt(a * a + b * b) + 0.5f, vec2(kMostRadius_px));
     const int x0 = std::max(0, static_cast<int>(center.x - reach.x)),

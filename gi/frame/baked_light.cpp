@@ -1,4 +1,4 @@
-// What the gather pass has found, as brick maps that another camera reads (irradiance-atlas 6.3).
+// Writes the light of the gather pass as brick maps that another camera reads (irradiance-atlas 6.3).
 #include <array>
 #include <map>
 #include <tuple>
@@ -7,6 +7,7 @@
 #include "gi/frame/state.h"
 #include "gi/point_file.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -14,11 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr BrickSettings kBricks{
-    0.01f};                       ///< Of the mean: a third of what photons, which are only gathered over, are allowed.
+    0.01f};  ///< maxError is a share of the mean: a third of that of photon maps, over which gather rays average.
 constexpr float kOverlap = 0.8f;  ///< Radius of a point's disk over the edge of its micropolygon: neighbours meet.
 
 struct LitPoint {
-  vec3 P, N;  ///< World.
+  vec3 P, N;  ///< In world space.
   float radius;
   vec3 E;  ///< W/m2
   int surface;
@@ -31,12 +32,13 @@ class Baking {
  public:
   Baking(const GiState& state, const MapNames& names) : state_(state), names_(names), world_(state.scene) {}
 
-  /// In an order that depends on what the points are alone, each once, however many buckets see it.
+  /// Returns the points in an order that depends on their values alone, each once, however many buckets see it.
   PointsOfMap run(const DeepFrame& layout, const TileReader& tiles) const {
     PointsOfMap out;
     for (const std::string& name : names_.all()) out[name];
     std::mutex merging;
     parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
+      throwIfStopped();
       const auto tile = tiles(t);
       if (!tile) return;
       for (const ShadePoints& batch : tile->batches) {
@@ -76,7 +78,7 @@ class Baking {
   const WorldFromCurrent world_;
 };
 
-/// The points of earlier cameras, if they are of the same world.
+/// Copies the points of earlier cameras if they are of the same world.
 void copyEarlier(const fs::path& path, uint64_t world, PointFileWriter& to) {
   if (!fs::exists(path)) return;
   const PointFile file(path.string());

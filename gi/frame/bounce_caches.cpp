@@ -9,15 +9,17 @@
 namespace tomales {
 namespace {
 
-constexpr int kRaysOfPoint = 48;  ///< That look for places where records are needed.
+constexpr int kRaysOfPoint = 48;  ///< Rays from each point that look for places where records are needed.
 constexpr size_t kMostPoints = 1024, kMostRecords = 1 << 14;
-constexpr int kPhases = 8;  ///< In which candidates double.
+constexpr int kPhases = 8;  ///< Number of phases; each has twice the candidates of the one before.
 constexpr CacheSettings kCoarse{};
 constexpr float kPixelsAcross = 64;  ///< Records are as dense as for a picture of so many pixels.
 constexpr int kSamplesShare = 4, kLeastSamples = 48, kMostSamples = 256;
-constexpr int kLeastDeepSamples = 24;  ///< Each further level has half the rays of the one before, down to these: all
-                                       ///< levels together cost about as much as the first two.
-constexpr double kSettled = 0.002;     ///< What two levels together must add.
+/// Each further level has half the rays of the one before, but at least these: all levels together cost about as much
+/// as the first two.
+constexpr int kLeastDeepSamples = 24;
+/// Share of the light that two levels together must add; else no further level is filled.
+constexpr double kSettled = 0.002;
 
 int phaseOf(uint32_t key) {
   int phase = kPhases - 1;
@@ -25,9 +27,9 @@ int phaseOf(uint32_t key) {
   return phase;
 }
 
-/// How far things are is known best from the first level, which has the most rays, and so a level serves what the first
-/// does. What a few rays say of gradients is noise, of which clamping at 0 would keep the bright half.
-void reachAs(const IrradianceRecord& first, IrradianceRecord& record) {
+/// Gives a record of a further level the radii of the first level's record, whose distances are known best as it has
+/// the most rays. Its own gradients are noise, of which clamping at 0 would keep the bright half, so they are cleared.
+void copyRadii(const IrradianceRecord& first, IrradianceRecord& record) {
   record.closest = first.closest, record.harmonicMean = first.harmonicMean, record.limit = first.limit;
   std::fill_n(record.rotationGradient, 3, vec3(0)), std::fill_n(record.translationGradient, 3, vec3(0));
 }
@@ -111,7 +113,7 @@ void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& 
   }
 }
 
-// Of two levels, as what one adds may be less than its noise.
+// Two levels are compared, because a single one may add less than its noise.
 bool BounceCaches::settled() const {
   const size_t n = light_.size();
   return n > 2 && light_[n - 1] - light_[n - 3] <= kSettled * light_[n - 1];
@@ -135,12 +137,12 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   settings.indirect = true;
   for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
     settings.depth = bounces - b + 1;
-    // With the same rays on every level what they are off by would be multiplied as light is, and not average out.
+    // If every level had the same rays, their error would be multiplied as light is, and not average out.
     settings.seed = hashCombine(gather.seed, static_cast<uint32_t>(b));
     settings.samples = std::max(kLeastDeepSamples, settings.samples / 2);
     IrradianceCache level(bound, kCoarse);
     std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run);
-    for (size_t i = 0; i < records.size(); ++i) reachAs(levels_[0].records()[i], records[i]);
+    for (size_t i = 0; i < records.size(); ++i) copyRadii(levels_[0].records()[i], records[i]);
     light_.push_back(0);
     insert(level, records);
     levels_.push_back(std::move(level));

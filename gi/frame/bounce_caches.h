@@ -1,6 +1,6 @@
 // Private to gi: irradiance caches for the points that gather rays meet, one for each further bounce. They are coarse,
-// as one record averages hundreds of lookups; a hit that none of their records serves goes on as a path. Threads:
-// filled before anything is shaded, frozen after. While a level is filled, the one before is looked up.
+// because one record averages hundreds of lookups; a hit that none of their records serves goes on as a path. E here is
+// E/pi. Threads: filled before anything is shaded, frozen after. While a level is filled, the one before is looked up.
 #pragma once
 #include <atomic>
 
@@ -16,11 +16,12 @@ class BounceCaches {
     const std::atomic<bool>* cancelled;  ///< May be null.
     bool isCancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
   };
-  /// Levels for `bounces` of light at points that are gathered at as `gather` says: records where rays from `from` end,
-  /// and where those of these records do. Ends early when another level would add nothing.
+  /// Fills levels for `bounces` of light. `gather` gives the settings of the points that look them up. Records lie
+  /// where rays from `from` end, and where the rays of these records do. It ends early when another level would add
+  /// nothing.
   void fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
             const GatherSettings& gather, int bounces, const Run& run);
-  /// E/pi after so many bounces. Weight 0: unknown.
+  /// E/pi after so many bounces. A weight of 0 means that it is not known.
   IrradianceEstimate lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
                             const vec3& shadingNormal) const;
 
@@ -35,9 +36,9 @@ class BounceCaches {
   bool settled() const;
   float pixelSize(const Camera& camera, const vec3& P) const;
 
-  std::vector<IrradianceCache> levels_;  ///< [k]: after k + 1 bounces.
-  std::vector<double> light_;            ///< Of each level: the sum of its records.
-  std::vector<GatherPoint> points_;      ///< Of the records, the same on all levels.
+  std::vector<IrradianceCache> levels_;  ///< levels_[k] holds the light after k + 1 bounces.
+  std::vector<double> light_;            ///< Sum of the records of each level.
+  std::vector<GatherPoint> points_;      ///< The points of the records, the same on all levels.
   float leastDistance_ = 0;
 };
 

@@ -10,7 +10,7 @@
 namespace tomales {
 namespace {
 
-/// What a pixel sees first, as one number.
+/// Returns a hash of the nearest point that a pixel sees.
 uint64_t nameOf(int x, int y, int group, const vec3& P) {
   const std::array<uint32_t, 6> seen{static_cast<uint32_t>(x),     static_cast<uint32_t>(y),
                                      static_cast<uint32_t>(group), std::bit_cast<uint32_t>(P.x),
@@ -18,7 +18,7 @@ uint64_t nameOf(int x, int y, int group, const vec3& P) {
   return checksum(std::as_bytes(std::span(seen)));
 }
 
-/// Of each batch, sums of the names of the pixels that see it first.
+/// Returns for each batch the sum of the hashes of the pixels whose nearest point it has.
 std::vector<uint64_t> seenOfBatches(const DeepTile& tile) {
   std::vector<uint64_t> seen(tile.batches.size());
   for (int y = tile.rect.y0; y < tile.rect.y1; ++y)

@@ -4,7 +4,7 @@
 #include <unordered_set>
 
 #include "gi/frame/frame_survey.h"
-#include "gi/frame/sheet_search.h"
+#include "gi/frame/occluder_search.h"
 #include "gi/frame/state.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
@@ -15,14 +15,15 @@ namespace {
 
 constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in the order of a hash
 constexpr int kPhases = kLatticePhases + kLastPhases;
-constexpr int kScoutPhases = 3;  // after which bright spots are known
+constexpr int kPilotPhases = 3;  // bright spots are learnt from the records of these phases
 constexpr size_t kPointsPerSlice = 256;
-// From so many on, all records have the same rays: what those miss then changes little between records, and is no more
-// than others miss (docs/decisions/0095).
+// With so many rays or more, all records have the same directions: what those miss changes little between records, and
+// is no more than other directions miss (docs/decisions/0095).
 constexpr int kManyRays = 512;
-constexpr int kRaysPerScoutRay = 4;  // and scouts have so many times fewer, of their own
+// the first records that look for bright spots have so many times fewer rays, of their own
+constexpr int kRaysPerPilotRay = 4;
 
-/// Of the lattice that this phase completes; 0: none.
+/// Returns the stride of the lattice that this phase completes; 0: it completes none.
 int strideAfter(int phase) { return phase < kLatticePhases && phase % 2 == 0 ? 16 >> phase / 2 : 0; }
 
 struct Site {
@@ -31,7 +32,7 @@ struct Site {
   int x, y;  ///< The pixel that sees it.
 };
 
-/// Goes over the tiles once in every phase, so that they need not be in memory.
+/// It goes over the tiles once in every phase, so that they need not be in memory.
 class GatherPass {
  public:
   GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles)
@@ -41,12 +42,12 @@ class GatherPass {
            const std::function<void(int stride)>& covered) {
     progress_ = &progress, cancelled_ = cancelled;
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
-    measureRelief();
+    measureUnseenDisplacement();
     for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
       std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
       gatherAt(std::move(sites));
-      returnFreeMemory();  // every phase unpacks all tiles, between what stays
+      returnFreeMemory();  // every phase unpacks all tiles, between allocations that stay
       const int stride = strideAfter(phase_);
       if (covered && stride > 1 && !isCancelled()) covered(stride);
     }
@@ -57,11 +58,11 @@ class GatherPass {
   bool isLight(size_t cache) const { return !state_.caches[cache].plan.gather.occlusion; }
   bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
 
-  // Groups whose lights and shaders ask for the same share a cache. With maxerror 0 nothing could be reused. False: no
-  // group asks.
+  // Groups whose lights and shaders have equal plans share a cache. With maxerror 0 no record could be reused. Returns
+  // false if no group asks for indirect light.
   bool prepareCaches() {
     cachesOfGroup_.assign(state_.scene.groups.size(), {});
-    rehearse(state_, layout_, tiles_, cancelled_);
+    learnOcclusionQueries(state_, layout_, tiles_, cancelled_);
     std::vector<std::pair<size_t, GatherPlan>> plans;
     for (size_t g = 0; g < cachesOfGroup_.size(); ++g) {
       const int group = static_cast<int>(g);
@@ -91,8 +92,8 @@ class GatherPass {
   bool isAnew(const Site& s) const { return state_.anew && state_.anew->contains(s.x, s.y); }
   bool isNew(size_t cache) const { return std::ranges::count(state_.caches[cache].frames, frames_[cache]) == 0; }
 
-  // What has been gathered for this very frame is asked for nothing more: what disagrees after its last phase
-  // would add records each time. False: that is all.
+  // Removes the caches that have been gathered for this very frame: points that disagree after the last phase would add
+  // records each time. Returns false if no cache is left.
   bool forgetKnownCaches() {
     bool left = false;
     for (std::vector<size_t>& caches : cachesOfGroup_) {
@@ -109,12 +110,12 @@ class GatherPass {
         if (isNew(c)) state_.caches[c].frames.push_back(frames_[c]);
   }
 
-  void measureRelief() {
-    reliefOfGroup_.assign(cachesOfGroup_.size(), 0.0f);
+  void measureUnseenDisplacement() {
+    unseenDisplacementOfGroup_.assign(cachesOfGroup_.size(), 0.0f);
     for (const Object& o : tools_->rays->scene().objects)
       if (!o.attributes->trace.displacements) {
-        float& relief = reliefOfGroup_[static_cast<size_t>(o.group)];
-        relief = std::max(relief, o.displacementBound);
+        float& unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(o.group)];
+        unseenDisplacement = std::max(unseenDisplacement, o.displacementBound);
       }
   }
 
@@ -128,7 +129,8 @@ class GatherPass {
     for (const Site& s : sites)
       if (isLight(s.cache)) points.push_back(s.point);
     if (bounces == 1 || points.empty()) return;
-    // What gathers anywhere may look them up: as many rays, as far, as any plan asks, whatever pixel comes first.
+    // Every gather point may look the bounce caches up, so they have as many rays, as long, as any plan asks for,
+    // whatever pixel comes first.
     size_t first = 0;
     while (!isLight(first)) ++first;
     GatherSettings gather = state_.caches[first].plan.gather;
@@ -140,8 +142,8 @@ class GatherPass {
     state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_});
   }
 
-  // Points of this phase that the records of earlier ones leave without, in the order of pixels, whatever the buckets
-  // are. A point that several pixels or buckets see counts where it comes first.
+  // Returns the points of this phase that no earlier record serves, in the order of pixels, whatever the buckets are. A
+  // point that several pixels or buckets see counts where it comes first.
   std::vector<Site> uncovered() {
     std::vector<Site> sites;
     std::mutex merging;
@@ -171,8 +173,8 @@ class GatherPass {
     std::vector<std::vector<Site>> asked(state_.caches.size());
     const auto ask = [&](const Facet& facet, int point, int x, int y) {
       const auto b = static_cast<size_t>(facet.batch);
-      // Of the lattice every pixel asks, and later every point once, in a phase that is its own: so it does not matter
-      // which tiles see it.
+      // In the lattice phases every pixel is looked at, and later every point once, in a phase of its own: so the tiles
+      // that see it do not matter.
       if (phase_ >= kLatticePhases && !seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
       const GatherPoint p = places[b].at(point);
       for (const size_t c : cachesOfGroup_[static_cast<size_t>(tile.batches[b].group())])
@@ -196,7 +198,7 @@ class GatherPass {
             if (phase == phase_) ask(facet, point, x, y);
             first = false;
           }
-          if (phase_ < kLatticePhases) break;  // its first point alone
+          if (phase_ < kLatticePhases) break;  // only the first point of the pixel counts
         }
       }
     for (size_t c = 0; c < asked.size(); ++c) keepUncovered(c, asked[c], out);
@@ -207,23 +209,23 @@ class GatherPass {
     for (const Site& s : asked) places.push_back({s.point.position, s.point.normal, s.point.normal, s.point.pixelSize});
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
-    SheetSearch sheets(*tools_->rays, state_.caches[cache].plan.gather);
+    OccluderSearch occluders(*tools_->rays, state_.caches[cache].plan.gather);
     const bool isNew = this->isNew(cache);
     const float enough = state_.caches[cache].plan.cache.enough;
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
-      if (k.weight < enough || (k.disputed && (isNew || isAnew(asked[i]))) ||
-          (isLight(cache) && !k.hasRecord && sheets.isUnderSheet(asked[i].point, k.closest, k.headroom)))
+      if (k.weight < enough || (k.inconsistent && (isNew || isAnew(asked[i]))) ||
+          (isLight(cache) && !k.hasRecord && occluders.isUnderOccluder(asked[i].point, k.closest, k.occluderHeight)))
         out.push_back(asked[i]);
     }
-    state_.stats.rays.gather += sheets.raysTraced();
+    state_.stats.rays.gather += occluders.raysTraced();
   }
 
-  // The records of a phase are inserted when all have been made.
+  // Makes the records of a phase, and inserts them when all have been made.
   void gatherAt(std::vector<Site> sites) {
     if (sites.empty()) return report(1);
     std::vector<IrradianceRecord> records(sites.size());
-    std::vector<BrightFind> finds(phase_ < kScoutPhases ? sites.size() : 0);
+    std::vector<BrightFind> finds(phase_ < kPilotPhases ? sites.size() : 0);
     size_t done = makeRecords(sites, records, finds);
     size_t lights = 0;
     for (size_t i = 0; i < finds.size(); ++i)
@@ -236,25 +238,26 @@ class GatherPass {
   }
 
   bool sharesRays(size_t cache) const { return state_.caches[cache].plan.gather.samples >= kManyRays; }
-  /// Is what has been made while looking for bright spots no record? The first could not aim at them.
-  bool isScoutAlone(size_t cache) const {
+  /// Is the record that was made while bright spots were searched to be replaced? It could not aim at them.
+  bool isPilotRecord(size_t cache) const {
     return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.spots.spots().empty()));
   }
 
-  /// How many: fewer than there are sites if cancelled. finds: none, when scouts alone are replaced, or as
-  /// many as sites.
+  /// Returns how many records were made: fewer than there are sites if the pass was cancelled. finds: as many as sites,
+  /// or empty when only the records of the search are replaced.
   size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records,
                      std::vector<BrightFind>& finds) {
-    const bool isFirst = phase_ >= kScoutPhases || !finds.empty();
+    const bool isFirst = phase_ >= kPilotPhases || !finds.empty();
     size_t done = 0;
     for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
       if (isFirst) report(static_cast<float>(done) / static_cast<float>(sites.size()));
       const size_t count = std::min(kPointsPerSlice, sites.size() - done);
       parallelFor(count, 1, [&](size_t begin, size_t end) {
         for (size_t i = done + begin; i < done + end; ++i)
-          if (isFirst || isScoutAlone(sites[i].cache))
+          if (!isCancelled() && (isFirst || isPilotRecord(sites[i].cache)))
             records[i] = gatherAt(sites[i], finds.empty() || !isLight(sites[i].cache) ? nullptr : &finds[i]);
       });
+      if (isCancelled()) break;  // of this slice some are missing
     }
     return done;
   }
@@ -263,12 +266,12 @@ class GatherPass {
     const KnownLight known = isLight(site.cache) ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{};
     GatherSettings settings = state_.caches[site.cache].plan.gather;
     GatherPoint point = site.point;
-    // Bright spots are found by other rays than those that look for them again: else what all have missed is missed for
-    // good.
-    if (sharesRays(site.cache) && find) settings.samples /= kRaysPerScoutRay;
+    // Bright spots are searched with other rays than those of the final records: a spot that all of these miss would be
+    // missed for good.
+    if (sharesRays(site.cache) && find) settings.samples /= kRaysPerPilotRay;
     if (sharesRays(site.cache) && !find) point.key = 0;
     IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
-    record.relief = reliefOfGroup_[static_cast<size_t>(site.point.group)];
+    record.unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(site.point.group)];
     return record;
   }
 
@@ -281,10 +284,10 @@ class GatherPass {
   const TileReader& tiles_;
   const RayTools* tools_ = nullptr;
   std::vector<std::vector<size_t>> cachesOfGroup_;
-  std::vector<float> reliefOfGroup_;  ///< Displacement that rays do not see.
-  std::vector<uint64_t> frames_;      ///< This one, as each cache sees it.
+  std::vector<float> unseenDisplacementOfGroup_;  ///< Displacement that rays do not see, in current space.
+  std::vector<uint64_t> frames_;                  ///< Checksum of this frame's pixels, for each cache.
   std::optional<PointBits> seen_;
-  std::vector<std::unordered_set<uint64_t>> sites_;  ///< Of each cache: those that have a record.
+  std::vector<std::unordered_set<uint64_t>> sites_;  ///< The sites of each cache that have a record.
   const std::function<void(float)>* progress_ = nullptr;
   const std::atomic<bool>* cancelled_ = nullptr;
   int phase_ = 0;

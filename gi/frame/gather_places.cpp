@@ -10,7 +10,7 @@ uint32_t nameOf(const vec3& v) {
   return hashCombine(std::bit_cast<uint32_t>(v.x), std::bit_cast<uint32_t>(v.y), std::bit_cast<uint32_t>(v.z));
 }
 
-/// As offsetOf; -1 too where it is of another width.
+/// The same as offsetOf(), but -1 where the width is not 3.
 int tripleOf(const std::vector<Primvar>& primvars, std::string_view name) {
   const bool known =
       std::any_of(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name && p.width == 3; });
@@ -35,7 +35,7 @@ int latticePhase(int x, int y) {
 GatherPlaces::GatherPlaces(const GiState& state, const ShadePoints& points) : state_(state), points_(points) {
   const ShadeGroup& group = state.scene.groups[static_cast<size_t>(points.group())];
   positions_ = tripleOf(group.primvars, "gatherP"), normals_ = tripleOf(group.primvars, "gatherN");
-  // A displacement shader of a group without displacement bound moves no point, and only bends normals.
+  // The displacement shader of a group without displacement bound moves no point and only bends normals.
   bumped_ = group.attributes->displacement && group.attributes->displacementBound <= 0;
 }
 

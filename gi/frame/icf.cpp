@@ -9,9 +9,9 @@ namespace tomales {
 template <class A>
 void fields(A& a, IrradianceRecord& x) {
   auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-         noise, limit, pixelSize, relief] = x;
+         noise, limit, pixelSize, unseenDisplacement] = x;
   each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-       noise, limit, pixelSize, relief);
+       noise, limit, pixelSize, unseenDisplacement);
 }
 
 template <class A>
@@ -76,7 +76,7 @@ namespace {
 constexpr RecordName kShotRecord{1, 0};
 constexpr uint32_t kAnswerRecords = 2;
 
-/// A cache as it is stored: the tree follows from the records.
+/// A cache as it is stored: the octree is built again from the records.
 struct StoredCache {
   GatherPlan plan;
   Bound3 bound;
@@ -121,7 +121,7 @@ bool consistent(const StoredShot& stored) {
 }  // namespace
 
 std::unique_ptr<IcfWriter> IcfWriter::create(const std::string& path, std::string& error) {
-  auto records = RecordWriter::create(path, icfKind(), false, error);
+  auto records = RecordWriter::create(path, icfKind(), Unfinished::Removed, error);
   return records ? std::unique_ptr<IcfWriter>(new IcfWriter(std::move(records))) : nullptr;
 }
 
@@ -194,15 +194,15 @@ PointCloud recordsOf(const IrradianceShot& shot) {
 
 namespace {
 
-/// Lengths grow by the scale, and a rotation gradient, which a cross product meets, turns over where the handedness
-/// changes.
+/// Moves records to another space. Lengths are multiplied by the scale. A rotation gradient, which is used with a cross
+/// product, changes its sign where the handedness changes.
 class RecordMove {
  public:
   explicit RecordMove(const mat4& to)
       : to_(to),
         scale_(std::cbrt(std::abs(glm::determinant(mat3(to))))),
         hand_(glm::determinant(mat3(to)) < 0 ? -1.0f : 1.0f) {
-    if (std::abs(scale_ - 1) < 1e-5f) scale_ = 1;  // rigid, but for rounding
+    if (std::abs(scale_ - 1) < 1e-5f) scale_ = 1;  // rigid, except for rounding
   }
 
   void apply(IrradianceRecord& r) const {
@@ -216,7 +216,7 @@ class RecordMove {
     r.tangent = turned(r.tangent);
     for (vec3& second : r.hessian) second /= scale_ * scale_;
     r.hessian[1] *= hand_;
-    for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.relief})
+    for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.unseenDisplacement})
       *length *= scale_;
   }
 

@@ -1,4 +1,4 @@
-// indirectDiffuse() from the irradiance cache, and what stands in where it has nothing.
+// indirectDiffuse() from the irradiance cache, and its substitutes where the cache has nothing.
 #include <bit>
 
 #include "gi/frame/state.h"
@@ -8,11 +8,10 @@
 namespace tomales {
 namespace {
 
-/// At `maxerror` 1. Ward's split sphere needs a = 1/4 for the error that the paper's function has at kappa =
-/// 1 (docs/gi_measured.md), so that `maxerror` means the same for both; and the Hessian, which knows where light is
-/// even and where it is not, has about as many records as that. Where it may be off by more, its records lie
-/// less close to edges, so that some are left elsewhere, and fewer overlap: what they are off by is then no
-/// noise (docs/decisions/0106).
+/// Cache settings for a `maxerror`. Ward's split sphere needs a = 1/4 for the error that the paper's function has at
+/// kappa = 1 (docs/measured/irradiance_cache.md), so that `maxerror` means the same for both. The Hessian, which knows
+/// where light is even, has about as many records as that. Where more error is allowed, its records lie less close to
+/// edges, so that some are left for other places and fewer overlap: their error is then no noise (docs/decisions/0106).
 CacheSettings settingsOf(ErrorFunction function, float maxError) {
   switch (function) {
     case ErrorFunction::Ward:
@@ -30,8 +29,8 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
   }
 }
 
-// Than they cover: to the second order, more records add less error than they take noise
-// (docs/decisions/0103).
+// Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
+// remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
 
 ErrorFunction errorFunctionNamed(const std::string& name) {
@@ -41,7 +40,7 @@ ErrorFunction errorFunctionNamed(const std::string& name) {
   return name == "plain" ? ErrorFunction::Plain : ErrorFunction::Screen;
 }
 
-/// Light by way of mirrors and glass, which gather rays do not find.
+/// E/pi that came by mirrors and glass, which gather rays do not find.
 vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, float pixelSize) {
   if (state.settings.mode != GiMode::Atlas ||
       state.scene.groups[static_cast<size_t>(group)].attributes->photon.causticMap.empty())
@@ -50,7 +49,7 @@ vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, fl
   return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
 }
 
-/// The cache of a plan. Records that were given serve even where a light has since been edited to ask for others.
+/// Finds the cache of a plan. Records that were given serve even where a light has since been edited to ask for others.
 std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
   const auto prepared =
       std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
@@ -61,7 +60,7 @@ std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, con
 
 uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
 
-/// Of what GatherSettings do not hold as well.
+/// Hashes the part of the query that GatherSettings do not hold as well.
 uint32_t nameOf(const std::optional<OcclusionQuery>& q) {
   const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
   return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),
@@ -204,7 +203,8 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
       store(out, i, known.E + caustic, known.dominant);
       continue;
     }
-    // Kept out of the cache: what other points find there must not depend on the order of shading.
+    // This record stays out of the cache: other points must not find it there, as that would depend on the order of
+    // shading.
     GatherPoint point = places.at(i);
     point.normal = n;
     const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);

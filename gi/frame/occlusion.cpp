@@ -1,4 +1,5 @@
-// occlusion() from records of the irradiance cache's kind, of what is not covered instead of light.
+// occlusion() from records as in the irradiance cache, which hold the uncovered share of the hemisphere instead of
+// light.
 #include "gi/frame/state.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
@@ -6,19 +7,19 @@
 namespace tomales {
 namespace {
 
-constexpr float kMostPixels = 40;  ///< As of the Hessian's records of light.
+constexpr float kMostPixels = 40;  ///< R+, the same as for the Hessian's records of light.
 
-/// A visible point that shows what its group asks.
-struct Scout {
-  uint32_t order = ~0U;  ///< The least of the group is taken, whatever the tiles are.
+/// A visible point at which the shaders of its group are run to learn their queries.
+struct ExamplePoint {
+  uint32_t order = ~0U;  ///< The point with the least number of its group is taken, whatever the tiles are.
   size_t tile = ~size_t{0};
   int batch = 0, point = 0;
-  bool operator<(const Scout& o) const { return order != o.order ? order < o.order : tile < o.tile; }
+  bool operator<(const ExamplePoint& o) const { return order != o.order ? order < o.order : tile < o.tile; }
 };
 
-std::vector<Scout> scoutsOf(const GiState& state, const DeepFrame& layout, const TileReader& tiles,
-                            const std::atomic<bool>* cancelled) {
-  std::vector<Scout> scouts(state.scene.groups.size());
+std::vector<ExamplePoint> examplePointsOf(const GiState& state, const DeepFrame& layout, const TileReader& tiles,
+                                          const std::atomic<bool>* cancelled) {
+  std::vector<ExamplePoint> examplePoints(state.scene.groups.size());
   std::mutex merging;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
     const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
@@ -26,34 +27,35 @@ std::vector<Scout> scoutsOf(const GiState& state, const DeepFrame& layout, const
     for (size_t b = 0; b < tile->batches.size(); ++b) {
       const ShadePoints& batch = tile->batches[b];
       if (!state.shading.asksOcclusion(batch.group())) continue;
-      Scout best;
+      ExamplePoint best;
       for (int i = 0; i < batch.count(); ++i)
-        best = std::min(best, Scout{hash32(batch.key(i)), t, static_cast<int>(b), i});
+        best = std::min(best, ExamplePoint{hash32(batch.key(i)), t, static_cast<int>(b), i});
       const std::lock_guard lock(merging);
-      Scout& known = scouts[static_cast<size_t>(batch.group())];
+      ExamplePoint& known = examplePoints[static_cast<size_t>(batch.group())];
       known = std::min(known, best);
     }
   });
-  return scouts;
+  return examplePoints;
 }
 
 }  // namespace
 
 bool keepsOcclusion(const GiSettings& settings) { return settings.mode != GiMode::Reference && settings.maxError != 0; }
 
-void rehearse(GiState& state, const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
+void learnOcclusionQueries(GiState& state, const DeepFrame& layout, const TileReader& tiles,
+                           const std::atomic<bool>* cancelled) {
   state.occlusionAsked.assign(state.scene.groups.size(), {});
   bool any = false;
   for (size_t g = 0; g < state.scene.groups.size(); ++g) any |= state.shading.asksOcclusion(static_cast<int>(g));
   if (!any || !keepsOcclusion(state.settings)) return;
-  std::vector<std::vector<Scout>> ofTile(layout.tileCount());
-  for (const Scout& s : scoutsOf(state, layout, tiles, cancelled))
+  std::vector<std::vector<ExamplePoint>> ofTile(layout.tileCount());
+  for (const ExamplePoint& s : examplePointsOf(state, layout, tiles, cancelled))
     if (s.tile < ofTile.size()) ofTile[s.tile].push_back(s);
   ShadeContext context;
   context.rehearsal = true, context.indirect = false, context.seed = state.settings.seed;
   parallelFor(ofTile.size(), 1, [&](size_t t, size_t) {
     const auto tile = ofTile[t].empty() ? nullptr : tiles(t);
-    for (const Scout& s : tile ? ofTile[t] : std::vector<Scout>{}) {
+    for (const ExamplePoint& s : tile ? ofTile[t] : std::vector<ExamplePoint>{}) {
       const ShadePoints& batch = tile->batches[static_cast<size_t>(s.batch)];
       ShadePoints one(batch.group(), batch.primvarFloats(), batch.hasSteps());
       one.assign(batch, s.point, s.point + 1);

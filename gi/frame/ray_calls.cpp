@@ -6,8 +6,8 @@
 namespace tomales {
 namespace {
 
-/// Depths and limits of the points that such rays meet: an object's limit counts from its own depth, and never lifts an
-/// earlier one.
+/// Returns the context of the points that such rays meet: their depths and limits. An object's limit counts from its
+/// own depth, and never lifts an earlier one.
 ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const ShadeContext& context, GiMode mode) {
   ShadeContext hit = context;
   hit.highlights = mode == GiMode::Reference;
@@ -52,7 +52,7 @@ class ShaderRays {
       if (answers_.wantsColor || !answers_.outputs.empty())
         tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers_);
       if (layer == 0)
-        setDistances();  // the shader's own surface knows what lies before the first
+        setDistances();  // the shader's own surface accounts for the volume before the first hit
       else
         tools_.rays->crossVolumes(layers_.came, layers_.left, layers_.rays, hits_, layers_.names, *tools_.shading,
                                   context_, answers_);
@@ -113,12 +113,12 @@ class ShaderRays {
   RayLayers layers_;
   std::vector<Hit> hits_;
   HitAnswers answers_;
-  /// What ends a ray, surface by surface, and the distances weighted by that.
+  /// The opacity at which a ray ends, surface by surface, and the distances weighted by it.
   struct Covered {
     vec3 start{0.0f};
     float share = 0, distance = 0;
   };
-  std::map<int, Covered> covered_;  ///< Of each element, where `effective` is wanted.
+  std::map<int, Covered> covered_;  ///< Indexed by element, where `effective` is wanted.
 };
 
 void clearResult(const ShadePoints& points, const uint8_t* active, const RayResult& result) {

@@ -1,4 +1,4 @@
-// Where and when rays leave points that may move.
+// Origins and times of rays that leave points which may move.
 #include "gi/frame/state.h"
 #include "reyes/base/rng.h"
 
@@ -22,7 +22,8 @@ void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray
     ray.tMax = glm::length(end - ray.origin);
     ray.direction = normalizeOr(end - ray.origin, ray.direction);
   }
-  // The level of what it meets follows from what the point itself stands for; textures there do not.
+  // The tessellation level of the hit follows from the area that the point itself stands for; the texture filter there
+  // does not.
   Ray wide = ray;
   wide.radius = std::max(ray.radius, std::sqrt(points.channel(kArea)[i] / kPi));
   rays.prepareOrigin(points.group(), ray.origin, points.edgeLength(i), wide);

@@ -1,7 +1,8 @@
-// indirectDiffuse() by path tracing: the reference, and hits that no cache of their bounce knows.
+// indirectDiffuse() by path tracing: for the reference, and for hits that no cache of their bounce serves.
 #include "gi/frame/state.h"
 #include "gi/gather/layers.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -16,7 +17,8 @@ struct PathSum {
   vec3 directions[3] = {vec3(0.0f), vec3(0.0f), vec3(0.0f)};
 };
 
-// The hemisphere of each active point, one cosine-weighted ray a path, in batches large enough to shade well.
+// Traces the hemisphere of each active point, one cosine-weighted ray for each path, in batches large enough to shade
+// well.
 class PathBatches {
  public:
   PathBatches(const GiState& state, const RayTools& tools, const ShadePoints& points, TmConstVec3 N,
@@ -33,6 +35,7 @@ class PathBatches {
   }
 
   void add(PathSum& sum, int paths) {
+    if (stopRequested()) return;  // a bucket of many paths takes long, and is dropped then (reyes/frame.h)
     const int i = sum.point;
     const vec3 normal = places_.shading(i, unitNormal(points_, N_, i));
     vec3 tangent, bitangent;
@@ -58,7 +61,7 @@ class PathBatches {
   void flush() {
     HitAnswers answers;
     answers.mode = HitMode::Shader;
-    for (int layer = 0; layer < kMostLayers && !layers_.rays.empty(); ++layer) {
+    for (int layer = 0; layer < kMostLayers && !layers_.rays.empty() && !stopRequested(); ++layer) {
       state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, kMaskDiffuse, hits_);
       state_.stats.rays.reference += static_cast<int64_t>(layers_.rays.size());
       tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers);
@@ -82,8 +85,8 @@ class PathBatches {
   RayFilter filter_;
   RayLayers layers_;
   std::vector<Hit> hits_;
-  std::vector<PathSum*> sums_;    ///< Of each path since the last flush,
-  std::vector<vec3> directions_;  ///< and where it left.
+  std::vector<PathSum*> sums_;    ///< The sum that each path since the last flush adds to.
+  std::vector<vec3> directions_;  ///< The direction of each of those paths.
 };
 
 }  // namespace
@@ -98,7 +101,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit =
-      bounces;  // of wide lobes that shaders follow, too; mirrors reflect as deep as their objects allow
+      bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
   hitContext.highlights = true;
   PathBatches batches(state, *tools, points, N, query, hitContext);
   std::vector<PathSum> sums;

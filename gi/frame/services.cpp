@@ -13,7 +13,7 @@ constexpr int kTimesOfLight = 16;  ///< Least number of times that the shadows o
 }  // namespace
 
 struct GiServices::Impl : GiState {
-  /// Null: neither a file nor geometry tells of them.
+  /// Null: neither a file nor the geometry holds emitters.
   const Emitters* knownEmitters() const {
     if (emitters) return &*emitters;
     const RayTools* tools = rays();

@@ -7,35 +7,39 @@
 namespace tomales {
 namespace {
 
-/// At `maxerror` 1, in squared pixels: about as many records as the paper's function (docs/gi_measured.md).
+/// In squared pixels, at `maxerror` 1: about as many records as with the paper's function
+/// (docs/measured/irradiance_cache.md).
 constexpr float kHessianTolerance = 4;
-constexpr float kContrast = 4;  ///< Between neighbours of a cell, in means of the hemisphere: a small bright source.
+/// In means of the hemisphere. A greater difference between the neighbours of a cell is a small bright source.
+constexpr float kContrast = 4;
 constexpr int kMostSplit = 8;
-constexpr float kMostAimed = 0.5f;  ///< Rays at bright spots, for each of the hemisphere.
+constexpr float kMostAimed = 0.5f;  ///< Greatest number of rays at bright spots, for each ray of the hemisphere.
 constexpr size_t kLeastAimed = 8;
-constexpr size_t kRaysOfProbe = 8;     ///< Of the hemisphere, for each ray that finds out whether a spot can be seen.
-constexpr size_t kLeastPerSpot = 4;    ///< Rays of the hemisphere; with fewer, probes would cost too much.
-constexpr float kLeastShare = 0.05f;   ///< Of the light of a spot, when its probes have seen none: they are few.
-constexpr float kFoundByChance = 160;  ///< Rays of the hemisphere on spots: so many find out without help.
-constexpr float kUnhidden = 1.5f;      ///< Times as many before what is hidden is known: no ray finds that out,
-constexpr float kHidden = 0.25f;       ///< but where less than this share of what they would send is seen.
+constexpr size_t kRaysOfProbe = 8;  ///< One ray in so many of the hemisphere's finds out whether a spot can be seen.
+/// Least rays of the hemisphere for each spot; with fewer, probes would cost too much.
+constexpr size_t kLeastPerSpot = 4;
+constexpr float kLeastShare = 0.05f;   ///< Share of a spot's light that is assumed when its few probes have seen none.
+constexpr float kFoundByChance = 160;  ///< If so many rays of the hemisphere are expected on spots, none are aimed.
+constexpr float kUnhidden = 1.5f;  ///< Factor on kFoundByChance below which probes find out whether spots are hidden.
+/// Above that number of rays, probes are traced only where less than this share of the spots' light is seen.
+constexpr float kHidden = 0.25f;
 
 const BrightSpots kNoSpots;
 
 /// Kept by each thread from one record to the next.
 struct Scratch {
   FirstHits firstHits;
-  std::vector<vec3> directions, radiance;    ///< One ray of each cell,
-  std::vector<vec3> fineDirections, fine;    ///< more of some cells,
-  std::vector<vec3> aimedDirections, aimed;  ///< and those at bright spots.
+  std::vector<vec3> directions, radiance;    ///< One ray of each cell.
+  std::vector<vec3> fineDirections, fine;    ///< Further rays of the cells where light changes fast.
+  std::vector<vec3> aimedDirections, aimed;  ///< The rays that are aimed at bright spots.
   std::vector<int> fineCells, aimedCells, raysOfCell;
-  std::vector<float> shares;  ///< Of the light of bright spots that arrive.
+  std::vector<float> shares;  ///< The share of each bright spot's light that arrives.
   std::vector<CellSpread> spread;
   std::vector<float> upright;
 };
 
-/// Where light changes fast: cells whose neighbours differ by more than kContrast times the mean. A cell's own ray has
-/// no say, so that choosing cells for more rays leaves the estimate unbiased.
+/// Returns the cells where light changes fast: those whose neighbours differ by more than kContrast times the mean. The
+/// cell's own ray is not considered, so that choosing cells for more rays leaves the estimate unbiased.
 std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec3> radiance) {
   const int M = cells.rings, N = cells.sectors;
   const auto light = [&](int j, int k) { return luminance(radiance[static_cast<size_t>(j * N + (k + N) % N)]); };
@@ -55,7 +59,7 @@ std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec
   return out;
 }
 
-/// The rays of one record.
+/// Traces the rays of one record.
 class Hemisphere {
  public:
   Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
@@ -106,7 +110,7 @@ class Hemisphere {
         find.hits.push_back({point_.position + distances[i] * scratch_.directions[i], L, normals[i]});
   }
 
-  /// Up to half as many rays again, in strata of the cells where light changes fast.
+  /// Adds up to half as many rays again, in strata of the cells where light changes fast.
   void refine(Stats& stats) {
     scratch_.raysOfCell.assign(count_, 1);
     scratch_.fineDirections.clear(), scratch_.fineCells.clear();
@@ -130,8 +134,8 @@ class Hemisphere {
     rays_.see(stats, scratch_.fineCells.size(), scratch_.fine);
   }
 
-  /// What arrives of the light of each spot: something may be in between, or it shines elsewhere. These rays count for
-  /// no light, so that where to aim does not depend on what counts.
+  /// Finds the share of each spot's light that arrives: something may be in between, or the spot shines elsewhere.
+  /// These rays do not count for the estimate, so that the choice of directions does not depend on rays that count.
   void probe(Stats& stats) {
     const size_t targets = aim_.targets();
     if (targets == 0 || count_ < kLeastPerSpot * targets) return;
@@ -149,8 +153,8 @@ class Hemisphere {
     aim_.dim(scratch_.shares);
   }
 
-  /// More rays the more of the light is expected from the spots. What this hemisphere has seen of them has no
-  /// say in it, but for whether to ask what is hidden: three quarters of so much are not missed by chance.
+  /// Aims the more rays, the more light is expected from the spots. The rays of this hemisphere do not decide it,
+  /// except for whether to probe for hidden spots: chance does not lose three quarters of so much light.
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear(), scratch_.aimedCells.clear();
     const auto byChance = [&] { return aim_.coverage() * static_cast<float>(count_); };
@@ -179,14 +183,14 @@ class Hemisphere {
                : 0;
   }
 
-  /// E/pi by the rays of the hemisphere alone.
+  /// E/pi, luminance, estimated by the rays of the hemisphere alone.
   float irradianceSeen() const {
     float sum = 0;
     for (const vec3& L : scratch_.radiance) sum += luminance(L);
     return sum / static_cast<float>(count_);
   }
 
-  /// E/pi but for what is as bright as a spot. Colours may be negative, but no share of rays.
+  /// E/pi, luminance, without light as bright as a spot. Colours may be negative, so the result is kept from being so.
   float dimIrradiance() const {
     float sum = 0;
     for (const vec3& L : scratch_.radiance)
@@ -194,7 +198,7 @@ class Hemisphere {
     return sum / static_cast<float>(count_);
   }
 
-  /// The mean of each cell from all rays that fall into it, by the balance heuristic (Veach and Guibas 1995).
+  /// Computes the mean of each cell from all rays that fall into it, by the balance heuristic (Veach and Guibas 1995).
   void weigh() {
     scratch_.spread.assign(count_, {});
     if (scratch_.fineCells.empty() && aims_ == 0) return;
@@ -214,7 +218,7 @@ class Hemisphere {
     scratch_.spread[static_cast<size_t>(cell)].add(luminance(part));
   }
 
-  /// One over the rays that were to be expected there, on a cell of projected solid angle pi / n.
+  /// Returns one over the number of rays expected in this direction on a cell of projected solid angle pi / n.
   float weight(int cell, const vec3& direction) const {
     float rays = static_cast<float>(scratch_.raysOfCell[static_cast<size_t>(cell)]);
     if (aims_ > 0) {
@@ -240,10 +244,10 @@ class Hemisphere {
   Scratch& scratch_ = scratchOfThread();
 };
 
-/// Light under a sheet changes over its height, whatever the size of a pixel: a record there reaches as far from its
-/// edge and no farther, but for a quarter of a pixel. A tenth of the rays that leave upright are to meet a sheet: a
-/// hair is none.
-float reachUnderSheet(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
+/// Returns the validity radius under a nearby occluder. Light changes there over the occluder's height, whatever the
+/// size of a pixel, so a record is valid as far as that and no farther, but for at least a quarter of a pixel. A tenth
+/// of the nearly upright rays have to meet the occluder, so that a hair does not count.
+float radiusUnderOccluder(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
   constexpr float kUpright = 0.8f;  // cosine
   constexpr size_t kTenth = 10;
   constexpr float kFinestPixels = 0.25f;
@@ -256,9 +260,8 @@ float reachUnderSheet(const HemisphereSamples& samples, float pixelSize, std::ve
   return std::max(*height, kFinestPixels * pixelSize);
 }
 
-/// So many times as far off the light may be over the radius that the Hessian gives, which grows by the
-/// fourth root of that. The cache, which makes all radii so many times as large, is not to do so to this one
-/// as well.
+/// Returns the radius over which the light may be off by `maxError` times the tolerance. The radius of the Hessian
+/// grows by the fourth root of that. The cache multiplies all radii by `maxError` later, which is divided out here.
 float radiusByHessian(const IrradianceCurvature& curvature, const IrradianceRecord& r, float maxError) {
   return hessianRadius(curvature, luminance(r.E), r.pixelSize, kHessianTolerance * maxError) / maxError;
 }
@@ -272,13 +275,12 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
-  if (!settings.occlusion) record.limit = reachUnderSheet(samples, point.pixelSize, hemisphere.upright());
+  if (!settings.occlusion) record.limit = radiusUnderOccluder(samples, point.pixelSize, hemisphere.upright());
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     record.tangent = samples.tangent;
     record.hessian[0] = curvature.xx, record.hessian[1] = curvature.xy, record.hessian[2] = curvature.yy;
-    // What is near bends light faster the nearer one comes, so that the curvature of the record's own place holds half
-    // way at best.
+    // Light changes faster near an occluder, so the curvature at the record holds for half of the distance at best.
     if (settings.occlusion)
       record.smoothRadius =
           std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest);

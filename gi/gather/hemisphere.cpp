@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-// Integral of tan(theta) over sin^2(theta) from 0 to s.
+// Returns the integral of tan(theta) over sin^2(theta) from 0 to s.
 float tangentIntegral(float s) { return std::asin(std::sqrt(s)) - std::sqrt(s * (1 - s)); }
 
 float fraction(int i, int count) { return static_cast<float>(i) / static_cast<float>(count); }
@@ -66,7 +66,8 @@ struct Gradients {
 
 namespace {
 
-// Within strata: what the rays of a cell differ by, or where it has but one, neighbours along the ring.
+// Estimates the standard error within strata: from the differences of the rays of a cell, or where it has but one, from
+// those of neighbours along the ring.
 float noiseOf(const HemisphereSamples& s) {
   const size_t N = static_cast<size_t>(s.cells.sectors), count = s.radiance.size();
   float squares = 0;

@@ -1,5 +1,5 @@
-// Private to gi: what the rays of one stratified hemisphere say about a point. Arrays in, record out; no
-// scene, no tracing.
+// Private to gi: computes a record from the rays of one stratified hemisphere at a point. It knows no scene and traces
+// nothing.
 #pragma once
 #include <span>
 
@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Of the luminances that several rays add to one cell.
+/// Statistics of the luminances of several rays in one cell.
 struct CellSpread {
   int rays = 0;
   float sum = 0, squares = 0;
@@ -19,18 +19,18 @@ struct CellSpread {
   }
 };
 
-/// Of every cell, sample j * sectors + k. Directions: unit, in the space of the record.
+/// The samples of every cell, in the order j * sectors + k. Directions are unit vectors in the space of the record.
 struct HemisphereSamples {
   HemisphereCells cells;
-  vec3 tangent, bitangent, normal;  ///< directions = hemisphereDirection() in this frame
+  vec3 tangent, bitangent, normal;  ///< The frame in which directions = hemisphereDirection().
   std::span<const vec3> directions;
   std::span<const vec3> radiance;
-  std::span<const float> distances;      ///< infinite: missed
-  std::span<const CellSpread> spread{};  ///< Of cells with several rays; may be empty.
+  std::span<const float> distances;      ///< Infinite where the ray missed.
+  std::span<const CellSpread> spread{};  ///< Set if some cells have several rays; otherwise empty.
 };
 
-/// Fills E, noise, gradients, dominant directions, harmonicMean, closest and normal; position and pixelSize are the
-/// caller's.
+/// Fills E, noise, gradients, dominant directions, harmonicMean, closest and normal. The caller sets position and
+/// pixelSize.
 IrradianceRecord summarize(const HemisphereSamples& samples);
 
 }  // namespace tomales

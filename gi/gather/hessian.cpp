@@ -3,20 +3,20 @@
 namespace tomales {
 namespace {
 
-constexpr double kFar = 1e3;  ///< A ray that misses: so many times the farthest hit.
+constexpr double kFar = 1e3;  ///< A ray that misses counts as a hit at so many times the farthest distance.
 
 using dvec3 = glm::dvec3;
 
-/// The integrals over a segment r(t), t in [0, 1], that the derivatives of its term take.
+/// Integrals over a segment r(t), t in [0, 1], that appear in the derivatives of its term.
 struct EdgeIntegrals {
-  dvec3 r4;           ///< Of r / |r|^4.
-  double i4;          ///< Of 1 / |r|^4.
-  double hh, hd, dd;  ///< Of r r^T / |r|^6, in the axes foot, along.
+  dvec3 r4;           ///< Integral of r / |r|^4.
+  double i4;          ///< Integral of 1 / |r|^4.
+  double hh, hd, dd;  ///< Integrals of r r^T / |r|^6, in the axes foot and along.
   dvec3 foot, along;
 };
 
-/// With phi the angle from the foot of the perpendicular, h its length: |r| = h / cos(phi), dt = h / (|d| cos^2) dphi.
-/// False: the segment points at the origin and has no term.
+/// phi is the angle from the foot of the perpendicular and h its length, so that |r| = h / cos(phi) and dt = h / (|d|
+/// cos^2) dphi. Returns false where the segment points at the origin and has no term.
 bool integrate(const dvec3& r1, const dvec3& d, EdgeIntegrals& out) {
   const double dd = dot(d, d), length = std::sqrt(dd);
   if (!(dd > 0)) return false;
@@ -26,13 +26,13 @@ bool integrate(const dvec3& r1, const dvec3& d, EdgeIntegrals& out) {
   const double h2 = dot(foot, foot);
   if (!(h2 > 1e-12 * std::max(s1 * s1, s2 * s2))) return false;
   const double h = std::sqrt(h2), l1 = std::sqrt(h2 + s1 * s1), l2 = std::sqrt(h2 + s2 * s2);
-  const double c1 = h / l1, c2 = h / l2, t1 = s1 / l1, t2 = s2 / l2;  // cosines and sines
+  const double c1 = h / l1, c2 = h / l2, t1 = s1 / l1, t2 = s2 / l2;  // cosines and sines of the angles to both ends
   const double angle = std::atan2(h * length, h2 + s1 * s2);
   const double sc = t2 * c2 - t1 * c1, ss = t2 * t2 - t1 * t1;
-  const double cc = 0.5 * (angle + sc);  // of cos^2
+  const double cc = 0.5 * (angle + sc);  // integral of cos^2
   const double cccs = t2 * c2 * c2 * c2 - t1 * c1 * c1 * c1;
-  const double cccc = 0.25 * cccs + 0.75 * cc;                        // of cos^4
-  const double c3s = 0.25 * (c1 * c1 * c1 * c1 - c2 * c2 * c2 * c2);  // of cos^3 sin
+  const double cccc = 0.25 * cccs + 0.75 * cc;                        // integral of cos^4
+  const double c3s = 0.25 * (c1 * c1 * c1 * c1 - c2 * c2 * c2 * c2);  // integral of cos^3 sin
   const double over = 1 / (length * h);
   out.foot = foot / h, out.along = along;
   out.r4 = over / h * (cc * out.foot + 0.5 * ss * along);
@@ -78,8 +78,8 @@ class Mesh {
 
  private:
   size_t cell(int j, int k) const { return static_cast<size_t>(j * N_ + (k + N_) % N_); }
-  /// The last ring once more, lowered to the tangent plane: without it the mesh has a border, and the noise of the
-  /// lowest rays would not fall with their number.
+  /// Repeats the last ring of rays, lowered to the tangent plane. Without it the mesh has a border, and the noise of
+  /// the lowest rays would not fall with their number.
   void addHorizon() {
     for (int k = 0; k < N_; ++k) {
       const size_t low = cell(M_ - 1, k);
@@ -141,7 +141,7 @@ IrradianceCurvature curvatureOf(const HemisphereSamples& samples) { return Mesh(
 
 namespace {
 
-/// Magnitudes of the eigenvalues, of the luminance.
+/// Magnitudes of the eigenvalues of the Hessian of the luminance.
 vec2 bendsOf(const IrradianceCurvature& h) {
   const float xx = luminance(h.xx), xy = luminance(h.xy), yy = luminance(h.yy);
   const float mean = 0.5f * (xx + yy), half = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);

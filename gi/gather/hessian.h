@@ -1,9 +1,10 @@
 // Private to gi: how irradiance changes as a point moves in its tangent plane, to the second order, with occlusion.
-// Schwarzhaupt, Jensen, Jarosz 2012, "Practical Hessian-Based Error Control for Irradiance Caching": what neighbouring
-// rays hit is joined by triangles, of the radiance of their farthest corner (a nearer surface ends at its own hit, and
-// what lies behind appears). The irradiance of such a mesh is a sum over its edges, and so are its derivatives. What
-// appears behind an edge is taken to be of one radiance: where the edge of something far passes behind that of
-// something near, the mixed derivative is up to a half too small, however many rays there are.
+// Source: Schwarzhaupt, Jensen, Jarosz 2012, "Practical Hessian-Based Error Control for Irradiance Caching". The hits
+// of neighbouring rays are joined by triangles, each with the radiance of its farthest corner: a nearer surface ends at
+// its own hit, and the surface behind it appears. The irradiance of such a mesh is a sum over its edges, and so are its
+// derivatives.
+// Limit: the surface that appears behind an edge is taken to have one radiance. Where the edge of a far surface passes
+// behind that of a near one, the mixed derivative is up to a half too small, however many rays there are.
 #pragma once
 #include "gi/gather/hemisphere.h"
 
@@ -20,7 +21,7 @@ IrradianceCurvature curvatureOf(const HemisphereSamples& samples);
 /// squared pixels, is `tolerance` times the luminance of E.
 float hessianRadius(const IrradianceCurvature& curvature, float luminanceOfE, float pixelSize, float tolerance);
 
-/// Radius within which extrapolating linearly is off by no more than `variation`.
+/// Radius within which linear extrapolation is off by no more than `variation`.
 float variationRadius(const IrradianceCurvature& curvature, float variation);
 
 }  // namespace tomales

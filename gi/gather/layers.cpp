@@ -19,7 +19,7 @@ int64_t RayLayers::meet(const RayScene& scene, RayMask mask, std::vector<Hit>& h
   return adjusted;
 }
 
-/// As a ray that leaves the hit.
+/// Returns the continuation of the ray behind the hit, started like any ray that leaves a surface.
 Ray RayLayers::behind(const RayScene& scene, const Ray& ray, const Hit& hit) {
   Ray on = ray;
   on.origin = ray.origin + hit.t * ray.direction;

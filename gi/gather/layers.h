@@ -1,27 +1,27 @@
-// Private to gi: rays on their way through what is transparent. Each goes on behind what it meets until enough of it is
-// covered.
+// Private to gi: rays that pass through transparent surfaces. Each goes on behind its hit until it is opaque enough.
 #pragma once
 #include "raytrace/trace.h"
 
 namespace tomales {
 
-constexpr int kMostLayers = 64;  ///< Transparent surfaces that one ray goes through.
+constexpr int kMostLayers = 64;  ///< Greatest number of transparent surfaces that one ray goes through.
 
 struct RayLayers {
   std::vector<Ray> rays;
   std::vector<SampleName> names;
-  std::vector<int> elements;  ///< Whose ray it is, by the caller's count.
-  std::vector<vec3> clear;    ///< What passes from there to the start.
-  std::vector<Ray> came;      ///< How each came to the surface behind which it starts; empty before the first goOn(),
-  std::vector<Hit> left;      ///< and that surface.
+  std::vector<int> elements;  ///< The caller's number of the element that each ray belongs to.
+  std::vector<vec3> clear;    ///< Transmittance from the current start of each ray back to its first origin.
+  /// The ray that came to the surface behind which each one starts; empty before the first goOn().
+  std::vector<Ray> came;
+  std::vector<Hit> left;  ///< The hit on that surface.
 
   void add(int element, const Ray& ray, SampleName name);
 
-  /// Nearest hits, of those rays that go on. Returns how many started at a recorded hit.
+  /// Finds the nearest hits of the rays that go on. Returns how many rays started at a recorded hit of the hit list.
   int64_t meet(const RayScene& scene, RayMask mask, std::vector<Hit>& hits) const;
 
-  /// Given the colours and opacities of what they met, tells `brings(element, colour at its start, what stays clear)`
-  /// and keeps the rays that go on, which are covered by less than `opacityThreshold`.
+  /// Takes the colours and opacities of the hits and calls `brings(element, colour at the first origin, transmittance
+  /// that remains)` for each. It keeps the rays whose opacity so far is below `opacityThreshold`.
   template <class Brings>
   void goOn(const RayScene& scene, const std::vector<Hit>& hits, const HitAnswers& answers, float opacityThreshold,
             const Brings& brings) {
@@ -29,7 +29,7 @@ struct RayLayers {
     came.clear(), left.clear();
     for (size_t r = 0; r < rays.size(); ++r) {
       if (hits[r].object < 0) continue;
-      // One bad shader result would cost the whole point.
+      // A shader result that is not finite would cost the whole point.
       const vec3 color = isFinite(answers.color[r]) ? clear[r] * answers.color[r] : vec3(0);
       const vec3 passes = clear[r] * (1.0f - glm::clamp(answers.opacity[r], 0.0f, 1.0f));
       brings(elements[r], color, passes);

@@ -1,14 +1,13 @@
-// Private to gi: where and when the rays of one hemisphere go.
+// Private to gi: directions and times of the rays of one hemisphere.
 #pragma once
 #include "gi/gather.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 
-/// Where in each cell its ray goes: correlated multi-jitter (Kensler 2013). The columns of a ring take
-/// different heights in their cells and the rings of a sector different angles, so both projections are
-/// stratified as finely as there are rays; plain jitter in the cells costs a third more rays for the same
-/// error (docs/performance/indirect.md).
+/// Places of the rays in their cells: correlated multi-jitter (Kensler 2013). The columns of a ring take different
+/// heights in their cells and the rings of a sector different angles, so both projections are stratified as finely as
+/// there are rays. Plain jitter needs more rays for the same error (docs/measured/indirect.md).
 class CellJitter {
  public:
   CellJitter(const HemisphereCells& cells, uint32_t key)
@@ -30,7 +29,7 @@ class CellJitter {
   std::vector<int> height_, angle_;
 };
 
-/// When each ray is shot: equal strata of the shutter in an order that has nothing to do with the cells.
+/// Times of the rays: equal strata of the shutter in an order that is independent of the cells.
 class RayTimes {
  public:
   RayTimes(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key)

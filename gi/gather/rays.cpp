@@ -4,12 +4,12 @@
 
 namespace tomales {
 
-/// Kept by each thread from one record to the next. What gather rays hit asks for indirect light of frozen caches and
+/// Each thread keeps it from one record to the next. Gather rays' hits take their indirect light from frozen caches and
 /// paths, so gathering never nests.
 struct GatherRays::Scratch {
   RayLayers layers;
   Surroundings surroundings;
-  std::vector<Hit> hits, unknown;  ///< unknown: those whose radiance is not known.
+  std::vector<Hit> hits, unknown;  ///< unknown: the hits whose radiance is not known.
   std::vector<std::pair<size_t, vec3>> mapped;
   HitAnswers answers;
 };
@@ -87,7 +87,8 @@ void GatherRays::shade(Stats& stats, std::vector<vec3>& radiance, FirstHits* fir
   ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
   context.light = settings_.light;
   context.mirrored = settings_.mirrored;
-  context.diffuseLimit = 0;  // of direct light the diffuse component alone; mirrors and glass show what they show
+  // direct light counts by the diffuse component alone; mirrors and glass show their reflections
+  context.diffuseLimit = 0;
   scratch_.answers.mode = HitMode::Shader;
   for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
     meet(stats, layer == 0 ? first : nullptr);
@@ -113,7 +114,7 @@ void GatherRays::meet(Stats& stats, FirstHits* first) {
   }
 }
 
-// From what is known, as far as it goes.
+// Takes radiance from `known_` where it has it, and shades the other hits.
 void GatherRays::answer(const ShadeContext& context) {
   const auto& rays = scratch_.layers.rays;
   if (!known_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);

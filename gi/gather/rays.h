@@ -1,6 +1,6 @@
-// Private to gi/gather: the rays of one record, and what they see. Which rays are worth tracing is
-// gi/gather/gather.cpp's. Space: current; local directions have the point's normal along z. Radiance is what comes
-// along a ray, or for occlusion the share of it that is not covered.
+// Private to gi/gather: the rays of one record, and their answers. gi/gather/gather.cpp decides which rays are worth
+// tracing. Space: current; local directions have the point's normal along z. Radiance is that along a ray, or for
+// occlusion the share that is not covered.
 #pragma once
 #include "gi/gather.h"
 #include "gi/gather/hit_radiance.h"
@@ -8,15 +8,16 @@
 
 namespace tomales {
 
-/// Where the rays of a hemisphere, one a cell, end.
+/// The hits of the rays of a hemisphere, one for each cell.
 struct FirstHits {
   std::vector<float> distances;  ///< Infinite where they miss.
-  std::vector<vec3> normals;     ///< On the side that they see.
+  std::vector<vec3> normals;     ///< Unit, on the side that the ray sees.
 };
 
 class GatherRays {
  public:
-  /// `count`: rays of the hemisphere. `known`: radiance of hits, or null. The arguments must outlive this.
+  /// `count` is the number of rays of the hemisphere. `known` gives the radiance of hits; it may be null. The arguments
+  /// must outlive this object.
   GatherRays(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
              const GatherSettings& settings, const HitRadiance* known, size_t count, uint32_t key);
 
@@ -24,14 +25,14 @@ class GatherRays {
   vec3 toLocal(const vec3& direction) const;
   const vec3& tangent() const { return tangent_; }
   const vec3& bitangent() const { return bitangent_; }
-  uint32_t number() const { return number_; }  ///< Of the next ray: a name that no other has.
+  uint32_t number() const { return number_; }  ///< Number of the next ray, unique within the record.
 
-  /// One more ray for the next see(), named `element` in its answers; `cell` says when it leaves. As thin as if
-  /// `raysOfHemisphere` covered the hemisphere. Returns its direction.
+  /// Adds a ray for the next see(), which answers for it under `element`. `cell` decides the time of the ray. Its
+  /// footprint is that of a hemisphere of `raysOfHemisphere` rays. Returns its direction.
   vec3 add(int element, int cell, const vec3& local, size_t raysOfHemisphere);
 
-  /// What the added rays see, by their elements, of which there are `elements`. `first`: also where they end; they
-  /// must have been added in the order of their elements.
+  /// Traces the added rays and fills radiance[element] for each of the `elements`. `first`, if not null, gets the hits;
+  /// the rays must then have been added in the order of their elements.
   void see(Stats& stats, size_t elements, std::vector<vec3>& radiance, FirstHits* first = nullptr);
 
  private:

@@ -5,34 +5,33 @@
 
 namespace tomales {
 
-/// From outside a sphere around the scene only the cone to it counts, however far away the light is; from
-/// within, all directions do.
+/// From outside a sphere around the scene only the cone to it counts, however far away the light is. From within, all
+/// directions do.
 class PhotonCone {
  public:
   static constexpr int kRows = 64, kColumns = 128;
   static constexpr size_t kCells = size_t{kRows} * kColumns;
 
   PhotonCone() = default;
-  /// `light`: from the middle of the scene. `radius`: of the scene.
+  /// `light`: position relative to the middle of the scene. `radius`: that of the scene.
   PhotonCone(const vec3& center, const vec3& light, float radius);
 
-  /// A direction in the frame of the cone, but for its height, of which it is what is missing from 1: narrow
-  /// cones keep their precision.
+  /// Returns a direction in the frame of the cone. z is one less the height: narrow cones keep their precision.
   vec3 local(size_t cell, vec2 at) const;
   vec3 direction(const vec3& local) const { return frame_ * vec3(local.x, local.y, 1 - local.z); }
-  vec3 place(const vec3& local, float distance) const;  ///< So far from the light.
+  vec3 place(const vec3& local, float distance) const;  ///< Place at this distance from the light.
   double cellSolidAngle() const;
-  float start() const { return start_; }  ///< How far from the light its photons begin.
-  /// Where the light is asked: at the scene if it is outside, as what its distance does to it is its shader's
-  /// affair.
+  float start() const { return start_; }  ///< Distance from the light at which its photons begin.
+  /// Distance at which the light shader is evaluated: at the scene if the light is outside, because its shader decides
+  /// how light falls off.
   float askingDistance() const { return distance_ > 0 ? distance_ : 1.0f; }
 
  private:
-  mat3 frame_{1.0f};  ///< The third axis towards the scene.
-  /// Of places: the light, or the middle of the scene if the light is outside, far away as it may be.
+  mat3 frame_{1.0f};  ///< The third axis points to the scene.
+  /// Origin of places: the light, or the middle of the scene if the light is outside, however far away.
   vec3 origin_{0.0f};
-  float height_ = 2;    ///< 1 - the cosine of half its angle.
-  float distance_ = 0;  ///< Of the light from the middle of the scene. 0: it is within.
+  float height_ = 2;    ///< One less the cosine of half the cone's angle.
+  float distance_ = 0;  ///< Distance of the light from the middle of the scene; 0: it is within the scene.
   float start_ = 0;
 };
 

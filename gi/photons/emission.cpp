@@ -13,15 +13,16 @@ namespace {
 constexpr int kProbes = 4;  ///< In each cell of a cone
 constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
 constexpr uint32_t kSecondPair = 0x70686f74U;
-/// Share of the brightest cell that cells where no probe saw light get: a beam between the probes is not
-/// lost.
+/// Cells where no probe saw light get this share of the brightest cell, so that a beam between the probes is not lost.
 constexpr double kFloor = 1e-3;
-/// Of the size of the scene and the distance of its origin: point lights may lie on surfaces.
+/// Bias of photons from a point light, relative to the size of the scene and the distance of its origin: such lights
+/// may lie on surfaces.
 constexpr float kPointBias = 1e-5f;
-/// Of photons that leave area lights: what is flatter, one in 256, may still meet the lamp's own polygons.
+/// Least cosine in the offset of photons that leave area lights. Flatter ones, one in 256, may still meet the lamp's
+/// own polygons.
 constexpr float kLeastCosine = 1.0f / 16;
-constexpr uint32_t kFewSamples = 64;    ///< Of a light that is sampled: by which its width is known,
-constexpr float kSampledMargin = 1.2f;  ///< and how much wider it is: the outermost is none of those.
+constexpr uint32_t kFewSamples = 64;    ///< Number of samples of a distant light by which its angular width is known.
+constexpr float kSampledMargin = 1.2f;  ///< Factor on that width: none of the samples is the outermost direction.
 
 /// Places in a cell: the corners of a smaller square.
 vec2 probePlace(int probe) { return {probe & 1 ? 0.75f : 0.25f, probe & 2 ? 0.75f : 0.25f}; }
@@ -41,7 +42,7 @@ std::vector<vec2> fewSamples() {
 
 }  // namespace
 
-// Sines and cosines of an eighth of a turn at most.
+// The disk map needs sines and cosines of at most an eighth of a turn.
 TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out) {
   for (size_t i = 0; i < out.size(); ++i) {
     const float a = 2 * xi[i].x - 1, b = 2 * xi[i].y - 1;
@@ -106,7 +107,7 @@ void PhotonSource::askAlong(const vec3& local, const vec3& offset, LightProbe& p
   probe.P.push_back(cone_.place(local, cone_.askingDistance()) + offset), probe.N.push_back(-cone_.direction(local));
 }
 
-/// I = E r^2 over pi.
+/// Radiant intensity over pi: Cl r^2, where Cl is E/pi at the distance r.
 vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const {
   return probe.Cl[i] * (cone_.askingDistance() * cone_.askingDistance());
 }
@@ -114,7 +115,7 @@ vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const {
 void PhotonSource::surveyDistant(const PhotonTarget& target) {
   const LightProbe probe = askedFromMiddle(fewSamples());
   direction_ = normalizeOr(-std::accumulate(probe.L.begin(), probe.L.end(), vec3(0)), vec3(0, 0, 1));
-  // Shadows along any of its directions lie about those along the middle one (emitFromDistance).
+  // Shadows along any of its directions lie near those along the middle one (emitFromDistance).
   float spread = 0, brightness = 0;
   for (size_t i = 0; i < kFewSamples; ++i) {
     spread = std::max(spread, kSampledMargin * radius_ * glm::length(probe.L[i] + direction_));
@@ -123,7 +124,7 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
   }
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
-  // The shadow of every object's box on the square: nothing is sent to where there is nothing.
+  // The shadow of every object's box on the square: no photons are sent to where there is nothing.
   std::vector<double> weights(kGrid * kGrid, 0.0);
   const auto cellAt = [&](float along) {
     return std::clamp(static_cast<int>((along / radius_ + 1) * 0.5f * kGrid), 0, kGrid - 1);
@@ -209,8 +210,7 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
     const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x),
                                 static_cast<float>(cell / kGrid) + a[i].y) -
                     vec2(radius_);
-    // The square turns with the direction by the shortest way: whatever its shadow, it moves by less than
-    // that does.
+    // The square turns with the direction by the least rotation: each shadow moves by less than the direction does.
     const vec3 d = isDrawn_ ? -sun.L[i] : direction_, across = at.x * tangent + at.y * bitangent;
     const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
     out[i].ray = {center_ + turned - kOutside * radius_ * d, d};

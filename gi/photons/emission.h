@@ -1,6 +1,6 @@
-// Private to gi: photons as they leave a light, in proportion to what it sends, and only where the scene is.
-// Power: W, of RSL's convention E/pi = Cl: a light shader's Cl is irradiance over pi at normal incidence, so
-// E = pi Cl. Threads: const members may be called concurrently.
+// Private to gi: photons as they leave a light, in proportion to its emission, and only towards the scene. Power: W. A
+// light shader's Cl is E/pi at normal incidence (RSL's convention), so E = pi Cl. Threads: const members may be called
+// concurrently.
 #pragma once
 #include <span>
 
@@ -10,20 +10,20 @@
 
 namespace tomales {
 
-/// As cosineHemisphere(), of each.
+/// The same as cosineHemisphere(), for many.
 void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out);
 
-/// From the middle of the scene to where photons from outside begin, in radii.
+/// Distance from the middle of the scene at which photons from outside begin, in radii of the scene.
 constexpr float kOutside = 1.01f;
 
-/// Current space.
+/// A photon that leaves a light, in current space.
 struct EmittedPhoton {
   Ray ray;
-  vec3 power{0.0f};   ///< As if this were the only photon; zero: the light sends nothing there.
-  vec3 normal{0.0f};  ///< Of the surface that it leaves; zero: it comes from the air.
+  vec3 power{0.0f};   ///< Power of this photon if it were the only one; zero: the light sends nothing there.
+  vec3 normal{0.0f};  ///< Normal of the surface that it leaves; zero: it leaves none.
 };
 
-/// What photons are aimed at.
+/// The part of the scene that photons are aimed at.
 struct PhotonTarget {
   Bound3 bound;
   std::vector<Bound3> objects;
@@ -39,9 +39,10 @@ class PhotonSource {
   PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target);
 
   int light() const { return light_; }
-  double power() const { return power_; }  ///< Estimate, W; what photons are shared out by. 0: the light emits none.
+  /// Estimated emitted power in W, by which photons are shared out; 0: the light emits none.
+  double power() const { return power_; }
 
-  /// Photons number `first` .. first + out.size() - 1 of this light.
+  /// Emits photons `first` .. first + out.size() - 1 of this light.
   void emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const;
 
  private:
@@ -50,7 +51,7 @@ class PhotonSource {
   void surveyArea();
   void askAlong(const vec3& local, const vec3& offset, LightProbe& probe) const;
   vec3 intensity(const LightProbe& probe, size_t i) const;
-  /// At the middle of the scene; L of a distant light is unit.
+  /// Evaluates the light at the middle of the scene; L of a distant light is a unit vector.
   LightProbe askedFromMiddle(const std::vector<vec2>& xi) const;
   void emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
   void emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
@@ -61,15 +62,14 @@ class PhotonSource {
   const RayScene& rays_;
   const LightKind kind_;
   double power_ = 0;
-  std::shared_ptr<const SkyPhotons> sky_;  ///< Sky alone.
-  bool isDrawn_ = false;                   ///< Point, Distant: its place or direction is another for every photon.
-  Distribution cells_;                     ///< Point: of the cone. Distant: of the square that
-                                           ///< the scene's shadow fits in.
-  vec3 middle_{0.0f};                      ///< Point: from the middle of the scene to that of the light.
-  PhotonCone cone_;                        ///< Point: of directions.
-  vec3 direction_{0.0f};                   ///< Distant: of the middle of its light.
-  vec3 center_{0.0f};                      ///< Of the scene.
-  float radius_ = 0;                       ///< Likewise
+  std::shared_ptr<const SkyPhotons> sky_;  ///< Set for a sky alone.
+  bool isDrawn_ = false;                   ///< Point, Distant: each photon draws its own place or direction.
+  Distribution cells_;    ///< Point: cells of the cone. Distant: cells of the square that the scene's shadow fits in.
+  vec3 middle_{0.0f};     ///< Point: from the middle of the scene to the middle of the light.
+  PhotonCone cone_;       ///< Point: the cone of directions.
+  vec3 direction_{0.0f};  ///< Distant: the middle direction of its light.
+  vec3 center_{0.0f};     ///< Center of the scene.
+  float radius_ = 0;      ///< Radius of the scene.
 };
 
 }  // namespace tomales

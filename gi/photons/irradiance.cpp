@@ -6,18 +6,19 @@
 #include "gi/photons/tree.h"
 #include "reyes/base/check.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
 
-// Chance alone moves the centroid of 50 photons by 0.09 radii on average; from there on a border is believed
-// in gradually.
+// Chance alone moves the centroid of 50 photons by 0.09 radii on average. Between these distances, in radii, the
+// correction for a border sets in gradually.
 constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
 constexpr float kOverlap =
-    1.6f;                   ///< Radius of a disk over that of the area it stands for: few gaps between random disks.
-constexpr size_t kFew = 8;  ///< Fewer photons tell nothing about how far the next are.
-/// By chance, the nearest eight of 50 are so much closer once in a thousand times. Radii that follow chance
-/// make bricks finer than the data.
+    1.6f;  ///< Radius of a disk over that of a disk with the area it stands for: random disks leave few gaps.
+constexpr size_t kFew = 8;  ///< Fewer photons do not show how far apart they are.
+/// Chance alone brings the nearest eight of 50 so much closer once in a thousand times. Radii that follow chance make
+/// bricks finer than the data.
 constexpr float kMuchCloser = 0.5f;
 constexpr float kMostOfMap = 0.05f;
 constexpr size_t kEstimatesPerTask = 256;
@@ -37,21 +38,21 @@ struct Estimate {
   float clump = 1;
 };
 
-/// Of the disk that stands for `every` of `count` photons on an area.
+/// Radius of the disk that stands for `every` of `count` photons on an area.
 float diskRadius(float area, size_t count, int every) {
   return kOverlap *
          std::sqrt(area * static_cast<float>(every) / (kPi * static_cast<float>(std::max<size_t>(count, 1))));
 }
 
-/// By the nearest few alone: where photons are rare, those that the search has to reach for lie on other
-/// surfaces, and the disk must not reach there. Pre: sorted.
+/// Radius by the nearest few alone: where photons are rare, the farther ones lie on other surfaces, and the disk must
+/// not reach there. Pre: sorted.
 float nearRadius(const std::vector<NearPhoton>& photons, int every) {
   const size_t few = std::min(photons.size(), std::max(kFew, 2 * static_cast<size_t>(every)));
   return diskRadius(kPi * photons[few - 1].distance2, few, every);
 }
 
-/// EstimateFigures::clumps of one. Neither the farthest of the few counts, nor that of all, `inside`, nor the
-/// photon at the middle. Pre: sorted.
+/// The clumping of one estimate, EstimateFigures::clumps. The farthest of the few, the farthest of all (`inside`
+/// excludes it) and the photon at the middle do not count. Pre: sorted.
 float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside) {
   if (photons.size() <= kFew || !(photons[kFew - 1].distance2 > 0)) return 1;
   return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
@@ -62,12 +63,12 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, N, tree.surface(at), most, settings.maxRadius, heap);
-  // The farthest gives the radius and does not count: n - 1 inside is what a disk that just excludes the n-th
-  // has. So few that two which happen to be close would shine: all of the reach is the disk.
+  // The farthest photon gives the radius and does not count: a disk that just excludes the n-th has n - 1 inside. Where
+  // there are very few photons, two that happen to be close would shine, so the disk has the greatest radius.
   const bool byFarthest = heap.size() >= std::min(kFew, most);
   const float r2 = byFarthest ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
   if (!(r2 > 0)) return {vec3(0.0f), 0};
-  std::sort(heap.begin(), heap.end());  // sums in the order of distance, which no thread decides
+  std::sort(heap.begin(), heap.end());  // sums are in the order of distance, which does not depend on threads
   const size_t inside = heap.size() - byFarthest;
   vec3 sum(0.0f), centroid(0.0f), normal(0.0f);
   for (size_t i = 0; i < inside; ++i) {
@@ -86,7 +87,7 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
           glm::length(normal) < kMuchBent * count, clumpOf(heap, area, inside)};
 }
 
-/// Where photons fly: as estimate(), of a ball.
+/// The same as estimate(), for a ball in a medium.
 Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
                           std::vector<NearPhoton>& heap) {
   const vec3 P = tree.position(at);
@@ -113,7 +114,7 @@ Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const 
 
 float coveredShareOfBall(float centroidDistance) {
   float lo = -1, hi = 1,
-        share = 1;  // the plane, seen from the centre; the centroid moves out as it comes nearer
+        share = 1;  // a: height of the plane over the centre; the centroid moves outwards as the plane comes nearer
   for (int i = 0; i < 24; ++i) {
     const float a = 0.5f * (lo + hi), circle = 1 - a * a;
     share = 1 - 0.25f * (1 - a) * (1 - a) * (2 + a);
@@ -123,7 +124,7 @@ float coveredShareOfBall(float centroidDistance) {
 }
 
 float coveredShare(float centroidDistance) {
-  float lo = 0, hi = kPi;  // the centroid moves in as the segment grows
+  float lo = 0, hi = kPi;  // the centroid moves inwards as the segment grows
   for (int i = 0; i < 24; ++i) {
     const float middle = 0.5f * (lo + hi);
     (segment(middle).y > centroidDistance ? lo : hi) = middle;
@@ -161,6 +162,7 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
   const size_t count = (tree.photons().count() + every - 1) / every;
   std::vector<Estimate> estimates(count);
   parallelFor(count, kEstimatesPerTask, [&](size_t begin, size_t end) {
+    throwIfStopped();
     std::vector<NearPhoton> heap;
     for (size_t i = begin; i < end; ++i) {
       const auto at = static_cast<uint32_t>(i * every);

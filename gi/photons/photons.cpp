@@ -9,7 +9,7 @@ namespace tomales {
 namespace {
 
 constexpr size_t kPhotonsPerTask = 2048,
-                 kTasksPerThread = 8;  ///< Before they are stored, from the processor's cache.
+                 kTasksPerThread = 8;  ///< A task's photons are stored while they are in the processor's cache.
 
 std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, Log& log) {
   const PhotonTarget target(scene);

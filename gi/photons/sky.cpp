@@ -7,10 +7,11 @@ namespace {
 
 constexpr int kCorners = SkyCells::kRows + 1;  ///< From pole to pole
 constexpr float kEven =
-    1.0f / 64;  ///< Share of photons that fall anywhere: what no corner of a cell has seen is not lost.
-constexpr float kThroughPortals = 0.75f;  ///< Of photons, where there are portals.
-constexpr uint32_t kRays = 256;           ///< By which the side of a portal that the sky is on is known.
-constexpr float kLeastFree = 1.0f / 32;   ///< Of a side of a portal: glass may be in the way of all of those.
+    1.0f / 64;  ///< Share of photons that fall anywhere: light that no corner of a cell has seen is not lost.
+constexpr float kThroughPortals = 0.75f;  ///< Share of photons through portals, where there are portals.
+constexpr uint32_t kRays = 256;           ///< Number of rays that find on which side of a portal the sky is.
+/// Least share of the sky that counts as free on a side of a portal: glass may have been in the way of all those rays.
+constexpr float kLeastFree = 1.0f / 32;
 constexpr uint32_t kPlaces = 0x706f7274U, kDirections = 0x61737065U;
 
 vec3 direction(double cosTheta, double phi) {
@@ -24,7 +25,7 @@ double solidAngle(size_t row) {
          (cosineAt(static_cast<double>(row)) - cosineAt(static_cast<double>(row) + 1));
 }
 
-/// Skies shine as light from anywhere along the direction that is asked for, N.
+/// Evaluates the light; the sky shines from anywhere along the direction N that is asked for.
 void ask(int light, const ShadingSystem& shading, LightProbe& probe) {
   probe.P.assign(probe.N.size(), vec3(0));
   probe.Pl = probe.Nl = probe.N;
@@ -44,7 +45,7 @@ std::vector<float> survey(int light, const ShadingSystem& shading) {
   return radiance;
 }
 
-/// Of the sky on the side of a normal of a portal, the share that nothing is in the way of.
+/// Share of the sky on the side of `normal` of a portal that nothing hides.
 float freeSky(const RayScene& rays, const Portal& portal, const vec3& normal) {
   const vec3 axis = normalizeOr(normal, normal);
   vec3 tangent, bitangent;
@@ -106,7 +107,8 @@ SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& 
   through_ = SkyCells(radiance, [&](const vec3& toSky) { return across(toSky); });
   if (!(through_.integral() > 0)) return;
   share_ = kThroughPortals;
-  power_ = through_.integral() / double{share_};  // what the house is met by from outside is not worth its photons
+  // photons are not spent on the light that meets the outside of the house
+  power_ = through_.integral() / double{share_};
 }
 
 float SkyPhotons::across(const vec3& toSky) const {
@@ -115,7 +117,7 @@ float SkyPhotons::across(const vec3& toSky) const {
   return sum;
 }
 
-/// Evenly over what is seen of all of them.
+/// Returns a point on the portals, evenly over their area seen from the direction.
 vec3 SkyPhotons::onPortal(const vec3& toSky, vec2 xi) const {
   double x{xi.x};
   Distribution parts;
@@ -124,7 +126,7 @@ vec3 SkyPhotons::onPortal(const vec3& toSky, vec2 xi) const {
   return p.corner + static_cast<float>(x) * p.u + xi.y * p.v;
 }
 
-/// Of onPortal(), over area across the direction: of all portals on the line through P.
+/// Density of onPortal() over area across the direction, summed over all portals on the line through P.
 float SkyPhotons::portalDensity(const vec3& P, const vec3& toSky) const {
   float met = 0, sum = 0;
   for (const Opening& p : portals_) {
@@ -146,7 +148,8 @@ vec3 SkyPhotons::onDisk(const vec3& toSky, const vec2& xi) const {
   return center_ + r * std::cos(phi) * tangent + r * std::sin(phi) * bitangent;
 }
 
-/// Both ways are weighed by the balance heuristic (Veach 1997), over directions and area across them.
+/// Photons by disk and by portals are weighted by the balance heuristic (Veach 1997), over directions and area across
+/// them.
 void SkyPhotons::emit(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
   LightProbe probe;
   std::vector<float> density;

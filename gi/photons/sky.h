@@ -1,12 +1,12 @@
-// Private to gi: photons as they leave a sky, in proportion to its brightness in every direction, and most of
-// them through its portals if it has any.
-// Space: current. Power: W. Threads: const members may be called concurrently.
+// Private to gi: photons as they leave a sky, in proportion to its brightness in every direction, and most of them
+// through its portals if it has any. Space: current. Power: W. Threads: const members may be called concurrently.
 #pragma once
 #include "gi/photons/emission.h"
 
 namespace tomales {
 
-/// Directions by weights of the cells of a sphere, each as large as what skies see of their pictures at once.
+/// A distribution of directions: weighted cells of a sphere, each as large as the area of its picture that a sky
+/// filters at once.
 class SkyCells {
  public:
   static constexpr int kRows = 512, kColumns = 1024;
@@ -14,15 +14,15 @@ class SkyCells {
     size_t row, column;
   };
 
-  /// `radiance`: at the corners of the cells, row by row. `share`: of a direction, what its radiance counts.
+  /// `radiance`: at the corners of the cells, row by row. `share`: factor on the radiance, by direction.
   template <class Share>
   SkyCells(const std::vector<float>& radiance, const Share& share);
   SkyCells() = default;
 
-  /// Of radiance times share over all directions.
+  /// Integral of radiance times share over all directions.
   double integral() const { return integral_; }
   vec3 sample(vec2 xi, Cell& cell) const;
-  float density(const Cell& cell) const;  ///< Of sample(), over solid angle.
+  float density(const Cell& cell) const;  ///< Density of sample() over solid angle.
 
  private:
   Distribution rows_;
@@ -34,13 +34,13 @@ class SkyPhotons {
  public:
   SkyPhotons(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target);
 
-  double power() const { return power_; }  ///< As PhotonSource::power().
-  /// By two pairs of random numbers each.
+  double power() const { return power_; }  ///< The same as PhotonSource::power().
+  /// Each photon takes a pair of random numbers from a and one from b.
   void emit(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
 
  private:
   struct Opening : Portal {
-    float free[2];  ///< Of the sky before and behind it, what nothing is in the way of.
+    float free[2];  ///< Share of the sky before and behind the portal that nothing hides.
     float across(const vec3& toSky) const {
       const float area = dot(normal, toSky);
       return std::abs(area) * free[area < 0];
@@ -53,11 +53,12 @@ class SkyPhotons {
 
   const int light_;
   const ShadingSystem& shading_;
-  const vec3 center_;   ///< Of the scene.
-  const float radius_;  ///< Likewise
+  const vec3 center_;   ///< Center of the scene.
+  const float radius_;  ///< Radius of the scene.
   std::vector<Opening> portals_;
-  SkyCells open_, through_;  ///< Of photons by a disk before the whole scene, of those by portals.
-  float share_ = 0;          ///< Of those by portals.
+  /// Directions of photons that start on a disk before the whole scene, and of those through portals.
+  SkyCells open_, through_;
+  float share_ = 0;  ///< Share of photons through portals.
   double power_ = 0;
 };
 

@@ -32,7 +32,7 @@ std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) cons
   return ask({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();
 }
 
-/// Reflected is what comes back of E/pi = 1, less what is emitted.
+/// The reflected share is the radiance at E/pi = 1, less what is emitted.
 std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
                                                         const std::vector<SampleName>& names) const {
   ShadeContext context{RayKind::Diffuse, 1, seed_, 1, false};

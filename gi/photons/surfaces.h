@@ -1,5 +1,5 @@
-// Private to gi: what surfaces do with photons. Diffuse ones are asked of their shaders, once for a whole
-// group where the answer is the same everywhere. Threads: const members may be called concurrently.
+// Private to gi: what surfaces do with photons. The shaders of diffuse ones decide, evaluated once for a whole group
+// where the answer is the same everywhere. Threads: const members may be called concurrently.
 #pragma once
 #include <optional>
 
@@ -10,25 +10,25 @@ namespace tomales {
 
 class PhotonSurfaces {
  public:
-  /// What a diffuse surface does with light that falls on it: shares of it, 0 to 1.
+  /// Shares of incident light at a diffuse surface, 0 to 1.
   struct Answer {
-    vec3 reflected{0.0f};  ///< Diffusely
+    vec3 reflected{0.0f};  ///< The diffusely reflected share.
     vec3 opacity{1.0f};
   };
 
-  /// Names of models that there are not are reported, and taken for matte.
+  /// Reports unknown names of models and takes them for matte.
   PhotonSurfaces(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log);
 
   PhotonModel model(int group) const { return models_[static_cast<size_t>(group)]; }
   bool isDiffuse(int group) const {
     return model(group) == PhotonModel::Matte || model(group) == PhotonModel::Translucent;
   }
-  /// Of a group that does the same everywhere, or is never asked; null: ask().
+  /// The answer of a group that is the same everywhere, or never needed; null: call ask().
   const Answer* even(int group) const {
     const auto& answer = even_[static_cast<size_t>(group)];
     return answer ? &*answer : nullptr;
   }
-  /// At every hit.
+  /// Evaluates the shaders at every hit.
   std::vector<Answer> ask(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
                           const std::vector<SampleName>& names) const;
 
@@ -38,8 +38,8 @@ class PhotonSurfaces {
   const RayScene& rays_;
   const ShadingSystem& shading_;
   const uint32_t seed_;
-  std::vector<PhotonModel> models_;          ///< Of each group,
-  std::vector<std::optional<Answer>> even_;  ///< and what it does with light if that is the same everywhere.
+  std::vector<PhotonModel> models_;          ///< Indexed by group.
+  std::vector<std::optional<Answer>> even_;  ///< The answer of each group where it is the same everywhere.
 };
 
 }  // namespace tomales

@@ -4,16 +4,18 @@
 #include "raytrace/emitter_shapes.h"
 #include "raytrace/hit_list.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
 
 constexpr uint32_t kBounceStream = 0x626f756eU, kMediumStream = 0x6d656469U;
-constexpr float kDiffuseSpread = 0.1f;  ///< As a gather ray of about a hundred; irradiance is estimated over more.
+/// The spread of a gather ray of about a hundred; irradiance is estimated over more.
+constexpr float kDiffuseSpread = 0.1f;
 constexpr uint32_t kMostPasses =
-    1000;  ///< Of one path: layers of leaves and smoke end somewhere, faults of geometry may not.
+    1000;  ///< Limit for one path: layers of leaves and smoke end somewhere, faults of geometry may not.
 
-/// Reflection and refraction at a smooth dielectric.
+/// Reflection or refraction at a smooth dielectric.
 vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
   const float eta = entering ? 1 / index : index, cosine = -dot(d, towards);
   const float k = 1 - eta * eta * (1 - cosine * cosine);
@@ -40,9 +42,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
       settings_(settings),
       worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
   for (const Object& o : scene.objects) groups_.push_back(o.group);
-  for (const ShadeGroup& g : scene.groups) {
-    media_.push_back(
-        {mediumOf(g.attributes->interior.get(), worldUnit_), mediumOf(g.attributes->exterior.get(), worldUnit_)});
+  for (int g = 0; g < static_cast<int>(scene.groups.size()); ++g) {
+    media_.push_back({mediumOf(shading.medium(g, true), worldUnit_), mediumOf(shading.medium(g, false), worldUnit_)});
     anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
   }
 }
@@ -62,10 +63,13 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
     paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
     paths.back().lift = liftOf(e.ray, e.normal);
   }
-  while (!scratch.flying.empty()) step(paths, stream, scratch, out);
+  while (!scratch.flying.empty()) {
+    throwIfStopped();
+    step(paths, stream, scratch, out);
+  }
 }
 
-/// Every path that flies to its next surface; those that end there fly no more.
+/// Moves every path to its next surface; paths that end there are removed from `flying`.
 void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
   fly(paths, s);
   crossMedia(paths, stream, s, out);
@@ -81,20 +85,20 @@ void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, s
   s.flying.resize(kept);
 }
 
-/// Those that meet nothing leave the scene.
+/// Finds the hits; photons that meet nothing leave the scene.
 void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
   s.hits.resize(s.flying.size());
   size_t kept = 0;
   for (const uint32_t i : s.flying) {
-    // In place: a copy of what has just been written in smaller pieces waits for them.
+    // Copying a hit that has just been written in smaller pieces would stall, so it is made in place.
     const Hit& hit = *::new (&s.hits[kept]) Hit(firstHit(paths[i]));
     if (hit.object >= 0) s.flying[kept++] = i;
   }
   s.flying.resize(kept), s.hits.resize(kept);
 }
 
-/// Photons leave polygons, not the surfaces that those stand for: just before its polygon most of them meet
-/// nothing near, and the hit list would not change what they meet.
+/// Photons leave polygons, not the surfaces that those stand for. From just before its polygon most of them meet
+/// nothing near, and the hit list would not change the hit.
 Hit PhotonTracer::firstHit(Path& path) const {
   Ray free = path.ray;
   const bool hasList = free.offset > 0;
@@ -103,7 +107,7 @@ Hit PhotonTracer::firstHit(Path& path) const {
   if (hasList && hit.t <= recordingWindow(path.ray.offset))
     hit = rays_.closest(path.ray, kMaskPhoton);
   else
-    path.ray.origin = free.origin;  // that is where t counts from
+    path.ray.origin = free.origin;  // t counts from that origin
   return hit;
 }
 
@@ -124,7 +128,7 @@ void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch
   sobol1(s.number, s.name, s.survival);
 }
 
-/// What collides before it arrives is stored there, and meets no surface in this step.
+/// A photon that collides before it arrives is stored there, and meets no surface in this step.
 void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s,
                               std::vector<StoredPhoton>& out) const {
   s.scattered.assign(s.flying.size(), 0);
@@ -143,7 +147,7 @@ void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch
   }
 }
 
-/// False: it ends there.
+/// Returns false where the path ends.
 bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
                             std::vector<StoredPhoton>& out) const {
   const vec3 P = path.ray.origin + flight * path.ray.direction;
@@ -153,7 +157,7 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
   if (collision.event == Collision::Absorbed) return false;
   path.power = collision.power;
   ++path.collisions;
-  if (collision.event == Collision::None) {  // the same ray, from there
+  if (collision.event == Collision::None) {  // the same ray goes on from there
     path.ray.origin = P;
     path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
     return true;
@@ -164,7 +168,7 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
   return true;
 }
 
-/// The surface at every hit: one that is even, or its shader.
+/// Finds the answer of the surface at every hit: that of its group, or of its shader.
 void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
   s.answers.resize(s.hits.size());
   std::vector<Ray> rays;
@@ -183,7 +187,7 @@ void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch&
   for (size_t i = 0; i < which.size(); ++i) s.answers[which[i]] = &s.found[i];
 }
 
-/// Light that comes straight from a lamp, or by mirrors, is seen by what that lamp is switched on for.
+/// Light that comes straight from a lamp, or by mirrors, is seen only by objects for which that lamp is switched on.
 bool PhotonTracer::landsOn(const Path& path, int group) const {
   return !path.specular || isOnFor(scene_.groups[static_cast<size_t>(group)], path.light);
 }
@@ -192,7 +196,7 @@ uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) {
   return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16);
 }
 
-/// False: it ends there.
+/// Returns false where the path ends.
 bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
                          std::vector<StoredPhoton>& out) const {
   const int group = groupOf(hit);
@@ -202,7 +206,7 @@ bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const
     return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
   if (!surfaces_.isDiffuse(group))
     return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
-  // What is not there, as the rest of a leaf's card, holds no light.
+  // The transparent part, as the rest of a leaf's card, stores no light.
   const vec3 transmitted = 1.0f - answer.opacity;
   const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
   const bool lands = passing < 1 && landsOn(path, group);
@@ -216,7 +220,7 @@ bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const
   return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, hashCombine(name, 2u));
 }
 
-/// As if nothing were there, but for its colour: no arrival, and what comes so is no caustic.
+/// Passes the surface as if nothing were there, tinted: it counts as no arrival, and makes no caustic.
 bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, float xi) const {
   if (++path.passes > kMostPasses || !survives(path, transmitted, xi)) return false;
   leave(path, hit, path.ray.direction);
@@ -226,7 +230,7 @@ bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, f
 bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const {
   path.specular = false;
   if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
-  // Around the interpolated normal some photons would go into the polygon, and be caught in what it bounds.
+  // Around the interpolated normal some photons would start into the polygon, and be caught in the body that it bounds.
   const bool through = surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
   const vec3 axis =
       (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal : -hit.geometricNormal;
@@ -250,7 +254,7 @@ bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float 
   return true;
 }
 
-/// Surviving photons keep the power that they came with, so that all that are stored weigh about the same.
+/// Surviving photons keep the power that they came with, so that all stored photons have about the same power.
 bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
   const vec3 power = path.power * left;
   const float survival = std::min(1.0f, maxComponent(power) / maxComponent(path.power));
@@ -259,13 +263,13 @@ bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
   return true;
 }
 
-/// In a direction of unit length.
+/// Sends the photon on in a unit direction.
 void PhotonTracer::leave(Path& path, const Hit& hit, const vec3& direction) const {
   Ray& ray = path.ray;
   const vec3& N = hit.normal;
   ray.origin += hit.t * ray.direction;
   ray.direction = direction;
-  // The level of what it meets follows from its width; textures there do not.
+  // The tessellation level of the next hit follows from the ray's width; the texture filter there does not.
   ray.spread = path.specular ? 0.0f : kDiffuseSpread;
   rays_.prepareOrigin(groupOf(hit), ray.origin, 0, ray);
   ray.spread = 0;

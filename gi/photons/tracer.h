@@ -1,5 +1,5 @@
-// Private to gi: photons on their way through the scene, from a light until they are absorbed or have gone
-// far enough. Space: current. Power: W. Same photons for any number of threads. Threads: const members may be
+// Private to gi: photons on their way through the scene, from a light until they are absorbed or reach the greatest
+// depth. Space: current. Power: W. The photons are the same for any number of threads. Threads: const members may be
 // called concurrently.
 #pragma once
 #include "gi/photons/emission.h"
@@ -16,8 +16,8 @@ class PhotonTracer {
   PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings,
                Log& log);
 
-  /// Photons number `first` .. first + count - 1 of a source, each of this share of its power; what they
-  /// leave is added to `out`.
+  /// Traces photons `first` .. first + count - 1 of a source, each with this share of its power; stored photons are
+  /// added to `out`.
   void trace(const PhotonSource& source, uint32_t first, size_t count, float share,
              std::vector<StoredPhoton>& out) const;
 
@@ -28,26 +28,26 @@ class PhotonTracer {
     uint32_t number;
     int light;
     int depth = 0;
-    uint32_t passes = 0;      ///< Through surfaces that have let it pass as if they were not there.
-    uint32_t collisions = 0;  ///< With media.
-    bool specular = true;     ///< So far it has met nothing diffuse.
-    vec3 lift{0.0f};          ///< From the origin to just before the polygon that it leaves.
+    uint32_t passes = 0;      ///< Surfaces that it has passed as if they were not there.
+    uint32_t collisions = 0;  ///< Collisions with media.
+    bool specular = true;     ///< It has met no diffuse surface so far.
+    vec3 lift{0.0f};          ///< Offset from the origin to just before the polygon that it leaves.
   };
   using Answer = PhotonSurfaces::Answer;
   struct Draw {
-    const vec3& direction;  ///< Of a cosine hemisphere around +z.
+    const vec3& direction;  ///< Direction of a cosine-weighted hemisphere around +z.
     float survival;
   };
   struct Scratch {
-    std::vector<uint32_t> flying;        ///< Which paths do.
-    std::vector<Hit> hits;               ///< Of each of those,
-    std::vector<const Answer*> answers;  ///< and of the surface there.
-    std::vector<Answer> found;           ///< Those that are not even.
-    std::vector<uint8_t> scattered;      ///< Before it was reached.
+    std::vector<uint32_t> flying;        ///< Indices of the paths that still fly.
+    std::vector<Hit> hits;               ///< The hit of each flying path.
+    std::vector<const Answer*> answers;  ///< The answer of the surface at each hit.
+    std::vector<Answer> found;           ///< Answers of surfaces that differ from place to place.
+    std::vector<uint8_t> scattered;      ///< The photon was scattered before it reached the surface.
     std::vector<uint32_t> number, name;
     std::vector<vec2> xi;
-    std::vector<vec3> direction;  ///< Random: where a path goes on,
-    std::vector<float> survival;  ///< and whether it does.
+    std::vector<vec3> direction;  ///< Random direction in which each path goes on.
+    std::vector<float> survival;  ///< Random number that decides whether it goes on.
   };
   struct Media {
     Medium inside, outside;
@@ -77,9 +77,9 @@ class PhotonTracer {
   const RayScene& rays_;
   const PhotonSurfaces surfaces_;
   const PhotonSettings& settings_;
-  const float worldUnit_;     ///< Length of one of the world.
-  std::vector<int> groups_;   ///< Of each object.
-  std::vector<Media> media_;  ///< On both sides of the surfaces of each group.
+  const float worldUnit_;     ///< Length of one unit of the world.
+  std::vector<int> groups_;   ///< Shade group of each object.
+  std::vector<Media> media_;  ///< Media on both sides of the surfaces of each group.
   bool anyMedium_ = false;
 };
 

@@ -5,19 +5,21 @@
 #include <numeric>
 #include <utility>
 
+#include "reyes/base/stop.h"
+
 namespace tomales {
 namespace {
 
 constexpr uint32_t kLeaf = 16;
-constexpr float kSameSide = 0.5f;      ///< Photons of surfaces turned away by more than 60 degrees do not count.
-constexpr float kAlongNormal = 15.0f;  ///< A photon off the plane looks four times as far.
-/// And one of another surface four hundred times as far as it is off the sheet: tiles of one floor continue
-/// each other, a ball does not continue the floor it lies on. On one sphere or plane a chord makes the same
-/// angle with both normals; of two parallel sheets, one looks at the back of the other.
+constexpr float kSameSide = 0.5f;      ///< Photons on surfaces turned away by more than 60 degrees do not count.
+constexpr float kAlongNormal = 15.0f;  ///< A photon off the plane counts as if it were four times as far off.
+/// A photon of another surface counts as if it were four hundred times as far off the plane: tiles of one floor
+/// continue each other, a ball does not continue the floor it lies on. On one sphere or plane a chord makes the same
+/// angle with both normals; of two parallel surfaces, one sees the back of the other.
 constexpr float kOffSheet = 160e3f;
 
-/// Photons into this order, in place: along each cycle, with one of them beside. A copy of all would be the most that
-/// estimates need.
+/// Puts photons into this order in place, cycle by cycle, with one photon held aside. A copy of all would be the peak
+/// of the memory of estimates.
 void reorder(PointCloud& photons, std::vector<uint32_t> order) {
   const auto width = static_cast<size_t>(photons.width());
   std::vector<float> data(width);
@@ -49,6 +51,7 @@ PhotonTree::PhotonTree(PointCloud photons) : photons_(std::move(photons)) {
 }
 
 void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t end, uint32_t node) {
+  throwIfStopped();
   if (end - begin <= kLeaf) return;
   Bound3 bound;
   for (uint32_t i = begin; i < end; ++i) bound.extend(position(order[i]));

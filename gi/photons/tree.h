@@ -1,14 +1,14 @@
-// A balanced kd-tree over photons. Private to gi.
-// Threads: built by one; searches are concurrent.
+// Private to gi: a balanced kd-tree over photons. Threads: one thread builds it; searches are concurrent.
 #pragma once
 #include "gi/point_cloud.h"
 
 namespace tomales {
 
 struct NearPhoton {
-  float distance2;  ///< Squared; along the normal it counts four times, and more to another surface (a disk,
-                    ///< not a sphere).
-  uint32_t photon;  ///< In the order of the tree.
+  /// Squared distance; along the normal it counts four times, and more to another surface, so that the search covers a
+  /// disk and not a sphere.
+  float distance2;
+  uint32_t photon;  ///< Index in the order of the tree.
   bool operator<(const NearPhoton& o) const {
     return distance2 != o.distance2 ? distance2 < o.distance2 : photon < o.photon;
   }
@@ -18,16 +18,16 @@ class PhotonTree {
  public:
   explicit PhotonTree(PointCloud photons);
 
-  /// In the order of the tree: neighbours in it are neighbours in space.
+  /// The photons in the order of the tree, in which neighbours are neighbours in space.
   const PointCloud& photons() const { return photons_; }
   const vec3& position(uint32_t i) const { return photons_.position[i]; }
   const vec3& normal(uint32_t i) const { return photons_.normal[i]; }
 
   int surface(uint32_t i) const { return surface_[i]; }  ///< 0: not known.
 
-  /// The `most` nearest photons within `radius` that face as `N` does (zero: whatever they face, in a ball),
-  /// as a heap with the farthest in front. Those of another surface than `surface` (0: all are of this one)
-  /// count only if they continue it.
+  /// Finds the `most` nearest photons within `radius` that face as `N` does (zero: all, in a ball), as a heap with the
+  /// farthest in front. Photons of another surface than `surface` (0: all are of this one) count only if they continue
+  /// it.
   void nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius,
                std::vector<NearPhoton>& heap) const;
 
@@ -40,7 +40,7 @@ class PhotonTree {
 
   PointCloud photons_;
   std::vector<uint8_t> surface_;
-  std::vector<Split> splits_;  ///< Node n has children 2n + 1 and 2n + 2; each halves its range.
+  std::vector<Split> splits_;  ///< Node n has children 2n + 1 and 2n + 2; each node halves its range.
 };
 
 }  // namespace tomales

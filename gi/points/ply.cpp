@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
 #include <sstream>
+
+#include "reyes/base/input_file.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -22,7 +25,7 @@ enum class Encoding { Ascii, Little, Big };
 struct Scalar {
   size_t bytes;
   double (*value)(const std::byte*);
-  double whole;  ///< What stands for 1 where it holds a colour.
+  double whole;  ///< The value that stands for 1 in a colour.
 };
 
 template <class T>
@@ -52,7 +55,7 @@ std::optional<Scalar> scalarNamed(const std::string& type) {
 struct Property {
   std::string name;
   Scalar type;
-  std::optional<Scalar> length;  ///< Of a list.
+  std::optional<Scalar> length;  ///< Type of a list's length, for lists.
 };
 
 struct Element {
@@ -65,11 +68,12 @@ struct Element {
   throw FileError(fmt::format("\"{}\": {}", path, what));
 }
 
-/// A file from behind its header, number by number.
+/// Reads a file after its header, number by number.
 class PlyReader {
  public:
-  explicit PlyReader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
-    if (!in_) fail(path, "cannot be opened");
+  explicit PlyReader(const std::string& path) : path_(path) {
+    if (const std::string problem = inputProblem(path); !problem.empty()) fail(path, "cannot be read: " + problem);
+    in_.open(path, std::ios::binary);
     readHeader();
   }
 
@@ -80,7 +84,7 @@ class PlyReader {
       std::string word;
       in_ >> word;
       char* end = nullptr;
-      const double v = std::strtod(word.c_str(), &end);  // takes "nan" and "inf", which streams do not
+      const double v = std::strtod(word.c_str(), &end);  // takes "nan" and "inf", unlike streams
       if (word.empty()) fail(path_, "ends too early");
       if (*end != 0) fail(path_, "holds what is no number: " + word.substr(0, 40));
       return v;
@@ -93,7 +97,7 @@ class PlyReader {
   }
 
   void skip(const Element& element) {
-    if (element.properties.empty()) return;  // however many: they take no bytes
+    if (element.properties.empty()) return;  // its elements take no bytes, however many
     for (uint64_t i = 0; i < element.count; ++i)
       for (const Property& p : element.properties) {
         const double count = p.length ? number(*p.length) : 1;
@@ -164,7 +168,7 @@ class PlyReader {
   std::vector<Element> elements_;
 };
 
-/// Where the numbers of a vertex go: a place among kFixed floats, then the channels.
+/// Offset of each property of a vertex among its kFixed floats and the channels after them.
 class VertexLayout {
  public:
   enum Fixed { X, Y, Z, Nx, Ny, Nz, Radius, kFixed };
@@ -199,7 +203,7 @@ class VertexLayout {
     return name == "red" ? 0 : name == "green" ? 1 : name == "blue" ? 2 : -1;
   }
 
-  /// Its float among those of all channels.
+  /// Returns the property's offset among the floats of all channels.
   size_t addToChannel(const std::string& name) {
     const size_t bar = name.rfind('_');
     const int part = colorPart(name);
@@ -258,7 +262,7 @@ std::string headerOf(const PointFile& cloud) {
   return h + "end_header\n";
 }
 
-void writeRows(const PointFile& cloud, size_t chunk, std::ofstream& out) {
+void writeRows(const PointFile& cloud, size_t chunk, const std::function<void(const void* data, size_t size)>& write) {
   PointCloud points;
   cloud.read(chunk, points);
   std::vector<float> rows;
@@ -267,26 +271,25 @@ void writeRows(const PointFile& cloud, size_t chunk, std::ofstream& out) {
     rows.insert(rows.end(), {p.x, p.y, p.z, n.x, n.y, n.z, points.radius[i]});
     rows.insert(rows.end(), points.at(i), points.at(i) + points.width());
   }
-  out.write(reinterpret_cast<const char*>(rows.data()), static_cast<std::streamsize>(rows.size() * sizeof(float)));
+  write(rows.data(), rows.size() * sizeof(float));
 }
 
 }  // namespace
 
 void writePly(const PointFile& cloud, const std::string& path) {
-  const std::string part = path + ".part";
-  std::error_code error;
-  try {
-    std::ofstream out(part, std::ios::binary);
-    out << headerOf(cloud);
-    for (size_t chunk = 0; chunk < cloud.chunkCount() && out; ++chunk) writeRows(cloud, chunk, out);
-    out.close();
-    if (!out) fail(path, "cannot be written");
-    std::filesystem::rename(part, path, error);
-    if (error) fail(path, "cannot be written: " + error.message());
-  } catch (const FileError&) {
-    std::filesystem::remove(part, error);
-    throw;
-  }
+  std::string why;
+  const auto file = UnfinishedFile::create(path, UnfinishedKind::Stream, why);
+  const auto failed = [&](const std::string& problem) {
+    throw WriteError(fmt::format("\"{}\" cannot be written: {}", path, problem));
+  };
+  const auto write = [&](const void* data, size_t size) {
+    if (std::fwrite(data, 1, size, file->stream()) != size) failed(std::strerror(errno));
+  };
+  if (!file) failed(why);
+  const std::string header = headerOf(cloud);
+  write(header.data(), header.size());
+  for (size_t chunk = 0; chunk < cloud.chunkCount(); ++chunk) writeRows(cloud, chunk, write);
+  if (!file->finish(why)) failed(why);
 }
 
 PlyFigures convertPly(const std::string& path, const std::string& out, float radius) {

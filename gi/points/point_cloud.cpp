@@ -75,7 +75,7 @@ int offsetOf(const std::vector<CloudChannel>& channels, const std::string& name,
 }
 
 bool isValidPoint(const vec3& P, const vec3& N, float radius, std::span<const float> values) {
-  // Zero times what is finite is zero, and not a number times all else.
+  // Zero times a finite value is zero; zero times infinity or NaN is NaN.
   const vec3 ofPlace = 0.0f * P + 0.0f * N;
   float sum = ofPlace.x + ofPlace.y + ofPlace.z + 0.0f * radius;
   for (const float v : values) sum += 0.0f * v;

@@ -35,7 +35,7 @@ void PointFileWriter::addChunk(const PointCloud& points) {
   if (points.count() == 0) return;
   std::vector<uint32_t> normals(points.count());
   std::transform(points.normal.begin(), points.normal.end(), normals.begin(), packNormal);
-  ByteWriter w;  // of many files that are written at once, each would keep its own
+  ByteWriter w;  // local, because each of many files that are written at once would keep its own
   const size_t floats = 5 + static_cast<size_t>(points.width());
   w.bytes.reserve(4 * sizeof(uint64_t) + points.count() * floats * sizeof(float));
   w.put(points.position);
@@ -70,10 +70,10 @@ PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
   madeFrom_ = r.get<MadeFrom>();
   contents_ = r.get<uint64_t>();
   if (bounds_.size() != file_.count())
-    throw FileError(fmt::format("\"{}\" is damaged: its chunks do not add up", path));
+    throw DamageError(path, fmt::format("\"{}\" is damaged: its chunks do not add up", path));
   if (!std::all_of(bounds_.begin(), bounds_.end(),
                    [](const Bound3& b) { return isFinite(b.lo) && isFinite(b.hi) && !b.empty(); }))
-    throw FileError(fmt::format("\"{}\" is damaged: a chunk has no place", path));
+    throw DamageError(path, fmt::format("\"{}\" is damaged: a chunk has no place", path));
 }
 
 Bound3 PointFile::bound() const {
@@ -92,16 +92,17 @@ void PointFile::read(size_t chunk, PointCloud& to) const {
   const auto data = r.getVector<float>();
   const size_t n = positions.size();
   if (normals.size() != n || radii.size() != n || data.size() != n * static_cast<size_t>(to.width()))
-    throw FileError(fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
+    throw DamageError(file_.path(), fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));
   const auto finite = [](float v) { return std::isfinite(v); };
-  const Bound3& b = bounds_[chunk];  // finite, so that what lies within is
+  const Bound3& b = bounds_[chunk];  // the bound is finite, so all points within it are
   if (!std::all_of(positions.begin(), positions.end(),
                    [&](const vec3& P) {
                      return glm::all(glm::greaterThanEqual(P, b.lo)) && glm::all(glm::lessThanEqual(P, b.hi));
                    }) ||
       !std::all_of(radii.begin(), radii.end(), [](float radius) { return std::isfinite(radius) && radius >= 0; }) ||
       !std::all_of(data.begin(), data.end(), finite))
-    throw FileError(fmt::format("\"{}\" is damaged: a point is not finite, or not where it should be", file_.path()));
+    throw DamageError(file_.path(),
+                      fmt::format("\"{}\" is damaged: a point is not finite, or not where it should be", file_.path()));
   to.position.insert(to.position.end(), positions.begin(), positions.end());
   for (const uint32_t p : normals) to.normal.push_back(unpackNormal(p));
   to.radius.insert(to.radius.end(), radii.begin(), radii.end());

@@ -6,22 +6,22 @@
 namespace tomales {
 namespace {
 
-constexpr int kSamples = 2;  ///< Along each edge of a texel.
+constexpr int kSamples = 2;  ///< Samples along each edge of a texel.
 constexpr float kShare = 1.0f / (kSamples * kSamples);
 constexpr size_t kSamplesPerBatch = 1024;
 constexpr uint32_t kBakeStream = 0x72616469U;
 
-/// Samples of texels on their way to be shaded together.
+/// Collects samples of texels, to shade many together.
 class Samples {
  public:
   explicit Samples(const RadiosityBake& bake)
       : bake_(bake), context_{RayKind::Diffuse, 1, bake.settings.seed, 1, false} {
-    context_.diffuseLimit = 0;  // as where gather rays hit
+    context_.diffuseLimit = 0;  // the same as where gather rays hit
     answers_.mode = HitMode::Shader;
   }
 
-  /// A look at a point from `radius` in front of it; its share of the colour goes to `sum`, and of the texel if it has
-  /// a colour.
+  /// Adds a view of a point from `radius` in front of it. Its share of the colour goes to `sum`, and its share of the
+  /// texel if it has a colour.
   void add(const Ray& ray, const Hit& hit, SampleName name, BakedTexel& sum) {
     rays_.push_back(ray), hits_.push_back(hit), names_.push_back(name), sums_.push_back(&sum);
     if (rays_.size() == kSamplesPerBatch) flush();
@@ -43,13 +43,13 @@ class Samples {
   HitAnswers answers_;
 };
 
-/// The quadrilateral on the surface of which a texel holds the mean.
+/// A quadrilateral of the surface, whose mean a texel holds.
 struct Texel {
   int object;
   uint32_t patch;
   bool back;
   TexelSquare square;
-  float radius;  ///< Of what one sample stands for.
+  float radius;  ///< Radius of the area that one sample stands for.
   uint32_t key;
 };
 

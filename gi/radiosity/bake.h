@@ -1,4 +1,4 @@
-// Private to gi: what surfaces send back of direct light, texel by texel.
+// Private to gi: computes the radiosity by direct light, texel by texel.
 #pragma once
 #include "gi/radiosity/layout.h"
 
@@ -11,15 +11,15 @@ struct RadiosityBake {
 };
 
 struct BakedTexel {
-  vec3 radiance{0.0f};  ///< The mean of its known part.
+  vec3 radiance{0.0f};  ///< Mean of the known part.
   float coverage = 0;   ///< Share that is known: not trimmed away.
 };
 
-/// Shades the texels of a run, one after the other. `charts`: of its object and side.
+/// Shades the texels of a run in their order. `charts`: those of the run's object and side.
 std::vector<BakedTexel> bakeTexels(const RadiosityBake& bake, std::span<const RadiosityChart> charts,
                                    const TexelRun& run);
 
-/// Texel t of a chart as a quadrilateral in (u, v).
+/// The rectangle of texel t of a chart in (u, v).
 struct TexelSquare {
   vec2 corner, size;
 };

@@ -8,17 +8,18 @@
 namespace tomales {
 namespace {
 
-constexpr int kProbes = 4;               ///< Edges across a patch that its size is measured along.
-constexpr uint32_t kManyPatches = 4096;  ///< Of an object: each is small then, and measured by its corners alone.
-constexpr int kMostTexels = 2048;        ///< Along an edge.
-constexpr size_t kTexelsPerRun = 1024;   ///< That one thread bakes at a time.
+constexpr int kProbes = 4;  ///< Number of edges across a patch by which its size is measured.
+/// In an object of more patches each is small, and measured by its corners alone.
+constexpr uint32_t kManyPatches = 4096;
+constexpr int kMostTexels = 2048;       ///< Limit along an edge of a chart.
+constexpr size_t kTexelsPerRun = 1024;  ///< Texels that one thread bakes at a time.
 
 int powerOfTwoNear(float texels) {
   const float clamped = std::clamp(texels, 1.0f, static_cast<float>(kMostTexels));
   return 1 << static_cast<int>(std::lround(std::log2(clamped)));
 }
 
-/// Why an object has no map; null: it has one.
+/// Returns why an object has no map; null: it has one.
 const char* refusal(const ShadingSystem& shading, const Object& o) {
   const Attributes& a = *o.attributes;
   if (o.solid >= 0) return "it is part of a solid";
@@ -48,7 +49,7 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
     alongU = std::max(alongU, u), alongV = std::max(alongV, v);
   }
   const Attributes::Radiosity& asked = scene.objects[static_cast<size_t>(object)].attributes->radiosity;
-  // By its distance, so that what the camera does not see is no coarser than what it sees as far away.
+  // The size depends on the distance alone, so that hidden surfaces are no coarser than visible ones as far away.
   const float unit = asked.screen ? camera.pixelSize({0, 0, glm::length(middle)})
                                   : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
   const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);

@@ -1,4 +1,5 @@
-// Private to gi: which surfaces hold radiosity (approximate-gi 4.4, irradiance-atlas 6.3), and how finely.
+// Private to gi: decides which surfaces have radiosity maps (approximate-gi 4.4, irradiance-atlas 6.3), and how fine
+// these are.
 #pragma once
 #include <span>
 
@@ -6,31 +7,31 @@
 
 namespace tomales {
 
-constexpr size_t kChartsPerTask = 16;  ///< That one thread works on at a time.
+constexpr size_t kChartsPerTask = 16;  ///< Charts that one thread works on at a time.
 
-/// By patch; empty: none.
+/// Charts by patch; empty: the object has none on this side.
 struct SurfaceCharts {
   std::vector<RadiosityChart> front, back;
   std::vector<RadiosityChart>& side(bool isBack) { return isBack ? back : front; }
   const std::vector<RadiosityChart>& side(bool isBack) const { return isBack ? back : front; }
 };
 
-/// Objects whose radiosity is baked. Says in the log which are not, and why.
+/// Returns the objects whose radiosity is baked. Reports in the log which are not, and why.
 std::vector<int> bakedObjects(const Scene& scene, const ShadingSystem& shading, Log& log);
-/// Their charts without texels, by object. Says in the log where all together are too fine.
+/// Returns their charts by object, without texels. Reports in the log if all together exceed the limit.
 std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<int>& objects, const Camera& camera,
                                         const RadiositySettings& settings, Log& log);
 
-/// Texels of one side of an object that are baked together: so many of its charts, from one of them on.
+/// Texels of one side of an object that are baked together, in successive charts.
 struct TexelRun {
   int object;
   bool back;
   size_t patch, texel, count;
 };
-/// All of them, in the order of objects, sides, patches and texels.
+/// Returns all runs, in the order of objects, sides, patches and texels.
 std::vector<TexelRun> texelRuns(std::span<const SurfaceCharts> surfaces);
 
-/// visit(patch, texel) for each of a run.
+/// Calls visit(patch, texel) for each texel of a run.
 template <class Visit>
 void forEachTexel(std::span<const RadiosityChart> charts, const TexelRun& run, const Visit& visit) {
   size_t patch = run.patch, t = run.texel;

@@ -2,6 +2,7 @@
 
 #include "gi/radiosity/bake.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -22,10 +23,10 @@ void RadiosityChart::allocate() {
   coverage.assign(texels.size(), 0.0f);
 }
 
-// Push and pull (Gortler et al. 1996), so that what is trimmed away darkens nothing along its edge.
+// The method is push and pull (Gortler et al. 1996), so that trimmed parts do not darken the texels along their edge.
 void RadiosityChart::makeLevels() {
   struct Step {
-    size_t from;  ///< The finer level; the coarser one follows.
+    size_t from;  ///< Offset of the finer level; the coarser one follows it.
     int width, height, sx, sy;
     size_t at(int x, int y) const { return from + static_cast<size_t>(y * width + x); }
     size_t coarser(int x, int y) const { return at(0, height) + static_cast<size_t>(y / sy * (width / sx) + x / sx); }
@@ -87,6 +88,7 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
   const std::vector<TexelRun> runs = texelRuns(surfaces_);
   const RadiosityBake bake{rays, shading, settings};
   parallelFor(runs.size(), 1, [&](size_t r, size_t) {
+    throwIfStopped();
     std::vector<RadiosityChart>& of = surfaces_[static_cast<size_t>(runs[r].object)].side(runs[r].back);
     const std::vector<BakedTexel> baked = bakeTexels(bake, of, runs[r]);
     size_t k = 0;

@@ -6,6 +6,7 @@
 #include "gi/atlas/world_from_current.h"
 #include "gi/radiosity/bake.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 #include "reyes/dice.h"
 
 namespace tomales {
@@ -14,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float kOverlap = 0.8f;      ///< Radius of a point's disk over the edge of its texel: neighbours meet.
-constexpr size_t kRunsPerWave = 256;  ///< Baked before they are written.
-constexpr uint32_t kMethod = 1;       ///< Counted up when the same inputs begin to make other files.
+constexpr size_t kRunsPerWave = 256;  ///< Runs that are baked before they are written.
+constexpr uint32_t kMethod = 1;       ///< To be increased when the same inputs begin to make other files.
 
 uint64_t inputsOf(const MapNames& names, const RadiositySettings& s) {
   return contentSum(kMethod, names.world, names.global, names.surface, s.texels, s.seed, s.mostTexels);
@@ -31,8 +32,10 @@ class Baking {
     const std::vector<TexelRun> runs = texelRuns(surfaces_);
     for (size_t wave = 0; wave < runs.size(); wave += kRunsPerWave) {
       std::vector<std::vector<BakedTexel>> baked(std::min(kRunsPerWave, runs.size() - wave));
-      parallelFor(baked.size(), 1,
-                  [&](size_t r, size_t) { baked[r] = bakeTexels(bake_, chartsOf(runs[wave + r]), runs[wave + r]); });
+      parallelFor(baked.size(), 1, [&](size_t r, size_t) {
+        throwIfStopped();
+        baked[r] = bakeTexels(bake_, chartsOf(runs[wave + r]), runs[wave + r]);
+      });
       for (size_t r = 0; r < baked.size(); ++r) write(runs[wave + r], baked[r], files);
     }
   }
@@ -76,7 +79,7 @@ RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, c
                                  size_t cacheBytes, Stats& stats, Log& log)
     : scene_(rays.scene()) {
   const MapNames names = atlas.ofSurfaces();
-  const fs::path own = folder / "radiosity";  // so that it may be the folder of an atlas as well
+  const fs::path own = folder / "radiosity";  // a folder of its own, so that FOLDER may be that of an atlas as well
   makeAtlasFolder(own);
   const std::vector<int> objects = bakedObjects(scene_, shading, log);
   sides_.resize(scene_.objects.size());

@@ -4,8 +4,8 @@
 #include <numeric>
 
 namespace tomales {
-// The highest first, and of those the widest: so every row of charts begins, and every chart in it, at a multiple of
-// its own size.
+// Charts are sorted by height and then by width, both descending: so every row of charts begins, and every chart in it,
+// at a multiple of its own size.
 ChartLayout layOutPicture(const std::vector<RadiosityChart>& charts) {
   std::vector<size_t> order(charts.size());
   std::iota(order.begin(), order.end(), size_t{0});

@@ -1,12 +1,41 @@
-// What the program returns.
+// How a command ends: what went wrong, by its severity, and the exit code that this leads to. One table has them all
+// (exit_code.cpp).
 #pragma once
+#include <exception>
+#include <string>
+
 #include "reyes/base/log.h"
 
 namespace tomales {
 
 enum ExitCode { kDone = 0, kUsage = 1, kUnreadable = 2, kIncomplete = 3, kUnwritable = 4 };
 
-/// The exit code that a log stands for.
+ExitCode exitCodeOf(Severity severity);
+/// Of the worst that was reported.
 ExitCode exitCodeOf(const Log& log);
+/// All exit codes and their meanings, for --help.
+std::string exitCodeHelp();
+
+/// Of an exception that ends what was to be done: Error if a file cannot be read; else Output, as where something
+/// cannot be written, or memory or threads do not suffice to make it.
+Severity severityOf(const std::exception& e);
+/// The same where a substitute is rendered instead: Missing takes the place of Error.
+Severity severityOfLoss(const std::exception& e);
+/// What the user is told of it.
+std::string messageOf(const std::exception& e);
+
+/// From now on an exception that a thread lets out ends the program with its message and the exit code for it. (oneTBB
+/// starts threads from threads of its own, and throws there if the system has none left.)
+void endWithMessages();
+
+/// Runs `work` and reports what it throws.
+template <class Work>
+void guarded(Log& log, const Work& work) {
+  try {
+    work();
+  } catch (const std::exception& e) {
+    log.report(severityOf(e), "file", {}, messageOf(e));
+  }
+}
 
 }  // namespace tomales

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 
 namespace tomales {
@@ -116,7 +117,8 @@ std::optional<double> parseSeconds(const std::string& text) {
   const std::string units = "smh";
   const size_t unit = text.empty() ? std::string::npos : units.find(text.back());
   double value = 0;
-  if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) || !(value > 0))
+  if (!number(std::string_view(text).substr(0, text.size() - (unit != std::string::npos)), value) ||
+      !(value > 0 && std::isfinite(value)))
     return std::nullopt;
   return value * std::array{1, 60, 3600}[unit == std::string::npos ? 0 : unit];
 }

@@ -1,6 +1,5 @@
 #include "reyes/base/chunk_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,7 +8,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <utility>
+
+#include "reyes/base/input_file.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -37,23 +41,34 @@ static_assert(sizeof(Preamble) == 16 && sizeof(Entry) == 16 && sizeof(Footer) ==
 
 }  // namespace
 
+void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log) {
+  while (true) try {
+      return make();
+    } catch (const DamageError& e) {
+      std::error_code problem;
+      if (!std::filesystem::remove(e.path, problem)) throw;
+      log.report(Severity::Warning, "cache-damaged", {std::make_shared<const std::string>(e.path), 0},
+                 std::string(e.what()) + "; it is made anew");
+    }
+}
+
 struct ChunkWriter::Impl {
-  std::string path, temporary;
-  std::FILE* file = nullptr;
+  std::string path;
+  std::unique_ptr<UnfinishedFile> file;
   uint64_t offset = 0;
   std::vector<Entry> entries;
 
   void write(const void* data, size_t size) {
-    if (std::fwrite(data, 1, size, file) != size) fail();
+    if (std::fwrite(data, 1, size, file->stream()) != size) fail(std::strerror(errno));
     offset += size;
   }
-  [[noreturn]] void fail() const {
-    throw FileError(fmt::format("\"{}\" cannot be written: {}", path, std::strerror(errno)));
+  [[noreturn]] void fail(const std::string& why) const {
+    throw WriteError(fmt::format("\"{}\" cannot be written: {}", path, why));
   }
   /// Where the bytes went.
   Entry writeFrame(std::span<const std::byte> bytes) {
     if (bytes.size() > kMostChunkBytes)
-      throw FileError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
+      throw WriteError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
     // Of each thread and not of each file, because many may be open.
     thread_local std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
     thread_local Bytes packed;
@@ -62,7 +77,7 @@ struct ChunkWriter::Impl {
     ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_checksumFlag, 1);
     const size_t stored = ZSTD_compress2(zstd.get(), packed.data(), packed.size(), bytes.data(), bytes.size());
     if (ZSTD_isError(stored))
-      throw FileError(fmt::format("\"{}\" cannot be compressed: {}", path, ZSTD_getErrorName(stored)));
+      throw WriteError(fmt::format("\"{}\" cannot be compressed: {}", path, ZSTD_getErrorName(stored)));
     const Entry entry{offset, static_cast<uint32_t>(stored), static_cast<uint32_t>(bytes.size())};
     write(packed.data(), stored);
     if (packed.size() > kKeptBytes) packed = Bytes();
@@ -72,10 +87,10 @@ struct ChunkWriter::Impl {
 
 ChunkWriter::ChunkWriter(const std::string& path, const char (&kind)[9], uint32_t version) : impl_(new Impl) {
   impl_->path = path;
-  impl_->temporary = fmt::format("{}.{}.part", path, ::getpid());
-  impl_->file = std::fopen(impl_->temporary.c_str(), "wb");
-  if (!impl_->file) impl_->fail();
-  std::setvbuf(impl_->file, nullptr, _IOFBF, kWrittenAtOnce);
+  std::string why;
+  impl_->file = UnfinishedFile::create(path, UnfinishedKind::Scratch, why);
+  if (!impl_->file) impl_->fail(why);
+  std::setvbuf(impl_->file->stream(), nullptr, _IOFBF, kWrittenAtOnce);
   Preamble preamble{{}, version, kByteOrder};
   std::memcpy(preamble.kind, kind, sizeof preamble.kind);
   impl_->write(&preamble, sizeof preamble);
@@ -83,11 +98,7 @@ ChunkWriter::ChunkWriter(const std::string& path, const char (&kind)[9], uint32_
 
 ChunkWriter::ChunkWriter(ChunkWriter&&) noexcept = default;
 
-ChunkWriter::~ChunkWriter() {
-  if (!impl_ || !impl_->file) return;
-  std::fclose(impl_->file);
-  ::unlink(impl_->temporary.c_str());
-}
+ChunkWriter::~ChunkWriter() = default;
 
 uint32_t ChunkWriter::add(std::span<const std::byte> bytes) {
   impl_->entries.push_back(impl_->writeFrame(bytes));
@@ -102,13 +113,9 @@ void ChunkWriter::finish(std::span<const std::byte> header) {
   Footer footer{w.writeFrame(std::as_bytes(std::span(w.entries))), {}};
   std::memcpy(footer.end, kEnd, sizeof footer.end);
   w.write(&footer, sizeof footer);
-  const bool flushed = std::fflush(w.file) == 0 && ::fsync(::fileno(w.file)) == 0;
-  const bool closed = std::fclose(std::exchange(w.file, nullptr)) == 0;
-  if (flushed && closed && std::rename(w.temporary.c_str(), w.path.c_str()) == 0) return;
-  const int error = errno;
-  ::unlink(w.temporary.c_str());
-  errno = error;
-  w.fail();
+  std::string why;
+  if (!w.file->finish(why)) w.fail(why);
+  w.file.reset();
 }
 
 struct ChunkReader::Impl {
@@ -121,7 +128,9 @@ struct ChunkReader::Impl {
   ~Impl() {
     if (file >= 0) ::close(file);
   }
-  [[noreturn]] void fail(const std::string& problem) const { throw FileError(fmt::format("\"{}\" {}", path, problem)); }
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw DamageError(path, fmt::format("\"{}\" {}", path, problem));
+  }
 
   void readAt(uint64_t offset, void* to, size_t size) const {
     auto* out = static_cast<char*>(to);
@@ -165,11 +174,11 @@ struct ChunkReader::Impl {
 
 ChunkReader::ChunkReader(const std::string& path, const char (&kind)[9], uint32_t version) : impl_(new Impl) {
   impl_->path = path;
-  impl_->file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  std::string problem;
+  impl_->file = openInput(path, problem);
   struct stat status;
   if (impl_->file < 0 || ::fstat(impl_->file, &status) != 0)
-    impl_->fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-  if (!S_ISREG(status.st_mode)) impl_->fail("is not a file");
+    throw FileError(fmt::format("\"{}\" cannot be read: {}", path, problem.empty() ? std::strerror(errno) : problem));
   impl_->bytes = static_cast<uint64_t>(status.st_size);
   Preamble preamble{};
   if (impl_->bytes >= sizeof preamble) impl_->readAt(0, &preamble, sizeof preamble);
@@ -192,6 +201,12 @@ Bytes ChunkReader::read(uint32_t chunk) const {
   return impl_->unpack(impl_->entries[chunk]);
 }
 
+void ChunkReader::readAll() const {
+  parallelFor(count(), 16, [this](size_t begin, size_t end) {
+    for (size_t chunk = begin; chunk < end; ++chunk) read(static_cast<uint32_t>(chunk));
+  });
+}
+
 void ByteWriter::append(const void* data, size_t size) {
   const auto* from = static_cast<const std::byte*>(data);
   bytes.insert(bytes.end(), from, from + size);
@@ -204,6 +219,6 @@ void ByteReader::copyTo(void* to, size_t count, size_t size) {
   bytes_ = bytes_.subspan(count * size);
 }
 
-void ByteReader::fail() const { throw FileError(fmt::format("\"{}\" is damaged: it ends too early", path_)); }
+void ByteReader::fail() const { throw DamageError(path_, fmt::format("\"{}\" is damaged: it ends too early", path_)); }
 
 }  // namespace tomales

@@ -1,19 +1,23 @@
-// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger than
-// memory.
+// A file of numbered chunks that can be read one by one: point clouds, brick maps and whatever else is larger
+// than memory.
 //   8 bytes    what is in it ("TMPOINTS"), 4 bytes version, 4 bytes 0x01020304 in the writer's byte order
 //   chunks     one after the other, each a zstd frame with its checksum
 //   header     one more chunk: what a reader needs to know first
-//   directory  8 bytes offset, 4 bytes stored size, 4 bytes size of every chunk, the header last; itself a zstd frame
-//   footer     8 bytes offset of the directory, 4 bytes its stored size, 4 bytes its size, "TOMALESX"
-// Numbers are little-endian. A file under its final name is whole: the writer works on a temporary one.
+//   directory  8 bytes offset, 4 bytes stored size, 4 bytes size of every chunk, the header last; itself a
+//   zstd frame footer     8 bytes offset of the directory, 4 bytes its stored size, 4 bytes its size,
+//   "TOMALESX"
+// Numbers are little-endian. The writer works on an UnfinishedFile.
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "reyes/base/log.h"
 
 namespace tomales {
 
@@ -21,21 +25,34 @@ namespace tomales {
 struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+/// Of a file that cannot be written.
+struct WriteError : FileError {
+  using FileError::FileError;
+};
+/// Of a file that is there and makes no sense: cut off, rotten, of another kind or version.
+struct DamageError : FileError {
+  DamageError(std::string file, const std::string& problem) : FileError(problem), path(std::move(file)) {}
+  std::string path;
+};
+
+/// Runs `make`, which keeps files for itself. If one of them turns out to be damaged, that is reported, the file is
+/// removed, and `make` runs once more, to make what is missing.
+void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log);
 
 using Bytes = std::vector<std::byte>;
 
 /// Threads: one writer is used by one thread.
 class ChunkWriter {
  public:
-  /// `kind`: eight characters. Throws FileError.
+  /// `kind`: eight characters. Throws WriteError, as all members do (a full disk).
   ChunkWriter(const std::string& path, const char (&kind)[9], uint32_t version);
   ~ChunkWriter();  ///< Removes what was not finished.
   ChunkWriter(ChunkWriter&&) noexcept;
 
-  /// Returns the number of the chunk. Throws FileError (a full disk).
+  /// Returns the number of the chunk.
   uint32_t add(std::span<const std::byte> bytes);
   uint32_t count() const;
-  /// Writes the header and the directory, and gives the file its name. Throws FileError.
+  /// Writes the header and the directory, and gives the file its name.
   void finish(std::span<const std::byte> header);
 
  private:
@@ -55,6 +72,7 @@ class ChunkReader {
   uint32_t count() const;            ///< Of chunks, without the header.
   Bytes takeHeader();                ///< Leaves none: it may be large, and whoever asks makes something else of it.
   Bytes read(uint32_t chunk) const;  ///< Throws FileError.
+  void readAll() const;              ///< Throws FileError unless every chunk can be read.
   uint64_t fileBytes() const;
 
  private:

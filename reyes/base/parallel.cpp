@@ -1,11 +1,14 @@
 #include "reyes/base/parallel.h"
 
+#include <pthread.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
+
+#include "reyes/base/deep_stack.h"
 
 // oneTBB is not built for ThreadSanitizer, which therefore does not see that a loop starts after what its caller wrote
 // and ends before what its caller reads: tell it.
@@ -18,6 +21,30 @@ extern "C" void __tsan_release(void*);
 #endif
 
 namespace tomales {
+namespace {
+
+void* call(void* body) {
+  (*static_cast<const std::function<void()>*>(body))();
+  return nullptr;
+}
+
+}  // namespace
+
+void runOnDeepStack(const std::function<void()>& body) {
+  constexpr size_t kStack_bytes = kMostBounces * kBounceStack_bytes;
+  const tbb::global_control pool(tbb::global_control::thread_stack_size, kStack_bytes);
+  // The stack of the process's first thread ends where ulimit -s says.
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStack_bytes);
+  pthread_t thread;
+  const bool started = pthread_create(&thread, &attributes, call, const_cast<std::function<void()>*>(&body)) == 0;
+  pthread_attr_destroy(&attributes);
+  if (started)
+    pthread_join(thread, nullptr);
+  else
+    body();
+}
 
 struct ThreadLimit::Impl {
   explicit Impl(size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}

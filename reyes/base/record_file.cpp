@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zstd.h>
@@ -10,7 +9,8 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
+
+#include "reyes/base/input_file.h"
 
 namespace tomales {
 namespace {
@@ -110,42 +110,25 @@ std::string lastProblem() { return std::strerror(errno); }
 
 }  // namespace
 
-RecordWriter::RecordWriter(std::string path, const RecordFileKind& kind)
-    : path_(std::move(path)), temporary_(path_ + ".part"), kind_(kind) {}
-
-std::unique_ptr<RecordWriter> RecordWriter::create(const std::string& path, const RecordFileKind& kind, bool resume,
-                                                   std::string& error) {
-  std::unique_ptr<RecordWriter> writer(new RecordWriter(path, kind));
-  return writer->open(resume, error) ? std::move(writer) : nullptr;
-}
-
-RecordWriter::~RecordWriter() {
-  if (file_ >= 0) ::close(file_);
-}
-
-bool RecordWriter::open(bool resume, std::string& error) {
-  file_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) {
-    error = lastProblem();
-    return false;
-  }
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-    error = "another program is writing \"" + temporary_ + "\"";
-    return false;
-  }
-  if (resume) keepWholeRecords();
-  if (end_ > 0 || restart()) return true;
-  error = error_;
-  return false;
+std::unique_ptr<RecordWriter> RecordWriter::create(const std::string& path, const RecordFileKind& kind,
+                                                   Unfinished unfinished, std::string& error) {
+  auto file = UnfinishedFile::create(
+      path, unfinished == Unfinished::Removed ? UnfinishedKind::Scratch : UnfinishedKind::Resumable, error);
+  if (!file) return nullptr;
+  std::unique_ptr<RecordWriter> writer(new RecordWriter(std::move(file), kind));
+  if (unfinished == Unfinished::Resumed) writer->keepWholeRecords();
+  if (writer->end_ > 0 || writer->restart()) return writer;
+  error = writer->error_;
+  return nullptr;
 }
 
 void RecordWriter::keepWholeRecords() {
-  if (!problemOf(file_, kind_).empty()) return;
-  const uint64_t size = sizeOf(file_);
+  if (!problemOf(file_->descriptor(), kind_).empty()) return;
+  const uint64_t size = sizeOf(file_->descriptor());
   uint64_t at = sizeof(Header), next = 0;
-  for (RecordHeader h{}; readRecord(file_, size, at, h, next) && h.kind != kDirectory; at = next)
+  for (RecordHeader h{}; readRecord(file_->descriptor(), size, at, h, next) && h.kind != kDirectory; at = next)
     offsets_[{h.kind, h.index}] = at;
-  if (::ftruncate(file_, static_cast<off_t>(at)) == 0)
+  if (::ftruncate(file_->descriptor(), static_cast<off_t>(at)) == 0)
     end_ = at;
   else
     offsets_.clear();
@@ -153,7 +136,7 @@ void RecordWriter::keepWholeRecords() {
 
 bool RecordWriter::restart() {
   offsets_.clear(), end_ = 0;
-  if (::ftruncate(file_, 0) != 0) return fail(lastProblem());
+  if (::ftruncate(file_->descriptor(), 0) != 0) return fail(lastProblem());
   const Header header = headerOf(kind_);
   return append(&header, sizeof(header));
 }
@@ -166,7 +149,7 @@ bool RecordWriter::fail(const std::string& what) {
 bool RecordWriter::append(const void* data, size_t size) {
   const char* p = static_cast<const char*>(data);
   for (uint64_t at = end_; size > 0;) {
-    const ssize_t n = ::pwrite(file_, p, size, static_cast<off_t>(at));
+    const ssize_t n = ::pwrite(file_->descriptor(), p, size, static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return fail(n < 0 ? lastProblem() : "no space left");
     p += n, size -= static_cast<size_t>(n), at += static_cast<uint64_t>(n);
@@ -190,7 +173,7 @@ std::optional<Bytes> RecordWriter::read(RecordName name) const {
   }
   RecordHeader h{};
   uint64_t next = 0;
-  return readRecord(file_, ~uint64_t{0}, offset, h, next);
+  return readRecord(file_->descriptor(), ~uint64_t{0}, offset, h, next);
 }
 
 bool RecordWriter::write(RecordName name, BytesView content) {
@@ -219,10 +202,8 @@ bool RecordWriter::finish() {
   Trailer trailer{{}, directory, end_ + sizeof(Trailer), 0};
   std::memcpy(trailer.magic, kTrailerMagic, sizeof(trailer.magic));
   trailer.sum = sealOf(trailer);
-  if (!append(&trailer, sizeof(trailer)) || ::fsync(file_) != 0) return fail(lastProblem());
-  std::error_code problem;
-  std::filesystem::rename(temporary_, path_, problem);
-  return !problem || fail(problem.message());
+  std::string why;
+  return append(&trailer, sizeof(trailer)) && (file_->finish(why) || fail(why));
 }
 
 std::string RecordWriter::error() const {
@@ -236,11 +217,8 @@ RecordFile::~RecordFile() {
 
 std::unique_ptr<RecordFile> RecordFile::open(const std::string& path, const RecordFileKind& kind, std::string& error) {
   std::unique_ptr<RecordFile> out(new RecordFile);
-  out->file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (out->file_ < 0) {
-    error = lastProblem();
-    return nullptr;
-  }
+  out->file_ = openInput(path, error);
+  if (out->file_ < 0) return nullptr;
   return out->readDirectory(kind, error) ? std::move(out) : nullptr;
 }
 

@@ -3,7 +3,7 @@
 //   record*     32 bytes that say what and how long, then zstd; in the order of finishing
 //   directory  the last record: where every other one starts
 //   trailer    where the directory starts
-// Written to NAME.part, which a killed program leaves behind with whole records in it, and renamed when complete.
+// What is not finished may stay as NAME.part with whole records in it, also after the program is killed.
 // Every byte is under a checksum. Numbers are little-endian.
 // Threads: write() and read() may be called concurrently; records are compressed by the caller's thread.
 #pragma once
@@ -14,6 +14,7 @@
 #include <string>
 
 #include "reyes/base/checksum.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 
@@ -29,12 +30,18 @@ struct RecordName {
   auto operator<=>(const RecordName&) const = default;
 };
 
+/// What becomes of records if their file is not finished.
+enum class Unfinished {
+  Removed,
+  Kept,     ///< In NAME.part, for a later run to resume.
+  Resumed,  ///< The same, and whole records of an earlier NAME.part are taken over, if it is of this kind.
+};
+
 class RecordWriter {
  public:
-  /// `resume`: whole records of NAME.part are kept, if it is of this kind. Null: cannot be written, `error` says why.
-  static std::unique_ptr<RecordWriter> create(const std::string& path, const RecordFileKind& kind, bool resume,
-                                              std::string& error);
-  ~RecordWriter();  ///< Leaves NAME.part unless finished.
+  /// Null: cannot be written, `error` says why.
+  static std::unique_ptr<RecordWriter> create(const std::string& path, const RecordFileKind& kind,
+                                              Unfinished unfinished, std::string& error);
 
   bool has(RecordName name) const;
   /// A record kept or written before; nothing if there is none.
@@ -43,22 +50,23 @@ class RecordWriter {
   bool write(RecordName name, BytesView content);
   /// Writes the directory and gives the file its name. False: error() says why.
   bool finish();
-  /// Forgets and removes what is in NAME.part.
+  /// Forgets and removes what is in the file.
   bool restart();
+  /// Takes the name of the unfinished file away; records can still be written and read.
+  void discard() { file_->discard(); }
   std::string error() const;
-  const std::string& temporary() const { return temporary_; }
+  const std::string& unfinishedPath() const { return file_->path(); }
   uint64_t bytesWritten() const { return end_; }
 
  private:
-  RecordWriter(std::string path, const RecordFileKind& kind);
-  bool open(bool resume, std::string& error);
+  RecordWriter(std::unique_ptr<UnfinishedFile> file, const RecordFileKind& kind)
+      : file_(std::move(file)), kind_(kind) {}
   bool append(const void* data, size_t size);
   bool fail(const std::string& what);
   void keepWholeRecords();
 
-  const std::string path_, temporary_;
+  const std::unique_ptr<UnfinishedFile> file_;
   const RecordFileKind kind_;
-  int file_ = -1;
   uint64_t end_ = 0;
   std::map<RecordName, uint64_t> offsets_;
   std::string error_;

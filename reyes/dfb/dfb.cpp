@@ -41,9 +41,9 @@ bool consistent(const Shot& shot) {
 
 }  // namespace
 
-std::unique_ptr<DfbWriter> DfbWriter::create(const std::string& path, const Shot& shot, bool resume,
+std::unique_ptr<DfbWriter> DfbWriter::create(const std::string& path, const Shot& shot, Unfinished unfinished,
                                              std::string& error) {
-  auto records = RecordWriter::create(path, dfbKind(), resume, error);
+  auto records = RecordWriter::create(path, dfbKind(), unfinished, error);
   if (!records) return nullptr;
   const Bytes packed =
       pack(Shot{withoutGeometry(shot.scene), shot.frame, shot.seed, shot.sources, shot.folder, shot.world});

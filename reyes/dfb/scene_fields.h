@@ -1,4 +1,4 @@
-// Which fields of a Scene a .dfb holds: all but geometry. Private to reyes/dfb. A structure that gains a field stops
+// Private to reyes/dfb: the fields of a Scene that a .dfb holds: all but geometry. A structure that gains a field stops
 // the compiler here: add it to the list, and nothing else needs to be done.
 #pragma once
 #include "reyes/dfb.h"
@@ -34,8 +34,8 @@ void fields(A& a, ShadeGroup& x) {
   each(a, attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted, steps);
 }
 
-/// Packs what `withoutGeometry` leaves; its private members serve geometry alone, so that no structured binding guards
-/// this list.
+/// Packs the fields that withoutGeometry() keeps. The private members serve geometry alone, so no structured binding
+/// guards this list.
 template <class A>
 void fields(A& a, Scene& x) {
   each(a, x.options, x.cameraFromWorld, x.lights, x.worldFromNamed, x.where, x.groups);
@@ -57,7 +57,7 @@ void fields(A& a, SourceFile& x) {
   each(a, path, sum);
 }
 
-/// A layout alone: tiles are records of their own.
+/// Packs the layout alone: tiles are records of their own.
 template <class A>
 void fields(A& a, DeepFrame& x) {
   auto& [crop, padded, bucketWidth, bucketHeight, columns, rows, samplesPerPixel, complete, tiles, firstRow] = x;

@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-/// One member of all elements.
+/// Packs one member of all elements.
 template <class A, class T, class Member>
 void column(A& a, std::vector<T>& x, Member T::*member) {
   if constexpr (kIsSchema<A>) {
@@ -79,7 +79,7 @@ void tileFields(A& a, DeepTile& x) {
   facets(a, facetList), fragments(a, fragmentList), pixels(a, pixelList);
 }
 
-/// Damage that no checksum shows: a file made by hand.
+/// Detects damage that no checksum shows, as in a file made by hand.
 bool consistent(const DeepTile& t) {
   const auto fits = [&](const Facet& f) {
     if (f.batch < 0 || f.batch >= static_cast<int>(t.batches.size())) return false;

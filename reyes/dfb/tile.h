@@ -1,5 +1,5 @@
-// A tile to bytes and back: its arrays one after the other, member by member, which compresses better than structures
-// do. Private to reyes/dfb.
+// Private to reyes/dfb: a tile to bytes and back. Its arrays are stored one after the other, member by member, which
+// compresses better than structures.
 #pragma once
 #include "reyes/base/pack.h"
 #include "reyes/deep.h"
@@ -7,9 +7,9 @@
 namespace tomales {
 
 Bytes packTile(const DeepTile& tile);
-/// Nothing: the bytes are not those of a tile whose indices stay inside it.
+/// Empty: the bytes are not those of a tile whose indices stay inside it.
 std::optional<DeepTile> unpackTile(BytesView bytes);
-/// Changes with what a tile holds.
+/// A number that changes with the layout of a tile.
 uint64_t tileSchema();
 
 }  // namespace tomales

@@ -1,16 +1,16 @@
-// What lattices and single points have in common: primitives evaluated at a time, and the way into current space.
+// The parts that lattices and single points share: evaluation of primitives at a time, and transformation to current
+// space.
 #pragma once
 #include "reyes/dice.h"
 
 namespace tomales {
 
-/// Three arrays.
 template <class T>
 struct Triple {
   T *x, *y, *z;
 };
 
-/// Object-space results of Prim::evaluate for n points; memory is kept by the thread.
+/// Object-space results of Prim::evaluate for n points. Their memory is kept by the thread.
 class Evaluated {
  public:
   explicit Evaluated(int n) : stride_(n == 1 ? 1 : static_cast<size_t>(padded(n))) {
@@ -24,7 +24,7 @@ class Evaluated {
     if (many_.size() > spare().size()) many_.swap(spare());
   }
   Evaluated(const Evaluated&) = delete;
-  /// From one of the points on.
+  /// The results from point `first` on.
   SurfacePoints view(int first = 0) {
     const auto a = [this, first](size_t i) { return data_ + i * stride_ + first; };
     return {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)};
@@ -42,7 +42,7 @@ class Evaluated {
   }
 
  private:
-  /// Memory that a thread keeps from grid to grid.
+  /// The memory that a thread keeps from grid to grid.
   static AlignedVector<float>& spare() {
     static thread_local AlignedVector<float> memory;
     return memory;
@@ -54,7 +54,8 @@ class Evaluated {
   float* data_;
 };
 
-/// A deforming object at `time`: linear between the two shapes around it. evaluate(prim, out) fills n points of `out`.
+/// Evaluates a deforming object at `time`: linearly between the two shapes around it. evaluate(prim, out) fills n
+/// points of `out`.
 template <class Evaluate>
 void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evaluate& evaluate) {
   size_t k = 0;
@@ -67,10 +68,10 @@ void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evalua
   out.blend(next, t);
 }
 
-/// Normals by the cofactor matrix: right for any scale, and mirrored exactly when cross products of transformed
-/// derivatives are, which Object::flipsNormal undoes.
+/// The cofactor matrix transforms normals. It is right for any scale, and mirrored exactly when cross products of
+/// transformed derivatives are, which Object::flipsNormal undoes.
 mat3 normalMatrix(const Object& o, const mat4& m);
-/// Primitive variables given in object space arrive in current space.
+/// Transforms a primitive variable from object space to current space.
 void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride);
 
 }  // namespace tomales

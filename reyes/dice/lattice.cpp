@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// In the order of glm's product, so that one point is moved to the same bits.
+/// The sums are in the order of glm's product, so that a single point gets the same bits.
 TOMALES_HOT void transformAffine(const mat4& m, int n, Triple<const float> from, Triple<float> to) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
@@ -46,7 +46,8 @@ uint8_t openEdgesOf(const PatchInfo& info, const UvRect& r) {
   return static_cast<uint8_t>(touched & info.openEdges);
 }
 
-/// Each cell with some of its surroundings: the hider asks for points a little way off a cell (hide/trim.cpp).
+/// The part of each cell, grown a little, that trim curves keep: the hider tests points slightly outside of a cell
+/// (hide/trim.cpp).
 std::vector<Kept> keptOfCells(const Prim& prim, const Grid& g) {
   const auto whole = [&](const PatchPiece& p) { return prim.kept(p.patch, p.rect) == Kept::All; };
   if (std::all_of(g.pieces.begin(), g.pieces.end(), whole)) return {};
@@ -62,9 +63,9 @@ std::vector<Kept> keptOfCells(const Prim& prim, const Grid& g) {
 
 bool isWhole(const UvRect& r) { return r.u0 == 0 && r.u1 == 1 && r.v0 == 0 && r.v1 == 1; }
 
-/// Where a lattice of nu x nv over a rectangle lies on its patch, rows along u.
+/// Parameters of a lattice of nu x nv over a rectangle, in rows along u.
 void latticeOver(const UvRect& rect, int nu, int nv, float* u, float* v) {
-  // The last vertex is the rectangle's own number, so that neighbours evaluate the same one.
+  // The last vertex takes the rectangle's own number, so that neighbours evaluate the same one.
   const auto at = [](float a, float b, int i, int count) {
     return i == count ? b : a + (b - a) * (static_cast<float>(i) / static_cast<float>(count));
   };
@@ -110,8 +111,8 @@ Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, in
   const int n = g.vertexCount(), ofPiece = g.verticesOfPiece();
   static thread_local AlignedVector<float> u, v;
   u.resize(static_cast<size_t>(padded(ofPiece))), v.resize(u.size());
-  UvRect laid{0, 0, 0, 0};  // u and v are for this
-  /// f(piece, number of its first vertex), with u and v for the piece.
+  UvRect laid{0, 0, 0, 0};  // the rectangle that u and v belong to
+  /// Calls f(piece, number of its first vertex), with u and v set for the piece.
   const auto forPieces = [&](const auto& f) {
     int first = 0;
     for (const Grid::Piece& p : g.pieces) {

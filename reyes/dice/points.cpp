@@ -14,7 +14,7 @@ TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, f
 
 namespace {
 
-/// The shader's parameters at a place of a patch, and how they run along it: patches of one mesh share a parameter
+/// The shader's parameters at a place of a patch, and their derivatives along it: patches of one mesh share a parameter
 /// square.
 struct ShaderParameters {
   float u, v, perU, perV;
@@ -29,7 +29,7 @@ struct ShaderParameters {
   }
 };
 
-/// All primitive variables at one place, current space.
+/// All primitive variables at one place, in current space.
 void primvarsAt(const Prim& prim, uint32_t patch, float u, float v, const mat4& m, const mat3& normals,
                 AlignedVector<float>& out) {
   out.clear();
@@ -83,7 +83,7 @@ void evaluatePoint(const Scene& scene, int object, uint32_t patch, float u, floa
 
 void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, float v, float radius, ShadePoints& batch,
                    int index) {
-  constexpr float kWidest = 0.25f;  // of a patch: its end is never passed on both sides
+  constexpr float kWidest = 0.25f;  // share of a patch, so that a difference never passes both of its ends
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const Prim& prim = o.shape();
   const mat4& m = scene.groups[static_cast<size_t>(o.group)].cameraFromObject;

@@ -1,4 +1,4 @@
-// Which buckets of a frame a raster bound touches. Threads: immutable.
+// The buckets of a frame, and which of them a raster bound touches. Threads: immutable.
 #pragma once
 #include <algorithm>
 

@@ -23,9 +23,9 @@ uint64_t alongHilbertCurve(uint32_t x, uint32_t y, uint32_t side) {
   return distance;
 }
 
-/// Ring around the middle, and the place on it, clockwise from its top left corner.
+/// A key of the ring around the middle, and of the place on it, clockwise from its top left corner.
 uint64_t alongSpiral(int column, int row, int columns, int rows) {
-  const int x = 2 * column - (columns - 1), y = 2 * row - (rows - 1);  // the middle is 0, in half buckets
+  const int x = 2 * column - (columns - 1), y = 2 * row - (rows - 1);  // coordinates from the middle, in half buckets
   const int ring = (std::max(std::abs(x), std::abs(y)) + 1) / 2;
   const auto side = static_cast<uint64_t>(2 * ring + 2);
   const int left = x / 2 + ring, down = y / 2 + ring;

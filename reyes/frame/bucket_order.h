@@ -1,4 +1,4 @@
-// In which order the buckets of a frame are worked on (Option "bucket" "string order"). No order changes a picture.
+// The order in which the buckets of a frame are processed (Option "bucket" "string order"). No order changes a picture.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace tomales {
 
-/// Indices row * columns + column. "horizontal", "vertical", "zigzag-x" and "zigzag-y" (every other row or column
-/// backwards), "spacefill" (along a Hilbert curve), "spiral" (outwards from the middle), "random". Others count as
-/// horizontal.
+/// Returns indices row * columns + column. Orders: "horizontal", "vertical", "zigzag-x" and "zigzag-y" (every other row
+/// or column backwards), "spacefill" (along a Hilbert curve), "spiral" (outwards from the middle), "random". Any other
+/// name counts as horizontal.
 std::vector<uint32_t> bucketOrder(const std::string& order, int columns, int rows);
 
 }  // namespace tomales

@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// Nothing: cancelled on the way.
+/// Hides one bucket. Empty: it was cancelled on the way.
 std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes,
                                    const HideContext& context, const SamplePattern& pattern, HideWarnings& warnings) {
   Hider hider(context.scene, context.camera, pattern, rect);
@@ -17,21 +17,21 @@ std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const N
   while (const auto node = context.isCancelled() ? nullptr : queue.pop())
     if (!hider.hidden(node->raster(), node->zMin())) node->visit(bucket, queue, hider);
   if (context.isCancelled()) return {};
-  HideDoubts doubts;
-  DeepTile tile = hider.resolve(&doubts);
-  warnings.add(doubts, context.scene);
+  HideDiagnostics diagnostics;
+  DeepTile tile = hider.resolve(&diagnostics);
+  warnings.add(diagnostics, context.scene);
   return tile;
 }
 
-// Buckets hold all their samples, and of crowds a grid for each sample or so. Those of more are halved, which no
-// picture shows.
+// A bucket holds all its samples, and in dense scenes about a grid for each sample. Larger buckets than these limits
+// are halved, which does not change the picture.
 constexpr int64_t kMostSamplesOfBucket = 1 << 22;
 constexpr double kMostPatchesOfBucket = 1 << 19;
 
 double patchesPerPixel(const Scene& scene) {
   double patches = 0;
   for (const Object& o : scene.objects)
-    if (!o.shapes.empty()) patches += o.shape().patchCount();  // those of a shot have none
+    if (!o.shapes.empty()) patches += o.shape().patchCount();  // objects of a shot from a file have none
   return patches / (static_cast<double>(scene.options.xResolution) * scene.options.yResolution);
 }
 
@@ -79,7 +79,7 @@ struct FrameHider::Impl {
     markSteps(scene, shading, 0);
   }
 
-  /// False: cancelled.
+  /// Returns false if cancelled.
   bool hide(size_t index, const TileSink& sink) {
     if (!sink.has || !sink.has(index)) {
       std::optional<DeepTile> tile;
@@ -113,7 +113,7 @@ FrameHider::FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& sha
     log.report(Severity::Warning, "defocus-orthographic", scene.where,
                "DepthOfField needs a perspective projection: all is in focus");
 }
-// What is doubtful is judged of the frame as a whole, which may be hidden in parts.
+// Warnings are made for the frame as a whole, which may be hidden in parts.
 FrameHider::~FrameHider() { impl_->warnings.report(impl_->context.log); }
 
 bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
@@ -126,7 +126,7 @@ bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
 
 bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats,
                Log& log, const TileSink& sink) {
-  // In parts: what lies between finished and unfinished buckets stays in memory.
+  // The frame is hidden in parts, because all geometry between finished and unfinished buckets stays in memory.
   constexpr size_t kOfThread = 64;
   const std::vector<uint32_t> order = bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows);
   const size_t part = kOfThread * static_cast<size_t>(threadCount());

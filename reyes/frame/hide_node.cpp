@@ -9,13 +9,13 @@
 namespace tomales {
 namespace {
 
-/// Patches for each pixel from which small nodes are opened anew by every bucket: far more of them would wait for the
-/// next row of buckets than can be seen.
+/// With so many patches in a pixel, small nodes are opened anew by every bucket: else far more of them than can be seen
+/// would wait for the next row of buckets.
 constexpr float kDense = 4, kSmall_px = 32;
 
-/// Shared: opened by the first bucket that asks what is in it. Transient: by each bucket for itself. AtOnce: likewise,
-/// and what is in it is not put into the queue, where the pieces of many small things that lie side by side would wait
-/// for each other.
+/// How a node is opened. Shared: once, by the first bucket that needs its contents. Transient: by each bucket for
+/// itself. AtOnce: the same, and its contents do not go through the queue, in which the pieces of many small things
+/// side by side would wait for each other.
 enum class Opening : uint8_t { Shared, Transient, AtOnce };
 
 class OpeningNode : public HideNode {
@@ -56,9 +56,9 @@ class OpeningNode : public HideNode {
   }
 
  protected:
-  /// The last bucket is done with what open() gave.
+  /// Called when the last bucket is done with the contents that open() gave.
   virtual void close() {}
-  /// What is in it and touches the given buckets.
+  /// Returns the contents that touch the given buckets.
   virtual HideNodes open(const BucketRange& within) = 0;
   HideContext& context_;
 
@@ -70,7 +70,8 @@ class OpeningNode : public HideNode {
   int users_;
 };
 
-/// Of those pieces that touch the buckets. zMin: of what they are made of; what a solid shows depends on all of it.
+/// Makes nodes for the pieces that touch the buckets. zMin: the nearest z of their node; the visible surface of a solid
+/// depends on all its pieces.
 HideNodes nodesOfPieces(HideContext& context, std::vector<SubPatch> pieces, float zMin, const BucketRange& within);
 
 /// A piece of very many grids.
@@ -109,8 +110,8 @@ class PatchesNode : public OpeningNode {
  public:
   using Tree = std::shared_ptr<const PatchTree>;
 
-  /// zOfSolid: the nearest of the solid that the object is a part of. What that shows depends on all its pieces, so
-  /// none may be passed over before all are.
+  /// zOfSolid: nearest z of the solid that the object is a part of. The visible surface of a solid depends on all its
+  /// pieces, so none may be skipped before the whole solid is hidden.
   static std::unique_ptr<HideNode> make(HideContext& context, int object, Tree tree, uint32_t level, uint32_t index,
                                         const BucketRange& outer, float zOfSolid) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];
@@ -168,7 +169,7 @@ class PatchesNode : public OpeningNode {
   const uint32_t level_, index_;
 };
 
-/// Nodes of those of the objects that the camera may see or that cut what it may see; instances share a tree. Pre: the
+/// Makes nodes of the objects that the camera may see, or that cut visible ones; instances share a tree. Pre: the
 /// objects hold all parts of their solids.
 HideNodes nodesOf(HideContext& context, const std::vector<int>& objects, const BucketRange& within) {
   std::map<std::vector<PrimPtr>, std::shared_ptr<const PatchTree>> trees;
@@ -262,7 +263,7 @@ NodeList::NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& 
   for (const auto& node : nodes_) forBuckets(*node, [&](size_t list) { ++end_[list + 1]; });
   std::partial_sum(end_.begin(), end_.end(), end_.begin());
   entries_.resize(end_.back());
-  // Filling moves each list's end, kept one place early, to where it belongs.
+  // Filling moves each list's end, which began one place early, to its final place.
   for (const auto& node : nodes_) forBuckets(*node, [&](size_t list) { entries_[end_[list]++] = node.get(); });
 }
 

@@ -1,6 +1,6 @@
-// What a bucket meets on its way from the nearest to the farthest: geometry that is opened into smaller nodes by the
-// first bucket that does not hide it (a procedural, an object, a run of its patches), and pieces, which are diced
-// instead. Each is dropped when the last bucket that its bound touches is done, whether or not that bucket ever saw it
+// The nodes that a bucket visits from the nearest to the farthest: geometry that the first bucket which does not hide
+// it opens into smaller nodes (a procedural, an object, a run of its patches), and pieces, which are diced instead.
+// Each node is dropped when the last bucket that its bound touches is done, whether or not that bucket visited it
 // (docs/decisions/0008). Threads: visit and release of different buckets are concurrent.
 #pragma once
 #include <mutex>
@@ -14,7 +14,7 @@
 
 namespace tomales {
 
-/// Shared by all nodes of a frame, which it outlives.
+/// Data that all nodes of a frame share; it outlives them.
 struct HideContext {
   Scene& scene;
   const Camera& camera;
@@ -24,12 +24,12 @@ struct HideContext {
   Log& log;
   StopFlag cancelled = nullptr;
   Counter liveGrids_bytes{0}, liveGeometry_bytes{0};
-  std::mutex growth{};  ///< Of the scene and its shaders.
+  std::mutex growth{};  ///< Guards growth of the scene and its shaders.
 
   bool isCancelled() const { return cancelled && *cancelled; }
 };
 
-/// Notes of groups from `first` on whether their shaders want steps.
+/// Notes for groups from `first` on whether their shaders want steps.
 inline void markSteps(Scene& scene, const ShadingSystem& shading, size_t first) {
   for (size_t i = first; i < scene.groups.size(); ++i) scene.groups[i].steps = shading.wantsSteps(static_cast<int>(i));
 }
@@ -46,9 +46,9 @@ class HideNode {
   float zMin() const { return place_.zMin; }
   const BucketRange& range() const { return range_; }
 
-  /// For a bucket in range() that does not hide it: puts what it is made of into the queue or the hider.
+  /// Puts the contents into the queue or the hider of a bucket in range() that does not hide the node.
   virtual void visit(size_t bucket, NodeQueue& queue, Hider& hider) = 0;
-  /// The bucket is resolved. Once for every bucket in range().
+  /// Called once for every bucket in range(), when it is resolved.
   virtual void release(size_t bucket) = 0;
 
  private:
@@ -57,16 +57,16 @@ class HideNode {
 };
 using HideNodes = std::vector<std::unique_ptr<HideNode>>;
 
-/// Nearest first; among equals, in the order of arrival.
+/// The nearest node comes first; equal ones come in the order of arrival.
 class NodeQueue {
  public:
-  /// For nodes that somebody else keeps, and for those that end when they have been visited.
+  /// The first takes nodes that are kept elsewhere, the second those that end when they have been visited.
   void push(HideNode* node) { push(std::shared_ptr<HideNode>(std::shared_ptr<void>(), node)); }
   void push(std::shared_ptr<HideNode> node) {
     const float zMin = node->zMin();
     queue_.push({zMin, next_++, std::move(node)});
   }
-  /// Null: it is empty.
+  /// Null: the queue is empty.
   std::shared_ptr<HideNode> pop() {
     if (queue_.empty()) return nullptr;
     std::shared_ptr<HideNode> node = queue_.top().node;
@@ -85,7 +85,7 @@ class NodeQueue {
   uint32_t next_ = 0;
 };
 
-/// Nodes, and for every bucket of a range those that touch it.
+/// Nodes, with a list for every bucket of a range of those that touch it.
 class NodeList {
  public:
   NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& buckets);
@@ -102,14 +102,14 @@ class NodeList {
   const HideNodes nodes_;
   const BucketRange range_;
   const BucketGrid& buckets_;
-  std::vector<HideNode*> entries_;  ///< Of bucket after bucket of the range.
-  std::vector<size_t> end_;         ///< Of a bucket's entries; they begin where those of the one before end.
+  std::vector<HideNode*> entries_;  ///< The lists of all buckets of the range, one after the other.
+  std::vector<size_t> end_;         ///< End of each bucket's list, where that of the next begins.
 };
 
-/// A node for every object and procedural that the camera may see.
+/// Makes a node for every object and procedural that the camera may see.
 HideNodes nodesOfScene(HideContext& context);
 
-/// The most that was alive at once.
+/// Raises a peak to the current value if that is larger.
 void keepPeak(Counter& peak, int64_t now);
 
 }  // namespace tomales

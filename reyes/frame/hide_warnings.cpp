@@ -7,9 +7,9 @@
 namespace tomales {
 namespace {
 
-constexpr int kFew_px = 12;          // where a crease is met by chance
-constexpr int64_t kFewFacets = 12;   // show nothing
-constexpr double kMostTurned = 0.5;  // of what is visible
+constexpr int kFew_px = 12;          // a crease covers fewer pixels by chance
+constexpr int64_t kFewFacets = 12;   // fewer facets are not judged
+constexpr double kMostTurned = 0.5;  // share of the visible facets
 
 }  // namespace
 
@@ -18,7 +18,7 @@ HideWarnings::Site HideWarnings::siteOf(const Scene& scene, int object) {
   return {o.where, objectName(o)};
 }
 
-void HideWarnings::add(const HideDoubts& bucket, const Scene& scene) {
+void HideWarnings::add(const HideDiagnostics& bucket, const Scene& scene) {
   if (bucket.samePlaces.empty() && bucket.turns.empty()) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [pair, pixels] : bucket.samePlaces) {

@@ -1,5 +1,5 @@
-// Where hiding comes to its limits, as warnings: what the buckets of a frame were in doubt about. Private to
-// reyes/frame. Threads: add() is concurrent. The warnings depend on buckets, not on threads.
+// Private to reyes/frame: warnings where hiding reaches its limits, from the uncertain samples that the buckets of a
+// frame counted. Threads: add() is concurrent. The warnings depend on buckets, not on threads.
 #pragma once
 #include <map>
 #include <mutex>
@@ -12,12 +12,12 @@ namespace tomales {
 
 class HideWarnings {
  public:
-  /// Pre: the bucket's objects are still there; others get their numbers.
-  void add(const HideDoubts& ofBucket, const Scene& scene);
+  /// Pre: the bucket's objects still exist; their numbers may be given to others later.
+  void add(const HideDiagnostics& ofBucket, const Scene& scene);
   void report(Log& log) const;
 
  private:
-  /// Where an object is told, and its name.
+  /// Source location of an object, and its name.
   struct Site {
     SourceLoc where;
     std::string name;
@@ -27,8 +27,8 @@ class HideWarnings {
   static Site siteOf(const Scene& scene, int object);
 
   std::mutex mutex_;
-  std::map<std::pair<Site, Site>, int> samePlaces_;  ///< Pixels
-  HideDoubts::Turns all_;
+  std::map<std::pair<Site, Site>, int> samePlaces_;  ///< Number of pixels.
+  HideDiagnostics::Turns all_;
   std::map<Site, int64_t> turned_;
 };
 

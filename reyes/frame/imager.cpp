@@ -4,7 +4,7 @@
 namespace tomales {
 namespace {
 
-/// Channels of Image that an imager sees.
+/// Channels of Image that an imager reads and writes.
 struct Channels {
   int color[3], alpha;
   explicit Channels(const Image& image)

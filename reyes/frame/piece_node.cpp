@@ -11,10 +11,10 @@ namespace tomales {
 
 namespace {
 
-constexpr int kSmall_cells = 256;     ///< Pieces with fewer share a node if they begin in the same bucket,
-constexpr int kStack_vertices = 512;  ///< and grids of about as many vertices,
+constexpr int kSmall_cells = 256;     ///< Pieces with fewer cells share a node if they begin in the same bucket.
+constexpr int kStack_vertices = 512;  ///< Grids of a node are stacked up to about so many vertices.
 constexpr int kStacked_vertices =
-    64;  ///< if they have no more: of larger ones too many would be diced for one that is seen.
+    64;  ///< A piece with more vertices is not stacked: too many would be diced for one that is visible.
 
 TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
   const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);
@@ -23,14 +23,14 @@ TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
   return unseeable == 0;
 }
 
-/// Does nothing that is decided for a whole grid depend on what shares it?
+/// May the piece share a grid, because nothing that is decided for a whole grid differs for it?
 bool canStack(const HideContext& context, const SubPatch& piece) {
   const Object& o = context.scene.objects[static_cast<size_t>(piece.object)];
   return standsStillInFocus(o, context.camera) && !piece.crossesEye &&
          o.shape().kept(piece.patch, piece.rect) == Kept::All;
 }
 
-/// From a square of the disk's area to that around it.
+/// Widens a cell from a square with the disk's area to the square around the disk.
 void widenToSquares(Grid& g) {
   const float more = 2 / std::sqrt(kPi) - 1;
   for (int axis = 0; axis < 3; ++axis)
@@ -41,9 +41,9 @@ void widenToSquares(Grid& g) {
     }
 }
 
-/// What pieces of a node have in common, and those of a grid.
+/// The properties that pieces of a node, or of a grid, must have in common.
 struct Neighbour {
-  int row, column;  ///< Of a bucket.
+  int row, column;  ///< Row and column of a bucket.
   int nu, nv;
   bool round;
   const SubPatch* piece;
@@ -63,7 +63,7 @@ void extend(Placement& place, const Placement& by) {
   place.zMin = std::min(place.zMin, by.zMin);
 }
 
-/// Of neighbours that share a node, nearest first. Pre: those that may share a grid stand together.
+/// Makes the stacks of neighbours that share a node, nearest first. Pre: neighbours that may share a grid are adjacent.
 std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Neighbour> neighbours) {
   std::vector<PieceStack> out;
   const Neighbour* last = nullptr;
@@ -103,7 +103,7 @@ void PieceNode::visit(size_t bucket, NodeQueue&, Hider& hider) {
     const BucketRange& r = stack.range;
     if (column < r.c0 || column > r.c1 || row < r.r0 || row > r.r1) continue;
     if (stacks_.size() > 1 && hider.hidden(stack.pieces.place.raster, stack.pieces.place.zMin)) continue;
-    // Without a look at the grid, which may be far away in memory.
+    // This test does not touch the grid, which may be far away in memory.
     if (stack.made.load(std::memory_order_acquire) && hider.hidden(stack.extent)) continue;
     if (const auto grid = acquire(stack)) hider.insert(grid);
   }
@@ -163,8 +163,8 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
 }
 
 std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
-  // A vertex takes a dozen floats without motion and primitive variables, each further key six and a box and a third,
-  // and a grid about as much as this without vertices.
+  // A vertex without motion and primitive variables takes a dozen floats; each further key takes six and a box and a
+  // third, and a grid about as much as here without vertices.
   constexpr size_t kVertex_bytes = 48, kKey_bytes = 72, kGrid_bytes = 768;
   const size_t keys = context_.scene.objects[static_cast<size_t>(stack.object)].keyTimes.size();
   const auto vertices =

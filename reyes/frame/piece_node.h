@@ -1,4 +1,5 @@
-// Pieces that a grid can hold: diced by the first bucket that does not hide them, and shared by those that they touch.
+// Pieces that a grid can hold: diced by the first bucket that does not hide them, and shared by the buckets that they
+// touch.
 #pragma once
 #include <atomic>
 
@@ -6,18 +7,18 @@
 
 namespace tomales {
 
-/// Pieces for one grid, all of nu x nv, and where they are together.
+/// Pieces for one grid, all of nu x nv cells, and the placement of all of them.
 struct PieceStack {
   int object, nu, nv;
   std::vector<PatchPiece> pieces;
   Placement place;
-  bool crossesEye;  ///< SubPatch::crossesEye
-  bool round;       ///< Grid::round
+  bool crossesEye;  ///< The same as SubPatch::crossesEye.
+  bool round;       ///< The same as Grid::round.
 };
 
 class PieceNode : public HideNode {
  public:
-  /// Stacks: nearest first.
+  /// Stacks are in order, nearest first.
   PieceNode(HideContext& context, std::vector<PieceStack> stacks, const Placement& place, const BucketRange& range);
 
   void visit(size_t bucket, NodeQueue& queue, Hider& hider) override;
@@ -28,31 +29,33 @@ class PieceNode : public HideNode {
     PieceStack pieces;
     BucketRange range;
     std::shared_ptr<const RasterGrid> grid{};
-    RasterExtent extent{};  ///< Of the grid: displacement rarely takes it as far as it may.
-    uint64_t wanted = 0;    ///< Buckets that the grid touches, as in done_.
+    RasterExtent extent{};  ///< Extent of the grid: displacement rarely moves it as far as its bound allows.
+    uint64_t wanted = 0;    ///< Buckets that the grid touches, as bits like those of done_.
     std::atomic<bool> made{false};
 
     Stack(PieceStack p, const BucketRange& r) : pieces(std::move(p)), range(r) {}
-    Stack(Stack&& o) noexcept : pieces(std::move(o.pieces)), range(o.range) {}  ///< Pre: not made yet.
+    Stack(Stack&& o) noexcept : pieces(std::move(o.pieces)), range(o.range) {}  ///< Pre: the grid is not made yet.
   };
   std::shared_ptr<const RasterGrid> acquire(Stack& stack);
   std::shared_ptr<const RasterGrid> makeGrid(const PieceStack& stack);
-  static constexpr uint64_t kFarBuckets = uint64_t{1} << 63;  ///< Those past the 63rd of a node, which are never done.
+  /// The buckets after the 63rd of a node, which never count as done.
+  static constexpr uint64_t kFarBuckets = uint64_t{1} << 63;
   uint64_t bitsOf(const BucketRange& buckets) const;
   std::shared_ptr<Pool> makePool(const PieceStack& stack) const;
-  /// Takes away the cells with vertices that are nearer than the eye plane at some key or not finite. True if there
-  /// are.
+  /// Removes the cells with vertices that are nearer than the eye plane at some key, or not finite. Returns whether
+  /// there are any.
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
   std::vector<Stack> stacks_;
   std::mutex mutex_;
-  uint64_t done_ = 0;  ///< Buckets of the range, row by row: a grid that no other wants goes before its node.
+  /// Buckets of the range that are done, row by row: a grid that no other bucket wants is freed before its node.
+  uint64_t done_ = 0;
   int users_;
 };
 
-/// A node for each large piece, and one for small ones that lie close together: most of what a tiny piece costs would
-/// be its node and its grid. Which pieces share a grid may depend on buckets, what is seen may not
+/// Makes a node for each large piece, and one for small ones that lie close together: most of the cost of a tiny piece
+/// would be its node and its grid. Which pieces share a grid may depend on buckets, but the picture does not
 /// (docs/decisions/0040).
 HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, const BucketRange& within);
 

@@ -7,14 +7,14 @@ namespace tomales {
 namespace {
 
 /// Camera rays see the radiance of an area light added to what its surface reflects (docs/gi.md).
-void addVisibleEmission(const ShadePoints& points, const vec3& emission, ShadedPoints& out) {
-  for (int i = 0; i < points.count(); ++i) {
-    if (dot(points.get3(kIx, i), points.get3(kNgx, i)) >= 0) continue;
-    for (int c = 0; c < 3; ++c) out.Ci[c][static_cast<size_t>(i)] += emission[c];
-  }
+void addEmission(const ShadePoints& points, const ShadingSystem& shading, ShadedPoints& out) {
+  std::vector<vec3> emission;
+  shading.emission(points, emission);
+  for (size_t i = 0; i < emission.size(); ++i)
+    for (int c = 0; c < 3; ++c) out.Ci[c][i] += emission[i][c];
 }
 
-/// Opaque and black: what needs no shader.
+/// Makes the points opaque and black: these need no shader.
 void leaveBlack(int count, ShadedPoints& out) {
   out.resize(count);
   for (auto& o : out.Oi) std::fill(o.begin(), o.end(), 1.0f);
@@ -33,8 +33,8 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
       leaveBlack(points.count(), out);
       continue;
     }
-    if (matte) {  // A holdout holds out as much as it is opaque; compositing takes nothing else of it, so that no light
-                  // need be asked for.
+    // A holdout holds out as much as it is opaque. Compositing uses nothing else of it, so no light is needed.
+    if (matte) {
       ShadeContext opacityAlone = context;
       opacityAlone.direct = opacityAlone.indirect = false;
       shading.shade(points, opacityAlone, out);
@@ -44,8 +44,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
     batchContext.variables = true;
     if (b < tile.answers.size()) batchContext.answers = &tile.answers[b];
     shading.shade(points, batchContext, out);
-    const vec3 emission = shading.visibleEmission(points.group());
-    if (maxComponent(emission) > 0) addVisibleEmission(points, emission, out);
+    addEmission(points, shading, out);
     shading.atmosphere(points, out);
   }
 }
@@ -54,14 +53,17 @@ bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const 
                 const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control) {
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
+  const auto isCancelled = [&] {
+    if (!control.cancelled || !*control.cancelled) return false;
+    skipped = true;
+    return true;
+  };
   parallelInOrder(tiles.size(), [&](size_t i) {
-    if (control.cancelled && *control.cancelled) {
-      skipped = true;
-      return;
-    }
+    if (isCancelled()) return;
     DeepTile tile;
     if (steps.load(tiles[i], tile)) {
       shadeTile(tile, scene, shading, context);
+      if (isCancelled()) return;
       steps.take(tiles[i], std::move(tile));
     }
     if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(tiles.size()));

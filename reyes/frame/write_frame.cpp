@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-/// Objects go by Attribute "identifier" "name", materials by "shadinggroup" or their surface shader.
+/// Names of objects are Attribute "identifier" "name"; names of materials are "shadinggroup" or their surface shader.
 MatteNames matteNames(const Scene& scene) {
   MatteNames out;
   for (const ShadeGroup& group : scene.groups) {
@@ -21,7 +21,7 @@ MatteNames matteNames(const Scene& scene) {
   return out;
 }
 
-/// Keeps in a frame the tiles that some rows of pixels need, and has those filled that come in below.
+/// Keeps those tiles of a frame in memory that some rows of pixels need, and has the tiles below filled.
 class MovingBand {
  public:
   MovingBand(DeepFrame& frame, FrameFilter& filter, const TileFill& fill, const Options& options)
@@ -41,12 +41,12 @@ class MovingBand {
     const auto from = needed_.begin() + static_cast<std::ptrdiff_t>(filled_);
     const auto to = std::lower_bound(from, needed_.end(), static_cast<uint32_t>(last * frame_.columns));
     filled_ = static_cast<size_t>(to - needed_.begin());
-    // Column by column: threads that begin far apart in the list are to begin far apart in the picture
+    // Tiles are filled column by column: threads that begin far apart in the list should begin far apart in the picture
     // (FrameHider::hide).
     const auto columns = static_cast<uint32_t>(frame_.columns);
     std::stable_sort(from, to, [columns](uint32_t a, uint32_t b) { return a % columns < b % columns; });
     fill_({from, to}, [this](size_t index, DeepTile&& tile) {
-      // Now, while it is in the cache.
+      // resolved now, while it is in the cache
       filter_.resolve(index, tile);
       if (!filter_.needsTiles()) return;
       tile.forgetPoints();
@@ -63,13 +63,13 @@ class MovingBand {
   size_t filled_ = 0;
 };
 
-/// The files of the Displays, and rows that are on their way to them.
+/// The files of the Displays, and the rows to be written to them.
 class DisplayFiles {
  public:
   explicit DisplayFiles(Stats& stats) : stats_(stats) {}
   void add(std::unique_ptr<DisplayFile> file) { files_.push_back(std::move(file)); }
 
-  /// Pre: nothing is on its way.
+  /// Pre: no rows are being written.
   void take(Image rows, const FrameFilter& filter, int y0, int y1) {
     for (const auto& file : files_) {
       const std::optional<DeepMerge> merge = file->deep();
@@ -95,10 +95,10 @@ class DisplayFiles {
   Stats& stats_;
   std::vector<std::unique_ptr<DisplayFile>> files_;
   std::optional<Image> rows_;
-  std::vector<DeepRows> deep_;  ///< A file
+  std::vector<DeepRows> deep_;  ///< Indexed by file.
 };
 
-/// What moves far, is far out of focus or thinner than the samples are apart.
+/// Warns of noise where surfaces move far, are far out of focus, or are thinner than the samples are apart.
 void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
   constexpr double kUncertain = 0.2;
   const double share = noise.light > 0 ? noise.error / noise.light : 0;

@@ -6,11 +6,12 @@ namespace tomales {
 namespace {
 
 constexpr float kMargin_px = 1.0f / 64;
-constexpr float kRounding = 0x1p-20f;  ///< Of the largest coordinate: some units in the last place.
-constexpr float kSlanting = 0x1p-15f;  ///< Of how far from the first vertex: what slanting and back rounds.
+constexpr float kRounding = 0x1p-20f;  ///< Relative to the largest coordinate: some units in the last place.
+/// Relative to the distance from the first vertex: rounding of the way to slanted coordinates and back.
+constexpr float kSlanting = 0x1p-15f;
 
-/// For a level, a row after the other, each with one box more than there are: of slanted x, y from the grid's
-/// first vertex and, if the lens counts, depth key the least and the greatest at the two keys of a segment.
+/// Boxes of a level, row by row, each row with one more than it needs. They bound slanted x and y relative to the
+/// grid's first vertex and, if the lens counts, the depth key, at the two keys of a segment.
 struct Extents {
   int columns, rows, axes;
   std::vector<float> lo[2][3], hi[2][3];
@@ -28,7 +29,7 @@ struct Extents {
 float least(float a, float b) { return b < a ? b : a; }
 float greatest(float a, float b) { return b > a ? b : a; }
 
-/// Of the cells of a lattice; the last of a row, which begins no cell, has any.
+/// Bounds the cells of a lattice. The last of a row, which begins no cell, has any value.
 TOMALES_HOT void extendCells(const float* v, int row, int count, float* __restrict lo, float* __restrict hi) {
   const float *b = v + 1, *c = v + row, *d = c + 1;
   for (int i = 0; i < count; ++i) {
@@ -37,7 +38,7 @@ TOMALES_HOT void extendCells(const float* v, int row, int count, float* __restri
   }
 }
 
-/// Lanes of a vector keep their own.
+/// Each lane of a vector keeps its own minimum.
 TOMALES_HOT float leastOf(const float* v, int count) {
   float lanes[kLanes];
   for (float& l : lanes) l = kInfinity;
@@ -48,7 +49,7 @@ TOMALES_HOT float leastOf(const float* v, int count) {
   return *std::min_element(lanes, lanes + kLanes);
 }
 
-/// Two boxes of two rows each; odd ends are looked at twice.
+/// Joins two boxes of two rows each; at odd ends a box is used twice.
 template <class Extreme>
 void halve(const Extents& from, std::vector<float>& values, const Extreme& extreme, float* out) {
   const int columns = from.columns, pitch = from.pitch();
@@ -68,7 +69,7 @@ void halve(Extents& from, Extents& to) {
           halve(from, from.hi[key][axis], greatest, to.hi[key][axis].data());
 }
 
-/// Linear motion keeps every vertex within the box whose sides move linearly; the larger half size serves all
+/// Linear motion of boxes: every vertex lies within the box whose sides move linearly. The larger half size serves all
 /// times.
 struct Motions {
   std::vector<float> center, step, reach, most;
@@ -91,7 +92,7 @@ struct Motions {
   }
 };
 
-/// Where the first vertex of a grid is at the keys of a segment, and how its boxes slant.
+/// Positions of a grid's first vertex at the keys of a segment, and the slant of its boxes.
 struct Frame {
   vec2 origin[2], slant;
 
@@ -101,8 +102,8 @@ struct Frame {
   }
 };
 
-/// Along the lines of the grid, if they lie crosswise: what bounds a slanting square along rows and columns
-/// is twice as large.
+/// The slant follows the lines of the grid if they lie crosswise: an upright box around a slanted square is twice as
+/// large.
 vec2 slantOf(const RasterGrid& r, int firstKey, int lastKey) {
   const Grid& g = *r.grid;
   vec2 along(0), across(0);
@@ -120,7 +121,7 @@ vec2 slantOf(const RasterGrid& r, int firstKey, int lastKey) {
   return 1 - slant.x * slant.y > 0.5f ? slant : vec2(0);
 }
 
-/// Of vertices.
+/// Computes slanted coordinates of vertices.
 TOMALES_HOT void slantAll(const float* x, const float* y, const vec2& from, const vec2& slant, int count,
                           float* __restrict slantX, float* __restrict slantY) {
   const vec2 o = from, s = slant;
@@ -130,7 +131,7 @@ TOMALES_HOT void slantAll(const float* x, const float* y, const vec2& from, cons
   }
 }
 
-/// Of a row, from number `first` on: from slanted coordinates back to upright ones. No lens.
+/// Makes the boxes of a row, from number `first` on, from slanted coordinates; without a lens.
 TOMALES_HOT void makeBoxes(const Motions& x, const Motions& y, const Frame& frame, size_t first, int count,
                            BlurBox* __restrict out) {
   const vec2 o = frame.origin[0], oStep = frame.origin[1] - o, slant = frame.slant, margin = frame.rounding_px();

@@ -1,32 +1,32 @@
-// Boxes around the micropolygons of a grid that moves or is out of focus, around 2 x 2 of them, 4 x 4 and so
-// on: each is told by where it is at one time, seen through one point of the lens, so that it stays as small
-// as its micropolygons are, however far they are blurred. Private to the hider.
+// Private to the hider: boxes around the micropolygons of a grid that moves or is out of focus, around 2 x 2 of them, 4
+// x 4 and so on. Each is given for one time and one point of the lens, so that it stays as small as its micropolygons,
+// however far they are blurred.
 #pragma once
 #include "reyes/hide.h"
 
 namespace tomales {
 
-/// At fraction t between two motion keys, through lens shift l (SampleBuffer::lensX, lensY), all of it lies
-/// round center + t * step, moved by l * (d + t * dStep - Camera::focusKey()): x + slant.x * y and y +
-/// slant.y * x of what is between them are within `reach`.
+/// At fraction t between two motion keys, through lens shift l (SampleBuffer::lensX, lensY), the micropolygons lie
+/// around center + t * step, moved by l * (d + t * dStep - Camera::focusKey()): their distances from it, as x + slant.x
+/// * y and y + slant.y * x, are within `reach`.
 struct BlurBox {
-  float x, y, d;              ///< Centre at the first key. Depth keys count if RasterGrid::defocused.
-  float xStep, yStep, dStep;  ///< Way to its place at the second.
-  float xReach, yReach;       ///< With a margin for rounding (docs/decisions/0012).
+  float x, y, d;              ///< Centre at the first key. The depth keys are used if RasterGrid::defocused.
+  float xStep, yStep, dStep;  ///< Motion from the first key to the second.
+  float xReach, yReach;       ///< Half sizes, with a margin for rounding (docs/decisions/0012).
 };
 
 struct BlurBounds {
   struct Segment {
-    float dMin;  ///< The nearest depth key at either end.
-    vec2 slant;  ///< Boxes lie along the lines of the grid (docs/decisions/0108).
+    float dMin;  ///< Nearest depth key at either end.
+    vec2 slant;  ///< Boxes follow the lines of the grid (docs/decisions/0108).
   };
   struct Level {
     int columns, rows;
-    size_t first;  ///< In the boxes of a segment; box (i, j) is first + j * columns + i.
+    size_t first;  ///< Index among the boxes of a segment; box (i, j) is first + j * columns + i.
   };
-  std::vector<Level> levels;  ///< levels[0]: one micropolygon a box; the last: one box.
+  std::vector<Level> levels;  ///< levels[0] has one micropolygon in each box; the last level is one box.
   size_t boxesPerSegment = 0;
-  std::vector<Segment> segments;  ///< Between two motion keys; a still grid has one.
+  std::vector<Segment> segments;  ///< One between each two motion keys; a still grid has one.
   PooledVector<BlurBox> boxes;
 
   const BlurBox& box(int segment, const Level& level, int i, int j) const {
@@ -35,7 +35,7 @@ struct BlurBounds {
   }
 };
 
-/// pool: where they are kept; may be null.
+/// pool: provides the memory of the boxes; may be null.
 std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& raster, const Camera& camera, Pool* pool);
 
 }  // namespace tomales

@@ -1,5 +1,5 @@
-// Micropolygons that move or are out of focus, and which samples they cover. Private to the hider; included
-// once for each vector width, after reyes/base/vector.h.
+// Private to the hider: coverage of samples by micropolygons that move or are out of focus. It is included once for
+// each vector width, after reyes/base/vector.h.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,18 +15,18 @@ struct SampleVector {
   Floats x, y, t, lensX, lensY;
 };
 
-/// What spreads a grid over the picture. Each kind has its own loops, so that none pays for another.
+/// The kinds of blur of a grid. Each combination has its own loops, so that none pays for another.
 template <bool kMovesT, bool kDefocusesT>
 struct Blur {
   static constexpr bool kMoves = kMovesT, kDefocuses = kDefocusesT;
 };
 
-/// The corners a b c d of a micropolygon at two successive motion keys; one if it is still.
+/// The corners a b c d of a micropolygon at two successive motion keys, or at one if it is still.
 template <class B>
 struct BlurredQuad {
   static constexpr int kKeys = B::kMoves ? 2 : 1;
   float x[kKeys][4], y[kKeys][4], d[kKeys][4];
-  bool swapped[5];  ///< Of ab, bc, ca, bd, dc: the second end is the canonical one.
+  bool swapped[5];  ///< Is the second end of the edges ab, bc, ca, bd, dc the canonical one?
   float dMin = kInfinity, dMax = -kInfinity;
 
   BlurredQuad(const RasterGrid& r, int key, int a) {
@@ -42,8 +42,8 @@ struct BlurredQuad {
     for (int e = 0; e < 5; ++e) swapped[e] = before(ends[e][1], ends[e][0]);
   }
 
-  /// The order of edge ends must be the same for all samples, so it is that of the first thing in which they
-  /// differ; ends that differ in depth alone part when they are out of focus.
+  /// The order of an edge's ends must be the same for all samples, so the first coordinate in which they differ
+  /// decides. Ends that differ in depth alone part when they are out of focus.
   bool before(int p, int q) const {
     for (int k = 0; k < kKeys; ++k)
       for (const auto& value : {x[k], y[k], d[k]})
@@ -56,7 +56,7 @@ struct SeenVertex {
   Floats x, y, d;
 };
 
-/// Where a vertex is at the time of a sample, through its point of the lens.
+/// Position of a vertex at the time of a sample, seen through its point of the lens.
 template <class B>
 HWY_INLINE SeenVertex seen(const BlurredQuad<B>& q, int c, const SampleVector& s, Floats focus) {
   SeenVertex v{all(q.x[0][c]), all(q.y[0][c]), all(q.d[0][c])};
@@ -72,15 +72,14 @@ HWY_INLINE SeenVertex seen(const BlurredQuad<B>& q, int c, const SampleVector& s
   return v;
 }
 
-/// Twice the area of (p, q, sample), seen from the canonical end, positive if the sample is on the left of
-/// pq.
+/// Twice the area of (p, q, sample), computed from the canonical end; positive if the sample is on the left of pq.
 HWY_INLINE Floats edge(const SeenVertex& p, const SeenVertex& q, bool swapped, const SampleVector& s) {
   const SeenVertex& origin = swapped ? q : p;
   return hn::Sub(hn::Mul(hn::Sub(q.x, p.x), hn::Sub(s.y, origin.y)),
                  hn::Mul(hn::Sub(q.y, p.y), hn::Sub(s.x, origin.x)));
 }
 
-/// Below 0 where a sample is on the left of an edge. Zero belongs to the right seen from the canonical end.
+/// Negative where a sample is on the left of an edge. Zero belongs to the right seen from the canonical end.
 HWY_INLINE Ints leftOf(Floats value, bool swapped) {
   return hn::BitCast(kI, hn::Sub(all(swapped ? -kTiny : 0.0f), value));
 }
@@ -92,14 +91,15 @@ HWY_INLINE Ints turnsRight(const SeenVertex& p, const SeenVertex& q, const SeenV
   return hn::BitCast(kI, hn::VecFromMask(kF, hn::Lt(area, hn::Zero(kF))));
 }
 
-/// Inside of three edges, all on their left or all on their right, of a triangle that may be seen.
+/// Is a sample on the same side of all three edges of a triangle that may be seen?
 HWY_INLINE Mask inside(Ints left0, Ints left1, Ints left2, Ints right, float facing) {
   Ints in = hn::And(hn::And(hn::Xor(left0, right), hn::Xor(left1, right)), hn::Xor(left2, right));
   if (facing != 0) in = facing > 0 ? hn::AndNot(right, in) : hn::And(right, in);
   return hn::RebindMask(kF, hn::Lt(in, hn::Zero(kI)));
 }
 
-/// Which samples the quad covers, and their depth keys. facing: RasterGrid::facing, there and then.
+/// The samples that the quad covers, and their depth keys. facing: RasterGrid::facing, at the time and lens point of
+/// each sample.
 template <class B>
 HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, float facing, Floats& depth) {
   const SeenVertex a = seen(q, 0, s, focus), b = seen(q, 1, s, focus), c = seen(q, 2, s, focus),
@@ -116,7 +116,7 @@ HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats fo
   const Floats weighted = hn::Add(hn::Add(hn::Mul(p, pd), hn::Mul(r, rd)), hn::Mul(t, c.d)),
                sum = hn::Add(hn::Add(p, r), t);
   depth = hn::Min(hn::Max(hn::Div(weighted, sum), all(q.dMin)), all(q.dMax));
-  // What has no number, of vertices as far out as floats go, has a sign.
+  // NaN, from vertices as far out as floats go, has a sign.
   return hn::And(hn::Or(in0, in1), hn::Eq(sum, sum));
 }
 

@@ -8,15 +8,15 @@
 namespace tomales {
 namespace {
 
-/// Steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are bilinear in
-/// u, v.
+/// Sets the steps of point i, whose fixed channels are filled. Texture coordinates without primitive variables are
+/// bilinear in u, v.
 template <class Steps>
 void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints& points, int i) {
   const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
   const auto put = [&](int value, float u, float v) {
     points.step(value, false)[i] = u, points.step(value, true)[i] = v;
   };
-  // N as the grid has it may be of any length; that of a shaded point is 1.
+  // The grid's N may be of any length; that of a shaded point is 1.
   vec3 n;
   for (int axis = 0; axis < 3; ++axis) n[axis] = steps.mean(g.N(axis));
   const float sign = group.subtracted ? -1.0f : 1.0f, scale = sign * reciprocalLength(dot(n, n));
@@ -42,7 +42,7 @@ void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints&
   }
 }
 
-/// What is left of the way from the first key of a grid to its last, once the motion of the transformation is undone.
+/// The motion from the first key of a grid to its last that remains when the motion of the transformation is undone.
 template <class Mean>
 vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   const Object& o = scene.objects[static_cast<size_t>(g.object)];
@@ -55,8 +55,8 @@ vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   return transformPoint(openFromLast, there) - here;
 }
 
-/// Which cells, by their first vertices, may turn by more than a cosine says along u or v: without the roots that would
-/// tell for certain.
+/// Marks the cells, by their first vertices, whose normal may turn along u or v by more than the angle of the cosine.
+/// It computes no roots, and may mark too many.
 TOMALES_HOT void markTurning(const Grid& g, float cosine, int32_t* __restrict turning) {
   const float *x = g.N(0), *y = g.N(1), *z = g.N(2);
   for (int a = 0, row = g.nu + 1, end = g.vertexCount() - row - 1; a < end; ++a) {
@@ -77,7 +77,7 @@ int primvarFloats(const ShadeGroup& group) {
   return n;
 }
 
-/// s and t of points without primitive variables of that name.
+/// Sets s and t of points without primitive variables of that name.
 void setTextureCoordinates(const ShadeGroup& group, ShadePoints& points) {
   const Attributes& a = *group.attributes;
   const float *u = points.channel(kU), *v = points.channel(kV);
@@ -107,14 +107,14 @@ FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable
       seen_(grids.cellCount(), 0),
       facetOf_(grids.cellCount(), kNotMade) {}
 
-void FacetTable::make(HideDoubts* doubts) {
+void FacetTable::make(HideDiagnostics* diagnostics) {
   tile_.facets.reserve(static_cast<size_t>(std::count(seen_.begin(), seen_.end(), 1)));
   std::vector<uint32_t> ofFolded;
   for (Fragment& f : tile_.fragments) {
     const uint32_t cell = f.facet;
     if (facetOf_[cell] == kNotMade) {
       makeFacets(grids_.of(cell));
-      if (doubts) countTurns(grids_.of(cell), *doubts);
+      if (diagnostics) countTurns(grids_.of(cell), *diagnostics);
     }
     if (facetOf_[cell] == kFolded)
       ofFolded.push_back(static_cast<uint32_t>(&f - tile_.fragments.data()));
@@ -122,12 +122,12 @@ void FacetTable::make(HideDoubts* doubts) {
       f.facet = facetOf_[cell];
   }
   for (const uint32_t i : ofFolded) tile_.fragments[i].facet = facetOfFolded(i);
-  tile_.batches.reserve(wishes_.size());
-  for (const Wishes& wishes : wishes_) {
-    const ShadeGroup& group = scene_.groups[static_cast<size_t>(wishes.group)];
-    ShadePoints& points = tile_.batches.emplace_back(wishes.group, primvarFloats(group), group.steps);
-    points.reserve(static_cast<int>(wishes.list.size()));
-    fill(wishes, points);
+  tile_.batches.reserve(requests_.size());
+  for (const PointRequests& requests : requests_) {
+    const ShadeGroup& group = scene_.groups[static_cast<size_t>(requests.group)];
+    ShadePoints& points = tile_.batches.emplace_back(requests.group, primvarFloats(group), group.steps);
+    points.reserve(static_cast<int>(requests.list.size()));
+    fill(requests, points);
     setTextureCoordinates(group, points);
   }
 }
@@ -137,14 +137,14 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
   const auto number = static_cast<uint32_t>(&entry - grids_.entries().data());
   const uint8_t* seen = seen_.data() + entry.firstCell;
   const int batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), row = g.nu + 1;
-  std::vector<Wish>& list = wishes_[static_cast<size_t>(batch)].list;
-  const auto wish = [&](int index, Side side) {
+  std::vector<PointRequest>& list = requests_[static_cast<size_t>(batch)].list;
+  const auto requestPoint = [&](int index, Side side) {
     list.push_back({number, index, side});
     return static_cast<int>(list.size()) - 1;
   };
   const auto corner = [&](int vertex, Side side) {
     int& point = corners_[2 * static_cast<size_t>(vertex) + (side == Side::Back)];
-    if (point < 0) point = wish(vertex, side);
+    if (point < 0) point = requestPoint(vertex, side);
     return point;
   };
   const bool smooth = entry.raster->smooth;
@@ -164,7 +164,7 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
         const int vertices[4] = {a, a + 1, a + row, a + row + 1};
         for (int k = 0; k < 4; ++k) facet.point[k] = corner(vertices[k], side);
       } else {
-        std::fill_n(facet.point, 4, wish(cell, side));
+        std::fill_n(facet.point, 4, requestPoint(cell, side));
       }
     }
 }
@@ -184,7 +184,7 @@ uint32_t FacetTable::facetOfFolded(uint32_t number) {
   if (!isNew) return at->second;
   Facet& facet = tile_.facets.emplace_back();
   facet.batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group), facet.matte = entry.raster->matte;
-  std::vector<Wish>& list = wishes_[static_cast<size_t>(facet.batch)].list;
+  std::vector<PointRequest>& list = requests_[static_cast<size_t>(facet.batch)].list;
   const int a = firstVertex(g, cell), row = g.nu + 1, points[] = {a, a + 1, a + row, a + row + 1};
   for (int k = 0; k < 4; ++k) {
     if (k == 0 || entry.raster->smooth)
@@ -195,11 +195,12 @@ uint32_t FacetTable::facetOfFolded(uint32_t number) {
   return at->second;
 }
 
-void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) {
+void FacetTable::countTurns(const GridTable::Entry& entry, HideDiagnostics& diagnostics) {
   const RasterGrid& r = *entry.raster;
   const Grid& g = *r.grid;
-  constexpr float kCosine = 0.92f;      // 23 degrees
-  constexpr float kSagitta_px = 0.05f;  // of the arc over an edge; what is thinner has no outline to spoil
+  constexpr float kCosine = 0.92f;  // 23 degrees
+  // sagitta of the arc over an edge; a thinner one shows no corners in its outline
+  constexpr float kSagitta_px = 0.05f;
   const auto turns = [&](int a, int b) {
     const vec3 n = normalizeOr(g.normal(a), vec3(0)), m = normalizeOr(g.normal(b), vec3(0));
     const float cosine = dot(n, m);
@@ -209,9 +210,9 @@ void FacetTable::countTurns(const GridTable::Entry& entry, HideDoubts& doubts) {
   };
   const uint8_t* seen = seen_.data() + entry.firstCell;
   const int cells = g.cellNumbers();
-  HideDoubts::Turns& out = doubts.turns[g.object];
+  HideDiagnostics::Turns& out = diagnostics.turns[g.object];
   out.all += std::count(seen, seen + cells, 1);
-  if (g.displaced || g.round || r.blur) return;  // displacement is as rough as it likes
+  if (g.displaced || g.round || r.blur) return;  // a displaced surface may be rough by intention
   turning_.resize(static_cast<size_t>(g.stride()));
   markTurning(g, 1.01f * kCosine, turning_.data());
   for (int row = 0, cell = 0; cell < cells; ++row)
@@ -227,20 +228,21 @@ int FacetTable::batchOf(int group) {
   if (g >= batchOf_.size()) batchOf_.resize(g + 1, -1);
   int& batch = batchOf_[g];
   if (batch < 0) {
-    batch = static_cast<int>(wishes_.size());
-    wishes_.push_back({group, {}});
+    batch = static_cast<int>(requests_.size());
+    requests_.push_back({group, {}});
   }
   return batch;
 }
 
-void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
+void FacetTable::fill(const PointRequests& requests, ShadePoints& points) const {
   Gathered gathered{};
-  const bool subtracted = scene_.groups[static_cast<size_t>(wishes.group)].subtracted;
-  const int count = static_cast<int>(wishes.list.size()), floats = points.primvarFloats();
+  const bool subtracted = scene_.groups[static_cast<size_t>(requests.group)].subtracted;
+  const int count = static_cast<int>(requests.list.size()), floats = points.primvarFloats();
   for (int first = 0; first < count; first += kLanes) {
-    const std::span<const Wish> block(wishes.list.data() + first, static_cast<size_t>(std::min(kLanes, count - first)));
+    const std::span<const PointRequest> block(requests.list.data() + first,
+                                              static_cast<size_t>(std::min(kLanes, count - first)));
     for (size_t i = 0; i < block.size();) {
-      const Wish& w = block[i];
+      const PointRequest& w = block[i];
       const GridTable::Entry& entry = grids_.entries()[w.entry];
       const Grid& g = entry.grid();
       const bool vertex = entry.raster->smooth;
@@ -273,8 +275,8 @@ void FacetTable::fill(const Wishes& wishes, ShadePoints& points) const {
   std::fill_n(points.channel(kTime), count, -1.0f);
 }
 
-void FacetTable::addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const {
-  for (const Wish& w : wishes) {
+void FacetTable::addSteps(std::span<const PointRequest> requests, ShadePoints& points, int first) const {
+  for (const PointRequest& w : requests) {
     const GridTable::Entry& entry = grids_.entries()[w.entry];
     if (entry.raster->smooth)
       stepsOf(scene_, entry.grid(), VertexSteps(entry.grid(), w.index), points, first++);
@@ -283,11 +285,11 @@ void FacetTable::addSteps(std::span<const Wish> wishes, ShadePoints& points, int
   }
 }
 
-int FacetTable::runLength(const Grid& g, std::span<const Wish> wishes) {
-  const Wish& w = wishes[0];
-  const auto most = std::min(wishes.size(), static_cast<size_t>(g.nu - w.index % g.nu));
+int FacetTable::runLength(const Grid& g, std::span<const PointRequest> requests) {
+  const PointRequest& w = requests[0];
+  const auto most = std::min(requests.size(), static_cast<size_t>(g.nu - w.index % g.nu));
   size_t n = 1;
-  while (n < most && wishes[n].entry == w.entry && wishes[n].index == w.index + static_cast<int>(n)) ++n;
+  while (n < most && requests[n].entry == w.entry && requests[n].index == w.index + static_cast<int>(n)) ++n;
   return static_cast<int>(n);
 }
 

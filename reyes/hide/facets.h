@@ -1,4 +1,4 @@
-// Visible micropolygons become facets and points to shade, grid by grid in order of first use. Private to the hider.
+// Private to the hider: visible micropolygons become facets and points to shade, grid by grid in order of first use.
 #pragma once
 #include <map>
 #include <span>
@@ -11,33 +11,33 @@ class FacetTable {
  public:
   FacetTable(const Scene& scene, const Camera& camera, const GridTable& grids, const SampleBuffer& samples,
              DeepTile& tile);
-  /// A cell that some sample sees.
+  /// Marks a cell that some sample sees.
   void see(uint32_t cell) { seen_[cell] = 1; }
-  /// Makes the facets of all cells that are seen, and their points; before, the tile has none. Everything in
-  /// them depends on the grid alone, and on the side that is seen. The tile's fragments have cells instead of
-  /// facets, each one that is seen. doubts: may be null.
-  void make(HideDoubts* doubts);
+  /// Makes the facets of all cells that are marked, and their points; the tile has none before. They depend on the grid
+  /// alone, and on the side that is seen. The tile's fragments name cells instead of facets until then, each one
+  /// marked. diagnostics: may be null.
+  void make(HideDiagnostics* diagnostics);
 
  private:
-  /// A point to be made: at the centre of a cell, or at a vertex.
-  struct Wish {
-    uint32_t entry;  ///< In GridTable::entries.
-    int index;       ///< Of the cell or vertex.
-    Side side;       ///< That is seen.
+  /// A point to be made, at the centre of a cell or at a vertex.
+  struct PointRequest {
+    uint32_t entry;  ///< Index into the entries of the GridTable.
+    int index;       ///< Index of the cell or vertex.
+    Side side;       ///< The side that is seen.
   };
-  struct Wishes {
+  struct PointRequests {
     int group;
-    std::vector<Wish> list;
+    std::vector<PointRequest> list;
   };
   void makeFacets(const GridTable::Entry& entry);
-  /// That of a fragment of a cell that may be seen from both sides: of the side that it sees.
+  /// The facet of a fragment of a cell that may be seen from both sides, for the side that the fragment sees.
   uint32_t facetOfFolded(uint32_t fragment);
-  void countTurns(const GridTable::Entry& entry, HideDoubts& doubts);
+  void countTurns(const GridTable::Entry& entry, HideDiagnostics& diagnostics);
   int batchOf(int group);
-  void fill(const Wishes& wishes, ShadePoints& points) const;
-  void addSteps(std::span<const Wish> wishes, ShadePoints& points, int first) const;
-  /// How many wishes from the first on are for cells that follow each other in a row of a grid.
-  static int runLength(const Grid& g, std::span<const Wish> wishes);
+  void fill(const PointRequests& requests, ShadePoints& points) const;
+  void addSteps(std::span<const PointRequest> requests, ShadePoints& points, int first) const;
+  /// The number of requests from the first on for cells that follow each other in a row of a grid.
+  static int runLength(const Grid& g, std::span<const PointRequest> requests);
 
   static constexpr uint32_t kNotMade = ~0U, kFolded = ~0U - 1;
 
@@ -47,13 +47,13 @@ class FacetTable {
   const GridTable& grids_;
   const SampleBuffer& samples_;
   DeepTile& tile_;
-  std::vector<uint8_t> seen_;      ///< A cell
-  std::vector<uint32_t> facetOf_;  ///< A cell; kNotMade yet, kFolded: ask folded_.
-  std::vector<int> batchOf_;       ///< A group, -1: none yet.
-  std::vector<Wishes> wishes_;     ///< A batch
-  std::vector<int32_t> turning_;   ///< A vertex of a grid.
-  std::vector<int32_t> sides_;     ///< As findSides()
-  std::vector<int> corners_;       ///< Points of a grid's vertices, Front before Back; -1: none yet.
+  std::vector<uint8_t> seen_;            ///< Indexed by cell.
+  std::vector<uint32_t> facetOf_;        ///< Indexed by cell; kNotMade: none yet; kFolded: look it up in folded_.
+  std::vector<int> batchOf_;             ///< Indexed by group; -1: none yet.
+  std::vector<PointRequests> requests_;  ///< Indexed by batch.
+  std::vector<int32_t> turning_;         ///< Indexed by vertex of a grid.
+  std::vector<int32_t> sides_;           ///< The result of findSides().
+  std::vector<int> corners_;             ///< Points of a grid's vertices, Front before Back; -1: none yet.
   std::map<std::pair<uint32_t, Side>, uint32_t> folded_;  ///< Facets of cells that may be seen from both sides.
 };
 

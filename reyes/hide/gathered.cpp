@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kOutline = 1e-3f;  ///< Cosine to the line of sight of a normal at an outline.
+constexpr float kOutline = 1e-3f;  ///< Cosine between the line of coverage and a normal at an outline.
 
 }  // namespace
 
@@ -12,18 +12,19 @@ TOMALES_HOT void Gathered::readBlock(const Sources& from, int row, int i) {
   for (int k = 0; k < kLanes; ++k) readCell(from, k, row, i);
 }
 
-/// No branches: all lanes of a vector take both ways.
+/// It has no branches, because all lanes of a vector take both ways.
 TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& out) {
-  const float fromEye = perspective ? 1.0f : 0.0f, parallel = 1 - fromEye;  // factors: see below
+  // factors that stand for the branch on perspective
+  const float fromEye = perspective ? 1.0f : 0.0f, parallel = 1 - fromEye;
 #pragma GCC ivdep
   for (int i = 0; i < kLanes; ++i) {
     const float ux = g.uEdge[0][i], uy = g.uEdge[1][i], uz = g.uEdge[2][i];
     const float vx = g.vEdge[0][i], vy = g.vEdge[1][i], vz = g.vEdge[2][i];
-    // For a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
+    // In a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
     const float spanX = uy * vz - uz * vy, spanY = uz * vx - ux * vz, spanZ = ux * vy - uy * vx;
     const float area2 = spanX * spanX + spanY * spanY + spanZ * spanZ;
-    // Where it has turned away from the eye though that side is seen, it is taken for the outline's, a little
-    // this side of it.
+    // Where the normal has turned away from the eye though its side is seen, that of the outline is taken, slightly
+    // turned to the eye.
     const float ix = fromEye * g.P[0][i], iy = fromEye * g.P[1][i], iz = fromEye * g.P[2][i] + parallel;
     const float along = spanX * ix + spanY * iy + spanZ * iz, i2 = ix * ix + iy * iy + iz * iz;
     const float back = (g.side[i] * kOutline * std::sqrt(area2 * i2) - along) / i2;
@@ -34,7 +35,7 @@ TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& o
     const float perSpan = toRiSide * reciprocalLength(sx * sx + sy * sy + sz * sz);
     const float perNormal = reciprocalLength(nx * nx + ny * ny + nz * nz);
     const bool flat = perSpan == 0, noNormal = perNormal == 0;
-    // A direction that is missing is taken from the other normal, and if both are, from the eye.
+    // A missing direction is taken from the other normal, or from the eye if both are missing.
     const float gx = sx * perSpan, gy = sy * perSpan, gz = sz * perSpan;
     const float hx = nx * perNormal, hy = ny * perNormal, hz = nz * perNormal;
     const float ex = 0, ey = 0, ez = -1;
@@ -50,7 +51,7 @@ TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& o
     out.channel[kDu][i] = du, out.channel[kDv][i] = dv;
     out.channel[kArea][i] = std::sqrt(area2);
   }
-  // Apart: the compiler makes no vectors of a choice that is the same for all lanes.
+  // A loop of its own, because the compiler does not vectorise a choice that is the same for all lanes.
   for (int axis = 0; axis < 3; ++axis)
     if (perspective)
       std::copy_n(g.P[axis], kLanes, out.channel[kIx + axis]);

@@ -1,5 +1,5 @@
-// What points to shade are made of: read off the lattice of a grid, then derived for many at once. Private to the
-// hider.
+// Private to the hider: the values of points to shade, read from the lattice of a grid and derived for many points at
+// once.
 #pragma once
 #include "reyes/grid.h"
 #include "reyes/points.h"
@@ -12,7 +12,7 @@ inline float reciprocalLength(float length2) {
 
 inline int firstVertex(const Grid& g, int cell) { return cell + cell / g.nu; }
 
-/// Differences at a vertex: centred, one-sided at the border, of the length of one micropolygon.
+/// Differences at a vertex: central, or one-sided at the border, scaled to one micropolygon.
 struct VertexSteps {
   int at, uLo, uHi, vLo, vHi;
   float uScale, vScale;
@@ -38,19 +38,19 @@ struct CellSteps {
   float vStep(const float* f) const { return 0.5f * ((f[c] - f[a]) + (f[d] - f[b])); }
 };
 
-/// Over a cell with corners a b c d.
+/// Mean and differences over a cell with corners a b c d.
 struct MeanAndSteps {
   float mean, u, v;
   MeanAndSteps(float a, float b, float c, float d)
       : mean(0.25f * (a + b + c + d)), u(0.5f * ((b - a) + (d - c))), v(0.5f * ((c - a) + (d - b))) {}
 };
 
-/// What is read of the grids, kLanes points at a time; arrays may be written to beyond.
+/// Values of kLanes points read from grids; arrays may be written to beyond the end.
 struct alignas(64) Gathered {
   using Array = float[2 * kLanes];
   Array P[3], N[3];
-  Array uEdge[3], vEdge[3];  ///< Of P, one micropolygon long.
-  Array side;                ///< -1: seen is the one that uEdge x vEdge points to; 1: the other.
+  Array uEdge[3], vEdge[3];  ///< Edges of P along u and v, one micropolygon long.
+  Array side;                ///< -1: the side that uEdge x vEdge points to is seen; 1: the other one.
   Array u, v, du, dv;
 
   void readVertex(const Grid& g, int vertex, int i) {
@@ -64,7 +64,7 @@ struct alignas(64) Gathered {
     du[i] = steps.uStep(g.u()), dv[i] = steps.vStep(g.v());
   }
 
-  /// The centres of `count` cells, the first vertices of which follow each other from `a` on.
+  /// Reads the centres of `count` cells whose first vertices follow each other from `a` on.
   void readCells(const Grid& g, int a, int count, int i) {
     const int row = g.nu + 1;
     const Sources from{
@@ -76,7 +76,7 @@ struct alignas(64) Gathered {
   }
 
  private:
-  static constexpr int kRun = 4;  ///< Cells that are worth a vector.
+  static constexpr int kRun = 4;  ///< A vector pays for at least so many cells.
   struct Sources {
     const float *P[3], *N[3], *u, *v;
   };
@@ -95,7 +95,7 @@ struct alignas(64) Gathered {
   void readBlock(const Sources& from, int row, int i);
 };
 
-/// The fixed channels of kLanes points from `first` on; texture coordinates are the caller's.
+/// The fixed channels of kLanes points from `first` on. The caller sets texture coordinates.
 struct PointBlock {
   float* channel[kFixedChannels];
 
@@ -104,7 +104,7 @@ struct PointBlock {
   }
 };
 
-/// Everything else of kLanes points: unit normals, the directions of u and v, the area of a micropolygon, I.
+/// Derives all other values of kLanes points: unit normals, the directions of u and v, the area of a micropolygon, I.
 void derive(const Gathered& g, bool perspective, const PointBlock& out);
 
 }  // namespace tomales

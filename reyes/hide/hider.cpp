@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kManyGrids = 1024;
 
-/// Key times of a grid as fractions of the shutter; none if it is still.
+/// Key times of a grid as fractions of the shutter; empty if it is still.
 std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   if (grid.keyCount == 1) return {};
   std::vector<float> times = scene.objects[static_cast<size_t>(grid.object)].keyTimes;
@@ -21,7 +21,7 @@ std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   return times;
 }
 
-/// Film::object of what a grid covers.
+/// TransparentLayer::object of a grid's layers.
 int joinedObject(const RasterGrid& raster) {
   const std::vector<Grid::Piece>& pieces = raster.grid->pieces;
   const bool ends =
@@ -29,24 +29,25 @@ int joinedObject(const RasterGrid& raster) {
   return ends || raster.blur || raster.inSolid ? -1 : raster.grid->object;
 }
 
-/// Contests whose winner is still seen.
-void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesPerPixel, HideDoubts& doubts) {
+/// Counts the depth conflicts whose winner is still visible.
+void countSamePlaces(SampleBuffer& samples, const GridTable& grids, int samplesPerPixel, HideDiagnostics& diagnostics) {
   constexpr int kShare = 4;
   const auto width = static_cast<uint32_t>(samples.lanes);
-  std::vector<Contest>& contests = samples.contests;
-  std::erase_if(contests, [&](const Contest& c) {
+  std::vector<DepthConflict>& depthConflicts = samples.depthConflicts;
+  std::erase_if(depthConflicts, [&](const DepthConflict& c) {
     const int seen = grids.of(samples.cell[c.lane]).grid().object;
     return (seen != c.first && seen != c.second) || samples.depth[c.lane] < c.least;
   });
-  // Those of a pixel and two objects together, each sample once.
-  const auto keyOf = [width](const Contest& c) { return std::tuple(c.lane / width, c.first, c.second); };
-  std::sort(contests.begin(), contests.end(), [&](const Contest& a, const Contest& b) {
+  // Conflicts of a pixel and two objects are sorted together, each sample once.
+  const auto keyOf = [width](const DepthConflict& c) { return std::tuple(c.lane / width, c.first, c.second); };
+  std::sort(depthConflicts.begin(), depthConflicts.end(), [&](const DepthConflict& a, const DepthConflict& b) {
     return std::pair(keyOf(a), a.lane) < std::pair(keyOf(b), b.lane);
   });
-  contests.erase(std::unique(contests.begin(), contests.end()), contests.end());
-  for (auto at = contests.begin(); at != contests.end();) {
-    const auto end = std::find_if(at, contests.end(), [&](const Contest& c) { return keyOf(c) != keyOf(*at); });
-    if (kShare * (end - at) >= samplesPerPixel) ++doubts.samePlaces[{at->first, at->second}];
+  depthConflicts.erase(std::unique(depthConflicts.begin(), depthConflicts.end()), depthConflicts.end());
+  for (auto at = depthConflicts.begin(); at != depthConflicts.end();) {
+    const auto end =
+        std::find_if(at, depthConflicts.end(), [&](const DepthConflict& c) { return keyOf(c) != keyOf(*at); });
+    if (kShare * (end - at) >= samplesPerPixel) ++diagnostics.samePlaces[{at->first, at->second}];
     at = end;
   }
 }
@@ -61,7 +62,7 @@ struct Hider::Impl {
   GridTable grids{};
   size_t enough = kManyGrids;
 
-  /// Grids that no sample sees any more make room, now and then.
+  /// Frees grids that no sample sees any more, now and then.
   void dropUnseen() {
     if (grids.held() < enough) return;
     grids.keepOnly(samples.seen());
@@ -75,7 +76,7 @@ Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& patt
 Hider::~Hider() = default;
 
 bool Hider::hidden(const Bound2& raster, float zMin) const {
-  // Vertices are snapped.
+  // The lattice moves vertices by up to this.
   const vec2 reach(1 / kLattice);
   const SampleBuffer& s = impl_->samples;
   return s.hides(Bound2{raster.lo - reach, raster.hi + reach}, impl_->camera.leastDepthKey(zMin));
@@ -88,7 +89,7 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   if (hidden(*raster)) return;
   impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
-  s.films.beginGrid(joinedObject(*raster)), s.crossings.beginGrid();
+  s.layers.beginGrid(joinedObject(*raster)), s.crossings.beginGrid();
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
   if (raster->blur) {
     s.showBlur();
@@ -101,11 +102,11 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   s.settle(s.touched(raster->bound.lo, raster->bound.hi));
 }
 
-DeepTile Hider::resolve(HideDoubts* doubts) {
+DeepTile Hider::resolve(HideDiagnostics* diagnostics) {
   const std::unique_ptr<Impl> spent = std::move(impl_);
   resolveSolids(spent->scene, spent->camera, spent->grids, spent->samples);
-  if (doubts) countSamePlaces(spent->samples, spent->grids, spent->samplesPerPixel, *doubts);
-  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples, doubts);
+  if (diagnostics) countSamePlaces(spent->samples, spent->grids, spent->samplesPerPixel, *diagnostics);
+  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples, diagnostics);
 }
 
 }  // namespace tomales

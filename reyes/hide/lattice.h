@@ -1,12 +1,11 @@
-// Conventions of raster space that projection, patterns and rasteriser share. Private to the hider.
+// Private to the hider: conventions of raster space that projection, patterns and rasteriser share.
 #pragma once
 
 namespace tomales {
 
-constexpr float kLattice = 1024;  ///< Lattice points in a pixel, for vertices and samples.
+constexpr float kLattice = 1024;  ///< Lattice points along the edge of a pixel, for vertices and samples.
 
-/// Nearest lattice point, by the spacing of floats between 2^13 and 2^14; the lattice is coarser beyond 4096
-/// px.
+/// Nearest lattice point, by the spacing of floats between 2^13 and 2^14; the lattice is coarser beyond 4096 px.
 inline float snapToLattice(float x) { return (x + 12288.0f) - 12288.0f; }
 
 }  // namespace tomales

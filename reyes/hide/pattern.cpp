@@ -9,8 +9,8 @@
 namespace tomales {
 namespace {
 
-/// Enough not to be seen to repeat; with very many samples a pixel has little error that could, and patterns would fill
-/// the memory.
+/// So many patterns are not seen to repeat. With very many samples a pixel has little error that could repeat, and
+/// patterns would fill the memory.
 constexpr int kMostPatterns = 256, kLeastPatterns = 16, kSamplesOfPatterns = 1 << 20;
 
 /// Position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
@@ -20,14 +20,14 @@ float placed(int i, int n, float inside) {
   return std::clamp(std::round((static_cast<float>(i) + inside) * width), lo, std::max(lo, hi)) / kLattice;
 }
 
-/// The number in stratum `i` of n: rounding must not carry it into the next.
+/// A number in stratum `i` of n: rounding must not carry it into the next.
 float within(int i, int n, float inside) {
   const float count = static_cast<float>(n);
   return std::min((static_cast<float>(i) + inside) / count, std::nextafter(static_cast<float>(i + 1) / count, 0.0f));
 }
 
-/// Which part of the shutter a cell samples: a shuffled Latin square, so that not only the pixel but each of
-/// its rows and columns sees the whole shutter, and what moves along x or y is blurred evenly.
+/// The part of the shutter that a cell samples: a shuffled Latin square, so that not only the pixel but each of its
+/// rows and columns samples the whole shutter, and motion along x or y is blurred evenly.
 class Times {
  public:
   Times(int xSamples, int ySamples, uint32_t name)
@@ -53,7 +53,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
       patterns_(std::clamp(kSamplesOfPatterns / count_, kLeastPatterns, kMostPatterns)),
       seed_(seed) {
   const size_t size = static_cast<size_t>(patterns_) * static_cast<size_t>(padded_);
-  // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing beats.
+  // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing can be in front of.
   x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0), lensX_.assign(size, 0), lensY_.assign(size, 0),
       detail_.assign(size, 0);
   const ApertureShape throughAperture(aperture);
@@ -62,7 +62,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
     const std::vector<int> inColumn = permutation(ySamples, hash32(name ^ 1U));
     const std::vector<int> inRow = permutation(xSamples, hash32(name ^ 2U));
     const Times times(xSamples, ySamples, name);
-    // Which stratum of the lens a sample looks through has nothing to do with its place or time.
+    // The stratum of the lens is independent of the sample's position and time.
     const std::vector<int> throughLens = permutation(count_, hash32(name ^ 6U));
     const std::vector<int> ofDetail = permutation(count_, hash32(name ^ 7U));
     for (int s = 0; s < count_; ++s) {

@@ -1,4 +1,4 @@
-// Grid -> raster space, with the borders that join a neighbour pushed out (docs/decisions/0003).
+// Grid -> raster space. Borders that join a neighbour are pushed out (docs/decisions/0003).
 #include "reyes/base/check.h"
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/lattice.h"
@@ -7,36 +7,35 @@
 namespace tomales {
 namespace {
 
-constexpr float kLeastSlant = 0.05f;  // Faces seen edge on.
+constexpr float kLeastSlant = 0.05f;  // the least slant, for faces seen edge on
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
 constexpr float kMinReach_px = 2 / kLattice;
-// Of what displaced borders that face the eye reach out by, and of a pixel: past the horizon more would show
-// as a dark line around the body.
+// Factor on how far displaced borders reach out, for those that turn away from the eye, and the same share of a pixel:
+// past the horizon more would show as a dark line around the body.
 constexpr float kShareAway = 0.1f;
-constexpr float kTrimReach = 2;  // The reach is tried along x and y only, and trim curves run aslant.
+constexpr float kTrimReach = 2;  // The reach is tested along x and y only, and trim curves run aslant.
 
-/// One border of a piece as vertex indices: first + k * step for k in 0..count; the inner neighbour is
-/// `inward` away.
+/// One border of a piece as vertex indices: first + k * step for k in 0..count; the inner neighbour is `inward` away.
 struct Border {
   PatchEdge edge;
   int first, step, inward, count;
 };
 
-/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points
-/// h apart on a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
+/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h apart on
+/// a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
     const vec2 before{x[v] - x[v - b.step], y[v] - y[v - b.step]}, after{x[v + b.step] - x[v], y[v + b.step] - y[v]};
     const float one = glm::length(before), other = glm::length(after), longer = std::max(one, other);
     if (!(dot(before, after) > 0)) return glm::length(after - before) / 8;
-    // By the turn alone: that points of a straight border are not evenly apart, as near the tip of a
-    // paraboloid, opens nothing.
+    // Only the turn counts: unevenly spaced points of a straight border, as near the tip of a paraboloid, open no
+    // crack.
     const float turn = std::abs(before.x * after.y - before.y * after.x) / (one * other);
     return turn * 2 / (one + other) * longer * longer / 8;
   }
-  // A single chord says nothing of its curve, but the normals turn as the tangents do.
+  // A single chord does not show its curve, but the normals turn as the tangents do.
   const int w = b.first;
   const vec3 turn = normalizeOr(g.normal(v), vec3(0)) - normalizeOr(g.normal(w), vec3(0));
   return glm::length(vec2(x[v] - x[w], y[v] - y[w])) * glm::length(turn) / 8;
@@ -48,8 +47,8 @@ float deviationAlong(const Grid& g, const float* x, const float* y, const Border
   return most;
 }
 
-/// How far the surface's points may lie from where the grid's cells put them, in pixels: the sagitta along u and v, and
-/// the fold of a twisted cell.
+/// How far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a twisted
+/// cell.
 float deviation_px(const Grid& g, const float* x, const float* y) {
   const int row = g.nu + 1;
   float most = 0;
@@ -63,7 +62,7 @@ float deviation_px(const Grid& g, const float* x, const float* y) {
   return most;
 }
 
-/// The sine of the angle between a direction and the border at vertex k.
+/// Sine of the angle between a direction and the border at vertex k.
 float slantOf(const vec2& direction, const float* x, const float* y, const Border& b, int k) {
   const int before = b.first + std::max(k - 1, 0) * b.step, after = b.first + std::min(k + 1, b.count) * b.step;
   const vec2 along{x[after] - x[before], y[after] - y[before]};
@@ -80,7 +79,7 @@ float longestEdge_px(const float* x, const float* y, const Border& b) {
   return longest;
 }
 
-/// Of the raster area of the cell at vertex k of a border, u before v.
+/// Sign of the raster area of the cell at vertex k of a border, u before v.
 float areaSign(const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + k * b.step, before = k < b.count ? v : v - b.step, after = before + b.step, in = v + b.inward;
   const vec2 along{x[after] - x[before], y[after] - y[before]}, inward{x[in] - x[v], y[in] - y[v]};
@@ -88,7 +87,7 @@ float areaSign(const float* x, const float* y, const Border& b, int k) {
   return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
 }
 
-/// least_px: what the border reaches out by where it looks straight; more than kMinReach_px if it is
+/// least_px: how far the border reaches out where it looks straight; it is more than kMinReach_px if the border is
 /// displaced.
 void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, float facing,
                 std::vector<vec2>& push) {
@@ -100,15 +99,16 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
     const float length = glm::length(outward);
     if (!(length > 0)) continue;
     const float reach = std::clamp(kReach * sagitta_px(g, x, y, b, k), least_px, most_px);
-    // Along the lattice, so that the other borders stay where they are, until the border itself has moved by as much.
+    // Vertices move along the lattice, so that the other borders stay where they are, until the border itself has moved
+    // by `reach`.
     const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
     const bool faces = facing * areaSign(x, y, b, k) > 0;
     push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, faces ? most_px : away_px) / length);
   }
 }
 
-/// A displaced border that neighbours sample at other places may be anywhere within a micropolygon of what they see:
-/// `mostOfDisplaced_px` limits that; 0: it is not displaced. facing: RasterGrid::facing, if it had one side.
+/// A displaced border that neighbours sample at other places may be anywhere within a micropolygon of theirs:
+/// `mostOfDisplaced_px` limits the reach; 0: it is not displaced. facing: RasterGrid::facing of a one-sided surface.
 void pushBorders(const Grid& g, float mostOfDisplaced_px, float facing, float* x, float* y) {
   const auto ends = [](const Grid::Piece& p) { return (p.openEdges & kAllEdges) == kAllEdges; };
   if (std::all_of(g.pieces.begin(), g.pieces.end(), ends)) return;
@@ -130,14 +130,14 @@ void pushBorders(const Grid& g, float mostOfDisplaced_px, float facing, float* x
   for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
 }
 
-/// Of a grid at one key, in camera space.
+/// Vertices of a grid at one key, in camera space.
 struct Vertices {
   const float *x, *y, *z;
   int count;
   vec3 at(int v) const { return {x[v], y[v], z[v]}; }
 };
 
-/// Are all seeable? Those that are not belong to cells that nobody sees, and go where they do no harm.
+/// Are all vertices seeable? Those that are not belong to cells that nobody sees, and are put where they do no harm.
 TOMALES_HOT bool toRaster(const Vertices& from, const Camera& camera, float* __restrict x, float* __restrict y,
                           float* __restrict d) {
   const vec3 harmless(0, 0, camera.nearClip());
@@ -170,7 +170,8 @@ TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {
   for (int v = 0; v < count; ++v) x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
 }
 
-/// Of vertices in focus. Lanes of a vector keep their own, which the compiler cannot do for one running minimum.
+/// Bounds vertices in focus. Each lane of a vector keeps its own extremes, because the compiler does not vectorise a
+/// running minimum.
 TOMALES_HOT RasterExtent extentOf(const float* x, const float* y, const float* d, int count) {
   RasterExtent e;
   int first = 0;
@@ -197,7 +198,7 @@ TOMALES_HOT RasterExtent extentOf(const float* x, const float* y, const float* d
   return e;
 }
 
-/// Some of the vertices of `r` at a key, of which those that nobody sees do not count; notes what is out of focus.
+/// Bounds some of the vertices of `r` at a key, without those that are not seeable; notes whether any is out of focus.
 RasterExtent extentOfSeeable(RasterGrid& r, const Camera& camera, int key, int first, int count) {
   const size_t base = static_cast<size_t>(key * r.grid->stride());
   RasterExtent e;
@@ -222,7 +223,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   const Object& object = scene.objects[static_cast<size_t>(g.object)];
   const Attributes& attributes = *object.attributes;
   r->grid = std::move(grid);
-  // Midpoints need what lies behind what is opaque.
+  // The midpoint filter needs surfaces behind opaque ones.
   r->opaque = opaque && scene.options.depthFilter != DepthFilter::Midpoint;
   r->matte = attributes.matte;
   r->inSolid = object.solid >= 0;
@@ -237,7 +238,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   // The tail lets blocks of micropolygons be read across the end.
   const size_t stride = static_cast<size_t>(g.stride()), size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
   for (PooledVector<float>* axis : {&r->x, &r->y, &r->d}) *axis = PooledVector<float>(size, 0.0f, pool.get());
-  // What is transparent would show an overlap that wide.
+  // Transparent surfaces would show an overlap that wide.
   const float mostOfDisplaced_px = opaque && attributes.displacement && object.displacementBound > 0
                                        ? borderReach_px(object.displacementBound)
                                        : 0.0f;

@@ -1,5 +1,5 @@
-// Micropolygons of still, sharp grids, and which samples they cover. Private to the hider; included once for each
-// vector width, after reyes/base/vector.h.
+// Private to the hider: coverage of samples by micropolygons of still, sharp grids. It is included once for each vector
+// width, after reyes/base/vector.h.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -10,7 +10,7 @@ namespace {
 constexpr hn::RebindToSigned<decltype(kF)> kI;
 using Ints = hn::Vec<decltype(kI)>;
 
-/// Of the upper halves and of the lower, added.
+/// Adds the products of the upper halves and of the lower halves.
 HWY_INLINE Ints products(Ints a, Ints b) {
 #if HWY_TARGET == HWY_SCALAR
   const auto lower = [](Ints v) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(v)); };
@@ -28,15 +28,15 @@ HWY_INLINE Ints products(Ints a, Ints b) {
 struct alignas(64) Corners {
   float x[4][kLanes], y[4][kLanes], d[4][kLanes];
   int32_t latticeX[4][kLanes],
-      latticeY[4][kLanes];  ///< From SampleBuffer::origin; of those that are too far for this, anything.
+      /// Lattice coordinates from SampleBuffer::origin; meaningless for corners that are too far for these.
+      latticeY[4][kLanes];
   float xMin[kLanes], xMax[kLanes], yMin[kLanes], yMax[kLanes], dMin[kLanes], dMax[kLanes];
-  int32_t cell[kLanes];                                    ///< Their numbers.
+  int32_t cell[kLanes];                                    ///< Numbers of the cells.
   int32_t x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];  ///< Pixels of the bucket that they touch.
 };
 
-// Edges of kLanes micropolygons, two kinds. What Edge::inside tells of a sample is the sign of its lane,
-// below 0 if it is inside: signs are joined by operations on vectors, of which the processor has more than on
-// masks.
+// The edges of kLanes micropolygons, in two kinds. Edge::inside answers with the sign of a lane, negative if the sample
+// is inside: the processor has more units for operations on vectors than on masks.
 
 /// Inside where dx * (y - oy) - dy * (x - ox) > limit.
 struct FloatEdges {
@@ -57,8 +57,8 @@ struct FloatEdges {
     }
   };
 
-  /// From corner p to q, with the inside on the left where `left` holds, else on the right. For the lanes
-  /// from g on.
+  /// Sets the lanes from g on to the edge from corner p to q, with the inside on the left where `left` holds, else on
+  /// the right.
   HWY_INLINE void set(size_t g, const Corners& c, int p, int q, Mask left) {
     const Floats px = hn::Load(kF, c.x[p] + g), py = hn::Load(kF, c.y[p] + g), qx = hn::Load(kF, c.x[q] + g),
                  qy = hn::Load(kF, c.y[q] + g);
@@ -71,14 +71,14 @@ struct FloatEdges {
     const Floats least = hn::IfThenElse(hn::Xor(swapped, left), hn::Zero(kF), all(-kTiny));
     hn::Store(least, kF, limit + g);
   }
-  /// Nothing is inside of those of a mask.
+  /// Makes the edges of a mask have no inside.
   HWY_INLINE void close(size_t g, Mask closed) {
     hn::Store(hn::IfThenElse(closed, all(FLT_MAX), hn::Load(kF, limit + g)), kF, limit + g);
   }
 };
 
-/// The same on the lattice, exact: one multiplication of pairs asks a vector of samples. Inside where dx * y - dy * x >
-/// limit.
+/// The same on the lattice, exact: one multiplication of pairs tests a vector of samples. Inside where dx * y - dy * x
+/// > limit.
 struct LatticeEdges {
   int32_t pair[kLanes], limit[kLanes];
 
@@ -109,8 +109,8 @@ struct LatticeEdges {
     hn::Store(hn::IfThenElse(hn::RebindMask(kI, closed), hn::Set(kI, 1 << 30), hn::Load(kI, limit + g)), kI, limit + g);
   }
 
-  /// Edges may be as long: so that floats are exact too, up to a pixel beyond the cell, and which of the two is asked
-  /// shows in no bit.
+  /// Greatest length of an edge. Within it floats are exact too, up to a pixel beyond the cell, so that the choice of
+  /// the kind changes no bit.
   static constexpr float kMost_px = 3.5f;
 };
 
@@ -118,22 +118,21 @@ struct LatticeEdges {
 template <class Edges>
 struct alignas(64) Triangles {
   Edges ab, bc, ca, bd, dc;
-  int32_t flipped[kLanes];  ///< -1: what is inside of bc for abc is outside for bdc; 0: the quad is folded
-                            ///< along bc.
-  float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc, bdc.
-  float vague[kLanes];                                       ///< vagueDepth
+  int32_t flipped[kLanes];  ///< -1: the inside of bc for abc is the outside for bdc; 0: the quad is folded along bc.
+  float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc and bdc.
+  float depthError[kLanes];                                  ///< The error of depth keys, depthErrorBound().
 
-  /// facing: RasterGrid::facing
+  /// facing: RasterGrid::facing.
   HWY_INLINE void set(const Corners& q, float facing) {
     for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) set(q, facing, g);
   }
 
  private:
-  static HWY_INLINE Floats vagueDepth(Floats slope, Floats depth) {
+  static HWY_INLINE Floats depthErrorBound(Floats slope, Floats depth) {
     return hn::Add(hn::Add(hn::Div(slope, all(kLattice)), hn::Mul(all(4e-7f), hn::Abs(depth))), all(kTiny));
   }
 
-  /// Twice the signed area of a triangle by two of its sides.
+  /// Twice the signed area of a triangle, from two of its sides.
   static HWY_INLINE Floats area(Floats ux, Floats uy, Floats vx, Floats vy) {
     return hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx));
   }
@@ -172,11 +171,11 @@ struct alignas(64) Triangles {
                  y1 = hn::Mul(hn::Sub(hn::Mul(bcz, bdx), hn::Mul(bdz, bcx)), inverse1);
     hn::Store(x0, kF, gx0 + g), hn::Store(y0, kF, gy0 + g), hn::Store(x1, kF, gx1 + g), hn::Store(y1, kF, gy1 + g);
     const Floats slope = hn::Max(hn::Add(hn::Abs(x0), hn::Abs(y0)), hn::Add(hn::Abs(x1), hn::Abs(y1)));
-    hn::Store(vagueDepth(slope, hn::Load(kF, q.dMin + g)), kF, vague + g);
+    hn::Store(depthErrorBound(slope, hn::Load(kF, q.dMin + g)), kF, depthError + g);
   }
 };
 
-/// One micropolygon, ready to be asked about samples.
+/// One micropolygon, ready to be tested against samples.
 template <class Edges>
 class Quad {
  public:
@@ -196,10 +195,10 @@ class Quad {
         gy0_(all(t.gy0[i])),
         gx1_(all(t.gx1[i])),
         gy1_(all(t.gy1[i])),
-        vague_(t.vague[i]) {}
+        depthError_(t.depthError[i]) {}
 
   struct Covered {
-    Mask mask, first;  ///< By any triangle; by abc.
+    Mask mask, first;  ///< The samples covered by either triangle; those covered by abc.
   };
   HWY_INLINE Covered covers(const SampleBuffer& samples, size_t lane) const {
     const typename Edges::At at(samples, lane);
@@ -211,10 +210,10 @@ class Quad {
   HWY_INLINE Floats depth(Floats x, Floats y, const Covered& in) const {
     const Floats gx = hn::IfThenElse(in.first, gx0_, gx1_), gy = hn::IfThenElse(in.first, gy0_, gy1_);
     const Floats d = hn::Add(hn::Add(bDepth_, hn::Mul(gx, hn::Sub(x, bx_))), hn::Mul(gy, hn::Sub(y, by_)));
-    // Never outside the cell, or culling by dMin would depend on rounding.
+    // The depth stays within that of the cell, or culling by dMin would depend on rounding.
     return hn::Min(hn::Max(d, dMin_), dMax_);
   }
-  float vague() const { return vague_; }
+  float depthError() const { return depthError_; }
 
  private:
   static HWY_INLINE Mask negative(Ints v) { return hn::RebindMask(kF, hn::Lt(v, hn::Zero(kI))); }
@@ -222,7 +221,7 @@ class Quad {
   typename Edges::Edge ab_, bc_, ca_, bd_, dc_;
   Ints flipped_;
   Floats bx_, by_, bDepth_, dMin_, dMax_, gx0_, gy0_, gx1_, gy1_;
-  float vague_;
+  float depthError_;
 };
 
 }  // namespace

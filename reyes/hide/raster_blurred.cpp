@@ -1,7 +1,7 @@
-// Micropolygons that move or are out of focus: every sample meets the vertices where they are at its time
-// through its point of the lens. A box round many micropolygons, at that time and through that point, is no
-// larger than when it is still; so the samples of a bucket are sieved through the boxes of the grid, of its
-// quarters, of their quarters, down to micropolygons, and few are left that miss.
+// Rasterises micropolygons that move or are out of focus: every sample meets the vertices where they are at its time,
+// seen through its point of the lens. A box around many micropolygons, at that time and through that point, is no
+// larger than when it is still. So the samples of a bucket are tested against the box of the grid, of its quarters, of
+// their quarters, down to micropolygons, and few remain that miss.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_blurred.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -10,7 +10,7 @@
 
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/blurred_quad.h"
-#include "reyes/hide/sieve.h"
+#include "reyes/hide/sample_list.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {
@@ -35,7 +35,7 @@ HWY_INLINE SampleVector loadSamples(const SampleList& s, size_t i) {
   return v;
 }
 
-/// A BlurBox, ready to be asked.
+/// A BlurBox, ready to be tested.
 template <class B>
 struct Box {
   Floats x, y, d, xStep, yStep, dStep, xReach, yReach, xSlant, ySlant;
@@ -65,7 +65,7 @@ struct Box {
   }
 };
 
-/// Writes the lanes of a mask to the end of a list, and up to a vector beyond. The new end.
+/// Writes the lanes of a mask to the end of a list, and up to a vector beyond. Returns the new end.
 template <class B>
 HWY_INLINE uint32_t* keep(const SampleVector& s, Numbers lane, Mask mask, uint32_t* end, size_t stride) {
   const auto put = [&](SampleList::Array a, Numbers v) {
@@ -79,11 +79,11 @@ HWY_INLINE uint32_t* keep(const SampleVector& s, Numbers lane, Mask mask, uint32
   return end + hn::CountTrue(kF, mask);
 }
 
-/// Of the samples of a list, those that each of four boxes holds. All at once: one loop that ends when nobody
-/// foresees it instead of four, and no list is read just after it was written.
+/// Distributes the samples of a list to the lists of four boxes that contain them. One loop for all four has a single
+/// mispredicted end, and reads no list just after it was written.
 template <class B>
-HWY_INLINE void sieve(const Box<B>& a, const Box<B>& b, const Box<B>& c, const Box<B>& d, const SampleList& from,
-                      SampleList (&to)[4]) {
+HWY_INLINE void cullSamples(const Box<B>& a, const Box<B>& b, const Box<B>& c, const Box<B>& d, const SampleList& from,
+                            SampleList (&to)[4]) {
   const size_t width = hn::Lanes(kF), stride = to[0].stride;
   uint32_t *endA = to[0].first, *endB = to[1].first, *endC = to[2].first, *endD = to[3].first;
   for (size_t i = 0; i < from.count; i += width) {
@@ -99,11 +99,10 @@ HWY_INLINE void sieve(const Box<B>& a, const Box<B>& b, const Box<B>& c, const B
   to[2].count = static_cast<size_t>(endC - to[2].first), to[3].count = static_cast<size_t>(endD - to[3].first);
 }
 
-/// Those samples of the bucket that a box holds, whose time is in the segment and that see nothing nearer
-/// yet.
+/// Collects the samples of the bucket inside a box, whose time is in the segment and that see nothing nearer yet.
 template <class B>
-HWY_INLINE void sieveBucket(const SampleBuffer& out, const PixelRect& pixels, const Interval& when, const Box<B>& box,
-                            float dMin, SampleList& to) {
+HWY_INLINE void cullBucketSamples(const SampleBuffer& out, const PixelRect& pixels, const Interval& when,
+                                  const Box<B>& box, float dMin, SampleList& to) {
   const size_t width = hn::Lanes(kF), lanes = static_cast<size_t>(out.lanes);
   const Numbers first = hn::Iota(kU, 0);
   const Floats begin = all(when.begin), end = all(when.end), inverse = all(1.0f / (when.end - when.begin));
@@ -139,7 +138,7 @@ class Descent {
         segment_(bounds_.segments[static_cast<size_t>(key)]),
         focus_(job.camera.focusKey()) {}
 
-  /// In bands of pixel rows, so that lists stay short in large buckets.
+  /// It works in bands of pixel rows, so that lists stay short in large buckets.
   void run(const Interval& when) {
     const PixelRect pixels = job_.out.touched(job_.raster.bound.lo, job_.raster.bound.hi);
     const int rowLanes = std::max(1, pixels.width() * job_.out.lanes), rows = std::max(1, kMostLanes / rowLanes);
@@ -154,10 +153,10 @@ class Descent {
     const size_t top = bounds_.levels.size() - 1,
                  most = static_cast<size_t>(pixels.width() * pixels.height() * job_.out.lanes);
     const BlurBox& box = bounds_.box(key_, bounds_.levels[top], 0, 0);
-    stack_ = &SieveStack::ofThread(4 * bounds_.levels.size(), most);
+    stack_ = &SampleListStack::ofThread(4 * bounds_.levels.size(), most);
     SampleList list = stack_->push(most);
-    sieveBucket<B>(job_.out, pixels, when, Box<B>(box, segment_.slant, focus_),
-                   job_.raster.inSolid ? job_.raster.dMin : segment_.dMin, list);
+    cullBucketSamples<B>(job_.out, pixels, when, Box<B>(box, segment_.slant, focus_),
+                         job_.raster.inSolid ? job_.raster.dMin : segment_.dMin, list);
     descend(top, 0, 0, list);
     stack_->pop(most);
   }
@@ -171,13 +170,13 @@ class Descent {
     const auto boxAt = [&](int x, int y) { return Box<B>(bounds_.box(key_, fine, x, y), segment_.slant, focus_); };
     SampleList quarters[4];
     for (SampleList& q : quarters) q = stack_->push(samples.count);
-    sieve<B>(boxAt(x0, y0), boxAt(x1, y0), boxAt(x0, y1), boxAt(x1, y1), samples, quarters);
+    cullSamples<B>(boxAt(x0, y0), boxAt(x1, y0), boxAt(x0, y1), boxAt(x1, y1), samples, quarters);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) descend(level - 1, x, y, quarters[2 * (y - y0) + x - x0]);
     stack_->pop(samples.count, 4);
   }
 
-  /// Boxes that are asked next are far away in memory if another bucket was the last to ask them.
+  /// Boxes that are tested next are far away in memory if another bucket was the last to test them.
   void fetch(const BlurBounds::Level& level, int i, int j) const {
     for (int y = j; y < std::min(j + 4, level.rows); ++y) {
       const BlurBox* box = &bounds_.box(key_, level, i, y);
@@ -209,7 +208,7 @@ class Descent {
         if (kept == Kept::All || keepsSample(job_, cell, lanes[k + s])) give(lanes[k + s], depths[s], cell);
       }
     }
-    job_.out.filmsOf(job_.raster).flush();
+    job_.out.layersOf(job_.raster).flush();
   }
 
   void give(uint32_t lane, float depth, uint32_t cell) {
@@ -219,13 +218,13 @@ class Descent {
     const uint32_t pixel = out.pixelOf[lane / kLanes];
     if (!job_.raster.opaque || job_.raster.inSolid) {
       const uint32_t s = lane - pixel * static_cast<uint32_t>(out.lanes);
-      return out.filmsOf(job_.raster).add(out.wordOf(pixel, s), s % 64, cell, depth);
+      return out.layersOf(job_.raster).add(out.wordOf(pixel, s), s % 64, cell, depth);
     }
     if (depth == before) return settleTies(job_, lane, 1, cell);
     before = depth, out.cell[lane] = cell, out.nearer[pixel] = 1;
   }
 
-  /// The same for most samples, with pointers that need not be read again after every flag: it may alias all.
+  /// The same for most samples, with pointers that need not be read again after every flag, which may alias everything.
   HWY_INLINE void giveOpaque(const uint32_t* lanes, const float* depths, uint64_t samples, uint32_t cell) {
     float* depth = job_.out.depth.data();
     uint32_t* cells = job_.out.cell.data();
@@ -245,14 +244,14 @@ class Descent {
   const int key_;
   const BlurBounds::Segment& segment_;
   const float focus_;
-  SieveStack* stack_ = nullptr;
+  SampleListStack* stack_ = nullptr;
 };
 
 void rasterize(const RasterJob& job) {
   const bool moves = job.raster.grid->keyCount > 1;
   for (int key = 0; key + 1 < std::max(2, job.raster.grid->keyCount); ++key) {
     const size_t k = static_cast<size_t>(key);
-    job.out.filmsOf(job.raster).beginGrid();  // A cell's films are of one interval, whatever hides it.
+    job.out.layersOf(job.raster).beginGrid();  // The layers of a cell belong to one interval, whatever hides it.
     const Interval when = moves ? Interval{job.keyTimes[k], job.keyTimes[k + 1]} : Interval{0, 1};
     if (!moves)
       Descent<Blur<false, true>>(job, key).run(when);

@@ -1,19 +1,19 @@
-// Small disks that stand still and are in focus: each is the ellipse that touches the four edges of its cell
-// (Grid::round), exact and without corners, for the price of two lines instead of five (docs/decisions/0051).
+// Rasterises small disks that stand still and are in focus. Each is the ellipse that touches the four edges of its cell
+// (Grid::round): exact, without corners, and tested by two lines instead of five (docs/decisions/0051).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_round.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
 
-#include "reyes/hide/claim.h"
+#include "reyes/hide/sample_cell.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// A cell abcd, taken as a parallelogram about the middle of bc with half edges e (along u) and f.
+/// A cell abcd, taken as a parallelogram around the middle of bc with half edges e (along u) and f.
 struct Oval {
-  vec2 center, e, f, slope;  ///< slope: of the depth key.
+  vec2 center, e, f, slope;  ///< slope: gradient of the depth key.
   float d, dMin, dMax, area;
 
   Oval(const RasterGrid& r, size_t a) {
@@ -44,7 +44,7 @@ class Round {
         gy_(all(o.slope.y)),
         dMin_(all(o.dMin)),
         dMax_(all(o.dMax)),
-        vague_(vagueDepth(std::abs(o.slope.x) + std::abs(o.slope.y), o.d)) {}
+        depthError_(depthErrorBound(std::abs(o.slope.x) + std::abs(o.slope.y), o.d)) {}
 
   struct Covered {
     Mask mask;
@@ -58,14 +58,14 @@ class Round {
   HWY_INLINE Floats depth(Floats sampleX, Floats sampleY, const Covered&) const {
     const Floats x = hn::Sub(sampleX, x_), y = hn::Sub(sampleY, y_);
     const Floats d = hn::Add(d_, hn::Add(hn::Mul(x, gx_), hn::Mul(y, gy_)));
-    // Never outside the cell, or culling by dMin would depend on rounding.
+    // The depth stays within that of the cell, or culling by dMin would depend on rounding.
     return hn::Min(hn::Max(d, dMin_), dMax_);
   }
-  float vague() const { return vague_; }
+  float depthError() const { return depthError_; }
 
  private:
   Floats x_, y_, ux_, uy_, vx_, vy_, d_, gx_, gy_, dMin_, dMax_;
-  float vague_;
+  float depthError_;
 };
 
 void rasterizeOvals(const RasterJob& job) {

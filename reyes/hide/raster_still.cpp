@@ -1,6 +1,7 @@
-// Micropolygons that stand still and are in focus, against the samples of the pixels that they touch: kLanes samples of
-// a pixel at a time. Compiled for several vector widths and chosen when first called (docs/decisions/0011); the
-// operations are the same in all of them, and none is fused, so the bits are too.
+// Tests micropolygons that stand still and are in focus against the samples of the pixels that they touch: kLanes
+// samples of a pixel at a time. The file is compiled for several vector widths, and one is chosen when it is first
+// called (docs/decisions/0011). The operations are the same in all of them, and none is fused, so the bits are the same
+// too.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_still.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -8,8 +9,8 @@
 #include <bit>
 #include <cstring>
 
-#include "reyes/hide/claim.h"
 #include "reyes/hide/quad.h"
+#include "reyes/hide/sample_cell.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tomales {
@@ -41,7 +42,7 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
   }
 }
 
-/// Which of kLanes vertices of a grid begin a cell, and its number.
+/// Finds which of kLanes vertices of a grid begin a cell, and its number.
 class CellNumbers {
  public:
   explicit CellNumbers(const Grid& g)
@@ -50,7 +51,7 @@ class CellNumbers {
   HWY_INLINE uint64_t set(Corners& q, int first, int end) const {
     HWY_ALIGN int32_t begins[kLanes];
     for (int i = 0; i < kLanes; ++i) {
-      // Halves keep the quotients of whole numbers below 2^21 away from where rounding would matter.
+      // Adding a half keeps the quotients of whole numbers below 2^21 away from where rounding would matter.
       const int a = first + i, row = static_cast<int>((static_cast<float>(a) + 0.5f) * perRow_);
       const int piece = static_cast<int>((static_cast<float>(row) + 0.5f) * perPiece_), u = a - row * (nu_ + 1);
       q.cell[i] = row * nu_ + u;
@@ -67,7 +68,7 @@ class CellNumbers {
   float perRow_, perPiece_;
 };
 
-/// Pixels of the bucket that bounds touch, as SampleBuffer::touched has them.
+/// Pixels of the bucket that bounds touch, the same as SampleBuffer::touched().
 HWY_INLINE void setPixels(const float* lo, const float* hi, int first, int end, int32_t* from, int32_t* to) {
   const float origin = static_cast<float>(first), size = static_cast<float>(end - first);
   for (int i = 0; i < kLanes; ++i) {
@@ -86,7 +87,7 @@ HWY_INLINE void setPixels(const float* lo, const float* hi, int first, int end, 
   }
 }
 
-/// Corners, bounds and numbers of the cells from vertex `first` on, and which of them touch the bucket.
+/// Sets corners, bounds and numbers of the cells from vertex `first` on. Returns which of them touch the bucket.
 HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& numbers, int first, int end,
                           const PixelRect& bucket) {
   const int row = r.grid->nu + 1;
@@ -121,9 +122,9 @@ HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer&
   return samples.fitsLattice() && (large & cells) == 0;
 }
 
-/// Which pixels are to be asked about which of some cells: those where not everything is nearer. Takes cells, as many
-/// as make a list that is long enough.
-size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
+/// Lists pairs of a pixel and a cell to be tested, without pixels whose samples are all nearer. It takes as many cells
+/// as make the list long enough.
+size_t listPixelTests(SampleBuffer& out, const Corners& q, uint64_t& cells) {
   constexpr size_t kLong = 1024;
   const size_t width = static_cast<size_t>(out.rect.width());
   const float* far = out.far.data();
@@ -131,52 +132,52 @@ size_t listAsks(SampleBuffer& out, const Corners& q, uint64_t& cells) {
   for (; cells && count < kLong; cells &= cells - 1) {
     const int i = std::countr_zero(cells);
     const size_t columns = static_cast<size_t>(q.x1[i] - q.x0[i]), rows = static_cast<size_t>(q.y1[i] - q.y0[i]);
-    if (out.asks.size() < count + columns * rows) out.asks.resize(2 * (count + columns * rows));
-    Ask* asks = out.asks.data();
+    if (out.pixelTests.size() < count + columns * rows) out.pixelTests.resize(2 * (count + columns * rows));
+    PixelTest* pixelTests = out.pixelTests.data();
     size_t first = out.pixelIndex(q.x0[i], q.y0[i]);
     for (size_t y = 0; y < rows; ++y, first += width)
       for (size_t pixel = first; pixel < first + columns; ++pixel) {
-        asks[count] = {static_cast<uint32_t>(pixel), i};
+        pixelTests[count] = {static_cast<uint32_t>(pixel), i};
         count += q.dMin[i] <= far[pixel];
       }
   }
   return count;
 }
 
-/// Cells one after the other: what is asked stays in registers for all pixels of one.
+/// Tests cell by cell, so that the cell stays in registers for all of its pixels.
 template <class Edges>
-HWY_INLINE void ask(const RasterJob& job, const Corners& q, const Triangles<Edges>& triangles, size_t count) {
+HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Triangles<Edges>& triangles, size_t count) {
   SampleBuffer& out = job.out;
   const size_t lanes = static_cast<size_t>(out.lanes);
-  const Ask* asks = out.asks.data();
+  const PixelTest* pixelTests = out.pixelTests.data();
   const bool whole = keepsAll(job);
   for (size_t k = 0; k < count;) {
-    const int i = asks[k].cell;
+    const int i = pixelTests[k].cell;
     const Kept kept = whole ? Kept::All : keptOf(job, q.cell[i]);
     const Quad<Edges> quad(q, triangles, i);
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
     do {
-      const size_t pixel = asks[k].pixel;
-      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) claim(job, quad, pixel * lanes + g, cell, kept);
+      const size_t pixel = pixelTests[k].pixel;
+      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) depthTest(job, quad, pixel * lanes + g, cell, kept);
       out.nearer[pixel] = 1;
-    } while (++k < count && asks[k].cell == i);
+    } while (++k < count && pixelTests[k].cell == i);
   }
 }
 
-/// One list for many cells: which of few pixels a small cell covers is no branch that could be foreseen
-/// (docs/decisions/0098).
+/// A small cell covers few pixels, and branches on which ones would be mispredicted, so one list holds those of many
+/// cells (docs/decisions/0102).
 template <class Edges>
-void claimCells(const RasterJob& job, const Corners& q, uint64_t cells) {
-  size_t count = listAsks(job.out, q, cells);
+void depthTestCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+  size_t count = listPixelTests(job.out, q, cells);
   if (count == 0 && cells == 0) return;
   Triangles<Edges> triangles;
   triangles.set(q, job.raster.facing);
-  for (; count > 0 || cells; count = listAsks(job.out, q, cells)) ask(job, q, triangles, count);
+  for (; count > 0 || cells; count = listPixelTests(job.out, q, cells)) runPixelTests(job, q, triangles, count);
 }
 
-/// Of transparent grids and of solids.
+/// The version for transparent grids and for solids.
 template <class Edges>
-void filmCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+void layerCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   const RasterGrid& r = job.raster;
   Triangles<Edges> triangles;
   triangles.set(q, r.facing);
@@ -190,7 +191,7 @@ void filmCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   }
 }
 
-/// Without those of which trim curves leave nothing.
+/// Returns the cells without those that are trimmed away.
 HWY_INLINE uint64_t keptCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   if (keepsAll(job)) return cells;
   for (uint64_t left = cells; left; left &= left - 1)
@@ -201,12 +202,12 @@ HWY_INLINE uint64_t keptCells(const RasterJob& job, const Corners& q, uint64_t c
 template <class Edges>
 void sampleCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   if (job.raster.opaque && !job.raster.inSolid)
-    claimCells<Edges>(job, q, cells);
+    depthTestCells<Edges>(job, q, cells);
   else
-    filmCells<Edges>(job, q, cells);
+    layerCells<Edges>(job, q, cells);
 }
 
-/// The micropolygons whose first vertices are those from `first` to before `end`.
+/// Rasterises the micropolygons whose first vertices are `first` to `end` - 1.
 void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
   const CellNumbers numbers(*job.raster.grid);
   for (int k = first; k < end; k += kLanes) {
@@ -222,7 +223,7 @@ void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
   }
 }
 
-/// Pieces that other buckets see are passed over, and so are those that are hidden here.
+/// Pieces that only other buckets see, and those that are hidden here, are skipped.
 void rasterize(const RasterJob& job) {
   const Grid& g = *job.raster.grid;
   const auto& pieces = job.raster.ofPiece;
@@ -256,7 +257,7 @@ void settlePixels(SampleBuffer& s, const PixelRect& pixels) {
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1;) {
       const size_t pixel = s.pixelIndex(x, y);
-      // Of a stack's bound a bucket often sees little.
+      // A bucket often sees little of the bound of a stack.
       if (x + 8 <= pixels.x1 && !anyOfEight(&s.nearer[pixel])) {
         x += 8;
         continue;

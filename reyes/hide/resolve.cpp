@@ -5,28 +5,28 @@
 #include <numeric>
 
 #include "reyes/base/lent.h"
+#include "reyes/hide/border_overlap.h"
+#include "reyes/hide/cell_coverage.h"
 #include "reyes/hide/facets.h"
-#include "reyes/hide/reach.h"
-#include "reyes/hide/sights.h"
 
 namespace tomales {
 namespace {
 
-/// What opaque surfaces leave of a film.
-struct Sheet {
-  FilmExtent extent;
-  uint32_t film;
-  int object;          ///< Film::object
-  float depth = 0;     ///< Of what is there of that object: how far a cell's depth keys lie apart.
-  uint64_t twice = 0;  ///< Samples that a neighbour shows.
-  bool operator<(const Sheet& o) const { return extent.nearest < o.extent.nearest; }
+/// The part of a transparent layer in front of opaque surfaces; or the opaque surfaces of a pixel.
+struct LayerInOrder {
+  LayerExtent extent;
+  uint32_t layer;
+  int object;          ///< TransparentLayer::object
+  float depth = 0;     ///< Range of depth keys within a cell of that object here.
+  uint64_t twice = 0;  ///< Samples that a neighbour shows too.
+  bool operator<(const LayerInOrder& o) const { return extent.nearest < o.extent.nearest; }
 };
 
-/// What outlives a tile: the memory of its lists.
+/// Memory of lists, which outlives a tile.
 struct Scratch {
-  std::vector<uint32_t> filmsOfPixel, firstFilm;
-  std::vector<Sheet> sheets;
-  std::vector<Sight> sights, opaque, sorted;
+  std::vector<uint32_t> layersOfPixel, firstLayer;
+  std::vector<LayerInOrder> ordered;
+  std::vector<CellCoverage> coverages, opaque, sorted;
   std::vector<uint64_t> keys;
   PixelLayers layers;
   std::vector<Facet> facets;
@@ -34,8 +34,8 @@ struct Scratch {
 };
 
 class TileBuilder {
-  static constexpr size_t kAhead = 24;       ///< Films that are on their way while one is looked at.
-  static constexpr float kRounding = 1e-5f;  ///< Of depth keys.
+  static constexpr size_t kAhead = 24;       ///< Layers that are prefetched ahead of the current one.
+  static constexpr float kRounding = 1e-5f;  ///< Relative error of depth keys.
 
  public:
   TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
@@ -43,212 +43,215 @@ class TileBuilder {
         grids_(grids),
         samples_(samples),
         scratch_(scratch),
-        sights_(scratch.sights),
+        coverages_(scratch.coverages),
         facets_(scene, camera, grids, samples, tile_) {}
 
-  DeepTile build(HideDoubts* doubts) {
+  DeepTile build(HideDiagnostics* diagnostics) {
     tile_.rect = samples_.rect;
     const size_t count = samples_.far.size();
     tile_.pixels.reserve(count);
-    sortFilms(count);
+    sortLayers(count);
     {
       const Lent fragments(tile_.fragments, scratch_.fragments);
       for (size_t first = 0; first < count; first += kRankedTogether)
         addPixels(first, std::min(first + kRankedTogether, count));
     }
-    facets_.make(doubts);
+    facets_.make(diagnostics);
     tile_.shrink();
     return std::move(tile_);
   }
 
  private:
-  /// Counts, then places: films of a pixel stand together.
-  void sortFilms(size_t pixels) {
-    const Films& films = samples_.films;
-    const auto words = static_cast<uint32_t>(films.wordsOfPixel());
-    std::vector<uint32_t>& first = scratch_.firstFilm;
+  /// Counting sort by pixel.
+  void sortLayers(size_t pixels) {
+    const TransparentLayers& layers = samples_.layers;
+    const auto words = static_cast<uint32_t>(layers.wordsOfPixel());
+    std::vector<uint32_t>& first = scratch_.firstLayer;
     first.assign(pixels + 1, 0);
-    const auto count = static_cast<uint32_t>(films.count());
-    for (uint32_t i = 0; i < count; ++i) ++first[films.film(i).word / words + 1];
+    const auto count = static_cast<uint32_t>(layers.count());
+    for (uint32_t i = 0; i < count; ++i) ++first[layers.layer(i).word / words + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
-    scratch_.filmsOfPixel.resize(count);
-    for (uint32_t i = 0; i < count; ++i) scratch_.filmsOfPixel[first[films.film(i).word / words]++] = i;
+    scratch_.layersOfPixel.resize(count);
+    for (uint32_t i = 0; i < count; ++i) scratch_.layersOfPixel[first[layers.layer(i).word / words]++] = i;
     for (size_t p = pixels; p > 0; --p) first[p] = first[p - 1];
     first[0] = 0;
   }
 
-  bool hasFilms(size_t pixel) const { return scratch_.firstFilm[pixel] < scratch_.firstFilm[pixel + 1]; }
+  bool hasLayers(size_t pixel) const { return scratch_.firstLayer[pixel] < scratch_.firstLayer[pixel + 1]; }
 
   void addPixels(size_t begin, size_t end) {
     uint32_t opaque[kRankedTogether];
     size_t count = 0;
     for (size_t pixel = begin; pixel < end; ++pixel)
-      opaque[count] = static_cast<uint32_t>(pixel), count += !hasFilms(pixel);
-    RankedSights seen[kRankedTogether];
+      opaque[count] = static_cast<uint32_t>(pixel), count += !hasLayers(pixel);
+    RankedCoverages seen[kRankedTogether];
     rankOpaque(samples_, {opaque, count}, seen);
-    const RankedSights* next = seen;
+    const RankedCoverages* next = seen;
     for (size_t pixel = begin; pixel < end; ++pixel) {
       const auto first = static_cast<uint32_t>(tile_.fragments.size());
-      if (hasFilms(pixel))
-        addFilms(pixel);
+      if (hasLayers(pixel))
+        addLayers(pixel);
       else
         addOpaque(pixel, *next++);
       tile_.pixels.push_back({first, static_cast<uint32_t>(tile_.fragments.size()) - first});
     }
   }
 
-  void addOpaque(size_t pixel, const RankedSights& seen) {
+  void addOpaque(size_t pixel, const RankedCoverages& seen) {
     if (addRanked(pixel, seen, 0)) return;
-    sights_.clear();
-    collectOpaque(samples_, pixel, sights_);
-    addSights(pixel, false);
+    coverages_.clear();
+    collectOpaque(samples_, pixel, coverages_);
+    addCoverages(pixel, false);
   }
 
-  /// Most of what is seen: a few surfaces. False, and nothing done, if there are more.
-  bool addRanked(size_t pixel, const RankedSights& seen, uint32_t word) {
+  /// Adds fragments that are already in order, which is the most frequent case. Returns false, and adds nothing, if
+  /// there are too many surfaces.
+  bool addRanked(size_t pixel, const RankedCoverages& seen, uint32_t word) {
     for (int i = 0; i < seen.count; ++i)
-      addFragment(pixel, seen.sights[i].cell, seen.sights[i].d, seen.sights[i].samples, word);
+      addFragment(pixel, seen.coverages[i].cell, seen.coverages[i].d, seen.coverages[i].samples, word);
     return seen.count >= 0;
   }
-  bool addRanked(size_t pixel, uint32_t film) {
-    RankedSights seen;
-    rankFilm(samples_.films, film, seen);
+  bool addRanked(size_t pixel, uint32_t layer) {
+    RankedCoverages seen;
+    rankLayer(samples_.layers, layer, seen);
     return addRanked(pixel, seen,
-                     static_cast<uint32_t>(samples_.films.film(film).word % samples_.films.wordsOfPixel()));
+                     static_cast<uint32_t>(samples_.layers.layer(layer).word % samples_.layers.wordsOfPixel()));
   }
 
   void addFragment(size_t pixel, uint32_t cell, float d, uint64_t samples, uint32_t word) {
     facets_.see(cell);
-    // The facet is found later.
+    // facets_ replaces the cell by its facet later.
     Fragment& f =
         tile_.fragments.emplace_back(Fragment{cell, camera_.zFromDepthKey(d), samples, static_cast<uint16_t>(word)});
     if (grids_.anySmooth() && grids_.of(cell).raster->smooth) setPosition(f, cell, pixel);
   }
 
-  /// Sheets that lie behind all before them need not be looked at together with them.
-  void addFilms(size_t pixel) {
-    findSheets(pixel);
-    const std::vector<Sheet>& sheets = scratch_.sheets;
-    for (size_t i = 0, end = 0; i < sheets.size(); i = end) {
-      const bool alone = sheets[i].film != Films::kNone &&
-                         (i + 1 == sheets.size() || sheets[i + 1].extent.nearest > sheets[i].extent.farthest);
-      if (alone && addRanked(pixel, sheets[i].film)) {
+  /// Layers that lie behind all before them are sorted without them.
+  void addLayers(size_t pixel) {
+    findLayers(pixel);
+    const std::vector<LayerInOrder>& ordered = scratch_.ordered;
+    for (size_t i = 0, end = 0; i < ordered.size(); i = end) {
+      const bool alone = ordered[i].layer != TransparentLayers::kNone &&
+                         (i + 1 == ordered.size() || ordered[i + 1].extent.nearest > ordered[i].extent.farthest);
+      if (alone && addRanked(pixel, ordered[i].layer)) {
         end = i + 1;
         continue;
       }
-      sights_.clear();
+      coverages_.clear();
       float far = -kInfinity;
-      for (; end < sheets.size() && (end == i || sheets[end].extent.nearest <= far); ++end) {
-        const Sheet& sheet = sheets[end];
-        far = std::max(far, sheet.extent.farthest);
-        if (sheet.film == Films::kNone)
-          sights_.insert(sights_.end(), scratch_.opaque.begin(), scratch_.opaque.end());
+      for (; end < ordered.size() && (end == i || ordered[end].extent.nearest <= far); ++end) {
+        const LayerInOrder& current = ordered[end];
+        far = std::max(far, current.extent.farthest);
+        if (current.layer == TransparentLayers::kNone)
+          coverages_.insert(coverages_.end(), scratch_.opaque.begin(), scratch_.opaque.end());
         else
-          collectFilm(samples_.films, sheet.film, sheet.extent.farthest, sights_);
+          collectLayer(samples_.layers, current.layer, current.extent.farthest, coverages_);
       }
-      addSights(pixel, end - i > 1);
+      addCoverages(pixel, end - i > 1);
     }
   }
 
-  /// Nearest first.
-  void findSheets(size_t pixel) {
-    std::vector<Sheet>& sheets = scratch_.sheets;
-    std::vector<Sight>& opaque = scratch_.opaque;
-    sheets.clear();
+  /// Finds the layers of a pixel, nearest first.
+  void findLayers(size_t pixel) {
+    std::vector<LayerInOrder>& ordered = scratch_.ordered;
+    std::vector<CellCoverage>& opaque = scratch_.opaque;
+    ordered.clear();
     opaque.clear();
     collectOpaque(samples_, pixel, opaque);
     if (!opaque.empty()) {
-      const auto nearest =
-          std::min_element(opaque.begin(), opaque.end(), [](const Sight& a, const Sight& b) { return a.d < b.d; });
-      sheets.push_back({{nearest->d, kInfinity}, Films::kNone, -1});
+      const auto nearest = std::min_element(opaque.begin(), opaque.end(),
+                                            [](const CellCoverage& a, const CellCoverage& b) { return a.d < b.d; });
+      ordered.push_back({{nearest->d, kInfinity}, TransparentLayers::kNone, -1});
     }
-    const std::vector<uint32_t>& order = scratch_.filmsOfPixel;
-    Films& films = samples_.films;
-    for (uint32_t k = scratch_.firstFilm[pixel]; k < scratch_.firstFilm[pixel + 1]; ++k) {
-      // Those of a pixel are scattered over the list, which is larger than a cache near the processor.
+    const std::vector<uint32_t>& order = scratch_.layersOfPixel;
+    TransparentLayers& layers = samples_.layers;
+    for (uint32_t k = scratch_.firstLayer[pixel]; k < scratch_.firstLayer[pixel + 1]; ++k) {
+      // Layers of a pixel are scattered over the list, which is larger than a near cache.
       const uint32_t next = order[std::min(size_t{k} + kAhead, order.size() - 1)];
-      __builtin_prefetch(films.depths(next)), __builtin_prefetch(films.cells(next)),
-          __builtin_prefetch(&films.film(next));
-      const FilmExtent extent = cullFilm(samples_, grids_, order[k]);
-      if (films.film(order[k]).samples) sheets.push_back({extent, order[k], films.film(order[k]).object});
+      __builtin_prefetch(layers.depths(next)), __builtin_prefetch(layers.cells(next)),
+          __builtin_prefetch(&layers.layer(next));
+      const LayerExtent extent = cullLayer(samples_, grids_, order[k]);
+      if (layers.layer(order[k]).samples) ordered.push_back({extent, order[k], layers.layer(order[k]).object});
     }
-    std::sort(sheets.begin(), sheets.end());
-    dropTwice();
+    std::sort(ordered.begin(), ordered.end());
+    dropOverlaps();
   }
 
-  /// What neighbours reach over each other counts once.
-  void dropTwice() {
-    std::vector<Sheet>& sheets = scratch_.sheets;
-    Films& films = samples_.films;
-    const auto ends = [&](const Film& f) {
+  /// Removes samples that two neighbours show because they reach over a border.
+  void dropOverlaps() {
+    std::vector<LayerInOrder>& ordered = scratch_.ordered;
+    TransparentLayers& layers = samples_.layers;
+    const auto ends = [&](const TransparentLayer& f) {
       return std::popcount(f.samples) <
-             std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % films.wordsOfPixel()));
+             std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % layers.wordsOfPixel()));
     };
-    // Neighbours have a slope. Films that fill a pixel show it; a few samples show nothing.
+    // The range of depths in a cell of neighbours is estimated from layers that fill a pixel; a few samples do not show
+    // it.
     float most = 0;
-    for (Sheet& s : sheets) {
+    for (LayerInOrder& s : ordered) {
       if (s.object < 0) continue;
-      s.depth = ends(films.film(s.film)) ? depthOfCell(films, grids_, s.film) : s.extent.farthest - s.extent.nearest;
+      s.depth = ends(layers.layer(s.layer)) ? depthRangeOfCell(layers, grids_, s.layer)
+                                            : s.extent.farthest - s.extent.nearest;
       most = std::max(most, s.depth);
     }
-    const auto reachOf = [](const Sheet& a, float other) {
+    const auto reachOf = [](const LayerInOrder& a, float other) {
       return a.extent.farthest + 2 * (a.depth + other) + kRounding * std::abs(a.extent.farthest);
     };
-    for (size_t i = 0; i < sheets.size(); ++i) {
-      Sheet& a = sheets[i];
+    for (size_t i = 0; i < ordered.size(); ++i) {
+      LayerInOrder& a = ordered[i];
       if (a.object < 0) continue;
       const float reach = reachOf(a, most);
-      for (size_t k = i + 1; k < sheets.size() && sheets[k].extent.nearest <= reach; ++k) {
-        Sheet& b = sheets[k];
+      for (size_t k = i + 1; k < ordered.size() && ordered[k].extent.nearest <= reach; ++k) {
+        LayerInOrder& b = ordered[k];
         if (b.object != a.object || b.extent.nearest > reachOf(a, b.depth) ||
-            (films.film(a.film).samples & films.film(b.film).samples) == 0)
+            (layers.layer(a.layer).samples & layers.layer(b.layer).samples) == 0)
           continue;
-        const ShownTwice twice = shownTwice(samples_, grids_, camera_, a.film, b.film);
+        const BorderOverlap twice = borderOverlap(samples_, grids_, camera_, a.layer, b.layer);
         a.twice |= twice.first, b.twice |= twice.second;
       }
     }
-    for (const Sheet& sheet : sheets)
-      if (sheet.twice) films.drop(sheet.film, sheet.twice);
+    for (const LayerInOrder& current : ordered)
+      if (current.twice) layers.drop(current.layer, current.twice);
   }
 
   /// overlapping: a sample may see several of them.
-  void addSights(size_t pixel, bool overlapping) {
-    // Nearest first; equal depths in an order that no schedule changes.
-    const auto nearer = [this](const Sight& a, const Sight& b) {
+  void addCoverages(size_t pixel, bool overlapping) {
+    // Nearest first; equal depths have an order that does not depend on the schedule.
+    const auto nearer = [this](const CellCoverage& a, const CellCoverage& b) {
       if (a.d != b.d) return a.d < b.d;
       if (a.cell != b.cell) return grids_.precedes(a.cell, b.cell);
       return a.word < b.word;
     };
-    if (!sortByRank() && !sortByKey()) std::sort(sights_.begin(), sights_.end(), nearer);
-    if (overlapping) scratch_.layers.order(sights_, nearer);
-    for (const Sight& s : sights_) addFragment(pixel, s.cell, s.d, s.samples, s.word);
+    if (!sortByRank() && !sortByKey()) std::sort(coverages_.begin(), coverages_.end(), nearer);
+    if (overlapping) scratch_.layers.order(coverages_, nearer);
+    for (const CellCoverage& s : coverages_) addFragment(pixel, s.cell, s.d, s.samples, s.word);
   }
 
-  /// Sorts a few sights by depth without a branch that depends on it; false, and nothing done, if they are many or
+  /// Sorts a few coverages by depth without a branch on depths. Returns false, and does nothing, if they are many or
   /// depths are equal.
   bool sortByRank() {
     constexpr size_t kFew = 12;
-    const size_t n = sights_.size();
+    const size_t n = coverages_.size();
     if (n > kFew) return false;
-    Sight sorted[kFew];
+    CellCoverage sorted[kFew];
     uint32_t taken = 0;
     for (size_t i = 0; i < n; ++i) {
       uint32_t rank = 0;
-      for (size_t k = 0; k < n; ++k) rank += sights_[k].d < sights_[i].d;
-      sorted[rank] = sights_[i];
+      for (size_t k = 0; k < n; ++k) rank += coverages_[k].d < coverages_[i].d;
+      sorted[rank] = coverages_[i];
       taken |= 1U << rank;
     }
     if (taken != (1U << n) - 1) return false;
-    std::copy_n(sorted, n, sights_.begin());
+    std::copy_n(sorted, n, coverages_.begin());
     return true;
   }
 
-  /// Sorts many sights by depth as integers; false, and nothing done, if depths are equal.
+  /// Sorts many coverages by depth as integers. Returns false, and does nothing, if depths are equal.
   bool sortByKey() {
     std::vector<uint64_t>& keys = scratch_.keys;
     keys.clear();
-    for (uint32_t i = 0; i < sights_.size(); ++i) {
-      const uint32_t bits = std::bit_cast<uint32_t>(sights_[i].d + 0.0f);  // -0 is 0
+    for (uint32_t i = 0; i < coverages_.size(); ++i) {
+      const uint32_t bits = std::bit_cast<uint32_t>(coverages_[i].d + 0.0f);  // -0 is 0
       const uint32_t ordered = bits >> 31 ? ~bits : bits | 0x80000000U;
       keys.push_back(uint64_t{ordered} << 32 | i);
     }
@@ -256,8 +259,8 @@ class TileBuilder {
     for (size_t i = 1; i < keys.size(); ++i)
       if (keys[i] >> 32 == keys[i - 1] >> 32) return false;
     scratch_.sorted.clear();
-    for (const uint64_t key : keys) scratch_.sorted.push_back(sights_[key & 0xffffffffU]);
-    sights_.swap(scratch_.sorted);
+    for (const uint64_t key : keys) scratch_.sorted.push_back(coverages_[key & 0xffffffffU]);
+    coverages_.swap(scratch_.sorted);
     return true;
   }
 
@@ -266,7 +269,7 @@ class TileBuilder {
     const int cell = static_cast<int>(cellNumber - entry.firstCell);
     const size_t first = pixel * static_cast<size_t>(samples_.lanes) + size_t{64} * fragment.word;
     const bool blurred = entry.raster->blur != nullptr;
-    // The corners of what is still and in focus are the same for all samples: ask once, at their mean place.
+    // The corners of a still cell in focus are the same for all samples: one query at their mean place suffices.
     vec2 places(0), positions(0);
     for (uint64_t left = fragment.samples; left != 0; left &= left - 1) {
       const SamplePoint sample = samplePoint(samples_, first + static_cast<size_t>(std::countr_zero(left)));
@@ -284,7 +287,7 @@ class TileBuilder {
   const GridTable& grids_;
   SampleBuffer& samples_;
   Scratch& scratch_;
-  std::vector<Sight>& sights_;
+  std::vector<CellCoverage>& coverages_;
   DeepTile tile_;
   FacetTable facets_;
 };
@@ -292,9 +295,9 @@ class TileBuilder {
 }  // namespace
 
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
-                     HideDoubts* doubts) {
+                     HideDiagnostics* diagnostics) {
   static thread_local Scratch scratch;
-  return TileBuilder(scene, camera, grids, samples, scratch).build(doubts);
+  return TileBuilder(scene, camera, grids, samples, scratch).build(diagnostics);
 }
 
 }  // namespace tomales

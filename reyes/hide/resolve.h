@@ -1,14 +1,14 @@
-// Samples -> DeepTile. Private to the hider.
+// Private to the hider: samples -> DeepTile.
 #pragma once
 #include "reyes/hide/samples.h"
 
 namespace tomales {
 
-/// doubts: gains HideDoubts::turns; may be null.
+/// diagnostics: gains HideDiagnostics::turns; may be null.
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
-                     HideDoubts* doubts = nullptr);
+                     HideDiagnostics* diagnostics = nullptr);
 
-/// A sample: raster position, time of the shutter (0..1), point of the lens (as SampleBuffer has it).
+/// A sample: raster position, time of the shutter (0..1), point of the lens (as in SampleBuffer).
 struct SamplePoint {
   vec2 at;
   float time;
@@ -18,14 +18,15 @@ inline SamplePoint samplePoint(const SampleBuffer& s, size_t lane) {
   if (s.time.empty()) return {{s.x[lane], s.y[lane]}, 0, vec2(0)};
   return {{s.x[lane], s.y[lane]}, s.time[lane], {s.lensX[lane], s.lensY[lane]}};
 }
-/// Corners a b c d of a cell where a sample meets it: raster x and y, depth key.
+/// Corners a b c d of a cell at the time and lens point of a sample: raster x and y, depth key.
 struct SeenCell {
   vec3 a, b, c, d;
 };
 SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 /// Depth key of a cell where a sample meets it.
 float depthOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
-/// Where on a cell (its own (u,v), 0..1) a sample meets it; beyond, where it meets the plane of one of its triangles.
+/// The place on a cell (its own (u,v), 0..1) where a sample meets it, or beyond it where the sample meets the plane of
+/// one of its triangles.
 vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
 }  // namespace tomales

@@ -42,7 +42,7 @@ size_t countOf(const PixelRect& pixels) {
   return static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height());
 }
 
-/// The samples of a row of pixels, from the pattern of each.
+/// Places the samples of a row of pixels, from the pattern of each.
 TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, const PixelRect& rect, int row, int lanes,
                           const vec2& origin, float* __restrict x, float* __restrict y, int32_t* __restrict xy) {
   for (int column = rect.x0; column < rect.x1; ++column, ++patternAt) {
@@ -66,7 +66,7 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, c
     : rect(pixels),
       lanes(pattern.padded()),
       origin(rect.x0 + kHalf_px, rect.y0 + kHalf_px),
-      films(countOf(pixels), static_cast<size_t>(lanes)),
+      layers(countOf(pixels), static_cast<size_t>(lanes)),
       crossings(countOf(pixels), static_cast<size_t>(lanes)),
       pattern_(pattern),
       lens_(camera.lens()) {
@@ -107,7 +107,7 @@ void SampleBuffer::showBlur() {
 std::vector<uint32_t> SampleBuffer::seen() const {
   std::vector<uint32_t> out;
   std::copy_if(cell.begin(), cell.end(), std::back_inserter(out), [](uint32_t c) { return c != kNoCell; });
-  for (const Films* covered : {&films, &crossings})
+  for (const TransparentLayers* covered : {&layers, &crossings})
     for (size_t k = 0, end = covered->count() * covered->width(); k < end; ++k)
       if (const uint32_t c = covered->cells(0)[k]; c != kNoCell && (out.empty() || out.back() != c)) out.push_back(c);
   std::sort(out.begin(), out.end());

@@ -1,24 +1,23 @@
-// The samples of one bucket, and the grids that compete for them. Private to the hider.
-// A micropolygon is named by its number among all cells inserted: the grid's first number plus its cell
-// index.
+// Private to the hider: the samples of one bucket, and the grids that compete for them. A micropolygon is named by its
+// number among all cells inserted: the grid's first number plus its cell index.
 #pragma once
 #include <cfloat>
 
 #include "reyes/hide.h"
-#include "reyes/hide/films.h"
+#include "reyes/hide/transparent_layers.h"
 
 namespace tomales {
 
 constexpr float kNothing = FLT_MAX;  ///< Depth key of a sample that nothing opaque covers.
-constexpr uint32_t kNoCell = Films::kNoCell;
+constexpr uint32_t kNoCell = TransparentLayers::kNoCell;
 
-/// Grids in order of insertion.
+/// Grids in the order of insertion.
 class GridTable {
  public:
   struct Entry {
     uint32_t firstCell;
-    std::shared_ptr<const RasterGrid> raster;  ///< Null: let go of.
-    std::vector<float> keyTimes;               ///< Fractions of the shutter; none for a still grid.
+    std::shared_ptr<const RasterGrid> raster;  ///< Null: it has been freed.
+    std::vector<float> keyTimes;               ///< Fractions of the shutter; empty for a still grid.
     const Grid& grid() const { return *raster->grid; }
   };
 
@@ -27,77 +26,80 @@ class GridTable {
   const std::vector<Entry>& entries() const { return entries_; }
   uint32_t cellCount() const {
     return static_cast<uint32_t>(entryOfPage_.size()) * kPage;
-  }  ///< Numbers in use, gaps included.
-  /// Lets go of every grid that has none of these cells. Pre: sorted.
+  }  ///< Number of names in use, gaps included.
+  /// Frees every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
-  size_t held() const { return held_; }          ///< Grids not let go of.
+  size_t held() const { return held_; }          ///< Number of grids that are not freed.
   bool anySmooth() const { return anySmooth_; }  ///< Has one RasterGrid::smooth?
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
 
  private:
-  static constexpr uint32_t kPage = 16;  ///< Numbers of a grid begin at multiples of this.
+  static constexpr uint32_t kPage = 16;  ///< The numbers of a grid begin at multiples of this.
   std::vector<Entry> entries_;
   std::vector<uint32_t> entryOfPage_;
   size_t held_ = 0;
   bool anySmooth_ = false;
 };
 
-/// A sample for which two objects compete whose depths are too close to tell.
-struct Contest {
+/// A sample for which two objects compete whose depths differ by less than their error (z-fighting).
+struct DepthConflict {
   uint32_t lane;
   int first, second;  ///< first < second
-  float least;        ///< Depth key: what is nearer hides both.
-  bool operator==(const Contest& o) const { return lane == o.lane && first == o.first && second == o.second; }
+  float least;        ///< Depth key of the nearer one; a sample with a smaller key has hidden both.
+  bool operator==(const DepthConflict& o) const { return lane == o.lane && first == o.first && second == o.second; }
 };
 
-/// The samples of a pixel are to be asked about a micropolygon, one of kLanes.
-struct Ask {
+/// A pixel whose samples are to be tested against a micropolygon, one of kLanes.
+struct PixelTest {
   uint32_t pixel;
   int cell;
 };
 
-/// Arrays have a lane for each sample: those of a pixel stand together, padded to `lanes`. Padding hides everything.
+/// Arrays have a lane for each sample: those of a pixel are adjacent, padded to `lanes`. Padding lanes are hidden from
+/// all.
 struct SampleBuffer {
   SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& rect);
 
   PixelRect rect;
-  int lanes;                        ///< Of a pixel, a multiple of kLanes.
+  int lanes;                        ///< Lanes of a pixel, a multiple of kLanes.
   vec2 origin;                      ///< Raster position from which the lattice counts here.
   UnsetVector<float> x, y;          ///< Raster position.
   UnsetVector<int32_t> xy;          ///< The same on the lattice if it fits: y in the upper half, x in the lower.
-  UnsetVector<float> time;          ///< Fraction of the shutter; this and the lens are empty before showBlur().
-  UnsetVector<float> lensX, lensY;  ///< Raster shift of what has a depth key of Camera::focusKey() + 1.
-  AlignedVector<float> depth;       ///< Key of the nearest opaque hit; -infinity in padding, which so never counts.
-  AlignedVector<uint32_t> cell;     ///< That hit.
-  std::vector<uint32_t> pixelOf;    ///< Of kLanes lanes.
-  AlignedVector<float> far;         ///< A pixel: no less than the greatest depth of its lanes.
-  std::vector<uint8_t> nearer;      ///< A pixel: 1 if depths may have changed since `far` was computed.
-  Films films;
-  Films crossings;                ///< Everything of solids that covers a sample, however deep.
-  std::vector<Ask> asks;          ///< Memory for those who rasterise.
-  std::vector<Contest> contests;  ///< Of what is opaque, still and in focus; some may since have been hidden.
+  UnsetVector<float> time;          ///< Fraction of the shutter. It and the lens are empty before showBlur().
+  UnsetVector<float> lensX, lensY;  ///< Raster shift at a depth key of Camera::focusKey() + 1.
+  /// Depth key of the nearest opaque hit; -infinity in padding, so that nothing is in front of it.
+  AlignedVector<float> depth;
+  AlignedVector<uint32_t> cell;   ///< Cell of that hit.
+  std::vector<uint32_t> pixelOf;  ///< Pixel of each group of kLanes lanes.
+  AlignedVector<float> far;       ///< Indexed by pixel: an upper bound of the depths of its lanes.
+  std::vector<uint8_t> nearer;    ///< Indexed by pixel: 1 if depths may have changed since `far` was computed.
+  TransparentLayers layers;
+  TransparentLayers crossings;        ///< All surfaces of solids that cover a sample, however deep.
+  std::vector<PixelTest> pixelTests;  ///< Memory for the rasterisers.
+  std::vector<DepthConflict>
+      depthConflicts;  ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
 
   /// Do 16 bits hold the positions on the lattice?
   bool fitsLattice() const {
     return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px && std::max(rect.x1, rect.y1) <= kMostExact_px;
   }
-  /// Makes times and lens positions: the first grid that moves or is out of focus asks for them.
+  /// Makes times and lens positions, for the first grid that moves or is out of focus.
   void showBlur();
-  /// What DetailShare divides, of a lane.
+  /// The number of a lane that DetailShare compares.
   float detail(size_t lane) const {
     const size_t width = static_cast<size_t>(lanes);
     return pattern_.detail(patternAt_[lane / width])[lane % width];
   }
-  /// Where transparent grids, and solids, note what they cover.
-  Films& filmsOf(const RasterGrid& raster) { return raster.inSolid ? crossings : films; }
-  /// Of a pixel.
+  /// The layers that get the samples of a transparent grid or a solid.
+  TransparentLayers& layersOf(const RasterGrid& raster) { return raster.inSolid ? crossings : layers; }
+  /// Samples of a pixel.
   int sampleCount() const { return pattern_.count(); }
-  /// Of a sample of a pixel: Film::word.
+  /// TransparentLayer::word of a sample of a pixel.
   uint32_t wordOf(uint32_t pixel, uint32_t sample) const {
-    return pixel * static_cast<uint32_t>(films.wordsOfPixel()) + sample / 64;
+    return pixel * static_cast<uint32_t>(layers.wordsOfPixel()) + sample / 64;
   }
-  /// Brings `far` up to date.
+  /// Updates `far`.
   void settle(const PixelRect& pixels);
 
   size_t pixelIndex(int column, int row) const {
@@ -105,7 +107,7 @@ struct SampleBuffer {
   }
   /// Pixels of the bucket that a raster bound touches.
   PixelRect touched(const vec2& lo, const vec2& hi) const {
-    // Clamped while still float: a vertex near the eye plane may lie farther out than an int can tell.
+    // The value is clamped as a float: a vertex near the eye plane may lie farther out than an int can hold.
     const auto floorWithin = [](float v, int first, int end) {
       const float offset = v - static_cast<float>(first), size = static_cast<float>(end - first);
       return first - 1 + static_cast<int>(std::clamp(offset, -1.0f, size) + 1);
@@ -115,7 +117,7 @@ struct SampleBuffer {
             std::min(floorWithin(hi.x, rect.x0, rect.x1) + 1, rect.x1),
             std::min(floorWithin(hi.y, rect.y0, rect.y1) + 1, rect.y1)};
   }
-  /// All cells that some sample sees or, of solids, may see, sorted.
+  /// All cells that some sample sees or, for solids, may see, sorted.
   std::vector<uint32_t> seen() const;
   /// Is every sample of the pixels nearer than depth key d?
   bool hides(const PixelRect& pixels, float d) const {
@@ -124,16 +126,16 @@ struct SampleBuffer {
         if (!(far[pixelIndex(column, row)] < d)) return false;
     return true;
   }
-  /// Is every sample within a raster bound? Those of a few pixels are asked one by one, as what is smaller than their
-  /// distance lies mostly between them.
+  /// Is every sample within a raster bound nearer? In a few pixels samples are tested one by one, because a small bound
+  /// mostly lies between them.
   bool hides(const Bound2& bound, float d) const;
 
  private:
   static constexpr int kFew_px = 4, kHalf_px = 32;
-  static constexpr int kMostExact_px = 16384;  ///< Beyond, floats round positions, some to the next pixel.
+  static constexpr int kMostExact_px = 16384;  ///< Beyond, floats round positions, some of them to the next pixel.
   const SamplePattern& pattern_;
   const vec2 lens_;
-  std::vector<int> patternAt_;  ///< A pixel
+  std::vector<int> patternAt_;  ///< Indexed by pixel.
 };
 
 }  // namespace tomales

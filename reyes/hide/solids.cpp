@@ -8,14 +8,14 @@
 namespace tomales {
 namespace {
 
-/// Surfaces that coincide are found as far apart as vertices are moved to the lattice and depths rounded: by this share
-/// of what a micropolygon, which is about a pixel, goes through in depth.
+/// Coincident surfaces may be found apart, because vertices are moved to the lattice and depths rounded: by this share
+/// of the depth range of a micropolygon, which is about a pixel wide.
 constexpr float kSlackOfCell = 4e-3f;
 constexpr float kRounding = 1e-6f;
 
 /// A sample that a cell covers.
 struct Crossing {
-  uint32_t lane;  ///< In SampleBuffer
+  uint32_t lane;  ///< Index in SampleBuffer.
   int solid;
   float d;
   uint32_t cell;
@@ -28,7 +28,7 @@ class SolidResolver {
 
   void resolve() {
     const std::vector<Crossing> all = sorted();
-    samples_.films.beginGrid();
+    samples_.layers.beginGrid();
     for (size_t first = 0, last = 0; first < all.size(); first = last) {
       while (last < all.size() && sameLine(all[first], all[last])) ++last;
       resolveLine({all.data() + first, last - first});
@@ -42,12 +42,12 @@ class SolidResolver {
 
   std::vector<Crossing> sorted() {
     std::vector<Crossing> all;
-    const Films& crossings = samples_.crossings;
+    const TransparentLayers& crossings = samples_.crossings;
     const auto lanes = static_cast<uint32_t>(samples_.lanes), words = static_cast<uint32_t>(crossings.wordsOfPixel());
     for (size_t i = 0; i < crossings.count(); ++i) {
-      const Film& film = crossings.film(i);
-      const uint32_t first = film.word / words * lanes + 64 * (film.word % words);
-      for (uint64_t left = film.samples; left; left &= left - 1) {
+      const TransparentLayer& layer = crossings.layer(i);
+      const uint32_t first = layer.word / words * lanes + 64 * (layer.word % words);
+      for (uint64_t left = layer.samples; left; left &= left - 1) {
         const auto s = static_cast<uint32_t>(std::countr_zero(left));
         const uint32_t cell = crossings.cells(i)[s];
         all.push_back({first + s, objectOf(cell).solid, crossings.depths(i)[s], cell});
@@ -68,7 +68,7 @@ class SolidResolver {
     const SeenCell s =
         seenCell(entry, camera_, static_cast<int>(c.cell - entry.firstCell), samplePoint(samples_, c.lane));
     const vec2 ad(s.d - s.a), bc(s.c - s.b);
-    // Raster y runs down: what turns clockwise from u to v as seen has dPdu x dPdv towards the eye.
+    // Raster y runs down: a cell that turns clockwise from u to v as seen has dPdu x dPdv towards the eye.
     const bool leaving = (ad.x * bc.y - ad.y * bc.x < 0) != o.flipsNormal;
     const float extent = std::max({s.a.z, s.b.z, s.c.z, s.d.z}) - std::min({s.a.z, s.b.z, s.c.z, s.d.z});
     const float rounding = kRounding * std::abs(c.d);
@@ -85,22 +85,22 @@ class SolidResolver {
       if (visible(line[b.crossing], b.entering) && compete(line[b.crossing])) return;
   }
 
-  /// The surface of a solid has an outside by itself, whatever way its primitives are turned. It is whole before it is
-  /// clipped.
+  /// The surface of a solid has an outside of its own, whatever the orientation of its primitives. It is complete
+  /// before it is clipped.
   bool visible(const Crossing& c, bool entering) const {
     const Attributes& a = *objectOf(c.cell).attributes;
     const SamplePoint sample = samplePoint(samples_, c.lane);
     return a.visibility.camera && (entering || a.sides == 2) && !camera_.clips(sample.at, sample.lens, c.d);
   }
 
-  /// True: it hides all behind it.
+  /// Returns true if it hides everything behind it.
   bool compete(const Crossing& c) {
     float& depth = samples_.depth[c.lane];
     if (c.d > depth) return false;
     if (!grids_.of(c.cell).raster->opaque) {
       const uint32_t lanes = static_cast<uint32_t>(samples_.lanes), s = c.lane % lanes;
-      samples_.films.add(samples_.wordOf(c.lane / lanes, s), s % 64, c.cell, c.d);
-      samples_.films.flush();
+      samples_.layers.add(samples_.wordOf(c.lane / lanes, s), s % 64, c.cell, c.d);
+      samples_.layers.flush();
       return false;
     }
     uint32_t& owner = samples_.cell[c.lane];
@@ -112,7 +112,7 @@ class SolidResolver {
   const Camera& camera_;
   const GridTable& grids_;
   SampleBuffer& samples_;
-  std::map<int, SolidWalk> walks_;  ///< By solid
+  std::map<int, SolidWalk> walks_;  ///< Indexed by solid.
   std::vector<SolidCrossing> crossings_;
   std::vector<SolidBoundary> boundaries_;
 };

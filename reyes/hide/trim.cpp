@@ -1,5 +1,5 @@
-// What is asked sample by sample: trim curves, whose edge is as smooth as any outline at any shading rate, clipping
-// planes and levels of detail.
+// Tests that are made sample by sample, so that edges are smooth at any shading rate: trim curves, clipping planes and
+// levels of detail.
 #include "reyes/hide/raster.h"
 #include "reyes/hide/resolve.h"
 
@@ -21,7 +21,8 @@ bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane) {
     const vec2 uv = g.onPatch(index, positionOnCell(entry, job.camera, index, moved));
     return raster.trim->keeps(g.pieces[static_cast<size_t>(g.pieceOfCell(index))].patch, uv.x, uv.y);
   };
-  // The surfaces on both sides of a trim curve are chords of it: each reaches out by its own error, so that they meet.
+  // The surfaces on both sides of a trim curve have chords of it as edges: each reaches out by its own error, so that
+  // they meet.
   const float r = raster.trimReach_px;
   return keeps({0, 0}) || keeps({r, 0}) || keeps({-r, 0}) || keeps({0, r}) || keeps({0, -r});
 }

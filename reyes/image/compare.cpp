@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kRelativeFloor = 0.01;  // keeps relative figures finite in the dark
 
-/// R, G and B, or everything but alpha and depth where there is no colour.
+/// Indices of R, G and B, or of all channels except alpha and depth where there is no colour.
 std::vector<int> colorChannels(const Image& image) {
   std::vector<int> out;
   for (const char* name : {"R", "G", "B"})
@@ -19,7 +19,7 @@ std::vector<int> colorChannels(const Image& image) {
   return out;
 }
 
-/// One float a pixel.
+/// An image with one float for each pixel.
 struct Plane {
   int width, height;
   std::vector<float> v;
@@ -68,8 +68,7 @@ vec3 colorAt(const float* pixel, const std::vector<int>& channels) {
   return {c(0), c(1), c(2)};
 }
 
-// Wang et al. 2004, an 11 x 11 Gaussian of sigma 1.5, on the luminance that an sRGB display of range [0,1]
-// would be given.
+// Wang et al. 2004: an 11 x 11 Gaussian of sigma 1.5, on the luminance that an sRGB display of range [0,1] would show.
 double ssim(const Image& test, const Image& reference) {
   constexpr float sigma = 1.5f, c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;
   const auto shown = [](const Image& image) {

@@ -150,7 +150,7 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
   return out;
 }
 
-/// Where the values of the next contributions go.
+/// Makes room for the values of further contributions, and returns where they begin.
 float* Compositor::room(size_t contributions, ResolvedTile& out) const {
   const size_t at = out.values.size();
   out.values.resize(at + contributions * static_cast<size_t>(width()));
@@ -167,10 +167,10 @@ void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const 
   }
 }
 
-/// Depth looks behind what is opaque, for its second surface.
+/// Notes the depths of a fragment; Options::depthFilter may need the second surface, behind an opaque one.
 void Compositor::noteDepth(const DeepTile& tile, const Fragment& f) {
   const Facet& facet = tile.facets[f.facet];
-  // Neighbours on one surface reach over each other (docs/decisions/0003) and are no second one.
+  // Neighbours on one surface overlap at their border (docs/decisions/0003), which makes no second surface.
   const float overlap = tile.edgeOf(facet);
   for (uint64_t left = f.samples; left; left &= left - 1) {
     const size_t sample = size_t{f.word} * 64 + static_cast<size_t>(lowestBit(left));
@@ -191,21 +191,21 @@ void Compositor::resolveStack(const DeepTile& tile, const Fragment* begin, const
     stack_.resize(samples_.size(), static_cast<size_t>(width()));
   else
     stack_.reset(samples_.size(), static_cast<size_t>(width()), withAir);
-  lays_.clear();
+  shadedLayers_.clear();
   for (const Fragment* f = begin; f != end; ++f) {
     const KnownShade& known = shadeOf(tile, *f);
     if (known.deep) noteDepth(tile, *f);
     if (atOnce) {
-      lays_.push_back({&known.shade, f->samples, f->z, f->word});
+      shadedLayers_.push_back({&known.shade, f->samples, f->z, f->word});
       continue;
     }
     FacetShade shade = known.shade;
     const Air air = withAir ? takeAir(tile, *f, shade) : Air{};
     extraValues(tile, *f, facetValues_.data());
-    stack_.lay({&shade, f->samples, f->z, f->word}, {extras_, facetValues_.data(), withAir ? &air : nullptr});
+    stack_.composite({&shade, f->samples, f->z, f->word}, {extras_, facetValues_.data(), withAir ? &air : nullptr});
   }
   if (atOnce)
-    stack_.layAll(lays_);
+    stack_.compositeAll(shadedLayers_);
   else
     stack_.addAir();
   size_t seeing = 0;

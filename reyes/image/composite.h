@@ -1,5 +1,5 @@
-// Private to reyes/image: what the samples of a pixel see. Fragments of one pixel -> contributions, each the final
-// value of some samples, so that a pixel is composited once and not once for every neighbour whose filter touches it.
+// Private to reyes/image: turns the fragments of a pixel into contributions, each the final value of some samples, so
+// that a pixel is composited once and not once for every neighbour whose filter reaches it.
 #pragma once
 #include "reyes/deep.h"
 #include "reyes/image/sample_stack.h"
@@ -9,21 +9,21 @@ namespace tomales {
 struct Contribution {
   uint64_t samples;
   uint16_t word;
-  float nearest;              ///< Depth of what it sees first.
-  float z = kInfinity;        ///< Of the first surface that is opaque enough to have depth (Options::depthThreshold),
-  float zSecond = kInfinity;  ///< and of the second.
+  float nearest;        ///< Depth of the nearest surface.
+  float z = kInfinity;  ///< Depth of the first surface that is opaque enough to have depth (Options::depthThreshold).
+  float zSecond = kInfinity;  ///< Depth of the second such surface.
 };
 
 /// Contributions of the pixels of a tile; those of pixel i are [first[i], first[i + 1]).
 struct ResolvedTile {
   std::vector<Contribution> contributions;
-  UnsetVector<float> values;  ///< Compositor::width() each: R G B A, then the extra floats. Behind the last, room to
-                              ///< read kMargin more.
+  /// Compositor::width() floats each: R G B A, then the extra floats. kMargin more floats after the last may be read.
+  UnsetVector<float> values;
   static constexpr size_t kMargin = 4;
   std::vector<uint32_t> first;
 };
 
-/// Keeps scratch memory; one a thread.
+/// Keeps scratch memory; each thread has its own.
 class Compositor {
  public:
   Compositor(const FrameOutput& output, const Options& options, int samples);
@@ -33,27 +33,28 @@ class Compositor {
 
   ResolvedTile resolve(const DeepTile& tile);
 
-  /// Front to back, for what is not hidden: visit(fragment, shade, samples, clear), with the share of light that passes
-  /// what lies before these samples of it. Then, once more, the air that is seen beside the last of each sample.
+  /// Goes over the visible fragments front to back and calls visit(fragment, shade, samples, clear), with the share of
+  /// light that passes everything before these samples of it. At the end it calls visit for the air that is seen beside
+  /// the last fragment of each sample.
   template <class Visit>
   void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
 
  private:
-  /// What a facet of one point shows, to all fragments alike; nothing of others.
+  /// The shade of a facet of one point, the same for all fragments; it is not known for other facets.
   struct KnownShade {
     FacetShade shade;
     bool known = false;
-    bool deep = false;  ///< hasDepth
+    bool deep = false;  ///< The result of hasDepth().
   };
   void shadeFacets(const DeepTile& tile);
-  /// After shadeFacets(). Good until the next tile, or where it is blended until as many as `blended_` has room for
-  /// follow.
+  /// Pre: shadeFacets(). The result is valid until the next tile, or if it is blended, until as many others are blended
+  /// as fit into `blended_`.
   const KnownShade& shadeOf(const DeepTile& tile, const Fragment& fragment) {
     const KnownShade& known = shades_[fragment.facet];
     return known.known ? known : blended(tile, fragment);
   }
   const KnownShade& blended(const DeepTile& tile, const Fragment& fragment);
-  /// What `shade` has of air, which is taken off it: that of all but the last thing that a sample sees.
+  /// Removes and returns the part of `shade` that is air. Only the last surface that a sample sees keeps its air.
   static Air takeAir(const DeepTile& tile, const Fragment& fragment, FacetShade& shade);
   bool disjoint(const Fragment* begin, const Fragment* end);
   bool hasDepth(const FacetShade& shade) const;
@@ -65,20 +66,20 @@ class Compositor {
 
   const Options& options_;
   std::vector<ExtraFloat> extras_;
-  std::vector<KnownShade> shades_;   ///< Of all facets of a tile.
-  std::vector<KnownShade> blended_;  ///< Of fragments of a pixel whose facets have several points.
+  std::vector<KnownShade> shades_;   ///< Indexed by facet of a tile.
+  std::vector<KnownShade> blended_;  ///< Shades of fragments of a pixel whose facets have several points.
   std::vector<uint64_t> seen_;       ///< Samples that any fragment covers.
-  /// What a sample saw last while layers() runs, and through what.
+  /// The last fragment that a sample has seen while layers() runs, and the light that passed to it.
   struct Last {
     const Fragment* fragment = nullptr;
     vec3 clear;
   };
-  std::vector<vec3> clear_;            ///< Of every sample, while layers() runs,
-  std::vector<Last> last_;             ///< and in air.
-  std::vector<Contribution> samples_;  ///< Of every sample, while a stack is resolved,
-  std::vector<int> batchOf_;           ///< where their z is from,
-  SampleStack stack_;                  ///< and what they see.
-  std::vector<Lay> lays_;
+  std::vector<vec3> clear_;            ///< Indexed by sample, while layers() runs: the light that passes.
+  std::vector<Last> last_;             ///< Indexed by sample, while layers() runs with air.
+  std::vector<Contribution> samples_;  ///< Indexed by sample, while a stack is resolved.
+  std::vector<int> batchOf_;           ///< The batch that gave the z of each sample.
+  SampleStack stack_;                  ///< The samples of a pixel while they are composited.
+  std::vector<ShadedLayer> shadedLayers_;
   std::vector<float> facetValues_;
 };
 

@@ -1,6 +1,6 @@
-// Layers of the samples around a pixel -> a short list of depths. What lies at one depth is a share of the filtered
-// pixel; as in deep shadow maps (Lokovic and Veach 2000) the shares, front to back, say how much light is left behind
-// each depth.
+// Turns the layers of the samples around a pixel into a short list of depths. The layers at one depth are a share of
+// the filtered pixel; as in deep shadow maps (Lokovic and Veach 2000) the shares, front to back, give the light that
+// remains behind each depth.
 #include "reyes/image/deep_rows.h"
 #include "reyes/base/parallel.h"
 
@@ -10,13 +10,13 @@ namespace {
 constexpr int kBandRows = 16;
 constexpr float kNothingLeft = 1e-5f;
 
-/// What a layer adds to the pixel that is being filtered.
+/// The share of a layer in the pixel that is being filtered.
 struct Share {
   float z;
   vec3 color, coverage;
 };
 
-/// Shares -> samples: those near each other in depth, or too faint to matter, become one.
+/// Turns shares into samples: those near each other in depth, or too faint to matter, are merged.
 class Merger {
  public:
   Merger(const DeepMerge& merge, DeepRows& out) : merge_(merge), out_(out) {}
@@ -42,7 +42,7 @@ class Merger {
     return meanOf(coverage_ + s.coverage) <= merge_.opacity || last < kNothingLeft;
   }
 
-  // A share of the pixel, seen through what is left by the shares before it.
+  // Closes a sample: a share of the pixel is seen through the light that the shares before it leave.
   void close() {
     const auto through = [](float share, float before) { return share / std::max(1 - before, kNothingLeft); };
     const float alphaBefore = meanOf(before_);

@@ -10,12 +10,12 @@ namespace tomales {
 struct Layer {
   uint64_t samples;
   uint16_t word;
-  int group;  ///< In Scene::groups.
+  int group;  ///< Index in Scene::groups.
   float z;
-  vec3 color, coverage;  ///< Times the share of light that passes what lies before.
+  vec3 color, coverage;  ///< Multiplied by the share of light that passes the layers before.
 };
 
-/// Those of the pixels of some rows; of pixel i they are [first[i], first[i + 1]).
+/// The layers of the pixels of some rows; those of pixel i are [first[i], first[i + 1]).
 struct LayeredRows {
   PixelRect rect;
   std::vector<Layer> layers;
@@ -27,16 +27,16 @@ struct LayeredRows {
     return {layers.data() + first[i], first[i + 1] - first[i]};
   }
 };
-/// Rows [y0, y1) as far as the frame has samples.
+/// Layers of rows [y0, y1), as far as the frame has samples.
 LayeredRows layersOf(const DeepFrame& frame, const Options& options, int y0, int y1);
 
-/// PixelFilter; a box of one pixel instead of one with negative lobes.
+/// The PixelFilter of the options; a box of one pixel replaces one with negative lobes.
 PixelFilter positiveFilter(const Options& options);
 
 /// Samples of R G B A Z ZBack (AR AG AB Z ZBack) of every pixel of rows of the crop window. Flattened by "over" they
-/// are the filtered pixel; before any depth the opacity is right but for what merging moved: by `depth` of its
-/// distance, or by at most `opacity`. A filter with negative lobes is replaced by a box of one pixel: light left behind
-/// cannot grow.
+/// give the filtered pixel. The opacity before any depth is right except for the effect of merging: depths move by up
+/// to `depth` of their distance, or the opacity differs by up to `opacity`. A box of one pixel replaces a filter with
+/// negative lobes, because remaining light cannot grow.
 DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const DeepMerge& merge,
                   int y0, int y1);
 

@@ -132,7 +132,7 @@ struct DisplayFile::Impl {
                      "; a box of one pixel is used");
   }
 
-  /// Fits the type of an integer format to Quantize. False: the format cannot hold what is asked for.
+  /// Fits the type of an integer format to Quantize. Returns false if the format cannot hold it.
   bool prepareIntegers() {
     const bool anyDepth = std::find(depth.begin(), depth.end(), true) != depth.end();
     const bool mixed = anyDepth && std::find(depth.begin(), depth.end(), false) != depth.end();
@@ -170,7 +170,7 @@ struct DisplayFile::Impl {
     const size_t step = rows.channels.size(), pixels = rows.pixels.size() / step;
     out.pixels.resize(pixels * from.size());
     for (size_t c = 0; c < from.size(); ++c) {
-      if (from[c] < 0) continue;  // not there: 0
+      if (from[c] < 0) continue;  // the channel does not exist: 0
       float* to = out.pixels.data() + c;
       const float* value = rows.pixels.data() + from[c];
       for (size_t i = 0; i < pixels; ++i) to[i * from.size()] = value[i * step];
@@ -206,12 +206,12 @@ struct DisplayFile::Impl {
   const Selection selection;
   FileFormat format;
   Image shape;
-  std::vector<int> from;  ///< Index of every float in a pixel of the frame's picture; -1: it is not there.
+  std::vector<int> from;  ///< Index of every float in a pixel of the frame's picture; -1: it does not exist.
   std::vector<bool> depth;
   std::vector<Quantize> quantizers;  ///< Empty: floats are written.
   bool screen = false;
   DeepMerge merge;
-  std::unique_ptr<PictureFile> file;  ///< Null: failed, and reported.
+  std::unique_ptr<PictureFile> file;  ///< Null: it has failed, which has been reported.
 };
 
 DisplayFile::DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
@@ -238,7 +238,7 @@ View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
   const vec2 toScreen(2 / size.x, -2 / size.y), origin = center * toScreen + vec2(-1, 1), stretch = scale * toScreen;
   mat4 screenFromCamera(1.0f);
   screenFromCamera[0][0] = stretch.x, screenFromCamera[1][1] = stretch.y;
-  const int last = camera.perspective() ? 2 : 3;  // what x and y are divided by: z, or nothing
+  const int last = camera.perspective() ? 2 : 3;  // index of the component that x and y are divided by: z, or nothing
   screenFromCamera[last][0] = origin.x, screenFromCamera[last][1] = origin.y;
   if (camera.perspective())
     screenFromCamera[2][3] = 1, screenFromCamera[3][3] = 0, screenFromCamera[3][2] = -camera.nearClip();
@@ -247,8 +247,9 @@ View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
 
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log) {
   std::string error;
-  if (copyShadowMap(picture, map, error)) return true;
-  log.report(Severity::Missing, "make-shadow", where,
+  const Making made = copyShadowMap(picture, map, error);
+  if (made == Making::Done) return true;
+  log.report(severityOf(made), "make-shadow", where,
              "MakeShadow: no map \"" + map + "\" was made of \"" + picture + "\": " + error);
   return false;
 }

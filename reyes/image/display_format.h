@@ -1,4 +1,4 @@
-// Private to reyes/image: which file a Display asks for.
+// Private to reyes/image: the file format of a Display.
 #pragma once
 #include "reyes/image/image_file.h"
 
@@ -6,9 +6,9 @@ namespace tomales {
 
 /// A string parameter of a Display, in lower case; empty if it is not there.
 std::string displayText(const DisplayCall& display, const char* name);
-/// Says what of the parameters is unknown, and ignored.
+/// Reports the parameters that are unknown and ignored.
 void warnAboutParams(const DisplayCall& display, Log& log);
-/// Decides file format, and the name where the Display leaves it open (RISpec's "ri.pic" has a format of no one's).
+/// Decides the file format, and the name where the Display leaves it open (RISpec's "ri.pic" names no format).
 FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log);
 
 }  // namespace tomales

@@ -30,11 +30,11 @@
 namespace tomales {
 namespace {
 
-/// Of 1..9: pictures of floats that share few bits get 1 to 5 % larger than at 4, OpenEXR's own, in two thirds of the
-/// time.
+/// Compression level, 1..9. Pictures of floats that share few bits get 1 to 5 % larger than at 4, OpenEXR's own level,
+/// in two thirds of the time.
 constexpr int kZipLevel = 2;
 
-/// "layer" of "layer.X"; pictures and depth have layers of their own.
+/// "layer" of "layer.X". Colour and depth have layers of their own.
 std::string layerOf(const std::string& channel) {
   const size_t dot = channel.rfind('.');
   if (dot != std::string::npos) return channel.substr(0, dot);
@@ -67,7 +67,7 @@ Imf::Compression compressionOf(const FileFormat& format) {
       {"dwab", Imf::DWAB_COMPRESSION}};
   for (const auto& [name, compression] : kNames)
     if (format.compression == name) return compression;
-  // Readers in use take deep files as scanlines of ZIPS alone.
+  // Common readers take deep files only as scanlines of ZIPS.
   return format.deep ? Imf::ZIPS_COMPRESSION : Imf::ZIP_COMPRESSION;
 }
 
@@ -157,7 +157,7 @@ class ExrFile : public FormatWriter {
     out = std::make_unique<Imf::StdOFStream>(stream, path.c_str());
     std::vector<Imf::Header> headers;
     for (const Part& part : parts) headers.push_back(headerOf(shape, format, part));
-    const int helpers = threadCount() > 1 ? threadCount() : 0;  // They compress; with none, the caller does.
+    const int helpers = threadCount() > 1 ? threadCount() : 0;  // they compress; without them the caller does
     if (Imf::globalThreadCount() < helpers) Imf::setGlobalThreadCount(helpers);
     file = std::make_unique<Imf::MultiPartOutputFile>(*out, headers.data(), static_cast<int>(headers.size()), false,
                                                       helpers);
@@ -194,7 +194,8 @@ class ExrFile : public FormatWriter {
     const ptrdiff_t back =
         static_cast<ptrdiff_t>(shape.originX) + static_cast<ptrdiff_t>(rows.y0) * static_cast<ptrdiff_t>(row);
     for (size_t c = 0; c < channels; ++c) {
-      Plane& plane = planes.emplace_back(typeOf(format, shape.channels[c]), samples + 1);  // an end to point at
+      // one more, so that there is an end to point at
+      Plane& plane = planes.emplace_back(typeOf(format, shape.channels[c]), samples + 1);
       for (size_t i = 0; i < samples; ++i) plane.set(i, rows.values[i * channels + c]);
     }
     for (size_t c = 0; c < channels; ++c) {
@@ -211,7 +212,7 @@ class ExrFile : public FormatWriter {
   }
 
   void close() override {
-    file.reset();  // writes the table of offsets, and keeps exceptions to itself
+    file.reset();  // writes the table of offsets, and does not throw
     stream.flush();
     check();
   }

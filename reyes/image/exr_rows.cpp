@@ -19,14 +19,14 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr int kBlockRows = 16;  ///< Of ZIP_COMPRESSION ("The OpenEXR File Layout").
-/// Of libdeflate's 1..12. Pictures are no larger than by zlib's 2, and higher levels gain 1 % at most where
-/// little is flat.
+constexpr int kBlockRows = 16;  ///< Rows of a block of ZIP_COMPRESSION ("The OpenEXR File Layout").
+/// Level of libdeflate, 1..12. Pictures are no larger than by zlib's 2, and higher levels gain 1 % at most where little
+/// is flat.
 constexpr int kLevel = 1;
 
-/// A channel as the file has it; those stand in the order of their names.
+/// A channel of the file; channels are in the order of their names.
 struct FileChannel {
-  size_t index;  ///< Among those of the picture.
+  size_t index;  ///< Index among the channels of the picture.
   bool half;
 };
 
@@ -37,7 +37,7 @@ std::vector<FileChannel> channelsOf(const Image& shape, const Imf::Header& heade
   return out;
 }
 
-/// Channel after channel of each row. The machine is little-endian, as the format is.
+/// The bytes of rows, channel after channel in each row. The machine is little-endian, as the format is.
 Bytes rawRows(const Image& rows, int first, int count, const std::vector<FileChannel>& channels) {
   Bytes out;
   const size_t width = static_cast<size_t>(rows.width), all = rows.channels.size();
@@ -59,7 +59,7 @@ Bytes rawRows(const Image& rows, int first, int count, const std::vector<FileCha
   return out;
 }
 
-/// Bytes at even places before those at odd ones, and of each what it differs by from the one before. Pre: an
+/// Puts bytes at even places before those at odd ones, and replaces each by its difference from the one before. Pre: an
 /// even number.
 TOMALES_HOT void predict(const unsigned char* __restrict raw, size_t half, unsigned char* __restrict split,
                          unsigned char* __restrict out) {
@@ -72,7 +72,7 @@ struct FreeCompressor {
   void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
 };
 
-/// What does not get smaller stays as it is.
+/// Data that compression does not make smaller stay as they are.
 Bytes compressed(Bytes raw) {
   static thread_local const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
       libdeflate_alloc_compressor(kLevel));
@@ -154,7 +154,7 @@ class ExrRows : public FormatWriter {
   const std::vector<FileChannel> channels_;
   std::ofstream stream_;
   std::ofstream::pos_type table_;
-  std::vector<uint64_t> offsets_;  ///< Of every block of rows; 0: not written yet.
+  std::vector<uint64_t> offsets_;  ///< Offset of every block of rows; 0: not written yet.
   size_t next_ = 0;
 };
 

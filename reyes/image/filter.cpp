@@ -6,13 +6,14 @@
 namespace tomales {
 namespace {
 
-// Formulas of RISpec 3.2 section 5.1.2, un-normalised; the caller divides by the sum of weights. Where the
-// printed text does not do what its name says, the repair is named at the function.
+// Formulas of RISpec 3.2 section 5.1.2, not normalised; the caller divides by the sum of weights. Where the printed
+// formula does not do what its name says, the function names the repair.
 using Kernel = float (*)(float x, float y, float xWidth, float yWidth);
 
 float box(float, float, float, float) { return 1; }
 
-// Printed for width 2 alone: (1 - |x|) / (width / 2) turns negative beyond one pixel in wider filters.
+// The printed formula holds for width 2 alone: (1 - |x|) / (width / 2) turns negative beyond one pixel in wider
+// filters.
 float triangle(float x, float y, float xWidth, float yWidth) {
   return (1 - std::abs(2 * x / xWidth)) * (1 - std::abs(2 * y / yWidth));
 }
@@ -26,8 +27,7 @@ float cubic(float r) {
   if (r < 1) return (3 * r - 5) * r * r + 2;
   return r < 2 ? ((5 - r) * r - 8) * r + 4 : 0;
 }
-// Radial and blind to its width but for the clipping, as printed; the product of two is what PRMan calls
-// "separable".
+// The printed formula is radial and depends on its width only by clipping; PRMan calls the product of two "separable".
 float catmullRom(float x, float y, float, float) { return cubic(std::sqrt(x * x + y * y)); }
 float separableCatmullRom(float x, float y, float, float) { return cubic(std::abs(x)) * cubic(std::abs(y)); }
 
@@ -35,8 +35,8 @@ float sinc(float x) {
   const float t = kPi * x;
   return std::abs(t) < 1e-4f ? 1 : std::sin(t) / t;
 }
-// Printed without pi and without a window; renderers in use pass frequencies up to one half a pixel, under a
-// cosine lobe.
+// The formula is printed without pi and without a window; common renderers pass frequencies up to one half a pixel,
+// under a cosine lobe.
 float sincLobe(float x, float width) { return std::cos(kPi * x / (2 * width)) * sinc(x); }
 float windowedSinc(float x, float y, float xWidth, float yWidth) { return sincLobe(x, xWidth) * sincLobe(y, yWidth); }
 
@@ -65,8 +65,8 @@ float disk(float x, float y, float xWidth, float yWidth) {
   return u * u + v * v <= 1 ? 1.0f : 0.0f;
 }
 
-// The transform of a disk (Airy's amplitude 2 J1(x) / x), first zero at 1.22 pixels as of the finest circle that pixels
-// hold; windowed like sinc's lobes by that of the whole width.
+// The transform of a disk (Airy's amplitude 2 J1(x) / x), with the first zero at 1.22 pixels, that of the finest circle
+// that pixels represent; it is windowed like sinc's lobes by that of the whole width.
 float airy(float r) { return r < 1e-3f ? 1.0f : 2 * std::cyl_bessel_jf(1, kPi * r) / (kPi * r); }
 float bessel(float x, float y, float xWidth, float yWidth) {
   const float u = 2 * x / xWidth, v = 2 * y / yWidth, edge = std::sqrt(u * u + v * v);
@@ -90,7 +90,7 @@ constexpr std::array<Named, 11> kFilters = {{{"gaussian", gaussian},
                                              {"bessel", bessel},
                                              {"disk", disk}}};
 
-// Narrower than a pixel would miss every sample of some pixels; the upper limit bounds memory against a
+// A filter narrower than a pixel would miss every sample of some pixels; the upper limit bounds memory against a
 // mistyped width.
 float usableWidth(float width) { return std::min(std::max(1.0f, width), 32.0f); }
 
@@ -107,7 +107,7 @@ PixelFilter::PixelFilter(const std::string& name, float xWidth, float yWidth, bo
 }
 
 float PixelFilter::operator()(float x, float y) const {
-  // Half open, so that a sample between two pixels belongs to one of them under a box of one pixel.
+  // The interval is half open, so that under a box of one pixel a sample between two pixels belongs to one of them.
   const bool inside = x >= -0.5f * xWidth_ && x < 0.5f * xWidth_ && y >= -0.5f * yWidth_ && y < 0.5f * yWidth_;
   return inside ? kFilters[static_cast<size_t>(kind_)].kernel(x, y, xWidth_, yWidth_) : 0.0f;
 }

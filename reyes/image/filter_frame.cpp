@@ -1,4 +1,4 @@
-// Contributions -> pixels, some rows at a time.
+// Filters contributions to pixels, some rows at a time.
 #include "reyes/base/check.h"
 #include "reyes/base/parallel.h"
 #include "reyes/image.h"
@@ -11,15 +11,15 @@ namespace tomales {
 namespace {
 
 constexpr int kBlockRows = 16,
-              kBlockColumns = 256;  ///< Pixels that are filtered at a time; their contributions are in memory.
+              kBlockColumns = 256;  ///< Pixels that are filtered at a time, whose contributions are in memory.
 
 /// The floats of a pixel that share a filter.
 struct Pass {
   Pass(const Sampling& s, const SampleOffsets& offsets) : weights(PixelFilter(s.filter, s.xWidth, s.yWidth), offsets) {}
   WeightTable weights;
   struct Float {
-    size_t from;  ///< In a contribution.
-    int to;       ///< In a pixel.
+    size_t from;  ///< Index in a contribution.
+    int to;       ///< Index in a pixel.
     float fill;
   };
   std::vector<Float> floats;
@@ -27,7 +27,7 @@ struct Pass {
   bool anyFill() const {
     return std::any_of(floats.begin(), floats.end(), [](const Float& f) { return f.fill != 0; });
   }
-  /// Do contributions have the floats side by side, so that they serve as they are?
+  /// Are the floats adjacent in contributions, so that they can be used in place?
   bool together() const {
     for (size_t k = 1; k < floats.size(); ++k)
       if (floats[k].from != floats[0].from + k) return false;
@@ -35,7 +35,7 @@ struct Pass {
   }
 };
 
-/// A channel that is not filtered.
+/// A channel that is not filtered but reduced (Reduce).
 struct Reduction {
   Reduction(const Sampling& s, const SampleOffsets& offsets)
       : reduce(s.reduce), weights(PixelFilter("box", s.xWidth, s.yWidth), offsets) {}
@@ -58,7 +58,7 @@ struct Around {
     for (int y = rect.y0; y < rect.y1; ++y)
       for (int x = rect.x0; x < rect.x1; ++x) patterns.push_back(samples.patternOf(x, y));
   }
-  /// row(y)[x]
+  /// Patterns of a row, indexed by x.
   const int* row(int y) const { return patterns.data() + static_cast<ptrdiff_t>(y - rect.y0) * rect.width() - rect.x0; }
 };
 
@@ -117,8 +117,8 @@ struct FrameFilter::Impl {
     }
   }
 
-  /// What the samples around bring to each pixel of a block: the floats of a pass, and the weight of those which see
-  /// something if any has a fill. For each pixel by rows, columns and fragments.
+  /// Weighted sums of the samples around each pixel of a block: of the floats of a pass, and of the weight of samples
+  /// that see something if any float has a fill. The order for each pixel is rows, columns and fragments.
   PixelSums sumsOf(const Pass& pass, const PixelRect& block, const Around& around) const {
     const size_t floats = pass.floats.size(), places = static_cast<size_t>(pass.weights.places()),
                  step = static_cast<size_t>(resolved.width());

@@ -1,4 +1,4 @@
-// What the Options ask of filters.
+// Checks the filters of the Options, and finds how far they reach.
 #include "reyes/image.h"
 
 namespace tomales {

@@ -1,4 +1,5 @@
-// Private to reyes/image: one file format each, some rows at a time; each format's library lives behind its own file.
+// Private to reyes/image: one writer for each file format, some rows at a time. Each format's library is used in one
+// file.
 #pragma once
 #include <memory>
 
@@ -6,17 +7,17 @@
 
 namespace tomales {
 
-/// Everything throws std::exception when the disk, or the format, does not take it.
+/// Every member throws std::exception when the disk, or the format, does not take the picture.
 class FormatWriter {
  public:
   virtual ~FormatWriter() = default;
-  /// The next rows from the top.
+  /// Writes the next rows from the top.
   virtual void write(const Image& rows) = 0;
   virtual void write(const DeepRows& rows);
   virtual void close() = 0;
 };
 
-/// `shape`: the whole picture, without pixels. Integer types: pixels hold integers already.
+/// `shape`: the whole picture, without pixels. For integer types, pixels hold integers already.
 std::unique_ptr<FormatWriter> openExr(const std::string& path, const Image& shape, const FileFormat& format);
 std::unique_ptr<FormatWriter> openTiff(const std::string& path, const Image& shape, const FileFormat& format);
 /// One to four channels of integers; colour must have been divided by alpha.

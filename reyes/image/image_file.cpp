@@ -1,13 +1,11 @@
 #include "reyes/image/image_file.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <filesystem>
 
+#include "reyes/base/unfinished_file.h"
 #include "reyes/image/format_writer.h"
 #include "reyes/pictures.h"
 
@@ -57,15 +55,8 @@ FileFormat formatOfExtension(const std::string& path) {
 
 struct PictureFile::Impl {
   Impl(const std::string& path, const Image& whole, const FileFormat& f)
-      : target(path),
-        temporary(target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid())),
-        shape(whole),
-        format(f) {}
-
-  bool open() {
-    std::error_code none;
-    if (!target.has_filename() || fs::is_directory(target, none)) return fail("the name is that of a directory");
-    return guarded([&] { writer = openFormat(temporary.string(), shape, format); });
+      : file(UnfinishedFile::create(path, UnfinishedKind::Scratch, problem)), shape(whole), format(f) {
+    failed = !file || !guarded([&] { writer = openFormat(file->path(), shape, format); });
   }
 
   template <class Rows>
@@ -75,10 +66,8 @@ struct PictureFile::Impl {
 
   bool close() {
     if (failed || !guarded([&] { writer->close(); })) return false;
-    std::error_code error;
-    fs::rename(temporary, target, error);
-    if (error) return fail(error.message());
-    return done = true;
+    std::string why;
+    return file->finish(why) || fail(why);
   }
 
   template <class Write>
@@ -96,50 +85,41 @@ struct PictureFile::Impl {
     return false;
   }
 
-  const fs::path target, temporary;
+  std::string problem;  // first: opening the file says what it is
+  const std::unique_ptr<UnfinishedFile> file;
   const Image shape;
   const FileFormat format;
   std::unique_ptr<FormatWriter> writer;
-  std::string problem;
-  bool failed = false, done = false;
+  bool failed = false;
 };
 
 PictureFile::PictureFile(const std::string& path, const Image& shape, const FileFormat& format)
-    : impl_(new Impl(path, shape, format)) {
-  impl_->open();
-}
+    : impl_(new Impl(path, shape, format)) {}
 
-PictureFile::~PictureFile() {
-  if (impl_->done) return;
-  impl_->writer.reset();
-  std::error_code none;
-  fs::remove(impl_->temporary, none);
-}
+PictureFile::~PictureFile() = default;
 
 bool PictureFile::write(const Image& rows) { return !impl_->failed && impl_->write(rows); }
 bool PictureFile::write(const DeepRows& rows) { return !impl_->failed && impl_->write(rows); }
 bool PictureFile::close() { return impl_->close(); }
 const std::string& PictureFile::error() const { return impl_->problem; }
 
-bool copyShadowMap(const std::string& from, const std::string& to, std::string& error) {
+Making copyShadowMap(const std::string& from, const std::string& to, std::string& error) {
   {
     const auto in = openPicture(from, error);
     float matrix[16];
-    if (!in) return false;
+    if (!in) return Making::Unreadable;
     const std::vector<std::string>& channels = in->shape().channels;
     if (std::find(channels.begin(), channels.end(), "Z") == channels.end() || !in->matrix("worldtocamera", matrix))
-      return error = "it is no shadow map: depth or the matrices of its camera are missing", false;
+      return error = "it is no shadow map: depth or the matrices of its camera are missing", Making::Unreadable;
   }
-  const fs::path target(to),
-      temporary = target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
   std::error_code problem;
-  if (fs::equivalent(from, target, problem)) return true;
-  fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, problem);
-  if (!problem) fs::rename(temporary, target, problem);
-  if (!problem) return true;
+  if (fs::equivalent(from, to, problem)) return Making::Done;
+  const auto file = UnfinishedFile::create(to, UnfinishedKind::Scratch, error);
+  if (!file) return Making::Unwritable;
+  fs::copy_file(from, file->path(), fs::copy_options::overwrite_existing, problem);
+  if (!problem) return file->finish(error) ? Making::Done : Making::Unwritable;
   error = problem.message();
-  fs::remove(temporary, problem);
-  return false;
+  return Making::Unwritable;
 }
 
 std::optional<Image> readImage(const std::string& path, std::string& error) {

@@ -1,16 +1,17 @@
-// Private to reyes/image: pixels to and from files, whatever their format.
+// Private to reyes/image: reads and writes pixels in files of any format.
 #pragma once
 #include "reyes/image.h"
+#include "reyes/pictures.h"
 
 namespace tomales {
 
 enum class SampleType { Half, Float, UInt8, UInt16 };
 
-/// Something that a file says about itself.
+/// A named text or list of numbers in a file's header.
 struct Metadata {
   std::string name;
-  std::string text;            ///< Or else
-  std::vector<float> numbers;  ///< 16 of them: a matrix.
+  std::string text;            ///< Empty if it is `numbers`.
+  std::vector<float> numbers;  ///< 16 numbers are a matrix.
 };
 
 struct FileFormat {
@@ -26,18 +27,18 @@ struct FileFormat {
   float pixelAspect = 1;  ///< Width of a pixel over its height.
 };
 
-/// Format of a file by its name's extension; empty name: none that can be written.
+/// Format of a file by its name's extension; an empty name: no format that can be written.
 FileFormat formatOfExtension(const std::string& path);
 
-/// A picture on its way to a temporary name in the same directory; close() renames. What is not closed leaves nothing
-/// behind.
+/// Writes a picture to an UnfinishedFile; close() gives it its name. A file that is not closed leaves nothing behind.
 class PictureFile {
  public:
   static constexpr int kBandRows = 64;
 
   PictureFile(const std::string& path, const Image& shape, const FileFormat& format);
   ~PictureFile();
-  /// The next rows from the top; all calls but the last with a multiple of kBandRows. False: error() says why.
+  /// Writes the next rows from the top; all calls but the last have a multiple of kBandRows. Returns false: error()
+  /// says why.
   bool write(const Image& rows);
   bool write(const DeepRows& rows);
   bool close();
@@ -48,8 +49,8 @@ class PictureFile {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Copies a shadow map to a temporary name, then renames. False: it is none, or cannot be copied.
-bool copyShadowMap(const std::string& from, const std::string& to, std::string& error);
+/// Copies a shadow map. Unless done `error` says why.
+Making copyShadowMap(const std::string& from, const std::string& to, std::string& error);
 
 /// IEC 61966-2-1 transfer of one linear value, clamped to [0,1].
 float encodeSrgb(float linear);

@@ -48,7 +48,7 @@ class PngFile : public FormatWriter {
                    PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
       if (shape.originX != 0 || shape.originY != 0)
         png_set_oFFs(file_.png, file_.info, shape.originX, shape.originY, PNG_OFFSET_PIXEL);
-      constexpr float kUnits = 1000;  // pixels across, of whatever
+      constexpr float kUnits = 1000;  // pixels across, in an arbitrary unit
       if (format_.pixelAspect != 1)
         png_set_pHYs(file_.png, file_.info, static_cast<png_uint_32>(kUnits),
                      static_cast<png_uint_32>(std::lround(kUnits * format_.pixelAspect)), PNG_RESOLUTION_UNKNOWN);
@@ -76,7 +76,7 @@ class PngFile : public FormatWriter {
   }
 
  private:
-  /// libpng leaves by longjmp: nothing that `calls` makes may need a destructor.
+  /// libpng returns by longjmp: nothing that `calls` makes may need a destructor.
   template <class Calls>
   void guarded(const Calls& calls) {
     if (setjmp(png_jmpbuf(file_.png))) throw std::runtime_error("PNG: " + problem_);

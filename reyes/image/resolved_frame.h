@@ -1,5 +1,4 @@
-// What the samples of a frame's pixels see, tile by tile, for as long as rows of pixels need it. Private to
-// reyes/image.
+// Private to reyes/image: the contributions of a frame's pixels, tile by tile, as long as rows of pixels need them.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -10,7 +9,7 @@
 
 namespace tomales {
 
-/// Threads: tiles may be resolved at the same time, and looked at when they are.
+/// Threads: tiles may be resolved at the same time, and read once they are.
 class ResolvedFrame {
  public:
   ResolvedFrame(const DeepFrame& frame, const FrameOutput& output, const Options& options);
@@ -19,16 +18,16 @@ class ResolvedFrame {
   const std::vector<ExtraFloat>& extras() const { return extras_; }
 
   void resolve(size_t index, const DeepTile& tile);
-  /// Those tiles that rows [y0, y1) touch and that nobody has brought, from the frame.
+  /// Resolves the tiles that rows [y0, y1) touch and that are not resolved yet, from the frame.
   void resolveRows(int y0, int y1);
-  /// Those that lie above a row.
+  /// Drops the tiles above a row.
   void forgetAbove(int y);
-  /// Are all tiles from that of row y on still there?
+  /// Are all tiles from that of row y on still in memory?
   bool reaches(int y) const { return firstTileOf(y) >= forgotten_; }
-  /// Of all tiles that have been resolved; none where so few pixels have light that most are edges.
+  /// Noise of all tiles that have been resolved. It is zero where so few pixels have light that most are edges.
   PixelNoise noise() const;
 
-  /// What the samples of a pixel see.
+  /// The contributions of a pixel.
   struct Seen {
     std::span<const Contribution> list;
     const float* values;  ///< width() each; ResolvedTile::kMargin more may be read.
@@ -46,9 +45,9 @@ class ResolvedFrame {
  private:
   /// Pixels of one row from (x, y) on that lie in one tile.
   struct TileRun {
-    const ResolvedTile* tile;  ///< Null: they see nothing.
-    size_t pixel;              ///< Of the tile, the first of them.
-    int end;                   ///< The x behind them.
+    const ResolvedTile* tile;  ///< Null: the pixels see nothing.
+    size_t pixel;              ///< Index of the first of them in the tile.
+    int end;                   ///< The x after the last of them.
 
     Seen at(size_t i, int width) const {
       if (!tile) return {};
@@ -62,7 +61,7 @@ class ResolvedFrame {
   std::unique_ptr<Compositor> takeCompositor();
   struct TileNoise {
     PixelNoise sums;
-    int lit = 0;  ///< Pixels with light.
+    int lit = 0;  ///< Number of pixels with light.
   };
   TileNoise noiseOf(const ResolvedTile& tile) const;
 
@@ -70,12 +69,12 @@ class ResolvedFrame {
   const FrameOutput& output_;
   const Options& options_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Compositor>> compositors_;  ///< Those that no thread uses.
+  std::vector<std::unique_ptr<Compositor>> compositors_;  ///< Compositors that no thread uses at the moment.
   int width_;
   std::vector<ExtraFloat> extras_;
   std::vector<std::unique_ptr<ResolvedTile>> resolved_;
-  std::vector<TileNoise> noise_;  ///< Of each tile.
-  size_t forgotten_ = 0;          ///< Of these, from the first.
+  std::vector<TileNoise> noise_;  ///< Indexed by tile.
+  size_t forgotten_ = 0;          ///< Number of tiles that have been dropped, from the first.
 };
 
 }  // namespace tomales

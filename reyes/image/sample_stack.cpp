@@ -9,15 +9,15 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Which of a vector of samples, from `first` on, a lay covers. None: false.
-HWY_INLINE bool coveredFrom(const Lay& l, size_t first, Mask& covered) {
+/// The samples of a vector, from `first` on, that a layer covers. Returns false if there are none.
+HWY_INLINE bool coveredFrom(const ShadedLayer& l, size_t first, Mask& covered) {
   if (l.word != first / 64) return false;
   const uint64_t samples = l.samples >> first % 64 & ((uint64_t{1} << hn::Lanes(kF)) - 1);
   covered = hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&samples));
   return samples != 0;
 }
 
-/// The share of light that passes what was laid so far over a vector of samples.
+/// The light that passes all layers so far, for a vector of samples.
 struct Clear {
   Floats x, y, z;
 
@@ -32,14 +32,14 @@ struct Clear {
   }
 };
 
-/// A vector of samples.
-void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, size_t first) {
+/// Composites a layer over a vector of samples.
+void compositeAt(const ShadedLayer& l, const LayerExtras& more, Mask covered, SampleStack& stack, size_t first) {
   float *cx = stack.clear[0].data() + first, *cy = stack.clear[1].data() + first, *cz = stack.clear[2].data() + first;
   float *nearest = stack.nearest.data() + first, *values = stack.values.data() + first;
   const Clear clear{hn::Load(kF, cx), hn::Load(kF, cy), hn::Load(kF, cz)};
   const Floats before = hn::Load(kF, nearest);
   const Mask on = hn::AndNot(clear.atMost(stack.hidden), covered);
-  // Whole vectors: the next layer reads them back, and could not from a masked store that is still on its way.
+  // Whole vectors are stored: the next layer reads them back, and would have to wait for a masked store.
   const auto put = [](Floats v, Mask where, Floats old, float* to) {
     hn::Store(hn::IfThenElse(where, v, old), kF, to);
   };
@@ -76,21 +76,21 @@ void layAt(const Lay& l, const LayMore& more, Mask covered, SampleStack& stack, 
   put(behind.x, on, clear.x, cx), put(behind.y, on, clear.y, cy), put(behind.z, on, clear.z, cz);
 }
 
-void lay(const Lay& l, const LayMore& more, SampleStack& stack) {
+void composite(const ShadedLayer& l, const LayerExtras& more, SampleStack& stack) {
   Mask covered;
   for (size_t first = size_t{l.word} * 64; first < std::min(size_t{l.word} * 64 + 64, stack.lanes);
        first += hn::Lanes(kF))
-    if (coveredFrom(l, first, covered)) layAt(l, more, covered, stack, first);
+    if (coveredFrom(l, first, covered)) compositeAt(l, more, covered, stack, first);
 }
 
-/// The same arithmetic in the same order, a vector of samples after the other: nothing is stored before the last
+/// The same arithmetic in the same order, one vector of samples after the other: nothing is stored before the last
 /// fragment.
-void layAll(std::span<const Lay> lays, SampleStack& stack) {
+void compositeAll(std::span<const ShadedLayer> shadedLayers, SampleStack& stack) {
   for (size_t first = 0; first < stack.lanes; first += hn::Lanes(kF)) {
     Clear clear{all(1.0f), all(1.0f), all(1.0f)};
     Floats nearest = all(kInfinity), r = all(0.0f), g = r, b = r, a = r;
     Mask covered;
-    for (const Lay& l : lays) {
+    for (const ShadedLayer& l : shadedLayers) {
       if (!coveredFrom(l, first, covered)) continue;
       const Mask on = hn::AndNot(clear.atMost(stack.hidden), covered);
       const auto add = [on](Floats& sum, Floats v) { sum = hn::IfThenElse(on, hn::Add(sum, v), sum); };
@@ -136,10 +136,14 @@ void SampleStack::addAir() {
     for (size_t i = 0; i < air[k].size(); ++i) values[k * lanes + i] += air[k][i];
 }
 
-HWY_EXPORT(lay);
-HWY_EXPORT(layAll);
-void SampleStack::lay(const Lay& l, const LayMore& more) { HWY_DYNAMIC_DISPATCH(lay)(l, more, *this); }
-void SampleStack::layAll(std::span<const Lay> lays) { HWY_DYNAMIC_DISPATCH(layAll)(lays, *this); }
+HWY_EXPORT(composite);
+HWY_EXPORT(compositeAll);
+void SampleStack::composite(const ShadedLayer& l, const LayerExtras& more) {
+  HWY_DYNAMIC_DISPATCH(composite)(l, more, *this);
+}
+void SampleStack::compositeAll(std::span<const ShadedLayer> shadedLayers) {
+  HWY_DYNAMIC_DISPATCH(compositeAll)(shadedLayers, *this);
+}
 
 }  // namespace tomales
 #endif

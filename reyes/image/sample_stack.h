@@ -1,4 +1,4 @@
-// Private to reyes/image: all samples of a pixel while its fragments are laid over one another, front to back.
+// Private to reyes/image: all samples of a pixel while its fragments are composited, front to back.
 #pragma once
 #include <span>
 
@@ -9,8 +9,8 @@ namespace tomales {
 
 /// One float of a contribution beyond R G B A.
 struct ExtraFloat {
-  int channel, component;  ///< In FrameOutput::channels.
-  int variable;            ///< In ShadedPoints::variables.
+  int channel, component;  ///< Index in FrameOutput::channels, and component there.
+  int variable;            ///< Index in ShadedPoints::variables.
   bool composited;
   float fill;
 };
@@ -20,44 +20,43 @@ struct Air {
   vec3 color{0.0f}, opacity{0.0f};
 };
 
-/// What a fragment shows: coverage is its opacity, or 0 where it is matte.
+/// The shade of a fragment: coverage is its opacity, or 0 where it is matte.
 struct FacetShade {
   vec3 color, opacity, coverage;
 };
 
-/// To some samples.
-struct Lay {
+/// A layer: a shade over some samples.
+struct ShadedLayer {
   const FacetShade* shade;
   uint64_t samples;
   float z;
   uint16_t word;
 };
-/// What else it shows.
-struct LayMore {
+/// The other values of a layer.
+struct LayerExtras {
   std::span<const ExtraFloat> extras;
   const float* extraValues;
-  const Air* air = nullptr;  ///< Left out of the shade. Null: there is none in all of the tile.
+  const Air* air = nullptr;  ///< Air that is left out of the shade. Null: no fragment of the tile has any.
 };
 
 /// Arrays have a lane for each sample.
 struct SampleStack {
-  AlignedVector<float> clear[3];  ///< Share of light that passes what was laid so far.
-  AlignedVector<float> nearest;   ///< Depth.
+  AlignedVector<float> clear[3];  ///< Share of light that passes all layers so far.
+  AlignedVector<float> nearest;   ///< Depth of the nearest layer.
   AlignedVector<float> values;    ///< An array of lanes for each float of a contribution.
-  AlignedVector<float>
-      air[4];  ///< R G B A of the air before what was laid last, beside it; empty where no tile has any.
+  AlignedVector<float> air[4];    ///< R G B A of the air beside the last layer, before it; empty where no tile has any.
   size_t lanes = 0;
-  vec3 hidden;  ///< A sample that lets no more light through sees nothing of what follows.
+  vec3 hidden;  ///< A sample that lets no more light through than this sees nothing of further layers.
 
-  /// samples: a multiple of kLanes. For layAll(), which fills it.
+  /// Prepares for compositeAll(), which fills it. samples: a multiple of kLanes.
   void resize(size_t samples, size_t floats);
-  /// For lay().
+  /// Prepares for composite().
   void reset(size_t samples, size_t floats, bool withAir);
-  /// "Over", with an opacity for each channel.
-  void lay(const Lay& l, const LayMore& more);
-  /// Instead, all of a pixel that has nothing else to show. Leaves `values` and `nearest`.
-  void layAll(std::span<const Lay> lays);
-  /// After the last: nothing follows that would bring its air.
+  /// Composites a layer by "over", with an opacity for each channel.
+  void composite(const ShadedLayer& l, const LayerExtras& more);
+  /// Composites all layers of a pixel at once, where no other values are needed. Does not set `values` and `nearest`.
+  void compositeAll(std::span<const ShadedLayer> shadedLayers);
+  /// Call it after the last layer: no other surface follows that holds this air.
   void addAir();
 };
 

@@ -33,7 +33,7 @@ class TiffFile : public FormatWriter {
     TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
     TIFFOpenOptionsSetErrorHandlerExtR(options, keepMessage, &problem_);
     TIFFOpenOptionsSetWarningHandlerExtR(options, ignoreMessage, nullptr);
-    // Offsets of a classic file have 32 bits; compression may also make a picture larger.
+    // Offsets of a classic file have 32 bits, and compression may also make a picture larger.
     const double bytes = double(shape.width) * shape.height * shape.channelCount() * bitsOf(format.type) / 8;
     file_ = TIFFOpenExt(path.c_str(), bytes > 2e9 ? "w8" : "w", options);
     TIFFOpenOptionsFree(options);
@@ -87,8 +87,8 @@ class TiffFile : public FormatWriter {
     TIFFSetField(file_, TIFFTAG_ROWSPERSTRIP, PictureFile::kBandRows);
   }
 
-  /// Positions are in units of which the resolution says how many pixels they are: across, a pixel; down, as long a
-  /// way. TIFF has none that are negative.
+  /// TIFF positions are in units whose resolution says how many pixels they are: one pixel across, and the same length
+  /// down. TIFF has no negative positions.
   void setWindow(const Image& shape) {
     TIFFSetField(file_, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
     TIFFSetField(file_, TIFFTAG_XRESOLUTION, 1.0f);

@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-/// GCC 12 leaves the plain loops scalar.
+/// A vector type, because GCC 12 does not vectorise the plain loops.
 template <int kFloats>
 using Vector __attribute__((vector_size(kFloats * sizeof(float)), aligned(alignof(float)), may_alias)) = float;
 template <int kFloats>
@@ -18,7 +18,7 @@ template <int kFloats>
 constexpr int kHalf = 8;
 static_assert(kLanes % (2 * kHalf) == 0);
 
-/// Adds up rows of weights, those of the samples in `mask`, in their order.
+/// Adds up the rows of weights of the samples in `mask`, in their order.
 TOMALES_HOT void addRows(const float* rows, int stride, uint64_t mask, float* out) {
   for (int k = 0; k < stride; k += 2 * kHalf) {
     Vector<kHalf> low{}, high{};
@@ -30,7 +30,7 @@ TOMALES_HOT void addRows(const float* rows, int stride, uint64_t mask, float* ou
   }
 }
 
-/// Pixels that a pixel reaches, by rows; places: of their weights in a row of them.
+/// Pixels that a pixel's samples reach, by rows. places: indices of their weights in a row of the table.
 struct Reached {
   float* to;
   ptrdiff_t rowStep;
@@ -38,7 +38,7 @@ struct Reached {
   int firstPlace, placesInRow, stride;
 };
 
-/// kPixels that follow each other, kFloats of each from `to` on. A pixel adds up all that comes before it is stored.
+/// Adds to kPixels adjacent pixels, kFloats of each from `to` on. A pixel's sum is complete before it is stored.
 template <int kPixels, int kFloats>
 [[gnu::always_inline]] inline void addTo(float* to, int width, const Weighted& seen, int stride, const float* weight,
                                          const float* value) {
@@ -49,7 +49,7 @@ template <int kPixels, int kFloats>
   for (int i = 0; i < kPixels; ++i) vectorAt<kFloats>(to + i * width) = sum[i];
 }
 
-/// As many as PixelSums::width() says, in the widest vectors.
+/// Adds PixelSums::width() floats for each pixel, in the widest vectors.
 template <int kPixels>
 [[gnu::always_inline]] inline void addAll(float* to, int width, const Weighted& seen, int stride, const float* weight) {
   int k = 0;

@@ -5,7 +5,7 @@
 
 namespace tomales {
 
-/// Weights that the samples of a pixel have for the pixels around it which they reach.
+/// The weights of the samples of a pixel for the pixels around it that they reach.
 class WeightTable {
  public:
   WeightTable(const PixelFilter& filter, const SampleOffsets& samples)
@@ -32,7 +32,7 @@ class WeightTable {
         }
   }
 
-  /// A pattern, seen from one of the pixels that it reaches.
+  /// A pattern, relative to one of the pixels that it reaches.
   struct Cell {
     int pattern, place;
   };
@@ -47,10 +47,10 @@ class WeightTable {
     return sum;
   }
 
-  /// All cells of a pattern at once, by rows, padded: places(), then zeros.
+  /// The sums of all cells of a pattern, by rows, padded: places(), then zeros.
   int places() const { return stride_; }
   const float* sums(int pattern) const { return sums_.data() + static_cast<ptrdiff_t>(pattern) * stride_; }
-  /// Some samples' sums for each, as sum() has them.
+  /// The sums of the samples of a mask for all cells, as sum() gives them.
   void sums(int pattern, uint64_t mask, uint16_t word, float* out) const;
 
  private:
@@ -61,22 +61,22 @@ class WeightTable {
   AlignedVector<float> weights_, sums_;
 };
 
-/// What the samples of a pixel see, in order: `count` times some floats, `step` apart, and for each a row of weights as
-/// WeightTable::sums() has them.
+/// The contributions of a pixel, in order: `count` runs of floats, `step` apart, each with a row of weights as in
+/// WeightTable::sums().
 struct Weighted {
   int count;
   const float *weights, *values;
   size_t step;
 };
 
-/// Weighted sums of floats for the pixels of a block, to which the samples of pixels in and around it bring theirs.
+/// Weighted sums of floats for the pixels of a block, to which pixels in and around the block add their samples.
 class PixelSums {
  public:
-  static constexpr int kWide = 4;  ///< Floats of a pixel are padded to a multiple.
+  static constexpr int kWide = 4;  ///< Floats of a pixel are padded to a multiple of this.
   static_assert(kWide <= ResolvedTile::kMargin);
   PixelSums(const WeightTable& weights, const PixelRect& block, int floats);
   int width() const { return width_; }
-  /// All that pixel (x, y) sees: width() floats each, of which those beyond what was asked for may be anything.
+  /// Adds all contributions of pixel (x, y): width() floats each; floats beyond those asked for may have any value.
   void add(int x, int y, const Weighted& seen);
   const float* of(int x, int y) const { return sums_.data() + indexOf(x, y) * width_; }
 

@@ -3,13 +3,16 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <atomic>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "reyes/base/checksum.h"
+#include "reyes/base/input_file.h"
+#include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -22,22 +25,46 @@ std::string oiioError() {
   return text.empty() ? "it cannot be read" : text;
 }
 
-/// A name beside `file` that no other thread or process writes to.
-std::string temporaryName(const std::string& file) {
-  static std::atomic<int> number{0};
-  return fmt::format("{}.{}.{}.part", file, ::getpid(), number++);
+struct Seal {
+  char magic[8];
+  uint64_t sum;  ///< Of the bytes before the seal.
+};
+constexpr char kSealMagic[] = "TMSEALED";
+
+std::optional<Bytes> bytesOf(const std::string& file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) return std::nullopt;
+  Bytes bytes(static_cast<size_t>(in.tellg()));
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  return in ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-bool moveInto(const std::string& temporary, const std::string& file, std::string& error) {
-  std::error_code problem;
-  fs::rename(temporary, file, problem);
-  if (problem) error = fmt::format("\"{}\" cannot be written: {}", file, problem.message());
-  return !problem;
+/// Files of the cache end in a sum of what comes before, which readers of TIFF pass over: one that was cut off or has
+/// rotted would else be noticed where its texels are wanted, in the middle of a frame, or not at all.
+bool seal(const std::string& file) {
+  const auto bytes = bytesOf(file);
+  if (!bytes) return false;
+  Seal s{{}, checksum(*bytes)};
+  std::memcpy(s.magic, kSealMagic, sizeof s.magic);
+  std::ofstream out(file, std::ios::binary | std::ios::app);
+  out.write(reinterpret_cast<const char*>(&s), sizeof s);
+  out.close();
+  return out.good();
+}
+
+bool isSealed(const std::string& file) {
+  const auto bytes = bytesOf(file);
+  Seal s{};
+  if (!bytes || bytes->size() < sizeof s) return false;
+  std::memcpy(&s, bytes->data() + bytes->size() - sizeof s, sizeof s);
+  return std::memcmp(s.magic, kSealMagic, sizeof s.magic) == 0 &&
+         s.sum == checksum(BytesView(*bytes).first(bytes->size() - sizeof s));
 }
 
 /// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an
 /// ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
-bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
+bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) return error = oiioError(), false;
   OIIO::ImageSpec spec = in->spec();
@@ -51,19 +78,28 @@ bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& er
   return error.empty();
 }
 
-bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, std::string& error) {
+bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, bool sealed,
+           std::string& error) {
   OIIO::ImageSpec config;
   const bool exr = fs::path(file).extension() == ".exr";
   config.attribute("maketx:fileformatname", exr ? "openexr" : "tiff");
   config.attribute("maketx:filtername", recipe.filter);
   config.attribute("wrapmodes", recipe.sWrap + "," + recipe.tWrap);
-  const std::string temporary = temporaryName(file);
-  if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, temporary, config))
-    return moveInto(temporary, file, error);
-  error = oiioError();
-  std::error_code none;
-  fs::remove(temporary, none);
-  return false;
+  try {
+    // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a
+    // killed process would leave.
+    const TemporaryFolder folder(throughLinks(file).parent_path());
+    const fs::path made = folder.path() / "texture";
+    if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, made.string(), config))
+      error = oiioError();
+    else if (sealed && !seal(made.string()))
+      error = fmt::format("\"{}\" cannot be written", file);
+    else if (!moveFinished(made, file, error))
+      error = fmt::format("\"{}\" cannot be written: {}", file, error);
+  } catch (const fs::filesystem_error& e) {
+    error = fmt::format("\"{}\" cannot be written: {}", file, e.code().message());
+  }
+  return error.empty();
 }
 
 bool isTiledMip(const std::string& file, std::string& error) {
@@ -72,41 +108,41 @@ bool isTiledMip(const std::string& file, std::string& error) {
   return in->spec().tile_width > 0 && in->seek_subimage(0, 1);
 }
 
-std::optional<uint64_t> contentSum(const std::string& file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) return std::nullopt;
-  Bytes bytes(static_cast<size_t>(in.tellg()));
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  return in ? std::optional(checksum(bytes)) : std::nullopt;
-}
-
 }  // namespace
 
-bool convert(const TextureRecipe& recipe, std::string& error) {
-  if (recipe.shape == TextureRecipe::Shape::Cube) {
-    const auto picture = unfoldCube(recipe, error);
-    return picture && write(*picture, recipe, recipe.file, error);
-  }
-  OIIO::ImageBuf picture;
-  return readWhole(recipe.pictures.front(), picture, error) && write(picture, recipe, recipe.file, error);
+bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
+  error = inputProblem(file);
+  return error.empty() && readTexels(file, picture, error);
 }
 
-std::string tiledFile(const std::string& picture, const std::string& folder, std::string& error) {
+Making convert(const TextureRecipe& recipe, std::string& error) {
+  std::optional<OIIO::ImageBuf> picture;
+  if (recipe.shape == TextureRecipe::Shape::Cube)
+    picture = unfoldCube(recipe, error);
+  else if (OIIO::ImageBuf whole; readWhole(recipe.pictures.front(), whole, error))
+    picture = std::move(whole);
+  if (!picture) return Making::Unreadable;
+  return write(*picture, recipe, recipe.file, false, error) ? Making::Done : Making::Unwritable;
+}
+
+std::string tiledFile(const std::string& picture, const std::string& folder, std::string& error, std::string& note) {
   if (isTiledMip(picture, error)) return picture;
   if (!error.empty()) return {};
-  const auto sum = contentSum(picture);
-  if (!sum) return error = "it cannot be read", std::string();
-  const std::string name = fmt::format("{:016x}.tx", *sum);
+  const auto content = bytesOf(picture);
+  if (!content) return error = "it cannot be read", std::string();
+  const std::string name = fmt::format("{:016x}.tx", checksum(*content));
   const fs::path file = fs::path(folder) / name.substr(0, 2) / name;
   std::error_code problem;
-  if (fs::exists(file, problem)) return file.string();
+  if (fs::exists(file, problem)) {
+    if (isSealed(file.string())) return file.string();
+    note = fmt::format("\"{}\" is damaged, or of an earlier version: \"{}\" is converted anew", file.string(), picture);
+  }
   OIIO::ImageBuf whole;
   if (!readWhole(picture, whole, error)) return {};
   fs::create_directories(file.parent_path(), problem);
   TextureRecipe recipe;
   // A cache that cannot be written costs time and memory, and nothing else: OpenImageIO makes the levels in memory.
-  if (problem || !write(whole, recipe, file.string(), error)) return error.clear(), picture;
+  if (problem || !write(whole, recipe, file.string(), true, error)) return error.clear(), picture;
   return file.string();
 }
 

@@ -26,9 +26,8 @@ std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::strin
   std::vector<OIIO::ImageBuf> faces(6);
   int edge = 0, channels = 0;
   for (size_t k = 0; k < 6; ++k) {
-    faces[k].reset(recipe.pictures[k]);
-    if (!faces[k].read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
-      error = "\"" + recipe.pictures[k] + "\": " + faces[k].geterror();
+    if (!readWhole(recipe.pictures[k], faces[k], error)) {
+      error = "\"" + recipe.pictures[k] + "\": " + error;
       return std::nullopt;
     }
     edge = std::max(edge, faces[k].spec().width);

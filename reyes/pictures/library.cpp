@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "reyes/base/input_file.h"
 #include "reyes/base/process.h"
 #include "reyes/pictures.h"
 #include "reyes/pictures/exr_reader.h"
@@ -40,13 +41,14 @@ const PictureLibrary* pictureLibrary(std::string& error) {
   return loaded.library;
 }
 
-bool makeTexture(const TextureRecipe& recipe, std::string& error) {
+Making makeTexture(const TextureRecipe& recipe, std::string& error) {
   const PictureLibrary* library = pictureLibrary(error);
-  return library && library->makeTexture(recipe, error);
+  return library ? library->makeTexture(recipe, error) : Making::Unreadable;
 }
 
 std::unique_ptr<PictureReader> openPicture(const std::string& path, std::string& error) {
-  error.clear();
+  error = inputProblem(path);
+  if (!error.empty()) return nullptr;
   if (auto exr = openExrPicture(path, error); exr || !error.empty()) return exr;
   const PictureLibrary* library = pictureLibrary(error);
   return library ? library->open(path, error) : nullptr;

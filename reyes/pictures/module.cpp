@@ -54,7 +54,7 @@ class Library : public PictureLibrary {
   std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const override {
     return makeTextureCache(settings);
   }
-  bool makeTexture(const TextureRecipe& recipe, std::string& error) const override { return convert(recipe, error); }
+  Making makeTexture(const TextureRecipe& recipe, std::string& error) const override { return convert(recipe, error); }
 };
 
 }  // namespace

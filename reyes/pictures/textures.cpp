@@ -10,7 +10,9 @@
 #include <mutex>
 #include <set>
 #include <shared_mutex>
+#include <utility>
 
+#include "reyes/base/input_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/pictures/convert.h"
 
@@ -43,6 +45,51 @@ struct Picture {
   std::string error;  ///< Why there is none.
 };
 
+/// OpenImageIO's texture system, one for the process and never destroyed. Threads keep tiles of a system for longer
+/// than it lives, under its address, and OpenImageIO 2.4 hands them to the next system that lies there
+/// (boost::thread_specific_ptr, which it keeps them in, knows of the thread that destroys it alone).
+class SharedSystem {
+ public:
+  OIIO::TextureSystem* const textures = OIIO::TextureSystem::create(false);
+
+  static SharedSystem& get() {
+    static SharedSystem shared;
+    return shared;
+  }
+  void enter(int64_t memory_bytes) {
+    const std::lock_guard lock(mutex);
+    ++users;
+    textures->attribute("max_memory_MB", static_cast<float>(memory_bytes) / (1 << 20));
+  }
+  /// The last one leaves no tile and no open file: what is rewritten between frames is then read anew.
+  void leave() {
+    const std::lock_guard lock(mutex);
+    if (--users == 0) textures->invalidate_all(true);
+  }
+  TextureFigures takeFigures() {
+    TextureFigures now;
+    int misses = 0;
+    const std::lock_guard lock(mutex);
+    textures->getattribute("stat:find_tile_calls", OIIO::TypeDesc::INT64, &now.tileRequests);
+    textures->getattribute("stat:tiles_created", OIIO::TypeDesc::INT, &misses);
+    textures->getattribute("stat:bytes_read", OIIO::TypeDesc::INT64, &now.bytesRead);
+    now.tileMisses = misses;
+    const TextureFigures before = std::exchange(taken, now);
+    return {now.tileRequests - before.tileRequests, now.tileMisses - before.tileMisses,
+            now.bytesRead - before.bytesRead};
+  }
+
+ private:
+  SharedSystem() {
+    textures->attribute("automip", 1);  // pictures of a cache folder that cannot be written
+    textures->attribute("autotile", 64);
+  }
+
+  std::mutex mutex;
+  int users = 0;
+  TextureFigures taken;
+};
+
 OIIO::TextureOpt optionsOf(const TextureQuery& q) {
   using Opt = OIIO::TextureOpt;
   Opt o;
@@ -59,11 +106,13 @@ OIIO::TextureOpt optionsOf(const TextureQuery& q) {
 
 class Cache : public TextureCache {
  public:
-  explicit Cache(const TextureSettings& settings);
-  ~Cache() override { OIIO::TextureSystem::destroy(system, true); }
+  explicit Cache(const TextureSettings& s) : settings(s), cacheFolder(cacheFolderOf(s)) {
+    SharedSystem::get().enter(settings.memory_bytes);
+  }
+  ~Cache() override { SharedSystem::get().leave(); }
   bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& error) override;
   bool info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) override;
-  TextureFigures figures() const override;
+  TextureFigures takeFigures() override { return SharedSystem::get().takeFigures(); }
 
  private:
   const Picture& picture(std::string_view name) {
@@ -90,15 +139,18 @@ class Cache : public TextureCache {
     for (int tile = kFirst; picture->tiled && tile <= kLast; ++tile)
       add(std::string(name).replace(mark, length, std::to_string(tile)), tile, *picture);
     if (!picture->tiled) add(name, 0, *picture);
-    if (picture->tiles.empty() && picture->error.empty()) picture->error = "not found";
+    std::error_code none;
+    if (picture->tiles.empty() && picture->error.empty())
+      picture->error = fs::exists(name, none) ? inputProblem(name) : "not found";
     return picture;
   }
 
   void add(const std::string& name, int tile, Picture& picture) {
     const std::string found = find(name);
     if (found.empty()) return;
-    std::string error;
-    const std::string file = tiledFile(found, cacheFolder, error);
+    std::string error, note;
+    const std::string file = tiledFile(found, cacheFolder, error, note);
+    if (!note.empty() && settings.note) settings.note(note);
     Handle* handle = file.empty() ? nullptr : system->get_texture_handle(OIIO::ustring(file));
     if (handle && system->good(handle))
       picture.tiles[tile] = handle;
@@ -106,28 +158,12 @@ class Cache : public TextureCache {
       picture.error = error.empty() ? system->geterror() : error;
   }
 
-  OIIO::TextureSystem* const system = OIIO::TextureSystem::create(false);
+  OIIO::TextureSystem* const system = SharedSystem::get().textures;
   const TextureSettings settings;
   const std::string cacheFolder;
   std::shared_mutex mutex;  ///< Over pictures.
   std::map<std::string, std::unique_ptr<const Picture>, std::less<>> pictures;
 };
-
-Cache::Cache(const TextureSettings& s) : settings(s), cacheFolder(cacheFolderOf(s)) {
-  system->attribute("max_memory_MB", static_cast<float>(settings.memory_bytes) / (1 << 20));
-  system->attribute("automip", 1);  // pictures of a cache folder that cannot be written
-  system->attribute("autotile", 64);
-}
-
-TextureFigures Cache::figures() const {
-  TextureFigures f;
-  int misses = 0;
-  system->getattribute("stat:find_tile_calls", OIIO::TypeDesc::INT64, &f.tileRequests);
-  system->getattribute("stat:tiles_created", OIIO::TypeDesc::INT, &misses);
-  system->getattribute("stat:bytes_read", OIIO::TypeDesc::INT64, &f.bytesRead);
-  f.tileMisses = misses;
-  return f;
-}
 
 bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::string& error) {
   const Picture& known = picture(q.name);

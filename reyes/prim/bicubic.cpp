@@ -57,7 +57,7 @@ glm::dvec3 weighted(const BezierPatch& patch, const Weights& u, const Weights& v
   return sum;
 }
 
-/// All control points on a line: there is no normal anywhere.
+/// Do all control points lie on a line, so that there is no normal anywhere?
 bool isLine(const BezierPatch& patch) {
   const auto control = [&](int k) { return glm::dvec3(patch[0][k], patch[1][k], patch[2][k]); };
   glm::dvec3 along(0);
@@ -68,7 +68,7 @@ bool isLine(const BezierPatch& patch) {
   return true;
 }
 
-/// The normal a little way towards the middle of the patch, where the derivatives are independent again.
+/// The normal at a point slightly nearer to the middle of the patch, where the derivatives are independent again.
 /// Double precision keeps the direction of the small derivative there.
 vec3 normalNearby(const BezierPatch& patch, double u, double v) {
   for (double step : {1e-3, 1e-2, 1e-1}) {
@@ -90,7 +90,7 @@ double extentOf(const BezierPatch& patch) {
   return extent;
 }
 
-/// Control values of the curve's piece over [t0, t1], in place at c, c + step, ... (blossoming).
+/// Computes control values of the curve's piece over [t0, t1], in place at c, c + step, ... (blossoming).
 void restrictCurve(float* c, int step, float t0, float t1) {
   const auto blossom = [&](float r, float s, float t) {
     const float a = lerp(c[0], c[step], r), b = lerp(c[step], c[2 * step], r), d = lerp(c[2 * step], c[3 * step], r);
@@ -103,8 +103,7 @@ void restrictCurve(float* c, int step, float t0, float t1) {
 }  // namespace
 
 ToBezier bezierFrom(const Basis& basis) {
-  // Rows of RISpec's matrix are powers t^3, t^2, t, 1; Bezier control values follow from the power
-  // coefficients.
+  // Rows of RISpec's matrix are powers t^3, t^2, t, 1; Bezier control values follow from the power coefficients.
   static constexpr double kBezierFromPower[4][4] = {
       {0, 0, 0, 1}, {0, 0, 1.0 / 3, 1}, {0, 1.0 / 3, 2.0 / 3, 1}, {1, 1, 1, 1}};
   ToBezier out;
@@ -112,8 +111,7 @@ ToBezier bezierFrom(const Basis& basis) {
     for (int j = 0; j < 4; ++j) {
       double sum = 0;
       for (int k = 0; k < 4; ++k) sum += kBezierFromPower[i][k] * static_cast<double>(basis.matrix[k][j]);
-      // The named bases are twelfths; on exactly equal weights two patches agree exactly about the edge they
-      // share.
+      // The named bases are twelfths. With exactly equal weights two patches agree exactly on the edge that they share.
       const double twelfths = std::round(12 * sum);
       out[i][j] = static_cast<float>(std::abs(12 * sum - twelfths) < 1e-5 ? twelfths / 12 : sum);
     }

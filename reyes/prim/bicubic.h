@@ -1,4 +1,4 @@
-// One bicubic patch in Bezier form. Private to the patch meshes.
+// Private to the patch meshes: one bicubic patch in Bezier form.
 #pragma once
 #include <array>
 
@@ -8,10 +8,10 @@ namespace tomales {
 
 /// Bezier control values of one coordinate, u fastest.
 using BezierNet = std::array<float, 16>;
-/// x, y, z.
+/// The coordinates x, y, z.
 using BezierPatch = std::array<BezierNet, 3>;
 
-/// Row i: the weights of four control values in Bezier control value i.
+/// Row i has the weights of four control values in Bezier control value i.
 using ToBezier = std::array<std::array<float, 4>, 4>;
 ToBezier bezierFrom(const Basis& basis);
 
@@ -20,10 +20,10 @@ BezierNet convertNet(const BezierNet& control, const ToBezier& u, const ToBezier
 void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, float* p);
 void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, float* p, float* du, float* dv);
 
-/// Positions, derivatives, and normals that are their limits where an edge has shrunk to a point.
+/// Computes positions, derivatives and normals; the latter are limits where an edge is a point.
 void evaluateBicubic(const BezierPatch& patch, int n, const float* u, const float* v, SurfacePoints out);
 
-/// The control points of the piece over the rectangle contain it.
+/// The bound of the control points of the piece over the rectangle, which contains the piece.
 Bound3 boundBicubic(const BezierPatch& patch, const UvRect& rect);
 
 }  // namespace tomales

@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-/// A point of a patch's mesh and the way from there, with derivatives.
+/// A point of a patch's mesh and its path to the surface, with derivatives.
 struct Way {
   dvec3 p, pu, pv, outward, outwardU, outwardV;
   double reach;
@@ -28,7 +28,7 @@ SurfacePoint pointOn(const BlobField& field, const Way& way) {
   const dvec3 gradient = field.at(s.p).gradient;
   const double slope = glm::dot(gradient, way.outward);
   if (!met || !(std::abs(slope) > 1e-6 * glm::length(gradient))) return s;
-  // f(p + t outward) stays what it is along u and v.
+  // Along u and v, f(p + t outward) is constant.
   s.du -= glm::dot(gradient, s.du) / slope * way.outward;
   s.dv -= glm::dot(gradient, s.dv) / slope * way.outward;
   s.normal = -gradient;
@@ -54,7 +54,8 @@ class Blobby : public Prim {
 
   Bound3 bound(uint32_t patch, const UvRect& rect) const override {
     const Bound3 hull = hullOf(patch, rect);
-    if (!mesh_.complete) return paddedForRounding(hull, hull);  // too coarse for a few samples to speak for the rest
+    // it is too coarse for a few samples to represent the rest
+    if (!mesh_.complete) return paddedForRounding(hull, hull);
     const Bound3 sampled =
         boundOfSamples(rect, [&](float u, float v) { return vec3(pointOn(fields_[patch], wayAt(patch, u, v)).p); });
     return paddedForRounding({glm::max(hull.lo, sampled.lo), glm::min(hull.hi, sampled.hi)}, hull);
@@ -68,7 +69,7 @@ class Blobby : public Prim {
     }
   }
 
-  /// A value for each leaf, blended by how much of the field each leaf is there.
+  /// Blends the leaves' values, each weighted by its share of the field there.
   void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
                    int stride) const override {
     const Primvar& var = primvars_[static_cast<size_t>(index)];
@@ -106,7 +107,7 @@ class Blobby : public Prim {
     return {blend(position), byU(position), byV(position), blend(outward), byU(outward), byV(outward), blend(reach)};
   }
 
-  /// Where pointOn may lead from a rectangle.
+  /// Bound of the points that pointOn() may give for a rectangle.
   Bound3 hullOf(uint32_t patch, const UvRect& rect) const {
     std::array<vec3, 4> corners;
     float reach = 0;
@@ -126,7 +127,7 @@ class Blobby : public Prim {
 
 namespace {
 
-/// With what it was made from.
+/// The parts of a parsed request.
 struct Read {
   BlobProgram program;
   std::vector<Primvar> primvars;

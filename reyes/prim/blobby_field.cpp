@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// Of the point nearest to q: 0 at its beginning, 1 at its end.
+/// Parameter of the segment's point nearest to q: 0 at its beginning, 1 at its end.
 double placeOnSegment(const BlobLeaf& leaf, const dvec3& q) {
   const dvec3 along = leaf.to - leaf.from;
   const double length2 = glm::dot(along, along);
@@ -144,7 +144,8 @@ std::vector<FieldRange> BlobField::rangesOver(const Box& box) const {
   return ranges;
 }
 
-/// Without terms that are 0 and without those that lose to another all over the box: at() returns the same bits.
+/// Returns the operands without terms that are 0 and without those that lose to another all over the box: at() returns
+/// the same bits.
 std::vector<uint32_t> BlobField::neededOperands(const Instruction& i, const std::vector<FieldRange>& ranges) const {
   const std::span<const uint32_t> all = operandsOf(i);
   std::vector<uint32_t> needed;
@@ -158,29 +159,32 @@ std::vector<uint32_t> BlobField::neededOperands(const Instruction& i, const std:
   return needed;
 }
 
-uint32_t BlobField::copyTo(BlobField& out, uint32_t index, const std::vector<FieldRange>& ranges,
-                           std::vector<int>& copied) const {
-  if (copied[index] >= 0) return static_cast<uint32_t>(copied[index]);
-  const Instruction& i = code_[index];
-  const FieldRange& range = ranges[index];
-  if (range.lo == range.hi) {
-    out.addConstant(range.lo);
-  } else if (i.op == BlobOp::Leaf) {
-    out.addLeaf(i.first);
-  } else {
-    std::vector<uint32_t> operands = neededOperands(i, ranges);
-    for (uint32_t& k : operands) k = copyTo(out, k, ranges, copied);
-    out.addOperation(i.op, operands);
-  }
-  copied[index] = static_cast<int>(out.code_.size() - 1);
-  return static_cast<uint32_t>(copied[index]);
-}
-
+// From the last instruction to the first, as chains of operations may be longer than a stack is deep.
 BlobField BlobField::within(const Box& box) const {
+  const std::vector<FieldRange> ranges = rangesOver(box);
+  const auto isConstant = [&](size_t index) { return ranges[index].lo == ranges[index].hi; };
+  std::vector<std::vector<uint32_t>> operands(code_.size());
+  std::vector<char> needed(code_.size(), 0);
+  needed.back() = 1;
+  for (size_t index = code_.size(); index-- > 0;) {
+    if (!needed[index] || isConstant(index) || code_[index].op == BlobOp::Leaf) continue;
+    operands[index] = neededOperands(code_[index], ranges);
+    for (const uint32_t k : operands[index]) needed[k] = 1;
+  }
   BlobField out(*this);
   out.code_.clear(), out.operands_.clear();
-  std::vector<int> copied(code_.size(), -1);
-  copyTo(out, static_cast<uint32_t>(code_.size() - 1), rangesOver(box), copied);
+  std::vector<uint32_t> copied(code_.size());
+  for (size_t index = 0; index < code_.size(); ++index) {
+    if (!needed[index]) continue;
+    copied[index] = static_cast<uint32_t>(out.code_.size());
+    for (uint32_t& k : operands[index]) k = copied[k];
+    if (isConstant(index))
+      out.addConstant(ranges[index].lo);
+    else if (code_[index].op == BlobOp::Leaf)
+      out.addLeaf(code_[index].first);
+    else
+      out.addOperation(code_[index].op, operands[index]);
+  }
   out.code_.shrink_to_fit(), out.operands_.shrink_to_fit();
   return out;
 }
@@ -188,7 +192,7 @@ BlobField BlobField::within(const Box& box) const {
 std::vector<double> BlobField::leafWeights(const dvec3& p) const {
   const std::vector<FieldPoint>& values = run(p);
   std::vector<double> weights(leaves_->size(), 0.0);
-  std::vector<char> counts(code_.size(), 0);  // the field depends on it
+  std::vector<char> counts(code_.size(), 0);  // does the field depend on it?
   counts.back() = 1;
   for (size_t index = code_.size(); index-- > 0;) {
     const Instruction& i = code_[index];

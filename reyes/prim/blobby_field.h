@@ -1,5 +1,6 @@
-// The function whose level set a Blobby is: leaves that fall off with distance, combined by arithmetic. Private to
-// Blobby. Space: the object's; double precision throughout, so that a zero along a line is good to float's last bit.
+// Private to Blobby: the function whose level set a Blobby is: leaves that fall off with distance, combined by
+// arithmetic. Space: the object's. Everything is in double precision, so that a zero along a line is exact to a float's
+// last bit.
 #pragma once
 #include <memory>
 #include <span>
@@ -11,7 +12,8 @@ namespace tomales {
 
 using glm::dvec3;
 
-/// The surface is where the field is this; it is larger inside. A lone ellipsoid of radius 1 shows at radius 1/2.
+/// The surface is where the field has this value; it is larger inside. A single ellipsoid of radius 1 shows at radius
+/// 1/2.
 constexpr double kBlobSurface = 0.421875;
 
 struct Box {
@@ -20,16 +22,17 @@ struct Box {
 
 class BlobGround;
 
-/// (1 - d^2)^3 for d < 1, else 0, where d is the distance from a segment, a point if its ends are equal, in the leaf's
-/// own space, by `radius`. Or a ground, which has no values to blend and carries nothing along.
+/// A leaf's value is (1 - d^2)^3 for d < 1, else 0. d is the distance over `radius` from a segment, or from a point if
+/// its ends are equal, in the leaf's own space. Or the leaf is a ground, which has no values to blend and moves
+/// nothing.
 struct BlobLeaf {
-  glm::dmat3 axes;  ///< Leaf space from the object's, with `origin`.
+  glm::dmat3 axes;  ///< Transforms from object space to leaf space, with `origin`.
   dvec3 origin;
   dvec3 from, to;
   double radius;
   std::shared_ptr<const BlobGround> ground{};
 
-  double feature() const;  ///< Least distance over which it falls from 1 to 0.
+  double feature() const;  ///< Least distance over which its value falls from 1 to 0.
 };
 
 enum class BlobOp : uint8_t { Constant, Leaf, Add, Multiply, Maximum, Minimum, Divide, Subtract, Negate, Identity };
@@ -44,7 +47,7 @@ struct FieldRange {
 FieldRange sum(const FieldRange& a, const FieldRange& b);
 FieldRange product(const FieldRange& a, const FieldRange& b);
 
-/// A program: every instruction uses the results of earlier ones, and the last is the field.
+/// A program: every instruction uses the results of earlier ones, and the last result is the field.
 class BlobField {
  public:
   explicit BlobField(std::vector<BlobLeaf> leaves)
@@ -54,29 +57,29 @@ class BlobField {
   void addLeaf(uint32_t leaf) { code_.push_back({BlobOp::Leaf, leaf, 0, 0}); }
   void addOperation(BlobOp op, std::span<const uint32_t> operands);
 
-  /// How many leaves it still has (within()).
+  /// Number of leaves that it still has after within().
   size_t leavesUsed() const;
   size_t leafCount() const { return leaves_->size(); }
   FieldPoint at(const dvec3& p) const;
   FieldRange over(const Box& box) const { return rangesOver(box).back(); }
 
-  /// The same function inside of the box, without what it does not need there.
+  /// The same function inside of the box, without instructions that are not needed there.
   BlobField within(const Box& box) const;
 
-  /// What each leaf has to do with the field at p: its value if the field depends on it there.
+  /// The value of each leaf at p, or 0 if the field does not depend on the leaf there.
   std::vector<double> leafWeights(const dvec3& p) const;
 
-  /// Where the leaves take p if they become those of `other`, of as many leaves: the mean of their motions by
-  /// leafWeights().
+  /// The position of p if the leaves change to those of `other`, which has as many: p moves by the mean of their
+  /// motions, weighted by leafWeights().
   dvec3 carried(const dvec3& p, const BlobField& other) const;
 
-  /// The least feature() of the leaves that it uses; infinite if it uses none.
+  /// Least feature() of the leaves that it uses; infinite if it uses none.
   double feature() const;
 
  private:
   struct Instruction {
     BlobOp op;
-    uint32_t first, count;  ///< In operands_; a leaf's number is `first`.
+    uint32_t first, count;  ///< Range in operands_; for a leaf `first` is its number.
     double constant;
   };
 
@@ -84,8 +87,6 @@ class BlobField {
   const std::vector<FieldPoint>& run(const dvec3& p) const;
   std::vector<FieldRange> rangesOver(const Box& box) const;
   std::vector<uint32_t> neededOperands(const Instruction& i, const std::vector<FieldRange>& ranges) const;
-  uint32_t copyTo(BlobField& out, uint32_t index, const std::vector<FieldRange>& ranges,
-                  std::vector<int>& copied) const;
 
   std::shared_ptr<const std::vector<BlobLeaf>> leaves_;
   std::vector<Instruction> code_;

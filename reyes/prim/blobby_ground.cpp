@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kLeastHeight = 1e-6;
 
-/// With its derivative. The polynomial of least degree that is 0 with two derivatives at 0 and at 2, and 1 at 1.
+/// A bump and its derivative: the polynomial of least degree that is 0 with two derivatives at 0 and at 2, and 1 at 1.
 glm::dvec2 bump(double r) {
   if (r <= 0 || r >= 2) return {0, 0};
   return {(((6 - r) * r - 12) * r + 8) * r * r * r, (((-6 * r + 30) * r - 48) * r + 24) * r * r};
@@ -16,7 +16,7 @@ glm::dvec2 ease(double r) {
   return {r * r * (3 - 2 * r), 6 * r * (1 - r)};
 }
 
-/// Quadratic B-spline: smooth, and within what it blends.
+/// Quadratic B-spline: smooth, and within the values that it blends.
 struct Weights {
   double value[3], slope[3];
   explicit Weights(double t)
@@ -127,7 +127,7 @@ FieldRange BlobGround::over(const Box& box) const {
   return out;
 }
 
-/// Of all texels that points in the rectangle may blend.
+/// Range of all texels that points in the rectangle may blend.
 FieldRange BlobGround::depthsOver(double x0, double x1, double y0, double y1) const {
   const Level& map = levels_.front();
   const auto texel = [](double x, int most) { return static_cast<int>(std::clamp(std::floor(x), 0.0, most - 1.0)); };

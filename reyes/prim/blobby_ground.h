@@ -1,12 +1,12 @@
-// The ground that keeps a Blobby away: heights over a picture of depth, and the field that repels (leaf 1003). Private
-// to Blobby.
+// Private to Blobby: the ground that repels a Blobby (leaf 1003): heights over a depth picture, and the repelling
+// field.
 #pragma once
 #include "reyes/prim.h"
 #include "reyes/prim/blobby_field.h"
 
 namespace tomales {
 
-/// As PRMan's application note 31 has it, z being how much nearer than the ground a point is to the picture's camera:
+/// The field of PRMan's application note 31. z is how much nearer to the picture's camera a point is than the ground:
 /// (bulge b(z / bulgeHeight) - sharpness / z) (1 - e(z / height)) below `height`, 0 above and where the picture shows
 /// nothing. b rises from 0 to 1 at 1 and falls to 0 at 2; e eases from 0 to 1.
 struct Repulsion {
@@ -20,11 +20,11 @@ class BlobGround {
   BlobGround(GroundPicture picture, const Repulsion& repulsion);
   FieldPoint at(const dvec3& p) const;
   FieldRange over(const Box& box) const;
-  /// Least distance over which the bulge rises, or all eases off.
+  /// Least distance over which the bulge rises or the field falls off.
   double feature() const;
 
  private:
-  /// The least and the greatest depth of blocks of texels, each level of blocks twice as wide.
+  /// Range of depths of blocks of texels; each level's blocks are twice as wide.
   struct Level {
     int columns, rows;
     std::vector<float> least, greatest;
@@ -33,7 +33,7 @@ class BlobGround {
 
   const Repulsion repulsion_;
   const glm::dmat4 cameraFromObject_, texelFromObject_;
-  std::vector<Level> levels_;  ///< The first: texels.
+  std::vector<Level> levels_;  ///< The first level has single texels.
 };
 
 }  // namespace tomales

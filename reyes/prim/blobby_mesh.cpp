@@ -3,27 +3,27 @@
 namespace tomales {
 namespace {
 
-constexpr int kDeepest = 20;           ///< Halvings of the root cell.
-constexpr int kExtraLevels = 3;        ///< For cells with more than one sheet or a crease.
-constexpr double kCellsOfFeature = 3;  ///< A leaf alone shows with this many cells across.
-constexpr double kLeastCosine = 0.5;   ///< Between normals of a cell and their mean.
-constexpr double kRounding = 1e-9;     ///< Of sums of leaves' values.
-/// More mean that a leaf is drawn out, or far smaller than another; then all cells are larger by this, or by this
-/// again.
+constexpr int kDeepest = 20;           ///< Greatest number of halvings of the root cell.
+constexpr int kExtraLevels = 3;        ///< Further halvings of cells with more than one surface or a crease.
+constexpr double kCellsOfFeature = 3;  ///< A single leaf has this many cells across.
+constexpr double kLeastCosine = 0.5;   ///< Least cosine between the normals of a cell and their mean.
+constexpr double kRounding = 1e-9;     ///< Rounding error of sums of leaves' values.
+/// Limits of cells. More cells mean that a leaf is elongated, or far smaller than another; then all cells are larger by
+/// a factor between these two.
 constexpr size_t kMostCells = 1 << 18, kMostCellsOfLeaf = 1 << 10;
 constexpr double kLeastCoarsening = 4, kMostCoarsening = 64;
 
-using Lattice = std::array<uint32_t, 3>;  ///< In finest cells from the root's corner.
+using Lattice = std::array<uint32_t, 3>;  ///< Coordinates in finest cells from the root's corner.
 
 struct Cell {
   Lattice corner;
-  uint32_t size;            ///< In finest cells.
-  uint32_t firstChild = 0;  ///< Of eight; 0: none.
+  uint32_t size;            ///< Edge in finest cells.
+  uint32_t firstChild = 0;  ///< First of eight children; 0: none.
   uint8_t inside = 0;       ///< Bit k: corner (k & 1, k >> 1 & 1, k >> 2).
   int32_t vertex = -1;
 };
 
-/// True if the corners in the set hang together along the cell's edges.
+/// Are the corners in the set connected along the cell's edges?
 bool connected(uint8_t corners) {
   if (corners == 0) return true;
   uint8_t reached = static_cast<uint8_t>(corners & -corners);
@@ -44,7 +44,7 @@ dvec3 outwardAt(const BlobField& field, const dvec3& p) {
   return length > 0 ? falls / length : dvec3(0, 0, 1);
 }
 
-/// The surface turns by less than about two right angles in the cell: lines towards it meet it once.
+/// Does the surface turn by less than about two right angles in the cell? Then lines towards it meet it once.
 bool isFlatEnough(const std::vector<dvec3>& crossings, const BlobField& field) {
   dvec3 mean(0);
   for (const dvec3& p : crossings) mean += outwardAt(field, p);
@@ -55,7 +55,7 @@ bool isFlatEnough(const std::vector<dvec3>& crossings, const BlobField& field) {
 
 class Contourer {
  public:
-  /// coarser: cells may be so many times larger than the features ask for.
+  /// coarser: factor by which cells may be larger than the features require.
   Contourer(const BlobField& field, const Box& box, double coarser)
       : origin_(box.lo),
         cellsOfFeature_(kCellsOfFeature / coarser),
@@ -69,14 +69,14 @@ class Contourer {
     refine(0, field);
   }
 
-  /// How many times larger cells must be at least for the surface to fit, going by how much of the box was done when
-  /// there were too many: a surface has a quarter of the cells when they are twice as large.
+  /// Least factor on the cells for the surface to fit, estimated from the share of the box that was done when there
+  /// were too many: a surface has a quarter of the cells when they are twice as large.
   double wantedCoarsening() const {
     return std::clamp(std::sqrt(std::pow(unit_ * cells_[0].size, 3) / std::max(done_, 1e-300)), kLeastCoarsening,
                       kMostCoarsening);
   }
 
-  /// Nothing: it takes too many cells.
+  /// Empty: it takes too many cells.
   std::optional<BlobMesh> run() {
     if (cells_.size() > mostCells_) return {};
     for (uint32_t k = 0; k < cells_.size(); ++k)
@@ -129,8 +129,8 @@ class Contourer {
     for (uint32_t k = 0; k < 8; ++k) refine(first + k, field);
   }
 
-  /// An edge leaves what is inside and comes back, or the other way round: leaves nearly touch. Both cells at an edge
-  /// ask the same.
+  /// Does an edge leave the inside and come back, or the reverse? Then leaves nearly touch. Both cells at an edge get
+  /// the same answer.
   bool hidesGap(const Cell& cell, const BlobField& field) const {
     constexpr int kStretches = 4;
     if (field.leavesUsed() < 2) return false;
@@ -147,7 +147,7 @@ class Contourer {
     return false;
   }
 
-  /// About where the surface meets the cell's edges.
+  /// Approximate points where the surface meets the cell's edges.
   std::vector<dvec3> crossingsOf(const Cell& cell, const BlobField& field) const {
     std::vector<dvec3> out;
     for (int a = 0; a < 8; ++a)
@@ -161,12 +161,13 @@ class Contourer {
     return out;
   }
 
-  /// In the middle of the crossings, then moved onto the surface.
+  /// Places the vertex in the middle of the crossings, and moves it onto the surface.
   void makeVertex(uint32_t index, const std::vector<dvec3>& crossings, const BlobField& field) {
     Cell& cell = cells_[index];
     dvec3 sum(0);
     for (const dvec3& p : crossings) sum += p;
-    // A cell without a crossing of its own has a vertex too: a smaller neighbour may see one on their common edge.
+    // A cell without a crossing of its own has a vertex too: a smaller neighbour may find a crossing on their common
+    // edge.
     const Box box = boxOf(cell);
     const dvec3 start = crossings.empty() ? 0.5 * (box.lo + box.hi) : sum / static_cast<double>(crossings.size());
     const double reach = 2 * unit_ * cell.size;
@@ -176,7 +177,7 @@ class Contourer {
     out_.vertices.push_back({vec3(p), vec3(outwardAt(field, p)), static_cast<float>(reach)});
   }
 
-  /// The smallest cell around a point, given in halves of finest cells so that none lies on a face.
+  /// The smallest cell around a point, given in halves of finest cells so that no point lies on a face.
   uint32_t cellAround(const Lattice& halves) const {
     uint32_t index = 0;
     while (cells_[index].firstChild != 0) {
@@ -198,8 +199,8 @@ class Contourer {
       }
   }
 
-  /// The quadrilateral across an edge of a cell, from corner `a` along `axis`, if no smaller cell has the edge: of
-  /// cells of the same size the first adds it.
+  /// Adds the quadrilateral across an edge of a cell, from corner `a` along `axis`, if no smaller cell has the edge;
+  /// among cells of the same size the first adds it.
   void addQuad(uint32_t index, int axis, int a) {
     const Cell& cell = cells_[index];
     const int y = (axis + 1) % 3, z = (axis + 2) % 3;
@@ -216,7 +217,7 @@ class Contourer {
     }
     BlobQuad quad;
     for (int k = 0; k < 4; ++k) quad.corners[k] = static_cast<uint32_t>(cells_[around[k]].vertex);
-    // Corners as they are run counter-clockwise about the axis, which leads outward if it begins inside.
+    // The corners run counter-clockwise about the axis, which leads outward if it begins inside.
     if (!(cell.inside >> a & 1)) std::swap(quad.corners[1], quad.corners[2]);
     const auto& c = quad.corners;
     if (c[0] != c[3] && c[1] != c[2]) out_.quads.push_back(quad);
@@ -226,7 +227,7 @@ class Contourer {
   const double cellsOfFeature_;
   const size_t mostCells_;
   double unit_;
-  double done_ = 0;  ///< Volume of the box that needs no more cells.
+  double done_ = 0;  ///< Volume of the part of the box that needs no more cells.
   std::vector<Cell> cells_;
   BlobMesh out_;
 };
@@ -244,7 +245,7 @@ std::optional<double> meetSurface(const BlobField& field, const dvec3& p, const 
   double value = at(0, slope);
   if (value == 0) return 0.0;
   const double step = std::copysign(reach / kSteps, value);
-  double near = 0, far = 0;  // the surface lies between
+  double near = 0, far = 0;  // the surface lies between them
   const bool inside = value > 0;
   for (int k = 1; k <= kSteps && far == 0; ++k) {
     const double t = k * step;

@@ -1,5 +1,5 @@
-// Curves as they come in RIB (RISpec 3.2, Curves): every segment is a cubic Bezier curve with a width.
-// Private to the primitives.
+// Private to the primitives: the curves of a request (RISpec 3.2, Curves): every segment is a cubic Bezier curve with a
+// width.
 #pragma once
 #include <array>
 
@@ -24,14 +24,14 @@ template <class T>
 T curvatureAt(const Cubic<T>& c, float t) {
   return 6.0f * ((1 - t) * (c[2] - 2.0f * c[1] + c[0]) + t * (c[3] - 2.0f * c[2] + c[1]));
 }
-/// The piece over [t0, t1].
+/// The piece of the curve over [t0, t1].
 Cubic<vec4> piece(const Cubic<vec4>& c, float t0, float t1);
 
 struct CurveSegment {
-  uint32_t curve, number, of;        ///< Which segment of how many of its curve.
-  std::array<uint32_t, 2> corners;   ///< Numbers of its varying values,
-  std::array<uint32_t, 4> controls;  ///< and of its vertices; a line has two.
-  bool first, last;                  ///< At a loose end.
+  uint32_t curve, number, of;        ///< Number of the segment in its curve, which has `of` segments.
+  std::array<uint32_t, 2> corners;   ///< Numbers of its varying values.
+  std::array<uint32_t, 4> controls;  ///< Numbers of its vertices; a line has two.
+  bool first, last;                  ///< It is at a loose end.
 };
 
 /// The segments of a Curves request, their primvars and their centre lines.
@@ -46,26 +46,26 @@ class CurveSegments {
 
   /// Position and width.
   const Cubic<vec4>& line(size_t k) const { return lines_[k]; }
-  /// Along a segment, not normalised, and its slope by v; never zero for a segment with a length. At a vertex
-  /// of a polyline it is the mean of two directions, so that neighbours meet.
+  /// Direction along a segment, not normalised, and its derivative by v; never zero for a segment with a length. At a
+  /// vertex of a polyline it is the mean of two directions, so that neighbours meet.
   void direction(size_t k, float v, vec3& along, vec3& slope) const;
   bool cubic() const { return cubic_; }
-  /// The segment before or after it in its curve. Pre: it has one there.
+  /// The segment before or after it in its curve. Pre: there is one.
   size_t neighbour(size_t k, bool after) const {
     const CurveSegment& s = segments_[k];
     return k - s.number + (s.number + (after ? 1 : s.of - 1)) % s.of;
   }
-  /// Of a polyline: a segment's unit direction (0 if it has no length), and at its ends the means with its
-  /// neighbours'.
+  /// Unit direction of a polyline's segment (0 if it has no length). mitres() are the means with the directions of its
+  /// neighbours, at its two ends.
   vec3 chord(size_t k) const;
   const std::array<vec3, 2>& mitres(size_t k) const { return mitres_[k]; }
   /// A primvar's first three components along each segment.
   std::vector<Cubic<vec3>> along(const Primvar& var) const;
 
-  /// Of a primvar: see Prim::interpolate; u does not matter.
+  /// Interpolates a primvar as Prim::interpolate() does; u does not matter.
   void interpolate(const Primvar& var, size_t k, int n, const float* v, float* out, int stride) const;
 
-  /// Those of the request. They are the owner's to take.
+  /// Primvars of the request, which the owner moves out.
   std::vector<Primvar> primvars;
 
   size_t bytes() const;

@@ -15,8 +15,8 @@ struct Vectors {
   void set(int i, const vec3& v) const { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
 };
 
-/// Cross sections of a ribbon: the unit vector `side`, and `up`, towards where it faces; slopes are by v. Memory is
-/// kept by the thread.
+/// Cross sections of a ribbon: the unit vector `side`, and `up`, to which it faces; slopes are derivatives by v. The
+/// memory is kept by the thread.
 class Sections {
  public:
   explicit Sections(int count) : stride_(static_cast<size_t>(padded(count))) {
@@ -37,7 +37,7 @@ class Sections {
   float* next_;
 };
 
-/// valueAt, slopeAt and curvatureAt of one component.
+/// Computes valueAt, slopeAt and curvatureAt of one component.
 TOMALES_HOT void cubicAt(const float* c, int n, const float* v, float* __restrict value, float* __restrict slope,
                          float* __restrict curvature) {
 #pragma GCC ivdep
@@ -55,7 +55,7 @@ void cubicAt(const Cubic<V>& line, int component, int n, const float* v, float* 
   cubicAt(c, n, v, value, slope, curvature);
 }
 
-/// Sets sides from along and up. What is seen along its own direction gets a side of length 0.
+/// Sets sides from along and up. A ribbon that is seen along its own direction gets a side of length 0.
 TOMALES_HOT void turnSides(int n, const Sections& c) {
   const Vectors a = c.along, as = c.alongSlope, u = c.up, us = c.upSlope, side = c.side, ss = c.sideSlope;
 #pragma GCC ivdep
@@ -75,7 +75,7 @@ TOMALES_HOT void turnSides(int n, const Sections& c) {
   }
 }
 
-/// Points of a ribbon; section[i]: where point i is across.
+/// Computes points of a ribbon; section[i] is the cross section of point i.
 TOMALES_HOT void spread(int n, const float* u, const int* section, const Sections& c, const SurfacePoints& out) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
@@ -89,7 +89,7 @@ TOMALES_HOT void spread(int n, const float* u, const int* section, const Section
     const float nx = duy * dvz - dvy * duz, ny = duz * dvx - dvz * dux, nz = dux * dvy - dvx * duy;
     const bool turns = nx * nx + ny * ny + nz * nz >
                        1e-12f * (dux * dux + duy * duy + duz * duz) * (dvx * dvx + dvy * dvy + dvz * dvz);
-    // What has no width or length still faces somewhere.
+    // A ribbon without width or length still needs a normal.
     const float ux = c.up.x[k], uy = c.up.y[k], uz = c.up.z[k], lean = sx * ux + sy * uy + sz * uz;
     const float fx = ux - sx * lean, fy = uy - sy * lean, fz = uz - sz * lean, facing2 = fx * fx + fy * fy + fz * fz;
     const bool faces = facing2 > 0.0f && facing2 < kInfinity;
@@ -134,7 +134,7 @@ class Ribbons : public Prim {
   }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
-    // Lattices run across the ribbon: points that follow each other share a section.
+    // Lattices run across the ribbon: successive points share a section.
     static thread_local std::vector<int> section;
     section.resize(static_cast<size_t>(n));
     Sections sections(n);
@@ -160,7 +160,7 @@ class Ribbons : public Prim {
   }
 
  private:
-  /// From their v.
+  /// Computes the sections at their v.
   void setSections(uint32_t patch, int n, const Sections& c) const {
     const Cubic<vec4>& line = segments_.line(patch);
     cubicAt(line, 0, n, c.v, c.center.x, c.slope.x, c.alongSlope.x);
@@ -186,8 +186,8 @@ class Ribbons : public Prim {
     }
   }
 
-  /// Where two segments of a polyline meet: what lies on the bisector of their sides, so long that both are as wide
-  /// there as elsewhere (but no longer than 3), as a part that lies across the segment and one along it.
+  /// The mitre where two segments of a polyline meet, in parts across the segment and along it. It lies on the bisector
+  /// of their sides and is so long that both segments keep their width there, but no longer than 3.
   struct Mitre {
     float across = 1, along = 0;
     float length() const { return std::hypot(across, along); }
@@ -223,7 +223,7 @@ class Ribbons : public Prim {
     }
   }
 
-  /// Where the ribbon faces.
+  /// Sets the direction to which the ribbon faces.
   void setUp(uint32_t patch, int n, const Sections& c) const {
     const bool oriented = !normals_.empty();
     if (oriented) {

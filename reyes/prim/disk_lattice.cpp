@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-// Half a sine for each side of the polygon.
+// The sum takes half a sine for each side of the polygon.
 double latticeDiskArea(int nu, int nv) {
   const auto quarter = [](int n) {
     double area = 0, last = -M_PI / 4;
@@ -28,7 +28,7 @@ double latticeDiskArea(int nu, int nv) {
   return 2 * (known(nu) + known(nv));
 }
 
-// The square -1..1 onto the disk without a seam (elliptical grid mapping: P. Nowell 2005).
+// Maps the square -1..1 to the disk without a seam (elliptical grid mapping: P. Nowell 2005).
 TOMALES_HOT void evaluateDisk(const Disk& disk, int n, const float* u, const float* v, const SurfacePoints& out) {
   const float r = disk.radius;
   const vec3 c = disk.center, s = disk.tangent, t = disk.bitangent;

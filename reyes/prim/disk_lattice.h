@@ -1,4 +1,4 @@
-// Disks as lattices. Private to the primitives.
+// Private to the primitives: disks as lattices.
 #pragma once
 #include "reyes/prim.h"
 
@@ -12,10 +12,10 @@ struct Disk {
 /// Area of the polygon that a lattice of nu x nv makes of the unit disk.
 double latticeDiskArea(int nu, int nv);
 
-/// The disk over the unit square, without a seam; derivatives are parallel at the four corners only.
+/// Evaluates the disk over the unit square, without a seam; derivatives are parallel only at the four corners.
 void evaluateDisk(const Disk& disk, int n, const float* u, const float* v, const SurfacePoints& out);
 
-/// The same at the four corners, which lie farther from the centre by `more` of their distance.
+/// The same at the four corners, moved away from the centre by `more` of their distance.
 void evaluateDot(const Disk& disk, float more, const SurfacePoints& out);
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// Which edges of a mesh join two faces. Private to the primitives.
+// Private to the primitives: finds the edges of a mesh that join two faces.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -9,19 +9,19 @@ namespace tomales {
 
 class EdgeFaces {
  public:
-  /// Sizes and indices that requireFaces has passed.
+  /// Sizes and indices must have passed requireFaces().
   EdgeFaces(const std::vector<int>& vertexCounts, const std::vector<int>& vertices) {
     const int most = vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
     end_.assign(static_cast<size_t>(most) + 2, 0);
     forSides(vertexCounts, vertices, [&](int a, int) { ++end_[static_cast<size_t>(a) + 1]; });
     std::partial_sum(end_.begin(), end_.end(), end_.begin());
     others_.resize(vertices.size());
-    // Filling moves each list's end, kept one place early, to where it belongs.
+    // Filling moves each list's end, which began one place early, to its final place.
     forSides(vertexCounts, vertices, [&](int a, int b) { others_[end_[static_cast<size_t>(a)]++] = b; });
     for (int a = 0; a <= most; ++a) std::sort(others_.begin() + firstOf(a), others_.begin() + lastOf(a));
   }
 
-  /// Faces at the edge between vertices a and b; 0 if there is no such edge.
+  /// Number of faces at the edge between vertices a and b; 0 if there is no such edge.
   int count(int a, int b) const {
     if (a > b) std::swap(a, b);
     if (a < 0 || static_cast<size_t>(a) + 1 >= end_.size()) return 0;
@@ -30,7 +30,7 @@ class EdgeFaces {
   }
 
  private:
-  /// f(lesser vertex, greater one) for every side of every face.
+  /// Calls f(lesser vertex, greater one) for every side of every face.
   template <class F>
   static void forSides(const std::vector<int>& vertexCounts, const std::vector<int>& vertices, const F& f) {
     size_t first = 0;
@@ -46,9 +46,8 @@ class EdgeFaces {
   ptrdiff_t firstOf(int a) const { return a > 0 ? static_cast<ptrdiff_t>(end_[static_cast<size_t>(a) - 1]) : 0; }
   ptrdiff_t lastOf(int a) const { return static_cast<ptrdiff_t>(end_[static_cast<size_t>(a)]); }
 
-  std::vector<int>
-      others_;  // of vertex after vertex: the greater ends of its sides, sorted, an edge as often as faces have it
-  std::vector<size_t> end_;  // of a vertex's others
+  std::vector<int> others_;  // by vertex: the greater ends of its sides, sorted, each as often as faces have the edge
+  std::vector<size_t> end_;  // by vertex: end of its list
 };
 
 }  // namespace tomales

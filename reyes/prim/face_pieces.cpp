@@ -20,7 +20,7 @@ bool allTurnsAtLeast(const std::vector<Point2>& p, double least) {
   return true;
 }
 
-/// A polygon that turns one way only may still go around several times, like a pentagram.
+/// Does the polygon go around once? A polygon that turns one way only may go around several times, like a pentagram.
 bool goesAroundOnce(const std::vector<Point2>& p) {
   double angle = 0;
   for (size_t i = 0; i < p.size(); ++i) {
@@ -30,7 +30,7 @@ bool goesAroundOnce(const std::vector<Point2>& p) {
   return angle < 3 * M_PI;
 }
 
-/// Points by place, about one a cell, so that a small triangle meets few of them.
+/// Points in a grid with about one point in each cell, so that a small triangle tests few of them.
 class PointGrid {
  public:
   PointGrid(const std::vector<Point2>& p) : p_(p), lo_(p.at(0)) {
@@ -45,7 +45,7 @@ class PointGrid {
 
   void remove(int i) { std::erase(cellOf(p_[static_cast<size_t>(i)]), i); }
 
-  /// Does any point, by its number, satisfy a condition that only those in the box can?
+  /// Does any point, given by its number, satisfy a condition that only points in the box can satisfy?
   template <class Condition>
   bool any(const Point2& lo, const Point2& hi, const Condition& condition) const {
     for (int row = index(lo, 1); row <= index(hi, 1); ++row)
@@ -67,10 +67,10 @@ class PointGrid {
   std::vector<std::vector<int>> cells_;
 };
 
-/// Cuts corners off that are ears at all keys; where there is none, those of the first key.
+/// Cuts off corners that are ears at all keys; where there is none, ears of the first key.
 class EarClipper {
  public:
-  /// Begins to look for ears at position `start`.
+  /// The search for ears begins at position `start`.
   EarClipper(const Outlines& keys, int start)
       : p_(keys), left_(keys.begin(), keys.end()), count_(keys[0].size()), next_(start) {
     for (size_t i = 0; i < count_; ++i)
@@ -86,7 +86,7 @@ class EarClipper {
     return std::move(out_);
   }
 
-  /// Nothing as soon as there is no common ear.
+  /// Empty as soon as there is no common ear.
   std::optional<Pieces> clipAlike() {
     while (count_ > 3) {
       cut(findEar());
@@ -107,7 +107,7 @@ class EarClipper {
     return false;
   }
 
-  /// A corner between edges that lie on each other encloses nothing.
+  /// Is the corner a spike? Its edges lie on each other and enclose nothing.
   bool isSpike(int i) const {
     for (size_t key = 0; key < p_.size(); ++key)
       if (area(key, i) != 0 || glm::dot(at(key, before(i)) - at(key, i), at(key, after(i)) - at(key, i)) < 0)
@@ -115,8 +115,8 @@ class EarClipper {
     return true;
   }
 
-  /// Is vertex i in the triangle abc? Where the outline touches itself, one at a corner of the triangle is if
-  /// an edge of it goes inside.
+  /// Is vertex i in the triangle abc? Where the outline touches itself, a vertex at a corner of the triangle counts if
+  /// one of its edges goes inside.
   bool isWithin(size_t key, int i, const std::array<Point2, 3>& abc) const {
     const Point2& p = at(key, i);
     for (size_t k = 0; k < 3; ++k) {
@@ -135,7 +135,7 @@ class EarClipper {
     });
   }
 
-  /// A corner without area takes nothing from the key that it has none at.
+  /// Is the corner an ear at all keys? At a key where it has no area it takes nothing away.
   bool isEar(int i) const {
     for (size_t key = 0; key < p_.size(); ++key)
       if (area(key, i) != 0 && !isEar(key, i)) return false;
@@ -150,7 +150,8 @@ class EarClipper {
     return {};
   }
 
-  /// The first true ear after the last one cut; failing that a corner without area, failing that the biggest.
+  /// The first true ear after the last one that was cut; failing that a corner without area; failing that the largest
+  /// corner.
   int findEar() {
     if (out_.disjoint)
       if (const auto ear = firstCorner([&](int i) { return isEar(i); })) return *ear;
@@ -184,7 +185,7 @@ class EarClipper {
     --count_;
   }
 
-  /// At once: a corner at the foot of a spike looks like an ear.
+  /// Spikes are dropped at once, because a corner at the foot of a spike looks like an ear.
   void dropSpikes() {
     while (!suspects_.empty()) {
       const int i = suspects_.back();
@@ -196,10 +197,10 @@ class EarClipper {
   }
 
   const Outlines& p_;
-  std::vector<PointGrid> left_;  ///< By key.
+  std::vector<PointGrid> left_;  ///< Indexed by key.
   size_t count_;
-  std::vector<int> before_, after_;  ///< Of those that are left.
-  std::vector<int> suspects_;        ///< May have become spikes.
+  std::vector<int> before_, after_;  ///< Neighbours among the corners that are left.
+  std::vector<int> suspects_;        ///< Corners that may have become spikes.
   int next_;
   Pieces out_;
 };
@@ -249,7 +250,7 @@ Pieces convexPieces(const Outlines& keys) {
     std::iota(whole.begin(), whole.end(), 0);
     return {{whole}};
   }
-  // Which ears are common to all keys depends on those that have been cut before.
+  // The set of common ears depends on the ears that have been cut before.
   const size_t tries = keys.size() > 1 ? std::min({n, kMostTries, kMostTriedCorners / n}) : 0;
   for (size_t start = 0; start < tries; ++start)
     if (std::optional<Pieces> pieces = EarClipper(keys, static_cast<int>(start)).clipAlike()) return *std::move(pieces);

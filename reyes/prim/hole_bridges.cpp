@@ -1,5 +1,5 @@
-// D. Eberly, "Triangulation by ear clipping" (2002), section 5: from the rightmost vertex of a hole a ray to
-// the right meets an edge, and near that edge there is a corner that the vertex sees.
+// Method: D. Eberly, "Triangulation by ear clipping" (2002), section 5. A ray to the right from the rightmost vertex of
+// a hole meets an edge, and near that edge there is a corner that the vertex sees.
 #include "reyes/prim/hole_bridges.h"
 
 #include <numeric>
@@ -10,10 +10,11 @@ namespace {
 
 using Walk = std::vector<int>;
 
-// Pairs of a hole's vertex and a corner that are tried where the bridge of the first key will not do.
+// Greatest number of pairs of a hole's vertex and a corner that are tried where the bridge of the first key is not
+// clear.
 constexpr size_t kMostPairs = 10'000;
 
-/// Does p lie on the way from a to b, ends excepted?
+/// Does p lie between a and b, but on neither?
 bool liesBetween(const Point2& a, const Point2& b, const Point2& p) {
   return p != a && p != b && turn(a, b, p) == 0 && glm::dot(p - a, p - b) < 0;
 }
@@ -27,8 +28,8 @@ class Bridger {
   Bridger(const Outlines& keys, Walk outline)
       : keys_(keys), p_(keys[0]), walk_(std::move(outline)), shared_(shared(keys[0])) {}
 
-  /// The hole goes clockwise and begins with its rightmost vertex; `later` are those that will be added behind it.
-  /// False: it lies outside.
+  /// Adds a hole that goes clockwise and begins with its rightmost vertex; `later` are the holes to be added after it.
+  /// Returns false if it lies outside.
   bool add(Walk hole, std::span<const Walk> later) {
     int at = findContact(hole);
     if (at < 0) at = findCorner(p_[hole[0]]);
@@ -47,7 +48,7 @@ class Bridger {
   const Point2& corner(int i) const { return p_[walk_[(i + size()) % size()]]; }
 
   static bool isLess(const Point2& a, const Point2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
-  /// Places where there are several points, in order.
+  /// Positions that several points share, sorted.
   static std::vector<Point2> shared(std::vector<Point2> p) {
     std::sort(p.begin(), p.end(), isLess);
     std::vector<Point2> out;
@@ -56,8 +57,8 @@ class Bridger {
     return out;
   }
 
-  /// Position in the walk of a corner that the hole touches from inside, the hole turned to begin there; -1
-  /// if there is none. Another bridge might cross the walk where it passes between the two.
+  /// Finds the position in the walk of a corner that the hole touches from inside, and turns the hole to begin there;
+  /// -1 if there is none. Any other bridge might cross the walk where it passes between the two.
   int findContact(Walk& hole) const {
     for (size_t k = 0; k < hole.size(); ++k) {
       const Point2& m = p_[hole[k]];
@@ -72,7 +73,7 @@ class Bridger {
     return -1;
   }
 
-  /// Position in the walk of a corner that m can be joined to; -1 if there is none.
+  /// Position in the walk of a corner to which m can be joined; -1 if there is none.
   int findCorner(const Point2& m) const {
     double hit = kInfinity;
     int edge = -1;
@@ -85,8 +86,8 @@ class Bridger {
     return edge < 0 ? -1 : nearestToRay(m, {hit, m.y}, edge);
   }
 
-  /// Of the corners in the triangle between m, the hit and the hit edge's right end, the one that lies
-  /// nearest in angle to the ray hides all the others.
+  /// Among the corners in the triangle between m, the hit and the right end of the hit edge, the one that is nearest in
+  /// angle to the ray hides all others.
   int nearestToRay(const Point2& m, const Point2& hit, int edge) const {
     const int end = (corner(edge).x > corner(edge + 1).x ? edge : edge + 1) % size();
     const Point2& far = corner(end);
@@ -100,19 +101,19 @@ class Bridger {
     return best;
   }
 
-  /// Nearer in angle to the ray from m to the right; at the same angle, nearer.
+  /// Is a nearer in angle to the ray from m to the right than b, or at the same angle nearer?
   static bool before(const Point2& m, const Point2& a, const Point2& b) {
     const Point2 x = glm::abs(a - m), y = glm::abs(b - m);
     const double slopes = x.y * y.x - y.y * x.x;
     return slopes != 0 ? slopes < 0 : x.x < y.x;
   }
 
-  /// m lies towards the inside from corner i: tells the copies of a corner apart that bridges have made.
+  /// Does m lie towards the inside from corner i? This tells the copies of a corner apart that bridges have made.
   bool sees(int i, const Point2& m) const { return sees(p_, i, m); }
   bool sees(const std::vector<Point2>& p, int i, const Point2& m) const {
     const auto at = [&](int k) { return p[walk_[(k + size()) % size()]]; };
     const Point2 b = at(i);
-    int before = i - 1, after = i + 1;  // over bridges of no length
+    int before = i - 1, after = i + 1;  // passes bridges of no length
     while (at(before) == b && before > i - size()) --before;
     while (at(after) == b && after < i + size()) ++after;
     const Point2 a = at(before), c = at(after);
@@ -140,8 +141,8 @@ class Bridger {
     return true;
   }
 
-  /// The first clear bridge, the hole turned to begin with its vertex; `fallback` and the hole as it was if there is
-  /// none.
+  /// Returns the position of the first clear bridge, and turns the hole to begin with its vertex. If there is none, it
+  /// returns `fallback` and leaves the hole.
   int findClear(Walk& hole, int fallback, std::span<const Walk> later) {
     Walk turned = hole;
     if (hole.size() * walk_.size() <= kMostPairs)
@@ -153,7 +154,7 @@ class Bridger {
   }
 
   const Outlines& keys_;
-  const std::vector<Point2>& p_;  ///< Of the first key.
+  const std::vector<Point2>& p_;  ///< Points of the first key.
   Walk walk_;
   const std::vector<Point2> shared_;
   bool simple_ = true;
@@ -180,7 +181,7 @@ BridgedOutline bridgeHoles(const Outlines& keys, const std::vector<int>& loopSta
     if (k) std::rotate(loop.begin(), std::max_element(loop.begin(), loop.end(), lefter), loop.end());
     loops.push_back(std::move(loop));
   }
-  // From right to left, so that no later hole is in the way of a bridge.
+  // Holes are added from right to left, so that no later hole is in the way of a bridge.
   std::stable_sort(loops.begin() + 1, loops.end(), [&](const Walk& a, const Walk& b) { return p[a[0]].x > p[b[0]].x; });
   Bridger bridger(keys, loops[0]);
   BridgedOutline out;

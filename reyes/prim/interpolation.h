@@ -1,4 +1,4 @@
-// Arithmetic that several primitives share. Private to the primitives.
+// Private to the primitives: arithmetic that several of them share.
 #pragma once
 #include <array>
 
@@ -9,28 +9,28 @@ namespace tomales {
 /// Element numbers at a patch's corners (u,v) = (0,0), (1,0), (0,1), (1,1): RISpec's order.
 using Corners = std::array<uint32_t, 4>;
 
-/// Component c of point i goes to out[c * stride + i]. Weights are (1-u) and u, so that both sides of an edge
-/// that is walked in opposite directions add the same two products.
+/// Writes component c of point i to out[c * stride + i]. Weights are (1-u) and u, so that both sides of an edge, which
+/// run in opposite directions, add the same two products.
 void interpolateBilinear(const float* values, int width, const Corners& corners, int n, const float* u, const float* v,
                          float* out, int stride);
 
 /// Repeats one element n times.
 void repeatElement(const float* element, int width, int n, float* out, int stride);
 
-/// True if the primvar has one value all over a patch (storage constant, or uniform: then that of element `uniform`),
-/// which now fills `out`.
+/// If the primvar has one value all over a patch (storage constant, or uniform: that of element `uniform`), fills `out`
+/// with it and returns true.
 bool repeatIfEven(const Primvar& var, size_t uniform, int n, float* out, int stride);
 
 /// Fills positions and derivatives, and normals as their cross product.
 void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v, SurfacePoints out);
 
-/// Of the rectangle: four corners are the hull of a piece of a bilinear patch.
+/// Bound over the rectangle: four corners are the hull of a piece of a bilinear patch.
 Bound3 boundBilinear(const std::array<vec3, 4>& corners, const UvRect& rect);
 
-/// normals = dPdu x dPdv.
+/// Sets the normals to dPdu x dPdv.
 void crossDerivatives(int n, SurfacePoints points);
 
-/// Covers the rounding of arithmetic on numbers as big as the coordinates of `whole`.
+/// Grows a bound by the rounding of arithmetic on numbers as large as the coordinates of `whole`.
 Bound3 paddedForRounding(const Bound3& bound, const Bound3& whole);
 
 inline void setFrame(SurfacePoints points, int i, const vec3& p, const vec3& du, const vec3& dv) {

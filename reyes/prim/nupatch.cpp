@@ -1,4 +1,4 @@
-// Non-uniform rational B-spline surfaces (RISpec section 5.2): one patch a pair of knot intervals.
+// Non-uniform rational B-spline surfaces (RISpec section 5.2), with one patch for each pair of knot intervals.
 #include <fmt/format.h>
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-/// A direction as it is drawn.
+/// One direction of the surface, over the range that is drawn.
 struct Side {
   int controls, order;
   std::vector<BezierSpan> spans;
@@ -21,7 +21,7 @@ struct Side {
   double weight(int span, int bezier, int control) const {
     return spans[static_cast<size_t>(span)].weights[static_cast<size_t>(bezier * order + control)];
   }
-  /// The whole range runs from 0 to 1.
+  /// Parameter of the surface, which runs from 0 to 1 over the whole range.
   float parameter(int span, float t) const {
     const BezierSpan& s = spans[static_cast<size_t>(span)];
     return (lerp(s.begin, s.end, t) - spans.front().begin) / (spans.back().end - spans.front().begin);
@@ -136,8 +136,8 @@ class NuPatch : public Prim {
     return points;
   }
 
-  /// An edge is closed if it is a point, or if it is the opposite edge of the patch next to it, around the
-  /// surface whether or not it is meant to close: a NURBS has no other way to say so.
+  /// An edge is closed if it is a point, or if it equals the opposite edge of the next patch, also around the ends of
+  /// the surface: a NURBS has no other way to say that it closes.
   uint8_t findOpenEdges(uint32_t patch) const {
     const auto patchAt = [&](int i, int j) {
       return static_cast<uint32_t>((j + v_.patches()) % v_.patches() * u_.patches() +

@@ -27,9 +27,8 @@ void requireBSpline(const NurbsDirection& line, const char* name) {
   if (!std::isfinite(line.min) || !std::isfinite(line.max)) refuse(name, "the range is not finite");
 }
 
-/// Weights of a span's controls in its polar form at `arguments`, one a degree (de Boor's recursion
-/// backwards; L. Ramshaw, "Blossoms are polar forms", 1989). knots[0] and knots[1] are those before and after
-/// the span.
+/// Weights of a span's controls in its polar form at `arguments`, of which there are `degree` (de Boor's recursion
+/// backwards; L. Ramshaw, "Blossoms are polar forms", 1989). knots[0] and knots[1] are those before and after the span.
 void polarWeights(const float* knots, int degree, const double* arguments, double* weights) {
   std::fill_n(weights, degree, 0.0);
   weights[degree] = 1;
@@ -57,7 +56,7 @@ BezierSpan makeSpan(const NurbsDirection& line, int segment, float begin, float 
   return span;
 }
 
-/// Begins `next` with the weights that `last` ends with: they are the same but for rounding, and those of the
+/// Sets the first weights of `next` to the last ones of `last`: they are the same except for rounding, and weights of
 /// controls that only one of the two has are zero.
 void join(const BezierSpan& last, BezierSpan& next, int order) {
   const int shift = next.segment - last.segment;
@@ -77,7 +76,7 @@ void bernstein(int degree, double t, double* value, double* derivative) {
   }
 }
 
-/// Controls of the curve's piece over [t0, t1], in place at c, c + step, ... (blossoming).
+/// Computes controls of the curve's piece over [t0, t1], in place at c, c + step, ... (blossoming).
 void restrictCurve(glm::dvec4* c, int step, int order, double t0, double t1) {
   glm::dvec4 piece[kHighestOrder], d[kHighestOrder];
   for (int k = 0; k < order; ++k) {
@@ -107,7 +106,7 @@ std::vector<BezierSpan> bezierSpans(const NurbsDirection& line, const char* name
     const float begin = std::max(low, line.knots[k]), end = std::min(high, line.knots[k + 1]);
     if (!(begin < end)) continue;
     BezierSpan span = makeSpan(line, static_cast<int>(k - first), begin, end);
-    // As many equal knots as the order let the curve jump.
+    // If the order many knots are equal, the curve may jump.
     if (!spans.empty() && span.segment - spans.back().segment < line.order) join(spans.back(), span, line.order);
     spans.push_back(std::move(span));
   }

@@ -1,4 +1,4 @@
-// NURBS as rational Bezier pieces of any order. Private to NuPatch and to patch meshes with weights.
+// Private to NuPatch and to patch meshes with weights: NURBS as rational Bezier pieces of any order.
 #pragma once
 #include "reyes/prim.h"
 
@@ -8,15 +8,15 @@ constexpr int kHighestOrder = 32;
 
 /// A knot interval that is not empty, cut to the range that is drawn, as a piece of a Bezier curve.
 struct BezierSpan {
-  int segment;                  ///< Empty intervals count too. Its controls are number segment, segment + 1, ... in all
-                                ///< `order`.
+  /// Number of the interval, empty ones included. Its controls are number segment, segment + 1, ..., `order` of them.
+  int segment;
   float begin, end;             ///< Knot values.
   float cornerFrom, cornerTo;   ///< The same as fractions of the knot interval.
-  std::vector<double> weights;  ///< Row k of `order`: those of the controls in Bezier control k.
+  std::vector<double> weights;  ///< Row k of `order` holds the weights of the controls in Bezier control k.
 };
 
-/// Checks one direction; throws PrimError if it is no B-spline. Spans that meet without a jump have the same
-/// weights, to the bit, where they meet.
+/// Checks one direction; throws PrimError if it is no B-spline. Spans that meet without a jump have the same weights,
+/// to the bit, where they meet.
 std::vector<BezierSpan> bezierSpans(const NurbsDirection& line, const char* name, Problems& problems);
 
 /// Homogeneous controls, u fastest; not owned.
@@ -30,14 +30,14 @@ struct RationalPoint {
 };
 
 RationalPoint evaluateRational(const RationalNet& net, double u, double v);
-/// Where the derivatives do not span a plane, their product no longer than `degenerate`, the normal is that a little
-/// way towards the middle.
+/// Evaluates a patch. Where the derivatives do not span a plane, because their product is no longer than `degenerate`,
+/// the normal is that of a point slightly nearer to the middle.
 void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v,
                       const SurfacePoints& out);
 
-/// A vertex variable, weighted like the positions, so that values stay where they are on the surface. `convert` appends
-/// to its second argument the Bezier controls of the patch made of homogeneous controls, which its first gives by their
-/// number.
+/// Interpolates a vertex variable, weighted like the positions, so that values stay where they are on the surface.
+/// `convert` appends the Bezier controls of the patch to its second argument; its first gives homogeneous controls by
+/// their number.
 template <class Convert>
 void interpolateRational(const Primvar& var, const std::vector<vec4>& controls, int uOrder, int vOrder,
                          const Convert& convert, int n, const float* u, const float* v, float* out, int stride) {
@@ -58,7 +58,7 @@ void interpolateRational(const Primvar& var, const std::vector<vec4>& controls, 
   }
 }
 
-/// The controls of the piece over the rectangle contain it. Pre: weights are positive.
+/// The bound of the controls of the piece over the rectangle, which contains it. Pre: weights are positive.
 Bound3 boundRational(const RationalNet& net, const UvRect& rect);
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// Bilinear and bicubic patch meshes (RISpec section 5.2). A Patch is a mesh of one.
+// Bilinear and bicubic patch meshes (RISpec section 5.2). A Patch is a mesh of one patch.
 #include <fmt/format.h>
 
 #include "reyes/prim/patch_mesh.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr ToBezier kAsTheyAre{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
-/// `span` control points make one patch. Throws where RISpec's counts do not come out.
+/// `span` control points make one patch. Throws PrimError if RISpec's counts do not match.
 Direction directionOf(const char* name, int controls, bool periodic, int span, int step) {
   if (step < 1) throw PrimError(fmt::format("the {} step of the basis is {}", name, step));
   if (controls < span)

@@ -1,4 +1,4 @@
-// What all patch meshes share: how controls and values are counted, and which edges meet. Private to them.
+// Private to patch meshes: how controls and values are counted, and which edges meet.
 #pragma once
 #include "reyes/prim/bicubic.h"
 #include "reyes/prim/interpolation.h"
@@ -9,7 +9,7 @@ namespace tomales {
 struct Direction {
   int controls, step, patches;
   bool periodic;
-  int corners() const { return periodic ? patches : patches + 1; }  ///< Varying values.
+  int corners() const { return periodic ? patches : patches + 1; }  ///< Number of varying values.
 };
 
 struct Layout {
@@ -68,8 +68,8 @@ class PatchMesh : public Prim {
   virtual void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
                                  int stride) const = 0;
 
-  /// An edge is closed if it is a point, or if it is the opposite edge of the patch next to it: in a mesh
-  /// that is not periodic but ends where it began, too. edge(patch, bit) lists its control points.
+  /// An edge is closed if it is a point, or if it equals the opposite edge of the next patch, also in a mesh that ends
+  /// where it began but is not periodic. edge(patch, bit) lists the control points of an edge.
   template <class EdgeOf>
   uint8_t findOpenEdges(uint32_t patch, const EdgeOf& edge) const {
     struct Side {
@@ -90,12 +90,12 @@ class PatchMesh : public Prim {
   const Layout mesh_;
 };
 
-/// Rational patches: "Pw" whose weights differ. `order` controls along either side of a patch become those of a Bezier
-/// patch by the two matrices. Vertex primvars are weighted like positions. Throws PrimError unless all Bezier weights
-/// are positive.
+/// Makes rational patches: "Pw" whose weights differ. The two matrices convert `order` controls along either side of a
+/// patch to those of a Bezier patch. Vertex primvars are weighted like positions. Throws PrimError unless all Bezier
+/// weights are positive.
 PrimPtr makeRationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params,
                          Problems& problems);
-/// Is it one?
+/// Do the parameters ask for a rational mesh?
 bool isRational(const ParamList& params);
 
 }  // namespace tomales

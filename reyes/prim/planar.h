@@ -1,4 +1,4 @@
-// A polygon seen along its normal. Private to polygons.
+// Private to polygons: a polygon seen along its normal.
 #pragma once
 #include <vector>
 
@@ -8,10 +8,10 @@ namespace tomales {
 
 using Point2 = glm::dvec2;
 
-/// One polygon at each key of its motion (a single one if it stands still), but for keys at which it has no area.
+/// One polygon at each key of its motion (one key if it stands still), without keys at which it has no area.
 using Outlines = std::vector<std::vector<Point2>>;
 
-/// Drops the axis along which the polygon is thinnest; counter-clockwise about the normal stays
+/// Drops the axis along which the polygon is thinnest. Polygons that are counter-clockwise about the normal stay
 /// counter-clockwise.
 std::vector<Point2> projected(const std::vector<vec3>& points, const glm::dvec3& normal);
 

@@ -12,7 +12,7 @@
 namespace tomales {
 namespace {
 
-/// Of the trapezoids that a lattice of nu meridians and nv zones makes of the unit sphere.
+/// Area of the trapezoids that a lattice of nu meridians and nv zones makes of the unit sphere.
 double latticeSphereArea(int nu, int nv) {
   double area = 0;
   for (int k = 0; k < nv; ++k) {
@@ -54,10 +54,10 @@ class PointCloud : public Prim, public Scattered {
  protected:
   static constexpr float kMostInflation = 1.5f;
 
-  /// Of the radius, so that the lattice's polygons have the shape's area.
+  /// Factor on the radius with which the lattice's polygons have the shape's area.
   virtual double inflation(int nu, int nv) const = 0;
 
-  /// bound() of a whole patch contains every lattice over it.
+  /// Grows the bound of a whole patch to contain every lattice over it.
   Bound3 boundInflated(uint32_t patch, const UvRect& r, Bound3 bound) const {
     const vec3 center = points_[patch];
     if (r.u0 <= 0 && r.u1 >= 1 && r.v0 <= 0 && r.v1 >= 1)
@@ -110,7 +110,7 @@ class Disks : public FlatPoints<Disks> {
       return boundInflated(patch, r, {center - reach, center + reach});
     }
     const Disk disk = diskOf(patch);
-    const auto range = [](float t0, float t1, float s0, float s1) {  // of t * sqrt(1 - s * s / 2)
+    const auto range = [](float t0, float t1, float s0, float s1) {  // range of t * sqrt(1 - s * s / 2)
       t0 = 2 * t0 - 1, t1 = 2 * t1 - 1, s0 = 2 * s0 - 1, s1 = 2 * s1 - 1;
       const auto factor = [](float s) { return std::sqrt(1 - 0.5f * s * s); };
       const float least = std::min(factor(s0), factor(s1)),
@@ -128,7 +128,7 @@ class Disks : public FlatPoints<Disks> {
     evaluateDisk(diskOf(patch), n, u, v, out);
   }
 
-  /// Most particles are one cell: its corners, to the bit, without loops and tables.
+  /// Most particles are one cell: its corners, to the bit, are computed without loops and tables.
   void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v,
                        SurfacePoints out) const override {
     if (nu != 1 || nv != 1) return PointCloud::evaluateLattice(patch, nu, nv, u, v, out);
@@ -149,8 +149,8 @@ class Disks : public FlatPoints<Disks> {
   }
 };
 
-/// PRMan's "patch": pictures on cards. v runs down against the object's y, as far as the card's plane has it, and u to
-/// the right of who sees its front in a left-handed space; "patchangle" turns it, "patchaspectratio" is width over
+/// PRMan's "patch": pictures on cards. v runs down against the object's y, projected onto the card's plane, and u to
+/// the right for a viewer of its front in a left-handed space; "patchangle" turns it, "patchaspectratio" is width over
 /// height.
 class Squares : public FlatPoints<Squares> {
  public:
@@ -198,7 +198,7 @@ class Squares : public FlatPoints<Squares> {
     return {points_[patch], width * (c * right - s * down), width / valueOf(aspect_, patch) * (c * down + s * right)};
   }
 
-  /// Of "constant" + name or name; one for all, or one each.
+  /// Values of "constant" + name or of name; one for all, or one for each point.
   std::vector<float> numbersOf(const std::string& name, float fallback) const {
     std::vector<float> out{fallback};
     for (const std::string& wanted : {"constant" + name, name})
@@ -211,7 +211,7 @@ class Squares : public FlatPoints<Squares> {
   std::vector<float> angle_degrees_, aspect_;
 };
 
-/// u around z, v from pole to pole.
+/// Spheres: u runs around z, v from pole to pole.
 class Spheres : public PointCloud {
  public:
   using PointCloud::PointCloud;

@@ -17,7 +17,7 @@ Bound3 boundOf(const std::vector<vec3>& points) {
   return box;
 }
 
-/// As long as the area is large, or 0 where points enclose none.
+/// A vector whose length grows with the area, or 0 where points enclose none.
 glm::dvec3 areaNormal(const std::vector<vec3>& points, const Bound3& box) {
   if (points.size() < 3) return glm::dvec3(0);
   const double leastArea = 1e-9 * glm::dot(box.size(), box.size());
@@ -87,13 +87,13 @@ class Decomposer {
     return points_;
   }
 
-  /// A loop's vertices without those that repeat the one before.
+  /// Adds a loop's vertices without those that repeat the one before.
   void gather(uint32_t first, uint32_t count) {
     loopStart_.push_back(static_cast<int>(corner_.size()));
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t next = first + (k + 1) % count;
       if (coincide(first + k, next)) continue;
-      // This corner's edge to the next one; the last of several equal vertices carries it.
+      // This is the corner's edge to the next one; the last of several equal vertices has it.
       corner_.push_back(first + k);
       open_.push_back(edges_.count(vertices_[first + k], vertices_[next]) < 2);
     }
@@ -136,8 +136,8 @@ class Decomposer {
     return areaNormal(points, boundOf(points));
   }
 
-  /// Of the outline, at the keys and at the key at hand: there, if it has no area, that of the first key where it has.
-  /// False: it never has.
+  /// Finds the outline's normals at the keys, and that of the current key; if it has no area there, that of the first
+  /// key where it has. Returns false if it never has.
   bool findNormals() {
     normals_.clear();
     for (const Points* key : keys_) normals_.push_back(normalAt(*key));
@@ -189,7 +189,7 @@ class Decomposer {
     out_.patches.add({corners, static_cast<uint32_t>(out_.faces.size() - 1), info});
   }
 
-  /// The number that a mean of face-vertices gets.
+  /// Makes a mean of face-vertices, and returns its number.
   uint32_t make(std::span<const uint32_t> from) {
     out_.made.add(from);
     return static_cast<uint32_t>(vertices_.size() + out_.made.count() - 1);
@@ -197,8 +197,8 @@ class Decomposer {
 
   bool openBetween(int a, int b) const { return (a + 1) % static_cast<int>(corner_.size()) == b && open_[a]; }
 
-  /// One patch, of which the edge v = 1 is the corner that its shortest side faces: lines along u are short, and what
-  /// is linear over the triangle is so over the patch.
+  /// Adds a triangle as one patch. Its edge v = 1 is the corner opposite to its shortest side: lines along u are short,
+  /// and a function that is linear over the triangle is so over the patch.
   void addTriangle(const Piece& piece) {
     const auto side = [&](size_t k) {
       const vec3 d = position(*keys_[0], corner_[static_cast<size_t>(piece[(k + 1) % 3])]) -
@@ -232,19 +232,19 @@ class Decomposer {
   const std::vector<int>& vertexCounts_;
   const std::vector<int>& vertices_;
   const std::vector<vec3>& positions_;
-  std::vector<const std::vector<vec3>*> keys_;  ///< By which faces are cut; never empty.
+  std::vector<const std::vector<vec3>*> keys_;  ///< The keys by which faces are cut; never empty.
   const EdgeFaces edges_;
   Decomposition out_;
   size_t holesIgnored_ = 0, overlapping_ = 0;
-  std::vector<uint32_t> corner_;     // of the face at hand
+  std::vector<uint32_t> corner_;     // of the current face
   Points points_;                    // of its corners at some key
   std::vector<glm::dvec3> normals_;  // by key
   glm::dvec3 normal_{0};
   Outlines outlines_;
   bool disjoint_ = true;
-  std::vector<char> open_;             // edge from a corner to the next
+  std::vector<char> open_;             // for the edge from a corner to the next
   std::vector<int> loopStart_;         // first corner of every loop, and the end
-  std::vector<uint32_t> at_, middle_;  // of the piece at hand
+  std::vector<uint32_t> at_, middle_;  // of the current piece
 };
 
 }  // namespace

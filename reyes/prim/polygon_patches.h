@@ -1,6 +1,6 @@
-// Faces of polygons cut into bilinear patches. A convex quadrilateral is one patch, and so is a triangle, with an edge
-// of no length; every other face becomes triangles and quadrilaterals around the centres of its convex pieces, which
-// meet at the midpoints of the edges (docs/decisions/0041-a-triangle-is-one-patch.md). Private to polygons.
+// Private to polygons: cuts faces of polygons into bilinear patches. A convex quadrilateral is one patch, and so is a
+// triangle, with an edge of no length; every other face becomes triangles and quadrilaterals around the centres of its
+// convex pieces, which meet at the midpoints of the edges (docs/decisions/0041).
 #pragma once
 #include <span>
 
@@ -8,16 +8,16 @@
 
 namespace tomales {
 
-/// Corners are numbered by face-vertex: the RIB's own first, then made points. Made point k is also vertex
-/// number (vertices of the RIB) + k.
+/// Corners are numbered by face-vertex: those of the RIB first, then made points. Made point k is also vertex number
+/// (vertices of the RIB) + k.
 struct QuadPatch {
   Corners corners;
   uint32_t face;
   PatchInfo info;
 };
 
-/// While all faces are quadrilaterals of one patch, two bytes a patch are kept: the corners of patch k are the four
-/// face-vertices of face k.
+/// While all faces are quadrilaterals of one patch, two bytes for each patch are kept: the corners of patch k are
+/// the four face-vertices of face k.
 class QuadPatches {
  public:
   size_t size() const { return patches_.empty() ? plain_.size() : patches_.size(); }
@@ -38,7 +38,7 @@ class QuadPatches {
     const auto first = static_cast<uint32_t>(4 * k);
     return {{first, first + 1, first + 3, first + 2}, static_cast<uint32_t>(k), info};
   }
-  std::vector<QuadPatch> patches_;  ///< Empty, or all of them.
+  std::vector<QuadPatch> patches_;  ///< Empty, or all patches.
   std::vector<PatchInfo> plain_;
 };
 
@@ -47,7 +47,8 @@ struct Face {
   bool planar;
 };
 
-/// Points made as the means of face-vertices. Flat, because a mesh of pentagons makes six points a face.
+/// Points made as the means of face-vertices. They lie in flat arrays, because a mesh of pentagons makes six points for
+/// each face.
 class MadePoints {
  public:
   size_t count() const { return ends_.size(); }
@@ -66,15 +67,15 @@ class MadePoints {
 };
 
 struct Decomposition {
-  std::vector<Face> faces;  ///< By RIB face.
+  std::vector<Face> faces;  ///< Indexed by RIB face.
   QuadPatches patches;
   MadePoints made;
 };
 
-/// A face is a run of loops, its outline and its holes; a loop is a run of `vertices`. All counts have been checked.
-/// Faces without area at any key and holes outside of their polygon are dropped with a sentence. `keys`: where the
-/// points are at every key of motion, empty for what stands still. All keys are cut alike, where that can be done
-/// without overlap at any (else as it suits the first, with a sentence); `Decomposition::faces` are those of
+/// Decomposes faces. A face is a run of loops, its outline and its holes; a loop is a run of `vertices`. All counts
+/// have been checked. Faces without area at any key and holes outside of their polygon are dropped with a sentence.
+/// `keys`: the positions at every key of motion, empty if nothing moves. All keys are cut alike where that is possible
+/// without overlap at any key; otherwise the first key decides, with a sentence. `Decomposition::faces` are those of
 /// `positions`.
 Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
                         const std::vector<int>& vertices, const std::vector<vec3>& positions, const PointKeys& keys,

@@ -63,7 +63,7 @@ class Polygons : public Prim {
     return {positions_[c[0]], positions_[c[1]], positions_[c[2]], positions_[c[3]]};
   }
 
-  /// Appends a value for every made point to the positions and to the primvars that have one per vertex or
+  /// Appends a value for every made point to the positions, and to the primvars that have one for each vertex or
   /// face-vertex.
   void addMadePoints() {
     const size_t count = parts_.made.count();
@@ -119,7 +119,7 @@ PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vecto
   std::vector<vec3> positions = takePositions(params, used, false, problems);
   const PrimvarCounts counts{loopCounts.size(), positions.size(), positions.size(), vertices.size()};
   std::vector<Primvar> primvars = takePrimvars(params, counts, problems);
-  // RISpec section 5.1: the normal of a face's plane, where vertices have none of their own.
+  // RISpec section 5.1: the normal of a face's plane is used where vertices have none of their own.
   if (offsetOf(primvars, "N") < 0)
     for (Primvar& var : primvars)
       if (var.name == "Np" && var.width == 3) var.name = "N";

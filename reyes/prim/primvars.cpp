@@ -28,7 +28,7 @@ std::vector<float> floatsOf(const Param& param) {
   return std::vector<float>(param.ints.begin(), param.ints.end());
 }
 
-/// Texture coordinates arrive as pairs but shaders know "s" and "t".
+/// Texture coordinates are given as pairs, but shaders know "s" and "t".
 void splitTextureCoordinates(const Param& param, const std::vector<float>& values, std::vector<Primvar>& out) {
   for (int c = 0; c < 2; ++c) {
     Primvar half{c == 0 ? "s" : "t", param.storage, ValueType::Float, 1, {}};
@@ -41,7 +41,7 @@ void splitTextureCoordinates(const Param& param, const std::vector<float>& value
 void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Primvar>& out, Problems& problems) {
   if (param.type == ValueType::String) {
     if (param.strings.size() == 1 && (param.storage == Storage::Constant || param.storage == Storage::Uniform))
-      return;  // its shaders have it
+      return;  // its shaders read it from the parameters
     problems.push_back(fmt::format("{} is a string, which a surface cannot interpolate; it was dropped", param.name));
     return;
   }
@@ -105,7 +105,7 @@ std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exac
 }
 
 std::vector<vec4> takeHomogeneous(const ParamList& params, size_t count) {
-  Problems unequalWeights;  // no problem here
+  Problems unequalWeights;  // not reported here
   const std::vector<vec3> points = takePositions(params, count, true, unequalWeights);
   const Param* pw = findParam(params, "P") ? nullptr : findParam(params, "Pw");
   std::vector<vec4> out;

@@ -1,14 +1,15 @@
-// What every factory does with its parameter list. Private to the primitives.
+// Private to the primitives: handling of parameter lists that all factories share.
 #pragma once
 #include "reyes/prim.h"
 
 namespace tomales {
 
-/// "P", or "Pw" divided by w: at least `least` points, exactly that many if `exact`. Throws PrimError if
-/// there are fewer, or if a coordinate is not finite.
+/// Returns "P", or "Pw" divided by w: at least `least` points, exactly that many if `exact`. Throws PrimError if there
+/// are fewer, or if a coordinate is not finite.
 std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exact, Problems& problems);
 
-/// "P" with weight 1, or "Pw" as it is: exactly `count` homogeneous points. Throws PrimError like takePositions.
+/// Returns "P" with weight 1, or "Pw" unchanged: exactly `count` homogeneous points. Throws PrimError like
+/// takePositions().
 std::vector<vec4> takeHomogeneous(const ParamList& params, size_t count);
 
 /// Throws PrimError unless every value is finite; `what` begins the sentence.

@@ -118,7 +118,7 @@ class LineRevolution : public Revolution {
   vec3 a_, b_;
 };
 
-/// r = rmax sqrt(z / zmax).
+/// The meridian is r = rmax sqrt(z / zmax).
 class Paraboloid : public Revolution {
  public:
   Paraboloid(float rmax, float zmin, float zmax, float thetaMax_degrees, const ParamList& params, Problems& problems)

@@ -11,7 +11,7 @@ const Param* weightedPositions(const ParamList& params) {
   return findParam(params, "P") || findParam(params, "Pz") ? nullptr : findParam(params, "Pw");
 }
 
-/// As they are: tangents, which some bases have among their controls, may weigh 0.
+/// Returns the controls unchanged: tangents, which some bases have among their controls, may have weight 0.
 std::vector<vec4> takeControls(const ParamList& params, size_t count) {
   const std::vector<float>& f = weightedPositions(params)->floats;
   if (f.size() != 4 * count)

@@ -10,7 +10,7 @@ namespace {
 constexpr float kRound =
     12582912.0f;  // 1.5 * 2^23: adding and subtracting it rounds to an integer, in any vector width.
 
-/// Turns meridian vectors by the angles.
+/// Rotates meridian vectors by the angles.
 TOMALES_HOT void rotate(int n, const float* sine, const float* cosine, const float* x, const float* y, const float* z,
                         float scale, float* __restrict outX, float* __restrict outY, float* __restrict outZ) {
   for (int i = 0; i < n; ++i) {
@@ -25,7 +25,7 @@ TOMALES_HOT void sweepDerivative(int n, float scale, const float* px, const floa
   for (int i = 0; i < n; ++i) dux[i] = -scale * py[i], duy[i] = scale * px[i], duz[i] = 0;
 }
 
-/// Of the arc that a point describes as it turns from `turn0` to `turn1`.
+/// Extends a bound by the arc of a point that turns from `turn0` to `turn1`.
 void extendByArc(Bound3& bound, const vec3& point, float turn0, float turn1) {
   const double radius = std::hypot(point.x, point.y), start = std::atan2(point.y, point.x) / (2 * M_PI);
   const double lo = start + std::min(turn0, turn1), hi = start + std::max(turn0, turn1);
@@ -39,7 +39,7 @@ void extendByArc(Bound3& bound, const vec3& point, float turn0, float turn1) {
 
 }  // namespace
 
-// Cephes' minimax polynomials on [-pi/4, pi/4] (S. Moshier, sinf/cosf), quadrant by quadrant.
+// Cephes' minimax polynomials on [-pi/4, pi/4] (S. Moshier, sinf/cosf) are used quadrant by quadrant.
 TOMALES_HOT void sinCosTurns(float offset, float scale, int n, const float* t, float* sine, float* cosine) {
   for (int i = 0; i < n; ++i) {
     const float whole = scale * t[i];

@@ -1,5 +1,5 @@
-// Surfaces of revolution about z: all seven RISpec quadrics (RISpec section 5.4) are one of these with a
-// meridian. Private to the primitives.
+// Private to the primitives: surfaces of revolution about z. All seven quadrics (RISpec section 5.4) are one of these
+// with a meridian.
 #pragma once
 #include <array>
 
@@ -11,8 +11,8 @@ namespace tomales {
 struct Meridian {
   static constexpr int kChunk = 128;
   float x[kChunk], y[kChunk], z[kChunk];
-  float dx[kChunk], dy[kChunk], dz[kChunk];  ///< by v
-  float nx[kChunk], ny[kChunk], nz[kChunk];  ///< towards dPdu x dPdv for a positive sweep; never zero
+  float dx[kChunk], dy[kChunk], dz[kChunk];  ///< derivatives by v
+  float nx[kChunk], ny[kChunk], nz[kChunk];  ///< in the direction of dPdu x dPdv for a positive sweep; never zero
 };
 
 /// sin and cos of whole turns * 2 pi, turn = offset + frac(scale * t): a closed sweep ends on the very bits
@@ -39,7 +39,7 @@ class Revolution : public Prim {
 
   bool isClosed() const { return std::abs(sweep_turns_) == 1; }
 
-  /// An edge that is a pole or that joins the opposite edge.
+  /// Marks edges that are poles or that join the opposite edge.
   void close(int edges) { openEdges_ = static_cast<uint8_t>(openEdges_ & ~edges); }
 
  private:

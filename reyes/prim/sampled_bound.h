@@ -1,12 +1,12 @@
-// A box around a smooth piece of surface of which only points are known. Private to the primitives.
+// Private to the primitives: a box around a smooth piece of surface of which only points are known.
 #pragma once
 #include "reyes/prim.h"
 
 namespace tomales {
 
-/// Samples of the piece, grown by what it can bulge between them; positionAt(u, v) is a point of the surface. A
-/// function's distance from its linear interpolant is an eighth of the second difference where curvature is even; we
-/// allow four times that in each direction, because next to a crease it is not.
+/// Bounds samples of the piece, grown by the distance that it can bulge between them; positionAt(u, v) is a point of
+/// the surface. A function's distance from its linear interpolant is an eighth of the second difference where curvature
+/// is even; four times that is allowed in each direction, because next to a crease it is not even.
 template <class PositionAt>
 Bound3 boundOfSamples(const UvRect& rect, const PositionAt& positionAt) {
   constexpr int kSide = 5;

@@ -8,12 +8,13 @@ namespace {
 
 namespace Far = OpenSubdiv::Far;
 
-/// Corners of the faces around a face. A regular one has 32; up to here Bfr, which keeps nothing, is as fast.
+/// Number of corners of the faces around a face, above which the face is crowded. A regular face has 32; up to this
+/// limit Bfr, which keeps nothing, is as fast.
 constexpr int kCrowd = 96;
-/// What is left around an irregular vertex, the 2^-8th part of a face, is flat.
+/// The surface that remains around an irregular vertex, the 2^-8th part of a face, is flat.
 constexpr int kLevel = 8;
 
-/// One component of points that lie one after the other, as OpenSubdiv wants to see it.
+/// One component of adjacent points, in the form that OpenSubdiv takes.
 struct Component {
   struct Value {
     float* x;
@@ -85,7 +86,7 @@ CrowdedFaces::Values CrowdedFaces::refine(const float* meshValues, int width, in
     }
     if (local == 0) continue;
     Component target = from(refined);
-    // Without <float> Far casts down to a class that its tables are not of.
+    // Without <float> Far casts down to a class that its tables do not have.
     const Far::StencilTableReal<float>* stencils = faceVarying
                                                        ? table_->GetLocalPointFaceVaryingStencilTable<float>(channel)
                                                        : table_->GetLocalPointStencilTable<float>();
@@ -118,14 +119,14 @@ void CrowdedFaces::evaluate(const Values& values, int face, int corner, float u,
             values
                 .points[static_cast<size_t>(controls[k]) * static_cast<size_t>(values.width) + static_cast<size_t>(c)];
   };
-  // Far measures a corner's share of a face in halves of its coordinates.
+  // Far measures a corner's part of a face in halves of its coordinates.
   const float scale = whole ? 1 : 0.5f;
   sum(weight, 1, value), sum(weightByU, scale, byU), sum(weightByV, scale, byV);
 }
 
 size_t CrowdedFaces::bytes() const {
   if (faces_.empty()) return 0;
-  // What Far's table of patches and refined topology take for a patch, near enough.
+  // Estimate of the memory of Far's patch table and refined topology for a patch.
   return static_cast<size_t>(table_->GetNumPatchesTotal()) * 600;
 }
 

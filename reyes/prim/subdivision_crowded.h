@@ -1,6 +1,6 @@
-// The limit surface of faces in a crowd: next to a vertex of many faces, or with many vertices of their own.
-// Bfr refines the neighbourhood of each face by itself, which around a vertex of N faces takes N^3 steps;
-// here all of them are refined together, once. Private to the primitives.
+// Private to the primitives: the limit surface of crowded faces, next to a vertex of many faces, or with many vertices
+// of their own. Bfr refines the neighbourhood of each face by itself, which around a vertex of N faces takes N^3 steps;
+// here all of them are refined together, once.
 #pragma once
 #include <opensubdiv/far/patchMap.h>
 #include <opensubdiv/far/patchTable.h>
@@ -12,23 +12,23 @@ namespace tomales {
 
 class CrowdedFaces {
  public:
-  /// Values at all points that the patches of the crowd have.
+  /// Values at all points of the patches of the crowded faces.
   struct Values {
     int width = 0, faceVaryingChannel = -1;
     std::vector<float> points;
   };
 
-  /// Those of `candidates` that are in a crowd. The mesh is refined for them alone; without any, nothing is
+  /// Finds the crowded faces among `candidates`. The mesh is refined for them alone; if there are none, nothing is
   /// made.
   CrowdedFaces(const Coarse& mesh, const OpenSubdiv::Far::TopologyLevel& level, const std::vector<int>& candidates);
 
   bool has(int face) const { return std::binary_search(faces_.begin(), faces_.end(), face); }
 
-  /// Of `width` floats each: by vertex, or of a face-varying channel.
+  /// Refines values of `width` floats each, given by vertex or for a face-varying channel.
   Values refine(const float* meshValues, int width, int faceVaryingChannel = -1) const;
 
-  /// At a point of the face, or of a corner's share of it: the coordinates of Far's ptex faces. `byU` and
-  /// `byV` may be null.
+  /// Evaluates at a point of the face, or of a corner's part of it: the coordinates are those of Far's ptex faces.
+  /// `byU` and `byV` may be null.
   void evaluate(const Values& values, int face, int corner, float u, float v, float* value, float* byU,
                 float* byV) const;
 

@@ -1,4 +1,4 @@
-// What a SubdivisionMesh's arrays must be before OpenSubdiv sees them. Private to the primitives.
+// Private to the primitives: checks a SubdivisionMesh's arrays before OpenSubdiv sees them.
 #pragma once
 #include <optional>
 
@@ -6,8 +6,8 @@
 
 namespace tomales {
 
-/// Throws PrimError for a face that OpenSubdiv would take on trust: too small, of more than `largest` vertices, or
-/// twice at one vertex. Sizes and indices have passed requireFaces.
+/// Throws PrimError for a face that OpenSubdiv would not check: too small, of more than `largest` vertices, or twice at
+/// one vertex. Sizes and indices have passed requireFaces().
 void requireSubdividable(size_t largest, const std::vector<int>& vertexCounts, const std::vector<int>& vertices);
 
 /// The first vertex around which lie more corners of faces than can be refined in reasonable memory, with their number.
@@ -18,10 +18,9 @@ struct Crowd {
 std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
                                         size_t vertexCount);
 
-/// A face-varying primvar with the values that a vertex's faces agree about merged, so that it may be smooth
-/// there.
+/// A face-varying primvar. Values on which a vertex's faces agree are merged, so that it may be smooth there.
 struct FaceVaryingChannel {
-  std::vector<int> indices;  ///< By face-vertex.
+  std::vector<int> indices;  ///< Indexed by face-vertex.
   std::vector<float> values;
 };
 

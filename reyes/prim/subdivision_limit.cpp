@@ -19,8 +19,7 @@ Frame frameAt(const FaceAt& face, const FaceMap& map, float u, float v) {
   return {p, byU.x * ds + byU.y * dt, byV.x * ds + byV.y * dt};
 }
 
-/// The cross product of the derivatives; where they are dependent, that of a place a little nearer to the
-/// middle.
+/// The cross product of the derivatives; where they are dependent, that of a point slightly nearer to the middle.
 vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Frame& frame) {
   const auto normal = [](const Frame& f) { return cross(f.du, f.dv); };
   const auto independent = [&](const Frame& f) {
@@ -36,8 +35,8 @@ vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Fr
 
 }  // namespace
 
-/// Control points of a uniform B-spline, u fastest. Next to a boundary or a crease Bfr repeats control points
-/// for those that are not there; such faces stay with it.
+/// Converts control points of a uniform B-spline, u fastest. Next to a boundary or a crease Bfr repeats control points
+/// for missing ones; it evaluates such faces itself.
 std::optional<BezierPatch> asBicubic(const Limit& limit) {
   constexpr int kControls = 16;
   if (!limit.surface.IsRegular() || limit.surface.IsLinear() || limit.surface.GetNumControlPoints() != kControls)

@@ -1,5 +1,5 @@
-// The limit surface of one face of a SubdivisionMesh by OpenSubdiv's Bfr, which evaluates it from the coarse mesh.
-// Private to the primitives.
+// Private to the primitives: the limit surface of one face of a SubdivisionMesh by OpenSubdiv's Bfr, which evaluates it
+// from the coarse mesh.
 #pragma once
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
@@ -17,7 +17,8 @@ namespace tomales {
 using LimitFactory = OpenSubdiv::Bfr::RefinerSurfaceFactory<OpenSubdiv::Bfr::SurfaceFactoryCacheThreaded<
     std::shared_mutex, std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
 
-/// So accurate that only in the 2^-8th part of a face next to an irregular vertex what is drawn is an approximation.
+/// Options so accurate that the surface is an approximation only in the 2^-8th part of a face next to an irregular
+/// vertex.
 OpenSubdiv::Bfr::SurfaceFactory::Options limitOptions();
 
 /// One face's surface and its values, ready to evaluate.
@@ -31,15 +32,15 @@ struct Limit {
   }
 };
 
-/// A face in a regular neighbourhood is one bicubic patch, which has a faster way to be evaluated and tighter bounds.
-/// Pre: `limit` holds positions.
+/// A face in a regular neighbourhood is one bicubic patch, which is faster to evaluate and has tighter bounds. Pre:
+/// `limit` holds positions.
 std::optional<BezierPatch> asBicubic(const Limit& limit);
 
-/// From a patch's unit square to the coordinates of its face. A patch is a whole quadrilateral, or one corner's share
-/// of a face of another size: the quadrilateral of the corner, the middles of its two edges and the centre.
+/// Maps a patch's unit square to the coordinates of its face. A patch is a whole quadrilateral, or one corner's part of
+/// a face of another size: the quadrilateral of the corner, the middles of its two edges and the centre.
 class FaceMap {
  public:
-  FaceMap() = default;  ///< The same coordinates.
+  FaceMap() = default;  ///< The identity.
   FaceMap(const OpenSubdiv::Bfr::Parameterization& face, int corner);
   vec2 at(float u, float v) const { return origin_ + u * alongU_ + v * alongV_ + u * v * twist_; }
   vec2 byU(float v) const { return alongU_ + v * twist_; }
@@ -49,12 +50,12 @@ class FaceMap {
   vec2 origin_{0, 0}, alongU_{1, 0}, alongV_{0, 1}, twist_{0, 0};
 };
 
-/// A face's position at its own coordinates; its derivatives by these, unless they are null.
+/// Evaluates a face's position at its own coordinates, and the derivatives by these unless they are null.
 using FaceAt = std::function<vec3(const vec2& at, vec3* ds, vec3* dt)>;
 
 void evaluateFace(const FaceAt& face, const FaceMap& map, int n, const float* u, const float* v, SurfacePoints out);
 
-/// A piece lies in the box of its samples and in `hull`, that of control points, whose weights are positive.
+/// A piece lies in the box of its samples, and in `hull`, that of control points with positive weights.
 Bound3 boundFace(const FaceAt& face, const FaceMap& map, const UvRect& rect, const Bound3& hull);
 
 }  // namespace tomales

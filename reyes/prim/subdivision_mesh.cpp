@@ -1,5 +1,5 @@
-// Subdivision surfaces (RISpec section 5.3). A patch is a quadrilateral face, or one corner's share of a face
-// of another size.
+// Subdivision surfaces (RISpec section 5.3). A patch is a quadrilateral face, or one corner's part of a face of another
+// size.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -15,13 +15,13 @@ namespace {
 
 namespace Far = OpenSubdiv::Far;
 
-/// With what every question about it needs.
+/// A face's limit surface with data for evaluation and bounds.
 struct PositionLimit : Limit {
   std::optional<BezierPatch> bicubic;
-  Bound3 hull;  ///< Of the control points.
+  Bound3 hull;  ///< Bound of the control points.
 };
 
-/// Tells meshes apart, also from those that are gone.
+/// Returns a number that tells meshes apart, also from deleted ones.
 uint64_t nextId() {
   static std::atomic<uint64_t> last{0};
   return ++last;
@@ -74,7 +74,7 @@ class SubdivisionMesh : public Prim {
  private:
   struct Patch {
     int face;
-    uint16_t corner;  ///< Of the face, if it is not a quadrilateral.
+    uint16_t corner;  ///< Corner of the face, if it is not a quadrilateral.
     uint8_t openEdges;
   };
 
@@ -89,7 +89,7 @@ class SubdivisionMesh : public Prim {
   }
 
   FaceMap mapOf(const Patch& p) const { return {factory_.GetFaceParameterization(p.face), p.corner}; }
-  /// Far knows a corner's share of a face by its own coordinates already, and triangles whole.
+  /// Far uses a corner's own coordinates for its part of a face, and triangles whole.
   FaceMap mapOfCrowded(const Patch& p) const {
     return factory_.GetSchemeType() == OpenSubdiv::Sdc::SCHEME_LOOP ? mapOf(p) : FaceMap();
   }
@@ -115,8 +115,7 @@ class SubdivisionMesh : public Prim {
 
   const PositionLimit& positionsOf(int face) const;
 
-  /// OpenSubdiv does not say what its topology and its table of patches take: about as much as 400 bytes a
-  /// patch.
+  /// OpenSubdiv does not tell the size of its topology and its patch table: they take about 400 bytes for each patch.
   size_t shapeBytes() const override {
     size_t bytes = bytesOf(positions_) + bytesOf(patches_) + patches_.size() * 400 + crowded_.bytes() +
                    bytesOf(crowdedPositions_.points);
@@ -136,9 +135,8 @@ class SubdivisionMesh : public Prim {
   std::vector<Patch> patches_;
 };
 
-/// Splitting asks for bound and points of one face again and again, and dicing does so at every key: each
-/// thread keeps what it prepared last. The result is good until the thread has asked for that many other
-/// faces.
+/// Splitting evaluates bound and points of one face repeatedly, and dicing does so at every key: each thread keeps the
+/// faces that it prepared last. The result is valid until the thread has asked for kKept other faces.
 const PositionLimit& SubdivisionMesh::positionsOf(int face) const {
   struct Kept {
     uint64_t mesh = 0;

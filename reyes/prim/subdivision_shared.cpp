@@ -16,7 +16,7 @@ void fields(A& a, MeshTags& x) {
 
 namespace {
 
-/// Of vertices of faces; larger meshes are rarely alike, and would be long keys.
+/// Limit for the vertices of faces; larger meshes are rarely alike, and would be long keys.
 constexpr size_t kLargest = 4096;
 
 std::string keyOf(const Coarse& mesh) {
@@ -33,11 +33,11 @@ std::string keyOf(const Coarse& mesh) {
   return {reinterpret_cast<const char*>(key.bytes.data()), key.bytes.size()};
 }
 
-/// Those that some mesh still has.
+/// The shared faces that some mesh still uses.
 struct Known {
   std::mutex mutex;
   std::map<std::string, std::weak_ptr<const SharedFaces>> byKey;
-  size_t most = 64;  ///< Then those that are gone are taken out.
+  size_t most = 64;  ///< At this size, entries of deleted meshes are removed.
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What meshes of the same faces share, wherever their vertices are: OpenSubdiv's topology and its patches around
-// irregular vertices, which are tens of kilobytes for a box of six faces. Private to the primitives.
+// Private to the primitives: data that meshes of the same faces share, wherever their vertices are: OpenSubdiv's
+// topology and its patches around irregular vertices, which take tens of kilobytes for a box of six faces.
 #pragma once
 #include "reyes/prim/subdivision_limit.h"
 #include "reyes/prim/subdivision_topology.h"
@@ -12,8 +12,8 @@ struct SharedFaces {
   const LimitFactory factory;
 };
 
-/// Of this mesh; that of an earlier mesh where all but positions and values is the same. Throws PrimError as
-/// makeRefiner. Threads: any.
+/// Returns the data of this mesh, shared with an earlier mesh where all but positions and values is the same. Throws
+/// PrimError like makeRefiner(). Threads: any.
 std::shared_ptr<const SharedFaces> sharedFaces(const Coarse& mesh);
 
 }  // namespace tomales

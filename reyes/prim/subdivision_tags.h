@@ -1,4 +1,4 @@
-// The tags of a SubdivisionMesh, checked and sorted by what they act on. Private to the primitives.
+// Private to the primitives: the tags of a SubdivisionMesh, checked and sorted by their subjects.
 #pragma once
 #include "reyes/prim.h"
 #include "reyes/prim/edges.h"
@@ -9,7 +9,7 @@ struct MeshTags {
   enum class Boundary { None, EdgeAndCorner, EdgeOnly };
   enum class FaceVaryingBoundary { Linear, EdgeAndCorner, EdgeOnly, AlwaysSharp };
 
-  Boundary boundary = Boundary::None;  ///< Absent: faces at the boundary are not drawn (RISpec section 5.3).
+  Boundary boundary = Boundary::None;  ///< Without the tag, faces at the boundary are not drawn (RISpec section 5.3).
   FaceVaryingBoundary faceVarying = FaceVaryingBoundary::Linear;
   bool propagateCorners = false;
   bool smoothTriangles = false;  ///< Catmull-Clark only: other weights for triangles (Stam and Loop 2003's problem).
@@ -21,7 +21,7 @@ struct MeshTags {
   std::vector<int> holes;  ///< Faces.
 };
 
-/// Drops a tag that makes no sense with a sentence; throws PrimError if the arrays do not add up.
+/// Reads tags. A tag that makes no sense is dropped with a sentence; throws PrimError if the arrays are inconsistent.
 MeshTags readTags(const SubdivisionTags& tags, const EdgeFaces& edges, int faceCount, int vertexCount,
                   Problems& problems);
 

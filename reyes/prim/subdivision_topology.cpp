@@ -14,7 +14,7 @@ namespace Sdc = OpenSubdiv::Sdc;
 
 thread_local std::string lastComplaint;
 
-/// OpenSubdiv prints to stderr unless told otherwise; its sentence becomes part of ours.
+/// OpenSubdiv prints to stderr unless told otherwise; its sentence becomes part of our message.
 void listenToOpenSubdiv() {
   static std::once_flag once;
   std::call_once(once, [] {

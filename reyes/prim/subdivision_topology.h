@@ -1,4 +1,4 @@
-// The topology of a SubdivisionMesh as OpenSubdiv wants it. Private to the primitives.
+// Private to the primitives: the topology of a SubdivisionMesh in the form that OpenSubdiv takes.
 #pragma once
 #include <opensubdiv/far/topologyRefiner.h>
 
@@ -11,10 +11,10 @@ namespace tomales {
 
 using Refiner = std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>;
 
-/// Throws PrimError for a scheme that nobody knows.
+/// Throws PrimError for an unknown scheme.
 OpenSubdiv::Sdc::SchemeType schemeOf(const std::string& scheme);
 
-/// What a mesh is made of, checked.
+/// The checked arrays of a mesh.
 struct Coarse {
   OpenSubdiv::Sdc::SchemeType scheme;
   std::vector<int> vertexCounts, vertices;
@@ -23,7 +23,8 @@ struct Coarse {
   std::vector<FaceVaryingChannel> channels;
 };
 
-/// Not refined. Throws PrimError with OpenSubdiv's complaint if the faces do not make a surface.
+/// Makes a refiner that is not refined yet. Throws PrimError with OpenSubdiv's message if the faces do not make a
+/// surface.
 Refiner makeRefiner(const Coarse& mesh);
 
 }  // namespace tomales

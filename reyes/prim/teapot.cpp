@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-// A quarter of what is round and half of what is not; the rest are reflections.
+// A quarter of the round parts and half of the others; the rest are reflections.
 constexpr float kPoints[][3] = {
     {0.2f, 0, 2.7f},
     {0.2f, -0.112f, 2.7f},
@@ -148,9 +148,9 @@ constexpr int kPatches[][16] = {
     {68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83},              // spout
     {80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95},              // spout
 };
-constexpr int kRound = 6;  ///< So many are quarters.
+constexpr int kRound = 6;  ///< So many patches are quarters.
 
-/// Reflected at x = 0, at y = 0 or both, with the outside out.
+/// A patch reflected at x = 0, at y = 0 or both, with the outside out.
 BezierPatch reflected(const int (&controls)[16], bool atX, bool atY) {
   BezierPatch patch;
   for (int row = 0; row < 4; ++row)
@@ -164,7 +164,7 @@ BezierPatch reflected(const int (&controls)[16], bool atX, bool atY) {
 
 using Edge = std::array<vec3, 4>;
 
-/// In the order of the bits of PatchEdge.
+/// The edges in the order of the bits of PatchEdge.
 std::array<Edge, 4> edgesOf(const BezierPatch& patch) {
   static constexpr int kFirst[] = {0, 3, 0, 12}, kStep[] = {4, 4, 1, 1};
   std::array<Edge, 4> edges;

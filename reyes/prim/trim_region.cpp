@@ -8,14 +8,14 @@ namespace tomales {
 namespace {
 
 constexpr double kFlatness =
-    1.0 / (1 << 19);  ///< Of the parameter square: a tenth of a pixel for 50,000 px of surface.
+    1.0 / (1 << 19);  ///< Relative to the parameter square: a tenth of a pixel for 50,000 px of surface.
 constexpr int kMostHalvings = 16;
-constexpr double kGap = 1e-4;  ///< Ends of curves this far apart are closed without a word.
+constexpr double kGap = 1e-4;  ///< Ends of curves no farther apart are closed without a warning.
 constexpr size_t kMostSlabs = 256;
 
 glm::dvec2 projected(const glm::dvec3& h) { return glm::dvec2(h) / h.z; }
 
-/// Does the polygon of controls stay near its chord? The curve lies in its hull.
+/// Does the control polygon stay near its chord? The curve lies in its hull.
 bool isFlat(const std::vector<glm::dvec3>& c) {
   const glm::dvec2 a = projected(c.front()), chord = projected(c.back()) - a;
   const double length2 = glm::dot(chord, chord);
@@ -27,7 +27,7 @@ bool isFlat(const std::vector<glm::dvec3>& c) {
   return true;
 }
 
-/// Appends the ends of the chords but the first. De Casteljau's halving.
+/// Appends the ends of the chords except the first, by de Casteljau's halving.
 void flatten(std::vector<glm::dvec3> c, int halvings, std::vector<glm::dvec2>& out) {
   if (halvings == kMostHalvings || isFlat(c)) return out.push_back(projected(c.back()));
   std::vector<glm::dvec3> left;
@@ -78,7 +78,7 @@ void TrimRegion::addLoop(const std::vector<TrimCurve>& loop, size_t number, cons
   if (polygon.empty()) return;
   gaps |= glm::distance(polygon.back(), polygon.front()) > kGap;
   if (gaps) problems.push_back(fmt::format("loop {} of its trim curves has gaps; straight lines close them", number));
-  // Rounded once, so that successive segments share their ends to the bit and no ray slips between.
+  // Points are rounded once, so that successive segments share their ends to the bit and no ray slips between them.
   for (size_t i = 0; i < polygon.size(); ++i) {
     const vec2 a(polygon[i]), b(polygon[(i + 1) % polygon.size()]);
     if (a != b) segments_.push_back({a, b});
@@ -100,7 +100,7 @@ TrimRegion::Slabs TrimRegion::slabsOf(float v0, float v1) const {
   return {slab(v0), slab(v1)};
 }
 
-/// The parity of the crossings of a ray towards greater u (RISpec 3.2, TrimCurve: the odd winding rule).
+/// Uses the parity of the crossings of a ray towards greater u (RISpec 3.2, TrimCurve: the odd winding rule).
 bool TrimRegion::keeps(const vec2& at) const {
   bool inside = false;
   for (const uint32_t i : slabs_[slabsOf(at.y, at.y).first]) {

@@ -1,5 +1,5 @@
-// Trim curves as polygons in the parameter square of a surface, 0..1. Private to NuPatch.
-// Threads: const members may be called concurrently.
+// Private to NuPatch: trim curves as polygons in the parameter square of a surface, 0..1. Threads: const members may be
+// called concurrently.
 #pragma once
 #include "reyes/prim.h"
 

@@ -1,6 +1,6 @@
-// Curves as tubes (Attribute "dice" "roundcurve"): u around and v along; loose ends are closed by flat disks,
-// which are patches of their own, u around and v from the rim to the middle. Segments of a polyline are
-// cylinders that meet in mitres.
+// Curves as tubes (Attribute "dice" "roundcurve"): u around and v along. Loose ends are closed by flat disks, which are
+// patches of their own, u around and v from the rim to the middle. Segments of a polyline are cylinders that meet in
+// mitres.
 #include "reyes/prim/curve_segments.h"
 #include "reyes/prim/interpolation.h"
 #include "reyes/prim/revolution.h"
@@ -9,8 +9,8 @@
 namespace tomales {
 namespace {
 
-/// Any unit vector across `along`, continuous over all directions but one, so that tubes that move keep their
-/// seams: z turned onto the direction takes x along (J. R. Frisvad 2012). That one is where few curves go.
+/// A unit vector across `along`, continuous over all directions but one, so that moving tubes keep their seams: the
+/// rotation of z onto the direction is applied to x (J. R. Frisvad 2012). That one direction is rare among curves.
 vec3 acrossOf(const vec3& along) {
   static const mat3 kTurn = [] {
     const vec3 z = glm::normalize(vec3(0.31f, 0.57f, 0.76f));
@@ -67,8 +67,8 @@ class Tubes : public Prim {
     }
   }
 
-  /// A regular polygon of nu corners is on average as wide as its circle (Cauchy: perimeter over pi) if its
-  /// corners are moved out.
+  /// A regular polygon of nu corners is on average as wide as its circle (Cauchy: perimeter over pi) if its corners are
+  /// moved outwards.
   void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v,
                        SurfacePoints out) const override {
     evaluate(patch, (nu + 1) * (nv + 1), u, v, out);
@@ -102,8 +102,8 @@ class Tubes : public Prim {
   }
 
  private:
-  static constexpr float kMostInflation = 1.21f;  ///< That of a triangle.
-  static constexpr int kSides = 4;                ///< Stretches of a segment between directions that are carried along.
+  static constexpr float kMostInflation = 1.21f;  ///< The inflation of a triangle.
+  static constexpr int kSides = 4;  ///< Parts of a segment between the sides that double reflection computes.
 
   struct End {
     uint32_t segment;
@@ -118,8 +118,8 @@ class Tubes : public Prim {
     return vec3(valueAt(segments_.line(end ? end->segment : patch), end ? static_cast<float>(end->last) : v));
   }
 
-  /// Where two cylinders meet: what lies across the one in the plane of the bend lies across the mean of
-  /// both, but `longer`. No axis: they are in line.
+  /// The joint of two cylinders: a vector across the one in the plane of the bend becomes one across the mean of both
+  /// directions, longer by `longer`. A zero axis means that they are in line.
   struct Joint {
     vec3 axis{0}, inPlane{0}, inMitre{0};
     float longer = 1;
@@ -136,7 +136,7 @@ class Tubes : public Prim {
     return j;
   }
 
-  /// A unit vector across the curve, another, and the direction; slopes are by v.
+  /// A unit vector across the curve, another, and the direction; slopes are derivatives by v.
   struct Frame {
     vec3 side, up, along, sideSlope, upSlope;
   };
@@ -181,7 +181,7 @@ class Tubes : public Prim {
     const float turn = end && !end->last ? -2 * kPi : 2 * kPi;
     const vec3 out = cosine * f.side + sine * f.up, around = turn * (cosine * f.up - sine * f.side);
     if (end) {
-      // Seen from outside it runs around the other way than the tube.
+      // Seen from outside the disk runs around the other way than the tube.
       const float radius = 0.5f * value.w * (1 - v);
       p = vec3(value) + radius * out, du = radius * around, dv = -0.5f * value.w * out;
       normal = end->last ? f.along : -f.along;
@@ -201,14 +201,14 @@ class Tubes : public Prim {
       p = vec3(value) + radius * out, du = radius * around;
       dv = vec3(slope) + 0.5f * slope.w * out + radius * (cosine * f.sideSlope + sine * f.upSlope);
       normal = cross(around, dv);
-      if (!(glm::length(normal) > 1e-4f * glm::length(dv))) normal = out;  // no length, or a cone without slope
+      // it has no length, or is a cone without slope
+      if (!(glm::length(normal) > 1e-4f * glm::length(dv))) normal = out;
     }
     if (normal == vec3(0)) normal = vec3(0, 0, 1);
   }
 
-  /// Directions across that turn no more than the curve does, by double reflection (W. Wang, B. Juettler, D.
-  /// Zheng, Y. Liu 2008), carried from segment to segment. Those of a closed curve are turned back evenly, so
-  /// that its ends meet.
+  /// Finds directions across the curve that turn no more than it does, by double reflection (W. Wang, B. Juettler, D.
+  /// Zheng, Y. Liu 2008), segment by segment. Those of a closed curve are turned back evenly, so that its ends meet.
   void findSides() {
     sides_.resize(segments_.count());
     for (uint32_t k = 0; k < segments_.count() && !segments_.cubic(); ++k)

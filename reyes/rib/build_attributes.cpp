@@ -1,6 +1,7 @@
 // Attributes other than shaders (RISpec 3.2 section 4.2).
 #include <fmt/format.h>
 
+#include "reyes/base/deep_stack.h"
 #include "reyes/rib/handlers.h"
 #include "reyes/rib/refusals.h"
 
@@ -167,11 +168,11 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
       {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
       {"trace:maxdiffusedepth",
        [](Attributes& a, const Param& p) {
-         a.trace.maxDiffuseDepth = static_cast<int>(std::clamp(p.number(1), 0.0f, 1000.0f));
+         a.trace.maxDiffuseDepth = static_cast<int>(std::clamp<float>(p.number(1), 0, kMostBounces));
        }},
       {"trace:maxspeculardepth",
        [](Attributes& a, const Param& p) {
-         a.trace.maxSpecularDepth = static_cast<int>(std::clamp(p.number(2), 0.0f, 1000.0f));
+         a.trace.maxSpecularDepth = static_cast<int>(std::clamp<float>(p.number(2), 0, kMostBounces));
        }},
       {"trace:tessellation", [](Attributes& a, const Param& p) { a.trace.tessellation = p.number(1); }},
       {"indirect:receive", [](Attributes& a, const Param& p) { a.indirect.receive = p.number(1) != 0; }},

@@ -3,6 +3,7 @@
 
 #include <climits>
 
+#include "reyes/base/deep_stack.h"
 #include "reyes/rib/handlers.h"
 #include "reyes/rib/refusals.h"
 
@@ -155,17 +156,27 @@ void exposure(GraphicsState& s, const Request& r) {
   s.globals.options.exposureGamma = a[1];
 }
 
+/// Sets what a category stands for, before and after the map of folders.
+void setSearchPath(GraphicsState& s, const Request& r, const std::string& category, const std::string& path) {
+  Globals& g = s.globals;
+  const std::string inPlace = mappedPath(path, g.dirMap);
+  if (std::max(path.size(), inPlace.size()) > kLongestSearchPath)
+    return reject(s, r,
+                  fmt::format("the search path \"{}\" would be longer than {} bytes", category.substr(0, 80),
+                              kLongestSearchPath));
+  g.unmappedPaths[category] = path;
+  g.options.searchPaths[category] = inPlace;
+}
+
 void searchPath(GraphicsState& s, const Request& r, const Param& p) {
   Globals& g = s.globals;
   if (p.name == "dirmap") {
     g.dirMap = readDirMap(p.strings);
-    for (const auto& [category, path] : g.unmappedPaths) g.options.searchPaths[category] = mappedPath(path, g.dirMap);
+    for (const auto& [category, path] : std::map(g.unmappedPaths)) setSearchPath(s, r, category, path);
     return;
   }
-  std::string& path = g.unmappedPaths[p.name];
   std::string unset;
-  path = expandSearchPath(p.strings[0], path, unset);
-  g.options.searchPaths[p.name] = mappedPath(path, g.dirMap);
+  setSearchPath(s, r, p.name, expandSearchPath(p.strings[0], g.unmappedPaths[p.name], unset));
   if (!unset.empty())
     s.warn(r, "rib-variable", "the environment has no " + unset + "; it stands for nothing in the search path");
 }
@@ -180,7 +191,7 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
     o.bucketWidth = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 4096));
     o.bucketHeight = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[1]), 1, 4096));
   } else if (key == "trace:maxdepth") {
-    o.maxRayDepth = static_cast<int>(clamped(s, r, p.number(10), 0, 1000));
+    o.maxRayDepth = static_cast<int>(clamped(s, r, p.number(10), 0, kMostBounces));
   } else if (key == "shutter:offset") {
     o.shutterOffset = p.number(0);
   } else if (key == "limits:gridsize" && p.ints.size() == 1) {

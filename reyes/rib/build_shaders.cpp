@@ -4,11 +4,6 @@
 namespace tomales::rib {
 namespace {
 
-bool tracesShadows(const GraphicsState& s, const Request& r) {
-  const Param* map = findParam(r.params, "shadowname");
-  return s.scope.lightsCastShadows || (map && !map->strings.empty() && map->strings[0] == "raytrace");
-}
-
 // "shadowfile" is what listings of the 1990s call the map of the lights that PRMan has named shadow...
 void nameShadowMap(ShaderCall& light) {
   if (!light.name.starts_with("shadow") || findParam(light.params, "shadowname")) return;
@@ -22,7 +17,7 @@ int addLight(GraphicsState& s, const Request& r, bool area) {
   nameShadowMap(light->shader);
   light->handle = r.args[1].strings[0];
   light->area = area;
-  light->castsShadows = area || tracesShadows(s, r);
+  light->castsShadows = area || s.scope.lightsCastShadows;
   light->index = static_cast<int>(s.globals.lights.size());
   s.globals.lights.push_back(light);
   s.scope.edit().lights.push_back(light->index);

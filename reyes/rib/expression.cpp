@@ -11,6 +11,12 @@ namespace tomales::rib {
 namespace {
 
 constexpr int kDeepest = 200;
+constexpr size_t kMostSteps = 1 << 26;  ///< Of a comparison with a pattern, which may look at each character
+                                        ///< of the text for each of its own.
+
+void checkLength(size_t bytes) {
+  if (bytes > kLongestText) throw ExpressionError(fmt::format("its text would be longer than {} bytes", kLongestText));
+}
 
 std::optional<double> asNumber(const std::string& text) {
   ScannedNumber n{};
@@ -27,6 +33,9 @@ std::string truth(bool b) { return b ? "1" : "0"; }
 
 // '*' is any text and '?' any character; on a mismatch the latest star takes one more.
 bool matches(std::string_view text, std::string_view pattern) {
+  if (text.size() * pattern.size() > kMostSteps)
+    throw ExpressionError(
+        fmt::format("a text of {} bytes and a pattern of {} are too long to compare", text.size(), pattern.size()));
   size_t t = 0, p = 0, star = std::string_view::npos, starText = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
@@ -159,7 +168,10 @@ class Evaluator {
   std::string concat() {
     expect("(");
     std::string value = either();
-    while (take(",")) value += either();
+    while (take(",")) {
+      value += either();
+      checkLength(value.size());
+    }
     expect(")");
     return value;
   }
@@ -215,6 +227,7 @@ std::string substitute(const std::string& text, char mark, const Variables& vari
     const std::string name = close == std::string::npos ? "" : text.substr(i + 2, close - i - 2);
     if (const auto value = name.empty() ? std::nullopt : variables(name)) {
       out += *value;
+      checkLength(out.size());
       i = close;
       continue;
     }

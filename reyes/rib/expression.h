@@ -10,6 +10,10 @@ namespace tomales::rib {
 /// The value of a variable; nothing if there is none of that name.
 using Variables = std::function<std::optional<std::string>(const std::string& name)>;
 
+/// Bytes of the strings that variables and concat() may make in one request: 1 to 2 KB of RIB could else
+/// double themselves to any length.
+constexpr size_t kLongestText = 1 << 20;
+
 struct ExpressionError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -21,7 +25,8 @@ struct ExpressionError : std::runtime_error {
 /// Throws ExpressionError.
 bool holds(const std::string& expression, const Variables& variables);
 
-/// Replaces MARK{name}. What has no value stays as it is, and is appended to `unknown`.
+/// Replaces MARK{name}. What has no value stays as it is, and is appended to `unknown`. Throws
+/// ExpressionError if the result were longer than kLongestText.
 std::string substitute(const std::string& text, char mark, const Variables& variables, std::string& unknown);
 
 }  // namespace tomales::rib

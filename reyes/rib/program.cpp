@@ -4,24 +4,33 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <thread>
 
-extern char** environ;
+#include "reyes/base/stop.h"
 
 namespace tomales::rib {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kPollEvery_s = 0.1;  ///< The wish to stop wakes nobody.
+
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// The shell becomes the program, so that what ends one of them when we are killed (startChild()) ends the
+/// other. It cannot where the command is more than a program and its arguments; "exit" is the shell's own.
+std::string forShell(const std::string& command) {
+  const bool simple = command.find_first_of("|&;()<>`={}!\n") == std::string::npos && !command.starts_with("exit");
+  return simple ? "exec " + command : command;
+}
 
 }  // namespace
 
@@ -38,20 +47,9 @@ Program::Program(const std::string& command) {
     return;
   }
   toChild_ = in[0], fromChild_ = out[0];
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, in[1], STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&files, out[1], STDOUT_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  std::string shell = "sh", option = "-c", text = command;
-  char* arguments[] = {shell.data(), option.data(), text.data(), nullptr};
-  startError_ = posix_spawn(&id_, "/bin/sh", &files, &attributes, arguments, environ);
-  if (startError_ != 0) id_ = -1;
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
+  id_ = startChild({"/bin/sh", {"sh", "-c", forShell(command)}, {{in[1], STDIN_FILENO}, {out[1], STDOUT_FILENO}}},
+                   startError_);
+  if (id_ > 0) guard_.emplace(id_);
   close(in[1]), close(out[1]);
 }
 
@@ -65,6 +63,7 @@ Program::~Program() {
   if (fromChild_ >= 0) close(fromChild_);
   if (id_ <= 0) return;
   kill(-id_, SIGKILL);
+  guard_.reset();
   while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
   }
 }
@@ -86,9 +85,9 @@ size_t Program::read(char* buffer, size_t size) {
     pollfd ends[] = {{fromChild_, POLLIN, 0}, {toChild_, POLLOUT, 0}};
     const auto start = Clock::now();
     const bool writing = toChild_ >= 0 && written_ < input_.size();
-    const int ready = poll(ends, writing ? 2 : 1, static_cast<int>(patience_s_ * 1000) + 1);
+    const int ready = poll(ends, writing ? 2 : 1, static_cast<int>(1000 * std::min(patience_s_, kPollEvery_s)) + 1);
     patience_s_ -= secondsSince(start);
-    hung_ = ready == 0 || patience_s_ <= 0;
+    hung_ = patience_s_ <= 0 || stopRequested();
     if (ready < 0 && errno != EINTR) break;
     if (ready <= 0) continue;
     if (ends[1].revents != 0) writeInput();
@@ -107,10 +106,12 @@ std::string Program::finish() {
   for (const auto start = Clock::now(); !hung_ && info.si_pid == 0;) {
     waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
     if (info.si_pid == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    hung_ = info.si_pid == 0 && secondsSince(start) > patience_s_;
+    hung_ = info.si_pid == 0 && (secondsSince(start) > patience_s_ || stopRequested());
   }
-  if (info.si_pid == 0) return "did not answer in time and was killed";
+  if (info.si_pid == 0)
+    return stopRequested() ? "was killed, because this program is to end" : "did not answer in time and was killed";
   kill(-id_, SIGKILL);  // what it has left running; it can be no other's group before the wait
+  guard_.reset();
   int status = 0;
   waitpid(id_, &status, 0);
   id_ = -1;

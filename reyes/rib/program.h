@@ -6,8 +6,11 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "reyes/base/child_process.h"
 
 namespace tomales::rib {
 
@@ -30,6 +33,7 @@ class Program {
   void writeInput();
 
   pid_t id_ = -1;
+  std::optional<ChildGuard> guard_;
   int toChild_ = -1, fromChild_ = -1, startError_ = 0;
   std::string input_;
   size_t written_ = 0;

@@ -135,12 +135,24 @@ Request Reader::substituted(const Request& r) const {
     const char* environment = std::getenv(name.c_str());
     return environment ? std::optional<std::string>(environment) : std::nullopt;
   };
+  size_t bytes = 0;
   const auto replace = [&](std::vector<std::string>& strings) {
-    for (std::string& s : strings)
-      if (s.find(mark_) != std::string::npos) s = substitute(s, mark_, find, unknown);
+    for (std::string& s : strings) {
+      if (s.find(mark_) == std::string::npos) continue;
+      s = substitute(s, mark_, find, unknown);
+      bytes += s.size();
+      if (bytes > kLongestText)
+        throw ExpressionError(fmt::format("its strings would be longer than {} bytes", kLongestText));
+    }
   };
-  for (RibArg& a : out.args) replace(a.strings);
-  for (Param& p : out.params) replace(p.strings);
+  try {
+    for (RibArg& a : out.args) replace(a.strings);
+    for (Param& p : out.params) replace(p.strings);
+  } catch (const ExpressionError& e) {
+    report(Severity::Warning, "rib-variable", r,
+           fmt::format("with the values of variables {}; all of them are left as written", e.what()));
+    return r;
+  }
   if (!unknown.empty())
     report(Severity::Warning, "rib-variable", r, fmt::format("there is no variable {}; left as written", unknown));
   return out;

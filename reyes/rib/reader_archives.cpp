@@ -13,6 +13,7 @@ namespace fs = std::filesystem;
 
 // More than any scene needs: archives that double each other must end in a minute, not in a year.
 constexpr size_t kBudget = 10'000'000, kFileCost = 10;
+constexpr size_t kReplayCost = 10;  ///< Of a request: most are objects, which take half a kilobyte each.
 
 std::string canonical(const std::string& path) {
   std::error_code error;
@@ -56,10 +57,10 @@ void Reader::readArchiveNamed(const Request& r, const std::string& name) {
 
 void Reader::replay(const Request& r, const std::string& name, const Requests& archive) {
   const std::string key = "inline archive " + name;
-  if (!mayEnter(r, key, 1)) return;
+  if (!mayEnter(r, key, kReplayCost)) return;
   enter(key, std::string(open_.back().folder));
   for (const Request& recorded : archive) {
-    if (!spend(1)) break;
+    if (!spend(kReplayCost)) break;
     handle(recorded);
   }
   leave();
@@ -89,7 +90,8 @@ bool Reader::mayEnter(const Request& r, const std::string& key, size_t cost) {
     return refuse("the archive reads itself");
   if (open_.size() > static_cast<size_t>(settings_.maxArchiveDepth))
     return refuse(fmt::format("more than {} archives within archives", settings_.maxArchiveDepth));
-  if (!spend(cost)) return refuse(fmt::format("the outermost archive stands for more than {} requests", kBudget));
+  if (!spend(cost))
+    return refuse(fmt::format("the outermost archive stands for more than {} requests", kBudget / kReplayCost));
   return true;
 }
 

@@ -41,7 +41,7 @@ std::vector<std::string> quoted(const std::string& text) {
 
 std::string expandSearchPath(const std::string& written, const std::string& previous, std::string& unset) {
   std::string out;
-  for (size_t i = 0; i < written.size(); ++i) {
+  for (size_t i = 0; i < written.size() && out.size() <= kLongestSearchPath; ++i) {
     const char c = written[i];
     const bool starts = i == 0 || written[i - 1] == ':', ends = i + 1 == written.size() || written[i + 1] == ':';
     if (c == '&' && starts && ends) {
@@ -75,7 +75,10 @@ std::string mapped(const std::string& name, const DirMap& map) {
 
 std::string mappedPath(const std::string& path, const DirMap& map) {
   std::string out;
-  for (const std::string& folder : foldersOf(path)) out += (out.empty() ? "" : ":") + mapped(folder, map);
+  for (const std::string& folder : foldersOf(path)) {
+    if (out.size() > kLongestSearchPath) break;
+    out += (out.empty() ? "" : ":") + mapped(folder, map);
+  }
   return out;
 }
 

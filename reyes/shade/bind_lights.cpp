@@ -1,98 +1,94 @@
+// What the renderer knows of a light, made once when it is bound: of its shader's capabilities and of what its
+// parameters with a role say. Nobody else reads a light's parameters.
 #include <fmt/format.h>
 
 #include <sstream>
 
+#include "reyes/base/deep_stack.h"
 #include "reyes/shade/binder.h"
+#include "reyes/shade/roles.h"
 
 namespace tomales {
-
-const ParamNames kLightParams{"lighting",   "__nondiffuse", "__nonspecular", "__group",       "lightgroup",
-                              "__category", "shadowname",   "sfpx",          "sfnx",          "sfpy",
-                              "sfny",       "sfpz",         "sfnz",          "shadowvariance"};
-
 namespace {
 
-/// Names of shadow maps, of shadowpoint one for each direction.
-const ParamNames kShadowMaps{"shadowname", "sfpx", "sfnx", "sfpy", "sfny", "sfpz", "sfnz"};
-
+constexpr int kLightSamples = 16;   ///< Of a light that does not say how many.
+constexpr int kColours = 3;         ///< Samples of an indirect light.
 constexpr int kMostRays = 1 << 16;  ///< Of one irradiance sample.
-constexpr int kMostBounces = 1000;  ///< Beyond these no picture changes any more.
 
 /// A count among the parameters of a light.
-int countOf(const BoundShader& light, const char* name, int fallback, int least, int most, Log& log) {
-  const float asked = light.number(name, static_cast<float>(fallback));
+int countOf(const BoundShader& light, TmRole role, int fallback, int least, int most, Log& log) {
+  const float asked = light.number(role, static_cast<float>(fallback));
   const auto used = static_cast<int>(std::clamp(asked, static_cast<float>(least), static_cast<float>(most)));
   if (asked < static_cast<float>(least) || asked > static_cast<float>(most))
-    log.report(Severity::Warning, fmt::format("light-{}", name), light.where,
-               fmt::format("{}: {} {} is out of range; {} is used", light.user, name, asked, used));
+    log.report(Severity::Warning, fmt::format("light-{}", roleName(role)), light.where,
+               fmt::format("{}: {} {} is out of range; {} is used", light.user, light.find(role)->name, asked, used));
   return used;
 }
 
-void warnAboutUnsupported(const BoundShader& light, const IndirectQuery& q, Log& log) {
-  const auto warn = [&](const char* name, const std::string& value, const char* consequence) {
-    log.report(Severity::Warning, fmt::format("light-{}", name), light.where,
-               fmt::format("{}: {} \"{}\" is not supported; {}", light.user, name, value, consequence));
-  };
-  if (q.errorFunction != "screen" && q.errorFunction != "ward" && q.errorFunction != "hessian" &&
-      q.errorFunction != "split" && q.errorFunction != "plain")
-    warn("errorfunction", q.errorFunction, "\"screen\" is used");
-  if (q.radiance != "shader" && q.radiance != "atlas" && q.radiance != "radiosity")
-    warn("radiance", q.radiance, "gather rays run the shaders");
-  if (!q.atlas.empty()) warn("atlas", q.atlas, "it is not read");
+void warnOfValue(const BoundShader& light, TmRole role, const std::string& value, const char* consequence, Log& log) {
+  log.report(Severity::Warning, fmt::format("light-{}", roleName(role)), light.where,
+             fmt::format("{}: {} \"{}\" is not supported; {}", light.user, light.find(role)->name, value, consequence));
 }
 
-IndirectQuery queryOf(const BoundShader& light, Log& log) {
+std::string errorFunctionOf(const BoundShader& light, const std::string& fallback, Log& log) {
+  const std::string name = light.text(TM_ROLE_ERROR_FUNCTION, fallback);
+  if (name != "screen" && name != "ward" && name != "hessian" && name != "split" && name != "plain")
+    warnOfValue(light, TM_ROLE_ERROR_FUNCTION, name, "\"screen\" is used", log);
+  return name;
+}
+
+HitRadianceChoice hitRadianceOf(const BoundShader& light, Log& log) {
+  const std::string name = light.text(TM_ROLE_HIT_RADIANCE, "shader");
+  if (name == "atlas") return HitRadianceChoice::Atlas;
+  if (name == "points") return HitRadianceChoice::Points;
+  if (name == "radiosity") return HitRadianceChoice::Radiosity;
+  if (name != "shader") warnOfValue(light, TM_ROLE_HIT_RADIANCE, name, "gather rays run the shaders", log);
+  return HitRadianceChoice::Shader;
+}
+
+IndirectQuery queryOf(const BoundShader& light, int samplesInstead, Log& log) {
   IndirectQuery q;
-  q.samples = countOf(light, "samples", q.samples, 1, kMostRays, log);
-  q.maxError = light.number("maxerror", q.maxError);
-  q.maxDistance = light.number("maxdist", q.maxDistance);
-  q.errorFunction = light.text("errorfunction", q.errorFunction);
-  q.radiance = light.text("radiance", q.radiance);
-  q.atlas = light.text("atlas", q.atlas);
-  q.subset = light.text("subset", q.subset);
-  q.bounces = countOf(light, "bounces", q.bounces, 0, kMostBounces, log);
-  warnAboutUnsupported(light, q, log);
+  q.samples = samplesInstead > 0 ? samplesInstead : countOf(light, TM_ROLE_SAMPLES, q.samples, 1, kMostRays, log);
+  q.maxError = light.number(TM_ROLE_MAX_ERROR, q.maxError);
+  q.maxDistance = light.number(TM_ROLE_MAX_DISTANCE, q.maxDistance);
+  q.errorFunction = errorFunctionOf(light, q.errorFunction, log);
+  q.subset = light.text(TM_ROLE_SUBSET, q.subset);
+  q.bounces = countOf(light, TM_ROLE_BOUNCES, q.bounces, 0, kMostBounces, log);
   return q;
 }
 
-/// kLightParams.
-void setHostParams(BoundLight& light, const LightCall& call, const ShadowMaps& maps, Log& log) {
-  const ParamList& params = call.shader.params;
-  const auto number = [&](const char* name) {
-    const Param* p = findParam(params, name);
-    return p ? p->number(0) : light.bound->number(name, 0);
-  };
-  const auto text = [&](std::string_view name) {
-    const Param* p = findParam(params, name);
-    return p && !p->strings.empty() ? p->strings[0] : std::string();
-  };
-  const auto warn = [&](const char* code, const std::string& problem, Severity severity = Severity::Warning) {
-    log.report(severity, code, call.shader.where, light.bound->user + ": " + problem);
-  };
-  light.shadowVariance = std::max(0.0f, number("shadowvariance"));
-  light.nondiffuse = number("__nondiffuse") != 0, light.nonspecular = number("__nonspecular") != 0;
-  light.group = !text("__group").empty()      ? text("__group")
-                : !text("lightgroup").empty() ? text("lightgroup")
-                                              : call.handle;
-  light.category = !text("__category").empty() ? text("__category") : light.bound->text("__category", "");
-  const std::string lighting = text("lighting");
+IndirectRequest requestOf(const BoundShader& light, const IndirectQuery& query, Log& log) {
+  IndirectRequest out;
+  out.hitRadiance = hitRadianceOf(light, log);
+  out.atlas = light.text(TM_ROLE_ATLAS, "");
+  if (const RoleValue* bounces = light.find(TM_ROLE_BOUNCES); bounces && bounces->given) out.bounces = query.bounces;
+  return out;
+}
+
+/// By "lighting": does it light what the camera sees, and what gather rays see?
+void setLighting(BoundLight& light, Log& log) {
+  const std::string lighting = light.bound->text(TM_ROLE_LIGHTING, "both");
   light.direct = lighting != "indirect", light.indirect = lighting != "direct";
-  if (!lighting.empty() && lighting != "both" && light.direct && light.indirect)
-    warn("light-lighting", fmt::format("lighting \"{}\" is none of both, direct, indirect; both is used", lighting));
-  for (const std::string_view name : kShadowMaps) {
-    const std::string map = text(name);
-    if (map.empty()) continue;
-    const bool traced = map == "raytrace";
-    if (!traced && !light.bound->find(name))
-      warn("light-shadow-map", fmt::format("its shader reads no shadow map \"{}\"; shadows are traced instead", map));
-    const bool mapped = !traced && light.bound->find(name) && maps.find(map, call.shader.where, light.bound->user);
+  if (lighting != "both" && light.direct && light.indirect)
+    log.report(Severity::Warning, "light-lighting", light.bound->where,
+               fmt::format("{}: lighting \"{}\" is none of both, direct, indirect; both is used", light.bound->user,
+                           lighting));
+}
+
+/// A shadow map makes rays needless if the shader reads it and it can be read.
+void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
+  const BoundShader& bound = *light.bound;
+  light.shadowVariance = std::max(0.0f, bound.number(TM_ROLE_SHADOW_VARIANCE, 0));
+  for (const RoleValue& map : bound.told) {
+    if (map.role != TM_ROLE_SHADOW_MAP || map.text.empty()) continue;
+    const bool traced = map.text == "raytrace";
+    if (!traced && !map.declared)
+      log.report(Severity::Warning, "light-shadow-map", bound.where,
+                 fmt::format("{}: its shader declares no shadow map \"{}\"; shadows are traced instead", bound.user,
+                             map.name));
+    const bool mapped = !traced && map.declared && maps.find(map.text, bound.where, bound.user);
     light.shadows = light.shadows || !mapped;
   }
-  if (call.area && !light.can(TM_LIGHT_AREA))
-    warn("light-area", fmt::format("\"{}\" is not an area light; it shines without its geometry", call.shader.name));
-  if (!call.area && light.can(TM_LIGHT_AREA))
-    warn("light-area", fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name),
-         Severity::Missing);
 }
 
 bool hasGeometry(const LightCall& call, const Scene& scene) {
@@ -100,20 +96,35 @@ bool hasGeometry(const LightCall& call, const Scene& scene) {
                      [&](const ShadeGroup& g) { return g.attributes->areaLight == call.index; });
 }
 
+/// What AreaLightSource and TM_LIGHT_AREA say of each other.
+void warnOfArea(const BoundLight& light, const LightCall& call, const Scene& scene, Log& log) {
+  const auto warn = [&](const char* code, Severity severity, const std::string& problem) {
+    log.report(severity, code, call.shader.where, light.bound->user + ": " + problem);
+  };
+  if (call.area && !light.can(TM_LIGHT_AREA))
+    warn("light-area", Severity::Warning,
+         fmt::format("\"{}\" is not an area light; it shines without its geometry", call.shader.name));
+  if (!call.area && light.can(TM_LIGHT_AREA))
+    warn("light-area", Severity::Missing,
+         fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name));
+  if (call.area && light.can(TM_LIGHT_AREA) && !hasGeometry(call, scene))
+    warn("light-no-geometry", Severity::Warning, "no geometry follows the AreaLightSource; it casts no light");
+}
+
 }  // namespace
 
 std::shared_ptr<const Sky> Binder::sky(const BoundShader& light) {
-  const std::string picture = light.text("map", ""), space = light.text("mapspace", "world");
+  const std::string picture = light.text(TM_ROLE_SKY_MAP, ""), space = light.text(TM_ROLE_SKY_SPACE, "world");
   if (space != "world" && space != "shader")
-    log_.report(
-        Severity::Warning, "light-mapspace", light.where,
-        fmt::format("{}: mapspace \"{}\" is neither \"world\" nor \"shader\"; world is used", light.user, space));
+    log_.report(Severity::Warning, "light-mapspace", light.where,
+                fmt::format("{}: {} \"{}\" is neither \"world\" nor \"shader\"; world is used", light.user,
+                            light.find(TM_ROLE_SKY_SPACE)->name, space));
   const mat4& currentFromSky = space == "shader" ? light.currentFromShader : cameraFromWorld_;
   auto sky = picture.empty()
                  ? std::make_shared<Sky>()
                  : std::make_shared<Sky>(textures_, picture, light.where, light.user, skyFromCurrent(currentFromSky));
   Portals portals;
-  std::istringstream names(light.text("portals", ""));
+  std::istringstream names(light.text(TM_ROLE_SKY_PORTALS, ""));
   for (std::string name; names >> name;) {
     mat4 currentFromPortal;
     if (!scene_.cameraFromNamed(name, currentFromPortal))
@@ -132,37 +143,50 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   if (!bound) return nullptr;
   auto light = std::make_unique<BoundLight>();
   light->bound = bound, light->index = index;
-  const bool indirect = light->can(TM_LIGHT_INDIRECT);
+  light->group = bound->text(TM_ROLE_GROUP, call.handle);
+  light->category = bound->text(TM_ROLE_CATEGORY, "");
+  light->nondiffuse = bound->number(TM_ROLE_NONDIFFUSE, 0) != 0;
+  light->nonspecular = bound->number(TM_ROLE_NONSPECULAR, 0) != 0;
+  light->visible = bound->number(TM_ROLE_VISIBLE, 1) != 0;
+  setLighting(*light, log_);
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);
-  setHostParams(*light, call, shadowMaps_, log_);
-  if (call.area && light->can(TM_LIGHT_AREA) && !hasGeometry(call, scene_))
-    log_.report(Severity::Warning, "light-no-geometry", call.shader.where,
-                bound->user + ": no geometry follows the AreaLightSource; it casts no light");
-  light->shadows = light->shadows && !indirect;
-  light->visible = bound->number("visible", 1) != 0;
+  setShadows(*light, shadowMaps_, log_);
+  warnOfArea(*light, call, scene_, log_);
   if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound);
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
-    light->samples = countOf(*bound, "samples", 16, 1, kMostLightSamples, log_);
-  if (indirect) light->samples = 3, light->query = queryOf(*bound, log_);
+    light->samples = countOf(*bound, TM_ROLE_SAMPLES, kLightSamples, 1, kMostLightSamples, log_);
+  if (light->can(TM_OCCLUDED)) light->maxVariation = bound->number(TM_ROLE_MAX_VARIATION, 1);
+  if (!light->can(TM_LIGHT_INDIRECT)) return light;
+  light->shadows = false, light->samples = kColours;
+  light->query = queryOf(*bound, scene_.options.indirectSamples, log_);
+  light->request = requestOf(*bound, light->query, log_);
+  light->filters = bound->find(TM_ROLE_INDIRECT_SOURCE) != nullptr;
   return light;
+}
+
+std::unique_ptr<const BoundLight> Binder::addedIndirectLight(int index) {
+  LightCall call;
+  call.shader.name = "indirectlight", call.shader.where = scene_.where;
+  call.handle = "--gi";
+  return light(call, index);
 }
 
 namespace {
 
 /// A light that filters an indirect light asks for the same light as its source. False: there is none.
 bool connectFilter(BoundLight& filter, const BoundScene& scene) {
-  const std::string source = filter.bound->text("source", "");
+  const std::string source = filter.bound->text(TM_ROLE_INDIRECT_SOURCE, "");
   for (size_t i = scene.lights.size(); i-- > 0;) {
     const BoundLight* light = scene.lights[i].get();
     if (!light || scene.scene.lights[i]->handle != source) continue;
-    if (!light->can(TM_LIGHT_INDIRECT) || light->bound->find("source")) continue;
+    if (!light->can(TM_LIGHT_INDIRECT) || light->filters) continue;
     filter.query = light->query;
-    filter.sourceTint = light->bound->number("intensity", 1) * light->bound->color("lightcolor", vec3(1.0f));
+    filter.sourceTint = light->bound->number(TM_ROLE_SCALE, 1) * light->bound->color(TM_ROLE_TINT, vec3(1.0f));
     return true;
   }
   scene.log.report(Severity::Missing, "light-source", filter.bound->where,
-                   fmt::format("{}: source \"{}\" is not the handle of an indirect light; it casts no light",
-                               filter.bound->user, source));
+                   fmt::format("{}: {} \"{}\" is not the handle of an indirect light; it casts no light",
+                               filter.bound->user, filter.bound->find(TM_ROLE_INDIRECT_SOURCE)->name, source));
   return false;
 }
 
@@ -170,7 +194,7 @@ bool connectFilter(BoundLight& filter, const BoundScene& scene) {
 
 void connectFilters(BoundScene& scene) {
   for (auto& light : scene.lights) {
-    if (!light || !light->can(TM_LIGHT_INDIRECT) || !light->bound->find("source")) continue;
+    if (!light || !light->filters) continue;
     auto filter = std::make_unique<BoundLight>(*light);
     light = connectFilter(*filter, scene) ? std::move(filter) : nullptr;
   }

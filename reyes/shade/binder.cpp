@@ -6,25 +6,19 @@
 
 namespace tomales {
 
-const ParamNames kMediumParams{"scattering", "absorption"};
-
 BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
   const TmShader* shader = registry_.find(name, kind, path_);
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
-  if (shader) {
-    static const ParamNames kNone;
-    const ParamNames& known = kind == TM_LIGHT ? kLightParams : kind == TM_VOLUME ? kMediumParams : kNone;
-    return bindShader(*shader, call, where, user, currentFromShader, known, log_);
-  }
+  if (shader) return bindShader(*shader, call, where, user, currentFromShader, log_);
   static constexpr const char* kConsequences[] = {"a magenta checker is rendered", "nothing is displaced",
                                                   "it casts no light", "the air is clear",
                                                   "the picture stays as it is"};
   log_.report(Severity::Missing, "shader-missing", where,
               fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName(kind), name, kConsequences[kind]));
   if (kind != TM_SURFACE) return nullptr;
-  return bindShader(substituteSurface(), nullptr, where, user, currentFromShader, {}, log_);
+  return bindShader(substituteSurface(), nullptr, where, user, currentFromShader, log_);
 }
 
 }  // namespace tomales

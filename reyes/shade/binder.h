@@ -8,11 +8,6 @@
 
 namespace tomales {
 
-/// Parameters that every light understands, whether or not its shader declares them.
-extern const ParamNames kLightParams;
-/// And what photons read of every volume shader.
-extern const ParamNames kMediumParams;
-
 /// Binds requests; groups that share a request share its shader, so that each problem is told once.
 class Binder {
  public:
@@ -44,6 +39,8 @@ class Binder {
     return bind(&call, call.where, user, TM_SURFACE);
   }
   std::unique_ptr<const BoundLight> light(const LightCall& call, int index);
+  /// Options::wantsIndirect
+  std::unique_ptr<const BoundLight> addedIndirectLight(int index);
 
  private:
   BoundShaderPtr cached(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object, const std::string& user,

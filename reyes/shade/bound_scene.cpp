@@ -100,6 +100,7 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
   binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);
   for (const auto& call : scene.lights) lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);
+  if (scene.options.wantsIndirect) addIndirectLight();
   stored.bound = storedLight();
   pixels.group = &picture, pixels.object = "the picture";
   imager = binder_->imager(scene.options.imager, pixels.object);
@@ -110,6 +111,14 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
 
 BoundScene::~BoundScene() {
   if (grows_) warnAboutUnwritten(output_, *this);
+}
+
+void BoundScene::addIndirectLight() {
+  if (std::any_of(lights.begin(), lights.end(),
+                  [](const auto& l) { return l && l->can(TM_LIGHT_INDIRECT) && !l->filters; }))
+    return;
+  lights.push_back(binder_->addedIndirectLight(static_cast<int>(lights.size())));
+  added = lights.back().get();
 }
 
 void BoundScene::bindNewGroups() {
@@ -138,6 +147,7 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) const {
   for (int index : a.lights)
     if (index >= 0 && index < static_cast<int>(lights.size()) && lights[static_cast<size_t>(index)])
       g.lights.push_back(lights[static_cast<size_t>(index)].get());
+  if (added) g.lights.push_back(added);
   for (const BoundLight* light : g.lights)
     if (light->can(TM_LIGHT_INDIRECT) && a.indirect.receive && !g.indirect) {
       g.indirect = light->query;

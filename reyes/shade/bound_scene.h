@@ -11,9 +11,10 @@ namespace tomales {
 
 constexpr int kMostLightSamples = 1 << 12;  ///< Of one light from one point.
 
+/// All that is known of a light: made when it is bound (bind_lights.cpp), of its shader's capabilities and roles.
 struct BoundLight {
   BoundShaderPtr bound;
-  int index = -1;  ///< In Scene::lights.
+  int index = -1;  ///< In Scene::lights; one that was added stands behind those.
   int samples = 1;
   bool shadows = false;
   bool direct = true;        ///< Lights what the camera sees.
@@ -21,9 +22,12 @@ struct BoundLight {
   float shadowVariance = 0;  ///< Of the share of light that passes: what its shadow rays may leave; 0: all are traced.
   bool visible = true;       ///< Glows for the camera (area lights) and for specular rays.
   bool nondiffuse = false, nonspecular = false;  ///< Left out by diffuse(), by specular().
-  IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone.
-  std::string group;                             ///< Light parameter "__group" or "lightgroup"; else the handle.
-  std::string category;                          ///< Light parameter "__category": names by commas.
+  IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone,
+  IndirectRequest request;                       ///< and what it asks of the whole frame.
+  bool filters = false;                          ///< It brings what another indirect light brings.
+  float maxVariation = 0;                        ///< TM_OCCLUDED alone: TmOcclusion::maxVariation.
+  std::string group;                             ///< As it names it; else the handle.
+  std::string category;                          ///< Names by commas.
   std::shared_ptr<const Sky> sky;                ///< TM_LIGHT_SKY alone.
   vec3 sourceTint{1.0f};                         ///< Of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
@@ -70,14 +74,16 @@ struct BoundScene {
   ShadowMaps shadowMaps;
   Skies skies;
   std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
-  BoundLight stored;                                      ///< Stands for all lights where Illumination is not Lights.
-  StableVector<BoundGroup> groups;                        ///< As Scene::groups.
-  BoundShaderPtr imager;                                  ///< May be null.
+  const BoundLight* added = nullptr;  ///< The last of them, if Options::wantsIndirect has added it for all objects.
+  BoundLight stored;                  ///< Stands for all lights where Illumination is not Lights.
+  StableVector<BoundGroup> groups;    ///< As Scene::groups.
+  BoundShaderPtr imager;              ///< May be null.
   ShadeGroup picture{std::make_shared<const Attributes>(), mat4(1.0f), {}, -1};
   BoundGroup pixels;  ///< Stands for the picture while the imager runs.
 
  private:
   BoundGroup bound(const ShadeGroup& group) const;
+  void addIndirectLight();
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
   bool grows_ = false;  ///< What procedurals bring is known in the end.

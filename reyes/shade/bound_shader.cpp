@@ -5,6 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "reyes/shade/parameter_values.h"
+#include "reyes/shade/roles.h"
 
 namespace tomales {
 namespace {
@@ -38,12 +39,6 @@ vec3 transformAs(TmType type, const mat4& m, const vec3& v) {
   }
 }
 
-const TmValue* BoundShader::find(std::string_view name) const {
-  for (int i = 0; i < shader->paramCount; ++i)
-    if (shader->params[i].name == name) return &values[static_cast<size_t>(i)];
-  return nullptr;
-}
-
 int BoundShader::output(std::string_view name, ValueType type) const {
   for (int i = 0; i < shader->paramCount; ++i)
     if (shader->params[i].name == name && isOutput(shader->params[i]) && accepts(typeOf(shader->params[i]), type))
@@ -51,65 +46,133 @@ int BoundShader::output(std::string_view name, ValueType type) const {
   return -1;
 }
 
-float BoundShader::number(std::string_view name, float fallback) const {
-  const TmValue* v = find(name);
-  return v && v->c[0] ? v->c[0][0] : fallback;
+int BoundShader::output(TmRole role) const {
+  for (int i = 0; i < shader->paramCount; ++i)
+    if (isOutput(shader->params[i]) && roleOf(*shader, shader->params[i]) == role) return i;
+  return -1;
 }
 
-vec3 BoundShader::color(std::string_view name, const vec3& fallback) const {
-  const TmValue* v = find(name);
-  return v && v->c[2] ? vec3(v->c[0][0], v->c[1][0], v->c[2][0]) : fallback;
+const RoleValue* BoundShader::find(TmRole role) const {
+  const auto it = std::find_if(told.begin(), told.end(), [&](const RoleValue& v) { return v.role == role; });
+  return it == told.end() ? nullptr : &*it;
 }
 
-std::string BoundShader::text(std::string_view name, const std::string& fallback) const {
-  const TmValue* v = find(name);
-  return v && v->string ? v->string : fallback;
+float BoundShader::number(TmRole role, float fallback) const {
+  const RoleValue* v = find(role);
+  return v ? v->number.x : fallback;
 }
 
-BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
-                          const std::string& user, const mat4& currentFromShader, const ParamNames& hostParams,
-                          Log& log) {
-  auto bound = std::make_shared<BoundShader>();
-  bound->shader = &shader, bound->where = where, bound->user = user, bound->currentFromShader = currentFromShader;
-  const size_t n = static_cast<size_t>(shader.paramCount);
-  bound->floats.resize(n), bound->strings.resize(n), bound->values.resize(n + 1);
-  bound->values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // to read it is to crash
+vec3 BoundShader::color(TmRole role, const vec3& fallback) const {
+  const RoleValue* v = find(role);
+  return v ? v->number : fallback;
+}
 
-  const auto warn = [&](const char* code, std::string_view parameter, const std::string& problem) {
-    log.report(Severity::Warning, fmt::format("{}-{}-{}", code, shader.name, parameter), where,
-               fmt::format("{}: shader \"{}\": {}", user, shader.name, problem));
-  };
-  for (size_t i = 0; i < n; ++i) {
-    const TmParamDecl& decl = shader.params[i];
-    const Param* param = call ? findParam(call->params, decl.name) : nullptr;
-    TmValue& value = bound->values[i];
+std::string BoundShader::text(TmRole role, const std::string& fallback) const {
+  for (const RoleValue& v : told)
+    if (v.role == role && !v.text.empty()) return v.text;
+  return fallback;
+}
+
+namespace {
+
+RoleValue roleValue(TmRole role, const char* name, bool declared, bool given, const ParameterValue& value) {
+  RoleValue out{role, name, declared, given, {}, {}};
+  for (size_t k = 0; k < std::min<size_t>(value.floats.size(), 3); ++k)
+    out.number[static_cast<int>(k)] = value.floats[k];
+  if (!value.strings.empty()) out.text = value.strings.front();
+  return out;
+}
+
+bool hasInput(const TmShader& shader, std::string_view name) {
+  return std::any_of(shader.params, shader.params + shader.paramCount,
+                     [&](const TmParamDecl& d) { return !isOutput(d) && d.name == name; });
+}
+
+/// Binds one shader; `warn` reports what is wrong with a parameter.
+class Binding {
+ public:
+  Binding(BoundShader& bound, const ShaderCall* call, Log& log) : bound_(bound), call_(call), log_(log) {}
+
+  void bind() {
+    const TmShader& shader = *bound_.shader;
+    const auto n = static_cast<size_t>(shader.paramCount);
+    bound_.floats.resize(n), bound_.strings.resize(n), bound_.values.resize(n + 1);
+    bound_.values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // to read it is to crash
+    for (size_t i = 0; i < n; ++i) bindDeclared(shader.params[i], i);
+    if (!call_) return;
+    const std::span<const TmParamDecl> standard = standardParams(static_cast<TmKind>(shader.kind));
+    for (const TmParamDecl& decl : standard) bindStandard(decl);
+    for (const Param& p : call_->params) warnOfUnknown(p, standard);
+    std::stable_partition(bound_.told.begin(), bound_.told.end(), [](const RoleValue& v) { return v.given; });
+  }
+
+ private:
+  void warn(const char* code, std::string_view parameter, const std::string& problem) {
+    log_.report(Severity::Warning, fmt::format("{}-{}-{}", code, bound_.shader->name, parameter), bound_.where,
+                fmt::format("{}: shader \"{}\": {}", bound_.user, bound_.shader->name, problem));
+  }
+
+  ParameterValue valueOf(const TmParamDecl& decl, const Param* given) {
+    ParameterValue out = parameterValue(decl, given);
+    if (!out.remark.empty())
+      warn("shader-parameter-type", decl.name, fmt::format("parameter \"{}\" {}", decl.name, out.remark));
+    return out;
+  }
+
+  void bindDeclared(const TmParamDecl& decl, size_t i) {
+    const Param* param = call_ ? findParam(call_->params, decl.name) : nullptr;
+    TmValue& value = bound_.values[i];
     value = {{nullptr, nullptr, nullptr}, 0, std::max(1, decl.arrayLength), nullptr};
     if (isOutput(decl)) {
-      const bool isInputToo = std::any_of(shader.params, shader.params + n, [&](const TmParamDecl& d) {
-        return !isOutput(d) && std::string_view(d.name) == decl.name;
-      });
-      if (param && !isInputToo)
+      if (param && !hasInput(*bound_.shader, decl.name))
         warn("shader-parameter-output", decl.name,
              fmt::format("\"{}\" is an output; what is given is ignored", decl.name));
-      continue;
+      return;
     }
-    ParameterValue parameter = parameterValue(decl, param);
-    if (!parameter.remark.empty())
-      warn("shader-parameter-type", decl.name, fmt::format("parameter \"{}\" {}", decl.name, parameter.remark));
+    ParameterValue parameter = valueOf(decl, param);
+    if (const TmRole role = roleOf(*bound_.shader, decl); role != TM_ROLE_NONE)
+      bound_.told.push_back(roleValue(role, decl.name, true, param != nullptr, parameter));
     if (typeOf(decl) == TM_STRING) {
-      for (const std::string& s : parameter.strings) bound->strings[i].append(s).push_back('\0');
-      value.string = bound->strings[i].c_str();
-      continue;
+      for (const std::string& s : parameter.strings) bound_.strings[i].append(s).push_back('\0');
+      value.string = bound_.strings[i].c_str();
+      return;
     }
-    bound->floats[i] = std::move(parameter.floats);
-    toCurrent(typeOf(decl), currentFromShader, bound->floats[i]);
-    for (size_t k = 0; k < std::min<size_t>(bound->floats[i].size(), 3); ++k) value.c[k] = bound->floats[i].data() + k;
+    bound_.floats[i] = std::move(parameter.floats);
+    toCurrent(typeOf(decl), bound_.currentFromShader, bound_.floats[i]);
+    for (size_t k = 0; k < std::min<size_t>(bound_.floats[i].size(), 3); ++k) value.c[k] = bound_.floats[i].data() + k;
   }
-  if (call)
-    for (const Param& p : call->params)  // constants are those of a primitive, which no shader need have
-      if (p.storage != Storage::Constant && !bound->find(p.name) &&
-          std::find(hostParams.begin(), hostParams.end(), p.name) == hostParams.end())
-        warn("shader-parameter-unknown", p.name, fmt::format("has no parameter \"{}\"; it is ignored", p.name));
+
+  void bindStandard(const TmParamDecl& decl) {
+    const Param* given = findParam(call_->params, decl.name);
+    if (given && !declares(decl.name))
+      bound_.told.push_back(roleValue(static_cast<TmRole>(decl.role), decl.name, false, true, valueOf(decl, given)));
+  }
+
+  void warnOfUnknown(const Param& p, std::span<const TmParamDecl> standard) {
+    const bool known = declares(p.name) || std::any_of(standard.begin(), standard.end(),
+                                                       [&](const TmParamDecl& d) { return d.name == p.name; });
+    if (!known && p.storage != Storage::Constant)  // constants are those of a primitive, which no shader need have
+      warn("shader-parameter-unknown", p.name, fmt::format("has no parameter \"{}\"; it is ignored", p.name));
+  }
+
+  bool declares(std::string_view name) const {
+    const TmShader& shader = *bound_.shader;
+    return std::any_of(shader.params, shader.params + shader.paramCount,
+                       [&](const TmParamDecl& d) { return d.name == name; });
+  }
+
+  BoundShader& bound_;
+  const ShaderCall* call_;
+  Log& log_;
+};
+
+}  // namespace
+
+BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
+                          const std::string& user, const mat4& currentFromShader, Log& log) {
+  auto bound = std::make_shared<BoundShader>();
+  bound->shader = &shader, bound->where = where, bound->user = user, bound->currentFromShader = currentFromShader;
+  Binding(*bound, call, log).bind();
   return bound;
 }
 

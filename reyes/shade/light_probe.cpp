@@ -1,4 +1,6 @@
-// Lights and surfaces as photons see them: asked alone, outside the shading of any object.
+// Lights and surfaces as photons see them, and lamps as the eye does: asked alone, outside the shading of any object.
+#include <fmt/format.h>
+
 #include "reyes/shade/batch.h"
 #include "reyes/shade/system.h"
 
@@ -38,12 +40,50 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   probe.L.assign(n, vec3(0.0f)), probe.Cl.assign(n, vec3(0.0f));
   for (size_t i = 0; finished && i < n; ++i) {
     const vec3 L = get(batch.tm.L, static_cast<int>(i)), Cl = get(batch.tm.Cl, static_cast<int>(i));
-    if (isFinite(L) && isFinite(Cl)) probe.L[i] = L, probe.Cl[i] = glm::max(Cl, vec3(0.0f));
+    if (isFinite(L) && isFinite(Cl))
+      probe.L[i] = L, probe.Cl[i] = glm::max(Cl, vec3(0.0f));
+    else
+      probe.finite = false;
   }
+}
+
+void ShadingSystem::emission(const ShadePoints& points, std::vector<vec3>& radiance) const {
+  radiance.clear();
+  const int index = impl_->groups[static_cast<size_t>(points.group())].group->attributes->areaLight;
+  if (index < 0 || index >= static_cast<int>(impl_->lights.size())) return;
+  const BoundLight* light = impl_->lights[static_cast<size_t>(index)].get();
+  if (!light || !light->can(TM_LIGHT_AREA) || !light->visible) return;
+  LightProbe seen;
+  std::vector<size_t> front;
+  for (int i = 0; i < points.count(); ++i) {
+    const vec3 P = points.position(i), I = points.get3(kIx, i), N = points.get3(kNgx, i);
+    if (dot(I, N) >= 0) continue;
+    front.push_back(static_cast<size_t>(i));
+    seen.P.push_back(P - I), seen.N.push_back(normalizeOr(I, I));
+    seen.Pl.push_back(P), seen.Nl.push_back(normalizeOr(N, N));
+  }
+  radiance.assign(static_cast<size_t>(points.count()), vec3(0.0f));
+  if (!front.empty()) probe(index, seen);
+  if (!seen.finite)
+    impl_->log.report(Severity::Warning, "light-not-finite", light->bound->where,
+                      fmt::format("{}: shader \"{}\" returned NaN or infinity; the lamp is dark there",
+                                  light->bound->user, light->bound->shader->name));
+  for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] = seen.Cl[k];
 }
 
 std::span<const Portal> ShadingSystem::portals(int light) const {
   return impl_->lights[static_cast<size_t>(light)]->sky->portals().all();
+}
+
+MediumColors ShadingSystem::medium(int group, bool inside) const {
+  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
+  const BoundShader* volume = (inside ? g.interior : g.exterior).get();
+  if (!volume) return {};
+  const auto color = [&](TmRole role) {
+    const vec3 c = volume->color(role, vec3(0.0f));
+    return isFinite(c) ? glm::max(c, vec3(0.0f)) : vec3(0.0f);
+  };
+  return {color(TM_ROLE_SCATTERING), color(TM_ROLE_ABSORPTION)};
 }
 
 bool ShadingSystem::emits(int group) const {

@@ -247,10 +247,8 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
                        tally,
                        g.L,
                        g.params};
-    if (const int k = light.bound->output("__nondiffuse", ValueType::Float); k >= 0)
-      sample.nondiffuse = g.params[k].c[0];
-    if (const int k = light.bound->output("__nonspecular", ValueType::Float); k >= 0)
-      sample.nonspecular = g.params[k].c[0];
+    if (const int k = light.bound->output(TM_ROLE_NONDIFFUSE); k >= 0) sample.nondiffuse = g.params[k].c[0];
+    if (const int k = light.bound->output(TM_ROLE_NONSPECULAR); k >= 0) sample.nonspecular = g.params[k].c[0];
     normalizeAll(g.count, view(g.L), sample.L);
     if (light.shadows && batch.scene.services) {
       if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));

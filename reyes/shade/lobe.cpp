@@ -40,7 +40,7 @@ void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, fl
 }
 
 // Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide
-// (docs/performance/rays.md).
+// (docs/measured/rays.md).
 int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
 
 /// The lobe of RISpec 15.6, (N.H)^e, with the exponent of docs/decisions/0004. Directions are drawn by H with density

@@ -3,15 +3,12 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 
 #include <cstring>
 
 #include "reyes/base/process.h"
 #include "reyes/shade/plugin_trial_socket.h"
-
-extern char** environ;
 
 namespace tomales {
 namespace {
@@ -37,24 +34,23 @@ void PluginTrial::start() {
   int ends[2];
   if (programs.empty() || socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return;
   const std::string program = programs.front();
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, ends[1],
-                                   trial::kSocket);  // first: the numbers of standard files may be those of the socket
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);  // nothing is to be said twice
-  char* const arguments[] = {const_cast<char*>(program.c_str()), nullptr};
-  const bool started = posix_spawn(&child_, program.c_str(), &files, nullptr, arguments, environ) == 0;
-  posix_spawn_file_actions_destroy(&files);
+  const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+  const std::pair<int, int> silent[] = {
+      {nothing, STDIN_FILENO}, {nothing, STDOUT_FILENO}, {nothing, STDERR_FILENO}};  // nothing is to be said twice
+  int problem = 0;
+  child_ = startChild({program, {program}, {silent[0], silent[1], silent[2], {ends[1], trial::kSocket}}}, problem);
+  if (child_ > 0) guard_.emplace(child_);
+  close(nothing);
   close(ends[1]);
-  if (!started) child_ = -1, close(ends[0]);
-  socket_ = started ? ends[0] : -1;
+  if (child_ < 0) close(ends[0]);
+  socket_ = child_ > 0 ? ends[0] : -1;
 }
 
 /// Returns the status of the child, which ends as soon as nobody speaks to it.
 int PluginTrial::end() {
   if (child_ < 0) return 0;
   close(socket_);
+  guard_.reset();
   int status = 0;
   while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }

@@ -3,7 +3,10 @@
 #pragma once
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
+
+#include "reyes/base/child_process.h"
 
 namespace tomales {
 
@@ -27,6 +30,7 @@ class PluginTrial {
 
   bool works_ = true;
   pid_t child_ = -1;
+  std::optional<ChildGuard> guard_;
   int socket_ = -1;
 };
 

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <set>
 
+#include "reyes/base/input_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
+#include "reyes/shade/roles.h"
 
 namespace tomales {
 
@@ -73,6 +75,11 @@ std::string lackOf(const TmShader& s) {
     const TmParamDecl& p = s.params[k];
     if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX)
       return fmt::format("a name, length or type of parameter {}", k + 1);
+    if (p.role == TM_ROLE_NONE) continue;
+    const RoleInfo* role = roleInfo(p.role);
+    if (!role) return fmt::format("a role that there is of parameter \"{}\"", p.name);
+    if (role->type != TM_TYPE_OF(p.type) || role->kind != s.kind)
+      return fmt::format("a type or kind that fits the role {} of parameter \"{}\"", role->name, p.name);
   }
   return {};
 }
@@ -109,6 +116,10 @@ std::string ShaderRegistry::Impl::heldBy(const std::string& path) const {
 bool ShaderRegistry::Impl::load(const std::string& path) {
   if (const auto it = plugins.find(path); it != plugins.end()) return it->second.loaded;
   Plugin& plugin = plugins[path];
+  if (const std::string problem = inputProblem(path); !problem.empty()) {
+    refuse(path, "cannot be loaded: " + problem);
+    return false;
+  }
   if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
   if (!trial.works() && !untriedSaid)
     untriedSaid = true,

@@ -78,17 +78,29 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
 
 void ShadingSystem::warnOfLightNoise() const { impl_->lightNoise.warn(*impl_); }
 
-vec3 ShadingSystem::visibleEmission(int group) const {
-  const int index = impl_->groups[static_cast<size_t>(group)].group->attributes->areaLight;
-  if (index < 0 || index >= static_cast<int>(impl_->lights.size())) return vec3(0.0f);
-  const auto& light = impl_->lights[static_cast<size_t>(index)];
-  if (!light || !light->can(TM_LIGHT_AREA) || !light->visible) return vec3(0.0f);
-  return light->bound->number("intensity", 1) * light->bound->color("lightcolor", vec3(1.0f));
-}
-
 const IndirectQuery* ShadingSystem::indirectQuery(int group) const {
   const auto& query = impl_->groups[static_cast<size_t>(group)].indirect;
   return query ? &*query : nullptr;
+}
+
+std::optional<IndirectRequest> ShadingSystem::indirectRequest() const {
+  std::optional<IndirectRequest> out;
+  for (const auto& light : impl_->lights) {
+    if (!light || !light->can(TM_LIGHT_INDIRECT) || light->filters) continue;
+    const IndirectRequest& said = light->request;
+    if (!out) out.emplace();
+    if (out->hitRadiance == HitRadianceChoice::Shader) out->hitRadiance = said.hitRadiance;
+    if (out->atlas.empty()) out->atlas = said.atlas;
+    if (!out->bounces) out->bounces = said.bounces;
+  }
+  return out;
+}
+
+int ShadingSystem::mostAreaSamples() const {
+  int most = 0;
+  for (const auto& light : impl_->lights)
+    if (light && light->can(TM_LIGHT_AREA)) most = std::max(most, light->samples);
+  return most;
 }
 
 bool ShadingSystem::tracesRays(int group) const {
@@ -101,8 +113,7 @@ bool ShadingSystem::asksOcclusion(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
   const bool allowed = g.group->attributes->irradianceMaxError.value_or(0.0f) > 0;
   return g.surface->can(TM_OCCLUDED) || std::any_of(g.lights.begin(), g.lights.end(), [&](const BoundLight* l) {
-           const float variation = l->can(TM_OCCLUDED) ? l->bound->number("maxvariation", 1) : 0;
-           return variation < 0 ? allowed : variation > 0;
+           return l->maxVariation < 0 ? allowed : l->maxVariation > 0;
          });
 }
 

@@ -24,7 +24,9 @@ struct Textures::Impl {
 
   TextureCache* open() {
     std::call_once(opened, [this] {
-      if (const PictureLibrary* library = pictureLibrary(problem)) cache = library->textures(settings);
+      TextureSettings told = settings;
+      told.note = [this](const std::string& note) { log.report(Severity::Warning, "texture-cache", {}, note); };
+      if (const PictureLibrary* library = pictureLibrary(problem)) cache = library->textures(told);
     });
     return cache.get();
   }
@@ -41,7 +43,7 @@ Textures::Textures(const TextureSettings& settings, Log& log, Stats& stats) : im
 
 Textures::~Textures() {
   if (!impl_->cache) return;
-  const TextureFigures figures = impl_->cache->figures();
+  const TextureFigures figures = impl_->cache->takeFigures();
   auto& s = impl_->stats.textures;
   s.tileRequests += figures.tileRequests, s.tileMisses += figures.tileMisses, s.bytesRead += figures.bytesRead;
 }

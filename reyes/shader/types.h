@@ -56,13 +56,47 @@ typedef enum TmCapability {
   TM_LIGHT_SOLAR = 1 << 9,   /* L is a direction, the source is at infinity */
   TM_LIGHT_AREA = 1 << 10,   /* the host samples the geometry of an AreaLightSource and sets Pl, Nl, L */
   TM_LIGHT_SKY = 1 << 11, /* with TM_LIGHT_SOLAR: all around, at infinity. The host chooses L, by the brightness of the
-                             latitude-longitude picture that its parameter `map` names and by the cosine, parameter
-                             `samples` times; Cl is the radiance from there */
+                             latitude-longitude picture that its TM_ROLE_SKY_MAP names and by the cosine,
+                             TM_ROLE_SAMPLES times; Cl is the radiance from there */
   TM_LIGHT_INDIRECT = 1 << 12, /* brings indirect light; never run at the hits of gather rays */
-  TM_LIGHT_SAMPLED = 1 << 13,  /* asked for as many samples as its parameter `samples` says, with xi0 and xi1; Cl is the
+  TM_LIGHT_SAMPLED = 1 << 13,  /* asked for as many samples as its TM_ROLE_SAMPLES says, with xi0 and xi1; Cl is the
                                   share of one sample */
   TM_LIGHT_SHADOWED = 1 << 14  /* the host traces a shadow ray along L for every sample */
 } TmCapability;
+
+/* What the host understands of a parameter, whatever its name: how a shader says which of its parameters is the number
+ * of its samples, and so on. A parameter without a role is the shader's own affair. Each role has one type and one kind
+ * of shader (reyes/shade/roles.cpp); docs/shader_writing.md explains them. */
+typedef enum TmRole {
+  TM_ROLE_NONE = 0,
+  /* float. TM_LIGHT_AREA, TM_LIGHT_SKY, TM_LIGHT_SAMPLED: samples for each shaded point. TM_LIGHT_INDIRECT: rays of
+   * each irradiance record. */
+  TM_ROLE_SAMPLES = 1,
+  TM_ROLE_VISIBLE = 2,          /* float. TM_LIGHT_AREA, TM_LIGHT_SKY: 0 hides it from the camera and specular rays */
+  TM_ROLE_SKY_MAP = 3,          /* string. TM_LIGHT_SKY: latitude-longitude picture of its brightness */
+  TM_ROLE_SKY_SPACE = 4,        /* string. The space of that picture: world or shader */
+  TM_ROLE_SKY_PORTALS = 5,      /* string. TM_LIGHT_SKY: coordinate systems whose unit squares are windows */
+  TM_ROLE_MAX_ERROR = 6,        /* float. TM_LIGHT_INDIRECT: error that interpolation of records may make */
+  TM_ROLE_ERROR_FUNCTION = 7,   /* string. TM_LIGHT_INDIRECT: how far a record may be used */
+  TM_ROLE_HIT_RADIANCE = 8,     /* string. TM_LIGHT_INDIRECT: what gather rays see: shader, radiosity, atlas, points */
+  TM_ROLE_ATLAS = 9,            /* string. TM_LIGHT_INDIRECT: folder of the maps that gather rays look up */
+  TM_ROLE_BOUNCES = 10,         /* float. TM_LIGHT_INDIRECT: diffuse bounces */
+  TM_ROLE_MAX_DISTANCE = 11,    /* float. TM_LIGHT_INDIRECT: length of gather rays */
+  TM_ROLE_SUBSET = 12,          /* string. TM_LIGHT_INDIRECT: sets of objects that gather rays see */
+  TM_ROLE_INDIRECT_SOURCE = 13, /* string. TM_LIGHT_INDIRECT: handle of the indirect light that this one filters */
+  TM_ROLE_SCALE = 14,           /* float. TM_LIGHT_INDIRECT: multiplies what it brings, for its filters too */
+  TM_ROLE_TINT = 15,            /* color. Likewise */
+  TM_ROLE_MAX_VARIATION = 16,   /* float. Light with TM_OCCLUDED: the TmOcclusion::maxVariation that it asks for */
+  TM_ROLE_LIGHTING = 17,        /* string. Any light: direct, indirect or both */
+  TM_ROLE_NONDIFFUSE = 18,      /* float, or output float. Any light: 1 where diffuse() leaves it out */
+  TM_ROLE_NONSPECULAR = 19,     /* float, or output float. Any light: 1 where specular() leaves it out */
+  TM_ROLE_GROUP = 20,           /* string. Any light: name of the light's group */
+  TM_ROLE_CATEGORY = 21,        /* string. Any light: names by commas, for illuminance() */
+  TM_ROLE_SHADOW_MAP = 22,      /* string, one or several. Any light: a shadow map that the shader reads */
+  TM_ROLE_SHADOW_VARIANCE = 23, /* float. Any light: what its shadow rays may leave open */
+  TM_ROLE_SCATTERING = 24,      /* color. Volume: for each unit of length of the world, as photons meet it */
+  TM_ROLE_ABSORPTION = 25       /* color. Likewise */
+} TmRole;
 
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */
 typedef struct TmParamDecl {
@@ -72,6 +106,7 @@ typedef struct TmParamDecl {
   const float* floats;        /* the default, arrayLength values; NULL is all zero */
   const char* const* strings; /* the default of a string parameter, arrayLength of them */
   const char* doc;            /* one line for `tomales info` */
+  int32_t role;               /* TmRole */
 } TmParamDecl;
 
 /* One bound parameter: component k of point i is c[k][i * step]. step 0: uniform; 1: varying (a primitive

@@ -1,4 +1,4 @@
-// Whole numbers of cells along two lines that have been measured.
+// Chooses the numbers of cells along two lines that have been measured.
 #include <bit>
 #include <cmath>
 
@@ -7,25 +7,25 @@
 namespace tomales {
 namespace {
 
-/// How far a chord may leave its arc, at any shading rate: a silhouette's error (docs/decisions/0034).
+/// Greatest distance of a chord from its arc, at any shading rate: the error of a silhouette (docs/decisions/0034).
 constexpr float kFlat_px = 0.25f;
-/// What is blurred may leave its arcs by more, but not so that it covers less: a cell turns by so much at
-/// most, in radians, so that circles have 0.97 of their area, if it would not turn by more if it were sharp.
+/// Greatest turn of a blurred cell in radians. A blurred chord may leave its arc by more, but must not cover less: with
+/// this limit circles keep 0.97 of their area. It does not apply where a sharp cell would turn by more.
 constexpr float kTurn = 0.4f;
-/// Up to so many cells of what bends round are even in number: its middle, where a ball is widest, is a line
+/// Lines that bend round have an even number of cells up to this: their middle, where a ball is widest, is then a line
 /// of the grid.
 constexpr int kFewOfRound = 10;
 constexpr float kMostCells = 65536;
 
-/// An edge may be this much longer than that of a square of the area asked.
+/// Greatest length of an edge over that of a square of the required area.
 constexpr float kLongest = 1.5f;
-/// So much smaller than the cells along two lines, as fractions, may their whole numbers be.
+/// The whole numbers may be smaller than the exact numbers of cells by this factor.
 constexpr float kFewer = 0.9f;
-/// Less than this is better by rounding alone: which way a square piece is cut must not depend on where it
-/// stands.
+/// A ratio closer to 1 is better by rounding alone: the direction in which a square piece is cut must not depend on its
+/// position.
 constexpr float kSquarer = 0.9999f;
 
-/// Whole numbers for two lines that take so many cells: as few as cover the area, the squarest of these.
+/// Whole numbers for two lines with these exact numbers of cells: as few as cover the area, and the squarest of these.
 Cells fewest(float alongU, float alongV, int leastU, int leastV) {
   Cells best{0, 0};
   float bestEdge = kInfinity;
@@ -40,22 +40,21 @@ Cells fewest(float alongU, float alongV, int leastU, int leastV) {
   return best;
 }
 
-/// Of an arc, in radians: if it turns by t over its length r t, a quarter of it leaves it by 2 r (1 - cos(t /
-/// 4)) as a second difference; the inverse of that within 3 % up to a full circle.
+/// Turn of an arc in radians. If it turns by t over its length r t, a quarter of it leaves it by 2 r (1 - cos(t / 4))
+/// as a second difference; the result is the inverse of that within 3 % up to a full circle.
 float turnOf(const LineSize& line) {
   const float bend = line.px > 0 ? line.bend_px / line.px : 0.0f;
   return 16 * bend * (1 + 2.3f * bend * bend);
 }
 
-/// Whatever the rate asks: so that the shape does not collapse where blur lets edges grow, and chords are
+/// Least number of cells at any rate: so that the shape does not collapse where blur lets edges grow, and chords are
 /// flat.
 int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   constexpr float kLeastOfCoarse = 4;
-  // The hider knows how far a line bulges from two chords on, and closes cracks by that
+  // The hider knows how far a line bulges if it has two chords or more, and closes cracks by that
   // (docs/decisions/0003).
   constexpr float kOneChord_px = 0.05f;
-  // A line that a quarter of it leaves by `bend_px` as a second difference: its n-th part bulges by 2 bend /
-  // n^2.
+  // For a line whose quarters leave it by `bend_px` as a second difference, an n-th part bulges by 2 bend / n^2.
   const auto within = [&](float px) { return std::min(std::ceil(std::sqrt(2 * line.bend_px / px)), 64.0f); };
   const float fine = std::ceil(line.px / (kLongest * edge_px)),
               coarse = std::ceil(line.px / (kLongest * edge_px * coarsening));

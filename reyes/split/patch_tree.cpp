@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// 0, 1, ... in the order of their places, which have 30 bits; equals stay in order. Digit by digit, the lowest first.
+/// Returns 0, 1, ... sorted by their places, which have 30 bits. It is a stable radix sort, the lowest digit first.
 std::vector<uint32_t> inOrderOf(const std::vector<uint32_t>& places) {
   constexpr uint32_t kBits = 10, kDigits = 1U << kBits;
   std::vector<uint32_t> order(places.size()), next(places.size());

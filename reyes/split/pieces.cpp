@@ -10,28 +10,31 @@
 namespace tomales {
 namespace {
 
-constexpr int kMaxDepth = 48;  ///< Halvings of one patch; beyond, the piece is smaller than a float can name.
-/// A bound that is so many times larger than the lines on its piece does not shrink with it: it is rounding, or the
-/// circle in which a ribbon may turn. From some depth on points measured on the piece say where it is, or nothing near
-/// the eye would ever be culled.
+/// Greatest number of halvings of one patch; beyond, the piece is smaller than a float can represent.
+constexpr int kMaxDepth = 48;
+/// A bound that is larger than the lines on its piece by this factor does not shrink with the piece: it is rounding, or
+/// the circle in which a ribbon may turn. From kSlackDepth on, points measured on the piece show its position;
+/// otherwise nothing near the eye would ever be culled.
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
-/// Pieces that one patch may visit: so many times those that cover the window once, and some for small windows. Only
-/// coordinates beyond float's precision or reach, which no halving makes small, come near it. Patches of one object
-/// share what exceeds the least, or a mesh of them would take hours.
-constexpr double kLayersOfObject = 64, kLayersOfPatch = 4;
+/// Limits of the pieces that one patch may visit: so many times those that cover the window once, and a number for
+/// small windows. A ground plane up to its horizon takes about ten, as its grids lie over each other there. Only
+/// coordinates beyond the precision or range of floats, which no halving makes small, come near it. Patches of one
+/// object share what exceeds the least, or a mesh of them would take hours.
+constexpr double kLayersOfObject = 128, kLayersOfPatch = 16;
 constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
-constexpr float kLeastReach_px = 0.05f;  ///< What vertices are snapped by, and what closes T-vertices.
-/// What a blurred piece costs beyond its visit if it may be seen all over the window: each sample there has to look
-/// whether it meets it, and all buckets wait for its vertices at every key.
+constexpr float kLeastReach_px = 0.05f;  ///< Vertices are snapped by this, and it closes T-vertices.
+/// The cost of a blurred piece beyond its visit, if it may be seen all over the window: each sample there is tested
+/// against it, and all buckets wait for its vertices at every key.
 constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
-constexpr int kRound_cells = 6;  ///< A disk of so many is shaded as one: nothing but P varies over it.
-/// In edges of a micropolygon: a disk whose bound, half as wide again as itself, is no wider takes no more cells
+constexpr int kRound_cells = 6;  ///< A disk of so many cells is shaded as one cell: only P varies over it.
+/// In edges of a micropolygon. A disk whose bound, 1.5 times as wide as the disk, is no wider than this takes few cells
 /// however it is measured.
 constexpr float kDot = 3.5f;
-/// Lazily, a patch is halved so often, and what then has so many grids or more is a coarse piece.
+/// Lazy splitting halves a patch so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
+constexpr float kDeepest = 2;  ///< Its far end is at most so many times as far from the eye as its near end.
 
 double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
 
@@ -44,15 +47,21 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-/// Is a patch bent nowhere, nor shaded as if it were? As a single cell it then reaches farther only by what closes
-/// T-vertices, and most small ones are missed by all samples.
+/// May it be halved? Else there is no float between its ends.
+bool hasMiddle(float from, float to) {
+  const float middle = 0.5f * (from + to);
+  return from < middle && middle < to;
+}
+
+/// Is a patch flat, also in its shading? As a single cell it then reaches out only to close T-vertices, and most small
+/// ones are missed by all samples.
 bool isFlat(const Object& o, uint32_t patch) {
   const std::vector<Primvar>& primvars = o.shape().primvars();
   return o.displacementBound <= 0 && o.shape().info(patch).planar &&
          std::none_of(primvars.begin(), primvars.end(), [](const Primvar& p) { return p.name == "N"; });
 }
 
-/// Does a whole patch, a particle say, join no neighbour? Nothing is added to its borders then.
+/// Does a whole patch, for instance a particle, join no neighbour? Nothing is added to its borders then.
 bool isAlone(const Object& o, uint32_t patch) {
   return o.displacementBound <= 0 && (o.shape().info(patch).openEdges & kAllEdges) == kAllEdges;
 }
@@ -60,7 +69,7 @@ bool isAlone(const Object& o, uint32_t patch) {
 /// Splits the patches of one object.
 class Splitter {
  public:
-  /// Pieces that were left out because halving did not help, or there was no time left.
+  /// Counts of pieces that were left out because halving did not help, or because there was no time left.
   struct GivenUp {
     int64_t atEye = 0, tooMany = 0;
   };
@@ -78,12 +87,12 @@ class Splitter {
         stop_(stop),
         edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
 
-  /// May patches like this one be dots? Shapes have nothing but disks, or none.
+  /// May patches like this one be dots? A shape has either disks only or none.
   bool hasDots(uint32_t patch) const {
     return canBeRound(patch) && object_.displacementBound <= 0 && object_.attributes->rasterOrient;
   }
-  /// Takes a patch that can be seen to be a small disk, or not to be seen, without a measure of it: nothing. Else its
-  /// bound; it has to be split. Pre: hasDots().
+  /// Takes a patch that is clearly a small disk, or invisible, without measuring it, and returns nothing. Otherwise it
+  /// returns the patch's bound, and the patch has to be split. Pre: hasDots().
   std::optional<Bound3> takeDot(uint32_t patch, std::vector<SubPatch>& out) {
     if (stopped()) return std::nullopt;
     const Bound3 bare = cameraBound(object_, patch, UvRect{});
@@ -99,10 +108,10 @@ class Splitter {
       ++stats_.geometry.culled;
     return std::nullopt;
   }
-  /// What is known of a whole patch before it is split.
+  /// Known facts about a whole patch before it is split.
   struct Known {
-    PatchSize size;                ///< By measureWhole().
-    const Bound3* bare = nullptr;  ///< cameraBound(); null: nobody has asked.
+    PatchSize size;                ///< The result of measureWhole().
+    const Bound3* bare = nullptr;  ///< The result of cameraBound(); null: it has not been computed.
   };
   void splitPatch(uint32_t patch, const Known& known, std::vector<SubPatch>& out) {
     const double patches = object_.shape().patchCount();
@@ -117,18 +126,14 @@ class Splitter {
   const GivenUp& givenUp() const { return givenUp_; }
 
  private:
-  /// Coarse pieces inherit what is left of the visits, in proportion to the grids that they may show: however deep they
-  /// are nested, a patch takes no more than it was given.
+  /// Splits within a budget. Coarse pieces inherit the remaining visits, in proportion to those that they are expected
+  /// to take: however deep they are nested, a patch takes no more than its budget.
   void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known,
                    std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
     start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
     split(patch, rect, depth, known, out);
-    const auto share = [this](const SubPatch& p) {
-      return p.coarse ? static_cast<double>(
-                            std::min(gridsOf(p.nu, p.nv), 1 + static_cast<int64_t>(gridsOver(inView_px(p.raster)))))
-                      : 0.0;
-    };
+    const auto share = [this](const SubPatch& p) { return p.coarse ? expectedVisits(p) : 0.0; };
     double shares = 0;
     for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
     for (auto p = out.begin() + first; p != out.end(); ++p)
@@ -136,7 +141,7 @@ class Splitter {
         p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
   }
 
-  /// known: null if nothing is.
+  /// known: may be null.
   void split(uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
     if (stopped()) return;
     if (budget_ <= 0) {
@@ -166,7 +171,7 @@ class Splitter {
     const bool oneCell = flat_ && nu == 1 && nv == 1;
     const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
-      // What moves through the eye plane does so however small it is; it is seen while it stays in front.
+      // A piece that moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
       if (!still || camera_.defocuses()) budget_ -= visitsOfBlur(rasterOf(bare, reach_px));
       if (std::max(nu, nv) > longest_ && !crossesEye)
@@ -176,20 +181,31 @@ class Splitter {
       else
         out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, false});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
-               glm::length(bare.size()) <= kSlack * reach) {
-      // Halving shrinks such a piece and its bound as it should, so that its grids can be foretold.
+               isOfOneScale(bare) && glm::length(bare.size()) <= kSlack * reach) {
+      // Halving shrinks such a piece and its bound as it should, so that the number of its grids can be estimated.
       out.push_back({index_, patch, rect, nu, nv, rasterOf(bound, reach_px), bound.lo.z, crossesEye, depth, true});
-    } else if (depth == kMaxDepth) {
-      ++(bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
+    } else if (depth == kMaxDepth || !(hasMiddle(rect.u0, rect.u1) || hasMiddle(rect.v0, rect.v1))) {
+      takeSmallest(patch, rect, depth, bound, crossesEye, rasterOf(bound, reach_px), out);
     } else {
-      const bool alongU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
+      const bool longerInU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
+      const bool alongU = hasMiddle(rect.u0, rect.u1) && (longerInU || !hasMiddle(rect.v0, rect.v1));
       const auto [a, b] = halves(rect, alongU);
       split(patch, a, depth + 1, nullptr, out);
       split(patch, b, depth + 1, nullptr, out);
     }
   }
 
-  /// A long and narrow piece would be diced whole for the end that is seen. What was measured of it holds for its
+  /// Takes a piece of a plane that floats cannot divide as one cell, however large it is in the picture. None may reach
+  /// through the eye plane.
+  void takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Bound3& bound, bool crossesEye,
+                    const Bound2& raster, std::vector<SubPatch>& out) {
+    if (object_.shape().info(patch).planar && !crossesEye)
+      out.push_back({index_, patch, rect, 1, 1, raster, bound.lo.z, false, depth, false});
+    else
+      ++(depth == kMaxDepth && bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
+  }
+
+  /// Cuts a long and narrow piece, which would be diced whole for the end that is seen. Its measured size holds for the
   /// parts.
   void cutAcross(uint32_t patch, const UvRect& rect, int depth, int nu, int nv, std::vector<SubPatch>& out) {
     const bool alongU = nu >= nv;
@@ -217,43 +233,61 @@ class Splitter {
     }
   }
 
+  /// Is all of it seen at about the same scale? Else what its near end takes says nothing about most of it.
+  bool isOfOneScale(const Bound3& bare) const { return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z; }
+
   int64_t visitsOfBlur(const Bound2& raster) const {
     const double keys = 1 + static_cast<double>(object_.keyTimes.size()) / kKeysOfBlur;
     return static_cast<int64_t>(kVisitsOfBlur * keys * inView_px(raster) / pixelsOf(window_));
   }
   int64_t gridsOf(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
-  /// Of a bound, what the window shows.
-  double inView_px(const Bound2& raster) const {
+  /// Width and height of the part of a bound inside the window.
+  glm::dvec2 sizeInView_px(const Bound2& raster) const {
     const vec2 lo = glm::max(raster.lo, vec2(window_.x0, window_.y0)),
                hi = glm::min(raster.hi, vec2(window_.x1, window_.y1));
-    const vec2 size = glm::max(hi - lo, vec2(0));
-    return double{size.x} * size.y;
+    return glm::max(hi - lo, vec2(0));
   }
-  /// That a layer of surface over so many pixels takes.
+  double inView_px(const Bound2& raster) const {
+    const glm::dvec2 size = sizeInView_px(raster);
+    return size.x * size.y;
+  }
+  /// Of a coarse piece: its share of grids by area, those that the window's border may cut, and the halvings
+  /// that lead from all of it to them. Towards a horizon many grids lie over each other; beside the eye next
+  /// to nothing of a huge piece is seen.
+  double expectedVisits(const SubPatch& p) const {
+    const int64_t grids = gridsOf(p.nu, p.nv);
+    const glm::dvec2 size = p.raster.hi - p.raster.lo, seen = sizeInView_px(p.raster);
+    const glm::dvec2 gridsAcross = seen / (double{edge_px_} * std::sqrt(gridSize_)) + 1.0;
+    const double inView = static_cast<double>(grids) * (seen.x / size.x) * (seen.y / size.y);
+    return std::min(static_cast<double>(grids), inView + gridsAcross.x * gridsAcross.y) +
+           std::bit_width(static_cast<uint64_t>(grids));
+  }
+  /// Number of grids in a layer of surface over this area.
   double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }
 
   bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
-  /// Is it a whole disk of which one cell, without corners or neighbours, tells all?
+  /// Is it a whole disk that one cell without corners or neighbours represents?
   bool canBeRound(uint32_t patch) const {
     return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk;
   }
   bool cannotBeSeen(const Bound3& bare) const {
     const Bound3 bound = bare.grown(object_.displacementBound);
     if (!isFinite(bound.lo) || !isFinite(bound.hi)) return true;
-    // Solids are cut off where their surface is known, not before.
+    // Solids are clipped where their surface is known, not before.
     return object_.solid < 0 ? camera_.outside(bound, window_) : camera_.outsideWindow(bound, window_);
   }
-  /// No halving shrinks a displacement bound: what it alone brings to the eye plane does not count.
+  /// Does the undisplaced bound cross the eye plane? A displacement bound does not shrink with halving, so it does not
+  /// count.
   bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
 
-  /// Of what lies beyond the near plane.
+  /// Raster bound of the part beyond the near plane.
   Bound2 rasterOf(Bound3 bound, float reach_px) const {
     if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
     return tomales::rasterOf(bound, reach_px, camera_);
   }
 
-  /// How much longer than the shading rate asks the edges may be: a micropolygon's width up to a quarter of the circle
-  /// of confusion, its area up to a quarter of the way it moves, by the factors of GeometricApproximation.
+  /// Factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter of the
+  /// circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.
   float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const {
     const Attributes& a = *object_.attributes;
     const float focus = a.focusFactor * leastBlur_px(camera_, std::max(bound.lo.z, camera_.nearClip()), bound.hi.z) / 4;
@@ -265,16 +299,16 @@ class Splitter {
 
   const Object& object_;
   const int index_, gridSize_;
-  const int longest_;  ///< Cells in a row.
+  const int longest_;  ///< Greatest number of cells in a row.
   const Camera& camera_;
   const PixelRect& window_;
   Stats& stats_;
   const bool lazily_;
   const StopFlag stop_;
   const float edge_px_;
-  int start_ = 0;                      ///< Depth of what is being split.
-  int64_t budget_ = 0;                 ///< Pieces that may still be visited.
-  bool flat_ = false, alone_ = false;  ///< The patch
+  int start_ = 0;                      ///< Depth of the piece that is being split.
+  int64_t budget_ = 0;                 ///< Number of pieces that may still be visited.
+  bool flat_ = false, alone_ = false;  ///< Results of isFlat() and isAlone() for the current patch.
   GivenUp givenUp_;
 };
 
@@ -293,7 +327,7 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
                     objectName(o)));
 }
 
-/// split(splitter, pieces) does it; the rest is the same for patches and pieces.
+/// Makes pieces by split(splitter, pieces), and reports; it is the same for patches and pieces.
 template <class Split>
 std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, Stats& stats, Log& log, const Split& split) {
   std::vector<SubPatch> pieces;

@@ -1,4 +1,4 @@
-// Where pieces are, in camera space and in raster space. Private to splitting.
+// Private to splitting: bounds of pieces in camera space and in raster space.
 #pragma once
 #include "reyes/split.h"
 
@@ -6,11 +6,11 @@ namespace tomales {
 
 /// Box in camera space around a rectangle, over the shutter, before displacement.
 Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect);
-/// Raster length of the way that the middle of a rectangle goes over the shutter. Pre: it stays in front of the eye.
+/// Raster length of the path of a rectangle's middle over the shutter. Pre: it stays in front of the eye.
 float pathLength_px(const Object& o, const Camera& camera, uint32_t patch, const UvRect& rect);
 /// The least diameter of the circle of confusion in a range of depths; 0 if the focal plane is among them.
 float leastBlur_px(const Camera& camera, float zMin, float zMax);
-/// With what the hider may add to it: at a corner both borders are pushed.
+/// Raster bound, grown by what the hider may add to it: at a corner both borders are pushed.
 Bound2 rasterOf(const Bound3& bound, float reach_px, const Camera& camera, const Bound2& throughTheEye = {});
 
 }  // namespace tomales

@@ -9,14 +9,14 @@
 namespace tomales {
 namespace {
 
-/// Keys of a motion at which what moves is measured: it may grow, or come nearer.
+/// Motion keys at which a moving patch is measured: it may grow, or come nearer.
 constexpr size_t kMostKeys = 5;
 
-/// Probes of kPatches patches; point k of all of them stands together. Rows of points run along u.
+/// Probes of kPatches patches; point k of all of them is adjacent. Rows of points run along u.
 template <int kProbesT, int kPatchesT>
 struct Lattice {
   static constexpr int kProbes = kProbesT, kPatches = kPatchesT, kRow = kProbes + 1, kCount = kRow * kRow;
-  alignas(64) float x[kCount][kPatches], y[kCount][kPatches], z[kCount][kPatches];  ///< Camera space
+  alignas(64) float x[kCount][kPatches], y[kCount][kPatches], z[kCount][kPatches];  ///< Positions in camera space.
   alignas(64) float rasterX[kCount][kPatches], rasterY[kCount][kPatches];
 };
 
@@ -32,23 +32,23 @@ struct Sizes {
   alignas(64) float lo[3][kPatches], hi[3][kPatches];
 };
 
-/// The part of a second difference that lies across the line; what lies along it is mere speed.
+/// The part of a second difference across the line; the part along it is a change of speed only.
 inline float bend(float x0, float y0, float x1, float y1, float x2, float y2) {
   const float alongX = x2 - x0, alongY = y2 - y0, secondX = x2 - 2.0f * x1 + x0, secondY = y2 - 2.0f * y1 + y0;
   const float length = std::sqrt(alongX * alongX + alongY * alongY),
               second = std::sqrt(secondX * secondX + secondY * secondY);
   const float across = std::abs(alongX * secondY - alongY * secondX) / length;
   const float finite = across < kInfinity ? across : 0.0f;
-  return length > 1e-3f * second ? finite : second;  // else there and back
+  return length > 1e-3f * second ? finite : second;  // else the line goes there and back
 }
 
-/// Chords that a line takes, however short it is, to enclose something: it bends round (a meridian), or closes on
+/// Least number of chords of a line, however short, that enclose an area: it bends round (a meridian), or closes on
 /// itself (a parallel).
 inline int leastCells(float length, float endToEnd) {
   return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1;
 }
 
-/// The line of points first, first + step, ...; where it is longer than what `out` has, that grows.
+/// Measures the line of points first, first + step, ..., and keeps the larger values in `out`.
 template <class L>
 [[gnu::always_inline]] inline void measureLine(const L& __restrict at, int first, int step, const Camera& camera,
                                                bool asSeen, typename Sizes<L::kPatches>::Line& __restrict out) {
@@ -87,8 +87,7 @@ template <class L>
   }
 }
 
-/// Twice the area of the triangle at `a` whose sides go to `b` and `c`, in pixels; where that is more than `out` has,
-/// that grows.
+/// Twice the area in pixels of the triangle at `a` whose sides go to `b` and `c`; `out` keeps the larger value.
 template <class L>
 [[gnu::always_inline]] inline void measureCorner(const L& __restrict at, int a, int b, int c, const Camera& camera,
                                                  bool asSeen, float* __restrict out) {
@@ -109,7 +108,7 @@ template <class L>
   for (int i = 0; i < n; ++i) out[i] = out[i] < area[i] ? area[i] : out[i];
 }
 
-/// As if all were as large as the largest between two lines of probes each.
+/// The area if all parts were as large as the largest between two lines of probes each.
 template <class L>
 [[gnu::always_inline]] inline void measureArea(const L& __restrict at, const Camera& camera, bool asSeen,
                                                float* __restrict out) {
@@ -123,7 +122,7 @@ template <class L>
   for (int i = 0; i < L::kPatches; ++i) out[i] *= static_cast<float>(L::kProbes * L::kProbes);
 }
 
-/// Object space to camera space, in the order of glm's product, and to raster.
+/// Transforms object space to camera space, in the order of glm's product, and to raster.
 template <class L>
 [[gnu::always_inline]] inline void place(L& __restrict at, const mat4& m, const Camera& camera) {
   const float nearest = camera.perspective() ? camera.nearClip() : -kInfinity;
@@ -175,11 +174,11 @@ template <class L>
 
 // The lines of a flat patch are straight, and the longest is one of its edges.
 constexpr int kFlatProbes = 1, kCurvedProbes = 4;
-/// Along u a triangle (edge v = 1 has no length) is, in the mean of squares, this much of its foot: in the mean its
-/// cells are smaller than the rate asks, and the largest, at its foot, have 1.4 times the area.
+/// Length of a triangle along u (its edge v = 1 has no length), as the root mean square, over that of its foot: its
+/// cells are smaller on average than the rate asks, and the largest, at its foot, have 1.4 times the area.
 constexpr float kTriangle = 0.70710678f;
 
-// Target clones are no templates.
+// Functions with target clones cannot be templates.
 TOMALES_HOT void measureHot(Lattice<1, kLanes>& at, const mat4& m, const Camera& camera, bool asSeen,
                             Sizes<kLanes>& out) {
   measureLattice(at, m, camera, asSeen, out);
@@ -193,7 +192,8 @@ void measureHot(Lattice<kProbes, 1>& at, const mat4& m, const Camera& camera, bo
   measureLattice(at, m, camera, asSeen, out);
 }
 
-/// An object at a time: its shape, between two that it has then unless `after` is null, and its place.
+/// An object at a time: its shape, interpolated between `before` and `after` unless that is null, and its
+/// transformation.
 struct Pose {
   const Prim *before, *after;
   float t;
@@ -208,7 +208,7 @@ Pose poseAt(const Object& o, float time) {
           o.cameraFromObject.at(time)};
 }
 
-/// patchAt(i): one of up to kPatches patches; put(i, size).
+/// patchAt(i): one of up to kPatches patches. put(i, size): receives its size.
 template <int kProbes, int kPatches, class PatchAt, class Put>
 void measureSome(const Object& o, const Pose& pose, const Camera& camera, int count, const PatchAt& patchAt,
                  const UvRect& r, const Put& put) {
@@ -250,8 +250,8 @@ void measureSome(const Object& o, const Pose& pose, const Camera& camera, int co
   }
 }
 
-/// put(pose, put of sizes) at each key that counts; out(i) is the size of patch i, the larger of those at the
-/// keys. Behind the eye, or out of the picture, something may be as large as it likes.
+/// Calls measureAt(pose, put of sizes) at each key that counts; out(i) is the size of patch i, the larger of those at
+/// the keys. Where a patch is behind the eye or outside of the picture its size is not limited.
 template <class MeasureAt, class Out>
 void measureAtKeys(const Object& o, const Camera& camera, const MeasureAt& measureAt, const Out& out) {
   const size_t last = o.keyTimes.size() - 1, keys = std::min(last + 1, kMostKeys);

@@ -1,4 +1,4 @@
-"""What a small geometry cache costs (docs/performance/rays.md): a scene whose rays see its displacement at three levels, with room for all
+"""What a small geometry cache costs (docs/measured/rays.md): a scene whose rays see its displacement at three levels, with room for all
 that they ask for and with a thirtieth of its full-rate geometry, in turn.
     geometry_cache.py TOMALES [RIB [further arguments of each render]]"""
 import json

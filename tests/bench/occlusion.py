@@ -1,4 +1,4 @@
-"""Ambient occlusion against closed forms (docs/performance/rays.md): a floor beside a sphere that stands on it, and beside an endless wall.
+"""Ambient occlusion against closed forms (docs/measured/rays.md): a floor beside a sphere that stands on it, and beside an endless wall.
     occlusion.py TOMALES
 Points on a row of pixels; the floor is white and only occlusionlight shines, so that a pixel is what is open of the hemisphere."""
 import math

@@ -1,5 +1,5 @@
 // How far a pixel's coverage is from the truth with each kind of sample pattern: edges, blurred by motion and
-// by defocus. Prints root mean squares over pixels that an edge crosses; decision 0012 has the table.
+// by defocus. Prints root mean squares over pixels that an edge crosses; docs/measured/coverage.md has the table.
 #include <fmt/format.h>
 
 #include <cmath>

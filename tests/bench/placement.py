@@ -1,4 +1,4 @@
-"""Error functions of the irradiance cache at equal numbers of records (docs/gi_measured.md): indirect light alone against two gathers at every point.
+"""Error functions of the irradiance cache at equal numbers of records (docs/measured/irradiance_cache.md): indirect light alone against two gathers at every point.
     placement.py TOMALES [--scenes flush_box spot_room box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--crop X0,X1,Y0,Y1] [--keep FOLDER]
 Corners: pixels that are open to less than 97 % within 0.12 units. `screen` has the records it asks for at maxerror 1, the others as many."""
 import argparse

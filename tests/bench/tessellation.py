@@ -1,4 +1,4 @@
-"""What coarse ray geometry costs and brings (docs/performance/rays.md): scenes/film with its shadows by rays at each rate of Attribute "trace"
+"""What coarse ray geometry costs and brings (docs/measured/rays.md): scenes/film with its shadows by rays at each rate of Attribute "trace"
 "tessellation", against rays that meet its displacement at half a pixel a polygon.
     tessellation.py TOMALES [--truth FILE.exr: of an earlier run] [--chart FILE.svg]"""
 import argparse

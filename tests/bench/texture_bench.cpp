@@ -52,7 +52,7 @@ int main() {
     }
   const std::string source = (folder / "source.tif").string(), file = (folder / "picture.tx").string();
   std::string error;
-  if (!picture.write(source) || !makeTexture({TextureRecipe::Shape::Picture, {source}, file}, error))
+  if (!picture.write(source) || makeTexture({TextureRecipe::Shape::Picture, {source}, file}, error) != Making::Done)
     return std::puts(error.c_str()), 1;
 
   Log log;

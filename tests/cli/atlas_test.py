@@ -76,7 +76,7 @@ t.write("absent.rib", 'MakeBrickMap ["nowhere.ptc"] "a.bkm"')
 t.expect_run("of a cloud that is not there", ["absent.rib"], 3, "absent.rib:1", "nowhere.ptc", "a.bkm")
 
 t.write("nowhere.rib", 'MakeBrickMap ["byhand_points/room.ptc" "byhand_points/closet.ptc"] "nowhere.rib/x.bkm"')
-t.expect_run("and one for a folder that cannot be", ["nowhere.rib"], 3, "nowhere.rib:1", "nowhere.rib/x.bkm")
+t.expect_run("and one for a folder that cannot be", ["nowhere.rib"], 4, "nowhere.rib:1", "nowhere.rib/x.bkm")
 
 # Bad files.
 points = (t.folder / "byhand_points" / "room.ptc").read_bytes()
@@ -183,6 +183,6 @@ t.expect_run("a group that no photon reaches", ["lonely.rib", "--gi", "atlas", "
 said = t.run("lonely.rib", "--gi", "atlas", "-o", "lonely.exr").stderr
 t.expect("no photon came" not in said, f"which is no fault where gather rays sample lights ({said})")
 full = limited(20000, "room.rib", "--gi", "atlas", "--atlas", "full", "--photons", "50000", "-o", "full.exr")
-t.expect(full.returncode == 3 and "room.ptc" in full.stderr and "cannot be written" in full.stderr, f"a disk too full for photons (exit {full.returncode})")
+t.expect(full.returncode == 4 and "room.ptc" in full.stderr and "cannot be written" in full.stderr, f"a disk too full for photons (exit {full.returncode})")
 t.expect(not [f for f in (t.folder / "full").rglob("*") if f.is_file() and "room" in f.name], "leaves nothing half-written")
 t.finish()

@@ -35,6 +35,27 @@ t.expect_run("for a run with more room", ["lit.rib", "-o", "resume.exr", "--resu
 t.run("hide", "good.rib", "-o", "good.dfb", "-q")
 expect_said(limited(100, "gather", "good.dfb", "-o", "good.icf"), 4, "a disk too full for records", "good.icf", "could not be written")
 
+# Too little memory: a frame that needs none for rays, then one that does. (Sanitizers need more than they are given here.)
+t.write("two.rib", "FrameBegin 1\n" + GOOD + "FrameEnd\nFrameBegin 2\n" + LIT.replace("Format 24 24 1", "Format 400 400 1") + "FrameEnd\n")
+
+
+def starved(megabytes, *arguments):
+    limit = (megabytes << 20,) * 2
+    return subprocess.run([t.program, *arguments], cwd=t.folder, capture_output=True, text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, limit), timeout=60)
+
+
+if starved(300, "--version").returncode == 0:
+    codes = set()
+    for megabytes in range(80, 200, 10):
+        (t.folder / "frame1.exr").unlink(missing_ok=True)
+        ended = starved(megabytes, "two.rib", "-o", "frame#.exr", "-t", "2", "-q")
+        codes.add(ended.returncode)
+        told = ended.returncode == 0 or ended.returncode == 4 and ("out of memory" in ended.stderr or "little memory" in ended.stderr or "pthread_create" in ended.stderr)
+        t.expect(told, f"{megabytes} MB of memory end with a message (exit {ended.returncode}) {ended.stderr[-200:]}")
+        if "two.rib:17" in ended.stderr:
+            t.expect((t.folder / "frame1.exr").exists(), "and the frame before is there")
+    t.expect(4 in codes, f"some of these were too few: {codes}")
+
 # A folder that vanishes while the frame is made.
 (t.folder / "gone").mkdir()
 process = subprocess.Popen([t.program, "good.rib", "-o", "gone/a.exr", "--format", "700x700", "--progress", "-t", "1"], cwd=t.folder,

@@ -37,6 +37,23 @@ limited("30000 archives in archives", "deep.rib", 'ArchiveBegin "a"\n' * 30000 +
 limited("a program that dies", "dies.rib", 'Procedural "RunProgram" ["exit 3" ""] [-1 1 -1 1 -1 1]\nWorldEnd\n', 3, "dies.rib:2")
 t.expect_run("and may run", ["dies.rib", "--allow-system"], 3, "dies.rib:2", "exit code 3")
 
+limited("2^40 archives of archives", "doubles.rib", f'ArchiveBegin "a0" {DOT} ArchiveEnd\n' + "".join(
+    f'ArchiveBegin "a{k}" ReadArchive "a{k - 1}" ReadArchive "a{k - 1}" ArchiveEnd\n' for k in range(1, 41)) + 'ReadArchive "a40"\nWorldEnd\n',
+    3, "stands for more than 1000000 requests")
+
+# What holds its own old value doubles with every line.
+limited("a search path that doubles", "path.rib", 'Option "searchpath" "string archive" "a"\n' + 'Option "searchpath" "string archive" "&:&"\n' * 60 + DOT + "\nWorldEnd\n",
+        0, "path.rib:18", "longer than 65536 bytes")
+limited("a variable that doubles", "variable.rib", 'Option "ribparse" "string varsubst" "$" Option "user" "string a" "0123456789"\n'
+        + 'Option "user" "string a" "${a}${a}"\n' * 60 + DOT + "\nWorldEnd\n", 0, "variable.rib:19", "longer than 1048576 bytes")
+
+# Deeper than a stack of 8 MB.
+t.write("furnace.rib", 'Display "o.exr" "file" "rgba" Format 4 4 1 PixelSamples 1 1 Projection "perspective" "fov" [40] WorldBegin\n'
+        'LightSource "pointlight" 1 LightSource "indirectlight" 2 Attribute "visibility" "int diffuse" 1 "int specular" 1 "int transmission" 1\n'
+        'Surface "matte" "Kd" 1 Color 1 1 1 Sphere 5 -5 5 360 WorldEnd\n')
+t.expect_run("a path of 1000 bounces", ["furnace.rib", "--gi", "reference", "--bounces", "1000", "--samples", "1", "-t", "2"], 0)
+t.expect_run("more are refused", ["furnace.rib", "--bounces", "1001"], 1, "range 1 to 1000")
+
 # Compressed and encoded.
 scene = (HEAD + "Sphere 1 -1 1 360\n").encode()
 limited("a bomb of blanks", "blanks.rib.gz", gzip.compress(scene + b" " * (80 << 20) + b"WorldEnd\n"), 3, "blanks.rib.gz", "64 MiB and 200 times")

@@ -27,6 +27,7 @@ KINDS = {  # requests before WorldBegin and before the sphere
     "dots": ("", 'Surface "dots" "float Kd" [0.9] "color dotcolor" [0 0 1]\n'),
     "ripple": ("", 'Attribute "displacementbound" "float sphere" [0.1]\nDisplacement "ripple" "float waves" [6]\nSurface "plastic"\n'),
     "flame": ("", 'LightSource "flame" 2 "point from" [1 1 -3] "float intensity" [5]\nSurface "plastic"\n'),
+    "panel": ("", 'AttributeBegin\nTranslate 0 2 -2\nRotate 90 1 0 0\nAreaLightSource "panel" 2 "float radiance" [5]\nPolygon "P" [-1 -1 0 -1 1 0 1 1 0 1 -1 0]\nAttributeEnd\nIlluminate 2 1\nSurface "plastic"\n'),
     "murk": ("", 'Atmosphere "murk"\nSurface "plastic"\n'),
     "scanlines": ('Imager "scanlines"\n', 'Surface "plastic"\n'),
     "toon": ("", 'Surface "toon"\n'),
@@ -54,7 +55,7 @@ do("the first shader of the page compiles by the line below it", line.split())
 example = t.folder / "example"
 do("and by CMake", ["cmake", "-S", docs / "example_plugin", "-B", example, f"-DTOMALES_INCLUDE={prefix}/include/tomales", "-DCMAKE_BUILD_TYPE=Release"])
 do("which builds", ["cmake", "--build", example])
-for source, names in ((docs / "example_plugin/kinds.cpp", ("ripple", "flame", "murk", "scanlines")), (docs / "rsl_plugins/toon.cpp", ("toon",))):
+for source, names in ((docs / "example_plugin/kinds.cpp", ("ripple", "flame", "panel", "murk", "scanlines")), (docs / "rsl_plugins/toon.cpp", ("toon",))):
     library = t.folder / (source.stem + ".so")
     do(f"{source.name} compiles", ["g++", "-O1", "-std=c++17", "-shared", "-fPIC", "-I", prefix / "include/tomales", "-o", library, source])
     for name in names:

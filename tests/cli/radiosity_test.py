@@ -79,6 +79,6 @@ t.run("render", "repainted.rib", "--atlas", "new", "-o", "new.exr")
 t.expect((t.folder / "kept.exr").read_bytes() == (t.folder / "new.exr").read_bytes(), "and baked anew when it changes")
 
 t.write("file", "")
-t.expect_run("bricks in a folder that is none", ["room.rib", "--atlas", "file", "-o", "out.exr"], 3, "hits of gather rays are shaded instead")
-t.expect_run("a folder that is none", ["room.rib", "--radiosity-maps", "file", "-o", "out.exr"], 3, "radiosity maps cannot be written")
+t.expect_run("bricks in a folder that is none", ["room.rib", "--atlas", "file", "-o", "out.exr"], 4, "hits of gather rays are shaded instead")
+t.expect_run("a folder that is none", ["room.rib", "--radiosity-maps", "file", "-o", "out.exr"], 4, "radiosity maps cannot be written")
 t.finish()

@@ -87,7 +87,7 @@ def scaled(text, k):
 
 
 def finer(text):
-    """Micropolygons as they are at twice the resolution: outlines of round things are chords, which lose up to 1 % of a picture's light (docs/testing.md)."""
+    """Micropolygons as they are at twice the resolution: outlines of round things are chords, which lose up to 1 % of a picture's light (docs/measured/invariance.md)."""
     return "ShadingRate 0.25\n" + re.sub(r"^(\s*ShadingRate\s+)([\d.e+-]+)", lambda m: f"{m[1]}{float(m[2]) / 4}", text, flags=re.M)
 
 

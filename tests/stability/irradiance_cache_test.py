@@ -1,6 +1,6 @@
 """Scenes on which irradiance caches are known to fail: the cache against a gather at every point, indirect light alone.
 
-irradiance_cache_test.py TOMALES [SIZE SAMPLES [ARGUMENTS...]]: larger and finer, it makes the table of docs/gi_measured.md.
+irradiance_cache_test.py TOMALES [SIZE SAMPLES [ARGUMENTS...]]: larger and finer, it makes the table of docs/measured/irradiance_cache.md.
 """
 import json
 import pathlib

@@ -13,6 +13,7 @@
 #include "reyes/app/chart/sweeps.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -83,30 +84,32 @@ class Chart {
   /// reference is noisy says so, and grows quieter when it is asked for again; points that are missing say nothing.
   int run() {
     if (const std::string problem = placesProblem(settings_.output, labSettings_.folder); !problem.empty())
-      return fail(kUnwritable, problem);
+      return fail(Severity::Output, problem);
     chooseReference();
     while (reference_.batches() < kFirstBatches && (reference_.batches() < 2 || reference_.noiseFloor() > kSilent) &&
            addBatch()) {
     }
     if (reference_.batches() == 0)
-      return fail(interruptExitCode() ? interruptExitCode() : kUnreadable,
-                  "no reference: " + (badBatch_.empty() ? lab_.why() : badBatch_));
+      return fail(Severity::Error, "no reference: " + (badBatch_.empty() ? lab_.why() : badBatch_));
     if (reference_.isBlack())
-      return fail(kUnreadable, "the reference is black, so there is no error to speak of; the sweep \"" + sweep_.name +
-                                   "\" needs " + sweep_.needs);
+      return fail(Severity::Error, "the reference is black, so there is no error to speak of; the sweep \"" +
+                                       sweep_.name + "\" needs " + sweep_.needs);
     measure();
     while (!isQuiet() && addBatch()) {
     }
     judge();
-    if (!write()) return fail(kUnwritable, "\"" + settings_.output + "\" could not be written");
-    if (const int code = interruptExitCode()) return code;
-    return report_.missing.empty() ? kDone : kIncomplete;
+    if (!write()) return fail(Severity::Output, "\"" + settings_.output + "\" could not be written");
+    if (!report_.missing.empty())
+      log_.report(Severity::Missing, "chart-missing", {},
+                  fmt::format("{} of the points are missing; the page names them", report_.missing.size()));
+    return exitCode();
   }
 
  private:
-  int fail(int code, const std::string& why) const {
-    log_.report(code == kUnwritable ? Severity::Output : Severity::Error, "chart", {}, why);
-    return code;
+  int exitCode() const { return interruptExitCode() ? interruptExitCode() : exitCodeOf(log_); }
+  int fail(Severity severity, const std::string& why) const {
+    log_.report(severity, "chart", {}, why);
+    return exitCode();
   }
 
   /// As bash takes it: requests before the scene are a file of their own.
@@ -132,7 +135,8 @@ class Chart {
       }
       const std::string file =
           (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
-      writeAtOnce(file, text + '\n');
+      std::string why;
+      writeFile(file, text + '\n', why);  // the renderer says that it is missing
       out.push_back(file);
     }
     return lab_.run(out);
@@ -283,7 +287,7 @@ std::string chartCacheFolder() {
 }
 
 int chartCommand(const ChartSettings& settings) {
-  catchInterrupts();
+  const OrderlyEnd orderly;
   return Chart(settings, *chartSweep(settings.sweep)).run();
 }
 

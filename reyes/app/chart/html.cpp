@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 
 #include "reyes/app/chart/plot.h"
@@ -67,14 +66,5 @@ std::string embedded(const std::string& png) {
 
 std::string percent(double share) { return shortNumber(100 * share) + " %"; }
 std::string megabytes(double bytes) { return fmt::format("{:.0f} MB", bytes / 1048576); }
-
-bool writeAtOnce(const std::string& path, const std::string& text) {
-  std::ofstream file(path + ".part");
-  file << text;
-  file.close();
-  std::error_code problem;
-  if (file) std::filesystem::rename(path + ".part", path, problem);
-  return file && !problem;
-}
 
 }  // namespace tomales

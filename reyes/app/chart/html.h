@@ -27,7 +27,5 @@ class Markup {
 std::string embedded(const std::string& png);
 std::string percent(double share);
 std::string megabytes(double bytes);
-/// Under a temporary name first. False: it could not be written.
-bool writeAtOnce(const std::string& path, const std::string& text);
 
 }  // namespace tomales

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +14,10 @@
 
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/checksum.h"
+#include "reyes/base/child_process.h"
+#include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_file.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
@@ -74,21 +77,11 @@ struct Ended {
 
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
-/// The child ends with this process, however that ends: nobody would take what it renders. Between fork and exec only
-/// calls that are safe in a signal handler.
 pid_t start(const std::vector<std::string>& arguments, const std::string& messages) {
-  std::vector<char*> argv;
-  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-  argv.push_back(nullptr);
   const int file = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) return -1;
-  const pid_t parent = getpid(), child = fork();
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() == parent && dup2(file, STDOUT_FILENO) >= 0 && dup2(file, STDERR_FILENO) >= 0)
-      execv(kSelf, argv.data());
-    _exit(127);
-  }
+  int problem = 0;
+  const pid_t child = startChild({kSelf, arguments, {{file, STDOUT_FILENO}, {file, STDERR_FILENO}}}, problem);
   close(file);
   return child;
 }
@@ -96,13 +89,14 @@ pid_t start(const std::vector<std::string>& arguments, const std::string& messag
 /// Ends the child when this process is interrupted or at the deadline.
 Ended await(pid_t child, Clock::time_point deadline) {
   Ended out;
+  const ChildGuard guard(child);
   const auto begin = Clock::now();
   rusage usage{};
   int status = 0;
   while (wait4(child, &status, WNOHANG, &usage) == 0) {
     if (out.why.empty() && (interrupted() || Clock::now() > deadline)) {
       out.why = interrupted() ? "interrupted" : "over the budget";
-      kill(child, SIGKILL);
+      kill(-child, SIGKILL);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -155,28 +149,26 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   why_ = interrupted() ? "interrupted" : "over the budget";
   if (interrupted() || secondsLeft() <= 0) return std::nullopt;
 
-  const std::string unfinished = stem + ".part.exr", statistics = stem + ".stats.json";
+  const TemporaryFolder folder(settings_.folder);
+  const std::string picture = folder.path() / "picture.exr", statistics = folder.path() / "stats.json",
+                    messages = folder.path() / "messages";
   all.insert(all.begin(), {"tomales", "render", "-q"});
-  all.insert(all.end(), {"-o", unfinished, "--one-picture", "--stats", statistics});
+  all.insert(all.end(), {"-o", picture, "--one-picture", "--stats", statistics});
   all.insert(all.end(), settings_.scene.begin(), settings_.scene.end());
-  const pid_t child = start(all, stem + ".log");
+  const pid_t child = start(all, messages);
   why_ = "the renderer could not be started";
   if (child < 0) return std::nullopt;
   const Ended ended = await(
       child, Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(secondsLeft())));
   why_ = ended.why;
-  std::error_code error;
-  if (ended.good) fs::rename(unfinished, stem + ".exr", error);
-  if (!ended.good || error) {
+  if (std::string why; !ended.good || !moveFinished(picture, stem + ".exr", why)) {
     if (!interrupted() && why_ != "over the budget") {
-      const std::string said = complaint(readAll(stem + ".log"));
+      const std::string said = complaint(readAll(messages));
       why_ += said.empty() ? " and said nothing (is \"" + settings_.folder + "\" on a full disk?)" : ": " + said;
     }
-    fs::remove(unfinished, error);
     return std::nullopt;
   }
   const Json counted = Json::parse(readAll(statistics), nullptr, false);
-  fs::remove(statistics, error);
   Run out{arguments, stem + ".exr", ended.cpu_s, ended.wall_s, 0, 0, {}, false};
   if (counted.is_object()) {
     out.peakBytes = counted.value("/memory_bytes/peak_rss"_json_pointer,
@@ -190,16 +182,26 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
 }
 
 std::optional<Run> Lab::recall(const std::string& stem, const std::vector<std::string>& arguments) const {
-  const Json j = Json::parse(readAll(stem + ".json"), nullptr, false);
-  if (!j.is_object() || !fs::exists(stem + ".exr")) return std::nullopt;
-  return Run{arguments,
-             stem + ".exr",
-             j.value("cpu_s", 0.0),
-             j.value("wall_s", 0.0),
-             j.value("peak_bytes", 0.0),
-             j.value("records", int64_t{0}),
-             j.value("warnings", std::vector<std::string>{}),
-             true};
+  const std::string figures = stem + ".json", picture = stem + ".exr";
+  std::error_code none;
+  if (!fs::exists(figures, none) || !fs::exists(picture, none)) return std::nullopt;
+  std::string problem;
+  try {
+    const Json j = Json::parse(readAll(figures));
+    Run known{.arguments = arguments,
+              .picture = picture,
+              .cpu_s = j.at("cpu_s"),
+              .wall_s = j.at("wall_s"),
+              .peakBytes = j.at("peak_bytes"),
+              .records = j.at("records"),
+              .warnings = j.at("warnings"),
+              .recalled = true};
+    if (readImage(picture, problem)) return known;
+  } catch (const Json::exception& e) {
+    problem = e.what();
+  }
+  fmt::print(stderr, "\"{}\" of earlier measurements is damaged ({}): measured anew\n", stem, problem);
+  return std::nullopt;
 }
 
 bool Lab::remember(const std::string& stem, const Run& run) const {
@@ -208,12 +210,8 @@ bool Lab::remember(const std::string& stem, const Run& run) const {
                {"peak_bytes", run.peakBytes},
                {"records", run.records},
                {"warnings", run.warnings}};
-  std::ofstream file(stem + ".json.part");
-  file << j.dump(2) << '\n';
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(stem + ".json.part", stem + ".json", error);
-  return file && !error;
+  std::string why;
+  return writeFile(stem + ".json", j.dump(2) + '\n', why);
 }
 
 }  // namespace tomales

@@ -1,8 +1,11 @@
 #include "reyes/app/chart/lab_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
+
+#include "reyes/base/input_file.h"
 
 namespace tomales {
 namespace {
@@ -31,7 +34,8 @@ std::pair<std::string, std::string> named(const std::string& text) {
 bool isNumber(const std::string& word) {
   size_t used = 0;
   try {
-    return std::stod(word, &used) > 0 && used == word.size();
+    const double value = std::stod(word, &used);
+    return value > 0 && std::isfinite(value) && used == word.size();
   } catch (const std::exception&) {
     return false;
   }
@@ -66,6 +70,10 @@ bool take(LabScene& scene, const std::string& word, const std::string& rest) {
 }  // namespace
 
 std::optional<LabScene> readLabScene(const std::string& file, std::string& error) {
+  if (const std::string problem = inputProblem(file); !problem.empty()) {
+    error = "cannot be read: " + problem;
+    return std::nullopt;
+  }
   std::ifstream stream(file);
   LabScene out{file, {}, {}, {}, {}, {}, {}, {}, {}, {std::istreambuf_iterator<char>(stream), {}}};
   std::istringstream lines(out.text);
@@ -82,8 +90,7 @@ std::optional<LabScene> readLabScene(const std::string& file, std::string& error
   const bool limitIsElsewhere =
       out.limit && (values.empty() || std::find(values.begin() + 1, values.end(), out.limit->value) == values.end());
   for (const auto& [missing, what] :
-       {std::pair{!stream.is_open(), "cannot be read"},
-        {out.title.empty(), "has no \"##lab title\""},
+       {std::pair{out.title.empty(), "has no \"##lab title\""},
         {out.values.empty(), "has no \"##lab knob\""},
         {out.truth.empty(), "has no \"##lab truth\""},
         {out.methods.empty(), "has no \"##lab method\""},

@@ -7,6 +7,7 @@
 #include "reyes/app/chart/plot.h"
 #include "reyes/app/chart/report.h"
 #include "reyes/app/settings.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -160,7 +161,8 @@ class Page : Markup {
 
 bool writeChartPage(const std::string& path, const ChartReport& report) {
   const std::string json = std::filesystem::path(path).filename().replace_extension(".json").string();
-  return writeAtOnce(path, Page(report).write(json));
+  std::string why;
+  return writeFile(path, Page(report).write(json), why);
 }
 
 }  // namespace tomales

@@ -6,6 +6,7 @@
 
 #include "reyes/app/chart/html.h"
 #include "reyes/app/settings.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -89,7 +90,8 @@ bool writeChartJson(const std::string& path, const ChartReport& report) {
            {"warnings", report.warnings},
            {"points", Json::array()}};
   for (const ChartPoint& p : report.points) out["points"].push_back(pointJson(report, p));
-  return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  std::string why;
+  return writeFile(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', why);
 }
 
 }  // namespace tomales

@@ -40,7 +40,7 @@ std::optional<double> secondsToReach(const ChartReport& report, size_t curve, do
 /// All its points have the same error: what its settings change is the cost, if they reach this scene at all.
 bool isFlat(const ChartReport& report, size_t curve);
 
-// Both go to a temporary name first. False: they could not be written.
+// False: they could not be written.
 bool writeChartPage(const std::string& path, const ChartReport& report);
 bool writeChartJson(const std::string& path, const ChartReport& report);
 

@@ -10,6 +10,7 @@
 #include "reyes/app/exit_code.h"
 #include "reyes/app/settings.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -81,8 +82,10 @@ class Laboratory {
          fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value))
             .string();
     const std::string rib = stem + ".rib", truthRib = stem + ".truth.rib", text = replaced(scene.text, "$knob", value);
-    if (!writeAtOnce(rib, replaced(text, "$truth", "0")) || !writeAtOnce(truthRib, replaced(text, "$truth", "1"))) {
-      out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written", scene.knob, value, rib));
+    std::string why;
+    if (!writeFile(rib, replaced(text, "$truth", "0"), why) ||
+        !writeFile(truthRib, replaced(text, "$truth", "1"), why)) {
+      out.missing.push_back(fmt::format("{} {}: \"{}\" cannot be written: {}", scene.knob, value, rib, why));
       return;
     }
     Lab truths({settings_.folder, {truthRib}, common(scene), secondsLeft()});
@@ -138,13 +141,13 @@ class Laboratory {
 }  // namespace
 
 int stabilityCommand(const ChartSettings& given) {
-  catchInterrupts();
+  const OrderlyEnd orderly;
   ChartSettings settings = given;
   if (settings.folder.empty()) settings.folder = chartCacheFolder();
   Log log;
   if (const std::string problem = placesProblem(settings.output, settings.folder); !problem.empty()) {
     log.report(Severity::Output, "chart", {}, problem);
-    return kUnwritable;
+    return exitCodeOf(log);
   }
   std::vector<StabilityCurve> curves;
   Laboratory laboratory(settings, log);
@@ -155,7 +158,7 @@ int stabilityCommand(const ChartSettings& given) {
     if (!scene) {
       log.report(Severity::Error, "lab-scene", {std::make_shared<std::string>(file), 0},
                  "is no scene of a laboratory: " + error);
-      return kUnreadable;
+      return exitCodeOf(log);
     }
     curves.push_back(laboratory.measure(std::move(*scene)));
     whole = whole && curves.back().missing.empty();
@@ -166,10 +169,10 @@ int stabilityCommand(const ChartSettings& given) {
   if (!writeStabilityPage(settings.output, curves, joined(command)) ||
       !writeStabilityJson(fs::path(settings.output).replace_extension(".json").string(), curves, joined(command))) {
     log.report(Severity::Output, "chart", {}, "\"" + settings.output + "\" could not be written");
-    return kUnwritable;
+    return exitCodeOf(log);
   }
-  if (const int code = interruptExitCode()) return code;
-  return whole ? kDone : kIncomplete;
+  if (!whole) log.report(Severity::Missing, "chart-missing", {}, "points are missing; the page names them");
+  return interruptExitCode() ? interruptExitCode() : exitCodeOf(log);
 }
 
 bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves,
@@ -194,7 +197,8 @@ bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurv
                                  {"pixels_not_finite", p.error.notFinite}});
     out["scenes"].push_back(std::move(scene));
   }
-  return writeAtOnce(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  std::string why;
+  return writeFile(path, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', why);
 }
 
 }  // namespace tomales

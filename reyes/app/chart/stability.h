@@ -29,7 +29,7 @@ struct StabilityCurve {
 /// ChartSettings::files are the scenes; folders stand for all that is in them.
 int stabilityCommand(const ChartSettings& settings);
 
-// Both go to a temporary name first. False: they could not be written.
+// False: they could not be written.
 bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves,
                         const std::string& commandLine);
 bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves,

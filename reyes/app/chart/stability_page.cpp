@@ -6,6 +6,7 @@
 #include "reyes/app/chart/plot.h"
 #include "reyes/app/chart/stability.h"
 #include "reyes/app/settings.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -119,7 +120,8 @@ class Page : Markup {
 bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves,
                         const std::string& commandLine) {
   const std::string json = std::filesystem::path(path).filename().replace_extension(".json").string();
-  return writeAtOnce(path, Page().write(curves, commandLine, json));
+  std::string why;
+  return writeFile(path, Page().write(curves, commandLine, json), why);
 }
 
 }  // namespace tomales

@@ -33,8 +33,8 @@ ChartCurve gatherCurve(const std::string& name, const Arguments& method, double 
   return out;
 }
 
-/// `ward` makes as many records as `screen` at maxerror 1 at this (docs/gi_measured.md, the mean of five rooms);
-/// `hessian` at the same.
+/// `ward` makes as many records as `screen` at maxerror 1 at this (docs/measured/irradiance_cache.md); `hessian` at the
+/// same.
 constexpr double kWard = 1.4;
 ChartCurve errorFunctionCurve(const std::string& name, double coarser) {
   return gatherCurve("gather, " + name, {"--gi", "gather", "--error-function", name}, coarser);

@@ -14,6 +14,7 @@
 #include "reyes/app/watch/stats_json.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_file.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -21,39 +22,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs `work`; what it throws is an error of `severity`.
-template <class Work>
-void guarded(Log& log, Severity severity, const Work& work) {
-  try {
-    work();
-  } catch (const FileError& e) {
-    log.report(severity, "file", {}, e.what());
-  } catch (const fs::filesystem_error& e) {
-    log.report(severity, "file", {}, e.what());
-  }
-}
-
 /// Folders stand for the point clouds in them.
 std::vector<fs::path> pointFiles(const std::vector<std::string>& inputs) {
   std::vector<fs::path> out;
   for (const std::string& input : inputs) {
-    if (!fs::is_directory(input)) {
+    std::error_code problem;
+    if (!fs::is_directory(input, problem)) {
       out.emplace_back(input);
       continue;
     }
-    for (const auto& entry : fs::directory_iterator(input))
+    for (const auto& entry : fs::directory_iterator(input, problem))
       if (entry.path().extension() == ".ptc") out.push_back(entry.path());
+    if (problem) throw FileError(fmt::format("folder \"{}\" cannot be read: {}", input, problem.message()));
   }
   std::sort(out.begin(), out.end());
   if (out.empty()) throw FileError("there is no point cloud (.ptc) to read");
   return out;
 }
 
-void makeFolder(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder))
-    throw FileError(fmt::format("folder \"{}\" cannot be made: {}", folder, error.message()));
+/// A command does not replace what it reads.
+void refuseInput(const fs::path& output, const std::vector<std::string>& inputs) {
+  if (isAmong(output, inputs))
+    throw WriteError(fmt::format("\"{}\" would replace what it is made of", output.string()));
 }
 
 /// One cloud of several, chunk by chunk.
@@ -97,10 +87,10 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const Camera camera(scene.options);
   const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
   const StageTimer timer(stats, "photons");
-  AtlasSettings atlas = atlasSettings(settings, scene);
+  AtlasSettings atlas = atlasSettings(settings, scene, shading);
   atlas.photons.direct = true;  // whoever looks into the maps finds all light
   const PhotonFigures figures =
-      writePhotons(settings.output, scene, rays, shading, mapNames(scene, atlas), atlas, {}, stats, log);
+      writePhotons(settings.output, scene, rays, shading, mapNames(scene, shading, atlas), atlas, {}, stats, log);
   if (settings.verbosity != Log::Verbosity::Quiet)
     fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
 }
@@ -121,7 +111,7 @@ int photonsCommand(const RenderSettings& settings) {
   const auto start = std::chrono::steady_clock::now();
   Log log(settings.verbosity);
   Stats stats;
-  guarded(log, Severity::Output, [&] {
+  guarded(log, [&] {
     if (std::optional<Scene> scene = firstScene(settings, log)) tracePhotonsOf(*scene, settings, stats, log);
   });
   writeLastStats(settings, stats, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), log);
@@ -130,10 +120,13 @@ int photonsCommand(const RenderSettings& settings) {
 
 int irradianceCommand(const IrradianceCommand& command) {
   Log log;
-  guarded(log, Severity::Error, [&] {
-    makeFolder(command.output);
-    for (const fs::path& file : pointFiles(command.inputs))
-      writeIrradiance(file, fs::path(command.output) / file.filename(), command.settings);
+  guarded(log, [&] {
+    makeAtlasFolder(command.output);
+    for (const fs::path& file : pointFiles(command.inputs)) {
+      const fs::path out = fs::path(command.output) / file.filename();
+      refuseInput(out, {file.string()});
+      writeIrradiance(file, out, command.settings);
+    }
   });
   return exitCodeOf(log);
 }
@@ -141,8 +134,9 @@ int irradianceCommand(const IrradianceCommand& command) {
 void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(const std::string&)>& made) {
   const std::vector<fs::path> files = pointFiles(command.inputs);
   const bool one = command.oneFile || fs::path(command.output).extension() == ".bkm";
-  if (!one) makeFolder(command.output);
+  if (!one) makeAtlasFolder(command.output);
   const auto make = [&](const fs::path& in, const fs::path& out) {
+    refuseInput(out, command.inputs);
     const PointFile file(in.string());
     const PointTiles tiles(file);
     BrickSettings settings = command.settings;
@@ -167,14 +161,14 @@ void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(con
 
 int brickmakeCommand(const BrickmakeCommand& command) {
   Log log;
-  guarded(log, Severity::Error,
-          [&] { makeBrickMaps(command, [](const std::string& what) { fmt::print("{}\n", what); }); });
+  guarded(log, [&] { makeBrickMaps(command, [](const std::string& what) { fmt::print("{}\n", what); }); });
   return exitCodeOf(log);
 }
 
 int viewCommand(const ViewCommand& command) {
   Log log;
-  guarded(log, Severity::Error, [&] {
+  guarded(log, [&] {
+    refuseInput(command.output, {command.input, command.camera});
     PointPictureSettings settings{command.size[0], command.size[1], command.channel, command.gain, {}};
     std::optional<Scene> scene;
     std::optional<Camera> camera;
@@ -201,7 +195,8 @@ int viewCommand(const ViewCommand& command) {
 
 int convertCommand(const ConvertCommand& command) {
   Log log;
-  guarded(log, Severity::Error, [&] {
+  guarded(log, [&] {
+    refuseInput(command.output, {command.input});
     const fs::path from = fs::path(command.input).extension(), to = fs::path(command.output).extension();
     if (from == ".ptc" && to == ".ply") {
       writePly(PointFile(command.input), command.output);

@@ -1,29 +1,54 @@
 #include "reyes/app/commands/catrib.h"
 
-#include <cstdio>
-#include <memory>
+#include <signal.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "reyes/base/unfinished_file.h"
 #include "reyes/rib.h"
 
 namespace tomales {
+namespace {
+
+/// False: not all of it could be written, as `error` says.
+bool copyTo(std::FILE* out, const CatribSettings& settings, std::string& error, Log& log) {
+  const auto write = [&](std::string_view text) {
+    if (error.empty() && std::fwrite(text.data(), 1, text.size(), out) != text.size()) error = std::strerror(errno);
+  };
+  parseRib(settings.files, *makeRibWriter({settings.binary, settings.gzip, write}), log);
+  if (std::fflush(out) != 0 && error.empty()) error = std::strerror(errno);
+  return error.empty();
+}
+
+bool toStandardOutput(const CatribSettings& settings, std::string& error, Log& log) {
+  ::signal(SIGPIPE, SIG_DFL);  // there is nothing to lose, and nobody reads the rest
+  const bool written = copyTo(stdout, settings, error, log);
+  std::clearerr(stdout);  // it is told with its reason
+  return written;
+}
+
+/// The file may be one of those that are read.
+bool toFile(const CatribSettings& settings, std::string& error, Log& log) {
+  const auto file = UnfinishedFile::create(settings.output, UnfinishedKind::Stream, error);
+  if (!file || !copyTo(file->stream(), settings, error, log)) return false;
+  if (log.worst() >= Severity::Missing && isAmong(settings.output, settings.files)) {
+    error = "it is the scene itself, of which not everything could be read: it stays as it was";
+    return false;
+  }
+  return file->finish(error);
+}
+
+}  // namespace
 
 int catribCommand(const CatribSettings& settings) {
   Log log;
-  const bool toFile = !settings.output.empty();
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      toFile ? std::fopen(settings.output.c_str(), "wb") : nullptr, [](std::FILE* f) { return std::fclose(f); });
-  std::FILE* out = toFile ? file.get() : stdout;
-  bool written = out != nullptr;
-  if (out) {
-    const auto write = [&](std::string_view text) {
-      written = std::fwrite(text.data(), 1, text.size(), out) == text.size() && written;
-    };
-    parseRib(settings.files, *makeRibWriter({settings.binary, settings.gzip, write}), log);
-  }
-  written = written && std::fflush(out) == 0;
-  if (!written)
+  std::string error;
+  if (!(settings.output.empty() ? toStandardOutput : toFile)(settings, error, log))
     log.report(Severity::Output, "output-write",
-               {std::make_shared<std::string>(toFile ? settings.output : "standard output"), 0}, "cannot be written");
+               {std::make_shared<std::string>(settings.output.empty() ? "standard output" : settings.output), 0},
+               "cannot be written: " + error);
   return exitCodeOf(log);
 }
 

@@ -13,16 +13,13 @@
 #include "reyes/app/commands/shade.h"
 #include "reyes/app/commands/shadetest.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/crash_note.h"
+#include "reyes/base/deep_stack.h"
+#include "reyes/base/input_file.h"
 
 namespace tomales {
 namespace {
-
-constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 1 wrong usage; 2 the scene could not be read; 3 the frame is complete but something "
-    "was missing and a\n"
-    "loud substitute was rendered; 4 output could not be written; 130, 143 interrupted, finished buckets "
-    "written.";
 
 /// Everything that the arguments may fill.
 struct Invocation {
@@ -156,7 +153,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   photons->add_option("--photons", in.render.photons, "Photons to emit")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   photons->add_option("--bounces", in.render.bounces, "Most surfaces that a photon may arrive at")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, kMostBounces));
   photons->add_option("--seed", in.render.seed, "Of all random numbers");
   addRunOptions(*photons, in.render);
   photons->add_option("SCENE", in.render.files, "RIB files")->required();
@@ -176,16 +173,16 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   bricks->add_option("FILES", in.brickmake.inputs, "Point clouds, or folders of them")->required();
   bricks->add_option("-o", in.brickmake.output, "FILE.bkm for all, or a folder for one each")->required();
   bricks->add_option("--maxerror", in.brickmake.settings.maxError, "Variation that needs no finer bricks")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(between(0.0, 1e9));
   bricks->add_flag("--relative", in.brickmake.relative, "maxerror is a share of the mean of the data");
   bricks->add_option("--maxdepth", in.brickmake.settings.maxDepth, "Most levels below the first")
       ->check(CLI::Range(0, 20));
   bricks->add_option("--radiusscale", in.brickmake.settings.radiusScale, "Scale of the points' radii")
-      ->check(CLI::Range(1e-3, 1e3));
+      ->check(between(1e-3, 1e3));
   bricks
       ->add_option("--coarseness", in.brickmake.settings.coarseness,
                    "Widths of the finest voxels, over what the radii ask: 2 for irradiance of photons")
-      ->check(CLI::Range(0.1, 100.0));
+      ->check(between(0.1, 100.0));
   bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
   bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
 
@@ -196,7 +193,8 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
   view->add_option("--level", in.view.level, "Level of a brick map, 0 the coarsest (default: the finest)");
   view->add_option("--camera", in.view.camera, "Look with the camera of this RIB file")->type_name("SCENE.rib");
-  view->add_option("--gain", in.view.gain, "Multiplies the values (default: so that they can be seen)");
+  view->add_option("--gain", in.view.gain, "Multiplies the values (default: so that they can be seen)")
+      ->check(between(0, 1e30));
   addParsed(
       *view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH",
       "Resolution in pixels");
@@ -207,8 +205,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
       "Point clouds from and to PLY, for other programs; the records of an irradiance cache as a point cloud");
   convert->add_option("IN", in.convert.input, "FILE.ptc, FILE.ply or SHOT.icf")->required();
   convert->add_option("OUT", in.convert.output, "FILE.ply or FILE.ptc")->required();
-  convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")
-      ->check(CLI::Range(0.0, 1e9));
+  convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")->check(between(0.0, 1e9));
   convert->callback([&] { code = convertCommand(in.convert); });
 }
 
@@ -231,7 +228,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       "Resolution in pixels");
   c->add_option("--batches", s.batches, "Most independent pictures that make the reference")
       ->check(CLI::Range(2, 10000));
-  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
+  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
   addTrust(*c, s.allowSystem, s.shaderFolders);
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
@@ -243,8 +240,9 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       return;
     }
     for (const std::string& file : in.chart.files)
-      if (const std::string problem = CLI::ExistingFile(file); !problem.empty())
-        throw CLI::ValidationError("SCENE", problem + " (only --stability takes folders)");
+      if (const std::string problem = inputProblem(file); !problem.empty())
+        throw CLI::ValidationError("SCENE", "\"" + file + "\" cannot be read again and again: " + problem +
+                                                " (only --stability takes folders)");
     code = chartCommand(in.chart);
   });
 }
@@ -259,7 +257,7 @@ bool namesCommand(const std::string& text) {
 int parseAndRun(int argc, char** argv) {
   CLI::App app("A Reyes renderer with global illumination", "tomales");
   app.set_version_flag("--version", std::string("tomales ") + kVersion);
-  app.footer(kExitCodes);
+  app.footer(exitCodeHelp());
   app.require_subcommand(1);
   Invocation in;
   int code = kDone;
@@ -287,19 +285,26 @@ int parseAndRun(int argc, char** argv) {
   return code;
 }
 
+int runGuarded(int argc, char** argv) {
+  Log log;
+  int code = kDone;
+  guarded(log, [&] { code = parseAndRun(argc, argv); });
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    log.report(Severity::Output, "output-write", {std::make_shared<std::string>("standard output"), 0},
+               "cannot be written");
+  return log.worst() > Severity::Info && !interruptExitCode() ? exitCodeOf(log) : code;
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
+  openStandardFiles();
+  endWithMessages();
   reportCrashes();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file too large (ulimit -f) is then an error of write(), told as a full disk is
-  try {
-    return parseAndRun(argc, argv);
-  } catch (const std::bad_alloc&) {
-    std::fputs("tomales: error: out of memory\n", stderr);
-  } catch (const std::exception& e) {
-    std::fputs((std::string("tomales: error: ") + e.what() + "\n").c_str(), stderr);
-  }
-  return kUnreadable;
+  watchSignals();  // before other threads start, as they must not get the signals
+  int code = kDone;
+  runOnDeepStack([&] { code = runGuarded(argc, argv); });
+  return code;
 }
 
 }  // namespace tomales

@@ -106,27 +106,36 @@ Json imageInfo(const std::string& file, Log& log) {
           {"channels", channels}};
 }
 
-Json paramInfo(const TmParamDecl& p) {
-  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
+Json defaultOf(const TmParamDecl& p) {
   static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
   const int32_t type = TM_TYPE_OF(p.type);
-  const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = (p.type & TM_OUTPUT) != 0;
-  if (output)
-    return {
-        {"name", p.name}, {"type", known ? std::string("output ") + kTypes[type] : "?"}, {"doc", p.doc ? p.doc : ""}};
   Json value = Json::array();
-  for (int i = 0; known && i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? p.floats[i] : 0.0f);
-  for (int i = 0; known && type == TM_STRING && p.strings && i < p.arrayLength; ++i) value.push_back(p.strings[i]);
-  return {{"name", p.name}, {"type", known ? kTypes[type] : "?"}, {"default", value}, {"doc", p.doc ? p.doc : ""}};
+  for (int i = 0; i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? p.floats[i] : 0.0f);
+  for (int i = 0; type == TM_STRING && p.strings && i < p.arrayLength; ++i) value.push_back(p.strings[i]);
+  return value;
+}
+
+Json paramInfo(const TmParamDecl& p) {
+  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
+  const int32_t type = TM_TYPE_OF(p.type);
+  const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = (p.type & TM_OUTPUT) != 0;
+  Json out = {{"name", p.name}, {"type", known ? std::string(output ? "output " : "") + kTypes[type] : "?"}};
+  if (!output) out["default"] = known ? defaultOf(p) : Json::array();
+  out["doc"] = p.doc ? p.doc : "";
+  if (const char* role = roleName(p.role)) out["role"] = role;
+  return out;
 }
 
 Json shaderInfo(const TmShader& s) {
   Json params = Json::array();
   for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
+  Json standard = Json::array();
+  for (const TmParamDecl& p : standardParams(static_cast<TmKind>(s.kind))) standard.push_back(paramInfo(p));
   return {{"name", s.name},
           {"kind", s.kind >= 0 && s.kind <= TM_IMAGER ? kindName(static_cast<TmKind>(s.kind)) : "?"},
           {"doc", s.doc ? s.doc : ""},
-          {"parameters", params}};
+          {"parameters", params},
+          {"standard_parameters", standard}};
 }
 
 Json pluginInfo(const std::string& file, Log& log) {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "reyes/app/commands/atlas_commands.h"
+#include "reyes/app/exit_code.h"
 #include "reyes/app/frame/frame_job.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
@@ -92,7 +93,7 @@ void makeBrickMap(const Request& r, Log& log) {
   try {
     makeBrickMaps(brickmakeOf(r, log));
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "make-brickmap", r.where,
+    log.report(severityOfLoss(e), "make-brickmap", r.where,
                fmt::format("{}: \"{}\" cannot be made ({})", r.name, r.args[1].strings[0], e.what()));
   }
 }
@@ -110,9 +111,9 @@ void performMake(const Request& r, Log& log) {
   const TextureRecipe recipe = recipeOf(r, log);
   makeFolderOf(recipe.file);
   std::string error;
-  if (!makeTexture(recipe, error))
+  if (const Making made = makeTexture(recipe, error); made != Making::Done)
     log.report(
-        Severity::Missing, "make-texture", r.where,
+        severityOf(made), "make-texture", r.where,
         fmt::format("{}: \"{}\" cannot be made of \"{}\" ({})", r.name, recipe.file, recipe.pictures.front(), error));
 }
 

@@ -1,5 +1,7 @@
 #include "reyes/app/commands/options.h"
 
+#include "reyes/base/deep_stack.h"
+
 namespace tomales {
 namespace {
 
@@ -10,6 +12,17 @@ GiChoice giOrUsageError(const std::string& text) {
 }
 
 }  // namespace
+
+CLI::Validator between(double least, double most) {
+  const auto problem = [least, most](const std::string& text) {
+    double value = 0;
+    const bool inside = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    return inside ? std::string()
+                  : "\"" + text + "\" is no number from " + CLI::detail::to_string(least) + " to " +
+                        CLI::detail::to_string(most);
+  };
+  return {[problem](std::string& text) { return problem(text); }, ""};
+}
 
 std::optional<std::string> parseOutput(const std::string& text) {
   return namesPicture(text) ? std::optional(text) : std::nullopt;
@@ -36,7 +49,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
   addCrop(app, s);
   addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM", "Samples of a pixel");
   app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels, for all objects")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(between(1e-3, 1e6));
   app.add_flag("--draft", s.draft,
                "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the "
                "area, 2x2 samples");
@@ -52,9 +65,9 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       ->type_name("MODE");
   app.add_option("--samples", s.samples, "Gather rays of an irradiance sample, or paths of a point for the reference")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, 1000));
+  app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   app.add_option("--max-error", s.maxError, "Error allowed in irradiance interpolation; 0 computes every point")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(between(0.0, 1e6));
   addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian|split|plain",
             "How far an irradiance record may be used");
   app.add_flag_callback(
@@ -77,7 +90,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       ->type_name("FOLDER");
   app.add_option("--radiosity-texels", s.radiosityTexels,
                  "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
-      ->check(CLI::Range(1e-3, 1e3));
+      ->check(between(1e-3, 1e3));
   app.add_option("--radiosity-maps", s.radiosityFolder,
                  "Write the radiosity maps there: a tiled MIP EXR for each object and side; not with --atlas")
       ->type_name("FOLDER");
@@ -86,7 +99,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--brick-maxerror", s.brickMaxError,
                  "Bricks whose voxels vary by less, as a share of the mean, are left out of the maps of --gi atlas "
                  "(default 0.03)")
-      ->check(CLI::Range(0.0f, 1e6f));
+      ->check(between(0.0, 1e6));
   addParsed(app, "--geometry-cache", s.geometryCache, parseBytes, "30M",
             "Memory for geometry that rays see at several levels (default 30M)");
   app.add_option_function<std::string>(

@@ -18,6 +18,9 @@ CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse 
   return app.add_option_function<std::string>(name, take, help)->type_name(form);
 }
 
+/// A number with a place on the line: CLI::Range lets NaN pass.
+CLI::Validator between(double least, double most);
+
 /// Files of our own, by extension.
 inline auto parseNamed(const char* extension) {
   return [extension](const std::string& text) {

@@ -14,6 +14,7 @@
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/stats_json.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
 
@@ -39,10 +40,10 @@ class RenderRun {
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
     rib.onMake = [this](const Request& request) {
       made_ = true;
-      if (!interrupted()) performMake(request, log_);
+      performMake(request, log_);
     };
     parse_.emplace(stats_, "parse");
-    const bool read = readRib(settings_.files, rib, log_);
+    const bool read = readAll(rib);
     parse_.reset();
     if (read && scenes_ == 0 && !made_ && !interrupted())
       log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.files.front()), 0},
@@ -59,10 +60,20 @@ class RenderRun {
   }
 
  private:
+  /// Interrupted frames are the last: what follows them is not read.
+  bool readAll(const RibSettings& rib) {
+    try {
+      return readRib(settings_.files, rib, log_);
+    } catch (const Stopped&) {
+      return true;
+    }
+  }
+
   void takeScene(Scene&& scene) {
     parse_.reset();
     ++scenes_;
-    if (wanted(scene) && !interrupted()) {
+    if (wanted(scene)) {
+      const OrderlyEnd orderly;
       ++rendered_;
       applyOverrides(scene, settings_);
       dropDisplays(scene.options, log_);
@@ -71,11 +82,16 @@ class RenderRun {
       if (!settings_.draft) warnOfCoarseDicing(scene, log_);
       const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
       const int errorsBefore = errors();
-      job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
+      try {
+        job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
+      } catch (const std::exception& e) {  // later frames may be smaller, and what is finished keeps its statistics
+        log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
+      }
       if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
           errors() == errorsBefore)  // else it may have been refused
         explainEmptyFrame(scene, log_);
       flush();
+      throwIfStopped();
     }
     parse_.emplace(stats_, "parse");
   }
@@ -127,13 +143,9 @@ class RenderRun {
 
 }  // namespace
 
-int renderCommand(const RenderSettings& settings) {
-  catchInterrupts();
-  return RenderRun(settings, renderFrame).run();
-}
+int renderCommand(const RenderSettings& settings) { return RenderRun(settings, renderFrame).run(); }
 
 int hideCommand(const RenderSettings& settings) {
-  catchInterrupts();
   const auto job = [](Scene& scene, int world, const RenderSettings& s, Stats& stats, Log& log,
                       const std::function<void()>&) { hideToFile(scene, world, s, stats, log); };
   return RenderRun(settings, job).run();

@@ -1,5 +1,6 @@
 // `tomales render`: every frame of a RIB stream through the stages, to files.
 #pragma once
+#include "reyes/app/exit_code.h"
 #include "reyes/app/settings.h"
 
 namespace tomales {

@@ -10,7 +10,7 @@ namespace tomales {
 namespace {
 
 int runOnShot(const RenderSettings& settings, void (ShotJob::*work)()) {
-  catchInterrupts();
+  const OrderlyEnd orderly;
   const auto start = std::chrono::steady_clock::now();
   const ThreadLimit threads(settings.threads);
   Log log(settings.verbosity);

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "reyes/app/exit_code.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/base/folder_lock.h"
+#include "reyes/base/stop.h"
 #include "reyes/base/temporary_folder.h"
 #include "reyes/world_sum.h"
 
@@ -13,18 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the scene's indirect light says; empty where nothing.
-const Param* indirectParam(const Scene& scene, const char* name) {
-  for (const auto& light : scene.lights)
-    if (light->shader.name == "indirectlight")
-      if (const Param* p = findParam(light->shader.params, name)) return p;
-  return nullptr;
-}
-
-bool asksPoints(const RenderSettings& settings, const Scene& scene) {
-  if (settings.gi != GiChoice::Scene) return settings.gi == GiChoice::Points;
-  const Param* radiance = indirectParam(scene, "radiance");
-  return radiance && !radiance->strings.empty() && radiance->strings[0] == "points";
+bool asksPoints(const RenderSettings& settings, const ShadingSystem& shading) {
+  return hitRadianceOf(settings.gi, shading) == HitRadianceChoice::Points;
 }
 
 /// Brick maps, so that a ray finds the mean over its footprint, of those point clouds that are there.
@@ -54,37 +48,36 @@ void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
 
 }  // namespace
 
-std::string atlasFolder(const RenderSettings& settings, const Scene& scene) {
+std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading) {
   if (!settings.atlasFolder.empty()) return settings.atlasFolder;
-  const Param* p = indirectParam(scene, "atlas");
-  return p && !p->strings.empty() ? p->strings[0] : std::string();
+  return shading.indirectRequest().value_or(IndirectRequest{}).atlas;
 }
 
-AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene) {
+AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading) {
   AtlasSettings out;
   out.world = worldSum(scene);
   out.photons.emit = settings.photons;
   out.photons.seed = lightSeedOf(settings);
   out.photons.direct = settings.atlasDirect;
   out.bricks.maxError = settings.brickMaxError;
-  const Param* bounces = indirectParam(scene, "bounces");
-  if (bounces) out.photons.maxDepth = std::max(1, static_cast<int>(bounces->number(10)));
+  const std::optional<int> bounces = shading.indirectRequest().value_or(IndirectRequest{}).bounces;
+  if (bounces) out.photons.maxDepth = std::max(1, *bounces);
   if (settings.bounces > 0) out.photons.maxDepth = settings.bounces;
   return out;
 }
 
-bool storesDirect(const RenderSettings& settings, const Scene& scene) {
-  const std::string folder = atlasFolder(settings, scene);
-  if (asksPoints(settings, scene)) return true;
+bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading) {
+  const std::string folder = atlasFolder(settings, shading);
+  if (asksPoints(settings, shading)) return true;
   return !folder.empty() && isMadeByHand(folder) ? holdsDirect(folder) : settings.atlasDirect;
 }
 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
                                                     Stats& stats, Log& log) {
-  const AtlasSettings atlas = atlasSettings(settings, scene);
-  const std::string given = atlasFolder(settings, scene);
-  const bool points = asksPoints(settings, scene);
+  const AtlasSettings atlas = atlasSettings(settings, scene, shading);
+  const std::string given = atlasFolder(settings, shading);
+  const bool points = asksPoints(settings, shading);
   if (points && given.empty()) {
     log.report(Severity::Missing, "points-folder", {},
                "--gi points needs --atlas FOLDER of point clouds with irradiance: rendered without indirect light");
@@ -94,42 +87,55 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
   try {
     if (given.empty() || points) temporary.emplace(fs::temp_directory_path());
     const fs::path folder = temporary ? temporary->path() : fs::path(given);
-    const MapNames names = mapNames(scene, atlas);
+    const MapNames names = mapNames(scene, shading, atlas);
+    makeAtlasFolder(folder);
+    std::optional<FolderLock> lock;
+    if (!temporary)
+      lock.emplace(folder, [&] {
+        log.report(Severity::Info, "atlas-wait", {},
+                   "waits for another program that uses the atlas in \"" + folder.string() + "\"");
+      });
     const bool byHand = points || isMadeByHand(folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
-    if (!byHand) writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log);
+    if (!byHand)
+      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log); }, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);
     return maps;
+  } catch (const Stopped&) {
+    return nullptr;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
+    log.report(severityOfLoss(e), "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;
   }
 }
 
-std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const RenderSettings& settings, Log& log) {
+std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,
+                                                 const RenderSettings& settings, Log& log) {
   if (settings.bakedFolder.empty()) {
     log.report(Severity::Missing, "baked-folder", {},
                "--gi baked needs --baked FOLDER: rendered without indirect light");
     return nullptr;
   }
   try {
-    const AtlasSettings atlas = atlasSettings(settings, scene);
+    const AtlasSettings atlas = atlasSettings(settings, scene, shading);
     auto maps = std::make_unique<const IrradianceAtlas>(
-        settings.bakedFolder, scene, mapNames(scene, atlas).ofSurfaces(), brickCacheBytes(settings), log);
+        settings.bakedFolder, scene, mapNames(scene, shading, atlas).ofSurfaces(), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "baked", {}, std::string(e.what()) + ": rendered without indirect light");
+    log.report(severityOfLoss(e), "baked", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;
   }
 }
 
 void bakeGathered(const GiServices& services, const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
-                  const RenderSettings& settings, Log& log) {
+                  const ShadingSystem& shading, const RenderSettings& settings, Log& log) {
   try {
-    const AtlasSettings atlas = atlasSettings(settings, scene);
-    services.bake(layout, tiles, settings.bakedFolder, mapNames(scene, atlas).ofSurfaces(), atlas.world);
+    const AtlasSettings atlas = atlasSettings(settings, scene, shading);
+    const MapNames names = mapNames(scene, shading, atlas).ofSurfaces();
+    makeAnewWhatIsDamaged([&] { services.bake(layout, tiles, settings.bakedFolder, names, atlas.world); }, log);
+  } catch (const Stopped&) {  // what was gathered before stays
   } catch (const std::runtime_error& e) {
     log.report(Severity::Output, "baked-write", {}, std::string(e.what()) + ": the gathered light is not kept");
   }

@@ -5,12 +5,12 @@
 
 namespace tomales {
 
-/// settings.atlasFolder, or the `atlas` of the scene's indirect light; empty: neither.
-std::string atlasFolder(const RenderSettings& settings, const Scene& scene);
+/// settings.atlasFolder, or that of the scene's indirect lights; empty: neither.
+std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading);
 
-AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene);
+AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading);
 /// Do the maps of GiMode::Atlas hold direct light? Those made by hand say so themselves.
-bool storesDirect(const RenderSettings& settings, const Scene& scene);
+bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading);
 
 /// In the atlasFolder(), where what is still true is used and the rest made; without
 /// one in a temporary folder. Maps put there by hand are used as they are. Null after an error, which has been
@@ -20,9 +20,10 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
                                                     Stats& stats, Log& log);
 
 /// The light of settings.bakedFolder, for GiMode::Baked. Null after an error, which has been reported.
-std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const RenderSettings& settings, Log& log);
+std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,
+                                                 const RenderSettings& settings, Log& log);
 /// What has been gathered goes to settings.bakedFolder. Errors are reported.
 void bakeGathered(const GiServices& services, const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
-                  const RenderSettings& settings, Log& log);
+                  const ShadingSystem& shading, const RenderSettings& settings, Log& log);
 
 }  // namespace tomales

@@ -1,7 +1,6 @@
 #include "reyes/app/frame/bucket_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -15,7 +14,7 @@ BucketFile::BucketFile(const Scene& scene, const DeepFrame& layout, int world, c
   const Shot shot{scene, layout_, settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
                   world};
   std::string error;
-  file_ = DfbWriter::create(picture_ + ".dfb", shot, true, error);
+  file_ = DfbWriter::create(picture_ + ".dfb", shot, Unfinished::Resumed, error);
   if (!file_)
     log.report(Severity::Warning, "resume", {}, "buckets cannot be kept for --resume: " + error);
   else
@@ -42,16 +41,14 @@ void BucketFile::spill(size_t index, const DeepTile& tile) {
 }
 
 void BucketFile::forget() {
-  std::error_code problem;
-  if (file_) std::filesystem::remove(file_->temporary(), problem);
+  if (file_) file_->discard();
 }
 
 std::unique_ptr<DfbWriter> BucketFile::openUnnamed(std::string& error) const {
   Shot layoutAlone;
   layoutAlone.frame = layout_;
-  auto file = DfbWriter::create(fmt::format("{}.{}.dfb", picture_, ::getpid()), layoutAlone, false, error);
-  std::error_code problem;
-  if (file) std::filesystem::remove(file->temporary(), problem);
+  auto file = DfbWriter::create(picture_ + ".dfb", layoutAlone, Unfinished::Removed, error);
+  if (file) file->discard();
   return file;
 }
 

@@ -28,7 +28,6 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       settings_(settings),
       stats_(stats),
       log_(log),
-      mode_(giModeOf(settings.gi, scene)),
       camera_(scene.options),
       registry_(log, pluginTrust(settings)),
       meter_(settings.progress),
@@ -36,6 +35,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
   shading_->setClouds(&clouds_);
+  mode_ = giModeOf(settings.gi, *shading_);
   if (traces())
     open([](const Attributes& a) {
       const Visibility& v = a.visibility;
@@ -91,7 +91,7 @@ void FrameJob::prepareRays() {
     services_->setRadiositySource([this] {
       return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, stats_, log_);
     });
-  if (mode_ == GiMode::Baked) services_->setAtlas(openBaked(scene_, settings_, log_));
+  if (mode_ == GiMode::Baked) services_->setAtlas(openBaked(scene_, *shading_, settings_, log_));
 }
 
 void FrameJob::prepareRays(RaySource rays) {
@@ -106,7 +106,7 @@ GiSettings FrameJob::giSettings() const {
           settings_.maxError,
           lightSeedOf(settings_),
           settings_.errorFunction,
-          mode_ != GiMode::Atlas || storesDirect(settings_, scene_)};
+          mode_ != GiMode::Atlas || storesDirect(settings_, *shading_)};
 }
 
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
@@ -124,7 +124,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && !interrupted())
-    bakeGathered(*services_, layout, tiles, scene_, settings_, log_);
+    bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);
 }
 
 ShadeContext FrameJob::shadeContext() const {
@@ -179,6 +179,7 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
   DeepFrame frame = layout;
   FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
   bool complete = true;
+  std::atomic<bool> dropped{false};
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     TurnsTimer timer(stats_, "hide", "shade");
     const TileSink sink{{},
@@ -186,12 +187,17 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
                           keep(index, tile);
                           const TurnsTimer::Turn turn(timer);
                           tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+                          if (interrupted()) {  // as shadeTiles() does
+                            dropped = true;
+                            return;
+                          }
                           place(index, std::move(tile), put);
                         },
                         find};
     complete = hider.hide(tiles, sink) && complete;
   });
-  if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+  if (!complete || dropped)
+    log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
 }
 
 void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {
@@ -223,12 +229,8 @@ FrameControl FrameJob::control(float begin, float end) {
 
 // The reference must not be noisier in direct light than in indirect.
 int FrameJob::referenceLightSamples() const {
-  int samples = settings_.samples > 0 ? settings_.samples : kReferenceLightSamples;
-  for (const auto& light : scene_.lights)
-    if (const Param* p = findParam(light->shader.params, "samples"); p && light->area)
-      samples =
-          std::max(samples, static_cast<int>(std::min(p->number(0), static_cast<float>(kMostReferenceLightSamples))));
-  return std::min(samples, kMostReferenceLightSamples);
+  const int samples = settings_.samples > 0 ? settings_.samples : kReferenceLightSamples;
+  return std::min(std::max(samples, shading_->mostAreaSamples()), kMostReferenceLightSamples);
 }
 
 void makeFolderOf(const std::string& file) {

@@ -63,13 +63,13 @@ class FrameJob {
   const RenderSettings& settings_;
   Stats& stats_;
   Log& log_;
-  const GiMode mode_;
   bool gathers_ = false;
   const Camera camera_;
   ShaderRegistry registry_;
   ProgressMeter meter_;
   CloudFiles clouds_;
   std::unique_ptr<ShadingSystem> shading_;
+  GiMode mode_ = GiMode::None;  ///< As the lights ask, once they are bound.
   std::unique_ptr<RayScene> rays_;
   std::unique_ptr<GiServices> services_;
   std::unique_ptr<Preview> preview_;

@@ -7,6 +7,7 @@
 
 #include "reyes/app/frame/frame_job.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/base/input_file.h"
 
 namespace tomales {
 namespace {
@@ -20,13 +21,15 @@ uint64_t sumOfFile(const std::string& path) {
   return sum;
 }
 
+bool isReadOnce(const std::string& file) { return file == "-" || !inputProblem(file).empty(); }
+
 }  // namespace
 
 std::vector<SourceFile> sourcesOf(const std::vector<std::string>& files) {
   std::vector<SourceFile> out;
   for (const std::string& file : files)
-    out.push_back(file == "-" ? SourceFile{file, 0}
-                              : SourceFile{std::filesystem::absolute(file).string(), sumOfFile(file)});
+    out.push_back(isReadOnce(file) ? SourceFile{"-", 0}
+                                   : SourceFile{std::filesystem::absolute(file).string(), sumOfFile(file)});
   return out;
 }
 
@@ -46,7 +49,7 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
       scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
       world};
   std::string error;
-  const auto file = DfbWriter::create(path, shot, settings.resume, error);
+  const auto file = DfbWriter::create(path, shot, settings.resume ? Unfinished::Resumed : Unfinished::Kept, error);
   if (!file) return unwritten(error);
   if (settings.resume)
     log.report(Severity::Info, "resume", {},
@@ -60,12 +63,12 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
                       {}};
   const bool complete = job.hide(shot.frame, sink);
   if (full)
-    return unwritten(file->error() + "; finished buckets are in \"" + file->temporary() +
+    return unwritten(file->error() + "; finished buckets are in \"" + file->unfinishedPath() +
                      "\", and --resume adds the others");
   if (!complete)
     return log.report(
         Severity::Warning, "interrupted", {},
-        "interrupted: finished buckets are in \"" + file->temporary() + "\", and --resume adds the others");
+        "interrupted: finished buckets are in \"" + file->unfinishedPath() + "\", and --resume adds the others");
   if (!file->finish()) unwritten(file->error());
 }
 

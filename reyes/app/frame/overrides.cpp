@@ -29,33 +29,15 @@ void changeAttributes(Scene& scene, Change&& change) {
   if (hasGeometry(scene)) scene.freeze();
 }
 
-void addIndirectLight(Scene& scene) {
-  auto light = std::make_shared<LightCall>();
-  light->shader.name = "indirectlight";
-  light->shader.where = scene.where;
-  light->handle = "--gi";
-  light->index = static_cast<int>(scene.lights.size());
-  scene.lights.push_back(light);
-  changeAttributes(scene, [&](Attributes& a) { a.lights.push_back(light->index); });
-}
-
 /// The low quality of approximate-gi 5.2; what the command line asks for besides wins.
 void makeDraft(Scene& scene) {
-  constexpr float kRays = 50, kCoarser = 16;
-  constexpr int kSamples = 2;
+  constexpr float kCoarser = 16;
+  constexpr int kSamples = 2, kRays = 50;
   Options& o = scene.options;
   o.xSamples = std::min(o.xSamples, kSamples), o.ySamples = std::min(o.ySamples, kSamples);
   changeAttributes(scene,
                    [](Attributes& a) { a.displacement = nullptr, a.displacementBound = 0, a.shadingRate *= kCoarser; });
-  for (auto& light : scene.lights) {
-    if (light->shader.name != "indirectlight") continue;
-    auto draft = std::make_shared<LightCall>(*light);
-    std::erase_if(draft->shader.params, [](const Param& p) { return p.name == "samples"; });
-    Param samples;
-    samples.name = "samples", samples.type = ValueType::Float, samples.floats = {kRays};
-    draft->shader.params.push_back(std::move(samples));
-    light = std::move(draft);
-  }
+  o.indirectSamples = kRays;
 }
 
 bool isMap(const DisplayCall& d) { return writesShadowMap(d) || d.type == "deepshad"; }
@@ -105,40 +87,37 @@ void dropDisplays(Options& options, Log& log) {
   });
 }
 
-bool hasIndirectLight(const Scene& scene) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [](const auto& light) { return light->shader.name == "indirectlight"; });
-}
-
-/// Does an indirectlight say so: "string radiance" "atlas"?
-bool asksFor(const char* what, const Scene& scene) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const auto& light) {
-    const Param* radiance = findParam(light->shader.params, "radiance");
-    return light->shader.name == "indirectlight" && radiance && !radiance->strings.empty() &&
-           radiance->strings[0] == what;
-  });
-}
-
-GiMode giModeOf(GiChoice choice, const Scene& scene) {
+std::optional<HitRadianceChoice> hitRadianceOf(GiChoice choice, const ShadingSystem& shading) {
   switch (choice) {
-    case GiChoice::Gather:
-      return GiMode::Gather;
-    case GiChoice::Reference:
-      return GiMode::Reference;
-    case GiChoice::Atlas:
-    case GiChoice::Points:
-      return GiMode::Atlas;
-    case GiChoice::Radiosity:
-      return GiMode::Radiosity;
-    case GiChoice::Baked:
-      return GiMode::Baked;
     case GiChoice::Scene:
-      if (!hasIndirectLight(scene)) return GiMode::None;
-      return asksFor("atlas", scene) || asksFor("points", scene) ? GiMode::Atlas
-             : asksFor("radiosity", scene)                       ? GiMode::Radiosity
-                                                                 : GiMode::Gather;
+      if (const auto request = shading.indirectRequest()) return request->hitRadiance;
+      return std::nullopt;
+    case GiChoice::Gather:
+      return HitRadianceChoice::Shader;
+    case GiChoice::Atlas:
+      return HitRadianceChoice::Atlas;
+    case GiChoice::Points:
+      return HitRadianceChoice::Points;
+    case GiChoice::Radiosity:
+      return HitRadianceChoice::Radiosity;
     default:
-      return GiMode::None;
+      return std::nullopt;
+  }
+}
+
+GiMode giModeOf(GiChoice choice, const ShadingSystem& shading) {
+  if (choice == GiChoice::Reference) return GiMode::Reference;
+  if (choice == GiChoice::Baked) return GiMode::Baked;
+  const std::optional<HitRadianceChoice> asked = hitRadianceOf(choice, shading);
+  if (!asked) return GiMode::None;
+  switch (*asked) {
+    case HitRadianceChoice::Atlas:
+    case HitRadianceChoice::Points:
+      return GiMode::Atlas;
+    case HitRadianceChoice::Radiosity:
+      return GiMode::Radiosity;
+    default:
+      return GiMode::Gather;
   }
 }
 
@@ -184,8 +163,7 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
   if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
   if (settings.crop) o.cropWindow = *settings.crop;
-  const bool wantsIndirect = settings.gi != GiChoice::Scene && settings.gi != GiChoice::None;
-  if (wantsIndirect && !hasIndirectLight(scene)) addIndirectLight(scene);
+  if (settings.gi != GiChoice::Scene && settings.gi != GiChoice::None) o.wantsIndirect = true;
   if (settings.draft) makeDraft(scene);
   if (settings.pixelSamples) o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;

@@ -5,19 +5,19 @@
 
 namespace tomales {
 
-/// Applies format, crop, rates, buckets and output; adds an `indirectlight` where the mode wants one and the
-/// scene has none.
+/// Applies format, crop, rates, buckets and output; asks for an indirect light where the mode wants one.
 void applyOverrides(Scene& scene, const RenderSettings& settings);
 
 /// Leaves out, with a message, Displays that would write over an earlier one's file, and windows beside files.
 void dropDisplays(Options& options, Log& log);
 
-bool hasIndirectLight(const Scene& scene);
-
 /// With the memory for geometry that Option "limits" "geocachememory" and --geometry-cache allow.
 RaySettings raySettings(const RenderSettings& settings, const Options& options);
 
-/// How a choice is carried out for this scene.
-GiMode giModeOf(GiChoice choice, const Scene& scene);
+/// What gather rays see by a choice, or by the scene where that says so; none: nothing is gathered, or (Reference,
+/// Baked) not in that way.
+std::optional<HitRadianceChoice> hitRadianceOf(GiChoice choice, const ShadingSystem& shading);
+/// How a choice is carried out for the lights of this scene.
+GiMode giModeOf(GiChoice choice, const ShadingSystem& shading);
 
 }  // namespace tomales

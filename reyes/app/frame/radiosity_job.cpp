@@ -6,9 +6,12 @@
 
 #include "gi/radiosity_bricks.h"
 #include "gi/radiosity_picture.h"
+#include "reyes/app/exit_code.h"
 #include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/base/chunk_file.h"
+#include "reyes/base/stop.h"
+#include "reyes/base/temporary_folder.h"
 #include "reyes/pictures.h"
 #include "reyes/world_sum.h"
 
@@ -25,16 +28,14 @@ std::string fileName(const Object& object, int index, std::set<std::string>& use
 }
 
 void writeMap(const std::vector<RadiosityChart>& charts, const std::filesystem::path& file, Log& log) {
-  std::filesystem::path base = file;
-  base.replace_extension(".base.exr");
-  std::string error;
-  const bool written = writeImage(base.string(), pictureOf(charts), false, log);
-  const bool made =
-      written &&
-      makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error);
-  std::error_code ignored;
-  std::filesystem::remove(base, ignored);
-  if (!made) throw FileError(fmt::format("\"{}\": {}", file.string(), written ? error : "cannot be written"));
+  const TemporaryFolder folder(file.parent_path());
+  const std::filesystem::path base = folder.path() / "base.exr";
+  std::string error = "cannot be written";
+  const bool written =
+      writeImage(base.string(), pictureOf(charts), false, log) &&
+      makeTexture({.pictures = {base.string()}, .file = file.string(), .sWrap = "clamp", .tWrap = "clamp"}, error) ==
+          Making::Done;
+  if (!written) throw WriteError(fmt::format("\"{}\": {}", file.string(), error));
 }
 
 void writeRadiosityMaps(const RadiosityMaps& maps, const Scene& scene, const std::filesystem::path& folder, Log& log) {
@@ -43,6 +44,7 @@ void writeRadiosityMaps(const RadiosityMaps& maps, const Scene& scene, const std
   for (int i = 0; i < static_cast<int>(scene.objects.size()); ++i) {
     if (maps.charts(i, false).empty()) continue;
     const std::string name = fileName(scene.objects[static_cast<size_t>(i)], i, used);
+    throwIfStopped();
     writeMap(maps.charts(i, false), folder / (name + ".exr"), log);
     if (!maps.charts(i, true).empty()) writeMap(maps.charts(i, true), folder / (name + ".back.exr"), log);
   }
@@ -52,17 +54,25 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
                                             const RadiositySettings& radiosity, const RenderSettings& settings,
                                             Stats& stats, Log& log) {
   try {
-    AtlasSettings atlas = atlasSettings(settings, tools.rays->scene());
+    AtlasSettings atlas = atlasSettings(settings, tools.rays->scene(), *tools.shading);
     atlas.world = worldSum(tools.rays->scene(), false);  // gather rays meet what photons do not
     if (!settings.radiosityFolder.empty())
       log.report(Severity::Warning, "radiosity-maps", {},
                  "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
     const RadiosityBrickSettings bricks{.points = radiosity};
-    return std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera,
-                                                   mapNames(tools.rays->scene(), atlas), bricks,
-                                                   brickCacheBytes(settings), stats, log);
+    const MapNames names = mapNames(tools.rays->scene(), *tools.shading, atlas);
+    std::unique_ptr<const RadiosityBricks> out;
+    makeAnewWhatIsDamaged(
+        [&] {
+          out = std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, names, bricks,
+                                                        brickCacheBytes(settings), stats, log);
+        },
+        log);
+    return out;
+  } catch (const Stopped&) {
+    return nullptr;
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "radiosity-bricks", {},
+    log.report(severityOfLoss(e), "radiosity-bricks", {},
                std::string(e.what()) + ": hits of gather rays are shaded instead");
     return nullptr;
   }
@@ -75,13 +85,15 @@ std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const
   const StageTimer timer(stats, "radiosity");
   const Scene& scene = tools.rays->scene();
   const RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
-  if (const std::string folder = atlasFolder(settings, scene); !folder.empty())
+  if (const std::string folder = atlasFolder(settings, *tools.shading); !folder.empty())
     return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
-  auto maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
+  std::unique_ptr<const RadiosityMaps> maps;
   try {
+    maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
     if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, scene, settings.radiosityFolder, log);
+  } catch (const Stopped&) {               // what there is may be used
   } catch (const std::runtime_error& e) {  // FileError, or of the file system
-    log.report(Severity::Missing, "radiosity-maps", {},
+    log.report(severityOfLoss(e), "radiosity-maps", {},
                fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
   }
   return maps;

@@ -74,7 +74,7 @@ std::unique_ptr<RayWorld::Built> RayWorld::build() {
     return nullptr;
   };
   for (const SourceFile& source : shot_.sources)
-    if (source.path == "-") return give("the RIB came from standard input");
+    if (source.path == "-") return give("the RIB came from standard input or a pipe");
   if (!sourcesAreUnchanged())
     return give("\"" + shot_.sources.front().path + "\" or what follows it is gone or has changed");
   std::optional<Scene> scene;
@@ -91,8 +91,6 @@ std::unique_ptr<RayWorld::Built> RayWorld::build() {
   if (!scene) return give("the RIB holds no such frame any more");
   scene->options = shot_.scene.options;
   scene->open([](const Attributes&) { return true; });
-  if (shot_.scene.lights.size() == scene->lights.size() + 1)
-    scene->lights.push_back(shot_.scene.lights.back());  // --gi
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
   dress(*scene);
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");

@@ -1,33 +1,58 @@
 #include "reyes/app/watch/interrupt.h"
 
-#include <csignal>
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "reyes/base/abrupt_end.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
 
-std::atomic<bool> flag{false};
+std::atomic<bool> endsOrderly{false};
 std::atomic<int> signalNumber{0};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
-              "used in a signal handler");
 
-extern "C" void onSignal(int number) {
-  signalNumber = number;
-  flag = true;
+bool isIgnored(int number) {
+  struct sigaction action {};
+  return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+/// A thread and no handler, because what an abrupt end does cannot be done in a handler.
+[[noreturn]] void waitForSignals(sigset_t set) {
+  for (int number = 0;;) {
+    if (::sigwait(&set, &number) != 0) continue;
+    if (stopRequested() || !endsOrderly) endAbruptly(128 + number);
+    signalNumber = number;
+    requestStop();
+  }
 }
 
 }  // namespace
 
-void catchInterrupts() {
-  struct sigaction action {};
-  action.sa_handler = onSignal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+void openStandardFiles() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(number, F_GETFD) < 0)
+      ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest number
 }
 
-const std::atomic<bool>& interrupted() { return flag; }
+void watchSignals() {
+  for (const int number : {SIGPIPE, SIGXFSZ}) ::signal(number, SIG_IGN);
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : {SIGINT, SIGTERM}) sigaddset(&set, number);
+  if (!isIgnored(SIGHUP)) sigaddset(&set, SIGHUP);
+  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  std::thread(waitForSignals, set).detach();
+}
 
-int interruptExitCode() { return flag ? 128 + signalNumber : 0; }
+OrderlyEnd::OrderlyEnd() { endsOrderly = true; }
+OrderlyEnd::~OrderlyEnd() { endsOrderly = false; }
+
+const std::atomic<bool>& interrupted() { return stopFlag(); }
+
+int interruptExitCode() { return interrupted() ? 128 + signalNumber : 0; }
 
 }  // namespace tomales

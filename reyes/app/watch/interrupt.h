@@ -1,14 +1,28 @@
-// SIGINT and SIGTERM as a flag. The first asks for an orderly end; a second ends the process.
+// What the program does when it is told to end: by SIGINT, SIGTERM, or SIGHUP (unless that is ignored, as
+// nohup has it). Work that can keep what is finished asks for an orderly end: the first signal then sets a
+// flag that its stages watch. A second signal, or the first one during other work, as while RIB is read, ends
+// the process at once, without leaving unfinished files or programs behind (reyes/base/abrupt_end.h).
 #pragma once
 #include <atomic>
 
 namespace tomales {
 
-/// Installs the handlers; idempotent.
-void catchInterrupts();
-/// Set by the first signal; what the stages watch.
+/// Standard files that are closed are opened, or what the program opens next would take their place and its
+/// messages would go there: such that using them fails as it would have. Once, before anything else is
+/// opened.
+void openStandardFiles();
+/// Once, before other threads start: they must not get the signals. A pipe that nobody reads any more
+/// (SIGPIPE) and a file that is too large (SIGXFSZ, ulimit -f) are then errors of write().
+void watchSignals();
+/// While one lives, the first signal sets interrupted(). Not nested.
+class OrderlyEnd {
+ public:
+  OrderlyEnd();
+  ~OrderlyEnd();
+  OrderlyEnd(const OrderlyEnd&) = delete;
+};
 const std::atomic<bool>& interrupted();
-/// 130 for SIGINT, 143 for SIGTERM, 0 if neither came.
+/// 129 for SIGHUP, 130 for SIGINT, 143 for SIGTERM, 0 if none came.
 int interruptExitCode();
 
 }  // namespace tomales

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
+#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -129,16 +128,11 @@ void printShaderProfile(const Stats& stats) {
 
 void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {
   if (settings.statsFile.empty()) return;
-  const std::string temporary = settings.statsFile + ".part";
   // User input may hold bytes that are no UTF-8; they must not stop the report.
   const std::string text = statsJson(settings, stats, total_s, log).dump(2, ' ', false, Json::error_handler_t::replace);
-  std::ofstream file(temporary);
-  file << text << '\n';
-  file.close();
-  std::error_code problem;
-  if (file) std::filesystem::rename(temporary, settings.statsFile, problem);
-  if (!file || problem)
-    log.report(Severity::Output, "stats-write", {}, "\"" + settings.statsFile + "\" could not be written");
+  std::string why = "it would replace what is read";
+  if (isAmong(settings.statsFile, settings.files) || !writeFile(settings.statsFile, text + '\n', why))
+    log.report(Severity::Output, "stats-write", {}, "\"" + settings.statsFile + "\" could not be written: " + why);
 }
 
 void writeLastStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {

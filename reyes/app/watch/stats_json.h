@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Writes settings.statsFile, by way of a temporary name. `total_s`: wall time so far. Failure is reported to
+/// Writes settings.statsFile. `total_s`: wall time so far. Failure is reported to
 /// the log.
 void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log);
 

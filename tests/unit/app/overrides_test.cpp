@@ -57,19 +57,41 @@ TEST(Overrides, ASceneWithoutDisplayGetsTheDefaultOne) {
   EXPECT_EQ(scene.options.displays.size(), 1u);
 }
 
-TEST(Overrides, AGiModeAddsAnIndirectLightOnceAndOnlyWhereItIsMissing) {
+/// Of a scene with these requests in its world, by the choice.
+GiMode modeOf(const std::string& lights, GiChoice choice) {
+  const Scene scene = sceneOf("WorldBegin\n" + lights + "Sphere 1 -1 1 360\nWorldEnd\n");
+  Log log(Log::Verbosity::Quiet);
+  Stats stats;
+  ShaderRegistry registry(log);
+  registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  return giModeOf(choice, ShadingSystem(scene, registry, nullptr, log, stats));
+}
+
+TEST(Overrides, TheGiModeIsThatOfTheCommandLineOrElseOfTheIndirectLight) {
+  const std::string none, gather = "LightSource \"indirectlight\" 1\n",
+                          atlas = "LightSource \"indirectlight\" 1 \"radiance\" \"atlas\"\n",
+                          points = "LightSource \"indirectlight\" 1 \"radiance\" \"points\"\n",
+                          radiosity = "LightSource \"indirectlight\" 1 \"radiance\" \"radiosity\"\n";
+  EXPECT_EQ(modeOf(none, GiChoice::Scene), GiMode::None);
+  EXPECT_EQ(modeOf(gather, GiChoice::Scene), GiMode::Gather);
+  EXPECT_EQ(modeOf(atlas, GiChoice::Scene), GiMode::Atlas);
+  EXPECT_EQ(modeOf(points, GiChoice::Scene), GiMode::Atlas);
+  EXPECT_EQ(modeOf(radiosity, GiChoice::Scene), GiMode::Radiosity);
+  EXPECT_EQ(modeOf(gather + atlas, GiChoice::Scene), GiMode::Atlas) << "one of several that asks";
+  EXPECT_EQ(modeOf(atlas, GiChoice::None), GiMode::None);
+  EXPECT_EQ(modeOf(atlas, GiChoice::Gather), GiMode::Gather);
+  EXPECT_EQ(modeOf(none, GiChoice::Points), GiMode::Atlas);
+}
+
+TEST(Overrides, AGiModeAsksForAnIndirectLight) {
   Scene scene = sceneOf(kTwoSpheres);
   RenderSettings settings;
-  EXPECT_EQ(giModeOf(GiChoice::Scene, scene), GiMode::None);
+  applyOverrides(scene, settings);
+  EXPECT_FALSE(scene.options.wantsIndirect);
   settings.gi = GiChoice::Gather;
   applyOverrides(scene, settings);
-  applyOverrides(scene, settings);
-  ASSERT_EQ(scene.lights.size(), 2u);
-  EXPECT_TRUE(hasIndirectLight(scene));
-  EXPECT_EQ(scene.lights[1]->index, 1);
-  for (const Object& object : scene.objects) EXPECT_EQ(object.attributes->lights, (std::vector<int>{0, 1}));
-  EXPECT_EQ(giModeOf(GiChoice::Scene, scene), GiMode::Gather);
-  EXPECT_EQ(giModeOf(GiChoice::None, scene), GiMode::None);
+  EXPECT_TRUE(scene.options.wantsIndirect);
+  EXPECT_EQ(scene.lights.size(), 1u) << "it is added where lights are bound";
 }
 
 TEST(Overrides, ADraftIsCoarseButForWhatIsAskedBesides) {
@@ -83,7 +105,7 @@ TEST(Overrides, ADraftIsCoarseButForWhatIsAskedBesides) {
   EXPECT_EQ(scene.objects[0].attributes->shadingRate, 8);
   EXPECT_EQ(scene.objects[0].attributes->displacement, nullptr);
   EXPECT_EQ(scene.options.xSamples, 3);
-  EXPECT_EQ(findParam(scene.lights[0]->shader.params, "samples")->number(0), 50);
+  EXPECT_EQ(scene.options.indirectSamples, 50);
 }
 
 TEST(Overrides, PictureSizesComeFromTheCommandLine) {

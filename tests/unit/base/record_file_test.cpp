@@ -28,8 +28,8 @@ class RecordFiles : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::unique_ptr<RecordWriter> writer(bool resume = false) {
-    return RecordWriter::create(path_, kKind, resume, error_);
+  std::unique_ptr<RecordWriter> writer(Unfinished unfinished = Unfinished::Kept) {
+    return RecordWriter::create(path_, kKind, unfinished, error_);
   }
   std::string content() const {
     std::ifstream file(path_, std::ios::binary);
@@ -100,7 +100,7 @@ TEST_F(RecordFiles, ResumeWithTheWholeChunksOfAKilledRun) {
   }
   const std::string part = path_ + ".part";
   fs::resize_file(part, fs::file_size(part) - 1);  // killed in the middle of the second record
-  const auto w = writer(true);
+  const auto w = writer(Unfinished::Resumed);
   ASSERT_TRUE(w);
   EXPECT_TRUE(w->has({7, 0}));
   EXPECT_FALSE(w->has({7, 1}));

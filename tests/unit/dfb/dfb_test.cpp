@@ -61,7 +61,7 @@ class Dfb : public testing::Test {
 
   void writeShot() {
     const Shot shot = smallShot();
-    const auto writer = DfbWriter::create(path_, shot, false, error_);
+    const auto writer = DfbWriter::create(path_, shot, Unfinished::Kept, error_);
     ASSERT_TRUE(writer) << error_;
     for (const size_t i : {1u, 0u}) ASSERT_TRUE(writer->write(i, smallTile(shot.frame, i)));
     ASSERT_TRUE(writer->finish());
@@ -139,10 +139,10 @@ TEST_F(Dfb, NoticesEveryFlippedByte) {
 
 TEST_F(Dfb, ResumesOnlyTheSameShot) {
   Shot shot = smallShot();
-  DfbWriter::create(path_, shot, false, error_)->write(0, smallTile(shot.frame, 0));
-  EXPECT_EQ(DfbWriter::create(path_, shot, true, error_)->tilesKept(), 1u);
+  DfbWriter::create(path_, shot, Unfinished::Kept, error_)->write(0, smallTile(shot.frame, 0));
+  EXPECT_EQ(DfbWriter::create(path_, shot, Unfinished::Resumed, error_)->tilesKept(), 1u);
   shot.scene.options.fov_degrees = 30;
-  EXPECT_EQ(DfbWriter::create(path_, shot, true, error_)->tilesKept(), 0u);
+  EXPECT_EQ(DfbWriter::create(path_, shot, Unfinished::Resumed, error_)->tilesKept(), 0u);
 }
 
 }  // namespace

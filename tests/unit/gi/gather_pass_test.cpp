@@ -3,7 +3,7 @@
 #include <map>
 #include <numeric>
 
-#include "gi/frame/sheet_search.h"
+#include "gi/frame/occluder_search.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 #include "tests/unit/gi/fixture.h"
@@ -206,9 +206,9 @@ struct BumpedRoom {
 };
 
 TEST(GatherPass, BumpsTakeNoRecordsAndAreStillSeen) {
-  BumpedRoom bumps(0), relief(1e-4f);
-  for (BumpedRoom* room : {&bumps, &relief}) gatherFrame(*room->world.use({}), room->frame);
-  EXPECT_LT(bumps.world.stats.irradianceCache.samples * 3, relief.world.stats.irradianceCache.samples);
+  BumpedRoom bumps(0), unseenDisplacement(1e-4f);
+  for (BumpedRoom* room : {&bumps, &unseenDisplacement}) gatherFrame(*room->world.use({}), room->frame);
+  EXPECT_LT(bumps.world.stats.irradianceCache.samples * 3, unseenDisplacement.world.stats.irradianceCache.samples);
   const auto services = bumps.world.use({});
   gatherFrame(*services, bumps.frame);
   const std::vector<vec3> E = indirectOf(*services, bumps.world, bumps.frame);
@@ -245,7 +245,7 @@ TEST(GatherPass, UnderASheetAsHighAsAPixelLightIsThatOfTheSlot) {
   EXPECT_LT(error / light, 0.25f);
 }
 
-TEST(SheetSearch, NoRayLooksForSheetsNearerThanWhatRaysTakeForTheSurface) {
+TEST(OccluderSearch, NoRayLooksForSheetsNearerThanWhatRaysTakeForTheSurface) {
   for (const float bound : {0.0f, 0.1f}) {
     SceneBuilder b;
     b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(0.7f));
@@ -258,14 +258,14 @@ TEST(SheetSearch, NoRayLooksForSheetsNearerThanWhatRaysTakeForTheSurface) {
     }
     World world(b.scene);
     GatherSettings settings;
-    SheetSearch search(world.rays, settings);
-    EXPECT_EQ(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity), bound == 0);
-    EXPECT_FALSE(search.isUnderSheet({0, {0.8f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity));
-    EXPECT_FALSE(search.isUnderSheet({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.03f, 0.03f))
+    OccluderSearch search(world.rays, settings);
+    EXPECT_EQ(search.isUnderOccluder({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity), bound == 0);
+    EXPECT_FALSE(search.isUnderOccluder({0, {0.8f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, kInfinity, kInfinity));
+    EXPECT_FALSE(search.isUnderOccluder({0, {0, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.03f, 0.03f))
         << "records have met it";
-    EXPECT_EQ(search.isUnderSheet({0, {0.49f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity), bound == 0)
+    EXPECT_EQ(search.isUnderOccluder({0, {0.49f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity), bound == 0)
         << "records have met its edge";
-    EXPECT_FALSE(search.isUnderSheet({0, {0.51f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity));
+    EXPECT_FALSE(search.isUnderOccluder({0, {0.51f, -1, 3}, {0, 1, 0}, 7, 0.04f, 0.01f}, 0.02f, kInfinity));
     if (bound == 0)
       EXPECT_GE(search.raysTraced(), 1 + 2 + 2 + 1 + 1);
     else

@@ -244,8 +244,8 @@ double exactOfRectangle(const glm::dvec4& r, double height, const glm::dvec2& at
 TEST(Hemisphere, TheHessianIsThatOfTheClosedFormWhereASheetHidesTheLight) {
   const World world = [](const vec3& o, const vec3& d) -> Seen {
     const vec3 p = o + 0.6f / d.z * d;
-    const bool meetsSheet = p.x > -0.3f && p.x < 0.25f && p.y > -0.35f && p.y < 0.4f;
-    return meetsSheet ? Seen{vec3(0.2f), 0.6f / d.z} : Seen{vec3(1), 5};
+    const bool meetsOccluder = p.x > -0.3f && p.x < 0.25f && p.y > -0.35f && p.y < 0.4f;
+    return meetsOccluder ? Seen{vec3(0.2f), 0.6f / d.z} : Seen{vec3(1), 5};
   };
   const auto E = [&](double x, double y) { return 1 - 0.8 * exactOfRectangle({-0.3, 0.25, -0.35, 0.4}, 0.6, {x, y}); };
   for (uint32_t i = 0; i < 40; ++i) {

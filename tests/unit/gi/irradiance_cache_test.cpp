@@ -99,7 +99,7 @@ TEST(IrradianceCache, ASheetThinnerThanAPixelHidesItsBackFromTheRecordsOfItsFron
 TEST(IrradianceCache, BumpsThatRaysDoNotSeeLieBehindNoRecord) {
   for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
     auto record = recordAt(vec3(0), vec3(1), 2);
-    record.smoothRadius = 1, record.relief = 0.06f;
+    record.smoothRadius = 1, record.unseenDisplacement = 0.06f;
     const CacheSettings wide{function, 1, 10};
     const float even = weightOfOne(wide, record, {0.1f, 0, 0}, kUp, 0.04f),
                 low = weightOfOne(wide, record, {0.1f, 0, -0.02f}, kUp, 0.04f);
@@ -288,10 +288,10 @@ TEST(IrradianceCache, RecordsServeWiderThanTheyCoverButNotBeyondDisputesNorWhere
     EXPECT_EQ(served(alone, 1.001f * reach).weight, 0);
   }
 
-  IrradianceCache disputed(kBox, {});
-  disputed.insert(recordAt(vec3(0), vec3(1)));
-  disputed.insert(recordAt({0.05f, 0, 0}, vec3(2)));
-  EXPECT_NEAR(served(disputed, 0.051f).E.x, 2, 1e-5f);
+  IrradianceCache inconsistent(kBox, {});
+  inconsistent.insert(recordAt(vec3(0), vec3(1)));
+  inconsistent.insert(recordAt({0.05f, 0, 0}, vec3(2)));
+  EXPECT_NEAR(served(inconsistent, 0.051f).E.x, 2, 1e-5f);
 }
 
 TEST(IrradianceCache, DisputesShortenNoRecordBelowAPixelOverKappa) {
@@ -302,7 +302,7 @@ TEST(IrradianceCache, DisputesShortenNoRecordBelowAPixelOverKappa) {
     cache.insert(recordAt({0.2f * least, 0, 0}, vec3(1.5f), 1, pixel));
     EXPECT_FLOAT_EQ(cache.records()[0].limit, least);
     EXPECT_NEAR(cache.lookup({-0.5f * least, 0, 0}, kUp, pixel).weight, 0.5f + 0.3f, 1e-4f);
-    EXPECT_FALSE(cache.lookup({-0.5f * least, 0, 0}, kUp, pixel).disputed)
+    EXPECT_FALSE(cache.lookup({-0.5f * least, 0, 0}, kUp, pixel).inconsistent)
         << "a third record would lie closer than a pixel";
   }
 }
@@ -321,7 +321,7 @@ TEST(IrradianceCache, WhatIsDarkerThanATenthOfTheMeanIsNotDisputedByFractionsOfI
   cache.insert(recordAt(vec3(0), vec3(1e-4f)));
   cache.insert(recordAt({0.05f, 0, 0}, vec3(2e-4f)));
   EXPECT_EQ(cache.records()[1].limit, kInfinity);
-  EXPECT_FALSE(cache.lookup({0.02f, 0, 0}, kUp, 0.01f).disputed);
+  EXPECT_FALSE(cache.lookup({0.02f, 0, 0}, kUp, 0.01f).inconsistent);
 }
 
 TEST(IrradianceCache, NoiseIsNoDispute) {
@@ -331,7 +331,7 @@ TEST(IrradianceCache, NoiseIsNoDispute) {
   cache.insert(a), cache.insert(b);
   EXPECT_EQ(cache.records()[0].limit, kInfinity);
   const IrradianceEstimate between = cache.lookup({0.02f, 0, 0}, kUp, 0.01f);
-  EXPECT_FALSE(between.disputed);
+  EXPECT_FALSE(between.inconsistent);
   EXPECT_GT(between.E.x, 1.1f);
 }
 
@@ -459,12 +459,12 @@ TEST(IrradianceCache, PlainIsScreenAsPublished) {
 
 TEST(IrradianceCache, AnEdgeThatARecordHasMetIsNoSheetOverIt) {
   IrradianceCache cache(kBox, {});
-  IrradianceRecord beside = recordAt(vec3(0), vec3(1), 0.01f), disputed = recordAt({0.02f, 0, 0}, vec3(1), 0.3f);
-  beside.limit = 2, disputed.limit = 0.02f;
+  IrradianceRecord beside = recordAt(vec3(0), vec3(1), 0.01f), inconsistent = recordAt({0.02f, 0, 0}, vec3(1), 0.3f);
+  beside.limit = 2, inconsistent.limit = 0.02f;
   cache.insert(beside);
-  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).headroom, 2);
-  cache.insert(disputed);
-  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).headroom, 0.3f);
+  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).occluderHeight, 2);
+  cache.insert(inconsistent);
+  EXPECT_EQ(cache.lookup({0.01f, 0, 0}, kUp, 0.02f).occluderHeight, 0.3f);
 }
 
 TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
@@ -494,7 +494,7 @@ TEST(IrradianceCache, ManyLookupsAtOnceHaveTheBitsOfOneAtATime) {
       EXPECT_EQ(one.weight, all[i].weight);
       EXPECT_EQ(one.E, all[i].E);
       EXPECT_EQ(one.dominant[1], all[i].dominant[1]);
-      EXPECT_EQ(one.disputed, all[i].disputed);
+      EXPECT_EQ(one.inconsistent, all[i].inconsistent);
       found += one.weight > 0;
     }
     EXPECT_GT(found, 100);

@@ -83,8 +83,8 @@ struct PhotonFiles : ::testing::Test {
     const auto services = world.use({.mode = GiMode::None});
     AtlasSettings settings;
     settings.photons = {100000, 1};
-    writePhotons(folder, world.scene, world.rays, world.shading, mapNames(world.scene, settings), settings, {},
-                 world.stats, world.log);
+    writePhotons(folder, world.scene, world.rays, world.shading, mapNames(world.scene, world.shading, settings),
+                 settings, {}, world.stats, world.log);
     const PointCloud cloud = PointFile(atlasFile(folder, map, ".ptc").string()).readAll();
     double sum = 0;
     for (size_t i = 0; i < cloud.count(); ++i) sum += double{cloud.at(i)[1]};

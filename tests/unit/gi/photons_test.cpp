@@ -268,7 +268,7 @@ vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& 
   AtlasSettings settings;
   settings.photons = photons;
   const auto services = world.use({.mode = GiMode::None});
-  const MapNames names = mapNames(world.scene, settings);
+  const MapNames names = mapNames(world.scene, world.shading, settings);
   EXPECT_EQ(names.volume, "scene.volume");
   writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
   BrickCache cache(1 << 24);
@@ -298,7 +298,7 @@ std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation, boo
   const auto services = world.use({.mode = GiMode::Atlas, .storesDirect = storesDirect});
   AtlasSettings settings;
   settings.photons = {200000, 30, 0, storesDirect};
-  const MapNames names = mapNames(world.scene, settings);
+  const MapNames names = mapNames(world.scene, world.shading, settings);
   writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
   services->setAtlas(std::make_unique<IrradianceAtlas>(folder, world.scene, names, 1 << 20, world.log));
   ShadePoints points(0, 0);
@@ -344,8 +344,8 @@ std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, floa
   const auto services = world.use({.mode = GiMode::None});
   AtlasSettings all = settings;
   all.world = worldSum(world.scene);
-  writeAtlas(folder, world.scene, world.rays, world.shading, mapNames(world.scene, all), all, {}, world.stats,
-             world.log);
+  writeAtlas(folder, world.scene, world.rays, world.shading, mapNames(world.scene, world.shading, all), all, {},
+             world.stats, world.log);
   if (kept) *kept = world.stats.photons.groupsKept;
   std::string out;
   for (const auto& [name, figures] : world.stats.stages()) out += name + " ";
@@ -408,7 +408,7 @@ TEST_F(Atlas, CausticsHaveMapsOfTheirOwn) {
   const auto services = world.use({.mode = GiMode::None});
   AtlasSettings settings;
   settings.photons = {500000, 6};
-  const MapNames names = mapNames(world.scene, settings);
+  const MapNames names = mapNames(world.scene, world.shading, settings);
   EXPECT_EQ(names.caustic, (std::vector<std::string>{"", "wall.caustic"}));
   writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
   const IrradianceAtlas atlas(folder, world.scene, names, 1 << 20, world.log);
@@ -428,7 +428,7 @@ TEST_F(Atlas, OfAFurnaceHasTheSameLightEverywhereInItsMedium) {
 
 TEST_F(Atlas, AMissingMapIsBlackAndNamed) {
   World world(insideOfASphere());
-  const IrradianceAtlas atlas(folder, world.scene, mapNames(world.scene, {}), 1 << 20, world.log);
+  const IrradianceAtlas atlas(folder, world.scene, mapNames(world.scene, world.shading, {}), 1 << 20, world.log);
   EXPECT_EQ(atlas.irradianceOverPi(0, {0, 0, 2.5f}, {0, 0, -1}, 0.1f), vec3(0));
   EXPECT_EQ(world.log.count("atlas-no-map-scene0"), 1);
 }
@@ -441,11 +441,11 @@ TEST_F(Atlas, GroupsShareAFileAsTheyAreNamedAndBySize) {
   auto named = std::make_shared<Attributes>(*b.scene.objects[2].attributes);
   named->photon.globalMap = "car";
   b.scene.objects[2].attributes = named;
-  b.scene.freeze();
-  EXPECT_EQ(mapNames(b.scene, {}).global, (std::vector<std::string>{"scene0", "scene0", "car"}));
+  const World world(b.scene);
+  EXPECT_EQ(mapNames(world.scene, world.shading, {}).global, (std::vector<std::string>{"scene0", "scene0", "car"}));
   AtlasSettings small;
   small.mostPhotonBytes = 30 << 20;  // less than half of what a million photons take
-  EXPECT_EQ(mapNames(b.scene, small).global, (std::vector<std::string>{"scene0", "scene1", "car"}));
+  EXPECT_EQ(mapNames(world.scene, world.shading, small).global, (std::vector<std::string>{"scene0", "scene1", "car"}));
 }
 
 }  // namespace

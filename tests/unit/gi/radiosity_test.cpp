@@ -181,7 +181,7 @@ struct BrickBake {
   explicit BrickBake(World& world) {
     AtlasSettings atlas;
     atlas.world = 1;
-    names = mapNames(world.scene, atlas);
+    names = mapNames(world.scene, world.shading, atlas);
   }
   std::unique_ptr<const RadiosityBricks> make(World& world) const {
     return std::make_unique<const RadiosityBricks>(folder.path(), world.rays, world.shading, world.camera, names,

@@ -1,4 +1,4 @@
-// Coverage against closed form, and how fast its error falls with the number of samples (docs/decisions/0012).
+// Coverage against closed form, and how fast its error falls with the number of samples (docs/measured/coverage.md).
 // Stratified in one cell a sample, an edge of one dimension crosses sqrt(N) of N cells: error N^-3/4. Random: N^-1/2.
 #include <gtest/gtest.h>
 

@@ -7,15 +7,15 @@ namespace {
 
 constexpr PixelRect kRect{0, 0, 16, 16};
 
-TEST(Depth, FilmsBecomeFragmentsNearestFirst) {
+TEST(Depth, TransparentLayersBecomeFragmentsNearestFirst) {
   World w;
   w.add();
   w.freeze();
   const SamplePattern pattern(4, 4, true, 1);
-  Rasters films;
+  Rasters layers;
   for (const float z : {5.0f, 2.0f, 7.0f, 3.0f, 6.0f, 4.0f})
-    films.push_back(raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 17, 20, z)), false));
-  const DeepTile t = hide(w, pattern, kRect, films);
+    layers.push_back(raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 17, 20, z)), false));
+  const DeepTile t = hide(w, pattern, kRect, layers);
   for (const DeepPixel& p : t.pixels) {
     float z = 2;
     uint64_t samples[6] = {};
@@ -29,7 +29,7 @@ TEST(Depth, FilmsBecomeFragmentsNearestFirst) {
   }
 }
 
-TEST(Depth, AnOpaqueSurfaceEndsTheListOfFilms) {
+TEST(Depth, AnOpaqueSurfaceEndsTheListOfLayers) {
   World w;
   w.add();
   w.freeze();
@@ -67,7 +67,7 @@ TEST(Depth, InterpenetratingSurfacesAreSortedSampleBySample) {
 }
 
 /// Transparent sheets that cross each other within pixels, one of them moving, before an opaque one.
-TEST(Depth, FilmsThatCrossAreInOrderForEverySample) {
+TEST(Depth, LayersThatCrossAreInOrderForEverySample) {
   World w;
   w.scene.options.shutterClose = 1;
   for (int k = 0; k < 4; ++k) w.add();

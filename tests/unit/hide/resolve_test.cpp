@@ -139,7 +139,7 @@ void expectNoTraceOfBuckets(int samples) {
 
 TEST(Resolve, DoesNotDependOnTheSizeOfBuckets) { expectNoTraceOfBuckets(4); }
 
-// The whole frame as one bucket is more samples than are sieved at once.
+// The whole frame as one bucket is more samples than are culled at once.
 TEST(Resolve, DoesNotDependOnTheSizeOfBucketsWithManySamples) { expectNoTraceOfBuckets(9); }
 
 /// Lets Highway choose among some of the vector widths only, while it lives.

@@ -99,7 +99,7 @@ size_t boundaryCount(const Solid& solid, const std::vector<SolidCrossing>& cross
   return out.size();
 }
 
-TEST(Solid, LeavesNoFilmWhereTheSubtractedIsFlush) {
+TEST(Solid, LeavesNoSurfaceWhereTheSubtractedIsFlush) {
   const float slack = 1e-3f;
   // The subtracted ends where the first begins, a rounding early or late.
   for (const float off : {-slack, 0.0f, slack}) {

@@ -1,5 +1,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "reyes/prim/blobby_field.h"
 #include "tests/unit/prim/support.h"
 
 namespace tomales {
@@ -58,6 +59,19 @@ Enclosed enclosedBy(const Prim& prim, int side) {
         out.volume += glm::dot(0.25 * (a + b + c + d), area) / 3;
       }
   return out;
+}
+
+TEST(Blobby, AFieldIsTheSameWithinABoxHoweverLongItsChainOfOperations) {
+  // Deeper than a stack, if each operation called the one before.
+  constexpr uint32_t kOperations = 500'000;
+  BlobField field({{glm::dmat3(1), glm::dvec3(0), glm::dvec3(0), glm::dvec3(0), 1}});
+  field.addLeaf(0);
+  for (uint32_t k = 0; k < kOperations; ++k) field.addOperation(k % 2 ? BlobOp::Identity : BlobOp::Negate, {&k, 1});
+  const glm::dvec3 p(0.25, 0.125, -0.5);
+  const BlobField part = field.within({p - 0.1, p + 0.1});
+  EXPECT_EQ(part.leavesUsed(), 1u);
+  EXPECT_EQ(part.at(p).value, field.at(p).value);
+  EXPECT_EQ(std::abs(part.at(p).value), std::pow(1 - glm::dot(p, p), 3));
 }
 
 TEST(Blobby, LeavesOfAMaximumThatNearlyTouchStayApart) {

@@ -1,5 +1,5 @@
 // What every primitive is diced into tends to it: area, and volume where it encloses one, at second order
-// (docs/testing.md).
+// (docs/measured/primitives.md).
 #include "tests/unit/prim/subdivision.h"
 #include "tests/unit/prim/thin.h"
 

@@ -51,7 +51,7 @@ struct BumpySphere : World {
   }
 };
 
-// Figures of docs/decisions/0006.
+// Figures of docs/measured/rays.md.
 TEST(SelfHit, WithoutTheHitListManyRaysMeetTheSurfaceThatTheyLeave) {
   const BumpySphere world(false, false);
   const Counts counts = leaveOutwards(world, 0);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "reyes/rib/expression.h"
+#include "reyes/rib/search_path.h"
 #include "rib_test_tools.h"
 
 namespace tomales {
@@ -51,6 +52,12 @@ TEST(Expression, FollowsItsGrammar) {
                                   std::string("1 2"), std::string("'a"), std::string("hero + 1"), std::string("&"),
                                   std::string(100000, '('), std::string(100000, '!')})
     EXPECT_THROW(isTrue(text), rib::ExpressionError) << text.substr(0, 20);
+}
+
+TEST(Expression, RefusesWhatTakesHours) {
+  const std::string a(1 << 17, 'a');
+  EXPECT_THROW(isTrue("'" + a + "' =~ '" + std::string(1 << 16, '*') + a + "b'"), rib::ExpressionError);
+  EXPECT_THROW(isTrue("concat('" + std::string(1 << 20, 'a') + "', 'b') == ''"), rib::ExpressionError);
 }
 
 TEST(Conditional, ReadsTheFirstBranchThatHolds) {
@@ -106,6 +113,31 @@ TEST(Variables, AreSubstitutedInStringsOnceAsked) {
   EXPECT_EQ(displays[1].name, "s1/from_env.exr");
   EXPECT_EQ(displays[2].name, "${nowhere}$");
   EXPECT_EQ(r.message("rib-variable").where.line, 3);
+}
+
+TEST(Variables, ThatDoubleEndWithAMessage) {
+  std::string text = "Option \"ribparse\" \"string varsubst\" \"$\" Option \"user\" \"string a\" \"0123456789\"\n";
+  for (int k = 0; k < 60; ++k) text += "Option \"user\" \"string a\" \"${a}${a}\"\n";
+  const Reading r(text + inWorld(kSphere));
+  EXPECT_LE(r.scene().options.user.at("user:a").strings[0].size(), rib::kLongestText);
+  EXPECT_NE(r.message("rib-variable").message.find("longer than 1048576 bytes"), std::string::npos) << r.codes();
+  EXPECT_EQ(r.message("rib-variable").where.line, 18);
+}
+
+TEST(SearchPath, ThatDoublesEndsWithAMessageAndKeepsWhatItWas) {
+  std::string text = "Option \"searchpath\" \"string archive\" \"a\"\n";
+  for (int k = 0; k < 60; ++k) text += "Option \"searchpath\" \"string archive\" \"&:&\"\n";
+  const Reading r(text + inWorld(kSphere));
+  const std::string& path = r.scene().options.searchPaths.at("archive");
+  EXPECT_TRUE(path.starts_with("a:a") && path.size() <= rib::kLongestSearchPath);
+  EXPECT_NE(r.message("rib-option").message.find("longer than 65536 bytes"), std::string::npos) << r.codes();
+}
+
+TEST(SearchPath, OfMappedFoldersIsBoundedToo) {
+  const Reading r("Option \"searchpath\" \"string archive\" \"a:a:a\" \"string[3] dirmap\" [\"NFS\" \"a\" \"" +
+                  std::string(60000, 'b') + "\"]" + inWorld(kSphere));
+  EXPECT_EQ(r.scene().options.searchPaths.at("archive"), "a:a:a");
+  EXPECT_NE(r.message("rib-option").message.find("longer than"), std::string::npos) << r.codes();
 }
 
 TEST(SearchPath, KnowsTheEnvironmentAndPreviousValues) {

@@ -78,10 +78,14 @@ rsl::FloatArrayParam knots("knots", {0, 0.2f, 0.9f, 1, 0.5f}, "");
 const std::vector<Case>& cases() {
   using namespace sl;
   static const std::vector<Case> list = {
-// clang-format off
-#define ONE(name, truth) {#name, [](const Values& v) { return Triple(name(v.a)); }, [](const In& in) { const double x = in.a; return all(truth); }}
-#define TWO(name, truth) {#name, [](const Values& v) { return Triple(name(v.a, v.b)); }, [](const In& in) { const double x = in.a, y = in.b; return all(truth); }}
-      // clang-format on
+#define ONE(name, truth)                                                                                                 \
+  {                                                                                                                      \
+#name, [](const Values& v) { return Triple(name(v.a)); }, [](const In& in) { const double x = in.a; return all(truth); } \
+  }
+#define TWO(name, truth)                                                                                                                \
+  {                                                                                                                                     \
+#name, [](const Values& v) { return Triple(name(v.a, v.b)); }, [](const In& in) { const double x = in.a, y = in.b; return all(truth); } \
+  }
       ONE(radians, x * M_PI / 180),
       ONE(degrees, x * 180 / M_PI),
       ONE(sin, std::imag(std::polar(1.0, x))),

@@ -263,11 +263,43 @@ TEST_F(Binding, CountsOfLightsAreLimitedAndItIsSaid) {
 }
 
 TEST_F(Binding, WhatAnIndirectLightCannotDoIsSaidOnce) {
-  light("indirectlight", {text("errorfunction", "guess"), text("radiance", "points"), text("atlas", "maps")});
+  light("indirectlight", {text("errorfunction", "guess"), text("radiance", "guess")});
   system();
-  for (const char* name : {"errorfunction", "radiance", "atlas"})
-    EXPECT_EQ(log.count(std::string("light-") + name), 1) << name;
-  EXPECT_EQ(log.entries().size(), 3u);
+  for (const char* role : {"errorfunction", "hitradiance"})
+    EXPECT_EQ(log.count(std::string("light-") + role), 1) << role;
+  EXPECT_EQ(log.entries().size(), 2u);
+}
+
+TEST_F(Binding, EveryRadianceThatGatherRaysMaySeeIsKnownAndSoIsTheAtlas) {
+  for (const char* name : {"shader", "radiosity", "atlas", "points"})
+    light("indirectlight", {text("radiance", name), text("atlas", "maps")});
+  ASSERT_TRUE(system().indirectRequest());
+  EXPECT_EQ(system().indirectRequest()->hitRadiance, HitRadianceChoice::Radiosity) << "the first that says so";
+  EXPECT_EQ(system().indirectRequest()->atlas, "maps");
+  EXPECT_FALSE(system().indirectRequest()->bounces) << "photons have their own number unless the scene says one";
+  EXPECT_EQ(log.entries().size(), 0u);
+}
+
+TEST_F(Binding, AnIndirectLightIsAddedForAllObjectsWhereOneIsWantedAndNoneIsThere) {
+  scene.options.wantsIndirect = true;
+  light("ambientlight");
+  EXPECT_TRUE(system().indirectQuery(0));
+  EXPECT_TRUE(system().indirectRequest());
+}
+
+TEST_F(Binding, NoIndirectLightIsAddedBesideOneThatIsThere) {
+  scene.options.wantsIndirect = true;
+  light("indirectlight", {number("samples", 77)});
+  attributes.lights.clear();
+  system();
+  EXPECT_FALSE(system().indirectQuery(0)) << "it is switched off for this object";
+}
+
+TEST_F(Binding, ADraftHasItsOwnNumberOfRays) {
+  scene.options.indirectSamples = 50;
+  light("indirectlight", {number("samples", 600)});
+  ASSERT_TRUE(system().indirectQuery(0));
+  EXPECT_EQ(system().indirectQuery(0)->samples, 50);
 }
 
 TEST_F(Binding, EveryErrorFunctionIsKnown) {

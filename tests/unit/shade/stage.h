@@ -191,6 +191,12 @@ class Stage : public ::testing::Test {
   std::unique_ptr<ShadingSystem> shading;
 };
 
+inline std::vector<vec3> emissionOf(const ShadingSystem& shading, const ShadePoints& points) {
+  std::vector<vec3> out;
+  shading.emission(points, out);
+  return out;
+}
+
 inline void expectColor(const vec3& is, const vec3& should, float tolerance = 1e-5f) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(is[k], should[k], tolerance) << "channel " << k;
 }

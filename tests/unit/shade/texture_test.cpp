@@ -126,8 +126,9 @@ TEST_F(Pictures, OutsideIsBlackUnlessTheFileWraps) {
   const std::string white = write("white.tif", 16, [](int, int) { return std::array<float, 3>{1, 1, 1}; });
   EXPECT_EQ(at(white, 1.5f, 0.5f)[0], 0);
   std::string error;
-  ASSERT_TRUE(
-      makeTexture({TextureRecipe::Shape::Picture, {white}, (folder / "w.tex").string(), "periodic", "clamp"}, error))
+  ASSERT_EQ(
+      makeTexture({TextureRecipe::Shape::Picture, {white}, (folder / "w.tex").string(), "periodic", "clamp"}, error),
+      Making::Done)
       << error;
   EXPECT_EQ(at("w.tex", 1.5f, 7)[0], 1);
   EXPECT_EQ(filesInCache(), 1u) << "w.tex serves as it is";
@@ -164,11 +165,13 @@ TEST_F(Pictures, WhatIsMissingOrTruncatedIsMagentaAndReported) {
 
 TEST_F(Pictures, AConversionThatFailsLeavesNoFile) {
   std::string error;
-  EXPECT_FALSE(makeTexture({TextureRecipe::Shape::Picture, {"absent.tif"}, (folder / "x.tex").string()}, error));
+  EXPECT_EQ(makeTexture({TextureRecipe::Shape::Picture, {"absent.tif"}, (folder / "x.tex").string()}, error),
+            Making::Unreadable);
   EXPECT_FALSE(error.empty());
   const std::string c = write("c.tif", 16, checker);
   error.clear();
-  EXPECT_FALSE(makeTexture({TextureRecipe::Shape::Picture, {c}, (folder / "no" / "x.tex").string()}, error));
+  EXPECT_EQ(makeTexture({TextureRecipe::Shape::Picture, {c}, (folder / "no" / "x.tex").string()}, error),
+            Making::Unwritable);
   EXPECT_FALSE(error.empty());
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
@@ -191,7 +194,7 @@ TEST_F(Pictures, ACubeBecomesTheSurroundingsThatItShows) {
                                   1 + d[2] / std::sqrt(length)};
     }));
   std::string error;
-  ASSERT_TRUE(makeTexture(recipe, error)) << error;
+  ASSERT_EQ(makeTexture(recipe, error), Making::Done) << error;
   for (int k = 0; k < 200; ++k) {
     const float s = std::fmod(0.618034f * float(k), 1.0f), t = 0.02f + 0.96f * float(k) / 200;
     const auto c = at("sky.env", s, t, 0, [](TextureQuery& q) { q.latlong = true; });

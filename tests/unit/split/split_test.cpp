@@ -1,3 +1,6 @@
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "reyes/base/rng.h"
 #include "reyes/dice.h"
 #include "tests/unit/split/test_scene.h"
 
@@ -80,25 +83,33 @@ TEST(Split, SplittingLazilyEndsInTheSamePieces) {
   }
 }
 
-/// All pieces, lazily; the visits that took.
-int64_t visitsOf(const Scene& scene, Log& log) {
+/// All pieces of the first patch, lazily, with those that they are made of.
+std::vector<SubPatch> allPieces(const Scene& scene, Stats& stats, Log& log) {
   const Camera camera(scene.options);
-  Stats stats;
   const uint32_t patch = 0;
+  std::vector<SubPatch> out;
   std::vector<SubPatch> pieces =
       splitPatches(scene, 0, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
   while (!pieces.empty()) {
     const SubPatch piece = pieces.back();
     pieces.pop_back();
+    out.push_back(piece);
     if (!piece.coarse) continue;
     const std::vector<SubPatch> finer = splitPiece(scene, piece, camera, camera.crop(), stats, log);
     pieces.insert(pieces.end(), finer.begin(), finer.end());
   }
+  return out;
+}
+
+/// The visits that all pieces took.
+int64_t visitsOf(const Scene& scene, Log& log) {
+  Stats stats;
+  allPieces(scene, stats, log);
   return stats.geometry.piecesVisited;
 }
 
 TEST(Split, AllPiecesOfAPatchTogetherHaveABudgetHoweverDeepTheyAreNested) {
-  constexpr int64_t kBudget = (1 << 14) + 64 * 64;  // The window of 128 x 128 takes 64 grids.
+  constexpr int64_t kBudget = (1 << 14) + 128 * 64;  // The window of 128 x 128 takes 64 grids.
   Problems problems;
   int cut = 0;
   for (const size_t k : {0, 17, 47})
@@ -137,7 +148,7 @@ TEST(Split, PatchesOfOneObjectShareABudget) {
   Stats stats;
   Log log(Log::Verbosity::Quiet);
   split(scene, stats, log);
-  EXPECT_LE(stats.geometry.piecesVisited, n * n * (655 + 4 * 64));
+  EXPECT_LE(stats.geometry.piecesVisited, n * n * (655 + 16 * 64));
 }
 
 Scene outOfFocus(Scene scene) {
@@ -213,6 +224,38 @@ TEST(Split, AHugeGroundPlaneBelowTheEyeIsWhole) {
     };
     EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), holds)) << r.x << ' ' << r.y;
   }
+}
+
+TEST(Split, GroundPlanesAreWholeHoweverLargeAndNearTheEyeTheyAre) {
+  // The sizes as multiples of the eye's height. The last is where floats end: none lie between the parameters
+  // of what is nearest.
+  for (const float size : {400.0f, 1e4f, 1e6f})
+    for (const float yaw : {0.0f, 0.5f}) {
+      Scene scene =
+          sceneOf({quad(size, -1)}, glm::rotate(glm::rotate(mat4(1.0f), 0.2f, vec3(0, 0, 1)), yaw, vec3(0, 1, 0)));
+      scene.options.xResolution = 1920, scene.options.yResolution = 1080, scene.options.fov_degrees = 40,
+      scene.options.nearClip = 1e-6f;
+      scene.freeze();
+      const Camera camera(scene.options);
+      Stats stats;
+      Log log(Log::Verbosity::Quiet);
+      const std::vector<SubPatch> pieces = allPieces(scene, stats, log);
+      EXPECT_TRUE(log.entries().empty()) << log.entries()[0].message << size << ' ' << yaw;
+      EXPECT_LT(stats.geometry.piecesVisited, 300000);
+      const mat4 objectFromCamera = glm::inverse(scene.objects[0].cameraFromObject.at(0));
+      for (uint32_t k = 0; k < 200; ++k) {
+        vec3 origin, direction;
+        camera.ray(vec2(1920, 1080) * sobol2(k, 1), origin, direction);
+        direction = transformVector(objectFromCamera, direction);
+        const vec3 p = direction * (-1 / direction.y);
+        const vec2 at(0.5f * (p.x / size + 1), 0.5f * (p.z / size + 1));
+        if (!(direction.y < 0) || std::max(std::abs(p.x), std::abs(p.z)) > size) continue;
+        const auto holds = [&](const SubPatch& s) {
+          return !s.coarse && s.rect.u0 <= at.x && at.x <= s.rect.u1 && s.rect.v0 <= at.y && at.y <= s.rect.v1;
+        };
+        EXPECT_TRUE(std::any_of(pieces.begin(), pieces.end(), holds)) << size << ' ' << yaw << ' ' << k;
+      }
+    }
 }
 
 TEST(Split, ASurfaceThroughTheNearPlaneNeedsFewPieces) {

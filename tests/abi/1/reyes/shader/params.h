@@ -11,14 +11,14 @@
 namespace rsl {
 
 /// A declared parameter. Make one of the typed ones below at namespace scope and list it in a Shader of the
-/// same file.
+/// same file. With a role (TmRole) it also tells the renderer something; its name is free.
 class Param {
  public:
   Param(const char* name, int32_t type, std::vector<float> floats, std::vector<const char*> strings, const char* doc,
-        int length = 1)
+        TmRole role = TM_ROLE_NONE, int length = 1)
       : floats_(std::move(floats)),
         strings_(std::move(strings)),
-        decl_{name, type, length, floats_.data(), strings_.data(), doc} {}
+        decl_{name, type, length, floats_.data(), strings_.data(), doc, role} {}
   Param(const Param&) = delete;
 
  protected:
@@ -51,7 +51,8 @@ TM_OF_THIS_PLUGIN inline const char* faultOfParameters() {
 
 class FloatParam : public Param {
  public:
-  FloatParam(const char* name, float value, const char* doc) : Param(name, TM_FLOAT, {value}, {}, doc) {}
+  FloatParam(const char* name, float value, const char* doc, TmRole role = TM_ROLE_NONE)
+      : Param(name, TM_FLOAT, {value}, {}, doc, role) {}
   float operator()(const TmGrid* g, int i) const {
     const TmValue& v = value(g);
     return v.c[0][i * v.step];
@@ -61,15 +62,16 @@ class FloatParam : public Param {
 /// The same at all points, such as a number of rays: RSL's `uniform`. Primitive variables do not override it.
 class UniformFloatParam : public Param {
  public:
-  UniformFloatParam(const char* name, float value, const char* doc)
-      : Param(name, TM_FLOAT | TM_UNIFORM, {value}, {}, doc) {}
+  UniformFloatParam(const char* name, float value, const char* doc, TmRole role = TM_ROLE_NONE)
+      : Param(name, TM_FLOAT | TM_UNIFORM, {value}, {}, doc, role) {}
   float operator()(const TmGrid* g) const { return value(g).c[0][0]; }
 };
 
 template <TmType type>
 class TripleParam : public Param {
  public:
-  TripleParam(const char* name, Vec3 v, const char* doc) : Param(name, type, {v.x, v.y, v.z}, {}, doc) {}
+  TripleParam(const char* name, Vec3 v, const char* doc, TmRole role = TM_ROLE_NONE)
+      : Param(name, type, {v.x, v.y, v.z}, {}, doc, role) {}
   Vec3 operator()(const TmGrid* g, int i) const {
     const TmValue& v = this->value(g);
     return {v.c[0][i * v.step], v.c[1][i * v.step], v.c[2][i * v.step]};
@@ -82,7 +84,8 @@ using NormalParam = TripleParam<TM_NORMAL>;
 
 class StringParam : public Param {
  public:
-  StringParam(const char* name, const char* value, const char* doc) : Param(name, TM_STRING, {}, {value}, doc) {}
+  StringParam(const char* name, const char* value, const char* doc, TmRole role = TM_ROLE_NONE)
+      : Param(name, TM_STRING, {}, {value}, doc, role) {}
   const char* operator()(const TmGrid* g) const { return value(g).string; }
 };
 
@@ -97,14 +100,14 @@ class FloatArrayParam : public Param {
 
  private:
   FloatArrayParam(const char* name, const std::vector<float>& values, int length, const char* doc)
-      : Param(name, TM_FLOAT, values, {}, doc, length) {}
+      : Param(name, TM_FLOAT, values, {}, doc, TM_ROLE_NONE, length) {}
 };
 
 template <TmType type>
 class TripleArrayParam : public Param {
  public:
   TripleArrayParam(const char* name, const std::vector<Vec3>& values, const char* doc)
-      : Param(name, type, flat(values), {}, doc, static_cast<int>(values.size())) {}
+      : Param(name, type, flat(values), {}, doc, TM_ROLE_NONE, static_cast<int>(values.size())) {}
   Vec3 operator()(const TmGrid* g, int element) const {
     const TmValue& v = this->value(g);
     return {v.c[0][3 * element], v.c[1][3 * element], v.c[2][3 * element]};
@@ -124,7 +127,7 @@ using PointArrayParam = TripleArrayParam<TM_POINT>;
 class StringArrayParam : public Param {
  public:
   StringArrayParam(const char* name, const std::vector<const char*>& values, const char* doc)
-      : Param(name, TM_STRING, {}, values, doc, static_cast<int>(values.size())) {}
+      : Param(name, TM_STRING, {}, values, doc, TM_ROLE_NONE, static_cast<int>(values.size())) {}
   const char* operator()(const TmGrid* g, int element) const {
     const char* s = value(g).string;
     while (element-- > 0) s += std::char_traits<char>::length(s) + 1;
@@ -146,7 +149,8 @@ class MatrixParam : public Param {
 template <int32_t type, class T>
 class Output : public Param {
  public:
-  Output(const char* name, const char* doc) : Param(name, type | TM_OUTPUT, {0, 0, 0}, {}, doc) {}
+  Output(const char* name, const char* doc, TmRole role = TM_ROLE_NONE)
+      : Param(name, type | TM_OUTPUT, {0, 0, 0}, {}, doc, role) {}
   bool wanted(const TmGrid* g) const { return value(g).step == 1; }
   /// Pre: wanted.
   void set(const TmGrid* g, int i, const T& v) const {

@@ -1,0 +1,48 @@
+#include "gi/frame/occluder_search.h"
+
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kOccluderPixels = 2;  // length of the rays; occluders farther away have been met by records
+constexpr float kUnmet = 0.9f;        // share of a record's closest distance below which it has met nothing
+constexpr float kSlant = 0.70710678f;
+
+}  // namespace
+
+// Records in front of a slot that is narrower than their radius see the occluder over it edge-on, if at all. One of two
+// rays that leave upwards and aside meets it, even below its very edge. Records beside that edge have met it, and it
+// may be as near as it is high: a ray straight up tells the points that lie under it from those that do not.
+bool OccluderSearch::isUnderOccluder(const GatherPoint& p, float closest, float occluderHeight) {
+  const float farthest = std::min(kOccluderPixels * p.pixelSize, gather_.maxDistance),
+              met = std::min(farthest, kUnmet * closest);
+  Ray ray{p.position, p.normal};
+  ray.tMax = std::min(farthest, kUnmet * occluderHeight);
+  ray.spread = spreadOfRays(gather_.samples);
+  rays_.prepareOrigin(p.group, p.position, p.edgeLength, ray);
+  const float slanted = slantedOffset(ray.offset, kSlant);
+  if (slanted >= ray.tMax) return false;  // rays cannot tell surfaces so near from the one that they leave
+  if (p.group != group_) filter_.groups = groupsSeenFrom(rays_, group_ = p.group, gather_);
+  if (!filter_.passesAll()) ray.filter = &filter_;
+  if (ray.tMax > met && meetsOccluder(p, ray)) return true;
+  ray.offset = slanted, ray.tMax = met;
+  if (slanted >= met) return false;
+  vec3 tangent, bitangent;
+  orthonormalBasis(p.normal, tangent, bitangent);
+  const float azimuth = 2 * kPi * unitFloat(hash32(p.key ^ 0x73686565U));
+  const vec3 aside = std::cos(azimuth) * tangent + std::sin(azimuth) * bitangent;
+  for (const float side : {-kSlant, kSlant}) {
+    ray.direction = kSlant * p.normal + side * aside;
+    if (meetsOccluder(p, ray)) return true;
+  }
+  return false;
+}
+
+bool OccluderSearch::meetsOccluder(const GatherPoint& p, const Ray& ray) {
+  ++traced_;
+  const Hit hit = rays_.closest(ray, kMaskDiffuse);
+  return hit.object >= 0 && std::abs(dot(hit.geometricNormal, p.normal)) > kSlant;
+}
+
+}  // namespace tomales

@@ -1,0 +1,24 @@
+// What a process that ends without a return from main() must still undo: files that nobody will finish,
+// programs that nobody will wait for. Threads: any.
+#pragma once
+#include <functional>
+#include <list>
+
+namespace tomales {
+
+/// Has `undo` called by endAbruptly() for as long as it lives. `undo` must not wait for other threads.
+class AtAbruptEnd {
+ public:
+  explicit AtAbruptEnd(std::function<void()> undo);
+  ~AtAbruptEnd();
+  AtAbruptEnd(const AtAbruptEnd&) = delete;
+  AtAbruptEnd& operator=(const AtAbruptEnd&) = delete;
+
+ private:
+  std::list<std::function<void()>>::iterator place_;
+};
+
+/// Undoes everything, the last first, and ends the process at once. Not for signal handlers: it takes a lock.
+[[noreturn]] void endAbruptly(int exitCode);
+
+}  // namespace tomales

@@ -1,0 +1,20 @@
+// The wish that the process ends soon, as SIGTERM brings it (reyes/app/watch/interrupt.h). Work that takes long asks
+// for it about every tenth of a second. Threads: any.
+#pragma once
+#include <atomic>
+
+namespace tomales {
+
+const std::atomic<bool>& stopFlag();
+inline bool stopRequested() { return stopFlag().load(std::memory_order_relaxed); }
+/// `wanted` false takes the wish back, which tests do.
+void requestStop(bool wanted = true);
+
+/// Thrown by work that leaves nothing of use when it is not finished. It is no std::exception, so that nobody reports
+/// it as an error.
+struct Stopped {};
+inline void throwIfStopped() {
+  if (stopRequested()) throw Stopped();
+}
+
+}  // namespace tomales

@@ -1,0 +1,40 @@
+// Private to the hider: turns lists of lanes into one coverage for each visible cell.
+#pragma once
+#include <span>
+
+#include "reyes/hide/pixel_layers.h"
+#include "reyes/hide/samples.h"
+
+namespace tomales {
+
+/// Appends the opaque cells that the samples of a pixel see.
+void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<CellCoverage>& coverages);
+
+/// A coverage whose samples see no other one, among the first 64 of a word.
+struct RankedCoverage {
+  uint64_t samples;
+  uint32_t cell;
+  float d;
+};
+constexpr int kMostRanked = kLanes;
+/// Nearest first. count: less than 0 if the samples see more than kMostRanked cells, or some at equal depths.
+struct RankedCoverages {
+  int count;
+  RankedCoverage coverages[kMostRanked];
+};
+constexpr size_t kRankedTogether = 32;
+/// Finds the opaque cells that the samples of some pixels see. Pre: no more than kRankedTogether pixels.
+void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedCoverages* out);
+/// The same for a transparent layer.
+void rankLayer(const TransparentLayers& layers, size_t layer, RankedCoverages& out);
+
+/// The depth keys between which a transparent layer lies.
+struct LayerExtent {
+  float nearest, farthest;
+};
+/// Removes the hidden samples from a transparent layer. Pre: it covers some sample; afterwards it may cover none.
+LayerExtent cullLayer(SampleBuffer& samples, const GridTable& grids, size_t layer);
+/// Appends the cells that the samples see of a transparent layer. farthest: greatest of its depth keys.
+void collectLayer(const TransparentLayers& layers, size_t layer, float farthest, std::vector<CellCoverage>& coverages);
+
+}  // namespace tomales
