@@ -71,8 +71,9 @@ class LightGroups {
   TmVec3 run(const std::string& group) {
     const int n = batch_.tm.count;
     TmGrid g = batch_.tm;
-    std::vector<TmValue> params(g.params, g.params + shader_.shader->paramCount);
-    for (size_t i = 0; i < params.size(); ++i)
+    const auto paramCount = static_cast<size_t>(shader_.shader->paramCount);
+    std::vector<TmValue> params(g.params, g.params + paramCount + 1);
+    for (size_t i = 0; i < paramCount; ++i)
       if (isOutput(shader_.shader->params[i])) params[i].step = 0;
     g.params = params.data();
     g.Ci = batch_.arena.vec3(n), g.Oi = batch_.arena.vec3(n);
