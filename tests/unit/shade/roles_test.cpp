@@ -61,7 +61,7 @@ class Roles : public Stage {
  protected:
   Roles() {
     static const TmShader* const shaders[] = {lamp, bounce, filter, beam, mist, plain};
-    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 6};
+    static const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, nullptr, 6};
     registry.addLibrary(&library, "test");
     surface("matte");
   }
@@ -179,7 +179,7 @@ TEST_F(Roles, AShaderWithARoleThatDoesNotFitIsRefused) {
       ofFuture(TM_LIGHT, "of future", "", 0, shadeNothing, {&future}),
       ofKind(TM_SURFACE, "of kind", "", 0, shadeNothing, {&stray});
   const TmShader* const shaders[] = {ofType, ofFuture, ofKind};
-  const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, 3};
+  const TmShaderLibrary library = {TM_SHADER_ABI, sizeof(TmShaderLibrary), shaders, nullptr, 3};
   registry.addLibrary(&library, "roles.so");
   EXPECT_EQ(registry.find("of type", TM_LIGHT, ""), nullptr);
   EXPECT_EQ(registry.find("of future", TM_LIGHT, ""), nullptr);
