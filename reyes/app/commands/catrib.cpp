@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "reyes/base/unfinished_file.h"
 #include "reyes/rib.h"
@@ -37,6 +38,8 @@ bool toFile(const CatribSettings& settings, std::string& error, Log& log) {
     error = "it is the scene itself, of which not everything could be read: it stays as it was";
     return false;
   }
+  const bool isUnread = log.worst() >= Severity::Error;
+  if (isUnread && std::filesystem::is_regular_file(settings.output)) return true;  // the log tells; the old file stays
   return file->finish(error);
 }
 
