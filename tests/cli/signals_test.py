@@ -96,9 +96,12 @@ expect_soon("the gather command", process, 143)
 process = start("shade", "room.dfb", "--gi", "reference", "--samples", "20000", "-o", "shade.exr")
 time.sleep(1)
 expect_soon("the shade command", process, 143)
-process = start("-", stdin=subprocess.PIPE)
+silent, writer = os.pipe()  # stays open: communicate() would end a pipe of its own, and that the program may see first
+process = start("-", stdin=silent)
 time.sleep(0.3)
 expect_soon("waiting for a scene", process, 143)
+os.close(writer)
+os.close(silent)
 
 # Many frames: those that are finished stay, and no other is begun.
 for number, code in ((signal.SIGHUP, 129), (signal.SIGINT, 130), (signal.SIGTERM, 143)):
