@@ -1,0 +1,57 @@
+// The first stage: files, #include, #define and #if become one row of tokens.
+// Sources: RISpec 3.2 section 11 (RSL is passed through the C preprocessor) and ISO C90 6.8, whose rules of
+// replacement (stringify, paste, no recursion) are followed.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "reyes/rsl/source.h"
+
+namespace tomales::compiler {
+
+enum class TokenKind : uint8_t {
+  Name,
+  Number,
+  String,      ///< Its text without quotes, with escapes resolved.
+  Punctuator,  ///< One of RSL's operators or brackets, the longest that fits: "+=", "&&", "?", ...
+  End
+};
+
+struct Token {
+  TokenKind kind = TokenKind::End;
+  std::string text;
+  float number = 0;
+  Place place{};
+  bool is(std::string_view punctuator) const { return kind == TokenKind::Punctuator && text == punctuator; }
+  bool isName(std::string_view name) const { return kind == TokenKind::Name && text == name; }
+};
+
+struct PreprocessOptions {
+  /// Where #include looks: "NAME" beside the including file first, then here; <NAME> here alone. A file outside of
+  /// these folders and of the shader's own is not read, whatever "../" a name has.
+  std::vector<std::string> includeFolders;
+  struct Definition {
+    std::string name, value;  ///< As `-D NAME=VALUE`.
+  };
+  std::vector<Definition> definitions;
+  /// Headers that come with the renderer, for names that are found nowhere else; empty: none.
+  std::string standardFolder;
+};
+
+/// Bounds on what a stranger's file can ask for; more is an error.
+constexpr int kMostIncludeDepth = 64;
+constexpr size_t kMostTokens = 4'000'000;     ///< After expansion.
+constexpr size_t kMostFileBytes = 16u << 20;  ///< Of one file.
+
+/// Tokens of a file and of all that it includes, ended by one of kind End. Errors are in `messages`, and tokens go on
+/// after them as well as they can.
+std::vector<Token> preprocess(const std::string& path, const PreprocessOptions& options, Sources& sources,
+                              Messages& messages);
+/// The same of a text, which messages call `name`; it includes from the folders of `options` alone.
+std::vector<Token> preprocessText(const std::string& name, const std::string& text, const PreprocessOptions& options,
+                                  Sources& sources, Messages& messages);
+
+/// A line for each token: place, kind, text.
+std::string dump(const std::vector<Token>& tokens, const Sources& sources);
+
+}  // namespace tomales::compiler

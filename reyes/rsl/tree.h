@@ -1,0 +1,136 @@
+// What the parser makes of a file: functions and shaders as trees. check.h fills in types and what names mean.
+// RISpec 3.2 sections 11 to 14.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reyes/rsl/source.h"
+
+namespace tomales::compiler {
+
+enum class Base : uint8_t { Void, Float, Color, Point, Vector, Normal, Matrix, String };
+enum class Detail : uint8_t { Unstated, Uniform, Varying };
+
+/// A type without its detail.
+struct Type {
+  Base base = Base::Void;
+  int32_t length = 0;  ///< Elements of an array; 0: no array; kOpenArray: "float a[]", of the argument's length.
+  bool operator==(const Type&) const = default;
+  bool isArray() const { return length != 0; }
+  bool isTriple() const { return length == 0 && base >= Base::Color && base <= Base::Normal; }
+  bool is(Base b) const { return length == 0 && base == b; }
+};
+constexpr int32_t kOpenArray = -1;
+/// "float", "color[3]", ...
+std::string name(const Type& type);
+
+struct Expr;
+struct Stmt;
+struct Function;
+using ExprPtr = std::unique_ptr<Expr>;
+using StmtPtr = std::unique_ptr<Stmt>;
+
+/// A declared variable or parameter.
+struct Variable {
+  std::string name;
+  Place place{};
+  Type type;
+  Detail detail = Detail::Unstated;
+  bool output = false;    ///< A parameter that its function or shader may assign.
+  bool isExtern = false;  ///< Declared by `extern`: stands for the variable of an outer scope, `outer`.
+  ExprPtr initial;        ///< Null: none. Of a parameter its default.
+  /// Set by the checker.
+  Variable* outer = nullptr;
+  bool used = false, assigned = false;
+};
+
+enum class ExprKind : uint8_t {
+  Number,       ///< number
+  String,       ///< text
+  Name,         ///< text -> variable
+  Index,        ///< args[0] [ args[1] ]
+  Tuple,        ///< (a, b, c), or 16 of a matrix; of other lengths only as the value of an array: { a, b, ... }
+  Unary,        ///< text: "-", "!", "+"
+  Binary,       ///< text: + - * / . ^ < <= > >= == != && ||
+  Conditional,  ///< args[0] ? args[1] : args[2]
+  Assign,       ///< text: = += -= *= /= (and ^= .= as some compilers have them); args[0] is a Name or an Index
+  Call,         ///< text: name of a function; args
+  Cast,         ///< written type, text: space ("" none): `color "hsv" (a, b, c)`, `point "shader" p`, `float noise(x)`
+  Comma,        ///< args in order; the value is that of the last
+};
+
+struct Expr {
+  ExprKind kind = ExprKind::Number;
+  Place place{};
+  int32_t length = 1;  ///< Characters, for the caret.
+  std::string text;
+  float number = 0;
+  Type written{};  ///< Of a Cast.
+  bool hasSpace = false;
+  std::vector<ExprPtr> args;
+  /// Set by the checker.
+  Type type{};
+  Variable* variable = nullptr;        ///< Of a Name.
+  const Function* function = nullptr;  ///< Of a Call to a function of the file.
+  int32_t builtin = -1;                ///< Of a Call to a built-in: its row of the table (builtins.h).
+};
+
+enum class StmtKind : uint8_t {
+  Empty,
+  Block,        ///< body
+  Expression,   ///< exprs[0]
+  Declare,      ///< variables, in order
+  If,           ///< exprs[0]; body[0] and, where there is one, body[1] (else)
+  While,        ///< exprs[0]; body[0]
+  For,          ///< exprs[0..2], each may be null: first, condition, step; body[0]
+  Break,        ///< count levels
+  Continue,     ///< count levels
+  Return,       ///< exprs[0], which may be null
+  Illuminance,  ///< exprs: what stands in the brackets; body[0]
+  Illuminate,   ///< likewise
+  Solar,        ///< likewise
+  Gather,       ///< likewise; body[0] and, where there is one, body[1] (else)
+  Define,       ///< a function within a function
+};
+
+struct Stmt {
+  StmtKind kind = StmtKind::Empty;
+  Place place{};
+  int32_t count = 1;
+  std::vector<ExprPtr> exprs;
+  std::vector<StmtPtr> body;
+  std::vector<std::unique_ptr<Variable>> variables;
+  std::unique_ptr<Function> function;
+};
+
+struct Function {
+  std::string name;
+  Place place{};
+  Type result{};  ///< Void: none.
+  std::vector<std::unique_ptr<Variable>> parameters;
+  StmtPtr body;  ///< A Block.
+};
+
+enum class ShaderKind : uint8_t { Surface, Light, Displacement, Volume, Imager, Transformation };
+const char* name(ShaderKind kind);
+
+struct Shader {
+  ShaderKind kind = ShaderKind::Surface;
+  std::string name;
+  Place place{};
+  std::string doc;  ///< The comment before it: its first sentence; empty: none.
+  std::vector<std::unique_ptr<Variable>> parameters;
+  StmtPtr body;  ///< A Block.
+};
+
+/// A file. Functions are in the order of their definitions, and may be called by what follows them.
+struct File {
+  std::vector<std::unique_ptr<Function>> functions;
+  std::vector<std::unique_ptr<Shader>> shaders;
+};
+
+/// Indented, one node a line; with types where the checker has set them.
+std::string dump(const File& file);
+
+}  // namespace tomales::compiler
