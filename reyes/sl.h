@@ -123,8 +123,7 @@ struct Lit : Globals {
       sl::where(query.lit, true, [&] {
         L = Vector(query.L), Cl = Color(query.Cl), lightNumber = query.light;
         for (const LightList::Wanted& w : list.wanted)
-          w.number ? lightsource(lightNumber, w.name.c_str(), *w.number)
-                   : lightsource(lightNumber, w.name.c_str(), *w.triple);
+          lightsource(lightNumber, w.name.c_str(), w.into.fills);
         body();
       });
   }
