@@ -7,10 +7,9 @@ TOMALES_HOT bool narrow(int n, const uint8_t* outer, const float* condition, uin
   uint8_t some = 0, rest = 0;
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
-    const uint8_t holds = condition[i] != 0.0f;
-    inner[i] = outer[i] & holds;
-    other[i] = outer[i] & static_cast<uint8_t>(holds ^ 1);
-    some |= inner[i], rest |= other[i];
+    const uint8_t on = outer[i], holds = condition[i] != 0.0f, in = on & holds, out = on & (holds ^ 1);
+    inner[i] = in, other[i] = out;
+    some |= in, rest |= out;
   }
   anyOther = rest != 0;
   return some != 0;

@@ -6,7 +6,7 @@ namespace tomales::compiler {
 
 // --- Over n bytes of masks (a multiple of kBlock)
 
-/// inner = outer where `condition` is (or, unwanted, is not) 0. Returns whether there are any.
+/// inner: outer where `condition` is not 0; other: where it is. inner may be outer. Returns whether inner has any.
 bool narrow(int n, const uint8_t* outer, const float* condition, uint8_t* inner, uint8_t* other, bool& anyOther);
 /// Takes `leaving` out. Returns whether any remain.
 bool remove(int n, const uint8_t* leaving, uint8_t* from);
