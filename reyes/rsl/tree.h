@@ -42,6 +42,7 @@ struct Variable {
   ExprPtr initial;        ///< Null: none. Of a parameter its default.
   /// Set by the checker.
   Variable* outer = nullptr;
+  int32_t global = -1;  ///< A Global (globals.h); -1: none.
   bool used = false, assigned = false;
 };
 
@@ -70,6 +71,7 @@ struct Expr {
   bool hasSpace = false;
   std::vector<ExprPtr> args;
   /// Set by the checker.
+  bool checked = false;
   Type type{};
   Variable* variable = nullptr;        ///< Of a Name.
   const Function* function = nullptr;  ///< Of a Call to a function of the file.
