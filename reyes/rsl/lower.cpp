@@ -62,7 +62,7 @@ int32_t Lowering::global(Global g) {
 
 int32_t Lowering::variable(const Variable& v) {
   Register r{.shape = shapeOf(v.type), .origin = Origin::Variable};
-  r.length = v.type.length, r.name = v.name;
+  r.length = v.type.length, r.name = v.name, r.declared = v.detail, r.place = v.place;
   return registers_[&v] = add(std::move(r));
 }
 
