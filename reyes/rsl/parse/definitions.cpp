@@ -8,6 +8,10 @@ namespace {
 
 constexpr int32_t kMostElements = 1 << 20;
 
+bool isSpecifier(std::string_view word) {
+  return word == "uniform" || word == "varying" || word == "extern" || word == "output";
+}
+
 /// The first sentence of a comment, without what draws its frame.
 std::string firstSentence(const std::string& comment) {
   std::string out;
@@ -55,24 +59,19 @@ void Parser::definition(File& file) {
     if (!(here().kind == TokenKind::Name && here(1).is("("))) fail("expected the name of a function and '('");
     file.functions.push_back(function(s));
   } else {
-    failUnknownDefinition();
+    failNoDefinition();
   }
 }
 
-void Parser::failUnknownDefinition() {
-  const Token& t = here();
-  if (t.kind == TokenKind::Name && shaderKindNamed(t.text)) {
+void Parser::failNoDefinition() {
+  if (here().kind == TokenKind::Name && shaderKindNamed(here().text)) {
     take();
     fail("expected the name of a shader");
   }
-  static const std::vector<std::string> known{"surface",        "light",  "displacement", "volume", "imager",
-                                              "transformation", "float",  "color",        "point",  "vector",
-                                              "normal",         "matrix", "string",       "void"};
-  const std::vector<std::string> near =
-      t.kind == TokenKind::Name ? nearNames(t.text, known) : std::vector<std::string>();
-  std::string text = "expected a shader or a function";
-  if (!near.empty()) text += ", perhaps '" + near[0] + "',";
-  fail(text);
+  static const std::vector<std::string> kKnown{"surface",        "light",  "displacement", "volume", "imager",
+                                               "transformation", "float",  "color",        "point",  "vector",
+                                               "normal",         "matrix", "string",       "void"};
+  fail("expected a shader or a function", kKnown);
 }
 
 std::unique_ptr<Shader> Parser::shader(ShaderKind kind, std::string doc) {
@@ -102,16 +101,18 @@ std::unique_ptr<Function> Parser::function(const Specifiers& s) {
 bool Parser::beginsSpecifiers() const {
   const Token& t = here();
   if (t.kind != TokenKind::Name) return false;
-  if (t.text == "uniform" || t.text == "varying" || t.text == "extern" || t.text == "output")
-    return here(1).kind == TokenKind::Name;
+  if (isSpecifier(t.text)) return here(1).kind == TokenKind::Name;
   if (!baseNamed(t.text) || here(1).kind != TokenKind::Name) return false;
   // "float f(x);" is a cast of a call, "float f(x) {" a function.
   return !here(2).is("(") || tokens_[behindBracket(at_ + 2)].is("{");
 }
 
-/// NAME(...) { : a function without a written type.
+/// "f(float x) {" or "f() {": a function without a written type.
 bool Parser::isFunctionHere() const {
-  return here().kind == TokenKind::Name && here(1).is("(") && tokens_[behindBracket(at_ + 1)].is("{");
+  if (here().kind != TokenKind::Name || !here(1).is("(")) return false;
+  const Token& first = here(2);
+  const bool isParameter = first.kind == TokenKind::Name && (isSpecifier(first.text) || baseNamed(first.text));
+  return (isParameter || first.is(")")) && tokens_[behindBracket(at_ + 1)].is("{");
 }
 
 Parser::Specifiers Parser::specifiers() {
@@ -138,12 +139,14 @@ Parser::Specifiers Parser::specifiers() {
 /// ( [output] [detail] type name [= value] {, name ...} {; ...} )
 void Parser::parameters(std::vector<std::unique_ptr<Variable>>& out) {
   if (!here().is("(")) fail("expected '('");
+  static const std::vector<std::string> kTypes{"float",  "color",  "point",   "vector",  "normal",
+                                               "matrix", "string", "uniform", "varying", "output"};
   const Token& open = take();
   Specifiers s;
   while (!here().is(")")) {
     if (takeIf(";") || takeIf(",")) continue;
     if (const Specifiers own = specifiers(); own.any) s = own;
-    if (!s.hasType) fail("expected the type of a parameter");
+    if (!s.hasType) fail("expected the type of a parameter", kTypes);
     out.push_back(variable(s));
     if (!here().is(";") && !here().is(",")) break;
   }

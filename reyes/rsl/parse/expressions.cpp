@@ -64,11 +64,11 @@ ExprPtr Parser::expression() {
 }
 
 ExprPtr Parser::assignment() {
-  const Level level(*this);
   ExprPtr left = conditional();
   if (!isAssignment(here())) return left;
   if (left->kind != ExprKind::Name && left->kind != ExprKind::Index)
     failAt(here(), "only a variable or an element of an array can be assigned");
+  const Level level(*this);
   ExprPtr out = make(ExprKind::Assign, take());
   adopt(*out, std::move(left));
   adopt(*out, assignment());
@@ -78,10 +78,12 @@ ExprPtr Parser::assignment() {
 ExprPtr Parser::conditional() {
   ExprPtr condition = binary(1);
   if (!here().is("?")) return condition;
-  ExprPtr out = make(ExprKind::Conditional, take());
+  const Level level(*this);
+  const Token& question = take();
+  ExprPtr out = make(ExprKind::Conditional, question);
   adopt(*out, std::move(condition));
   adopt(*out, assignment());
-  expect(":", "the first value of '?'");
+  expectClosing(":", question);
   adopt(*out, assignment());
   return out;
 }

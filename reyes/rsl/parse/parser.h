@@ -41,10 +41,11 @@ class Parser {
   const Token& here(size_t ahead = 0) const { return tokens_[std::min(at_ + ahead, tokens_.size() - 1)]; }
   const Token& take();
   bool takeIf(std::string_view punctuator);
-  void expect(std::string_view punctuator, std::string_view after);
+  void expect(std::string_view punctuator);
   void expectClosing(std::string_view punctuator, const Token& open);
   const Token& expectName(std::string_view what);
-  [[noreturn]] void fail(std::string text);
+  /// "expected X before 'what stands here'", with the word of `known` that was perhaps meant.
+  [[noreturn]] void fail(std::string text, const std::vector<std::string>& known = {});
   [[noreturn]] void failAt(const Token& token, std::string text);
   void error(const Token& token, std::string text);
   void deeper();
@@ -65,7 +66,7 @@ class Parser {
   int32_t arrayLength();
   bool isFunctionHere() const;
   bool beginsSpecifiers() const;
-  [[noreturn]] void failUnknownDefinition();
+  [[noreturn]] void failNoDefinition();
 
   // statements.cpp
   StmtPtr statement();
@@ -79,8 +80,8 @@ class Parser {
   StmtPtr returnStatement();
   StmtPtr lightStatement(StmtKind kind);
   StmtPtr expressionStatement();
-  void bracketed(Stmt& out, std::string_view after);
-  void endOfStatement(std::string_view after);
+  [[noreturn]] void failNoStatement();
+  void bracketed(Stmt& out);
 
   // expressions.cpp
   ExprPtr expression();  ///< With commas.

@@ -16,7 +16,6 @@ StmtPtr begin(StmtKind kind, const Token& token) {
 }  // namespace
 
 StmtPtr Parser::block() {
-  const Level level(*this);
   if (!here().is("{")) fail("expected '{'");
   const Token& open = take();
   StmtPtr out = begin(StmtKind::Block, open);
@@ -58,12 +57,18 @@ StmtPtr Parser::statement() {
     if (t.text == "solar") return lightStatement(StmtKind::Solar);
     if (t.text == "gather") return lightStatement(StmtKind::Gather);
   }
-  return beginsSpecifiers() || isFunctionHere() ? declaration() : expressionStatement();
+  if (beginsSpecifiers() || isFunctionHere()) return declaration();
+  if (here(1).kind == TokenKind::Name && !baseNamed(t.text)) failNoStatement();
+  return expressionStatement();
 }
 
-void Parser::endOfStatement(std::string_view after) {
-  // The '}' of a block may stand for the ';' of its last statement nowhere, though some old shaders think so.
-  expect(";", after);
+/// Two words beside each other, of which the first is none that begins something.
+void Parser::failNoStatement() {
+  static const std::vector<std::string> kKnown{"float", "color",  "point",   "vector",  "normal", "matrix", "string",
+                                               "void",  "extern", "uniform", "varying", "output", "return"};
+  const Token& t = here();
+  const std::vector<std::string> near = nearNames(t.text, kKnown);
+  failAt(t, quoted(t.text) + " is no type" + (near.empty() ? "" : "; did you mean '" + near[0] + "'?"));
 }
 
 StmtPtr Parser::declaration() {
@@ -77,12 +82,12 @@ StmtPtr Parser::declaration() {
   do {
     out->variables.push_back(variable(s));
   } while (takeIf(","));
-  endOfStatement("a declaration");
+  expect(";");
   return out;
 }
 
-void Parser::bracketed(Stmt& out, std::string_view after) {
-  if (!here().is("(")) fail(fmt::format("expected '(' after '{}'", after));
+void Parser::bracketed(Stmt& out) {
+  if (!here().is("(")) fail("expected '('");
   const Token& open = take();
   out.exprs.push_back(expression());
   expectClosing(")", open);
@@ -90,7 +95,7 @@ void Parser::bracketed(Stmt& out, std::string_view after) {
 
 StmtPtr Parser::ifStatement() {
   StmtPtr out = begin(StmtKind::If, take());
-  bracketed(*out, "if");
+  bracketed(*out);
   out->body.push_back(statement());
   if (here().isName("else")) {
     take();
@@ -101,7 +106,7 @@ StmtPtr Parser::ifStatement() {
 
 StmtPtr Parser::whileStatement() {
   StmtPtr out = begin(StmtKind::While, take());
-  bracketed(*out, "while");
+  bracketed(*out);
   out->body.push_back(statement());
   return out;
 }
@@ -109,7 +114,7 @@ StmtPtr Parser::whileStatement() {
 /// A variable that is declared in the brackets, as in C++, belongs to a block around the loop.
 StmtPtr Parser::forStatement() {
   StmtPtr out = begin(StmtKind::For, take());
-  if (!here().is("(")) fail("expected '(' after 'for'");
+  if (!here().is("(")) fail("expected '('");
   const Token& open = take();
   StmtPtr around;
   if (beginsSpecifiers()) {
@@ -118,10 +123,10 @@ StmtPtr Parser::forStatement() {
     out->exprs.push_back(nullptr);
   } else {
     out->exprs.push_back(here().is(";") ? nullptr : expression());
-    expect(";", "the first part of 'for'");
+    expect(";");
   }
   out->exprs.push_back(here().is(";") ? nullptr : expression());
-  expect(";", "the condition of 'for'");
+  expect(";");
   out->exprs.push_back(here().is(")") ? nullptr : expression());
   expectClosing(")", open);
   out->body.push_back(statement());
@@ -140,14 +145,14 @@ StmtPtr Parser::levels(StmtKind kind) {
       failAt(count, fmt::format("'{}' leaves a whole number of loops, at least 1", word.text));
     out->count = static_cast<int32_t>(count.number);
   }
-  endOfStatement(quoted(word.text));
+  expect(";");
   return out;
 }
 
 StmtPtr Parser::returnStatement() {
   StmtPtr out = begin(StmtKind::Return, take());
   out->exprs.push_back(here().is(";") ? nullptr : expression());
-  endOfStatement("'return'");
+  expect(";");
   return out;
 }
 
@@ -165,9 +170,17 @@ StmtPtr Parser::lightStatement(StmtKind kind) {
 }
 
 StmtPtr Parser::expressionStatement() {
-  StmtPtr out = begin(StmtKind::Expression, here());
+  const Token& word = here();
+  StmtPtr out = begin(StmtKind::Expression, word);
   out->exprs.push_back(expression());
-  endOfStatement("an expression");
+  // A word and brackets before a '{' look like "while (...) {".
+  if (here().is("{") && out->exprs[0]->kind == ExprKind::Call) {
+    static const std::vector<std::string> kKnown{"if", "while", "for", "illuminance", "illuminate", "solar", "gather"};
+    const std::vector<std::string> near = nearNames(out->exprs[0]->text, kKnown);
+    if (!near.empty())
+      failAt(word, fmt::format("{} begins no statement; did you mean '{}'?", quoted(word.text), near[0]));
+  }
+  expect(";");
   return out;
 }
 

@@ -49,14 +49,18 @@ void Parser::failAt(const Token& token, std::string text) {
   throw Failed{};
 }
 
-/// "expected ... before 'what is here'"; at the end of the last line where this one begins another.
-void Parser::fail(std::string text) {
+/// At the end of the line before where the token begins another.
+void Parser::fail(std::string text, const std::vector<std::string>& known) {
   const Token& t = here();
   if (t.kind == TokenKind::Name && (t.text == "class" || t.text == "struct")) refuseRsl2(t, quoted(t.text));
   if (t.is("->")) refuseRsl2(t, "'->'");
   text += " before " + described(t);
+  const std::vector<std::string> near =
+      t.kind == TokenKind::Name ? nearNames(t.text, known) : std::vector<std::string>();
+  if (!near.empty()) text += "; did you mean '" + near[0] + "'?";
   const Token* before = at_ > 0 ? &tokens_[at_ - 1] : nullptr;
-  if (!before || (before->place.file == t.place.file && before->place.line == t.place.line)) failAt(t, std::move(text));
+  const bool sameLine = before && before->place.file == t.place.file && before->place.line == t.place.line;
+  if (!before || sameLine || !known.empty()) failAt(t, std::move(text));
   Place behind = before->place;
   behind.column += lengthOf(*before);
   messages_.error(behind, std::move(text));
@@ -64,8 +68,8 @@ void Parser::fail(std::string text) {
   throw Failed{};
 }
 
-void Parser::expect(std::string_view punctuator, std::string_view after) {
-  if (!takeIf(punctuator)) fail(fmt::format("expected '{}' after {}", punctuator, after));
+void Parser::expect(std::string_view punctuator) {
+  if (!takeIf(punctuator)) fail(fmt::format("expected '{}'", punctuator));
 }
 
 void Parser::expectClosing(std::string_view punctuator, const Token& open) {

@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-constexpr size_t kMostBytes = 4 * kMostFileBytes;  ///< Of all files, each as often as it is included.
+constexpr size_t kMostNameBytes = 4096;  ///< Of an included file.
 
 bool isConditional(std::string_view name) {
   return name == "if" || name == "ifdef" || name == "ifndef" || name == "elif" || name == "else" || name == "endif";
@@ -136,7 +136,8 @@ void Preprocessor::include(Place place) {
     return includeFile(text.substr(1, text.size() - 2), true, sources_.outermost(words[0].place));
   }
   std::string spelled;
-  for (const Lexeme& l : words) spelled += l.text;
+  for (const Lexeme& l : words)
+    if (spelled.size() < kMostNameBytes) spelled += l.text;
   if (spelled.size() > 2 && spelled.front() == '<' && spelled.back() == '>')
     return includeFile(spelled.substr(1, spelled.size() - 2), false, place);
   messages_.error(place, "'#include' needs \"NAME\" or <NAME>");
@@ -147,8 +148,8 @@ void Preprocessor::includeFile(std::string_view name, bool isQuoted, Place place
     return stop(place, fmt::format("files include each other more than {} deep", kMostIncludeDepth));
   if (++includes_ > kMostIncludes) return stop(place, fmt::format("more than {} files are included", kMostIncludes));
   ReadFile file = search_.find(name, isQuoted, files_.back().folder);
-  bytes_ += file.text.size();
-  if (bytes_ > kMostBytes) return stop(place, fmt::format("more than {} MiB are included", kMostBytes >> 20));
+  bytesIn_ += file.text.size();
+  if (bytesIn_ > kMostBytes) return stop(place, fmt::format("more than {} MiB are included", kMostBytes >> 20));
   if (!file.failure.empty())
     return messages_.error(place, fmt::format("cannot include {}: {}", quoted(name), file.failure),
                            static_cast<int32_t>(name.size() + 2));

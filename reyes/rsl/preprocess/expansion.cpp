@@ -28,12 +28,14 @@ bool Preprocessor::enter(const Lexeme& name, Macro& macro) {
     stop(name.place, fmt::format("more than {} uses of macros", kMostExpansions));
     return true;
   }
-  size_t size = macro.pieces.size();
+  size_t size = macro.pieces.size() + macro.name.size() / 32;  // Long names cost memory too.
   for (const MacroPiece& piece : macro.pieces)
     if (piece.parameter >= 0) size += arguments[static_cast<size_t>(piece.parameter)].expanded.size();
   if (!account(name.place, size)) return true;
   const int32_t expansion = sources_.addExpansion({macro.name, name.place});
   std::vector<Lexeme> lexemes = substitute(macro, arguments, expansion, made_, messages_);
+  if (made_.isFull())
+    stop(name.place, fmt::format("macros make more than {} MiB of text", MadeTexts::kMostBytes >> 20));
   if (!lexemes.empty()) lexemes.front().spaceBefore = name.spaceBefore;
   ++macro.active;
   rows_.push_back({.lexemes = std::move(lexemes), .macro = kept});
@@ -115,13 +117,13 @@ Lexeme Preprocessor::ownValue(const Lexeme& name, const Macro& macro) {
   const Place place = sources_.outermost(name.place);
   if (macro.kind == Macro::Kind::Line) {
     out.kind = LexemeKind::Number;
-    out.text = made_.emplace_back(std::to_string(place.line));
+    out.text = made_.keep(std::to_string(place.line));
   } else {
     std::string text = "\"";
     for (const char c : sources_.file(place.file).path)
       text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
     out.kind = LexemeKind::String;
-    out.text = made_.emplace_back(text + '"');
+    out.text = made_.keep(text + '"');
   }
   return out;
 }

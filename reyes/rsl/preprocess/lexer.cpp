@@ -225,7 +225,7 @@ std::string_view Lexer::textFrom(size_t begin) {
     const char letter = look(c);
     if (c.at < cursor_.at) clean += letter;
   }
-  return made_->emplace_back(std::move(clean));
+  return made_->keep(std::move(clean));
 }
 
 }  // namespace tomales::compiler

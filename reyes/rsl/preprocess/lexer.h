@@ -31,7 +31,19 @@ struct Lexeme {
 };
 
 /// Texts that are in no file, for the views of lexemes.
-using MadeTexts = std::deque<std::string>;
+class MadeTexts {
+ public:
+  static constexpr size_t kMostBytes = 16u << 20;
+  std::string_view keep(std::string text) {
+    bytes_ += text.size();
+    return texts_.emplace_back(std::move(text));
+  }
+  bool isFull() const { return bytes_ > kMostBytes; }
+
+ private:
+  std::deque<std::string> texts_;
+  size_t bytes_ = 0;
+};
 
 class Lexer {
  public:

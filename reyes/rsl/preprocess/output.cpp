@@ -40,8 +40,10 @@ bool mayBeginShader(std::string_view name) { return shaderKindNamed(name).has_va
 }  // namespace
 
 void Preprocessor::put(const Lexeme& l) {
-  Token token{.text = std::string(l.text), .place = l.place};
+  bytesOut_ += l.text.size();
+  if (bytesOut_ > kMostBytes) return stop(l.place, fmt::format("the shader has more than {} MiB", kMostBytes >> 20));
   if (out_.size() >= kMostTokens) return stop(l.place, fmt::format("the shader has more than {} words", kMostTokens));
+  Token token{.text = std::string(l.text), .place = l.place};
   switch (l.kind) {
     case LexemeKind::Name:
       token.kind = TokenKind::Name;

@@ -16,7 +16,7 @@ void Preprocessor::predefine(const PreprocessOptions& options) {
   std::vector<PreprocessOptions::Definition> all{{"TOMALES", "1"}};
   all.insert(all.end(), options.definitions.begin(), options.definitions.end());
   for (const auto& [name, value] : all) {
-    Lexer lexer(-1, made_.emplace_back(name + " " + value), made_, messages_);
+    Lexer lexer(-1, made_.keep(name + " " + value), made_, messages_);
     if (const MacroPtr macro = readDefinition(lexer, {}, messages_)) {
       macro->place = {};
       for (MacroPiece& piece : macro->pieces) piece.lexeme.place = {};

@@ -8,6 +8,7 @@ namespace tomales::compiler {
 
 class Preprocessor {
  public:
+  static constexpr size_t kMostBytes = 4 * kMostFileBytes;  ///< Of all that is read, and of all that comes out.
   /// `ownFolder`: of the shader's file; empty: a text without one.
   Preprocessor(const PreprocessOptions& options, const std::string& ownFolder, Sources& sources, Messages& messages);
   std::vector<Token> run(int32_t file);
@@ -80,7 +81,7 @@ class Preprocessor {
   std::vector<Row> rows_;
   std::vector<Token> out_;
   int expansions_ = 0, nesting_ = 0, includes_ = 0;
-  size_t work_ = 0, bytes_ = 0;
+  size_t work_ = 0, bytesIn_ = 0, bytesOut_ = 0;
   bool stopped_ = false;
 };
 

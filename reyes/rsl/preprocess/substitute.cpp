@@ -12,7 +12,7 @@ class Substitution {
 
   std::vector<Lexeme> run() {
     out_.reserve(macro_.pieces.size());
-    for (size_t i = 0; i < macro_.pieces.size(); ++i) add(i);
+    for (size_t i = 0; i < macro_.pieces.size() && !made_.isFull(); ++i) add(i);
     std::erase_if(out_, [](const Lexeme& l) { return l.kind == LexemeKind::Nothing; });
     return std::move(out_);
   }
@@ -58,7 +58,7 @@ class Substitution {
       left = right;
       return true;
     }
-    const std::string& both = made_.emplace_back(std::string(left.text) + std::string(right.text));
+    const std::string_view both = made_.keep(std::string(left.text) + std::string(right.text));
     Messages unheard;
     Lexer lexer(-1, both, made_, unheard);
     const Lexeme word = lexer.next();
@@ -76,6 +76,7 @@ class Substitution {
   std::string_view stringified(const std::vector<Lexeme>& lexemes) {
     std::string text = "\"";
     for (const Lexeme& l : lexemes) {
+      if (text.size() > MadeTexts::kMostBytes) break;
       if (l.spaceBefore && text.size() > 1) text += ' ';
       const bool isQuoted = l.kind == LexemeKind::String || l.kind == LexemeKind::Character;
       for (const char c : l.text) {
@@ -83,7 +84,7 @@ class Substitution {
         text += c;
       }
     }
-    return made_.emplace_back(text + '"');
+    return made_.keep(text + '"');
   }
 
   const Macro& macro_;
