@@ -33,6 +33,8 @@ struct Register {
   std::vector<float> floats{};  ///< Of a constant: element by element, component by component.
   std::vector<std::string> texts{};
   int32_t depth = 0;  ///< How many control structures are around its declaration.
+  Detail declared = Detail::Unstated;
+  Place place{};  ///< Of the declaration.
   int32_t slot =
       -1;  ///< Where the machine keeps it, in floats for each point (varying) or value (uniform): passes/allocate.h.
 };

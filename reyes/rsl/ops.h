@@ -7,7 +7,8 @@
 namespace tomales::compiler {
 
 // name, signature, traits.
-// Signature: what it gives, '=', what it takes. f: number, t: triple, m: matrix, s: text, *: a number, triple or
+// Signature: what it gives, '=', what it takes. f: number, t: triple, m: matrix, s: text, a: array, *: a number, triple
+// or
 //   matrix, componentwise (all stars of one instruction have the shape of its result, or are numbers that count for
 //   every component).
 // Traits: P pure: the same inputs give the same outputs, so it may be shared, moved or left out, and it runs over all
@@ -54,7 +55,7 @@ namespace tomales::compiler {
   OP(SplineF, "f=sf...", "P")       /* basis, value, knots: numbers, or one array */                                 \
   OP(SplineT, "t=sf...", "P")                                                                                        \
   OP(TextEqual, "f=ss", "P") OP(Concat, "s=s...", "P") OP(Match, "f=ss", "P") OP(Format, "s=s...", "P")              \
-  OP(ElementF, "f=a f", "P") OP(ElementT, "t=a f", "P") OP(ElementM, "m=a f", "P") OP(ElementS, "s=a f", "P")        \
+  OP(ElementF, "f=af", "P") OP(ElementT, "t=af", "P") OP(ElementM, "m=af", "P") OP(ElementS, "s=af", "P")        \
   /* array, index held to its bounds; out of bounds is reported once */                                              \
   OP(SetElement, "a=f*", "")        /* array; index, value: active points alone */                                   \
   OP(Copy, "*=*", "")               /* active points alone; of texts and whole arrays too */                         \

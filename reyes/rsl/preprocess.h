@@ -2,6 +2,7 @@
 // Sources: RISpec 3.2 section 11 (RSL is passed through the C preprocessor) and ISO C90 6.8, whose rules of
 // replacement (stringify, paste, no recursion) are followed.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,10 @@ enum class TokenKind : uint8_t {
 
 struct Token {
   TokenKind kind = TokenKind::End;
-  std::string text;
+  std::string text{};
   float number = 0;
   Place place{};
+  std::shared_ptr<const std::string> comment{};  ///< Directly before a word that may begin a shader; null: none.
   bool is(std::string_view punctuator) const { return kind == TokenKind::Punctuator && text == punctuator; }
   bool isName(std::string_view name) const { return kind == TokenKind::Name && text == name; }
 };
@@ -40,7 +42,9 @@ struct PreprocessOptions {
 
 /// Bounds on what a stranger's file can ask for; more is an error.
 constexpr int kMostIncludeDepth = 64;
-constexpr size_t kMostTokens = 4'000'000;     ///< After expansion.
+constexpr size_t kMostTokens = 1'000'000;     ///< After expansion, and of what macros make on the way to it.
+constexpr int kMostExpansions = 200'000;      ///< Uses of macros.
+constexpr int kMostIncludes = 2'000;          ///< Files, each as often as it is included.
 constexpr size_t kMostFileBytes = 16u << 20;  ///< Of one file.
 
 /// Tokens of a file and of all that it includes, ended by one of kind End. Errors are in `messages`, and tokens go on

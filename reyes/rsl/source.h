@@ -17,8 +17,8 @@ struct Place {
 };
 
 struct SourceFile {
-  std::string path;  ///< As messages print it.
-  std::string text;
+  std::string path;      ///< As messages print it.
+  std::string text;      ///< Lines end by '\n'.
   Place includedFrom{};  ///< Of the #include; line 0: the file that was asked for.
 };
 
@@ -45,6 +45,7 @@ class Sources {
 
  private:
   std::deque<SourceFile> files_;
+  std::deque<std::vector<size_t>> lineStarts_;  ///< Of each file: where in its text.
   std::deque<Expansion> expansions_;
 };
 
@@ -66,7 +67,7 @@ class Messages {
   bool hasErrors() const { return errors_ > 0; }
   int errorCount() const { return errors_; }
   const std::vector<Message>& all() const { return all_; }
-  /// More errors than this are counted and not kept.
+  /// More errors than this are counted and not kept; so with warnings, and with the notes of one message.
   static constexpr int kMostErrors = 20;
 
   /// As good compilers print them: "file:line:column: error: text", the line, a caret below it, and one line
@@ -76,7 +77,8 @@ class Messages {
  private:
   void add(Severity severity, Place place, std::string text, int32_t length);
   std::vector<Message> all_;
-  int errors_ = 0;
+  int errors_ = 0, warnings_ = 0, notes_ = 0;
+  bool keeps_ = true;  ///< The error or warning that notes now belong to.
 };
 
 /// The names that `wanted` may be a misspelling of, the nearest first, at most `most`.

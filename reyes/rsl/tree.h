@@ -2,6 +2,7 @@
 // RISpec 3.2 sections 11 to 14.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 namespace tomales::compiler {
 
 enum class Base : uint8_t { Void, Float, Color, Point, Vector, Normal, Matrix, String };
+const char* name(Base base);
+std::optional<Base> baseNamed(std::string_view name);
 enum class Detail : uint8_t { Unstated, Uniform, Varying };
 
 /// A type without its detail.
@@ -42,6 +45,7 @@ struct Variable {
   ExprPtr initial;        ///< Null: none. Of a parameter its default.
   /// Set by the checker.
   Variable* outer = nullptr;
+  int32_t global = -1;  ///< A Global (globals.h); -1: none.
   bool used = false, assigned = false;
 };
 
@@ -60,6 +64,10 @@ enum class ExprKind : uint8_t {
   Comma,        ///< args in order; the value is that of the last
 };
 
+/// More levels in one expression are an error of the parser, so that whoever walks a tree may do so by recursion.
+/// (Nesting is bounded by kMostNesting; this counts a chain "a + b + c + ..." too.)
+constexpr int32_t kMostHeight = 1000;
+
 struct Expr {
   ExprKind kind = ExprKind::Number;
   Place place{};
@@ -69,7 +77,9 @@ struct Expr {
   Type written{};  ///< Of a Cast.
   bool hasSpace = false;
   std::vector<ExprPtr> args;
+  int32_t height = 1;  ///< Levels of the tree from here down, at most kMostHeight.
   /// Set by the checker.
+  bool checked = false;
   Type type{};
   Variable* variable = nullptr;        ///< Of a Name.
   const Function* function = nullptr;  ///< Of a Call to a function of the file.
@@ -114,6 +124,7 @@ struct Function {
 
 enum class ShaderKind : uint8_t { Surface, Light, Displacement, Volume, Imager, Transformation };
 const char* name(ShaderKind kind);
+std::optional<ShaderKind> shaderKindNamed(std::string_view name);
 
 struct Shader {
   ShaderKind kind = ShaderKind::Surface;

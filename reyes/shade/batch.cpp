@@ -233,8 +233,10 @@ bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {
            fmt::format("threw an exception ({}); its result is discarded", what));
     finished = false;
   };
+  TmGrid called = tmGrid;
+  called.shader = shader.shader;
   try {
-    shader.shader->shade(&tmGrid);
+    shader.shader->shade(&called);
   } catch (const std::exception& e) {
     threw(e.what());
   } catch (...) {

@@ -1,0 +1,60 @@
+// RSL's built-in functions: one table of what they are called, take and give, and of what they become. The checker
+// chooses among its rows, the lowering reads what to emit, and docs/rsl.md is held against it by a test. Functions that
+// are best said in RSL itself are in the prelude (prelude.h).
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reyes/rsl/ops.h"
+#include "reyes/rsl/tree.h"
+
+namespace tomales::compiler {
+
+/// How a call becomes code. Instruction: `op` on the arguments in order. The others: calls.cpp.
+enum class Emit : uint8_t {
+  Instruction,
+  Fold,          ///< op again and again: min(a, b, c)
+  Component,     ///< `number` is the component: xcomp()
+  SetComponent,  ///< likewise; the first argument is assigned
+  Derivative,    ///< op over du or dv
+  Normal,        ///< calculatenormal()
+  Spline,
+  Transform,  ///< transform(), vtransform(), ntransform(); `number`: TmTransformKind
+  ColorTransform,
+  Texture,
+  Environment,
+  Shadow,
+  List,    ///< op on the arguments, with an optional list
+  Traced,  ///< op on the arguments, with a list; numbers of samples may be left out
+  Ask,     ///< `number`: TmWhom; the last argument is filled in
+  ShaderName,
+  Print,
+  ArrayLength,
+  Number,  ///< The constant `number`.
+};
+
+/// What a parameter takes.
+struct Slot {
+  Base base = Base::Float;
+  bool any = false;     ///< Whatever type.
+  bool output = false;  ///< Must be a variable or an element of an array.
+  bool array = false;
+};
+
+struct Builtin {
+  std::string name;
+  Base result = Base::Void;
+  std::vector<Slot> slots;
+  bool more = false;  ///< Further arguments follow: an optional list, or values of the last slot's type.
+  Op op{};
+  Emit emit = Emit::Instruction;
+  float number = 0;
+};
+
+/// All rows, those of one name together.
+std::span<const Builtin> builtins();
+/// The rows of a name: [first, first + count) of builtins(); count 0: there is none.
+std::pair<int32_t, int32_t> rowsOf(std::string_view name);
+
+}  // namespace tomales::compiler

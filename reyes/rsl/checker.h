@@ -1,0 +1,87 @@
+// Private to the checker (check.cpp, check_calls.cpp, check_expressions.cpp).
+#pragma once
+#include <map>
+#include <set>
+
+#include "reyes/rsl/check.h"
+#include "reyes/rsl/globals.h"
+#include "reyes/rsl/types.h"
+
+namespace tomales::compiler {
+
+class Checker {
+ public:
+  /// `prelude` null: the prelude itself is being checked.
+  Checker(std::deque<Variable>& globals, const File* prelude, Messages& messages);
+  void file(File& file);
+
+ private:
+  // --- check.cpp: definitions and statements
+  void function(Function& f);
+  void shader(Shader& s);
+  void declare(Variable& v);
+  void parameter(Variable& v);
+  void initialise(Variable& v);
+  void statement(Stmt& s);
+  void condition(Expr& e);
+  void declaration(Variable& v);
+  void illuminance(Stmt& s);
+  void illuminate(Stmt& s);
+  void solar(Stmt& s);
+  void gather(Stmt& s);
+  void jump(const Stmt& s);
+  void returned(Stmt& s);
+  void refuseRecursion();
+
+  // --- check_expressions.cpp
+  /// The type that an expression has of itself.
+  Type type(Expr& e);
+  /// Likewise, where a value of `wanted` is needed: picks the overload of the wanted result, and reports what does not
+  /// convert.
+  void expect(Expr& e, const Type& wanted, const char* where);
+  /// As far as the expression can be of another type, it becomes `wanted`.
+  void retarget(Expr& e, const Type& wanted);
+  void retargetFactor(Expr& e, const Type& wanted);
+  Type typeOfName(Expr& e);
+  Type typeOfIndex(Expr& e);
+  Type typeOfTuple(Expr& e);
+  Type typeOfUnary(Expr& e);
+  Type typeOfBinary(Expr& e);
+  Type typeOfConditional(Expr& e);
+  Type typeOfAssign(Expr& e);
+  Type typeOfCast(Expr& e);
+  /// The variable that an assignment to the expression changes is marked as assigned; it is reported if there is none.
+  void assigned(Expr& e, const char* where);
+  int distance(const Expr& e, const Type& to) const;  ///< < 0: it does not convert.
+
+  // --- check_calls.cpp
+  Type typeOfCall(Expr& e);
+  Type typeOfBuiltin(Expr& e, int32_t row);
+  Type typeOfFunction(Expr& e, const Function& f);
+  void unknownFunction(Expr& e);
+  void noFit(Expr& e, const std::vector<const Function*>& functions);
+  int fit(const Expr& call, const Function& f) const;
+  int fit(const Expr& call, const Builtin& b) const;
+  std::vector<const Function*> functionsOf(std::string_view name) const;
+  void list(std::vector<ExprPtr>& entries, size_t from, std::string_view function);
+
+  struct Scope {
+    std::map<std::string, Variable*, std::less<>> variables;
+    std::multimap<std::string, const Function*, std::less<>> functions;
+    bool isFunction = false;  ///< `extern` looks in the scopes outside of it.
+  };
+  Variable* find(std::string_view name, bool outside = false) const;
+  std::vector<std::string> visibleNames() const;
+  std::vector<std::string> functionNames() const;
+
+  std::deque<Variable>& globals_;
+  const File* const prelude_;
+  Messages& messages_;
+  std::vector<Scope> scopes_;
+  const Function* current_ = nullptr;  ///< Null: a shader's body.
+  int loops_ = 0, lights_ = 0;
+  std::map<const Function*, std::set<const Function*>> calls_;
+  std::set<std::pair<int32_t, std::string>> told_;  ///< Unknown names, each once a file.
+};
+
+}  // namespace tomales::compiler

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <deque>
+
+#include "reyes/rsl.h"
+#include "reyes/rsl/parse.h"
+#include "reyes/rsl/program.h"
+
+namespace tomales {
+
+using namespace compiler;
+
+struct RslFile::Impl {
+  Sources sources;
+  Messages messages;
+  Checked checked;
+  std::deque<ProgramShader> shaders;
+  std::vector<const TmShader*> hosts;
+  TmShaderLibrary library{};
+  std::string rendered;
+};
+
+namespace {
+
+PreprocessOptions optionsOf(const RslSettings& settings) {
+  PreprocessOptions out;
+  out.includeFolders = settings.includeFolders, out.standardFolder = settings.standardFolder;
+  for (const auto& [name, value] : settings.definitions) out.definitions.push_back({name, value});
+  return out;
+}
+
+}  // namespace
+
+RslFile::RslFile() : impl_(new Impl) {}
+RslFile::~RslFile() = default;
+
+std::shared_ptr<const RslFile> RslFile::compile(const std::string& path, const RslSettings& settings) {
+  const std::shared_ptr<RslFile> file(new RslFile);
+  Impl& f = *file->impl_;
+  f.checked = check(parse(preprocess(path, optionsOf(settings), f.sources, f.messages), f.messages), f.messages);
+  if (!f.messages.hasErrors())
+    for (const auto& s : f.checked.file.shaders) f.shaders.emplace_back(f.checked, *s, path, f.messages);
+  if (!f.messages.hasErrors())
+    for (const ProgramShader& p : f.shaders)
+      if (const TmShader* host = p.host()) f.hosts.push_back(host);
+  f.library = {TM_SHADER_ABI, sizeof f.library, f.hosts.data(), nullptr, static_cast<int32_t>(f.hosts.size())};
+  f.rendered = f.messages.rendered(f.sources);
+  return file;
+}
+
+const TmShaderLibrary* RslFile::library() const { return &impl_->library; }
+const std::string& RslFile::messages() const { return impl_->rendered; }
+int RslFile::errors() const { return impl_->messages.errorCount(); }
+
+int RslFile::warnings() const {
+  int n = 0;
+  for (const Message& m : impl_->messages.all()) n += m.severity == Severity::Warning;
+  return n;
+}
+
+std::string RslFile::firstError() const {
+  for (const Message& m : impl_->messages.all())
+    if (m.severity == Severity::Error)
+      return fmt::format("{}: {}", impl_->sources.text(impl_->sources.outermost(m.place)), m.text);
+  return {};
+}
+
+std::vector<std::string> RslFile::files() const {
+  std::vector<std::string> out;
+  for (size_t k = 0; k < impl_->sources.fileCount(); ++k)
+    out.push_back(impl_->sources.file(static_cast<int32_t>(k)).path);
+  return out;
+}
+
+std::vector<RslParameter> RslFile::parameters(const TmShader& shader) const {
+  std::vector<RslParameter> out;
+  for (const ProgramShader& p : impl_->shaders) {
+    if (p.host() != &shader) continue;
+    for (const Parameter& parameter : p.lowered().parameters)
+      out.push_back({parameter.name, name(parameter.type), parameter.detail == Detail::Varying ? "varying" : "uniform",
+                     parameter.written, parameter.output});
+  }
+  return out;
+}
+
+std::string RslFile::dump(const std::string& path, const RslSettings& settings, const std::string& stage) {
+  Sources sources;
+  Messages messages;
+  const std::vector<Token> tokens = preprocess(path, optionsOf(settings), sources, messages);
+  if (stage == "tokens") return compiler::dump(tokens, sources);
+  File file = parse(tokens, messages);
+  if (stage == "tree") return compiler::dump(file);
+  const Checked checked = check(std::move(file), messages);
+  if (stage == "types") return compiler::dump(checked.file);
+  std::string out;
+  if (messages.hasErrors()) return out;
+  for (const auto& s : checked.file.shaders) {
+    const ProgramShader program(checked, *s, path, messages);
+    out += compiler::dump(stage == "lowered" ? program.lowered() : program.code());
+  }
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,241 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reyes/rsl/lowering.h"
+#include "reyes/rsl/types.h"
+#include "reyes/shader_api.h"
+
+namespace tomales::compiler {
+
+int32_t Lowering::call(const Expr& e) {
+  if (e.function) return inlined(e, *e.function);
+  return builtin(e, builtins()[static_cast<size_t>(e.builtin)]);
+}
+
+namespace {
+
+int returnsIn(const Stmt& s) {
+  int n = s.kind == StmtKind::Return;
+  for (const StmtPtr& part : s.body) n += returnsIn(*part);
+  return n;
+}
+
+}  // namespace
+
+// Arguments are passed by reference (RISpec 12.3): a plain variable of the parameter's own type is the parameter.
+int32_t Lowering::inlined(const Expr& e, const Function& f) {
+  std::vector<const Expr*> arguments;
+  std::vector<Type> types;
+  for (size_t i = 0; i < e.args.size(); ++i)
+    arguments.push_back(e.args[i].get()), types.push_back(f.parameters[i]->type);
+  std::vector<int32_t> given;
+  std::vector<std::pair<const Expr*, int32_t>> after;
+  if (!arguments.empty()) given = values(arguments, types);
+  for (size_t i = 0; i < given.size(); ++i) {
+    const Variable& p = *f.parameters[i];
+    if (p.output) {
+      registers_[&p] = target(*e.args[i], after);
+    } else if (!p.assigned || p.type.isArray()) {
+      registers_[&p] = given[i];
+    } else {
+      const int32_t from = given[i];
+      initialise(variable(p), from);
+    }
+  }
+  // Only a return at the very end needs no label.
+  const Stmt* last = f.body->body.empty() ? nullptr : f.body->body.back().get();
+  const int returns = returnsIn(*f.body);
+  int32_t result = -1;
+  if (returns == 0 || (returns == 1 && last->kind == StmtKind::Return)) {
+    functions_.push_back({});
+    for (const StmtPtr& s : f.body->body) {
+      if (s.get() == last && last->kind == StmtKind::Return)
+        result = last->exprs.empty() || !last->exprs[0] ? -1 : value(*last->exprs[0], f.result);
+      else
+        statement(*s);
+    }
+  } else {
+    if (f.result != Type{}) result = add({.shape = shapeOf(f.result), .origin = Origin::Variable});
+    if (result >= 0) initialise(result, shape(result) == Shape::Text ? text("") : number(0));
+    functions_.push_back({result, code_.labels++});
+    Block body = block([&] { statement(*f.body); });
+    Instruction& scope = emit(Op::Scope, {}, {});
+    scope.extra = functions_.back().label;
+    scope.blocks.push_back(std::move(body));
+  }
+  functions_.pop_back();
+  for (const auto& [to, from] : after) store(*to, from);
+  if (result < 0) result = shapeOf(f.result) == Shape::Text ? text("") : number(0);
+  return result;
+}
+
+std::vector<int32_t> Lowering::arguments(const Expr& e, const Builtin& b, size_t count) {
+  std::vector<const Expr*> list;
+  std::vector<Type> types;
+  for (size_t i = 0; i < count; ++i) {
+    list.push_back(e.args[i].get());
+    const Slot& slot = b.slots[std::min(i, b.slots.size() - 1)];
+    types.push_back(slot.any || i >= b.slots.size() ? e.args[i]->type : Type{slot.base, slot.array ? kOpenArray : 0});
+  }
+  return list.empty() ? std::vector<int32_t>{} : values(list, types);
+}
+
+int32_t Lowering::builtin(const Expr& e, const Builtin& b) {
+  const Shape of = shapeOf({b.result});
+  switch (b.emit) {
+    case Emit::Instruction:
+      return compute(b.op, arguments(e, b, e.args.size()), of);
+    case Emit::Fold: {
+      const std::vector<int32_t> in = arguments(e, b, e.args.size());
+      int32_t out = in[0];
+      for (size_t i = 1; i < in.size(); ++i) out = compute(b.op, {out, in[i]}, of);
+      return out;
+    }
+    case Emit::Component:
+      return compute(b.op, {value(*e.args[0]), number(b.number)});
+    case Emit::SetComponent:
+      return setComponent(e, b);
+    case Emit::Derivative: {
+      const int32_t step = compute(b.op, arguments(e, b, 1), of);
+      const int32_t size = global(b.op == Op::StepU ? Global::du : Global::dv);
+      const int32_t moves = compute(Op::NotEqual, {size, number(0)});
+      return compute(Op::Select, {moves, compute(Op::Div, {step, size}, of), number(0)}, of);
+    }
+    case Emit::Normal:
+      return normalOf(value(*e.args[0]));
+    case Emit::Spline:
+      return spline(e, b);
+    case Emit::Transform:
+      return transform(e, b);
+    case Emit::ColorTransform: {
+      std::vector<int32_t> in = arguments(e, b, e.args.size());
+      if (in.size() == 2) in.insert(in.begin(), text("rgb"));
+      return compute(b.op, in);
+    }
+    case Emit::Texture:
+      return texture(e, b);
+    case Emit::Environment:
+      return environment(e, b);
+    case Emit::Shadow:
+      return shadow(e, b);
+    case Emit::List:
+    case Emit::Traced:
+      return withList(e, b);
+    case Emit::Ask:
+      return ask(e, b);
+    case Emit::ShaderName: {
+      if (e.args.empty()) return text(code_.name);
+      const int32_t of_ = value(*e.args[0]);
+      return compute(Op::ShaderName, {of_});
+    }
+    case Emit::Print: {
+      const std::vector<int32_t> in = arguments(e, b, e.args.size());
+      if (b.op != Op::Print) return compute(b.op, in);
+      emit(b.op, {}, in);
+      return number(0);
+    }
+    case Emit::ArrayLength:
+      return number(static_cast<float>(std::max(code_.registers[static_cast<size_t>(value(*e.args[0]))].length, 0)));
+    case Emit::Number:
+      return number(b.number);
+  }
+  return number(0);
+}
+
+int32_t Lowering::setComponent(const Expr& e, const Builtin& b) {
+  std::vector<int32_t> in = arguments(e, b, e.args.size());
+  if (b.number >= 0) in.insert(in.begin() + 1, number(b.number));
+  store(*e.args[0], compute(b.op, in));
+  return number(0);
+}
+
+// In surfaces by steps, which the passes derive; a displacement's points are differenced along their grid by the host.
+int32_t Lowering::normalOf(int32_t position) {
+  if (code_.kind == ShaderKind::Displacement) return compute(Op::CalculateNormal, {position});
+  const int32_t across = compute(
+      Op::Cross, {compute(Op::StepU, {position}, Shape::Triple), compute(Op::StepV, {position}, Shape::Triple)});
+  // Which way dPdu ^ dPdv points is not for shaders to know: the normal is on the side of the geometric one.
+  const int32_t natural = compute(Op::Cross, {global(Global::dPdu), global(Global::dPdv)});
+  const int32_t against = compute(Op::Less, {compute(Op::Dot, {natural, global(Global::Ng)}), number(0)});
+  const int32_t turned =
+      compute(Op::Select, {against, compute(Op::Neg, {across}, Shape::Triple), across}, Shape::Triple);
+  const int32_t exists = compute(Op::Less, {number(0), compute(Op::Length, {across})});
+  return compute(Op::Select, {exists, compute(Op::Normalize, {turned}), global(Global::N)}, Shape::Triple);
+}
+
+int32_t Lowering::spline(const Expr& e, const Builtin& b) {
+  std::vector<int32_t> in = arguments(e, b, e.args.size());
+  if (b.slots[0].base != Base::String) in.insert(in.begin(), text("catmull-rom"));
+  const bool numbers = b.result == Base::Float;
+  const size_t knots = in.size() - 2;
+  if (!b.slots.back().array && knots < 4)
+    messages_.error(e.place, fmt::format("spline() needs four knots or more, and has {}", knots), e.length);
+  return compute(numbers ? Op::SplineF : Op::SplineT, in);
+}
+
+int32_t Lowering::transform(const Expr& e, const Builtin& b) {
+  std::vector<int32_t> in = arguments(e, b, e.args.size());
+  const auto between = [&](int32_t from, int32_t to, int32_t x) {
+    const int32_t out = compute(Op::TransformSpace, {from, to, x});
+    block_->back().extra = static_cast<int32_t>(b.number);
+    return out;
+  };
+  const int32_t current = text("current");
+  if (b.op == Op::TransformSpace) return in.size() == 2 ? between(current, in[0], in[1]) : between(in[0], in[1], in[2]);
+  return compute(b.op, {in[1], between(current, in[0], in[2])});
+}
+
+std::vector<Setting> Lowering::settings(const std::vector<ExprPtr>& list, size_t from, std::string_view function,
+                                        std::vector<std::pair<const Expr*, int32_t>>& after) {
+  std::vector<Setting> out;
+  for (size_t i = from; i + 1 < list.size(); i += 2) {
+    const Expr &name = *list[i], &of = *list[i + 1];
+    Setting s;
+    s.fills = name.kind == ExprKind::String && isFilled(function, name.text);
+    s.name = value(name);
+    s.value = s.fills ? target(of, after) : value(of);
+    s.base = of.type.base;
+    out.push_back(s);
+  }
+  return out;
+}
+
+int32_t Lowering::withList(const Expr& e, const Builtin& b) {
+  const size_t n = b.slots.size();
+  std::vector<int32_t> in = arguments(e, b, n);
+  std::vector<std::pair<const Expr*, int32_t>> after;
+  std::vector<Setting> list = settings(e.args, n, b.name, after);
+  if (b.op == Op::Subsurface) {
+    int32_t file = text("");
+    for (size_t k = 0; k < list.size(); ++k)
+      if (const Expr& name = *e.args[n + 2 * k]; name.kind == ExprKind::String && name.text == "filename") {
+        file = list[k].value;
+        list.erase(list.begin() + static_cast<long>(k));
+        break;
+      }
+    in.insert(in.begin(), file);
+  } else if (b.emit == Emit::Traced && in.size() == 2) {
+    constexpr float kRays = 64;  // where neither an argument nor the list says how many
+    in.push_back(number(kRays));
+  }
+  const int32_t out = compute(b.op, in);
+  block_->back().settings = std::move(list);
+  for (const auto& [to, reg] : after) store(*to, reg);
+  return out;
+}
+
+int32_t Lowering::ask(const Expr& e, const Builtin& b) {
+  std::vector<std::pair<const Expr*, int32_t>> after;
+  const size_t last = e.args.size() - 1;
+  std::vector<int32_t> in;
+  for (size_t i = 0; i < last; ++i) in.push_back(value(*e.args[i]));
+  const Setting filled{-1, target(*e.args[last], after), true, e.args[last]->type.base};
+  const int32_t out = compute(b.op, in);
+  block_->back().settings = {filled};
+  block_->back().extra = static_cast<int32_t>(b.number);
+  for (const auto& [to, reg] : after) store(*to, reg);
+  return out;
+}
+
+}  // namespace tomales::compiler

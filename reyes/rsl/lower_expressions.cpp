@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "reyes/rsl/lowering.h"
+#include "reyes/rsl/types.h"
+#include "reyes/shader_api.h"
+
+namespace tomales::compiler {
+namespace {
+
+/// May evaluating it change a variable?
+bool changesVariables(const Expr& e) {
+  if (e.kind == ExprKind::Assign) return true;
+  if (e.kind == ExprKind::Call && e.function) return true;
+  if (e.kind == ExprKind::Call && e.builtin >= 0)
+    for (const Slot& s : builtins()[static_cast<size_t>(e.builtin)].slots)
+      if (s.output) return true;
+  return std::any_of(e.args.begin(), e.args.end(), [](const ExprPtr& a) { return changesVariables(*a); });
+}
+
+/// Nothing is lost if it is computed where its value is not wanted.
+bool isCheap(const Expr& e) {
+  if (e.kind == ExprKind::Assign) return false;
+  if (e.kind == ExprKind::Call) {
+    if (e.function || e.builtin < 0) return false;
+    const Builtin& b = builtins()[static_cast<size_t>(e.builtin)];
+    if (!info(b.op).pure() || b.emit == Emit::Print) return false;
+  }
+  return std::all_of(e.args.begin(), e.args.end(), [](const ExprPtr& a) { return isCheap(*a); });
+}
+
+}  // namespace
+
+int32_t Lowering::value(const Expr& e, const Type& wanted) {
+  const int32_t reg = value(e);
+  const bool widens = wanted.is(Base::Matrix) && shape(reg) == Shape::Number;
+  return widens ? compute(Op::MatrixOf, {reg}) : reg;
+}
+
+std::vector<int32_t> Lowering::values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted) {
+  std::vector<int32_t> out;
+  for (size_t i = 0; i < list.size(); ++i) {
+    int32_t reg = value(*list[i], wanted[std::min(i, wanted.size() - 1)]);
+    const Origin origin = code_.registers[static_cast<size_t>(reg)].origin;
+    const bool mayChange = origin == Origin::Variable || origin == Origin::Global || origin == Origin::Parameter;
+    if (mayChange && !list[i]->type.isArray() &&
+        std::any_of(list.begin() + static_cast<long>(i) + 1, list.end(),
+                    [](const Expr* e) { return changesVariables(*e); })) {
+      const int32_t kept = temporary(shape(reg));
+      initialise(kept, reg);
+      reg = kept;
+    }
+    out.push_back(reg);
+  }
+  return out;
+}
+
+int32_t Lowering::value(const Expr& e) {
+  const Place outer = std::exchange(place_, e.place);
+  int32_t out = -1;
+  switch (e.kind) {
+    case ExprKind::Number:
+      out = number(e.number);
+      break;
+    case ExprKind::String:
+      out = text(e.text);
+      break;
+    case ExprKind::Name:
+      out = name(e);
+      break;
+    case ExprKind::Index:
+      out = element(e);
+      break;
+    case ExprKind::Tuple:
+      out = tuple(e);
+      break;
+    case ExprKind::Unary:
+      out = value(*e.args[0]);
+      if (e.text == "!") out = compute(Op::Not, {out});
+      if (e.text == "-") out = compute(Op::Neg, {out}, shape(out));
+      break;
+    case ExprKind::Binary:
+      out = binary(e);
+      break;
+    case ExprKind::Conditional:
+      out = conditional(e);
+      break;
+    case ExprKind::Assign:
+      out = assign(e);
+      break;
+    case ExprKind::Call:
+      out = call(e);
+      break;
+    case ExprKind::Cast:
+      out = cast(e);
+      break;
+    case ExprKind::Comma:
+      for (const ExprPtr& part : e.args) out = value(*part);
+      break;
+  }
+  place_ = outer;
+  return out;
+}
+
+int32_t Lowering::name(const Expr& e) {
+  const Variable& v = *e.variable;
+  if (v.global >= 0) {
+    const auto g = static_cast<Global>(v.global);
+    if (!info(g).readableIn(code_.kind))
+      messages_.error(e.place, fmt::format("{} shaders have no \"{}\"", compiler::name(code_.kind), e.text), e.length);
+    return global(g);
+  }
+  const auto it = registers_.find(&v);
+  return it != registers_.end() ? it->second : variable(v);
+}
+
+int32_t Lowering::element(const Expr& e) {
+  const int32_t array = value(*e.args[0]), index = value(*e.args[1]);
+  switch (shape(array)) {
+    case Shape::Number:
+      return compute(Op::ElementF, {array, index});
+    case Shape::Triple:
+      return compute(Op::ElementT, {array, index});
+    case Shape::Matrix:
+      return compute(Op::ElementM, {array, index});
+    default:
+      return compute(Op::ElementS, {array, index});
+  }
+}
+
+int32_t Lowering::tuple(const Expr& e) {
+  std::vector<const Expr*> parts;
+  for (const ExprPtr& part : e.args) parts.push_back(part.get());
+  const std::vector<int32_t> in = values(parts, {{Base::Float}});
+  return e.args.size() == 16 ? compute(Op::MakeMatrix, in) : compute(Op::MakeTriple, in);
+}
+
+int32_t Lowering::binary(const Expr& e) {
+  const auto operation = binaryOperation(e.text, e.args[0]->type, e.args[1]->type);
+  const Type wanted = operation->operand == kUnknown ? Type{Base::Float} : operation->operand;
+  std::vector<int32_t> in = values({e.args[0].get(), e.args[1].get()}, {wanted});
+  if (e.text == ">" || e.text == ">=") std::swap(in[0], in[1]);
+  if (e.text == "/" && operation->op == Op::MatrixProduct) in[1] = compute(Op::MatrixInverse, {in[1]});
+  // Numbers in a product that the context wants as a triple stay numbers.
+  const bool triple = shape(in[0]) == Shape::Triple || shape(in[1]) == Shape::Triple;
+  const bool matrix = shape(in[0]) == Shape::Matrix || shape(in[1]) == Shape::Matrix;
+  const int32_t out = compute(operation->op, in, matrix ? Shape::Matrix : triple ? Shape::Triple : Shape::Number);
+  return operation->negated && operation->op != Op::NotEqual ? compute(Op::Not, {out}) : out;
+}
+
+int32_t Lowering::condition(const Expr& e) {
+  const int32_t reg = value(e);
+  return shape(reg) == Shape::Triple ? compute(Op::Not, {compute(Op::TripleEqual, {reg, number(0)})}) : reg;
+}
+
+int32_t Lowering::conditional(const Expr& e) {
+  const int32_t chosen = condition(*e.args[0]);
+  const Shape of = shapeOf(e.type);
+  if (of != Shape::Text && isCheap(*e.args[1]) && isCheap(*e.args[2])) {
+    const int32_t a = value(*e.args[1], e.type), b = value(*e.args[2], e.type);
+    return compute(Op::Select, {chosen, a, b}, of);
+  }
+  const int32_t out = add({.shape = of, .origin = Origin::Variable});
+  if (of != Shape::Text) initialise(out, number(0));
+  Block then = block([&] { copy(out, value(*e.args[1], e.type)); });
+  Block otherwise = block([&] { copy(out, value(*e.args[2], e.type)); });
+  ifElse(chosen, std::move(then), std::move(otherwise));
+  return out;
+}
+
+void Lowering::store(const Expr& to, int32_t from) {
+  if (to.kind == ExprKind::Index) {
+    const int32_t array = value(*to.args[0]), index = value(*to.args[1]);
+    emit(Op::SetElement, {array}, {index, from});
+    return;
+  }
+  const Variable& v = *to.variable;
+  if (v.global >= 0 && !info(static_cast<Global>(v.global)).writableIn(code_.kind))
+    messages_.warning(
+        to.place,
+        fmt::format("a {} shader that assigns \"{}\" changes it for itself alone", compiler::name(code_.kind), to.text),
+        to.length);
+  copy(name(to), from);
+}
+
+int32_t Lowering::assign(const Expr& e) {
+  const Expr &to = *e.args[0], &from = *e.args[1];
+  if (e.text == "=") {
+    const int32_t reg = value(from, to.type);
+    store(to, reg);
+    return reg;
+  }
+  const std::string op = e.text.substr(0, e.text.size() - 1);
+  const auto operation = binaryOperation(op, to.type, from.type);
+  const Type wanted = operation->operand == kUnknown ? Type{Base::Float} : operation->operand;
+  int32_t right = value(from, wanted);
+  if (op == "/" && operation->op == Op::MatrixProduct) right = compute(Op::MatrixInverse, {right});
+  const int32_t left = value(to);
+  const int32_t reg = compute(operation->op, {left, right}, shapeOf(to.type));
+  store(to, reg);
+  return reg;
+}
+
+int32_t Lowering::cast(const Expr& e) {
+  const int32_t reg = value(*e.args[0], e.written);
+  if (!e.hasSpace || e.text.empty()) return reg;
+  if (e.written.is(Base::Color))
+    return e.text == "rgb" ? reg : compute(Op::ColorTransform, {text(e.text), text("rgb"), reg});
+  if (e.written.is(Base::Matrix))
+    return compute(Op::MatrixProduct, {reg, compute(Op::SpaceMatrix, {text(e.text), text("current")})});
+  if (e.text == "current") return reg;
+  const int32_t out = compute(Op::TransformSpace, {text(e.text), text("current"), reg});
+  block_->back().extra = e.written.is(Base::Point)    ? TM_AS_POINT
+                         : e.written.is(Base::Vector) ? TM_AS_VECTOR
+                                                      : TM_AS_NORMAL;
+  return out;
+}
+
+int32_t Lowering::target(const Expr& to, std::vector<std::pair<const Expr*, int32_t>>& after) {
+  if (to.kind == ExprKind::Name) return name(to);
+  const int32_t reg = add({.shape = shapeOf(to.type), .origin = Origin::Variable});
+  initialise(reg, value(to));
+  after.push_back({&to, reg});
+  return reg;
+}
+
+}  // namespace tomales::compiler

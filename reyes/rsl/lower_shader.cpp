@@ -1,0 +1,314 @@
+#include <algorithm>
+#include <utility>
+
+#include "reyes/rsl/lowering.h"
+#include "reyes/rsl/machine/machine.h"
+#include "reyes/rsl/passes/passes.h"
+
+namespace tomales::compiler {
+namespace {
+
+bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds) {
+  if (std::find(kinds.begin(), kinds.end(), s.kind) != kinds.end()) return true;
+  if (s.kind == StmtKind::Define) return false;
+  return std::any_of(s.body.begin(), s.body.end(), [&](const StmtPtr& part) { return contains(*part, kinds); });
+}
+
+/// The default without the cast that says what is meant anyway.
+const Expr& inShaderSpace(const Expr& e) {
+  const bool spatial = e.written.isTriple() && e.written.base != Base::Color;
+  return e.kind == ExprKind::Cast && e.text == "shader" && spatial ? *e.args[0] : e;
+}
+
+}  // namespace
+
+void Lowering::shader(const Shader& s) {
+  code_.kind = s.kind, code_.name = s.name, code_.doc = s.doc;
+  for (const auto& p : s.parameters) parameter(*p);
+  functions_.push_back({-1, code_.labels++});
+  if (!contains(*s.body, {StmtKind::Return})) return statement(*s.body);
+  Block body = block([&] { statement(*s.body); });
+  Instruction& scope = emit(Op::Scope, {}, {});
+  scope.extra = functions_.back().label;
+  scope.blocks.push_back(std::move(body));
+}
+
+void Lowering::parameter(const Variable& v) {
+  Parameter p{.name = v.name, .type = v.type, .detail = v.detail, .output = v.output, .place = v.place};
+  if (p.type.length == kOpenArray) p.type.length = 1;
+  const bool constantValue = constantDefault(v, p);
+  const int32_t reg = variable(v);
+  Register& r = code_.registers[static_cast<size_t>(reg)];
+  r.origin = Origin::Parameter, r.index = static_cast<int32_t>(code_.parameters.size()), r.length = p.type.length;
+  p.computed = !constantValue;
+  code_.parameters.push_back(std::move(p));
+  if (!constantValue) computedDefault(v, reg);
+}
+
+// The default is lowered as a shader of its own and folded: what is one constant then is the default that the host
+// may know.
+bool Lowering::constantDefault(const Variable& v, Parameter& p) {
+  const auto width = static_cast<size_t>(std::max(1, p.type.length));
+  const Shape of = shapeOf(v.type);
+  if (of == Shape::Text)
+    p.texts.assign(width, "");
+  else
+    p.floats.assign(width * static_cast<size_t>(floatsOf(of)), 0.0f);
+  if (!v.initial) return true;
+  std::vector<const Expr*> elements{v.initial.get()};
+  if (v.initial->kind == ExprKind::Tuple && v.type.isArray()) {
+    elements.clear();
+    for (const ExprPtr& part : v.initial->args) elements.push_back(part.get());
+  } else {
+    elements.resize(width, v.initial.get());
+  }
+  bool constants = true;
+  for (size_t k = 0; k < std::min(width, elements.size()); ++k) {
+    Code scratch;
+    scratch.kind = code_.kind;
+    Messages later;  // the same is told when the shader itself is lowered
+    Lowering alone(scratch, later);
+    const int32_t reg = alone.value(inShaderSpace(*elements[k]), {v.type.base});
+    const int32_t folded = foldConstants(scratch, reg);
+    const Register& r = scratch.registers[static_cast<size_t>(folded)];
+    if (r.origin != Origin::Constant) {
+      constants = false;
+    } else if (of == Shape::Text) {
+      p.texts[k] = r.texts[0];
+    } else {
+      const auto n = static_cast<size_t>(floatsOf(of));
+      for (size_t c = 0; c < n; ++c) p.floats[k * n + c] = r.floats[r.floats.size() == 1 ? 0 : c];
+      if (of == Shape::Matrix && r.floats.size() == 1)
+        for (size_t c = 0; c < 15; ++c) p.floats[k * n + c] = c % 5 == 0 ? r.floats[0] : 0.0f;
+    }
+  }
+  if (!constants) {
+    std::fill(p.floats.begin(), p.floats.end(), notGiven());
+    std::fill(p.texts.begin(), p.texts.end(), kTextNotGiven);
+  }
+  return constants;
+}
+
+void Lowering::computedDefault(const Variable& v, int32_t reg) {
+  int32_t first = reg;
+  if (v.type.isArray()) {
+    const Op element = shape(reg) == Shape::Number   ? Op::ElementF
+                       : shape(reg) == Shape::Triple ? Op::ElementT
+                       : shape(reg) == Shape::Matrix ? Op::ElementM
+                                                     : Op::ElementS;
+    first = compute(element, {reg, number(0)});
+  }
+  if (shape(first) == Shape::Triple) first = compute(Op::Component, {first, number(0)});
+  if (shape(first) == Shape::Matrix) first = compute(Op::MatrixElement, {first, number(0), number(0)});
+  const int32_t missing = shape(first) == Shape::Text ? compute(Op::TextEqual, {first, text(kTextNotGiven)})
+                                                      : compute(Op::NotEqual, {first, first});
+  Block given = block([&] {
+    if (v.type.isArray())
+      initialiseArray(v, reg);
+    else
+      copy(reg, value(*v.initial, v.type));
+  });
+  ifElse(missing, std::move(given), {});
+}
+
+void Lowering::initialiseArray(const Variable& v, int32_t reg) {
+  const Expr& e = *v.initial;
+  if (e.kind == ExprKind::Tuple) {
+    for (size_t k = 0; k < e.args.size(); ++k)
+      emit(Op::SetElement, {reg}, {number(static_cast<float>(k)), value(*e.args[k], {v.type.base})});
+  } else if (e.type.isArray()) {
+    copy(reg, value(e));
+  } else {
+    const int32_t same = value(e, {v.type.base});
+    for (int32_t k = 0; k < v.type.length; ++k) emit(Op::SetElement, {reg}, {number(static_cast<float>(k)), same});
+  }
+}
+
+void Lowering::declaration(const Variable& v) {
+  if (v.outer) return;
+  if (v.type.isArray()) {
+    const int32_t reg = variable(v);
+    if (shape(reg) != Shape::Text) initialise(reg, number(0));
+    if (v.initial) initialiseArray(v, reg);
+    return;
+  }
+  // The value first: `float x = x` reads the outer one.
+  const Shape of = shapeOf(v.type);
+  const int32_t from = v.initial ? value(*v.initial, v.type) : of == Shape::Text ? text("") : number(0);
+  const int32_t reg = variable(v);
+  if (!v.used && !v.assigned) return;
+  initialise(reg, v.initial || of != Shape::Matrix ? from : compute(Op::MatrixOf, {from}));
+}
+
+void Lowering::statement(const Stmt& s) {
+  const Place outer = std::exchange(place_, s.place);
+  switch (s.kind) {
+    case StmtKind::Empty:
+    case StmtKind::Define:
+      break;
+    case StmtKind::Block:
+      for (const StmtPtr& part : s.body) statement(*part);
+      break;
+    case StmtKind::Expression:
+      value(*s.exprs[0]);
+      break;
+    case StmtKind::Declare:
+      for (const auto& v : s.variables) declaration(*v);
+      break;
+    case StmtKind::If:
+      ifElse(*s.exprs[0], s.body[0].get(), s.body.size() > 1 ? s.body[1].get() : nullptr);
+      break;
+    case StmtKind::While:
+      loop(s.exprs[0].get(), *s.body[0], nullptr);
+      break;
+    case StmtKind::For:
+      if (s.exprs[0]) value(*s.exprs[0]);
+      loop(s.exprs[1].get(), *s.body[0], s.exprs[2].get());
+      break;
+    case StmtKind::Break:
+    case StmtKind::Continue:
+      jump(s);
+      break;
+    case StmtKind::Return: {
+      const Inlined& function = functions_.back();
+      if (!s.exprs.empty() && s.exprs[0]) copy(function.result, value(*s.exprs[0]));
+      emit(Op::Leave, {}, {}).extra = function.label;
+      break;
+    }
+    case StmtKind::Illuminance:
+      illuminance(s);
+      break;
+    case StmtKind::Illuminate:
+      illuminate(s);
+      break;
+    case StmtKind::Solar:
+      solar(s);
+      break;
+    case StmtKind::Gather:
+      gather(s);
+      break;
+  }
+  place_ = outer;
+}
+
+void Lowering::ifElse(const Expr& e, const Stmt* then, const Stmt* otherwise) {
+  const int32_t chosen = condition(e);
+  Block first = block([&] { statement(*then); }), second;
+  if (otherwise) second = block([&] { statement(*otherwise); });
+  ifElse(chosen, std::move(first), std::move(second));
+}
+
+void Lowering::ifElse(int32_t condition, Block then, Block otherwise) {
+  Instruction& i = emit(Op::If, {}, {condition});
+  i.blocks.push_back(std::move(then));
+  i.blocks.push_back(std::move(otherwise));
+}
+
+void Lowering::loop(const Expr* until, const Stmt& body, const Expr* step) {
+  const int32_t label = code_.labels;
+  code_.labels += 2;
+  loops_.push_back({label, label + 1});
+  int32_t reg = -1;
+  Block test = block([&] {
+    reg = until ? condition(*until) : number(1);
+    // The loop looks at a register that its own block has written.
+    if (code_.registers[static_cast<size_t>(reg)].origin != Origin::Temporary)
+      reg = compute(Op::NotEqual, {reg, number(0)});
+  });
+  Block inner = block([&] { statement(body); });
+  Block after = block([&] {
+    if (step) value(*step);
+  });
+  loops_.pop_back();
+  Instruction& i = emit(Op::Loop, {}, {reg});
+  i.extra = label;
+  i.blocks.push_back(std::move(test));
+  i.blocks.push_back(std::move(inner));
+  i.blocks.push_back(std::move(after));
+}
+
+void Lowering::jump(const Stmt& s) {
+  const LoopLabels& labels = loops_[loops_.size() - static_cast<size_t>(s.count)];
+  emit(Op::Leave, {}, {}).extra = s.kind == StmtKind::Break ? labels.leave : labels.next;
+}
+
+template <class Body>
+void Lowering::breakable(const Stmt& within, const Body& body) {
+  if (!contains(within, {StmtKind::Break, StmtKind::Continue})) {
+    loops_.push_back({-1, -1});
+    body([&](const Stmt& s) { return block([&] { statement(s); }); });
+    loops_.pop_back();
+    return;
+  }
+  const int32_t leave = code_.labels++, next = code_.labels++;
+  loops_.push_back({leave, next});
+  const auto scope = [&](int32_t label, Block inner) {
+    Instruction& i = emit(Op::Scope, {}, {});
+    i.extra = label;
+    i.blocks.push_back(std::move(inner));
+  };
+  Block all =
+      block([&] { body([&](const Stmt& s) { return block([&] { scope(next, block([&] { statement(s); })); }); }); });
+  scope(leave, std::move(all));
+  loops_.pop_back();
+}
+
+void Lowering::illuminance(const Stmt& s) {
+  const auto& e = s.exprs;
+  size_t at = e[0]->type.is(Base::String) ? 1 : 0;
+  const int32_t category = at == 1 ? value(*e[0]) : -1, position = value(*e[at++]);
+  int32_t axis = -1, angle = -1;
+  if (at < e.size() && !e[at]->type.is(Base::String)) axis = value(*e[at++]), angle = value(*e[at++]);
+  std::vector<std::pair<const Expr*, int32_t>> after;
+  const std::vector<Setting> list = settings(e, at, "illuminance", after);
+  const int32_t L = global(Global::L), Cl = global(Global::Cl);
+  breakable(*s.body[0], [&](const auto& bodyOf) {
+    Block body = bodyOf(*s.body[0]);
+    Block stores = block([&] {
+      for (const auto& [to, from] : after) store(*to, from);
+    });
+    body.insert(body.begin(), std::make_move_iterator(stores.begin()), std::make_move_iterator(stores.end()));
+    Instruction& i = emit(Op::Illuminance, {L, Cl}, {category, position, axis, angle});
+    i.settings = list;
+    i.blocks.push_back(std::move(body));
+  });
+}
+
+void Lowering::gather(const Stmt& s) {
+  const auto& e = s.exprs;
+  std::vector<int32_t> in;
+  for (size_t i = 0; i < 5; ++i) in.push_back(value(*e[i]));
+  std::vector<std::pair<const Expr*, int32_t>> after;
+  const std::vector<Setting> list = settings(e, 5, "gather", after);
+  for (const auto& [to, from] : after)
+    messages_.error(to->place, "gather() fills plain variables only, not elements of arrays", to->length);
+  breakable(s, [&](const auto& bodyOf) {
+    Block hit = bodyOf(*s.body[0]), miss;
+    if (s.body.size() > 1) miss = bodyOf(*s.body[1]);
+    Instruction& i = emit(Op::Gather, {}, in);
+    i.settings = list;
+    i.blocks.push_back(std::move(hit));
+    i.blocks.push_back(std::move(miss));
+  });
+}
+
+void Lowering::illuminate(const Stmt& s) {
+  const int32_t from = value(*s.exprs[0]), L = global(Global::L);
+  copy(L, compute(Op::Sub, {global(Global::Ps), from}, Shape::Triple));
+  if (s.exprs.size() == 1) return statement(*s.body[0]);
+  const int32_t axis = compute(Op::Normalize, {value(*s.exprs[1])}), angle = value(*s.exprs[2]);
+  const int32_t cosine = compute(Op::Dot, {compute(Op::Normalize, {L}), axis});
+  const int32_t inside = compute(Op::LessEqual, {compute(Op::Cos, {angle}, Shape::Number), cosine});
+  ifElse(inside, block([&] { statement(*s.body[0]); }), {});
+}
+
+void Lowering::solar(const Stmt& s) {
+  const int32_t L = global(Global::L);
+  if (!s.exprs.empty()) {
+    const int32_t axis = value(*s.exprs[0]), angle = value(*s.exprs[1]);
+    copy(L, compute(Op::ConeLight, {axis, angle}));
+  }
+  statement(*s.body[0]);
+}
+
+}  // namespace tomales::compiler

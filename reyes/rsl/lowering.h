@@ -1,0 +1,129 @@
+// Private to the lowering (lower*.cpp).
+#pragma once
+#include <map>
+
+#include "reyes/rsl/builtins.h"
+#include "reyes/rsl/globals.h"
+#include "reyes/rsl/lower.h"
+
+namespace tomales::compiler {
+
+Shape shapeOf(const Type& type);
+
+/// The default of a text that is computed when the shader runs: no shader gives this one.
+constexpr const char* kTextNotGiven = "\x1bnot given";
+
+class Lowering {
+ public:
+  Lowering(Code& code, Messages& messages);
+  void shader(const Shader& s);
+
+ private:
+  // --- lower.cpp: registers and instructions
+  int32_t add(Register r);
+  int32_t temporary(Shape shape);
+  int32_t number(float value);
+  int32_t text(const std::string& value);
+  int32_t constant(Shape shape, std::vector<float> floats);
+  int32_t global(Global g);
+  int32_t variable(const Variable& v);  ///< A register of its own for it, which it stands for from now on.
+  Instruction& emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in);
+  /// An instruction with one result, of its signature's shape (of `shape` if that is `*`).
+  int32_t compute(Op op, std::vector<int32_t> in, Shape shape = Shape::Number);
+  void copy(int32_t to, int32_t from);        ///< For the points that are active.
+  void initialise(int32_t to, int32_t from);  ///< For all: nothing else has a value there yet.
+  /// `body` emits into a block of its own.
+  template <class Body>
+  Block block(const Body& body);
+  Shape shape(int32_t reg) const { return code_.registers[static_cast<size_t>(reg)].shape; }
+
+  // --- lower_shader.cpp: parameters, statements
+  void parameter(const Variable& v);
+  bool constantDefault(const Variable& v, Parameter& p);
+  void computedDefault(const Variable& v, int32_t reg);
+  void statement(const Stmt& s);
+  void declaration(const Variable& v);
+  void initialiseArray(const Variable& v, int32_t reg);
+  void ifElse(const Expr& condition, const Stmt* then, const Stmt* otherwise);
+  void ifElse(int32_t condition, Block then, Block otherwise);
+  void loop(const Expr* condition, const Stmt& body, const Expr* step);
+  void jump(const Stmt& s);
+  /// `body` within labels that `break` and `continue` of it may leave.
+  template <class Body>
+  void breakable(const Stmt& within, const Body& body);
+  int32_t condition(const Expr& e);
+
+  void illuminance(const Stmt& s);
+  void illuminate(const Stmt& s);
+  void solar(const Stmt& s);
+  void gather(const Stmt& s);
+
+  // --- lower_expressions.cpp
+  int32_t value(const Expr& e);
+  /// Likewise, as a type that may be another: a number stays one where a triple is wanted, since it counts for all
+  /// components; where a matrix is, it becomes one.
+  int32_t value(const Expr& e, const Type& wanted);
+  /// In order; values that a later expression may change are copied.
+  std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
+  int32_t name(const Expr& e);
+  int32_t element(const Expr& e);
+  int32_t tuple(const Expr& e);
+  int32_t binary(const Expr& e);
+  int32_t conditional(const Expr& e);
+  int32_t assign(const Expr& e);
+  int32_t cast(const Expr& e);
+  void store(const Expr& to, int32_t from);
+  /// The register that a call may write for `to`; `after` stores it where `to` is no plain variable.
+  int32_t target(const Expr& to, std::vector<std::pair<const Expr*, int32_t>>& after);
+
+  // --- lower_calls.cpp
+  int32_t call(const Expr& e);
+  int32_t inlined(const Expr& e, const Function& f);
+  int32_t builtin(const Expr& e, const Builtin& b);
+  std::vector<int32_t> arguments(const Expr& e, const Builtin& b, size_t count);
+  std::vector<Setting> settings(const std::vector<ExprPtr>& list, size_t from, std::string_view function,
+                                std::vector<std::pair<const Expr*, int32_t>>& after);
+  int32_t setComponent(const Expr& e, const Builtin& b);
+  int32_t spline(const Expr& e, const Builtin& b);
+  int32_t transform(const Expr& e, const Builtin& b);
+  int32_t withList(const Expr& e, const Builtin& b);
+  int32_t ask(const Expr& e, const Builtin& b);
+  int32_t normalOf(int32_t position);
+  // --- lower_pictures.cpp
+  int32_t texture(const Expr& e, const Builtin& b);
+  int32_t environment(const Expr& e, const Builtin& b);
+  int32_t shadow(const Expr& e, const Builtin& b);
+  /// The file, and the channel that stands in brackets behind it.
+  std::pair<int32_t, int32_t> picture(const Expr& e);
+
+  Code& code_;
+  Messages& messages_;
+  Block* block_;
+  int32_t depth_ = 0;  ///< Control structures around.
+  int instructions_ = 0;
+  std::map<const Variable*, int32_t> registers_;
+  std::map<float, int32_t> numbers_;
+  std::map<std::string, int32_t> texts_;
+  std::map<Global, int32_t> globals_;
+  struct LoopLabels {
+    int32_t leave, next;
+  };
+  std::vector<LoopLabels> loops_;
+  struct Inlined {
+    int32_t result = -1, label = -1;
+  };
+  std::vector<Inlined> functions_;
+  Place place_{};
+};
+
+template <class Body>
+Block Lowering::block(const Body& body) {
+  Block out;
+  Block* const outer = block_;
+  block_ = &out, ++depth_;
+  body();
+  block_ = outer, --depth_;
+  return out;
+}
+
+}  // namespace tomales::compiler

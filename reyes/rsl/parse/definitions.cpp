@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include "reyes/rsl/parse/parser.h"
+#include "reyes/rsl/quote.h"
+
+namespace tomales::compiler {
+namespace {
+
+constexpr int32_t kMostElements = 1 << 20;
+
+bool isSpecifier(std::string_view word) {
+  return word == "uniform" || word == "varying" || word == "extern" || word == "output";
+}
+
+/// The first sentence of a comment, without what draws its frame.
+std::string firstSentence(const std::string& comment) {
+  std::string out;
+  for (size_t i = 0; i < comment.size(); ++i) {
+    const char c = comment[i];
+    const bool isFrame = c == '/' || c == '*' || static_cast<unsigned char>(c) <= ' ';
+    if (!isFrame) out += c;
+    if (isFrame && !out.empty() && out.back() != ' ') out += ' ';
+    if (c == '.' && (i + 1 == comment.size() || static_cast<unsigned char>(comment[i + 1]) <= ' ')) break;
+  }
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+}  // namespace
+
+File Parser::run() {
+  File file;
+  try {
+    while (!atEnd()) {
+      const size_t before = at_;
+      try {
+        definition(file);
+      } catch (const Failed&) {
+        depth_ = 0;
+        if (at_ == before) ++at_;
+        skipDefinition();
+      }
+    }
+  } catch (const GaveUp&) {
+  }
+  return file;
+}
+
+void Parser::definition(File& file) {
+  const Token& t = here();
+  if (takeIf(";")) return;
+  if (isRsl2(true)) refuseRsl2(t, quoted(t.text));
+  const auto kind = t.kind == TokenKind::Name ? shaderKindNamed(t.text) : std::nullopt;
+  if (kind && here(1).kind == TokenKind::Name) {
+    take();
+    file.shaders.push_back(shader(*kind, t.comment ? firstSentence(*t.comment) : std::string()));
+  } else if (beginsSpecifiers() || isFunctionHere()) {
+    const Specifiers s = specifiers();
+    if (!(here().kind == TokenKind::Name && here(1).is("("))) fail("expected the name of a function and '('");
+    file.functions.push_back(function(s));
+  } else {
+    failNoDefinition();
+  }
+}
+
+void Parser::failNoDefinition() {
+  if (here().kind == TokenKind::Name && shaderKindNamed(here().text)) {
+    take();
+    fail("expected the name of a shader");
+  }
+  static const std::vector<std::string> kKnown{"surface",        "light",  "displacement", "volume", "imager",
+                                               "transformation", "float",  "color",        "point",  "vector",
+                                               "normal",         "matrix", "string",       "void"};
+  fail("expected a shader or a function", kKnown);
+}
+
+std::unique_ptr<Shader> Parser::shader(ShaderKind kind, std::string doc) {
+  auto out = std::make_unique<Shader>();
+  out->kind = kind;
+  out->doc = std::move(doc);
+  const Token& word = take();
+  out->name = word.text;
+  out->place = word.place;
+  parameters(out->parameters);
+  out->body = block();
+  return out;
+}
+
+std::unique_ptr<Function> Parser::function(const Specifiers& s) {
+  const Level level(*this);
+  auto out = std::make_unique<Function>();
+  const Token& word = take();
+  out->name = word.text;
+  out->place = word.place;
+  out->result = s.type;
+  parameters(out->parameters);
+  out->body = block();
+  return out;
+}
+
+bool Parser::beginsSpecifiers() const {
+  const Token& t = here();
+  if (t.kind != TokenKind::Name) return false;
+  if (isSpecifier(t.text)) return here(1).kind == TokenKind::Name;
+  if (!baseNamed(t.text) || here(1).kind != TokenKind::Name) return false;
+  // "float f(x);" is a cast of a call, "float f(x) {" a function.
+  return !here(2).is("(") || tokens_[behindBracket(at_ + 2)].is("{");
+}
+
+/// "f(float x) {" or "f() {": a function without a written type.
+bool Parser::isFunctionHere() const {
+  if (here().kind != TokenKind::Name || !here(1).is("(")) return false;
+  const Token& first = here(2);
+  const bool isParameter = first.kind == TokenKind::Name && (isSpecifier(first.text) || baseNamed(first.text));
+  return (isParameter || first.is(")")) && tokens_[behindBracket(at_ + 1)].is("{");
+}
+
+Parser::Specifiers Parser::specifiers() {
+  Specifiers s;
+  for (;; s.any = true) {
+    const Token& t = here();
+    if (t.kind != TokenKind::Name || here(1).is("(")) return s;
+    if (t.text == "uniform" || t.text == "varying") {
+      s.detail = t.text == "uniform" ? Detail::Uniform : Detail::Varying;
+    } else if (t.text == "output") {
+      s.output = true;
+    } else if (t.text == "extern") {
+      s.isExtern = true;
+    } else if (const auto base = baseNamed(t.text); base && !s.hasType) {
+      s.type.base = *base;
+      s.hasType = true;
+    } else {
+      return s;
+    }
+    take();
+  }
+}
+
+/// ( [output] [detail] type name [= value] {, name ...} {; ...} )
+void Parser::parameters(std::vector<std::unique_ptr<Variable>>& out) {
+  if (!here().is("(")) fail("expected '('");
+  static const std::vector<std::string> kTypes{"float",  "color",  "point",   "vector",  "normal",
+                                               "matrix", "string", "uniform", "varying", "output"};
+  const Token& open = take();
+  Specifiers s;
+  while (!here().is(")")) {
+    if (takeIf(";") || takeIf(",")) continue;
+    if (const Specifiers own = specifiers(); own.any) s = own;
+    if (!s.hasType) fail("expected the type of a parameter", kTypes);
+    out.push_back(variable(s));
+    if (!here().is(";") && !here().is(",")) break;
+  }
+  expectClosing(")", open);
+}
+
+std::unique_ptr<Variable> Parser::variable(const Specifiers& s) {
+  if (!s.hasType) fail("expected a type");
+  auto out = std::make_unique<Variable>();
+  const Token& word = expectName("a name");
+  out->name = word.text;
+  out->place = word.place;
+  out->type = s.type;
+  out->detail = s.detail;
+  out->output = s.output;
+  out->isExtern = s.isExtern;
+  if (here().is("[")) out->type.length = arrayLength();
+  if (takeIf("=")) out->initial = assignment();
+  return out;
+}
+
+int32_t Parser::arrayLength() {
+  const Token& open = take();
+  int32_t length = kOpenArray;
+  if (!here().is("]")) {
+    const Token& t = here();
+    if (t.kind != TokenKind::Number) fail("expected the length of the array, a number,");
+    take();
+    if (!(t.number >= 1 && t.number <= static_cast<float>(kMostElements) &&
+          t.number == static_cast<float>(static_cast<int32_t>(t.number))))
+      failAt(t, fmt::format("the length of an array is a whole number from 1 to {}", kMostElements));
+    length = static_cast<int32_t>(t.number);
+  }
+  expectClosing("]", open);
+  return length;
+}
+
+File parse(const std::vector<Token>& tokens, Messages& messages) {
+  static const std::vector<Token> kNone(1);
+  return Parser(tokens.empty() ? kNone : tokens, messages).run();
+}
+
+}  // namespace tomales::compiler

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reyes/rsl/parse/parser.h"
+
+namespace tomales::compiler {
+namespace {
+
+struct Operator {
+  std::string_view text;
+  int level;
+};
+/// RISpec 3.2 appendix B: what stands higher here binds less. Unary operators and casts bind tighter than all.
+constexpr Operator kOperators[] = {{"||", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<", 4}, {"<=", 4}, {">", 4},
+                                   {">=", 4}, {"+", 5},  {"-", 5},  {"^", 6},  {"*", 7}, {"/", 7},  {".", 8}};
+
+const Operator* operatorOf(const Token& t) {
+  if (t.kind != TokenKind::Punctuator) return nullptr;
+  const auto* found = std::ranges::find(kOperators, t.text, &Operator::text);
+  return found == std::end(kOperators) ? nullptr : found;
+}
+
+bool isAssignment(const Token& t) {
+  constexpr std::string_view kAll[] = {"=", "+=", "-=", "*=", "/=", "^=", ".="};
+  return t.kind == TokenKind::Punctuator && std::ranges::find(kAll, t.text) != std::end(kAll);
+}
+
+bool hasSpaces(Base base) { return base >= Base::Color && base <= Base::Matrix; }
+
+bool beginsOperand(const Token& t) {
+  return t.kind == TokenKind::Name || t.kind == TokenKind::Number || t.kind == TokenKind::String || t.is("(") ||
+         t.is("-") || t.is("+") || t.is("!") || t.is("{");
+}
+
+}  // namespace
+
+ExprPtr Parser::make(ExprKind kind, const Token& token) const {
+  auto e = std::make_unique<Expr>();
+  e->kind = kind;
+  e->place = token.place;
+  e->length = static_cast<int32_t>(token.text.size()) + (token.kind == TokenKind::String ? 2 : 0);
+  e->text = token.text;
+  return e;
+}
+
+void Parser::adopt(Expr& parent, ExprPtr child) {
+  parent.height = std::max(parent.height, child->height + 1);
+  if (parent.height > kMostHeight) {
+    messages_.error(parent.place, fmt::format("this expression has more than {} levels of operators", kMostHeight),
+                    parent.length);
+    throw GaveUp{};
+  }
+  parent.args.push_back(std::move(child));
+}
+
+ExprPtr Parser::expression() {
+  ExprPtr first = assignment();
+  if (!here().is(",")) return first;
+  ExprPtr all = make(ExprKind::Comma, here());
+  adopt(*all, std::move(first));
+  while (takeIf(",")) adopt(*all, assignment());
+  return all;
+}
+
+ExprPtr Parser::assignment() {
+  ExprPtr left = conditional();
+  if (!isAssignment(here())) return left;
+  if (left->kind != ExprKind::Name && left->kind != ExprKind::Index)
+    failAt(here(), "only a variable or an element of an array can be assigned");
+  const Level level(*this);
+  ExprPtr out = make(ExprKind::Assign, take());
+  adopt(*out, std::move(left));
+  adopt(*out, assignment());
+  return out;
+}
+
+ExprPtr Parser::conditional() {
+  ExprPtr condition = binary(1);
+  if (!here().is("?")) return condition;
+  const Level level(*this);
+  const Token& question = take();
+  ExprPtr out = make(ExprKind::Conditional, question);
+  adopt(*out, std::move(condition));
+  adopt(*out, assignment());
+  expectClosing(":", question);
+  adopt(*out, assignment());
+  return out;
+}
+
+ExprPtr Parser::binary(int lowest) {
+  ExprPtr left = unary();
+  for (const Operator* o = operatorOf(here()); o && o->level >= lowest; o = operatorOf(here())) {
+    ExprPtr out = make(ExprKind::Binary, take());
+    adopt(*out, std::move(left));
+    adopt(*out, binary(o->level + 1));
+    left = std::move(out);
+  }
+  return left;
+}
+
+ExprPtr Parser::unary() {
+  const Level level(*this);
+  if (here().is("-") || here().is("!") || here().is("+")) {
+    ExprPtr out = make(ExprKind::Unary, take());
+    adopt(*out, unary());
+    return out;
+  }
+  if (here().kind == TokenKind::Name && baseNamed(here().text)) return cast();
+  return postfix();
+}
+
+ExprPtr Parser::cast() {
+  ExprPtr out = make(ExprKind::Cast, here());
+  out->written.base = *baseNamed(take().text);
+  out->text.clear();
+  if (hasSpaces(out->written.base) && here().kind == TokenKind::String && beginsOperand(here(1))) {
+    out->text = take().text;
+    out->hasSpace = true;
+  }
+  adopt(*out, unary());
+  return out;
+}
+
+ExprPtr Parser::postfix() {
+  ExprPtr out = primary();
+  while (here().is("[")) {
+    const Token& open = take();
+    ExprPtr element = make(ExprKind::Index, open);
+    adopt(*element, std::move(out));
+    adopt(*element, expression());
+    expectClosing("]", open);
+    out = std::move(element);
+  }
+  return out;
+}
+
+ExprPtr Parser::primary() {
+  const Token& t = here();
+  switch (t.kind) {
+    case TokenKind::Number: {
+      ExprPtr out = make(ExprKind::Number, take());
+      out->number = t.number;
+      return out;
+    }
+    case TokenKind::String:
+      return make(ExprKind::String, take());
+    case TokenKind::Name:
+      return here(1).is("(") ? call() : make(ExprKind::Name, take());
+    default:
+      if (t.is("(")) return inBrackets();
+      if (t.is("{")) return arrayValue();
+      fail("expected an expression");
+  }
+}
+
+ExprPtr Parser::call() {
+  ExprPtr out = make(ExprKind::Call, take());
+  const Token& open = take();
+  std::vector<ExprPtr> args;
+  if (!here().is(")")) list(args);
+  expectClosing(")", open);
+  for (ExprPtr& arg : args) adopt(*out, std::move(arg));
+  return out;
+}
+
+void Parser::list(std::vector<ExprPtr>& out) {
+  do {
+    out.push_back(assignment());
+  } while (takeIf(","));
+}
+
+/// (expression), or a triple, or the 16 elements of a matrix.
+ExprPtr Parser::inBrackets() {
+  const Token& open = take();
+  std::vector<ExprPtr> values;
+  list(values);
+  expectClosing(")", open);
+  if (values.size() == 1) return std::move(values[0]);
+  if (values.size() != 3 && values.size() != 16)
+    failAt(open, fmt::format("{} values in brackets; a triple has 3, and a matrix 16", values.size()));
+  ExprPtr out = make(ExprKind::Tuple, open);
+  for (ExprPtr& value : values) adopt(*out, std::move(value));
+  return out;
+}
+
+ExprPtr Parser::arrayValue() {
+  const Token& open = take();
+  ExprPtr out = make(ExprKind::Tuple, open);
+  while (!here().is("}")) {
+    adopt(*out, assignment());
+    if (!takeIf(",")) break;
+  }
+  expectClosing("}", open);
+  return out;
+}
+
+}  // namespace tomales::compiler

@@ -1,0 +1,17 @@
+#include "reyes/rsl/passes/passes.h"
+
+namespace tomales::compiler {
+
+void optimise(Code& code, const std::vector<bool>& varying, Messages& messages) {
+  foldConstants(code);
+  removeUnused(code);
+  inferDetail(code, varying, messages);
+  deriveSteps(code);
+  foldConstants(code);
+  shareExpressions(code);
+  removeUnused(code);
+  findCapabilities(code);
+  allocateSlots(code);
+}
+
+}  // namespace tomales::compiler

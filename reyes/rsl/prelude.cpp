@@ -1,0 +1,93 @@
+// Built-in functions that are best said in RSL: what they do is what stands here. They are inlined as all functions
+// are, so they cost what their text costs. Names that begin with two underscores are known here alone by intention.
+#include "reyes/rsl/checker.h"
+#include "reyes/rsl/parse.h"
+
+namespace tomales::compiler {
+namespace {
+
+constexpr const char* kText = R"RSL(
+float radians(float degrees) { return degrees * (PI / 180); }
+float degrees(float radians) { return radians * (180 / PI); }
+float log(float x, base) { return log(x) / log(base); }
+float distance(point a, b) { return length(a - b); }
+float depth(point p) { return (zcomp(p) - __near) / (__far - __near); }
+
+/* The width that a value covers across one micropolygon. */
+float __width(float x) { return abs(__stepu(x)) + abs(__stepv(x)); }
+float filterstep(float edge, x) { return __boxstep(edge, x, __width(x)); }
+float filterstep(float edge, x1, x2) { return __boxstep(edge, 0.5 * (x1 + x2), abs(x2 - x1)); }
+float filterstep(float edge, x; string name; float value) {
+  return __boxstep(edge, x, name == "width" ? value * __width(x) : __width(x));
+}
+float filterstep(float edge, x; string name, value) { return filterstep(edge, x); }
+float filterstep(float edge, x1, x2; string name; float value) {
+  return __boxstep(edge, 0.5 * (x1 + x2), name == "width" ? value * abs(x2 - x1) : abs(x2 - x1));
+}
+float filterstep(float edge, x1, x2; string name, value) { return filterstep(edge, x1, x2); }
+float filterstep(float edge, x; string name1, value1, name2; float value2) { return filterstep(edge, x, name2, value2); }
+float filterstep(float edge, x; string name1; float value1; string name2, value2) {
+  return filterstep(edge, x, name1, value1);
+}
+
+/* The area of a micropolygon whose points were at p. */
+float area(point p) { return length(__stepu(p) ^ __stepv(p)); }
+float area(point p; string strategy) { return area(p); }
+float Deriv(float x, by) { return Du(x) / Du(by) + Dv(x) / Dv(by); }
+color Deriv(color x; float by) { return Du(x) / Du(by) + Dv(x) / Dv(by); }
+vector Deriv(point x; float by) { return Du(x) / Du(by) + Dv(x) / Dv(by); }
+
+vector faceforward(vector n, i) { return faceforward(n, i, Ng); }
+void fresnel(vector i, n; float eta; output float Kr, Kt) {
+  Kr = __reflected(i, n, eta);
+  Kt = 1 - Kr;
+}
+void fresnel(vector i, n; float eta; output float Kr, Kt; output vector r, t) {
+  fresnel(i, n, eta, Kr, Kt);
+  r = reflect(i, n);
+  t = refract(i, n, eta);
+}
+
+float specularbrdf(vector l; normal n; vector v; float roughness) {
+  return pow(max(0, normalize(n) . normalize(normalize(l) + normalize(v))), __specularscale() / roughness);
+}
+color phong(normal n; vector v; float size) {
+  color sum = 0;
+  float wanted = 1;
+  rayinfo("highlights", wanted);
+  if (wanted != 0) {
+    normal unit = normalize(n);
+    vector r = reflect(-normalize(v), unit);
+    illuminance (P, unit, PI / 2) {
+      float left = 0;
+      lightsource("__nonspecular", left);
+      if (left == 0) sum += Cl * pow(max(0, r . normalize(L)), size);
+    }
+  }
+  return sum;
+}
+
+float raydepth() { float d = 0; rayinfo("depth", d); return d; }
+float isshadowray() { string kind = ""; rayinfo("type", kind); return kind == "transmission"; }
+float isindirectray() { string kind = ""; rayinfo("type", kind); return kind == "diffuse"; }
+/* Outputs that nobody wants cost nothing here. */
+float isoutput(string name) { return 1; }
+)RSL";
+
+Checked readPrelude() {
+  Sources sources;
+  Messages messages;
+  File file = parse(preprocessText("prelude", kText, {}, sources, messages), messages);
+  Checked out{std::move(file), {}};
+  Checker(out.globals, nullptr, messages).file(out.file);
+  return out;
+}
+
+}  // namespace
+
+const Checked& prelude() {
+  static const Checked text = readPrelude();
+  return text;
+}
+
+}  // namespace tomales::compiler

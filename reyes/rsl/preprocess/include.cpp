@@ -1,0 +1,95 @@
+#include "reyes/rsl/preprocess/include.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace tomales::compiler {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The path without symbolic links and ".."; empty: there is no such thing.
+std::string realPath(const std::string& path) {
+  std::error_code error;
+  const fs::path real = fs::canonical(path, error);
+  return error ? std::string() : real.string();
+}
+
+/// Ends of lines as of Unix: "\r\n" of DOS and "\r" of the old Macintosh are one '\n'.
+void plainLineEnds(std::string& text) {
+  if (text.find('\r') == std::string::npos) return;
+  size_t to = 0;
+  for (size_t from = 0; from < text.size(); ++from) {
+    const bool isPair = text[from] == '\r' && from + 1 < text.size() && text[from + 1] == '\n';
+    if (!isPair) text[to++] = text[from] == '\r' ? '\n' : text[from];
+  }
+  text.resize(to);
+}
+
+}  // namespace
+
+std::string folderOf(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+ReadFile readFile(const std::string& path) {
+  ReadFile out{path, {}, {}};
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    out.failure = "there is no such file";
+  } else if (!fs::is_regular_file(status)) {
+    out.failure = "it is not a plain file";
+  } else {
+    std::ifstream in(path, std::ios::binary);
+    out.text.resize(std::min<uintmax_t>(fs::file_size(path, error), kMostFileBytes + 1));
+    in.read(out.text.data(), static_cast<std::streamsize>(out.text.size()));
+    if (error || !in) out.failure = "it cannot be read";
+    if (out.text.size() > kMostFileBytes) out.failure = fmt::format("it is larger than {} MiB", kMostFileBytes >> 20);
+  }
+  if (!out.failure.empty()) out.text.clear();
+  plainLineEnds(out.text);
+  return out;
+}
+
+ReadFile asFile(const std::string& name, std::string text) {
+  ReadFile out{name, std::move(text), {}};
+  plainLineEnds(out.text);
+  return out;
+}
+
+IncludeSearch::IncludeSearch(const PreprocessOptions& options, const std::string& ownFolder)
+    : folders_(options.includeFolders) {
+  if (!options.standardFolder.empty()) folders_.push_back(options.standardFolder);
+  for (const std::string& folder : folders_) permitted_.push_back(realPath(folder));
+  if (!ownFolder.empty()) permitted_.push_back(realPath(ownFolder));
+  std::erase(permitted_, std::string());
+}
+
+bool IncludeSearch::isPermitted(const std::string& path) const {
+  return std::ranges::any_of(permitted_, [&](const std::string& folder) {
+    return path.starts_with(folder) && (folder.back() == '/' || path[folder.size()] == '/');
+  });
+}
+
+ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::string& fromFolder) const {
+  std::string wanted(name);
+  std::ranges::replace(wanted, '\\', '/');
+  std::vector<std::string> folders = folders_;
+  if (isQuoted && !fromFolder.empty()) folders.insert(folders.begin(), fromFolder);
+  ReadFile out{wanted, {}, "there is no such file beside the file or in the folders for headers"};
+  for (const std::string& folder : folders) {
+    const std::string path = wanted.starts_with('/') ? wanted : folder == "." ? wanted : folder + "/" + wanted;
+    const std::string real = realPath(path);
+    if (real.empty()) continue;
+    if (isPermitted(real)) return readFile(path);
+    out.failure = "it is outside of the folders from which files may be included";
+  }
+  return out;
+}
+
+}  // namespace tomales::compiler

@@ -1,0 +1,106 @@
+#include "reyes/rsl/program.h"
+
+#include "reyes/rsl/lower.h"
+#include "reyes/rsl/machine/machine.h"
+#include "reyes/rsl/passes/passes.h"
+#include "reyes/rsl/passes/walk.h"
+
+namespace tomales::compiler {
+namespace {
+
+TmKind kindOf(ShaderKind kind) {
+  switch (kind) {
+    case ShaderKind::Surface:
+      return TM_SURFACE;
+    case ShaderKind::Light:
+      return TM_LIGHT;
+    case ShaderKind::Volume:
+      return TM_VOLUME;
+    case ShaderKind::Imager:
+      return TM_IMAGER;
+    default:
+      return TM_DISPLACEMENT;
+  }
+}
+
+int32_t typeOf(const Parameter& p) {
+  static constexpr int32_t kTypes[] = {TM_FLOAT,  TM_FLOAT,  TM_COLOR,  TM_POINT,
+                                       TM_VECTOR, TM_NORMAL, TM_MATRIX, TM_STRING};
+  int32_t type = kTypes[static_cast<size_t>(p.type.base)];
+  if (p.output) type |= TM_OUTPUT;
+  if (p.detail == Detail::Uniform && !p.output) type |= TM_UNIFORM;
+  return type;
+}
+
+/// A light's shadow maps, which the host wants to know of: the parameters that its shadow() reads.
+std::vector<bool> shadowMaps(const Code& code) {
+  std::vector<bool> out(code.parameters.size(), false);
+  if (code.kind != ShaderKind::Light) return out;
+  forEach(code.body, [&](const Instruction& i) {
+    if (i.op != Op::Shadow) return;
+    const Register& name = code.registers[static_cast<size_t>(i.in[0])];
+    if (name.origin == Origin::Parameter && name.length == 0) out[static_cast<size_t>(name.index)] = true;
+  });
+  return out;
+}
+
+}  // namespace
+
+ProgramShader::ProgramShader(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages)
+    : lowered_(lower(checked, shader, messages)) {
+  lowered_.path = path;
+  if (messages.hasErrors()) {
+    uniform_ = std::make_unique<Code>();
+    return;
+  }
+  auto code = std::make_unique<Code>(lowered_);
+  optimise(*code, std::vector<bool>(lowered_.parameters.size(), false), messages);
+  uniform_ = std::move(code);
+  declareParameters();
+  TmShader& host = host_.shader;
+  host_.program = this;
+  host.abi = TM_SHADER_ABI, host.structBytes = sizeof host;
+  host.kind = kindOf(uniform_->kind), host.capabilities = uniform_->capabilities;
+  host.paramCount = static_cast<int32_t>(params_.size()), host.paramBytes = sizeof(TmParamDecl);
+  host.params = params_.data();
+  host.shade = shade, host.name = lowered_.name.c_str(), host.doc = lowered_.doc.c_str();
+}
+
+void ProgramShader::declareParameters() {
+  const std::vector<bool> maps = shadowMaps(*uniform_);
+  strings_.reserve(lowered_.parameters.size());
+  for (size_t k = 0; k < lowered_.parameters.size(); ++k) {
+    const Parameter& p = lowered_.parameters[k];
+    std::vector<const char*>& texts = strings_.emplace_back();
+    for (const std::string& text : p.texts) texts.push_back(text.c_str());
+    params_.push_back({p.name.c_str(), typeOf(p), std::max(1, p.type.length), p.floats.data(), texts.data(), "",
+                       maps[k] ? TM_ROLE_SHADOW_MAP : TM_ROLE_NONE});
+  }
+}
+
+const Code& ProgramShader::codeFor(const TmGrid& grid) const {
+  std::vector<bool> varying;
+  for (size_t k = 0; k < params_.size(); ++k) {
+    if (grid.params[k].step == 0 || lowered_.parameters[k].output) continue;
+    varying.resize(params_.size(), false);
+    varying[k] = true;
+  }
+  if (varying.empty()) return *uniform_;
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<const Code>& code = others_[varying];
+  if (!code) {
+    auto made = std::make_unique<Code>(lowered_);
+    Messages told;  // what there is to say has been said of the first code
+    optimise(*made, varying, told);
+    code = std::move(made);
+  }
+  return *code;
+}
+
+void ProgramShader::shade(const TmGrid* grid) {
+  if (grid->count == 0) return;
+  const ProgramShader* program = reinterpret_cast<const Hosted*>(grid->shader)->program;
+  run(program->codeFor(*grid), *grid);
+}
+
+}  // namespace tomales::compiler

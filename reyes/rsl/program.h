@@ -1,0 +1,45 @@
+// A shader of a .sl file as the host sees it, and its code, which is made for each set of parameters that primitive
+// variables give: what does not vary is computed once for a batch.
+// Threads: shade() is called by many.
+#pragma once
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "reyes/rsl/check.h"
+#include "reyes/rsl/code.h"
+#include "reyes/shader_api.h"
+
+namespace tomales::compiler {
+
+class ProgramShader {
+ public:
+  /// Lowers the shader once, with all parameters uniform; errors go to `messages`.
+  ProgramShader(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages);
+  ProgramShader(const ProgramShader&) = delete;
+
+  /// Null: the host has no shaders of this kind.
+  const TmShader* host() const { return code().kind == ShaderKind::Transformation ? nullptr : &host_.shader; }
+  const Code& code() const { return *uniform_; }
+  const Code& lowered() const { return lowered_; }
+
+ private:
+  static void shade(const TmGrid* grid);
+  const Code& codeFor(const TmGrid& grid) const;
+  void declareParameters();
+
+  Code lowered_;
+  std::unique_ptr<const Code> uniform_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::vector<bool>, std::unique_ptr<const Code>> others_;  ///< By the parameters that vary.
+  mutable std::atomic<bool> hasOthers_ = false;
+  std::vector<TmParamDecl> params_;
+  std::vector<std::vector<const char*>> strings_;
+  struct Hosted {
+    TmShader shader{};
+    const ProgramShader* program = nullptr;
+  } host_;  ///< The host knows its beginning, and gives it back to shade().
+};
+
+}  // namespace tomales::compiler

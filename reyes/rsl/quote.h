@@ -1,0 +1,11 @@
+// Strangers' words in messages.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace tomales::compiler {
+
+/// 'text', shortened and without bytes that a terminal would obey.
+std::string quoted(std::string_view text);
+
+}  // namespace tomales::compiler
