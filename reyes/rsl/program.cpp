@@ -50,24 +50,24 @@ ProgramShader::ProgramShader(const Checked& checked, const Shader& shader, const
     : lowered_(lower(checked, shader, messages)) {
   lowered_.path = path;
   if (messages.hasErrors()) {
-    uniform_ = std::make_unique<Code>();
+    uniform_ = std::make_unique<const Program>(Code());
     return;
   }
-  auto code = std::make_unique<Code>(lowered_);
-  optimise(*code, std::vector<bool>(lowered_.parameters.size(), false), messages);
-  uniform_ = std::move(code);
+  Code made = lowered_;
+  optimise(made, std::vector<bool>(lowered_.parameters.size(), false), messages);
+  uniform_ = std::make_unique<const Program>(std::move(made));
   declareParameters();
   TmShader& host = host_.shader;
   host_.program = this;
   host.abi = TM_SHADER_ABI, host.structBytes = sizeof host;
-  host.kind = kindOf(uniform_->kind), host.capabilities = uniform_->capabilities;
+  host.kind = kindOf(code().kind), host.capabilities = code().capabilities;
   host.paramCount = static_cast<int32_t>(params_.size()), host.paramBytes = sizeof(TmParamDecl);
   host.params = params_.data();
   host.shade = shade, host.name = lowered_.name.c_str(), host.doc = lowered_.doc.c_str();
 }
 
 void ProgramShader::declareParameters() {
-  const std::vector<bool> maps = shadowMaps(*uniform_);
+  const std::vector<bool> maps = shadowMaps(code());
   strings_.reserve(lowered_.parameters.size());
   for (size_t k = 0; k < lowered_.parameters.size(); ++k) {
     const Parameter& p = lowered_.parameters[k];
@@ -78,7 +78,7 @@ void ProgramShader::declareParameters() {
   }
 }
 
-const Code& ProgramShader::codeFor(const TmGrid& grid) const {
+const Program& ProgramShader::programFor(const TmGrid& grid) const {
   std::vector<bool> varying;
   for (size_t k = 0; k < params_.size(); ++k) {
     if (grid.params[k].step == 0 || lowered_.parameters[k].output) continue;
@@ -87,20 +87,20 @@ const Code& ProgramShader::codeFor(const TmGrid& grid) const {
   }
   if (varying.empty()) return *uniform_;
   const std::lock_guard lock(mutex_);
-  std::unique_ptr<const Code>& code = others_[varying];
-  if (!code) {
-    auto made = std::make_unique<Code>(lowered_);
+  std::unique_ptr<const Program>& program = others_[varying];
+  if (!program) {
+    Code made = lowered_;
     Messages told;  // what there is to say has been said of the first code
-    optimise(*made, varying, told);
-    code = std::move(made);
+    optimise(made, varying, told);
+    program = std::make_unique<const Program>(std::move(made));
   }
-  return *code;
+  return *program;
 }
 
 void ProgramShader::shade(const TmGrid* grid) {
   if (grid->count == 0) return;
   const ProgramShader* program = reinterpret_cast<const Hosted*>(grid->shader)->program;
-  run(program->codeFor(*grid), *grid);
+  run(program->programFor(*grid), *grid);
 }
 
 }  // namespace tomales::compiler

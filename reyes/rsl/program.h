@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "reyes/rsl/check.h"
-#include "reyes/rsl/code.h"
+#include "reyes/rsl/machine/program.h"
 #include "reyes/shader_api.h"
 
 namespace tomales::compiler {
@@ -21,18 +21,18 @@ class ProgramShader {
 
   /// Null: the host has no shaders of this kind.
   const TmShader* host() const { return code().kind == ShaderKind::Transformation ? nullptr : &host_.shader; }
-  const Code& code() const { return *uniform_; }
+  const Code& code() const { return uniform_->code(); }
   const Code& lowered() const { return lowered_; }
 
  private:
   static void shade(const TmGrid* grid);
-  const Code& codeFor(const TmGrid& grid) const;
+  const Program& programFor(const TmGrid& grid) const;
   void declareParameters();
 
   Code lowered_;
-  std::unique_ptr<const Code> uniform_;
+  std::unique_ptr<const Program> uniform_;
   mutable std::mutex mutex_;
-  mutable std::map<std::vector<bool>, std::unique_ptr<const Code>> others_;  ///< By the parameters that vary.
+  mutable std::map<std::vector<bool>, std::unique_ptr<const Program>> others_;  ///< By the parameters that vary.
   mutable std::atomic<bool> hasOthers_ = false;
   std::vector<TmParamDecl> params_;
   std::vector<std::vector<const char*>> strings_;
