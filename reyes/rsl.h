@@ -37,6 +37,8 @@ class RslFile {
   const std::string& messages() const;
   int errors() const;
   int warnings() const;
+  /// Functions that a shader calls and nobody has: it runs, with substitutes.
+  int missing() const;
   /// The first error, in one line: "file:line:column: text"; empty: none.
   std::string firstError() const;
   /// The file itself, and all that it includes.

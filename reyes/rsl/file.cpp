@@ -52,6 +52,8 @@ const TmShaderLibrary* RslFile::library() const { return &impl_->library; }
 const std::string& RslFile::messages() const { return impl_->rendered; }
 int RslFile::errors() const { return impl_->messages.errorCount(); }
 
+int RslFile::missing() const { return impl_->messages.missingCount(); }
+
 int RslFile::warnings() const {
   int n = 0;
   for (const Message& m : impl_->messages.all()) n += m.severity == Severity::Warning;

@@ -20,7 +20,7 @@ namespace tomales::compiler {
   G(dPdtime, Vector, false, "SLDV", "") G(time, Float, true, "SLDVI", "") G(dtime, Float, true, "SLDVI", "") \
   G(ncomps, Float, true, "SLDVI", "") G(Ci, Color, false, "SVI", "SVI")  G(Oi, Color, false, "SVI", "SVI") \
   G(L, Vector, false, "SLV", "L")     G(Cl, Color, false, "SLV", "L")    G(Ol, Color, false, "SLV", "L")  \
-  G(Ps, Point, false, "L", "")        G(Ns, Normal, false, "L", "")      G(alpha, Float, false, "I", "I") \
+  G(Ps, Point, false, "SLV", "")        G(Ns, Normal, false, "L", "")      G(alpha, Float, false, "I", "I") \
   /* not of RISpec: depths of the clipping planes, for depth() */                                         \
   G(__near, Float, true, "SLDVI", "") G(__far, Float, true, "SLDVI", "")
 // clang-format on

@@ -78,6 +78,11 @@ void Messages::error(Place place, std::string text, int32_t length) {
   add(Severity::Error, place, std::move(text), length);
 }
 
+void Messages::missing(Place place, std::string text, int32_t length) {
+  ++missing_;
+  warning(place, std::move(text), length);
+}
+
 void Messages::warning(Place place, std::string text, int32_t length) {
   ++warnings_;
   add(Severity::Warning, place, std::move(text), length);
