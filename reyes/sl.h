@@ -122,9 +122,7 @@ struct Lit : Globals {
     while (grid()->call->illuminance(grid()->host, grid(), &query))
       sl::where(query.lit, true, [&] {
         L = Vector(query.L), Cl = Color(query.Cl), lightNumber = query.light;
-        for (const LightList::Wanted& w : list.wanted)
-          w.number ? lightsource(lightNumber, w.name.c_str(), *w.number)
-                   : lightsource(lightNumber, w.name.c_str(), *w.triple);
+        for (const LightList::Wanted& w : list.wanted) lightsource(lightNumber, w.name.c_str(), w.into.fills);
         body();
       });
   }

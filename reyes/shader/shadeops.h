@@ -172,20 +172,41 @@ inline Color yiqFromRgb(Color c) {
 inline Color rgbFromYiq(Color c) {
   return {dot(c, {1, 0.9563f, 0.6210f}), dot(c, {1, -0.2721f, -0.6474f}), dot(c, {1, -1.1070f, 1.7046f})};
 }
-/// Between rgb, hsv, hsl, YIQ, xyz and xyY; a space of another name is taken for rgb.
-inline Color ctransform(const std::string& from, const std::string& to, Color c) {
+enum class ColorSpace { Rgb, Hsv, Hsl, Yiq, Xyz, XyY };
+/// A space of another name is taken for rgb.
+inline ColorSpace colorSpaceOf(const std::string& name) {
+  return name == "hsv"                    ? ColorSpace::Hsv
+         : name == "hsl"                  ? ColorSpace::Hsl
+         : name == "YIQ"                  ? ColorSpace::Yiq
+         : name == "xyz" || name == "XYZ" ? ColorSpace::Xyz
+         : name == "xyY"                  ? ColorSpace::XyY
+                                          : ColorSpace::Rgb;
+}
+inline Color ctransform(ColorSpace from, ColorSpace to, Color c) {
   if (from == to) return c;
-  if (from == "hsv") c = rgbFromHsv(c);
-  if (from == "hsl") c = rgbFromHsl(c);
-  if (from == "YIQ") c = rgbFromYiq(c);
-  if (from == "xyz" || from == "XYZ") c = rgbFromXyz(c);
-  if (from == "xyY") c = rgbFromXyz(xyzFromXyY(c));
-  if (to == "hsv") return hsvFromRgb(c);
-  if (to == "hsl") return hslFromRgb(c);
-  if (to == "YIQ") return yiqFromRgb(c);
-  if (to == "xyz" || to == "XYZ") return xyzFromRgb(c);
-  if (to == "xyY") return xyYFromXyz(xyzFromRgb(c));
-  return c;
+  if (from == ColorSpace::Hsv) c = rgbFromHsv(c);
+  if (from == ColorSpace::Hsl) c = rgbFromHsl(c);
+  if (from == ColorSpace::Yiq) c = rgbFromYiq(c);
+  if (from == ColorSpace::Xyz) c = rgbFromXyz(c);
+  if (from == ColorSpace::XyY) c = rgbFromXyz(xyzFromXyY(c));
+  switch (to) {
+    case ColorSpace::Hsv:
+      return hsvFromRgb(c);
+    case ColorSpace::Hsl:
+      return hslFromRgb(c);
+    case ColorSpace::Yiq:
+      return yiqFromRgb(c);
+    case ColorSpace::Xyz:
+      return xyzFromRgb(c);
+    case ColorSpace::XyY:
+      return xyYFromXyz(xyzFromRgb(c));
+    default:
+      return c;
+  }
+}
+/// Between rgb, hsv, hsl, YIQ, xyz and xyY.
+inline Color ctransform(const std::string& from, const std::string& to, Color c) {
+  return ctransform(colorSpaceOf(from), colorSpaceOf(to), c);
 }
 
 }  // namespace rsl

@@ -103,20 +103,18 @@ inline bool askFor(TmWhom whom, int light, const char* name, int first, int last
 }
 /// A value of another shader, of the attributes, ... False, and `out` as it was, where there is none of that name and
 /// type.
-inline bool ask(TmWhom whom, const char* name, Float& out, int light = -1) {
+inline bool ask(TmWhom whom, const char* name, TmVec3 out, int light = -1) {
   TmValue v;
-  if (!askFor(whom, light, name, TM_FLOAT, TM_FLOAT, v)) return false;
-  out = Float::of([&](int i) { return v.c[0][v.step * std::min(i, grid()->count - 1)]; });
+  if (!askFor(whom, light, name, out.y ? TM_COLOR : TM_FLOAT, out.y ? TM_NORMAL : TM_FLOAT, v)) return false;
+  float* const to[3] = {out.x, out.y, out.z};
+  for (int k = 0; k < (out.y ? 3 : 1); ++k) forActive([&](int i) { to[k][i] = v.c[k][v.step * i]; });
   return true;
 }
+inline bool ask(TmWhom whom, const char* name, Float& out, int light = -1) {
+  return ask(whom, name, TmVec3{out.data(), nullptr, nullptr}, light);
+}
 inline bool ask(TmWhom whom, const char* name, Triple& out, int light = -1) {
-  TmValue v;
-  if (!askFor(whom, light, name, TM_COLOR, TM_NORMAL, v)) return false;
-  out = Triple::of([&](int i) {
-    const int k = v.step * std::min(i, grid()->count - 1);
-    return rsl::Vec3{v.c[0][k], v.c[1][k], v.c[2][k]};
-  });
-  return true;
+  return ask(whom, name, out.out(), light);
 }
 inline bool ask(TmWhom whom, const char* name, Matrix& out, int light = -1) {
   TmValue v;
@@ -139,7 +137,7 @@ inline std::string askText(TmWhom whom, const char* name) {
 
 /// Inside illuminance(): of that light.
 template <class T>
-bool lightsource(int light, const char* name, T& out) {
+bool lightsource(int light, const char* name, T&& out) {
   return ask(TM_OF_LIGHT, name, out, light);
 }
 // What print() prints of a value at one point.

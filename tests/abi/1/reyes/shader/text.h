@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "reyes/shader/shadeops.h"
 
@@ -37,24 +38,22 @@ std::string concat(const Parts&... parts) {
 
 /// %f a float, %d a whole number, %c a colour, %p a point, vector or normal, %m a matrix, %s a string: numbers are
 /// separated by spaces and written by what they are, whichever letter asks. %% is one. What has no value stays as it
-/// is.
-inline std::string format(const std::string& pattern) {
+/// is. The values are written already.
+inline std::string formatTexts(const std::string& pattern, const std::vector<std::string>& values) {
   std::string out;
+  size_t next = 0;
   for (size_t i = 0; i < pattern.size(); ++i) {
-    out += pattern[i];
-    if (pattern[i] == '%' && i + 1 < pattern.size() && pattern[i + 1] == '%') ++i;
+    const bool letter = pattern[i] == '%' && i + 1 < pattern.size();
+    if (letter && pattern[i + 1] != '%' && next < values.size())
+      out += values[next++], ++i;
+    else
+      out += pattern[i], i += letter && pattern[i + 1] == '%';
   }
   return out;
 }
-template <class First, class... Rest>
-std::string format(const std::string& pattern, const First& first, const Rest&... rest) {
-  for (size_t i = 0; i + 1 < pattern.size(); ++i) {
-    if (pattern[i] != '%') continue;
-    if (pattern[i + 1] != '%')
-      return format(pattern.substr(0, i)) + text_detail::written(first) + format(pattern.substr(i + 2), rest...);
-    ++i;
-  }
-  return format(pattern);
+template <class... Values>
+std::string format(const std::string& pattern, const Values&... values) {
+  return formatTexts(pattern, {text_detail::written(values)...});
 }
 
 /// Does an extended regular expression fit any part of the text? One that is no regular expression fits nothing.

@@ -1,0 +1,255 @@
+// What the host gives to a shader and takes from it: globals, parameters, outputs (RISpec 3.2, tables 12.1 to 12.5;
+// where our conventions differ from RSL's, reyes/shader_api.h and docs/shader_writing.md).
+#include <cstring>
+
+#include "reyes/rsl/globals.h"
+#include "reyes/rsl/machine/frame.h"
+#include "reyes/rsl/machine/masks.h"
+
+namespace tomales::compiler {
+namespace {
+
+/// Arrays of the grid, or one value for all. c[0] null: zero.
+struct Source {
+  const float* c[3] = {nullptr, nullptr, nullptr};
+  bool same = false;
+  bool reversed = false;  ///< Its negative is meant.
+};
+Source arrays(TmConstVec3 v) { return {{v.x, v.y, v.z}}; }
+Source arrays(TmVec3 v) { return {{v.x, v.y, v.z}}; }
+Source array(const float* x) { return {{x, nullptr, nullptr}}; }
+Source same(const float* one, int32_t components) {
+  return {{one, components > 1 ? one + 1 : nullptr, components > 1 ? one + 2 : nullptr}, true};
+}
+
+/// P and N are those of the point on the light in an area light's shader, and Ps and Ns of the point that is lit.
+bool isArea(const TmGrid& g) { return g.Pl.x != nullptr; }
+
+Source sourceOf(Global global, ShaderKind kind, const TmGrid& g) {
+  static constexpr float kOne[3] = {1, 1, 1}, kComponents = 3;
+  const bool light = kind == ShaderKind::Light, surface = kind == ShaderKind::Surface;
+  switch (global) {
+    case Global::P:
+      return light && isArea(g) ? arrays(g.Pl) : arrays(g.P);
+    case Global::N:
+      return light && isArea(g) ? arrays(g.Nl) : arrays(g.N);
+    case Global::Ng:
+      return arrays(g.Ng);
+    case Global::I:
+      return arrays(g.I);
+    case Global::E:
+      return same(g.E, 3);
+    case Global::Cs:
+      return arrays(g.Cs);
+    case Global::Os:
+      return arrays(g.Os);
+    case Global::dPdu:
+      return arrays(g.dPdu);
+    case Global::dPdv:
+      return arrays(g.dPdv);
+    case Global::u:
+      return array(g.u);
+    case Global::v:
+      return array(g.v);
+    case Global::s:
+      return array(g.s);
+    case Global::t:
+      return array(g.t);
+    case Global::du:
+      return array(g.du);
+    case Global::dv:
+      return array(g.dv);
+    case Global::dPdtime:
+      return arrays(g.dPdtime);
+    case Global::time:
+      return same(&g.time, 1);
+    case Global::dtime:
+      return same(&g.dtime, 1);
+    case Global::ncomps:
+      return same(&kComponents, 1);
+    case Global::Ci:
+      return surface ? arrays(g.Cs) : arrays(g.Ci);
+    case Global::Oi:
+      return surface ? arrays(g.Os) : arrays(g.Oi);
+    case Global::L: {
+      Source L = light ? arrays(g.L) : Source{};
+      L.reversed = true;
+      return L;
+    }
+    case Global::Cl:
+      return {};  // black until it is assigned, or illuminance() sets it
+    case Global::Ol:
+      return same(kOne, 3);
+    case Global::Ps:
+      return arrays(g.P);
+    case Global::Ns:
+      return arrays(g.N);
+    case Global::alpha:
+      return array(g.alpha);
+    case Global::__near:
+      return same(&g.clip[0], 1);
+    case Global::__far:
+      return same(&g.clip[1], 1);
+  }
+  return {};
+}
+
+bool evenlySpaced(const Source& s) { return s.c[1] - s.c[0] == s.c[2] - s.c[1]; }
+
+/// The register is what the source holds: in place where it can be.
+void take(Run& run, int32_t r, const Source& s) {
+  Lanes& l = run.lanes[r];
+  const int32_t width = floatsOf(run.reg(r));
+  const bool usable = run.program.located(r).where == Where::Given && s.c[0] && !s.same && !s.reversed;
+  if (usable && (width == 1 || evenlySpaced(s))) {
+    const ptrdiff_t apart = width == 1 ? 0 : s.c[1] - s.c[0];
+    if (apart == static_cast<int32_t>(apart)) {
+      l = {const_cast<float*>(s.c[0]), kBlock, static_cast<int32_t>(apart)};  // never assigned
+      return;
+    }
+  }
+  for (int32_t c = 0; c < width; ++c) {
+    float* const to = l.data + c * static_cast<ptrdiff_t>(l.component);
+    const int32_t n = l.block == 0 ? kBlock : run.padded;
+    if (!s.c[0])
+      std::fill_n(to, n, 0.0f);
+    else if (s.same || l.block == 0)
+      std::fill_n(to, n, *s.c[c]);
+    else
+      std::copy_n(s.c[c], n, to);
+    for (int32_t i = 0; s.reversed && i < n; ++i) to[i] = -to[i];
+  }
+}
+
+/// Arrays and matrices: element e of component k is c[k][e * components].
+void takeSame(Run& run, int32_t r, const TmValue& v) {
+  const Register& reg = run.reg(r);
+  const Lanes& l = run.lane(r);
+  const int32_t width = floatsOf(reg), n = l.block == 0 ? kBlock : run.padded;
+  for (int32_t e = 0; e < std::min(elementsOf(reg), std::max(1, v.length)); ++e)
+    for (int32_t c = 0; c < width; ++c)
+      std::fill_n(l.data + (e * width + c) * static_cast<ptrdiff_t>(run.stride(r)), n,
+                  width == 3 ? v.c[c][e * 3] : v.c[0][e * width + c]);
+}
+
+void takeTexts(Run& run, int32_t r, const TmValue& v) {
+  const char* text = v.string ? v.string : "";
+  for (int32_t e = 0; e < elementsOf(run.reg(r)); ++e) {
+    run.variableText(r, e) = text;
+    if (e + 1 < std::max(1, v.length)) text += std::strlen(text) + 1;
+  }
+}
+
+/// Outputs start with their default, which is in shader space.
+void takeDefault(Run& run, int32_t r, const Parameter& p) {
+  const Lanes& l = run.lane(r);
+  const int32_t width = floatsOf(run.reg(r));
+  for (int32_t f = 0; f < width * elementsOf(run.reg(r)); ++f)
+    std::fill_n(l.data + f * static_cast<ptrdiff_t>(run.stride(r)), l.block == 0 ? kBlock : run.padded,
+                static_cast<size_t>(f) < p.floats.size() ? p.floats[static_cast<size_t>(f)] : 0.0f);
+  const Base base = p.type.base;
+  if (l.block == 0 || width != 3 || base == Base::Color || p.type.isArray()) return;
+  const int32_t kind = base == Base::Point ? TM_AS_POINT : base == Base::Vector ? TM_AS_VECTOR : TM_AS_NORMAL;
+  float* const to[3] = {l.data, l.data + l.component, l.data + 2 * static_cast<ptrdiff_t>(l.component)};
+  run.grid.call->transform(run.grid.host, run.asking(), kind, "shader", "current", {to[0], to[1], to[2]},
+                           {to[0], to[1], to[2]});
+}
+
+void takeParameter(Run& run, int32_t r) {
+  const Register& reg = run.reg(r);
+  const Parameter& p = run.program.code().parameters[static_cast<size_t>(reg.index)];
+  const TmValue& v = run.given.params[reg.index];
+  if (reg.shape == Shape::Text) return takeTexts(run, r, v);
+  if (p.output) return takeDefault(run, r, p);
+  if (reg.length > 0 || reg.shape == Shape::Matrix) return takeSame(run, r, v);
+  take(run, r, {{v.c[0], v.c[1], v.c[2]}, v.step == 0});
+}
+
+void storeComponent(const Run& run, const float* from, bool varies, float* to) {
+  if (varies)
+    copyWhere(run.padded, run.whole.on, from, to);
+  else
+    fillWhere(run.padded, run.whole.on, *from, to);
+}
+
+void storeTriple(Run& run, int32_t r, TmVec3 to) {
+  const Lanes& l = run.lane(r);
+  float* const c[3] = {to.x, to.y, to.z};
+  for (ptrdiff_t k = 0; k < 3 && to.x; ++k) storeComponent(run, l.data + k * l.component, l.block != 0, c[k]);
+}
+
+void storeGlobal(Run& run, Global global, int32_t r) {
+  const TmGrid& g = run.given;
+  const ShaderKind kind = run.program.code().kind;
+  if (!info(global).writableIn(kind)) return;
+  if (global == Global::P) storeTriple(run, r, g.P);
+  if (global == Global::N && kind != ShaderKind::Surface) storeTriple(run, r, g.N);  // a surface's N is its own
+  if (global == Global::Ci) storeTriple(run, r, g.Ci);
+  if (global == Global::Oi) storeTriple(run, r, g.Oi);
+  if (global == Global::Cl) storeTriple(run, r, g.Cl);
+  if (global == Global::alpha && g.alpha) storeComponent(run, run.lane(r).data, run.varies(r), g.alpha);
+  if (global == Global::L && !isArea(g)) {  // whose L is the host's
+    const Lanes& l = run.lane(r);
+    for (ptrdiff_t c = 0; c < 3; ++c)
+      for (int32_t i = 0; l.block != 0 && i < run.padded; ++i) l.data[c * l.component + i] *= -1;
+    storeTriple(run, r, g.L);
+  }
+}
+
+void storeOutput(Run& run, int32_t r) {
+  const TmValue& v = run.given.params[run.reg(r).index];
+  if (v.step != 1) return;
+  const Lanes& l = run.lane(r);
+  for (ptrdiff_t k = 0; k < floatsOf(run.reg(r)); ++k)
+    storeComponent(run, l.data + k * l.component, l.block != 0, const_cast<float*>(v.c[k]));
+}
+
+/// What the shader leaves alone of Ci and Oi is Cs and Os (RISpec 3.2, table 12.1).
+void storeOwnColors(Run& run, bool Ci, bool Oi) {
+  const TmGrid& g = run.given;
+  const auto copy = [&](TmConstVec3 from, TmVec3 to) {
+    storeComponent(run, from.x, true, to.x), storeComponent(run, from.y, true, to.y),
+        storeComponent(run, from.z, true, to.z);
+  };
+  if (!Ci) copy(g.Cs, g.Ci);
+  if (!Oi) copy(g.Os, g.Oi);
+}
+
+bool isOutput(const Run& run, const Register& r) {
+  return r.origin == Origin::Parameter && run.program.code().parameters[static_cast<size_t>(r.index)].output &&
+         r.shape != Shape::Text && r.shape != Shape::Matrix && r.length == 0;
+}
+
+template <class Each>
+void forUsed(const Run& run, const Each& each) {
+  for (int32_t r = 0; r < static_cast<int32_t>(run.program.code().registers.size()); ++r)
+    if (run.program.located(r).where != Where::Nowhere) each(r, run.reg(r));
+}
+
+}  // namespace
+
+void open(Run& run) {
+  forUsed(run, [&](int32_t r, const Register& reg) {
+    if (reg.origin == Origin::Parameter) takeParameter(run, r);
+    if (reg.origin != Origin::Global) return;
+    if (const GlobalInfo* global = findGlobal(reg.name))
+      take(run, r, sourceOf(global->global, run.program.code().kind, run.given));
+  });
+}
+
+void store(Run& run) {
+  bool Ci = false, Oi = false;
+  // Control may have taken points out; what they have computed counts.
+  for (int32_t i = 0; i < run.padded; ++i) run.whole.on[i] = i < run.count && run.given.active[i] != 0;
+  forUsed(run, [&](int32_t r, const Register& reg) {
+    if (isOutput(run, reg)) storeOutput(run, r);
+    if (reg.origin != Origin::Global || !run.program.located(r).assigned) return;
+    if (const GlobalInfo* global = findGlobal(reg.name)) {
+      storeGlobal(run, global->global, r);
+      Ci |= global->global == Global::Ci, Oi |= global->global == Global::Oi;
+    }
+  });
+  if (run.program.code().kind == ShaderKind::Surface) storeOwnColors(run, Ci, Oi);
+}
+
+}  // namespace tomales::compiler

@@ -1,0 +1,31 @@
+// The optional list of an instruction, as the tables of reyes/shader/lists.h take it.
+#pragma once
+#include "reyes/rsl/machine/call.h"
+#include "reyes/shader/lists.h"
+
+namespace tomales::compiler {
+
+/// The value of an entry, with arrays where it is to be filled in.
+rsl::Setting settingOf(Call& call, const Setting& entry);
+/// Tells the user what is wrong with an entry; `taken` is what became of it.
+void tell(Call& call, const std::string& name, const rsl::Setting& value, const rsl::Entry& taken);
+
+/// `options`, changed as the list says. What `others` (name, entry, value) takes is none of the options.
+template <class Options, class Others>
+Options listed(Call& call, Options options, const Others& others) {
+  using rsl::set;
+  for (const Setting& entry : call.of.settings) {
+    const std::string& name = call.run.text(entry.name);
+    const rsl::Setting value = settingOf(call, entry);
+    rsl::Entry taken = set(options, name, value);
+    if (!taken.known) taken.known = others(name, entry, value);
+    tell(call, name, value, taken);
+  }
+  return options;
+}
+template <class Options>
+Options listed(Call& call, Options options) {
+  return listed(call, std::move(options), [](const auto&...) { return false; });
+}
+
+}  // namespace tomales::compiler

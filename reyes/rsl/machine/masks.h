@@ -1,0 +1,37 @@
+// Narrowing the mask of a run, and the loops over it.
+#pragma once
+#include "reyes/rsl/machine/frame.h"
+
+namespace tomales::compiler {
+
+// --- Over n bytes of masks (a multiple of kBlock)
+
+/// inner: outer where `condition` is not 0; other: where it is. inner may be outer. Returns whether inner has any.
+bool narrow(int n, const uint8_t* outer, const float* condition, uint8_t* inner, uint8_t* other, bool& anyOther);
+/// Takes `leaving` out. Returns whether any remain.
+bool remove(int n, const uint8_t* leaving, uint8_t* from);
+bool both(int n, const uint8_t* a, const uint8_t* b, uint8_t* out);
+void copyWhere(int n, const uint8_t* on, const float* from, float* to);
+void fillWhere(int n, const uint8_t* on, float value, float* to);
+
+/// For as long as it lives a mask within the run's; at first the same points.
+class Narrowed {
+ public:
+  explicit Narrowed(Run& run, int32_t label = -1)
+      : Narrowed(run, run.memory.bytes(static_cast<size_t>(run.padded)), label) {
+    std::copy_n(mask_.outer->on, run.padded, mask_.on);
+    mask_.any = mask_.outer->any, mask_.full = mask_.outer->full;
+  }
+  /// Of these points, of which there are some.
+  Narrowed(Run& run, uint8_t* on, int32_t label = -1) : run_(run), mask_{on, true, false, run.mask, label} {
+    run.mask = &mask_;
+  }
+  ~Narrowed() { run_.mask = mask_.outer; }
+  Narrowed(const Narrowed&) = delete;
+
+ private:
+  Run& run_;
+  Mask mask_;
+};
+
+}  // namespace tomales::compiler

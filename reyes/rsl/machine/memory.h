@@ -1,0 +1,69 @@
+// Memory of the shaders that a thread runs: a stack, since shaders that trace rays run others. What it has grown to it
+// keeps. Threads: each has one.
+#pragma once
+#include <algorithm>
+#include <deque>
+#include <string>
+
+#include "reyes/base/simd.h"
+
+namespace tomales::compiler {
+
+class Memory {
+ public:
+  static Memory& ofThread() {
+    thread_local Memory memory;
+    return memory;
+  }
+  /// On a 64-byte boundary; holds anything.
+  float* floats(size_t n) {
+    const size_t need = (n + 15) / 16 * 16;
+    while (block_ == blocks_.size() || used_ + need > blocks_[block_].size()) {
+      if (block_ < blocks_.size()) ++block_;
+      used_ = 0;
+      // Nothing lives in blocks behind the last.
+      if (block_ == blocks_.size()) blocks_.emplace_back();
+      if (blocks_[block_].size() < need) blocks_[block_].resize(std::max(need, kLeast));
+    }
+    float* p = blocks_[block_].data() + used_;
+    used_ += need;
+    return p;
+  }
+  uint8_t* bytes(size_t n) { return reinterpret_cast<uint8_t*>(floats((n + 3) / 4)); }
+  /// Texts number `first` and those behind it, empty.
+  size_t openTexts(size_t n) {
+    const size_t first = openTexts_;
+    openTexts_ += n;
+    if (texts_.size() < openTexts_) texts_.resize(openTexts_);
+    for (size_t k = first; k < openTexts_; ++k) texts_[k].clear();
+    return first;
+  }
+  std::string& text(size_t k) { return texts_[k]; }
+
+  /// What has been handed out so far; restore() takes back all that came after.
+  struct Mark {
+    size_t block, used, texts;
+  };
+  Mark mark() const { return {block_, used_, openTexts_}; }
+  void restore(Mark m) { block_ = m.block, used_ = m.used, openTexts_ = m.texts; }
+
+ private:
+  static constexpr size_t kLeast = 1 << 16;
+  std::deque<UnsetVector<float>> blocks_;
+  size_t block_ = 0, used_ = 0, openTexts_ = 0;
+  std::deque<std::string> texts_;  // references stay valid
+};
+
+/// Gives back, at its end, what has been handed out since it began.
+class Borrowed {
+ public:
+  explicit Borrowed(Memory& memory) : memory_(memory), mark_(memory.mark()) {}
+  ~Borrowed() { memory_.restore(mark_); }
+  Borrowed(const Borrowed&) = delete;
+
+ private:
+  Memory& memory_;
+  const Memory::Mark mark_;
+};
+
+}  // namespace tomales::compiler

@@ -1,0 +1,72 @@
+// A compiled shader, made ready to run: what can be known of its code before there is a batch. Immutable, shared by
+// threads.
+#pragma once
+#include "reyes/base/simd.h"
+#include "reyes/rsl/code.h"
+#include "reyes/rsl/kernels.h"
+
+namespace tomales::compiler {
+
+struct Run;
+struct Step;
+using Steps = std::vector<Step>;
+using Execute = void (*)(Run&, const Step&);
+
+/// An instruction, with what would else be looked up each time.
+struct Step {
+  Execute execute = nullptr;
+  Kernel kernel = nullptr;
+  const Instruction* of = nullptr;
+  int32_t components = 1;  ///< Of the result, where a kernel does one at a time.
+  bool uniform = false;    ///< The result is one value for the batch.
+  bool left[2] = {};       ///< Something leaves the label `extra`, `extra` + 1, of a Scope or Loop.
+  std::vector<Steps> blocks;
+};
+
+/// Where a register lies.
+enum class Where : uint8_t {
+  Nowhere,   ///< Nothing uses it.
+  Constant,  ///< In the program, `at` floats from its first.
+  Varying,   ///< In the frame, `at` floats a point from its first.
+  Uniform,   ///< In the frame, `at` values from its first.
+  Given,     ///< In the grid, if its arrays can be used as they are; else as Varying.
+  Texts,     ///< Text number `at` of the frame; of constants in the code.
+};
+struct Located {
+  Where where = Where::Nowhere;
+  bool assigned = false;  ///< Some instruction writes it.
+  int32_t at = 0;
+};
+
+class Program {
+ public:
+  /// Pre: the code has been through all passes. (Registers without a slot get room of their own.)
+  explicit Program(Code code);
+  Program(const Program&) = delete;
+
+  const Code& code() const { return code_; }
+  const Register& reg(int32_t r) const { return code_.registers[static_cast<size_t>(r)]; }
+  const Located& located(int32_t r) const { return located_[static_cast<size_t>(r)]; }
+  const float* constants() const { return constants_.data(); }
+  const Steps& body() const { return body_; }
+  int32_t varyingFloats() const { return varying_; }
+  int32_t uniformFloats() const { return uniform_; }
+  int32_t texts() const { return texts_; }
+
+ private:
+  void find(const Block& block, bool writes);
+  void locate();
+  Steps prepared(const Block& block) const;
+  Code code_;
+  std::vector<Located> located_;
+  std::vector<bool> used_, left_;  // registers; labels
+  AlignedVector<float> constants_;
+  Steps body_;
+  int32_t varying_ = 0, uniform_ = 0, texts_ = 0;
+};
+
+/// Floats of one element.
+inline int32_t floatsOf(const Register& r) { return floatsOf(r.shape); }
+inline int32_t elementsOf(const Register& r) { return r.length > 0 ? r.length : 1; }
+
+}  // namespace tomales::compiler

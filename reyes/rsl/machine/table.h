@@ -1,0 +1,27 @@
+// What does each instruction: a table from Op to function, of one row list for each family.
+#pragma once
+#include <span>
+
+#include "reyes/rsl/machine/frame.h"
+
+namespace tomales::compiler {
+
+/// Never null.
+Execute executeOf(Op op);
+
+struct Row {
+  Op op;
+  Execute execute;
+};
+std::span<const Row> controlRows();
+std::span<const Row> copyRows();
+std::span<const Row> valueRows();
+std::span<const Row> textRows();
+std::span<const Row> surfaceRows();
+std::span<const Row> lightRows();
+std::span<const Row> rayRows();
+std::span<const Row> pictureRows();
+std::span<const Row> cloudRows();
+std::span<const Row> messageRows();
+
+}  // namespace tomales::compiler

@@ -1,0 +1,71 @@
+// Texts: comparison, concat(), match(), format(), printf() (rispec-table 9.3). What differs from point to point is that
+// of the first active point, but in printf().
+#include "reyes/rsl/machine/call.h"
+#include "reyes/shader/text.h"
+
+namespace tomales::compiler {
+namespace {
+
+void setNumber(Run& run, int32_t to, float value) {
+  std::fill_n(run.lane(to).data, run.varies(to) ? run.padded : kBlock, value);
+}
+
+void textEqual(Run& run, const Step& s) {
+  setNumber(run, s.of->out[0], run.text(s.of->in[0]) == run.text(s.of->in[1]) ? 1.0f : 0.0f);
+}
+
+void match(Run& run, const Step& s) {
+  setNumber(run, s.of->out[0], rsl::match(run.text(s.of->in[0]), run.text(s.of->in[1])) ? 1.0f : 0.0f);
+}
+
+void concat(Run& run, const Step& s) {
+  std::string all;
+  for (const int32_t r : s.of->in) all += run.text(r);
+  run.variableText(s.of->out[0]) = std::move(all);
+}
+
+/// A register at a point, as format() writes it; the elements of arrays with spaces between.
+std::string written(const Run& run, int32_t r, int32_t i) {
+  const Register& reg = run.reg(r);
+  std::string out;
+  for (int32_t e = 0; e < elementsOf(reg); ++e) {
+    if (e > 0) out += ' ';
+    if (reg.shape == Shape::Text) {
+      out += run.text(r, e);
+      continue;
+    }
+    const int32_t width = floatsOf(reg);
+    for (int32_t c = 0; c < width; ++c) {
+      const float x =
+          run.lane(r).data[(e * width + c) * static_cast<ptrdiff_t>(run.stride(r)) + (run.varies(r) ? i : 0)];
+      out += (c > 0 ? " " : "") + rsl::text_detail::written(x);
+    }
+  }
+  return out;
+}
+
+std::string formatted(const Run& run, const Instruction& of, int32_t i) {
+  std::vector<std::string> values;
+  for (size_t k = 1; k < of.in.size(); ++k) values.push_back(written(run, of.in[k], i));
+  return rsl::formatTexts(run.text(of.in[0]), values);
+}
+
+void format(Run& run, const Step& s) { run.variableText(s.of->out[0]) = formatted(run, *s.of, run.firstActive()); }
+
+/// A line for each active point (RISpec 15.7).
+void print(Run& run, const Step& s) {
+  const TmGrid* const g = run.asking();
+  for (int32_t i = 0; i < run.count; ++i)
+    if (run.mask->on[i]) g->call->print(g->host, g, formatted(run, *s.of, i).c_str());
+}
+
+void report(Run& run, const Step& s) { run.missing(run.text(s.of->in[0])); }
+
+constexpr Row kRows[] = {{Op::TextEqual, textEqual}, {Op::Match, match}, {Op::Concat, concat},
+                         {Op::Format, format},       {Op::Print, print}, {Op::Report, report}};
+
+}  // namespace
+
+std::span<const Row> textRows() { return kRows; }
+
+}  // namespace tomales::compiler

@@ -1,0 +1,90 @@
+// Pure instructions that need texts or many knots: color spaces and splines. Over all points, as kernels.
+#include "reyes/rsl/machine/table.h"
+#include "reyes/shader/noise.h"
+#include "reyes/shader/shadeops.h"
+
+namespace tomales::compiler {
+namespace {
+
+/// Points to work on: one where the result is.
+int32_t pointsOf(const Run& run, int32_t to) { return run.varies(to) ? run.padded : 1; }
+
+/// Component c of a register at a point. Registers of one value have room for kBlock points.
+class Reader {
+ public:
+  Reader(const Run& run, int32_t r) : data_(run.lane(r).data), stride_(run.stride(r)), step_(run.varies(r) ? 1 : 0) {}
+  float operator()(int32_t i, ptrdiff_t c = 0) const { return data_[c * stride_ + i * step_]; }
+
+ private:
+  const float* data_;
+  ptrdiff_t stride_;
+  int32_t step_;
+};
+
+void write(const Run& run, int32_t to, int32_t i, ptrdiff_t c, float x) {
+  float* const out = run.lane(to).data + c * run.stride(to);
+  if (run.varies(to))
+    out[i] = x;
+  else
+    std::fill_n(out, kBlock, x);
+}
+
+void colorTransform(Run& run, const Step& s) {
+  const rsl::ColorSpace from = rsl::colorSpaceOf(run.text(s.of->in[0])),
+                        into = rsl::colorSpaceOf(run.text(s.of->in[1]));
+  const int32_t to = s.of->out[0];
+  const Reader color(run, s.of->in[2]);
+  for (int32_t i = 0; i < pointsOf(run, to); ++i) {
+    const rsl::Color c = rsl::ctransform(from, into, {color(i, 0), color(i, 1), color(i, 2)});
+    write(run, to, i, 0, c.x), write(run, to, i, 1, c.y), write(run, to, i, 2, c.z);
+  }
+}
+
+/// Knots of a spline, as registers of one each or as an array.
+struct Knots {
+  std::vector<Reader> readers;
+  int32_t count = 0, width = 1;
+  bool array = false;
+  Knots(const Run& run, const Instruction& of, int32_t components) : width(components) {
+    for (size_t k = 2; k < of.in.size(); ++k) readers.emplace_back(run, of.in[k]);
+    array = readers.size() == 1 && run.reg(of.in[2]).length > 0;
+    count = array ? run.reg(of.in[2]).length : static_cast<int32_t>(readers.size());
+  }
+  float at(int32_t knot, int32_t component, int32_t i) const {
+    return array ? readers[0](i, knot * width + component) : readers[static_cast<size_t>(knot)](i, component);
+  }
+};
+
+float curve(rsl::Basis basis, bool solved, float x, const std::vector<float>& knots) {
+  const auto n = static_cast<int>(knots.size());
+  return solved ? rsl::solveSpline(basis, x, knots.data(), n) : rsl::spline(basis, x, knots.data(), n);
+}
+
+/// Bases are those of reyes/shader/noise.h, "solve..." their inverses. The last of fewer than four knots counts again.
+void spline(Run& run, const Step& s) {
+  constexpr std::string_view kSolve = "solve";
+  std::string name = run.text(s.of->in[0]);
+  const bool solved = name.starts_with(kSolve);
+  if (solved) name.erase(0, kSolve.size());
+  const rsl::Basis basis = rsl::basisOf(name);
+  const int32_t to = s.of->out[0], width = floatsOf(run.reg(to));
+  const Reader x(run, s.of->in[1]);
+  const Knots knots(run, *s.of, width);
+  if (knots.count == 0) return;
+  std::vector<float> own(static_cast<size_t>(std::max(4, knots.count)));
+  for (int32_t i = 0; i < pointsOf(run, to); ++i)
+    for (int32_t c = 0; c < width; ++c) {
+      for (size_t k = 0; k < own.size(); ++k)
+        own[k] = knots.at(std::min(static_cast<int32_t>(k), knots.count - 1), c, i);
+      const float at = x(i);
+      write(run, to, i, c, at == at ? curve(basis, solved, at, own) : 0.0f);
+    }
+}
+
+constexpr Row kRows[] = {{Op::ColorTransform, colorTransform}, {Op::SplineF, spline}, {Op::SplineT, spline}};
+
+}  // namespace
+
+std::span<const Row> valueRows() { return kRows; }
+
+}  // namespace tomales::compiler
