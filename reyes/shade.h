@@ -279,10 +279,12 @@ class ShaderRegistry {
   /// Opens a .so and adds it. False and a message if it is not a shader plugin of this ABI.
   bool loadPlugin(const std::string& path);
   /// By name and kind. A shader that is not known yet is looked for as NAME.so in the trusted folders and then along
-  /// `searchPath` (the scene's; folders separated by colons, empty: the working folder). A plugin in a folder that is
-  /// not trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".." or an
-  /// absolute name leads to.
-  const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath);
+  /// `searchPath` (the scene's; folders separated by colons, empty: the working folder), then as NAME.sl along
+  /// `searchPath`, in the trusted folders and in `beside`, the folder of the file that names it. A plugin in a folder
+  /// that is not trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".."
+  /// or an absolute name leads to. A .sl that has errors is reported with all of them.
+  const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
+                       const std::string& beside = {});
   std::vector<const TmShader*> all() const;
 
  private:

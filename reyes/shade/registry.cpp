@@ -10,6 +10,7 @@
 #include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
 #include "reyes/shade/roles.h"
+#include "reyes/shade/rsl_shaders.h"
 
 namespace tomales {
 
@@ -33,6 +34,7 @@ struct ShaderRegistry::Impl {
   PluginTrial trial;
   bool untriedSaid = false;
   std::set<std::string> distrusted;  // plugins that were reported as such
+  std::set<std::string> toldOf;      // what was wrong with shaders' texts
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -42,6 +44,8 @@ struct ShaderRegistry::Impl {
   bool load(const std::string& path);
   std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
   std::string heldBy(const std::string& path) const;
+  const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
+                           const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
     return it == shaders.end() ? nullptr : it->second;
@@ -166,7 +170,7 @@ std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& n
 }
 
 ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust)
-    : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}}) {}
+    : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
@@ -179,7 +183,22 @@ bool ShaderRegistry::loadPlugin(const std::string& path) {
   return impl_->load(path);
 }
 
-const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath) {
+const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind kind, const std::string& searchPath,
+                                               const std::string& beside) {
+  std::vector<std::string> folders = foldersOf(searchPath);
+  for (const std::string& folder : foldersOf(trust.folders)) folders.push_back(folder);
+  folders.push_back(beside.empty() ? "." : beside);
+  const RslFound found = findRslShader(name, kind, folders);
+  const auto tell = [&](const std::string& where, const std::string& what) {
+    if (toldOf.insert(where + what).second) refuse(where, what);
+  };
+  if (!found.problem.empty()) tell(found.file, found.problem);
+  if (!found.remark.empty()) tell(name, found.remark);
+  return found.shader;
+}
+
+const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath,
+                                     const std::string& beside) {
   const std::lock_guard lock(impl_->mutex);
   if (const TmShader* s = impl_->known(name, kind)) return s;
   std::vector<std::string> others;  // plugins of that name without such a shader
@@ -188,6 +207,7 @@ const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const
     if (const TmShader* s = impl_->known(name, kind)) return s;
     others.push_back(file);
   }
+  if (const TmShader* s = impl_->findText(name, kind, searchPath, beside)) return s;
   for (const std::string& file : others)
     impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
   return nullptr;
