@@ -26,25 +26,28 @@ RSL_INLINE float gradient(uint32_t hash, Vec3 p) {
   return (h & 1 ? -a : a) + (h & 2 ? -b : b);
 }
 
+RSL_INLINE float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+/// A whole number as an integer. Far out it wraps instead of overflowing: fmod(c, 2^20), exactly, without a call. What
+/// is not a number or infinite becomes 0.
+RSL_INLINE int32_t latticeCoordinate(float c) {
+  const float rest = c - wholePart(c * 0x1p-20f) * 0x1p20f;
+  return static_cast<int32_t>(std::abs(rest) < 0x1p20f ? rest : 0);
+}
+
 /// Gradient noise in [-1, 1]: zero on the integer lattice, twice differentiable, the same on every machine.
 RSL_INLINE float signedNoise(Vec3 p) {
-  const Vec3 cell{std::floor(p.x), std::floor(p.y), std::floor(p.z)}, f = p - cell;
-  const auto fade = [](float t) { return t * t * t * (t * (t * 6 - 15) + 10); };
-  // Lattice coordinates wrap far out instead of overflowing the integer: fmod(c, 2^20), exactly, without a call.
-  const auto lattice = [](float c) { return static_cast<int32_t>(c - std::trunc(c * 0x1p-20f) * 0x1p20f); };
-  const int32_t x = lattice(cell.x), y = lattice(cell.y), z = lattice(cell.z);
-  const auto corner = [&](int i, int j, int k) {
+  const Vec3 cell{wholeBelow(p.x), wholeBelow(p.y), wholeBelow(p.z)}, f = p - cell;
+  const int32_t x = latticeCoordinate(cell.x), y = latticeCoordinate(cell.y), z = latticeCoordinate(cell.z);
+  const auto corner = [&](int i, int j, int k) RSL_INLINED {
     const Vec3 offset{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};
     return gradient(latticeHash(x + i, y + j, z + k), f - offset);
   };
   const float u = fade(f.x), v = fade(f.y), w = fade(f.z);
-  const auto face = [&](int k) {
+  const auto face = [&](int k) RSL_INLINED {
     return mix(mix(corner(0, 0, k), corner(1, 0, k), u), mix(corner(0, 1, k), corner(1, 1, k), u), v);
   };
   return clamp(mix(face(0), face(1), w), -1, 1);
 }
-/// RSL's noise(): the same in [0, 1].
-inline float noise(Vec3 p) { return 0.5f + 0.5f * signedNoise(p); }
 
 namespace noise_detail {
 
@@ -54,68 +57,57 @@ RSL_INLINE uint32_t hash4(int32_t x, int32_t y, int32_t z, int32_t w) {
   h ^= h >> 16, h *= 0x7feb352dU, h ^= h >> 15, h *= 0x846ca68bU, h ^= h >> 16;
   return h;
 }
-RSL_INLINE float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 /// A coordinate as a cell and the place in it; a period (0: none) joins the ends of the lattice.
 struct Axis {
   int32_t lo, hi;
   float f;
   RSL_INLINE Axis(float x, float period) {
-    const float cell = std::floor(x);
-    f = x - cell;
-    const auto wrapped = [&](float c) {
-      const float p = std::floor(period);
-      if (p >= 1) c -= p * std::floor(c / p);
-      return static_cast<int32_t>(c - std::trunc(c * 0x1p-20f) * 0x1p20f);
-    };
-    lo = wrapped(cell), hi = wrapped(cell + 1);
+    const float cell = wholeBelow(x), p = wholeBelow(period);
+    const auto wrapped = [&](float c) RSL_INLINED { return latticeCoordinate(p >= 1 ? c - p * wholeBelow(c / p) : c); };
+    f = x - cell, lo = wrapped(cell), hi = wrapped(cell + 1);
   }
+  RSL_INLINE int32_t at(int end) const { return end ? hi : lo; }
+  RSL_INLINE float from(int end) const { return f - static_cast<float>(end); }
 };
 
-/// One of 32 gradients, to the edges of a hypercube (Perlin), by p.
-RSL_INLINE float gradient4(uint32_t hash, const float* p) {
-  const uint32_t h = hash & 31;
-  const uint32_t skipped = h >> 3;
-  float sum = 0;
-  for (uint32_t k = 0, bit = 0; k < 4; ++k) {
-    if (k == skipped) continue;
-    sum += h >> bit & 1 ? -p[k] : p[k];
-    ++bit;
-  }
-  return sum;
+/// One of 32 gradients, to the edges of a hypercube (Perlin), by p: three of its coordinates, with signs.
+RSL_INLINE float gradient4(uint32_t hash, float x, float y, float z, float w) {
+  const uint32_t skipped = hash >> 3 & 3;
+  const auto add = [&](float sum, uint32_t k, float p) RSL_INLINED {
+    const uint32_t sign = (skipped < k ? hash >> (k - 1) : hash >> k) & 1;
+    const float more = sum + (sign ? -p : p);
+    return skipped == k ? sum : more;
+  };
+  return add(add(add(add(0, 0, x), 1, y), 2, z), 3, w);
 }
 
 }  // namespace noise_detail
 
 /// Gradient noise in [-1, 1] of four dimensions; of fewer where the rest is left out. Zero on the integer lattice,
 /// twice differentiable.
-inline float signedNoise4(Vec3 p, float w, Vec3 period = {}, float wPeriod = 0) {
-  using namespace noise_detail;
-  const Axis axes[4] = {{p.x, period.x}, {p.y, period.y}, {p.z, period.z}, {w, wPeriod}};
-  float value[16];
-  for (int corner = 0; corner < 16; ++corner) {
-    int32_t at[4];
-    float offset[4];
-    for (int k = 0; k < 4; ++k) {
-      const bool high = corner >> k & 1;
-      at[k] = high ? axes[k].hi : axes[k].lo, offset[k] = axes[k].f - (high ? 1.0f : 0.0f);
-    }
-    value[corner] = gradient4(hash4(at[0], at[1], at[2], at[3]), offset);
-  }
-  for (int k = 3, n = 8; k >= 0; --k, n /= 2)
-    for (int i = 0; i < n; ++i) value[i] = mix(value[i], value[i + n], fade(axes[k].f));
-  return clamp(value[0], -1, 1);
+RSL_INLINE float signedNoise4(Vec3 p, float t, Vec3 period = {}, float tPeriod = 0) {
+  using noise_detail::Axis;
+  const Axis x(p.x, period.x), y(p.y, period.y), z(p.z, period.z), w(t, tPeriod);
+  const auto corner = [&](int i, int j, int k, int l) RSL_INLINED {
+    return noise_detail::gradient4(noise_detail::hash4(x.at(i), y.at(j), z.at(k), w.at(l)), x.from(i), y.from(j),
+                                   z.from(k), w.from(l));
+  };
+  const float u[4] = {fade(x.f), fade(y.f), fade(z.f), fade(w.f)};
+  const auto edge = [&](int i, int j, int k) RSL_INLINED { return mix(corner(i, j, k, 0), corner(i, j, k, 1), u[3]); };
+  const auto face = [&](int i, int j) RSL_INLINED { return mix(edge(i, j, 0), edge(i, j, 1), u[2]); };
+  const auto cube = [&](int i) RSL_INLINED { return mix(face(i, 0), face(i, 1), u[1]); };
+  return clamp(mix(cube(0), cube(1), u[0]), -1, 1);
 }
 /// signedNoise(p) with joined ends.
-inline float signedPeriodicNoise(Vec3 p, Vec3 period) {
-  using namespace noise_detail;
+RSL_INLINE float signedPeriodicNoise(Vec3 p, Vec3 period) {
+  using noise_detail::Axis;
   const Axis x(p.x, period.x), y(p.y, period.y), z(p.z, period.z);
-  const auto corner = [&](int i, int j, int k) {
-    const Vec3 offset{x.f - static_cast<float>(i), y.f - static_cast<float>(j), z.f - static_cast<float>(k)};
-    return gradient(latticeHash(i ? x.hi : x.lo, j ? y.hi : y.lo, k ? z.hi : z.lo), offset);
+  const auto corner = [&](int i, int j, int k) RSL_INLINED {
+    return gradient(latticeHash(x.at(i), y.at(j), z.at(k)), {x.from(i), y.from(j), z.from(k)});
   };
   const float u = fade(x.f), v = fade(y.f), w = fade(z.f);
-  const auto face = [&](int k) {
+  const auto face = [&](int k) RSL_INLINED {
     return mix(mix(corner(0, 0, k), corner(1, 0, k), u), mix(corner(0, 1, k), corner(1, 1, k), u), v);
   };
   return clamp(mix(face(0), face(1), w), -1, 1);
@@ -125,31 +117,32 @@ inline float signedPeriodicNoise(Vec3 p, Vec3 period) {
 // often than not.
 constexpr float kNoiseCut = 0.5f;
 
-inline float noise(float x) { return noise(Vec3{x, kNoiseCut, kNoiseCut}); }
-inline float noise(float x, float y) { return noise(Vec3{x, y, kNoiseCut}); }
-inline float noise(Vec3 p, float t) { return 0.5f + 0.5f * signedNoise4(p, t); }
-inline float pnoise(Vec3 p, Vec3 period) { return 0.5f + 0.5f * signedPeriodicNoise(p, period); }
-inline float pnoise(float x, float period) { return pnoise(Vec3{x, kNoiseCut, kNoiseCut}, {period, 0, 0}); }
-inline float pnoise(float x, float y, float xPeriod, float yPeriod) {
+/// RSL's noise(): the same in [0, 1].
+RSL_INLINE float noise(Vec3 p) { return 0.5f + 0.5f * signedNoise(p); }
+RSL_INLINE float noise(float x) { return noise(Vec3{x, kNoiseCut, kNoiseCut}); }
+RSL_INLINE float noise(float x, float y) { return noise(Vec3{x, y, kNoiseCut}); }
+RSL_INLINE float noise(Vec3 p, float t) { return 0.5f + 0.5f * signedNoise4(p, t); }
+RSL_INLINE float pnoise(Vec3 p, Vec3 period) { return 0.5f + 0.5f * signedPeriodicNoise(p, period); }
+RSL_INLINE float pnoise(float x, float period) { return pnoise(Vec3{x, kNoiseCut, kNoiseCut}, {period, 0, 0}); }
+RSL_INLINE float pnoise(float x, float y, float xPeriod, float yPeriod) {
   return pnoise(Vec3{x, y, kNoiseCut}, {xPeriod, yPeriod, 0});
 }
-inline float pnoise(Vec3 p, float t, Vec3 period, float tPeriod) {
+RSL_INLINE float pnoise(Vec3 p, float t, Vec3 period, float tPeriod) {
   return 0.5f + 0.5f * signedNoise4(p, t, period, tPeriod);
 }
 /// Constant in each unit cell, [0, 1).
-inline float cellnoise(Vec3 p, float t = 0) {
-  using noise_detail::Axis;
-  return static_cast<float>(noise_detail::hash4(Axis(p.x, 0).lo, Axis(p.y, 0).lo, Axis(p.z, 0).lo, Axis(t, 0).lo) >>
-                            8) *
+RSL_INLINE float cellnoise(Vec3 p, float t = 0) {
+  const auto cell = [](float x) RSL_INLINED { return latticeCoordinate(wholeBelow(x)); };
+  return static_cast<float>(static_cast<int32_t>(noise_detail::hash4(cell(p.x), cell(p.y), cell(p.z), cell(t)) >> 8)) *
          0x1p-24f;
 }
-inline float cellnoise(float x, float y = 0) { return cellnoise(Vec3{x, y, 0}); }
+RSL_INLINE float cellnoise(float x, float y = 0) { return cellnoise(Vec3{x, y, 0}); }
 
-/// Three values that have nothing to do with each other: `of` is asked at three places of the lattice far from each
-/// other.
+/// Three values that have nothing to do with each other are asked for at places of the lattice far from each other.
+constexpr Vec3 kTriplePlaces[3] = {{0, 0, 0}, {1031, 523, 259}, {2053, 4099, 131}};
 template <class Of>
 Vec3 triple(Vec3 p, const Of& of) {
-  return {of(p), of(p + Vec3{1031, 523, 259}), of(p + Vec3{2053, 4099, 131})};
+  return {of(p + kTriplePlaces[0]), of(p + kTriplePlaces[1]), of(p + kTriplePlaces[2])};
 }
 inline Vec3 noise3(Vec3 p) {
   return triple(p, [](Vec3 q) { return noise(q); });

@@ -13,36 +13,40 @@ constexpr float kPi = 3.14159265358979f;
 inline float radians(float degrees) { return degrees * (kPi / 180); }
 inline float degrees(float radians) { return radians * (180 / kPi); }
 /// a - b floor(a / b): the sign of b.
-inline float mod(float a, float b) { return a - b * std::floor(a / b); }
-inline float sign(float x) { return x < 0 ? -1.0f : x > 0 ? 1.0f : 0.0f; }
-inline float step(float edge, float x) { return x < edge ? 0.0f : 1.0f; }
-inline float inversesqrt(float x) { return 1 / std::sqrt(x); }
+RSL_INLINE float mod(float a, float b) { return a - b * wholeBelow(a / b); }
+RSL_INLINE float sign(float x) { return x < 0 ? -1.0f : x > 0 ? 1.0f : 0.0f; }
+RSL_INLINE float step(float edge, float x) { return x < edge ? 0.0f : 1.0f; }
+RSL_INLINE float inversesqrt(float x) { return 1 / std::sqrt(x); }
 inline float log(float x, float base) { return std::log(x) / std::log(base); }
 /// step() averaged over a box of `width` around x.
-inline float filterstep(float edge, float x, float width) {
+RSL_INLINE float filterstep(float edge, float x, float width) {
   return width > 0 ? clamp((x + 0.5f * width - edge) / width, 0, 1) : step(edge, x);
 }
-inline float min(float a, float b) { return std::min(a, b); }
-inline float max(float a, float b) { return std::max(a, b); }
-inline Vec3 min(Vec3 a, Vec3 b) { return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)}; }
-inline Vec3 max(Vec3 a, Vec3 b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
-inline Vec3 clamp(Vec3 x, Vec3 lo, Vec3 hi) { return min(max(x, lo), hi); }
-inline Vec3 mix(Vec3 a, Vec3 b, Vec3 t) { return a + (b - a) * t; }
+RSL_INLINE float min(float a, float b) { return std::min(a, b); }
+RSL_INLINE float max(float a, float b) { return std::max(a, b); }
+RSL_INLINE Vec3 min(Vec3 a, Vec3 b) { return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)}; }
+RSL_INLINE Vec3 max(Vec3 a, Vec3 b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
+RSL_INLINE Vec3 clamp(Vec3 x, Vec3 lo, Vec3 hi) { return min(max(x, lo), hi); }
+RSL_INLINE Vec3 mix(Vec3 a, Vec3 b, Vec3 t) { return a + (b - a) * t; }
 
 // --- Geometry
 
-inline float distance(Vec3 a, Vec3 b) { return length(a - b); }
+RSL_INLINE float distance(Vec3 a, Vec3 b) { return length(a - b); }
 /// From Q to the segment P0 P1.
-inline float ptlined(Vec3 P0, Vec3 P1, Vec3 Q) {
+RSL_INLINE float ptlined(Vec3 P0, Vec3 P1, Vec3 Q) {
   const Vec3 d = P1 - P0;
   const float l2 = dot(d, d);
   return distance(Q, P0 + d * (l2 > 0 ? clamp(dot(Q - P0, d) / l2, 0, 1) : 0));
 }
-/// Q around the axis P0 P1 by radians, by the right-hand rule in right-handed coordinates (Rodrigues).
-inline Vec3 rotate(Vec3 Q, float angle, Vec3 P0, Vec3 P1) {
+/// Q around the axis P0 P1 by an angle of this cosine and sine, by the right-hand rule in right-handed coordinates
+/// (Rodrigues).
+RSL_INLINE Vec3 rotated(Vec3 Q, float cosine, float sine, Vec3 P0, Vec3 P1) {
   const Vec3 k = normalize(P1 - P0), v = Q - P0;
-  const float c = std::cos(angle), s = std::sin(angle);
-  return P0 + v * c + cross(k, v) * s + k * (dot(k, v) * (1 - c));
+  return P0 + v * cosine + cross(k, v) * sine + k * (dot(k, v) * (1 - cosine));
+}
+/// By radians.
+inline Vec3 rotate(Vec3 Q, float angle, Vec3 P0, Vec3 P1) {
+  return rotated(Q, std::cos(angle), std::sin(angle), P0, P1);
 }
 /// Share of reflected and of transmitted light, and their directions. Unit vectors; the transmitted solid angle is not
 /// accounted for.
@@ -102,18 +106,22 @@ inline Matrix scale(const Matrix& a, Vec3 s) {
   b.m[0][0] = s.x, b.m[1][1] = s.y, b.m[2][2] = s.z;
   return b * a;
 }
-inline Matrix rotate(const Matrix& a, float angle, Vec3 axis) {
+/// By an angle of this cosine and sine.
+inline Matrix rotate(const Matrix& a, float cosine, float sine, Vec3 axis) {
   Matrix b;
-  const Vec3 rows[3] = {rotate(Vec3{1, 0, 0}, angle, {}, axis), rotate(Vec3{0, 1, 0}, angle, {}, axis),
-                        rotate(Vec3{0, 0, 1}, angle, {}, axis)};
+  const Vec3 rows[3] = {rotated({1, 0, 0}, cosine, sine, {}, axis), rotated({0, 1, 0}, cosine, sine, {}, axis),
+                        rotated({0, 0, 1}, cosine, sine, {}, axis)};
   for (int i = 0; i < 3; ++i) b.m[i][0] = rows[i].x, b.m[i][1] = rows[i].y, b.m[i][2] = rows[i].z;
   return b * a;
 }
-inline Vec3 vtransform(const Matrix& a, Vec3 v) {
+inline Matrix rotate(const Matrix& a, float angle, Vec3 axis) {
+  return rotate(a, std::cos(angle), std::sin(angle), axis);
+}
+RSL_INLINE Vec3 vtransform(const Matrix& a, Vec3 v) {
   const auto column = [&](int k) { return v.x * a.m[0][k] + v.y * a.m[1][k] + v.z * a.m[2][k]; };
   return {column(0), column(1), column(2)};
 }
-inline Vec3 transform(const Matrix& a, Vec3 p) {
+RSL_INLINE Vec3 transform(const Matrix& a, Vec3 p) {
   const float w = p.x * a.m[0][3] + p.y * a.m[1][3] + p.z * a.m[2][3] + a.m[3][3];
   const Vec3 q = vtransform(a, p) + Vec3{a.m[3][0], a.m[3][1], a.m[3][2]};
   return w != 0 && w != 1 ? q / w : q;

@@ -21,7 +21,8 @@ class WaveletTile {
     int middle[3];
     float weight[3][3];  // of a quadratic B-spline (section 3.2)
     for (int k = 0; k < 3; ++k) {
-      const float at = x[k] - kSize * std::floor(x[k] / kSize), m = std::ceil(at - 0.5f), t = m - (at - 0.5f);
+      const float rest = x[k] - kSize * wholeBelow(x[k] / kSize), at = std::abs(rest) <= kSize ? rest : 0,
+                  m = -wholeBelow(0.5f - at), t = m - (at - 0.5f);
       middle[k] = static_cast<int>(m);
       weight[k][0] = t * t / 2, weight[k][2] = (1 - t) * (1 - t) / 2, weight[k][1] = 1 - weight[k][0] - weight[k][2];
     }

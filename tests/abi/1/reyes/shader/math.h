@@ -2,65 +2,11 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 /// Before functions with variables that outlive them: each plugin, and the renderer, has its own. Else all that are
 /// loaded would share the first one's, whatever release it is of.
 #define TM_OF_THIS_PLUGIN __attribute__((visibility("hidden")))
-
-namespace rsl {
-
-struct Vec3 {
-  float x = 0, y = 0, z = 0;
-};
-using Color = Vec3;
-
-inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
-inline Vec3 operator*(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Vec3 operator*(float s, Vec3 a) { return a * s; }
-inline Vec3 operator/(Vec3 a, float s) { return a * (1 / s); }
-inline float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
-/// Zero stays zero, as in RSL.
-inline Vec3 normalize(Vec3 a) {
-  const float l = length(a);
-  return l > 0 ? a / l : Vec3{};
-}
-/// Two unit vectors across the unit vector n and each other (Duff et al. 2017, "Building an Orthonormal Basis,
-/// Revisited").
-inline void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
-  const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-  tangent = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-  bitangent = {b, sign + n.y * n.y * a, -n.y};
-}
-/// RISpec faceforward with Nref = Ng: N on the side of the surface that I arrives at.
-inline Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
-inline Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
-/// I and N of unit length, N against I; eta: index of refraction before over behind. Total reflection: zero
-/// (RISpec 15.3).
-inline Vec3 refract(Vec3 I, Vec3 N, float eta) {
-  const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);
-  return k < 0 ? Vec3{} : eta * I + (eta * c - std::sqrt(k)) * N;
-}
-/// Share of unpolarised light that is reflected where refract() would refract.
-inline float fresnel(Vec3 I, Vec3 N, float eta) {
-  const float c = std::min(1.0f, std::abs(dot(I, N))), k = 1 - eta * eta * (1 - c * c);
-  if (k <= 0) return 1;
-  const float t = std::sqrt(k), s = (eta * c - t) / (eta * c + t), p = (c - eta * t) / (c + eta * t);
-  return 0.5f * (s * s + p * p);
-}
-
-inline float clamp(float x, float lo, float hi) { return std::min(std::max(x, lo), hi); }
-inline float mix(float a, float b, float t) { return a + (b - a) * t; }
-inline Vec3 mix(Vec3 a, Vec3 b, float t) { return a + (b - a) * t; }
-inline float smoothstep(float lo, float hi, float x) {
-  if (hi <= lo) return x < lo ? 0.0f : 1.0f;
-  const float t = clamp((x - lo) / (hi - lo), 0, 1);
-  return t * t * (3 - 2 * t);
-}
 
 /// Before a function of plain loops without branches: built for SSE2, AVX2 and AVX-512 and picked by CPU, with the same
 /// bits.
@@ -73,8 +19,77 @@ inline float smoothstep(float lo, float hi, float x) {
 #ifdef __GNUC__
 #define RSL_INLINE \
   inline __attribute__((always_inline))  ///< Called in such loops: clones vectorise only what is part of them.
+#define RSL_INLINED __attribute__((always_inline))  ///< The same of a lambda, after its parameters.
 #else
 #define RSL_INLINE inline
+#define RSL_INLINED
 #endif
+
+namespace rsl {
+
+struct Vec3 {
+  float x = 0, y = 0, z = 0;
+};
+using Color = Vec3;
+
+RSL_INLINE Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+RSL_INLINE Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+RSL_INLINE Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
+RSL_INLINE Vec3 operator*(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+RSL_INLINE Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
+RSL_INLINE Vec3 operator*(float s, Vec3 a) { return a * s; }
+RSL_INLINE Vec3 operator/(Vec3 a, float s) { return a * (1 / s); }
+RSL_INLINE float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+RSL_INLINE Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+RSL_INLINE float length(Vec3 a) { return std::sqrt(dot(a, a)); }
+/// Zero stays zero, as in RSL.
+RSL_INLINE Vec3 normalize(Vec3 a) {
+  const float l = length(a);
+  return l > 0 ? a / l : Vec3{};
+}
+/// Two unit vectors across the unit vector n and each other (Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited").
+RSL_INLINE void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
+  const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+  tangent = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+  bitangent = {b, sign + n.y * n.y * a, -n.y};
+}
+/// RISpec faceforward with Nref = Ng: N on the side of the surface that I arrives at.
+RSL_INLINE Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
+RSL_INLINE Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
+/// I and N of unit length, N against I; eta: index of refraction before over behind. Total reflection: zero
+/// (RISpec 15.3).
+RSL_INLINE Vec3 refract(Vec3 I, Vec3 N, float eta) {
+  const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);
+  return k < 0 ? Vec3{} : eta * I + (eta * c - std::sqrt(k)) * N;
+}
+/// Share of unpolarised light that is reflected where refract() would refract.
+RSL_INLINE float fresnel(Vec3 I, Vec3 N, float eta) {
+  const float c = std::min(1.0f, std::abs(dot(I, N))), k = 1 - eta * eta * (1 - c * c);
+  if (k <= 0) return 1;
+  const float t = std::sqrt(k), s = (eta * c - t) / (eta * c + t), p = (c - eta * t) / (c + eta * t);
+  return 0.5f * (s * s + p * p);
+}
+
+RSL_INLINE float clamp(float x, float lo, float hi) { return std::min(std::max(x, lo), hi); }
+RSL_INLINE float mix(float a, float b, float t) { return a + (b - a) * t; }
+RSL_INLINE Vec3 mix(Vec3 a, Vec3 b, float t) { return a + (b - a) * t; }
+RSL_INLINE float smoothstep(float lo, float hi, float x) {
+  if (hi <= lo) return x < lo ? 0.0f : 1.0f;
+  const float t = clamp((x - lo) / (hi - lo), 0, 1);
+  return t * t * (3 - 2 * t);
+}
+
+// Rounded towards zero and down, as std::trunc and std::floor do, in arithmetic that every processor has for many
+// numbers at once: SSE2 has neither.
+RSL_INLINE float wholePart(float x) {
+  const bool whole = !(std::abs(x) < 0x1p23f);  // or not a number
+  const float part = static_cast<float>(static_cast<int32_t>(whole ? 0 : x));
+  return whole ? x : std::copysign(part, x);
+}
+RSL_INLINE float wholeBelow(float x) {
+  const float part = wholePart(x);
+  return part > x ? part - 1 : part;
+}
 
 }  // namespace rsl

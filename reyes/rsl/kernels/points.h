@@ -1,0 +1,67 @@
+// How a kernel is written: as a function of one point, which each() applies to the sixteen of a block in a loop that
+// the compiler vectorises, once for each kind of processor.
+#pragma once
+#include <cstddef>
+
+#include "reyes/rsl/kernels.h"
+#include "reyes/shader/math.h"
+
+/// The head of a kernel of that name in the table.
+#define RSL_KERNEL(name) RSL_HOT void name(int blocks, const Lanes& out, const Lanes* in)
+
+namespace tomales::compiler::kernels {
+
+#define RSL_OP(name, signature, traits) void name(int blocks, const Lanes& out, const Lanes* in);
+RSL_OPS(RSL_OP)
+#undef RSL_OP
+
+/// Component c of the first point of block b.
+RSL_INLINE float* planeOf(const Lanes& l, int b, int c = 0) {
+  return l.data + static_cast<ptrdiff_t>(b) * l.block + static_cast<ptrdiff_t>(c) * l.component;
+}
+
+/// The values of one block, by point.
+template <class T>
+struct Plane;
+template <>
+struct Plane<float> {
+  float* value;
+  RSL_INLINE Plane(const Lanes& l, int b) : value(planeOf(l, b)) {}
+  RSL_INLINE float get(int k) const { return value[k]; }
+  RSL_INLINE void set(int k, float v) const { value[k] = v; }
+};
+template <>
+struct Plane<rsl::Vec3> {
+  float *x, *y, *z;
+  RSL_INLINE Plane(const Lanes& l, int b) : x(planeOf(l, b, 0)), y(planeOf(l, b, 1)), z(planeOf(l, b, 2)) {}
+  RSL_INLINE rsl::Vec3 get(int k) const { return {x[k], y[k], z[k]}; }
+  RSL_INLINE void set(int k, rsl::Vec3 v) const { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
+};
+
+/// What `out` overlaps is read at the same point alone (kernels.h), which is what `ivdep` says.
+template <class Op, class Out, class... In>
+RSL_INLINE void eachPoint(const Op& op, const Plane<Out> out, const Plane<In>... in) {
+#pragma GCC ivdep
+  for (int k = 0; k < kBlock; ++k) out.set(k, op(in.get(k)...));
+}
+template <class Op, class Out, class... In, int... argument>
+RSL_INLINE void eachBlock(int blocks, const Lanes& out, const Lanes* in, const Op& op, Out (Op::*)(In...) const,
+                          std::integer_sequence<int, argument...>) {
+  for (int b = 0; b < blocks; ++b) eachPoint<Op, Out, In...>(op, Plane<Out>(out, b), Plane<In>(in[argument], b)...);
+}
+template <class Out, class Op, class... In>
+constexpr auto argumentsOf(Out (Op::*)(In...) const) {
+  return std::make_integer_sequence<int, sizeof...(In)>();
+}
+/// out = op(in...) at every point; `op` takes and gives float and rsl::Vec3, and is RSL_INLINED.
+template <class Op>
+RSL_INLINE void each(int blocks, const Lanes& out, const Lanes* in, const Op& op) {
+  eachBlock(blocks, out, in, op, &Op::operator(), argumentsOf(&Op::operator()));
+}
+
+/// The component of one number.
+inline Lanes componentOf(const Lanes& l, int c) {
+  return {l.data + static_cast<ptrdiff_t>(c) * l.component, l.block, l.component};
+}
+
+}  // namespace tomales::compiler::kernels
