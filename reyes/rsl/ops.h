@@ -80,8 +80,8 @@ namespace tomales::compiler {
   /* Point clouds */                                                                                                 \
   OP(Bake3d, "f=sstt", "") OP(Texture3d, "f=stt", "") OP(PhotonMap, "t=stt", "") OP(Caustic, "t=tt", "")             \
   OP(Subsurface, "t=stt", "")                                                                                        \
-  /* Messages; extra: TmWhom. Settings: the one that is filled in. */                                                \
-  OP(Ask, "f=s", "") OP(ShaderName, "s=", "") OP(RayInfo, "f=s", "") OP(RayLabel, "s=", "")                          \
+  /* Messages; extra: TmWhom. Settings: the one that is filled in. ShaderName: of "surface", "light", ... */           \
+  OP(Ask, "f=s", "") OP(ShaderName, "s=s", "") OP(RayInfo, "f=s", "") OP(RayLabel, "s=", "")                          \
   OP(Print, "=s...", "")                                                                                             \
   OP(Report, "=s", "") /* TM_MISSING, once: what the shader needs and nobody has */                                  \
   /* Structure (code.h) */                                                                                           \

@@ -20,8 +20,9 @@ void copyLane(Run& run, bool all, const float* from, bool fromVaries, float* to,
 }
 
 void copyTexts(Run& run, int32_t from, int32_t to) {
-  const int32_t n = std::min(elementsOf(run.reg(from)), elementsOf(run.reg(to)));
-  for (int32_t e = 0; e < n; ++e) run.variableText(to, e) = run.text(from, e);
+  const int32_t has = run.reg(from).length, wants = elementsOf(run.reg(to));
+  for (int32_t e = 0; e < (has > 0 ? std::min(has, wants) : wants); ++e)
+    run.variableText(to, e) = run.text(from, has > 0 ? e : 0);
 }
 
 void executeCopy(Run& run, const Step& s) {
@@ -29,9 +30,11 @@ void executeCopy(Run& run, const Step& s) {
   const Register &source = run.reg(from), &target = run.reg(to);
   if (target.shape == Shape::Text) return copyTexts(run, from, to);
   const bool all = !s.of->masked || run.mask->full, fromVaries = run.varies(from), toVaries = run.varies(to);
-  const int32_t elements = std::min(elementsOf(source), elementsOf(target)), width = floatsOf(target);
+  const bool each = source.length > 0;  // else the value counts for all elements
+  const int32_t elements = each ? std::min(source.length, elementsOf(target)) : elementsOf(target);
+  const int32_t width = floatsOf(target);
   const ptrdiff_t one = floatsOf(source) == 1 ? 0 : run.stride(from), next = run.stride(to);
-  const ptrdiff_t element = floatsOf(source) * static_cast<ptrdiff_t>(run.stride(from));
+  const ptrdiff_t element = each ? floatsOf(source) * static_cast<ptrdiff_t>(run.stride(from)) : 0;
   for (int32_t e = 0; e < elements; ++e)
     for (int32_t c = 0; c < width; ++c)
       copyLane(run, all, run.lane(from).data + e * element + c * one, fromVaries,

@@ -132,11 +132,12 @@ void takeSame(Run& run, int32_t r, const TmValue& v) {
                   width == 3 ? v.c[c][e * 3] : v.c[0][e * width + c]);
 }
 
-void takeTexts(Run& run, int32_t r, const TmValue& v) {
-  const char* text = v.string ? v.string : "";
+void takeTexts(Run& run, int32_t r, const Parameter& p, const TmValue& v) {
+  const char* text = v.string;
   for (int32_t e = 0; e < elementsOf(run.reg(r)); ++e) {
-    run.variableText(r, e) = text;
-    if (e + 1 < std::max(1, v.length)) text += std::strlen(text) + 1;
+    const auto k = static_cast<size_t>(e);
+    run.variableText(r, e) = text ? text : k < p.texts.size() ? p.texts[k] : "";
+    if (text && e + 1 < std::max(1, v.length)) text += std::strlen(text) + 1;
   }
 }
 
@@ -159,7 +160,7 @@ void takeParameter(Run& run, int32_t r) {
   const Register& reg = run.reg(r);
   const Parameter& p = run.program.code().parameters[static_cast<size_t>(reg.index)];
   const TmValue& v = run.given.params[reg.index];
-  if (reg.shape == Shape::Text) return takeTexts(run, r, v);
+  if (reg.shape == Shape::Text) return takeTexts(run, r, p, v);
   if (p.output) return takeDefault(run, r, p);
   if (reg.length > 0 || reg.shape == Shape::Matrix) return takeSame(run, r, v);
   take(run, r, {{v.c[0], v.c[1], v.c[2]}, v.step == 0});
@@ -231,9 +232,8 @@ void forUsed(const Run& run, const Each& each) {
 void open(Run& run) {
   forUsed(run, [&](int32_t r, const Register& reg) {
     if (reg.origin == Origin::Parameter) takeParameter(run, r);
-    if (reg.origin != Origin::Global) return;
-    if (const GlobalInfo* global = findGlobal(reg.name))
-      take(run, r, sourceOf(global->global, run.program.code().kind, run.given));
+    const int32_t global = run.program.located(r).global;
+    if (global >= 0) take(run, r, sourceOf(static_cast<Global>(global), run.program.code().kind, run.given));
   });
 }
 
@@ -243,11 +243,11 @@ void store(Run& run) {
   for (int32_t i = 0; i < run.padded; ++i) run.whole.on[i] = i < run.count && run.given.active[i] != 0;
   forUsed(run, [&](int32_t r, const Register& reg) {
     if (isOutput(run, reg)) storeOutput(run, r);
-    if (reg.origin != Origin::Global || !run.program.located(r).assigned) return;
-    if (const GlobalInfo* global = findGlobal(reg.name)) {
-      storeGlobal(run, global->global, r);
-      Ci |= global->global == Global::Ci, Oi |= global->global == Global::Oi;
-    }
+    const Located& l = run.program.located(r);
+    if (l.global < 0 || !l.assigned) return;
+    const auto global = static_cast<Global>(l.global);
+    storeGlobal(run, global, r);
+    Ci |= global == Global::Ci, Oi |= global == Global::Oi;
   });
   if (run.program.code().kind == ShaderKind::Surface) storeOwnColors(run, Ci, Oi);
 }

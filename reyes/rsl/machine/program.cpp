@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reyes/rsl/globals.h"
 #include "reyes/rsl/machine/table.h"
 
 namespace tomales::compiler {
@@ -52,6 +53,8 @@ void Program::locate() {
     const bool output = r.origin == Origin::Parameter && code_.parameters[static_cast<size_t>(r.index)].output;
     if (!used_[k] && !output) continue;
     const int32_t size = floatsOf(r) * elementsOf(r);
+    if (const GlobalInfo* global = r.origin == Origin::Global ? findGlobal(r.name) : nullptr)
+      l.global = static_cast<int32_t>(global->global);
     if (r.shape == Shape::Text) {
       l.where = Where::Texts, l.at = texts_;
       if (r.origin != Origin::Constant) texts_ += elementsOf(r);

@@ -36,6 +36,7 @@ struct Located {
   Where where = Where::Nowhere;
   bool assigned = false;  ///< Some instruction writes it.
   int32_t at = 0;
+  int32_t global = -1;  ///< A Global (globals.h).
 };
 
 class Program {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include "reyes/rsl/globals.h"
 #include "reyes/rsl/machine/lists.h"
 #include "reyes/shader.h"
 
@@ -68,13 +69,18 @@ void tellOfLight(Run& run, const std::vector<rsl::LightList::Wanted>& wanted) {
   }
 }
 
+bool isUntouchedP(const Run& run, int32_t r) {
+  const Located& l = run.program.located(r);
+  return l.global == static_cast<int32_t>(Global::P) && !l.assigned;
+}
+
 /// Which points a light reaches: category, P, axis and angle of the instruction.
 void ask(Call& call, const std::string& category, TmIlluminance& query) {
   Run& run = call.run;
   query.category = category.c_str();
   // Volumes that give a P ask in the air, whatever P is (TmIlluminance::P).
-  const bool own =
-      call.has(1) && run.program.code().kind != ShaderKind::Volume && run.lane(call.of.in[1]).data == run.given.P.x;
+  const bool inAir = run.program.code().kind == ShaderKind::Volume;
+  const bool own = call.has(1) && !inAir && isUntouchedP(run, call.of.in[1]);
   if (call.has(1) && !own) query.P = copied(call, 1);
   if (call.has(2)) query.axis = copied(call, 2);
   if (!call.has(3)) return;

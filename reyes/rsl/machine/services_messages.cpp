@@ -14,12 +14,17 @@ void ask(Run& run, const Step& s) {
   call.set(told && fill(run, s.of->settings.at(0).value, type, v) ? 1.0f : 0.0f);
 }
 
+/// What RSL's shadername() calls other shaders, in the order of TmWhom.
+constexpr std::string_view kWhom[] = {"surface", "displacement", "atmosphere", "incident", "opposite", "light"};
+
+/// Empty: there is none.
 void shaderName(Run& run, const Step& s) {
   Call call(run, s);
+  const auto whom = static_cast<int32_t>(std::find(std::begin(kWhom), std::end(kWhom), call.text(0)) - kWhom);
   int32_t type = 0;
   TmValue v{};
   const bool told =
-      call.services.ask(call.host, call.g, s.of->extra, -1, "__shadername", &type, &v) && type == TM_STRING;
+      call.services.ask(call.host, call.g, whom, run.light, "__shadername", &type, &v) && type == TM_STRING;
   run.variableText(s.of->out[0]) = told ? v.string : "";
 }
 

@@ -16,7 +16,7 @@ class FakeGrid {
   explicit FakeGrid(int count) : n(padded(count)) {
     grid.structBytes = sizeof grid, grid.count = count, grid.padded = n;
     grid.time = 0.25f, grid.dtime = 0.5f, grid.clip[0] = 1, grid.clip[1] = 100;
-    grid.P = triples(), grid.N = triples(), grid.Ci = triples(), grid.Oi = triples(), grid.L = triples(),
+    grid.P = scattered(), grid.N = triples(), grid.Ci = triples(), grid.Oi = triples(), grid.L = triples(),
     grid.Cl = triples();
     const TmVec3 Ng = triples(), I = triples(), dPdu = triples(), dPdv = triples(), dPdtime = triples(), Cs = triples(),
                  Os = triples();
@@ -43,13 +43,18 @@ class FakeGrid {
   }
   FakeGrid(const FakeGrid&) = delete;
 
-  float* array() {
-    arrays_.push_back(std::make_unique<AlignedVector<float>>(static_cast<size_t>(n), 0.0f));
+  float* array(int components = 1) {
+    arrays_.push_back(std::make_unique<AlignedVector<float>>(static_cast<size_t>(n * components), 0.0f));
     return arrays_.back()->data();
   }
+  /// Components lie in one array, as a host's may.
   TmVec3 triples() {
-    float *const x = array(), *const y = array();
-    return {x, y, array()};
+    float* const x = array(3);
+    return {x, x + n, x + 2 * n};
+  }
+  TmVec3 scattered() {
+    float *const z = array(), *const y = array();
+    return {array(), y, z};
   }
 
   /// Values for the parameters of a code: defaults; outputs get arrays.

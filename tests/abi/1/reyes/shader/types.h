@@ -122,6 +122,7 @@ typedef struct TmValue {
 } TmValue;
 
 struct TmServices;
+struct TmShader;
 
 typedef struct TmGrid {
   uint32_t structBytes;
@@ -150,6 +151,7 @@ typedef struct TmGrid {
   TmConstVec3 Pl, Nl;      /* area: sampled point on the emitter and its RISpec normal, unit length */
   const float *xi0, *xi1;  /* TM_LIGHT_SAMPLED: a point of [0,1)^2; those of all samples of a point are stratified */
   int32_t sample, samples; /* which of how many samples of this light */
+  const struct TmShader* shader; /* that runs: how one function may serve many shaders */
 } TmGrid;
 
 #ifdef __cplusplus
