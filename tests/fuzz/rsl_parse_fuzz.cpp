@@ -1,6 +1,6 @@
 // libFuzzer entry: any bytes as a shader's text through the preprocessor and the parser, and the tree through its
 // printer, which walks all of it. Run
-//   rsl_parse_fuzz -max_len=4096 -timeout=20 -rss_limit_mb=2048 WORK_FOLDER tests/corpus/rsl
+//   rsl_parse_fuzz -max_len=4096 -timeout=60 -rss_limit_mb=2048 WORK_FOLDER tests/corpus/rsl
 #include <cstddef>
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // libFuzzer entry: any bytes through the preprocessor of shaders, and what it says through the printer of messages. Run
-//   rsl_preprocess_fuzz -max_len=4096 -timeout=20 -rss_limit_mb=2048 WORK_FOLDER tests/corpus/rsl
+//   rsl_preprocess_fuzz -max_len=4096 -timeout=60 -rss_limit_mb=2048 WORK_FOLDER tests/corpus/rsl
 #include <cstddef>
 #include <cstdint>
 

@@ -52,6 +52,7 @@ TEST(Macros, NeverReplaceThemselves) {
              {"#define a b\n#define b a\na b", "a b"},
              {"#define f(x) f(x + 1)\nf(2)", "f ( 2 + 1 )"},
              {"#define f(x) x f\nf(f)(1)", "f f ( 1 )"},
+             {"#define a b(a\n#define b(x) [x]\na )", "[ a ]"},
              {"#define sqrt(x) sqrt(abs(x))\nsqrt(sqrt(2))", "sqrt ( abs ( sqrt ( abs ( 2 ) ) ) )"}});
 }
 
