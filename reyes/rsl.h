@@ -14,7 +14,6 @@ namespace tomales {
 struct RslSettings {
   std::vector<std::string> includeFolders{};  ///< Of #include, besides that of the file.
   std::vector<std::pair<std::string, std::string>> definitions{};
-  std::string standardFolder{};  ///< Headers that come with the renderer, for those found nowhere else.
 };
 
 /// What a parameter is, as its file says it.

@@ -3,8 +3,8 @@
 #include <deque>
 
 #include "reyes/rsl.h"
-#include "reyes/rsl/parse.h"
 #include "reyes/rsl/hosted_shader.h"
+#include "reyes/rsl/parse.h"
 
 namespace tomales {
 
@@ -24,7 +24,7 @@ namespace {
 
 PreprocessOptions optionsOf(const RslSettings& settings) {
   PreprocessOptions out;
-  out.includeFolders = settings.includeFolders, out.standardFolder = settings.standardFolder;
+  out.includeFolders = settings.includeFolders;
   for (const auto& [name, value] : settings.definitions) out.definitions.push_back({name, value});
   return out;
 }

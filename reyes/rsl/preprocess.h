@@ -36,8 +36,8 @@ struct PreprocessOptions {
     std::string name, value;  ///< As `-D NAME=VALUE`.
   };
   std::vector<Definition> definitions;
-  /// Headers that come with the renderer, for names that are found nowhere else; empty: none.
-  std::string standardFolder;
+  /// Headers that come with the renderer, for names that are found nowhere else (standard_headers.h).
+  bool standardHeaders = true;
 };
 
 /// Bounds on what a stranger's file can ask for; more is an error.

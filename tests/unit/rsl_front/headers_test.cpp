@@ -22,7 +22,6 @@ std::vector<std::string> headers() {
 
 std::string messagesWith(const std::string& text) {
   PreprocessOptions options;
-  options.standardFolder = kFolder;
   Front front(text, options);
   return front.parsed().messages.rendered(front.sources);
 }
@@ -80,7 +79,6 @@ TEST(Headers, HaveWhatPublicShadersCall) {
     const std::string text = included({use.header}) + "surface x() { " + use.call + "; }";
     EXPECT_EQ(messagesWith(text), "") << use.call;
     PreprocessOptions options;
-    options.standardFolder = kFolder;
     Front front(text, options);
     for (const StmtPtr& statement : front.parsed().file.shaders.at(0)->body->body)
       for (const ExprPtr& call : statement->exprs) {
