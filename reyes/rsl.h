@@ -16,10 +16,10 @@ struct RslSettings {
   std::vector<std::pair<std::string, std::string>> definitions{};
 };
 
-/// What a parameter is, as its file says it.
+/// What a TmParamDecl does not say of a parameter.
 struct RslParameter {
-  std::string name, type, detail, value;  ///< "uniform", "varying"; the default as it is written.
-  bool output = false;
+  std::string detail;     ///< "uniform", "varying", or empty: its file does not say.
+  bool computed = false;  ///< Its default is no constant: the shader computes it.
 };
 
 /// A file, compiled. Lives at least as long as its shaders are used.
@@ -31,6 +31,7 @@ class RslFile {
 
   /// None if there are errors. A transformation shader is checked and left out: nothing runs it.
   const TmShaderLibrary* library() const;
+  /// In the order of TmShader::params.
   std::vector<RslParameter> parameters(const TmShader& shader) const;
   /// As compilers print them, with lines and carets; empty: all is well.
   const std::string& messages() const;

@@ -10,6 +10,7 @@
 #include "reyes/grid.h"
 #include "reyes/points.h"
 #include "reyes/ray_answers.h"
+#include "reyes/rsl.h"
 
 namespace tomales {
 
@@ -278,6 +279,8 @@ class ShaderRegistry {
   bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
   /// Opens a .so and adds it. False and a message if it is not a shader plugin of this ABI.
   bool loadPlugin(const std::string& path);
+  /// Adds the shaders of a compiled .sl file, which then come before others of their names.
+  bool addText(std::shared_ptr<const RslFile> file, const std::string& path);
   /// By name and kind. A shader that is not known yet is looked for as NAME.so in the trusted folders and then along
   /// `searchPath` (the scene's; folders separated by colons, empty: the working folder), then as NAME.sl along
   /// `searchPath`, in the trusted folders and in `beside`, the folder of the file that names it. A plugin in a folder

@@ -35,6 +35,7 @@ struct ShaderRegistry::Impl {
   bool untriedSaid = false;
   std::set<std::string> distrusted;  // plugins that were reported as such
   std::set<std::string> toldOf;      // what was wrong with shaders' texts
+  std::vector<std::shared_ptr<const RslFile>> texts{};
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -181,6 +182,13 @@ bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::strin
 bool ShaderRegistry::loadPlugin(const std::string& path) {
   const std::lock_guard lock(impl_->mutex);
   return impl_->load(path);
+}
+
+bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::string& path) {
+  const std::lock_guard lock(impl_->mutex);
+  if (file->errors() > 0) return impl_->refuse(path, file->messages()), false;
+  impl_->texts.push_back(file);
+  return impl_->add(file->library(), path);
 }
 
 const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind kind, const std::string& searchPath,
