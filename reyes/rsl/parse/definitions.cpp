@@ -36,7 +36,6 @@ File Parser::run() {
       try {
         definition(file);
       } catch (const Failed&) {
-        depth_ = 0;
         if (at_ == before) ++at_;
         skipDefinition();
       }

@@ -119,6 +119,7 @@ TEST(Errors, OfStatements) {
                 {"continue a;", "2:10: expected ';' before 'a'"},
                 {"return a", "2:9: expected ';' before '}'"},
                 {"illuminance(P { }", "2:15: expected ')' before '{'\n2:12: note: to match this '('"},
+                {"do { a; } while (b);", "2:1: RSL has no 'do' loop, only 'while' and 'for'"},
                 {"float;", "2:6: expected an expression before ';'"},
                 {"float a[;", "2:9: expected the length of the array, a number, before ';'"},
                 {"float a = ;", "2:11: expected an expression before ';'"},
@@ -137,7 +138,8 @@ TEST(Errors, OfExpressions) {
                 {"a = b % c;", "2:7: expected ';' before '%'"},
                 {"1 = a;", "2:3: only a variable or an element of an array can be assigned"},
                 {"f(a) = 1;", "2:6: only a variable or an element of an array can be assigned"},
-                {"i++;", "2:4: expected an expression before ';'"},
+                {"i++;", "2:2: RSL has no '++'; '+= 1' does the same"},
+                {"for (;; i--) ;", "2:10: RSL has no '--'; '-= 1' does the same"},
                 {"a = {1, 2;", "2:10: expected '}' before ';'\n2:5: note: to match this '{'"},
                 {"a = color \"hsv\";", ""}});
 }
