@@ -24,8 +24,11 @@ Run::Run(const Program& p, const TmGrid& g)
                uniformSize = static_cast<size_t>(p.uniformFloats()) * kBlock;
   float* const varying = memory.floats(varyingSize);
   float* const uniform = memory.floats(uniformSize);
-  // What is read before it is written, or at points that are not active, is the same in every run.
-  std::fill_n(varying, varyingSize, 0.0f), std::fill_n(uniform, uniformSize, 0.0f);
+  for (const Program::Cleared& c : p.cleared()) {
+    const size_t one = c.varying ? points : kBlock;
+    std::fill((c.varying ? varying : uniform) + static_cast<size_t>(c.from) * one,
+              (c.varying ? varying : uniform) + static_cast<size_t>(c.to) * one, 0.0f);
+  }
   lanes = new (memory.floats(registers * sizeof(Lanes) / sizeof(float))) Lanes[registers];
   texts = memory.openTexts(static_cast<size_t>(p.texts()));
   for (size_t k = 0; k < registers; ++k) {

@@ -2,7 +2,7 @@
 // Control: a mask says which points are active. If and loops with a condition that varies narrow it, and their blocks
 // are skipped where it is empty; Leave takes points out until its Scope or Loop ends. Pure instructions run over all
 // points, whatever the mask; Copy, SetElement and services obey it.
-// Values that nothing has written yet are 0, and so is what a service leaves of a temporary where points are not
+// Variables that nothing has written yet are 0, and so is what a service leaves of a temporary where points are not
 // active. Threads: a Program is constant, and run() may be called by many at once; memory is the thread's, and kept by
 // it.
 #pragma once

@@ -18,29 +18,44 @@ int32_t lastLabel(const Block& block) {
   return last;
 }
 
+/// Ranges that touch become one.
+void join(std::vector<Program::Cleared>& ranges) {
+  std::sort(ranges.begin(), ranges.end(), [](const Program::Cleared& a, const Program::Cleared& b) {
+    return std::pair(a.varying, a.from) < std::pair(b.varying, b.from);
+  });
+  std::vector<Program::Cleared> out;
+  for (const Program::Cleared& r : ranges)
+    if (out.empty() || out.back().varying != r.varying || out.back().to < r.from)
+      out.push_back(r);
+    else
+      out.back().to = std::max(out.back().to, r.to);
+  ranges = std::move(out);
+}
+
 }  // namespace
 
 Program::Program(Code code) : code_(std::move(code)) {
   located_.resize(code_.registers.size());
   used_.resize(code_.registers.size());
   left_.resize(static_cast<size_t>(std::max(code_.labels, lastLabel(code_.body) + 1)));
-  find(code_.body, true);
+  find(code_.body);
   locate();
   body_ = prepared(code_.body);
 }
 
-void Program::find(const Block& block, bool writes) {
-  const auto use = [&](int32_t r, bool assigned) {
+void Program::find(const Block& block) {
+  const auto use = [&](int32_t r, bool assigned, bool partly = false) {
     if (r < 0) return;
     used_[static_cast<size_t>(r)] = true;
-    if (assigned) located_[static_cast<size_t>(r)].assigned = true;
+    Located& l = located_[static_cast<size_t>(r)];
+    l.assigned |= assigned, l.partly |= partly;
   };
   for (const Instruction& i : block) {
-    for (const int32_t r : i.out) use(r, writes);
+    for (const int32_t r : i.out) use(r, true, i.op == Op::Copy && i.masked);
     for (const int32_t r : i.in) use(r, false);
     for (const Setting& s : i.settings) use(s.name, false), use(s.value, s.fills);
     if (i.op == Op::Leave) left_[static_cast<size_t>(i.extra)] = true;
-    for (const Block& inner : i.blocks) find(inner, writes);
+    for (const Block& inner : i.blocks) find(inner);
   }
 }
 
@@ -68,8 +83,10 @@ void Program::locate() {
       int32_t& next = r.varying ? varying_ : uniform_;
       l.at = r.slot >= 0 ? r.slot : next;
       if (r.slot < 0) next += size;
+      if (r.origin == Origin::Variable || l.partly) cleared_.push_back({r.varying, l.at, l.at + size});
     }
   }
+  join(cleared_);
 }
 
 Steps Program::prepared(const Block& block) const {
@@ -79,12 +96,13 @@ Steps Program::prepared(const Block& block) const {
     Step& s = out.emplace_back();
     s.of = &i;
     s.kernel = kernelOf(i.op);
-    const bool componentwise = s.kernel && info(i.op).componentwise();
-    s.execute = executeOf(i.op);
+    std::copy_n(i.in.begin(), std::min(std::size(s.in), i.in.size()), s.in);
     if (!i.out.empty() && i.out[0] >= 0) {
-      s.uniform = !reg(i.out[0]).varying;
-      s.components = componentwise ? floatsOf(reg(i.out[0])) : 1;
+      s.out = i.out[0];
+      s.uniform = !reg(s.out).varying;
+      if (s.kernel && info(i.op).componentwise()) s.components = floatsOf(reg(s.out));
     }
+    s.execute = s.kernel ? runnerOf(s) : executeOf(i.op);
     if (i.op == Op::Scope || i.op == Op::Loop) s.left[0] = left_[static_cast<size_t>(i.extra)];
     if (i.op == Op::Loop) s.left[1] = left_[static_cast<size_t>(i.extra) + 1];
     for (const Block& inner : i.blocks) s.blocks.push_back(prepared(inner));

@@ -17,6 +17,8 @@ struct Step {
   Execute execute = nullptr;
   Kernel kernel = nullptr;
   const Instruction* of = nullptr;
+  int32_t out = -1;        ///< The first result.
+  int32_t in[4] = {};      ///< The first operands.
   int32_t components = 1;  ///< Of the result, where a kernel does one at a time.
   bool uniform = false;    ///< The result is one value for the batch.
   bool left[2] = {};       ///< Something leaves the label `extra`, `extra` + 1, of a Scope or Loop.
@@ -35,6 +37,7 @@ enum class Where : uint8_t {
 struct Located {
   Where where = Where::Nowhere;
   bool assigned = false;  ///< Some instruction writes it.
+  bool partly = false;    ///< Some instruction writes it at active points alone.
   int32_t at = 0;
   int32_t global = -1;  ///< A Global (globals.h).
 };
@@ -50,18 +53,25 @@ class Program {
   const Located& located(int32_t r) const { return located_[static_cast<size_t>(r)]; }
   const float* constants() const { return constants_.data(); }
   const Steps& body() const { return body_; }
+  /// Registers that may be read where nobody has written: floats a point (varying) or values (uniform), from ... to.
+  struct Cleared {
+    bool varying;
+    int32_t from, to;
+  };
+  const std::vector<Cleared>& cleared() const { return cleared_; }
   int32_t varyingFloats() const { return varying_; }
   int32_t uniformFloats() const { return uniform_; }
   int32_t texts() const { return texts_; }
 
  private:
-  void find(const Block& block, bool writes);
+  void find(const Block& block);
   void locate();
   Steps prepared(const Block& block) const;
   Code code_;
   std::vector<Located> located_;
   std::vector<bool> used_, left_;  // registers; labels
   AlignedVector<float> constants_;
+  std::vector<Cleared> cleared_;
   Steps body_;
   int32_t varying_ = 0, uniform_ = 0, texts_ = 0;
 };

@@ -7,45 +7,57 @@
 namespace tomales::compiler {
 namespace {
 
-/// A kernel that takes whole registers.
+/// A kernel that takes whole registers: `inputs` of them.
+template <int inputs>
 void runKernel(Run& run, const Step& s) {
+  Lanes in[inputs];
+  for (int k = 0; k < inputs; ++k) in[k] = run.lanes[s.in[k]];
+  s.kernel(s.uniform ? 1 : run.blocks, run.lanes[s.out], in);
+}
+
+/// The same, of more than a Step holds.
+void runLongKernel(Run& run, const Step& s) {
   constexpr size_t kMostInputs = 16;
   const std::vector<int32_t>& from = s.of->in;
   Lanes in[kMostInputs];
-  for (size_t k = 0; k < from.size(); ++k) in[k] = run.lanes[from[k]];
-  s.kernel(s.uniform ? 1 : run.blocks, run.lanes[s.of->out[0]], in);
+  for (size_t k = 0; k < std::min(kMostInputs, from.size()); ++k) in[k] = run.lanes[from[k]];
+  s.kernel(s.uniform ? 1 : run.blocks, run.lanes[s.out], in);
 }
 
 /// One that does a component at a time. Numbers count for all components.
+template <int inputs>
 void runByComponent(Run& run, const Step& s) {
-  constexpr size_t kMostInputs = 4;
-  const std::vector<int32_t>& from = s.of->in;
-  Lanes in[kMostInputs], out = run.lanes[s.of->out[0]];
-  for (size_t k = 0; k < from.size(); ++k) in[k] = run.lanes[from[k]];
+  Lanes in[inputs], out = run.lanes[s.out];
+  for (int k = 0; k < inputs; ++k) in[k] = run.lanes[s.in[k]];
   const int blocks = s.uniform ? 1 : run.blocks;
   for (int32_t c = 0; c < s.components; ++c) {
     s.kernel(blocks, out, in);
     out.data += out.component;
-    for (size_t k = 0; k < from.size(); ++k) in[k].data += in[k].component;
+    for (int k = 0; k < inputs; ++k) in[k].data += in[k].component;
   }
 }
 
 std::array<Execute, kOps> made() {
   std::array<Execute, kOps> table{};
-  for (int k = 0; k < kOps; ++k) {
-    const OpInfo& op = info(static_cast<Op>(k));
-    if (op.kernel()) table[static_cast<size_t>(k)] = op.componentwise() ? runByComponent : runKernel;
-  }
   for (const auto rows : {controlRows(), copyRows(), valueRows(), textRows(), surfaceRows(), lightRows(), rayRows(),
                           pictureRows(), cloudRows(), messageRows()})
     for (const Row& row : rows) table[static_cast<size_t>(row.op)] = row.execute;
   for (int k = 0; k < kOps; ++k)
-    if (!table[static_cast<size_t>(k)])
+    if (!table[static_cast<size_t>(k)] && !info(static_cast<Op>(k)).kernel())
       checkFailed(__FILE__, __LINE__, "every instruction has a function", info(static_cast<Op>(k)).name, k);
   return table;
 }
 
 }  // namespace
+
+Execute runnerOf(const Step& s) {
+  static constexpr Execute kWhole[] = {runKernel<1>, runKernel<2>, runKernel<3>, runKernel<4>},
+                           kByComponent[] = {runByComponent<1>, runByComponent<2>, runByComponent<3>,
+                                             runByComponent<4>};
+  const size_t inputs = s.of->in.size();
+  if (inputs > std::size(kWhole)) return runLongKernel;
+  return s.components == 1 ? kWhole[inputs - 1] : kByComponent[inputs - 1];
+}
 
 Execute executeOf(Op op) {
   static const std::array<Execute, kOps> table = made();

@@ -6,8 +6,10 @@
 
 namespace tomales::compiler {
 
-/// Never null.
+/// Of what no kernel does; never null then.
 Execute executeOf(Op op);
+/// Calls the kernel of a step.
+Execute runnerOf(const Step& s);
 
 struct Row {
   Op op;

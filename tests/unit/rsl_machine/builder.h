@@ -1,6 +1,7 @@
 // Code written by hand: registers and instructions, blocks by functions.
 #pragma once
 #include <functional>
+#include <utility>
 
 #include "reyes/rsl/code.h"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "reyes/rsl/machine/machine.h"
+#include "reyes/shader/shadeops.h"
 #include "tests/unit/rsl_machine/builder.h"
 #include "tests/unit/rsl_machine/fake_grid.h"
 
