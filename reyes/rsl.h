@@ -14,13 +14,12 @@ namespace tomales {
 struct RslSettings {
   std::vector<std::string> includeFolders{};  ///< Of #include, besides that of the file.
   std::vector<std::pair<std::string, std::string>> definitions{};
-  std::string standardFolder{};  ///< Headers that come with the renderer, for those found nowhere else.
 };
 
-/// What a parameter is, as its file says it.
+/// What a TmParamDecl does not say of a parameter.
 struct RslParameter {
-  std::string name, type, detail, value;  ///< "uniform", "varying"; the default as it is written.
-  bool output = false;
+  std::string detail;     ///< "uniform", "varying", or empty: its file does not say.
+  bool computed = false;  ///< Its default is no constant: the shader computes it.
 };
 
 /// A file, compiled. Lives at least as long as its shaders are used.
@@ -32,11 +31,14 @@ class RslFile {
 
   /// None if there are errors. A transformation shader is checked and left out: nothing runs it.
   const TmShaderLibrary* library() const;
+  /// In the order of TmShader::params.
   std::vector<RslParameter> parameters(const TmShader& shader) const;
   /// As compilers print them, with lines and carets; empty: all is well.
   const std::string& messages() const;
   int errors() const;
   int warnings() const;
+  /// Functions that a shader calls and nobody has: it runs, with substitutes.
+  int missing() const;
   /// The first error, in one line: "file:line:column: text"; empty: none.
   std::string firstError() const;
   /// The file itself, and all that it includes.

@@ -10,6 +10,7 @@
 #include "reyes/grid.h"
 #include "reyes/points.h"
 #include "reyes/ray_answers.h"
+#include "reyes/rsl.h"
 
 namespace tomales {
 
@@ -278,11 +279,16 @@ class ShaderRegistry {
   bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
   /// Opens a .so and adds it. False and a message if it is not a shader plugin of this ABI.
   bool loadPlugin(const std::string& path);
-  /// By name and kind. A shader that is not known yet is looked for as NAME.so in the trusted folders and then along
-  /// `searchPath` (the scene's; folders separated by colons, empty: the working folder). A plugin in a folder that is
-  /// not trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".." or an
-  /// absolute name leads to.
-  const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath);
+  /// Adds the shaders of a compiled .sl file, which then come before others of their names.
+  bool addText(std::shared_ptr<const RslFile> file, const std::string& path);
+  /// By name and kind. Shaders that have been loaded come first, and built-in ones whose look RISpec fixes; then
+  /// NAME.so in the trusted folders; then NAME.sl along `searchPath` (the scene's; folders separated by colons, empty:
+  /// the working folder), in the trusted folders and in `beside`, the folder of the file that names it; then other
+  /// built-in ones; then NAME.so along `searchPath`. A plugin in a folder that is not trusted is reported, once, and
+  /// not loaded; so is one outside of a trusted folder that a name with ".." or an absolute name leads to. A .sl that
+  /// has errors is reported with all of them.
+  const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
+                       const std::string& beside = {});
   std::vector<const TmShader*> all() const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 /// Does the argument suit the slot of a built-in? < 0: no; else how far it is.
 int suits(const Slot& slot, const Expr& e, int far) {
   if (e.type == kUnknown) return 0;
-  if (slot.any) return slot.array == e.type.isArray() ? 0 : -1;
+  if (slot.any) return !slot.array || e.type.isArray() ? 0 : -1;
   return far;
 }
 
@@ -114,10 +114,8 @@ Type Checker::typeOfCall(Expr& e) {
       chosen = row, least = far;
   if (chosen >= 0) return typeOfBuiltin(e, chosen);
   if (best) return typeOfFunction(e, *best);
-  if (count == 0 && all.empty())
-    unknownFunction(e);
-  else
-    noFit(e, all);
+  if (count == 0 && all.empty()) return unknownFunction(e), Type{Base::Float};
+  noFit(e, all);
   return kUnknown;
 }
 
@@ -185,13 +183,15 @@ bool isFilled(std::string_view function, std::string_view name) {
   return false;
 }
 
+// It may be one of a library that other renderers load (DSO shadeops): the shader runs, and says that it lacks it.
 void Checker::unknownFunction(Expr& e) {
+  e.missing = true;
   if (!told_.insert({1, e.text}).second) return;
   const auto near = nearNames(e.text, functionNames());
-  messages_.error(e.place,
-                  fmt::format("there is no function \"{}\"{}", e.text,
-                              near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near.front())),
-                  e.length);
+  messages_.missing(e.place,
+                    fmt::format("there is no function \"{}\"{}: its value is a loud one", e.text,
+                                near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near.front())),
+                    e.length);
 }
 
 void Checker::noFit(Expr& e, const std::vector<const Function*>& functions) {

@@ -209,6 +209,7 @@ void Checker::retarget(Expr& e, const Type& wanted) {
       e.type = e.args.back()->type;
       return;
     case ExprKind::Call: {
+      if (e.missing) e.type = wanted;
       if (e.builtin < 0) return;
       const auto [first, count] = rowsOf(e.text);
       int best = e.type == wanted ? 0 : -1;

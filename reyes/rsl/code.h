@@ -69,7 +69,6 @@ struct Parameter {
   std::vector<std::string> texts;
   /// The default is computed when the shader runs and nothing is given: `floats` is kNotGiven then.
   bool computed = false;
-  std::string written;  ///< The default as the source has it, for `tomales info`.
   Place place{};
 };
 

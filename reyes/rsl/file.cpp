@@ -3,8 +3,8 @@
 #include <deque>
 
 #include "reyes/rsl.h"
+#include "reyes/rsl/hosted_shader.h"
 #include "reyes/rsl/parse.h"
-#include "reyes/rsl/program.h"
 
 namespace tomales {
 
@@ -14,7 +14,7 @@ struct RslFile::Impl {
   Sources sources;
   Messages messages;
   Checked checked;
-  std::deque<ProgramShader> shaders;
+  std::deque<HostedShader> shaders;
   std::vector<const TmShader*> hosts;
   TmShaderLibrary library{};
   std::string rendered;
@@ -24,7 +24,7 @@ namespace {
 
 PreprocessOptions optionsOf(const RslSettings& settings) {
   PreprocessOptions out;
-  out.includeFolders = settings.includeFolders, out.standardFolder = settings.standardFolder;
+  out.includeFolders = settings.includeFolders;
   for (const auto& [name, value] : settings.definitions) out.definitions.push_back({name, value});
   return out;
 }
@@ -41,7 +41,7 @@ std::shared_ptr<const RslFile> RslFile::compile(const std::string& path, const R
   if (!f.messages.hasErrors())
     for (const auto& s : f.checked.file.shaders) f.shaders.emplace_back(f.checked, *s, path, f.messages);
   if (!f.messages.hasErrors())
-    for (const ProgramShader& p : f.shaders)
+    for (const HostedShader& p : f.shaders)
       if (const TmShader* host = p.host()) f.hosts.push_back(host);
   f.library = {TM_SHADER_ABI, sizeof f.library, f.hosts.data(), nullptr, static_cast<int32_t>(f.hosts.size())};
   f.rendered = f.messages.rendered(f.sources);
@@ -51,6 +51,8 @@ std::shared_ptr<const RslFile> RslFile::compile(const std::string& path, const R
 const TmShaderLibrary* RslFile::library() const { return &impl_->library; }
 const std::string& RslFile::messages() const { return impl_->rendered; }
 int RslFile::errors() const { return impl_->messages.errorCount(); }
+
+int RslFile::missing() const { return impl_->messages.missingCount(); }
 
 int RslFile::warnings() const {
   int n = 0;
@@ -74,11 +76,13 @@ std::vector<std::string> RslFile::files() const {
 
 std::vector<RslParameter> RslFile::parameters(const TmShader& shader) const {
   std::vector<RslParameter> out;
-  for (const ProgramShader& p : impl_->shaders) {
+  for (const HostedShader& p : impl_->shaders) {
     if (p.host() != &shader) continue;
     for (const Parameter& parameter : p.lowered().parameters)
-      out.push_back({parameter.name, name(parameter.type), parameter.detail == Detail::Varying ? "varying" : "uniform",
-                     parameter.written, parameter.output});
+      out.push_back({parameter.detail == Detail::Varying   ? "varying"
+                     : parameter.detail == Detail::Uniform ? "uniform"
+                                                           : "",
+                     parameter.computed});
   }
   return out;
 }
@@ -95,7 +99,7 @@ std::string RslFile::dump(const std::string& path, const RslSettings& settings, 
   std::string out;
   if (messages.hasErrors()) return out;
   for (const auto& s : checked.file.shaders) {
-    const ProgramShader program(checked, *s, path, messages);
+    const HostedShader program(checked, *s, path, messages);
     out += compiler::dump(stage == "lowered" ? program.lowered() : program.code());
   }
   return out;

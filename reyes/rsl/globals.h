@@ -15,12 +15,12 @@ namespace tomales::compiler {
   G(P, Point, false, "SLDVI", "D")    G(N, Normal, false, "SLDV", "SD")  G(Ng, Normal, false, "SLDV", "") \
   G(I, Vector, false, "SDVL", "")     G(E, Point, true, "SLDVI", "")     G(Cs, Color, false, "SLDV", "")  \
   G(Os, Color, false, "SLDV", "")     G(dPdu, Vector, false, "SLDV", "") G(dPdv, Vector, false, "SLDV", "") \
-  G(u, Float, false, "SLDV", "")      G(v, Float, false, "SLDV", "")     G(s, Float, false, "SLDV", "")   \
-  G(t, Float, false, "SLDV", "")      G(du, Float, false, "SLDV", "")    G(dv, Float, false, "SLDV", "")  \
+  G(u, Float, false, "SLDVI", "")      G(v, Float, false, "SLDVI", "")     G(s, Float, false, "SLDVI", "")   \
+  G(t, Float, false, "SLDVI", "")      G(du, Float, false, "SLDV", "")    G(dv, Float, false, "SLDV", "")  \
   G(dPdtime, Vector, false, "SLDV", "") G(time, Float, true, "SLDVI", "") G(dtime, Float, true, "SLDVI", "") \
   G(ncomps, Float, true, "SLDVI", "") G(Ci, Color, false, "SVI", "SVI")  G(Oi, Color, false, "SVI", "SVI") \
   G(L, Vector, false, "SLV", "L")     G(Cl, Color, false, "SLV", "L")    G(Ol, Color, false, "SLV", "L")  \
-  G(Ps, Point, false, "L", "")        G(Ns, Normal, false, "L", "")      G(alpha, Float, false, "I", "I") \
+  G(Ps, Point, false, "SLV", "")        G(Ns, Normal, false, "L", "")      G(alpha, Float, false, "I", "I") \
   /* not of RISpec: depths of the clipping planes, for depth() */                                         \
   G(__near, Float, true, "SLDVI", "") G(__far, Float, true, "SLDVI", "")
 // clang-format on

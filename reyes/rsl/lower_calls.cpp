@@ -10,6 +10,12 @@ namespace tomales::compiler {
 
 int32_t Lowering::call(const Expr& e) {
   if (e.function) return inlined(e, *e.function);
+  if (e.missing) {
+    emit(Op::Report, {}, {text(fmt::format("calls {}(), which there is not; its value is magenta, or 1", e.text))});
+    if (e.type.is(Base::String)) return text("");
+    if (e.type.is(Base::Matrix)) return compute(Op::MatrixOf, {number(1)});
+    return e.type.isTriple() ? constant(Shape::Triple, {1, 0, 1}) : number(1);
+  }
   return builtin(e, builtins()[static_cast<size_t>(e.builtin)]);
 }
 
@@ -215,6 +221,8 @@ int32_t Lowering::withList(const Expr& e, const Builtin& b) {
         break;
       }
     in.insert(in.begin(), file);
+  } else if (b.slots[0].base == Base::String && b.op == Op::Occlusion) {
+    in.erase(in.begin());  // a map of other renderers, in whose place rays tell
   } else if (b.emit == Emit::Traced && in.size() == 2) {
     constexpr float kRays = 64;  // where neither an argument nor the list says how many
     in.push_back(number(kRays));

@@ -34,7 +34,8 @@ void Lowering::shader(const Shader& s) {
 }
 
 void Lowering::parameter(const Variable& v) {
-  Parameter p{.name = v.name, .type = v.type, .detail = v.detail, .output = v.output, .place = v.place};
+  Parameter p;
+  p.name = v.name, p.type = v.type, p.detail = v.detail, p.output = v.output, p.place = v.place;
   if (p.type.length == kOpenArray) p.type.length = 1;
   const bool constantValue = constantDefault(v, p);
   const int32_t reg = variable(v);

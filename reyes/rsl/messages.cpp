@@ -8,7 +8,7 @@ namespace tomales::compiler {
 namespace {
 
 constexpr size_t kMostShown = 200;  ///< Characters of a line; of longer ones the part around the place.
-constexpr int kMostMacroNotes = 8;  ///< Of macros within macros; the outermost is always shown.
+constexpr int kMostNotes = 8;       ///< Of macros within macros, and of files; the outermost is always shown.
 
 const char* name(Severity severity) {
   switch (severity) {
@@ -56,7 +56,7 @@ std::string macroNotes(const Sources& sources, Place place) {
   for (int shown = 0; place.expansion >= 0; ++shown) {
     const Expansion& e = sources.expansion(place.expansion);
     place = e.use;
-    if (shown < kMostMacroNotes || place.expansion < 0)
+    if (shown < kMostNotes || place.expansion < 0)
       out += oneMessage(sources, Severity::Note, place, e.macro.size(), "in expansion of macro '" + e.macro + "'");
   }
   return out;
@@ -64,9 +64,10 @@ std::string macroNotes(const Sources& sources, Place place) {
 
 std::string includeLines(const Sources& sources, Place place) {
   std::string out;
-  while (place.file >= 0 && sources.file(place.file).includedFrom.line > 0) {
+  for (int shown = 0; place.file >= 0 && sources.file(place.file).includedFrom.line > 0; ++shown) {
     place = sources.file(place.file).includedFrom;
-    out += fmt::format("  included from {}:{}\n", sources.file(place.file).path, place.line);
+    if (shown < kMostNotes || sources.file(place.file).includedFrom.line == 0)
+      out += fmt::format("  included from {}:{}\n", sources.file(place.file).path, place.line);
   }
   return out;
 }
@@ -76,6 +77,11 @@ std::string includeLines(const Sources& sources, Place place) {
 void Messages::error(Place place, std::string text, int32_t length) {
   ++errors_;
   add(Severity::Error, place, std::move(text), length);
+}
+
+void Messages::missing(Place place, std::string text, int32_t length) {
+  ++missing_;
+  warning(place, std::move(text), length);
 }
 
 void Messages::warning(Place place, std::string text, int32_t length) {

@@ -68,6 +68,7 @@ color phong(normal n; vector v; float size) {
 }
 
 float raydepth() { float d = 0; rayinfo("depth", d); return d; }
+float raylevel() { return raydepth(); }
 float isshadowray() { string kind = ""; rayinfo("type", kind); return kind == "transmission"; }
 float isindirectray() { string kind = ""; rayinfo("type", kind); return kind == "diffuse"; }
 /* Outputs that nobody wants cost nothing here. */

@@ -36,19 +36,19 @@ struct PreprocessOptions {
     std::string name, value;  ///< As `-D NAME=VALUE`.
   };
   std::vector<Definition> definitions;
-  /// Headers that come with the renderer, for names that are found nowhere else; empty: none.
-  std::string standardFolder;
+  /// Headers that come with the renderer, for names that are found nowhere else (standard_headers.h).
+  bool standardHeaders = true;
 };
 
 /// Bounds on what a stranger's file can ask for; more is an error.
 constexpr int kMostIncludeDepth = 64;
-constexpr size_t kMostTokens = 1'000'000;     ///< After expansion, and of what macros make on the way to it.
-constexpr int kMostExpansions = 200'000;      ///< Uses of macros.
+constexpr size_t kMostTokens = 500'000;       ///< After expansion, and of what macros make on the way to it.
+constexpr int kMostExpansions = 50'000;       ///< Uses of macros.
 constexpr int kMostIncludes = 2'000;          ///< Files, each as often as it is included.
 constexpr size_t kMostFileBytes = 16u << 20;  ///< Of one file.
 
 /// Tokens of a file and of all that it includes, ended by one of kind End. Errors are in `messages`, and tokens go on
-/// after them as well as they can.
+/// after them as well as they can; beyond a bound there are none.
 std::vector<Token> preprocess(const std::string& path, const PreprocessOptions& options, Sources& sources,
                               Messages& messages);
 /// The same of a text, which messages call `name`; it includes from the folders of `options` alone.

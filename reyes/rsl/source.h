@@ -63,6 +63,9 @@ class Messages {
  public:
   void error(Place place, std::string text, int32_t length = 1);
   void warning(Place place, std::string text, int32_t length = 1);
+  /// A warning of something that the shader needs and nobody has: it runs, with a substitute.
+  void missing(Place place, std::string text, int32_t length = 1);
+  int missingCount() const { return missing_; }
   void note(Place place, std::string text, int32_t length = 1);
   bool hasErrors() const { return errors_ > 0; }
   int errorCount() const { return errors_; }
@@ -77,7 +80,7 @@ class Messages {
  private:
   void add(Severity severity, Place place, std::string text, int32_t length);
   std::vector<Message> all_;
-  int errors_ = 0, warnings_ = 0, notes_ = 0;
+  int errors_ = 0, warnings_ = 0, notes_ = 0, missing_ = 0;
   bool keeps_ = true;  ///< The error or warning that notes now belong to.
 };
 

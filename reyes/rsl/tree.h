@@ -84,6 +84,7 @@ struct Expr {
   Variable* variable = nullptr;        ///< Of a Name.
   const Function* function = nullptr;  ///< Of a Call to a function of the file.
   int32_t builtin = -1;                ///< Of a Call to a built-in: its row of the table (builtins.h).
+  bool missing = false;                ///< Of a Call to a function that nobody has.
 };
 
 enum class StmtKind : uint8_t {

@@ -162,7 +162,13 @@ void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
   tm.P = arena.vec3(n), tm.N = arena.vec3(n);
   for (int i = 0; i < n; ++i) set(tm.P, i, {p.x + static_cast<float>(i), p.y, 0});
   tm.Ng = tm.I = tm.dPdu = tm.dPdv = tm.dPdtime = zero;
-  tm.u = tm.v = tm.s = tm.t = tm.du = tm.dv = zero.x;
+  tm.du = tm.dv = zero.x;
+  // Over the picture, from its top left corner.
+  float *u = arena.floats(n), *v = arena.floats(n);
+  for (int i = 0; i < n; ++i)
+    u[i] = tm.P.x[i] / static_cast<float>(scene.scene.options.xResolution),
+    v[i] = tm.P.y[i] / static_cast<float>(scene.scene.options.yResolution);
+  tm.u = tm.s = u, tm.v = tm.t = v;
   tm.Ci = {p.colors.Ci[0].data(), p.colors.Ci[1].data(), p.colors.Ci[2].data()};
   tm.Oi = {p.colors.Oi[0].data(), p.colors.Oi[1].data(), p.colors.Oi[2].data()};
   tm.alpha = p.alpha.data();

@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "reyes/shade/substitute.h"
 
 namespace tomales {
 
 BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
-  const TmShader* shader = registry_.find(name, kind, path_);
+  // Where the request stands in a file, the shader may lie beside that file.
+  const std::string beside =
+      call && call->where.file ? std::filesystem::path(*call->where.file).parent_path().string() : "";
+  const TmShader* shader = registry_.find(name, kind, path_, beside);
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
   if (shader) return bindShader(*shader, call, where, user, currentFromShader, log_);

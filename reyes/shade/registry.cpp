@@ -10,6 +10,7 @@
 #include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
 #include "reyes/shade/roles.h"
+#include "reyes/shade/rsl_shaders.h"
 
 namespace tomales {
 
@@ -33,6 +34,10 @@ struct ShaderRegistry::Impl {
   PluginTrial trial;
   bool untriedSaid = false;
   std::set<std::string> distrusted;  // plugins that were reported as such
+  std::set<std::string> toldOf;      // what was wrong with shaders' texts
+  std::vector<std::shared_ptr<const RslFile>> texts{};
+  std::set<const TmShader*> builtIn{};
+  std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -42,6 +47,10 @@ struct ShaderRegistry::Impl {
   bool load(const std::string& path);
   std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
   std::string heldBy(const std::string& path) const;
+  const TmShader* search(const std::string& name, TmKind kind, const std::string& searchPath,
+                         const std::string& beside);
+  const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
+                           const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
     return it == shaders.end() ? nullptr : it->second;
@@ -143,6 +152,14 @@ std::vector<std::string> pluginFiles(const std::string& name, const std::string&
   return out;
 }
 
+/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which is held against it.
+bool isOfSpecification(std::string_view name) {
+  static constexpr std::string_view kNames[] = {
+      "constant",     "matte",      "metal",     "shinymetal", "plastic", "paintedplastic", "ambientlight",
+      "distantlight", "pointlight", "spotlight", "depthcue",   "fog",     "bumpy",          "background"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
 /// Does the name of a shader lead out of the folders that it is looked for in?
 bool leavesFolders(const fs::path& name) {
   return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
@@ -166,31 +183,73 @@ std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& n
 }
 
 ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust)
-    : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}}) {}
+    : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->add(library, origin);
+  impl_->answers.clear();
+  std::vector<const TmShader*> added;
+  const bool works = impl_->add(library, origin, &added);
+  impl_->builtIn.insert(added.begin(), added.end());
+  return works;
 }
 
 bool ShaderRegistry::loadPlugin(const std::string& path) {
   const std::lock_guard lock(impl_->mutex);
+  impl_->answers.clear();
   return impl_->load(path);
 }
 
-const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath) {
+bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::string& path) {
   const std::lock_guard lock(impl_->mutex);
-  if (const TmShader* s = impl_->known(name, kind)) return s;
+  if (file->errors() > 0) return impl_->refuse(path, file->messages()), false;
+  impl_->texts.push_back(file);
+  impl_->answers.clear();
+  return impl_->add(file->library(), path);
+}
+
+const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind kind, const std::string& searchPath,
+                                               const std::string& beside) {
+  std::vector<std::string> folders = foldersOf(searchPath);
+  for (const std::string& folder : foldersOf(trust.folders)) folders.push_back(folder);
+  folders.push_back(beside.empty() ? "." : beside);
+  const RslFound found = findRslShader(name, kind, folders);
+  const auto tell = [&](const std::string& where, const std::string& what) {
+    if (toldOf.insert(where + what).second) refuse(where, what);
+  };
+  if (!found.problem.empty()) tell(found.file, found.problem);
+  if (!found.remark.empty()) tell(name, found.remark);
+  return found.shader;
+}
+
+const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kind, const std::string& searchPath,
+                                             const std::string& beside) {
+  const TmShader* const own = known(name, kind);
+  if (own && (!builtIn.count(own) || isOfSpecification(name))) return own;
+  if (!leavesFolders(name))
+    for (const std::string& file : pluginFiles(name, trust.folders))
+      if (load(file))
+        if (const TmShader* s = known(name, kind); s && s != own) return s;
+  if (const TmShader* s = findText(name, kind, searchPath, beside)) return s;
+  if (own) return own;
   std::vector<std::string> others;  // plugins of that name without such a shader
-  for (const std::string& file : impl_->trustedFiles(name, searchPath)) {
-    if (!impl_->load(file)) continue;
-    if (const TmShader* s = impl_->known(name, kind)) return s;
+  for (const std::string& file : trustedFiles(name, searchPath)) {
+    if (!load(file)) continue;
+    if (const TmShader* s = known(name, kind)) return s;
     others.push_back(file);
   }
   for (const std::string& file : others)
-    impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
+    refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, heldBy(file)));
   return nullptr;
+}
+
+const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath,
+                                     const std::string& beside) {
+  const std::lock_guard lock(impl_->mutex);
+  const auto [answer, isNew] = impl_->answers.try_emplace({name, kind, searchPath, beside}, nullptr);
+  if (isNew) answer->second = impl_->search(name, kind, searchPath, beside);
+  return answer->second;
 }
 
 std::vector<const TmShader*> ShaderRegistry::all() const {

@@ -7,6 +7,7 @@
 #include "reyes/app/chart/sweeps.h"
 #include "reyes/app/commands/atlas_commands.h"
 #include "reyes/app/commands/catrib.h"
+#include "reyes/app/commands/compile.h"
 #include "reyes/app/commands/info.h"
 #include "reyes/app/commands/options.h"
 #include "reyes/app/commands/render.h"
@@ -26,6 +27,7 @@ struct Invocation {
   RenderSettings render;
   CatribSettings catrib;
   ShadetestCommand shadetest;
+  CompileCommand compile;
   IrradianceCommand irradiance;
   BrickmakeCommand brickmake;
   ViewCommand view;
@@ -110,7 +112,7 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildInfo(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .dfb, .icf, .exr, .tif, .png or shader .so file");
+  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .dfb, .icf, .exr, .tif, .png or shader .sl or .so file");
   c->add_option("FILE", in.first)->required();
   c->add_flag("--json", in.json, "As JSON");
   c->callback([&] { code = infoCommand(in.first, in.json); });
@@ -126,9 +128,33 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = compareCommand(in.first, in.second, in.difference, in.json); });
 }
 
+void buildCompile(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("compile", "Check shaders in the RenderMan Shading Language");
+  c->add_option("SHADER.sl", in.compile.files)->required();
+  c->add_option("-I", in.compile.folders, "Folder of #include")
+      ->type_name("FOLDER")
+      ->expected(1)
+      ->allow_extra_args(false);
+  c->add_option("-D", in.compile.definitions, "Define a macro")
+      ->type_name("NAME[=VALUE]")
+      ->expected(1)
+      ->allow_extra_args(false);
+  c->add_option("--dump", in.compile.dump, "Print what a stage makes of the shaders")
+      ->check(CLI::IsMember({"tokens", "tree", "types", "lowered", "code"}))
+      ->type_name("tokens|tree|types|lowered|code");
+  c->add_flag("-q", in.compile.quiet, "No warnings");
+  c->callback([&] { code = compileCommand(in.compile); });
+}
+
 void buildShadetest(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("shadetest", "One shader over a grid: time and values");
-  c->add_option("SHADER", in.shadetest.shader, "A name, or a plugin .so")->required();
+  c->add_option("SHADER", in.shadetest.shader, "A name, a .sl file, or a plugin .so")->required();
+  c->add_option("PARAMETER=VALUE", in.shadetest.parameters, "Of the shader: Kd=.5, color=1,0,0, name=marble");
+  c->add_option("-I", in.shadetest.folders, "Folder of #include, for a .sl")
+      ->type_name("FOLDER")
+      ->expected(1)
+      ->allow_extra_args(false);
+  c->add_flag("--watch", in.shadetest.watch, "Shade again whenever the .sl or what it includes changes");
   addParsed(
       *c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM",
       "Points along u and v (default 64x64)");
@@ -249,7 +275,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
 
 bool namesCommand(const std::string& text) {
   for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert",
-                           "info", "compare", "chart", "catrib", "shadetest", "-h", "--help", "--version"})
+                           "info", "compare", "chart", "catrib", "shadetest", "compile", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
 }
@@ -269,6 +295,7 @@ int parseAndRun(int argc, char** argv) {
   buildCompare(app, in, code);
   buildChart(app, in, code);
   buildCatrib(app, in, code);
+  buildCompile(app, in, code);
   buildShadetest(app, in, code);
   buildAtlas(app, in, code);
 

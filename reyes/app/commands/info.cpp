@@ -138,6 +138,27 @@ Json shaderInfo(const TmShader& s) {
           {"standard_parameters", standard}};
 }
 
+/// Of a file in the shading language.
+Json textInfo(const std::string& path, Log& log) {
+  const auto file = RslFile::compile(path, {});
+  if (file->errors() > 0) {
+    log.report(Severity::Error, "shader-read", {}, file->messages());
+    return {};
+  }
+  Json shaders = Json::array();
+  for (int32_t k = 0; k < file->library()->count; ++k) {
+    const TmShader& shader = *file->library()->shaders[k];
+    Json about = shaderInfo(shader);
+    const std::vector<RslParameter> details = file->parameters(shader);
+    for (size_t p = 0; p < details.size(); ++p) {
+      if (!details[p].detail.empty()) about["parameters"][p]["detail"] = details[p].detail;
+      if (details[p].computed) about["parameters"][p]["default"] = "computed";
+    }
+    shaders.push_back(std::move(about));
+  }
+  return {{"file", path}, {"kind", "shaders"}, {"shaders", shaders}};
+}
+
 Json pluginInfo(const std::string& file, Log& log) {
   ShaderRegistry registry(log);
   if (!registry.loadPlugin(std::filesystem::absolute(file).string())) {
@@ -281,6 +302,7 @@ Json infoOf(const std::string& file, Log& log) {
   if (namesPicture(file)) return imageInfo(file, log);
   if (file.ends_with(".dfb")) return dfbInfo(file, log);
   if (file.ends_with(".icf")) return icfInfo(file, log);
+  if (file.ends_with(".sl")) return textInfo(file, log);
   return std::filesystem::path(file).extension() == ".so" ? pluginInfo(file, log) : ribInfo(file, log);
 }
 

@@ -12,15 +12,16 @@ namespace {
 constexpr const char* kSquare = "Patch \"bilinear\" \"P\" [-.5 .5 0  .5 .5 0  -.5 -.5 0  .5 -.5 0]\n";
 constexpr float kLampDistance = 2;  // from the eye, before the square and beside the way to it
 
-std::string requestFor(const TmShader& shader) {
-  static constexpr const char* kRequests[] = {"Surface \"{}\"\n", "Displacement \"{}\"\n",
-                                              "LightSource \"{}\" \"tested\"\n", "Atmosphere \"{}\"\n",
-                                              "Imager \"{}\"\n"};
+std::string requestFor(const TmShader& shader, const std::string& parameters) {
+  static constexpr const char* kRequests[] = {"Surface \"{}\" {}\n", "Displacement \"{}\" {}\n",
+                                              "LightSource \"{}\" \"tested\" {}\n", "Atmosphere \"{}\" {}\n",
+                                              "Imager \"{}\" {}\n"};
   if (shader.capabilities & TM_LIGHT_AREA)
     return fmt::format(
-        "AttributeBegin AreaLightSource \"{}\" \"tested\" Translate 0 0 {} {}AttributeEnd\nIlluminate \"tested\" 1\n",
-        shader.name, kLampDistance, kSquare);
-  return fmt::format(fmt::runtime(kRequests[shader.kind]), shader.name);
+        "AttributeBegin AreaLightSource \"{}\" \"tested\" {} Translate 0 0 {} {}AttributeEnd\nIlluminate \"tested\" "
+        "1\n",
+        shader.name, parameters, kLampDistance, kSquare);
+  return fmt::format(fmt::runtime(kRequests[shader.kind]), shader.name, parameters);
 }
 
 class EmptySpace final : public ShadeServices {
@@ -61,8 +62,8 @@ class EmptySpace final : public ShadeServices {
 
 }  // namespace
 
-std::string shaderSceneRib(const TmShader& shader) {
-  const std::string request = requestFor(shader);
+std::string shaderSceneRib(const TmShader& shader, const std::string& parameters) {
+  const std::string request = requestFor(shader, parameters);
   const bool isImager = shader.kind == TM_IMAGER;
   return "Projection \"perspective\" \"fov\" [20]\nClipping 1 10\n" + (isImager ? request : "") + "WorldBegin\n" +
          (shader.kind == TM_LIGHT ? ""

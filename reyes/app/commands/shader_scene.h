@@ -10,7 +10,8 @@
 
 namespace tomales {
 
-std::string shaderSceneRib(const TmShader& shader);
+/// `parameters`: what follows the shader's name in its request.
+std::string shaderSceneRib(const TmShader& shader, const std::string& parameters = {});
 
 /// Points along u and v, as the eye sees the square.
 ShadePoints shaderScenePoints(const Scene& scene, const ShadingSystem& shading, const std::array<int, 2>& size);

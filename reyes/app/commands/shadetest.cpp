@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <thread>
 
 #include "reyes/app/commands/shader_check.h"
 #include "reyes/app/commands/shader_scene.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/base/stop.h"
 #include "reyes/dice.h"
 #include "reyes/frame.h"
 #include "reyes/image.h"
@@ -21,18 +24,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A shader of that name, or all of a plugin file. None: there is none, which is reported.
-std::vector<const TmShader*> findShaders(const std::string& name, ShaderRegistry& registry, Log& log) {
+/// What is tried: shaders, and the files that they come from, if those are text.
+struct Tried {
+  std::vector<const TmShader*> shaders;  ///< None: there is none, which is reported.
+  std::vector<std::string> files;
+};
+
+/// A shader of that name, or all of a plugin or .sl file.
+Tried findShaders(const ShadetestCommand& command, ShaderRegistry& registry, Log& log) {
+  const std::string& name = command.shader;
   if (fs::path(name).extension() == ".so") {
     ShaderRegistry plugin(log);
     if (!plugin.loadPlugin(fs::absolute(name).string())) return {};
     registry.loadPlugin(fs::absolute(name).string());
-    return plugin.all();
+    return {plugin.all(), {}};
+  }
+  if (fs::path(name).extension() == ".sl") {
+    const auto file = RslFile::compile(name, {.includeFolders = command.folders});
+    Tried out{{}, file->files()};
+    if (file->errors() == 0) std::fputs(file->messages().c_str(), stderr);
+    if (!registry.addText(file, name)) return out;
+    for (int32_t k = 0; k < file->library()->count; ++k) out.shaders.push_back(file->library()->shaders[k]);
+    if (out.shaders.empty()) log.report(Severity::Error, "shadetest", {}, name + " has no shader that can be tried");
+    return out;
   }
   for (const TmKind kind : {TM_SURFACE, TM_DISPLACEMENT, TM_LIGHT, TM_VOLUME, TM_IMAGER})
-    if (const TmShader* shader = registry.find(name, kind, ".")) return {shader};
+    if (const TmShader* shader = registry.find(name, kind, ".")) return {{shader}, {}};
   log.report(Severity::Error, "shadetest", {}, "no shader \"" + name + "\" is built in or in this folder");
   return {};
+}
+
+/// The parameters of the command line as a request has them.
+std::string writtenParameters(const ShadetestCommand& command, const TmShader& shader, Log& log) {
+  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
+  std::string out;
+  for (const std::string& given : command.parameters) {
+    const size_t at = given.find('=');
+    const std::string name = given.substr(0, at), value = at == std::string::npos ? "" : given.substr(at + 1);
+    const auto* end = shader.params + shader.paramCount;
+    const auto* p = std::find_if(shader.params, end, [&](const TmParamDecl& d) { return d.name == name; });
+    if (p == end || at == std::string::npos) {
+      log.report(Severity::Missing, "shadetest-" + name, {},
+                 fmt::format("shader \"{}\" has no parameter \"{}\"; it is ignored", shader.name, name));
+      continue;
+    }
+    std::string values = value;
+    std::replace(values.begin(), values.end(), ',', ' ');
+    const bool text = TM_TYPE_OF(p->type) == TM_STRING;
+    const std::string array = p->arrayLength > 1 ? fmt::format("[{}]", p->arrayLength) : "";
+    out += fmt::format(" \"uniform {}{} {}\" [{}]", kTypes[TM_TYPE_OF(p->type)], array, name,
+                       text ? "\"" + value + "\"" : values);
+  }
+  return out;
 }
 
 /// What is timed, and what has to be done anew before each call, which is not.
@@ -146,7 +189,7 @@ void test(const ShadetestCommand& command, const TmShader& shader, ShaderRegistr
     else
       testPoints(command, scene, shading, shader.kind == TM_VOLUME, log);
   };
-  readRibText(shaderSceneRib(shader), "shadetest", rib, log);
+  readRibText(shaderSceneRib(shader, writtenParameters(command, shader, log)), "shadetest", rib, log);
 }
 
 void check(const TmShader& shader, Log& log) {
@@ -156,17 +199,39 @@ void check(const TmShader& shader, Log& log) {
     log.report(Severity::Missing, fmt::format("shadetest-check-{}-{}", shader.name, k), {}, faults[k]);
 }
 
+std::vector<fs::file_time_type> timesOf(const std::vector<std::string>& files) {
+  std::vector<fs::file_time_type> out;
+  std::error_code none;
+  for (const std::string& file : files) out.push_back(fs::last_write_time(file, none));
+  return out;
+}
+
+/// Returns the files whose change would change the result.
+std::vector<std::string> tryOnce(const ShadetestCommand& command, Log& log) {
+  ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, no scene does
+  registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  const Tried tried = findShaders(command, registry, log);
+  if (tried.shaders.empty()) {
+    log.report(Severity::Error, "shadetest-none", {}, "nothing was shaded");
+    return tried.files;
+  }
+  if (!command.check) test(command, *tried.shaders.front(), registry, log);
+  for (size_t k = 0; command.check && k < tried.shaders.size(); ++k) check(*tried.shaders[k], log);
+  return tried.files;
+}
+
 }  // namespace
 
 int shadetestCommand(const ShadetestCommand& command) {
-  Log log;
-  ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, no scene does
-  registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  const std::vector<const TmShader*> shaders = findShaders(command.shader, registry, log);
-  if (shaders.empty()) return std::max(exitCodeOf(log), kUnreadable);
-  if (!command.check) test(command, *shaders.front(), registry, log);
-  for (size_t k = 0; command.check && k < shaders.size(); ++k) check(*shaders[k], log);
-  return exitCodeOf(log);
+  for (;;) {
+    Log log;
+    const std::vector<std::string> files = tryOnce(command, log);
+    if (!command.watch || files.empty()) return exitCodeOf(log);
+    std::fflush(stdout);
+    constexpr auto kLook = std::chrono::milliseconds(100);
+    for (const auto before = timesOf(files); timesOf(files) == before; std::this_thread::sleep_for(kLook))
+      if (stopRequested()) return exitCodeOf(log);
+  }
 }
 
 }  // namespace tomales

@@ -36,7 +36,6 @@ File Parser::run() {
       try {
         definition(file);
       } catch (const Failed&) {
-        depth_ = 0;
         if (at_ == before) ++at_;
         skipDefinition();
       }
@@ -51,12 +50,17 @@ void Parser::definition(File& file) {
   if (takeIf(";")) return;
   if (isRsl2(true)) refuseRsl2(t, quoted(t.text));
   const auto kind = t.kind == TokenKind::Name ? shaderKindNamed(t.text) : std::nullopt;
-  if (kind && here(1).kind == TokenKind::Name) {
+  if (kind) {
     take();
+    if (here().kind != TokenKind::Name) fail("expected the name of a shader");
     file.shaders.push_back(shader(*kind, t.comment ? firstSentence(*t.comment) : std::string()));
   } else if (beginsSpecifiers() || isFunctionHere()) {
     const Specifiers s = specifiers();
-    if (!(here().kind == TokenKind::Name && here(1).is("("))) fail("expected the name of a function and '('");
+    if (s.any && !s.hasType) fail("expected a type");
+    if (!here(1).is("(")) {
+      expectName("the name of a function");
+      fail("expected '('");
+    }
     file.functions.push_back(function(s));
   } else {
     failNoDefinition();
@@ -64,10 +68,6 @@ void Parser::definition(File& file) {
 }
 
 void Parser::failNoDefinition() {
-  if (here().kind == TokenKind::Name && shaderKindNamed(here().text)) {
-    take();
-    fail("expected the name of a shader");
-  }
   static const std::vector<std::string> kKnown{"surface",        "light",  "displacement", "volume", "imager",
                                                "transformation", "float",  "color",        "point",  "vector",
                                                "normal",         "matrix", "string",       "void"};
@@ -145,6 +145,7 @@ void Parser::parameters(std::vector<std::unique_ptr<Variable>>& out) {
   Specifiers s;
   while (!here().is(")")) {
     if (takeIf(";") || takeIf(",")) continue;
+    if (isRsl2(false)) refuseRsl2(here(), quoted(here().text));
     if (const Specifiers own = specifiers(); own.any) s = own;
     if (!s.hasType) fail("expected the type of a parameter", kTypes);
     out.push_back(variable(s));

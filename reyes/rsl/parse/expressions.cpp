@@ -150,8 +150,15 @@ ExprPtr Parser::primary() {
     default:
       if (t.is("(")) return inBrackets();
       if (t.is("{")) return arrayValue();
-      fail("expected an expression");
+      failNoExpression();
   }
+}
+
+void Parser::failNoExpression() {
+  const Token* first = at_ >= 2 ? &tokens_[at_ - 2] : nullptr;
+  if (first && (first->is("+") || first->is("-")) && tokens_[at_ - 1].is(first->text))
+    failAt(*first, fmt::format("RSL has no '{0}{0}'; '{0}= 1' does the same", first->text));
+  fail("expected an expression");
 }
 
 ExprPtr Parser::call() {

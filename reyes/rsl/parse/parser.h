@@ -92,6 +92,7 @@ class Parser {
   ExprPtr cast();
   ExprPtr postfix();
   ExprPtr primary();
+  [[noreturn]] void failNoExpression();
   ExprPtr call();
   ExprPtr inBrackets();
   ExprPtr arrayValue();

@@ -27,11 +27,9 @@ StmtPtr Parser::block() {
 /// Goes on behind a statement with an error.
 void Parser::statementInto(std::vector<StmtPtr>& out) {
   const size_t before = at_;
-  const int depth = depth_;
   try {
     out.push_back(statement());
   } catch (const Failed&) {
-    depth_ = depth;
     if (at_ == before) ++at_;
     skipStatement();
   }
@@ -51,6 +49,7 @@ StmtPtr Parser::statement() {
   if (t.text == "continue") return levels(StmtKind::Continue);
   if (t.text == "return") return returnStatement();
   if (t.text == "else") failAt(t, "'else' without an 'if' before it");
+  if (t.text == "do" && here(1).is("{")) failAt(t, "RSL has no 'do' loop, only 'while' and 'for'");
   if (here(1).is("(")) {
     if (t.text == "illuminance") return lightStatement(StmtKind::Illuminance);
     if (t.text == "illuminate") return lightStatement(StmtKind::Illuminate);

@@ -59,8 +59,9 @@ void Parser::fail(std::string text, const std::vector<std::string>& known) {
       t.kind == TokenKind::Name ? nearNames(t.text, known) : std::vector<std::string>();
   if (!near.empty()) text += "; did you mean '" + near[0] + "'?";
   const Token* before = at_ > 0 ? &tokens_[at_ - 1] : nullptr;
-  const bool sameLine = before && before->place.file == t.place.file && before->place.line == t.place.line;
-  if (!before || sameLine || !known.empty()) failAt(t, std::move(text));
+  const bool isLineBefore = before && before->place.file == t.place.file && before->place.line != t.place.line &&
+                            before->place.expansion < 0 && t.place.expansion < 0;
+  if (!isLineBefore || !near.empty()) failAt(t, std::move(text));
   Place behind = before->place;
   behind.column += lengthOf(*before);
   messages_.error(behind, std::move(text));

@@ -1,5 +1,6 @@
 // Constants are computed once, by the kernels that would run them, and copies of what never changes are looked through.
-#include <cstring>
+#include <map>
+#include <set>
 
 #include "reyes/rsl/kernels.h"
 #include "reyes/rsl/passes/passes.h"
@@ -18,6 +19,7 @@ class Folding {
 
   void run(Block& block) {
     dropFirstValues(block);
+    findStraight(block);
     for (Instruction& i : block) {
       replaceReads(i, by_);
       if (i.blocks.empty()) {
@@ -63,6 +65,16 @@ class Folding {
     return reg;
   }
 
+  /// Variables that are only ever assigned as a whole, in this very block: what is read is what was assigned last.
+  void findStraight(const Block& block) {
+    std::map<int32_t, int> here;
+    for (const Instruction& i : block)
+      if (i.op == Op::Copy && !i.masked && at(i.out[0]).origin == Origin::Variable && at(i.out[0]).length == 0)
+        ++here[i.out[0]];
+    for (const auto& [v, count] : here)
+      if (count == writes_[static_cast<size_t>(v)]) straight_.insert(v);
+  }
+
   /// A declaration's 0 that nobody reads before the first assignment, which then is the first value.
   void dropFirstValues(Block& block) {
     for (size_t k = 0; k < block.size(); ++k) {
@@ -91,12 +103,11 @@ class Folding {
 
   void fold(Instruction& i) {
     if (i.op == Op::Copy) {
-      // A variable that has one value all its life is that value.
       const int32_t v = i.out[0];
-      const bool own = at(v).origin == Origin::Variable || at(v).origin == Origin::Temporary;
-      const bool once = own && !i.masked && writes_[static_cast<size_t>(v)] == 1;
+      const bool once = at(v).origin == Origin::Temporary && !i.masked && writes_[static_cast<size_t>(v)] == 1;
+      if (!once && straight_.count(v) == 0) return;
       const bool same = at(v).length == 0 && at(v).shape == at(i.in[0]).shape;
-      if (once && same && isFixed(i.in[0])) become(i, i.in[0]);
+      by_[static_cast<size_t>(v)] = same && isFixed(i.in[0]) ? i.in[0] : v;
       return;
     }
     if (!info(i.op).pure() || i.out.size() != 1) return;
@@ -189,6 +200,7 @@ class Folding {
   Code& code_;
   std::vector<int> writes_;
   std::vector<int32_t> by_;
+  std::set<int32_t> straight_;
 };
 
 }  // namespace

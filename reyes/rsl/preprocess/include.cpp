@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "reyes/rsl/standard_headers.h"
+
 namespace tomales::compiler {
 namespace {
 
@@ -63,8 +65,7 @@ ReadFile asFile(const std::string& name, std::string text) {
 }
 
 IncludeSearch::IncludeSearch(const PreprocessOptions& options, const std::string& ownFolder)
-    : folders_(options.includeFolders) {
-  if (!options.standardFolder.empty()) folders_.push_back(options.standardFolder);
+    : folders_(options.includeFolders), standard_(options.standardHeaders) {
   for (const std::string& folder : folders_) permitted_.push_back(realPath(folder));
   if (!ownFolder.empty()) permitted_.push_back(realPath(ownFolder));
   std::erase(permitted_, std::string());
@@ -89,7 +90,8 @@ ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::st
     if (isPermitted(real)) return readFile(path);
     out.failure = "it is outside of the folders from which files may be included";
   }
-  return out;
+  const std::string_view own = standard_ ? standardHeader(wanted) : std::string_view();
+  return own.empty() ? out : asFile(wanted, std::string(own));
 }
 
 }  // namespace tomales::compiler

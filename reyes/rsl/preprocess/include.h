@@ -28,6 +28,7 @@ class IncludeSearch {
  private:
   bool isPermitted(const std::string& realPath) const;
   std::vector<std::string> folders_;    ///< In the order of the search.
+  bool standard_;                       ///< The renderer's own headers come last.
   std::vector<std::string> permitted_;  ///< Without symbolic links.
 };
 

@@ -13,7 +13,15 @@ class DefinitionReader {
  public:
   DefinitionReader(Lexer& lexer, Messages& messages) : lexer_(lexer), messages_(messages) {}
 
-  MacroPtr read(Place directive) {
+  MacroPtr read(Place directive) { return readAll(directive) ? macro_ : nullptr; }
+
+ private:
+  bool fail(Place place, std::string text) {
+    messages_.error(place, std::move(text));
+    return false;
+  }
+
+  bool readAll(Place directive) {
     const Lexeme name = lexer_.nextInLine();
     if (name.kind != LexemeKind::Name) return fail(name.isEnd() ? directive : name.place, "'#define' needs a name");
     if (name.text == "defined") return fail(name.place, "'defined' cannot be a macro");
@@ -22,16 +30,10 @@ class DefinitionReader {
     Lexeme l = lexer_.nextInLine();
     if (l.is("(") && !l.spaceBefore) {
       macro_->takesArguments = true;
-      if (!readParameters(l.place)) return nullptr;
+      if (!readParameters(l.place)) return false;
       l = lexer_.nextInLine();
     }
-    return readPieces(l) ? macro_ : nullptr;
-  }
-
- private:
-  MacroPtr fail(Place place, std::string text) {
-    messages_.error(place, std::move(text));
-    return nullptr;
+    return readPieces(l);
   }
 
   bool readParameters(Place open) {
@@ -54,15 +56,11 @@ class DefinitionReader {
 
   bool readParameter(const Lexeme& l) {
     macro_->isVariadic = l.is("...");
-    if (!macro_->isVariadic && l.kind != LexemeKind::Name) {
-      fail(l.place, "expected the name of a parameter of macro " + quoted(macro_->name));
-      return false;
-    }
+    if (!macro_->isVariadic && l.kind != LexemeKind::Name)
+      return fail(l.place, "expected the name of a parameter of macro " + quoted(macro_->name));
     std::string name(macro_->isVariadic ? kVariadicName : l.text);
-    if (parameterNamed(name) >= 0) {
-      fail(l.place, "macro " + quoted(macro_->name) + " has two parameters " + quoted(name));
-      return false;
-    }
+    if (parameterNamed(name) >= 0)
+      return fail(l.place, "macro " + quoted(macro_->name) + " has two parameters " + quoted(name));
     indices_.emplace(name, static_cast<int>(macro_->parameters.size()));
     macro_->parameters.push_back(std::move(name));
     return true;
@@ -77,7 +75,7 @@ class DefinitionReader {
     bool pasted = false;
     for (; !l.isEnd(); l = lexer_.nextInLine()) {
       if (l.is("##")) {
-        if (macro_->pieces.empty()) return fail(l.place, "'##' has nothing before it") != nullptr;
+        if (macro_->pieces.empty()) return fail(l.place, "'##' has nothing before it");
         paste_ = l.place;
         pasted = true;
         continue;
@@ -88,13 +86,13 @@ class DefinitionReader {
         const Lexeme parameter = lexer_.nextInLine();
         piece.stringify = true;
         piece.parameter = parameter.kind == LexemeKind::Name ? parameterNamed(parameter.text) : -1;
-        if (piece.parameter < 0) return fail(l.place, "'#' is not followed by a parameter of the macro") != nullptr;
+        if (piece.parameter < 0) return fail(l.place, "'#' is not followed by a parameter of the macro");
       } else if (l.kind == LexemeKind::Name && macro_->takesArguments) {
         piece.parameter = parameterNamed(l.text);
       }
       macro_->pieces.push_back(piece);
     }
-    if (pasted) return fail(paste_, "'##' has nothing after it") != nullptr;
+    if (pasted) return fail(paste_, "'##' has nothing after it");
     return true;
   }
 

@@ -1,4 +1,4 @@
-#include "reyes/rsl/program.h"
+#include "reyes/rsl/hosted_shader.h"
 
 #include "reyes/rsl/lower.h"
 #include "reyes/rsl/machine/machine.h"
@@ -44,29 +44,32 @@ std::vector<bool> shadowMaps(const Code& code) {
   return out;
 }
 
+std::unique_ptr<const Program> programOf(Code code, const std::vector<bool>& varying, Messages& messages) {
+  optimise(code, varying, messages);
+  return std::make_unique<Program>(std::move(code));
+}
+
 }  // namespace
 
-ProgramShader::ProgramShader(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages)
+HostedShader::HostedShader(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages)
     : lowered_(lower(checked, shader, messages)) {
   lowered_.path = path;
   if (messages.hasErrors()) {
-    uniform_ = std::make_unique<const Program>(Code());
+    uniform_ = std::make_unique<Program>(Code());
     return;
   }
-  Code made = lowered_;
-  optimise(made, std::vector<bool>(lowered_.parameters.size(), false), messages);
-  uniform_ = std::make_unique<const Program>(std::move(made));
+  uniform_ = programOf(lowered_, std::vector<bool>(lowered_.parameters.size(), false), messages);
   declareParameters();
   TmShader& host = host_.shader;
   host_.program = this;
   host.abi = TM_SHADER_ABI, host.structBytes = sizeof host;
-  host.kind = kindOf(code().kind), host.capabilities = code().capabilities;
+  host.kind = kindOf(lowered_.kind), host.capabilities = code().capabilities;
   host.paramCount = static_cast<int32_t>(params_.size()), host.paramBytes = sizeof(TmParamDecl);
   host.params = params_.data();
   host.shade = shade, host.name = lowered_.name.c_str(), host.doc = lowered_.doc.c_str();
 }
 
-void ProgramShader::declareParameters() {
+void HostedShader::declareParameters() {
   const std::vector<bool> maps = shadowMaps(code());
   strings_.reserve(lowered_.parameters.size());
   for (size_t k = 0; k < lowered_.parameters.size(); ++k) {
@@ -78,7 +81,7 @@ void ProgramShader::declareParameters() {
   }
 }
 
-const Program& ProgramShader::programFor(const TmGrid& grid) const {
+const Program& HostedShader::programFor(const TmGrid& grid) const {
   std::vector<bool> varying;
   for (size_t k = 0; k < params_.size(); ++k) {
     if (grid.params[k].step == 0 || lowered_.parameters[k].output) continue;
@@ -88,18 +91,14 @@ const Program& ProgramShader::programFor(const TmGrid& grid) const {
   if (varying.empty()) return *uniform_;
   const std::lock_guard lock(mutex_);
   std::unique_ptr<const Program>& program = others_[varying];
-  if (!program) {
-    Code made = lowered_;
-    Messages told;  // what there is to say has been said of the first code
-    optimise(made, varying, told);
-    program = std::make_unique<const Program>(std::move(made));
-  }
+  Messages told;  // what there is to say has been said of the first code
+  if (!program) program = programOf(lowered_, varying, told);
   return *program;
 }
 
-void ProgramShader::shade(const TmGrid* grid) {
+void HostedShader::shade(const TmGrid* grid) {
   if (grid->count == 0) return;
-  const ProgramShader* program = reinterpret_cast<const Hosted*>(grid->shader)->program;
+  const HostedShader* program = reinterpret_cast<const Hosted*>(grid->shader)->program;
   run(program->programFor(*grid), *grid);
 }
 

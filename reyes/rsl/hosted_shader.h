@@ -2,7 +2,6 @@
 // variables give: what does not vary is computed once for a batch.
 // Threads: shade() is called by many.
 #pragma once
-#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -13,11 +12,11 @@
 
 namespace tomales::compiler {
 
-class ProgramShader {
+class HostedShader {
  public:
   /// Lowers the shader once, with all parameters uniform; errors go to `messages`.
-  ProgramShader(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages);
-  ProgramShader(const ProgramShader&) = delete;
+  HostedShader(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages);
+  HostedShader(const HostedShader&) = delete;
 
   /// Null: the host has no shaders of this kind.
   const TmShader* host() const { return code().kind == ShaderKind::Transformation ? nullptr : &host_.shader; }
@@ -33,12 +32,11 @@ class ProgramShader {
   std::unique_ptr<const Program> uniform_;
   mutable std::mutex mutex_;
   mutable std::map<std::vector<bool>, std::unique_ptr<const Program>> others_;  ///< By the parameters that vary.
-  mutable std::atomic<bool> hasOthers_ = false;
   std::vector<TmParamDecl> params_;
   std::vector<std::vector<const char*>> strings_;
   struct Hosted {
     TmShader shader{};
-    const ProgramShader* program = nullptr;
+    const HostedShader* program = nullptr;
   } host_;  ///< The host knows its beginning, and gives it back to shade().
 };
 

@@ -1,0 +1,46 @@
+#include "reyes/app/commands/compile.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "reyes/app/exit_code.h"
+#include "reyes/base/input_file.h"
+
+namespace tomales {
+namespace {
+
+void compile(const std::string& path, const RslSettings& settings, const CompileCommand& command, Log& log) {
+  if (const std::string problem = inputProblem(path); !problem.empty())
+    return log.report(Severity::Error, "compile-" + path, {}, fmt::format("{} cannot be read: {}", path, problem));
+  if (!command.dump.empty()) std::fputs(RslFile::dump(path, settings, command.dump).c_str(), stdout);
+  const std::shared_ptr<const RslFile> file = RslFile::compile(path, settings);
+  const bool tells = file->errors() > 0 || file->missing() > 0 || !command.quiet;
+  if (tells) std::fputs(file->messages().c_str(), stderr);
+  if (file->errors() > 0)
+    log.report(Severity::Error, "compile-" + path, {}, fmt::format("{}: {} errors", path, file->errors()));
+  else if (file->missing() > 0)
+    log.report(
+        Severity::Missing, "compile-" + path, {},
+        fmt::format("{}: {} functions that it calls are nowhere; it runs with substitutes", path, file->missing()));
+}
+
+}  // namespace
+
+RslSettings rslSettings(const std::vector<std::string>& folders, const std::vector<std::string>& definitions) {
+  RslSettings out{.includeFolders = folders};
+  for (const std::string& d : definitions) {
+    const size_t at = d.find('=');
+    out.definitions.push_back({d.substr(0, at), at == std::string::npos ? "1" : d.substr(at + 1)});
+  }
+  return out;
+}
+
+int compileCommand(const CompileCommand& command) {
+  Log log;
+  const RslSettings settings = rslSettings(command.folders, command.definitions);
+  for (const std::string& path : command.files) compile(path, settings, command, log);
+  return exitCodeOf(log);
+}
+
+}  // namespace tomales

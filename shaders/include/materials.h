@@ -1,0 +1,2 @@
+/* The other spelling of material.h. */
+#include "material.h"

@@ -1,0 +1,70 @@
+/* Steps and pulses, sharp ones as a filter of a given width sees them, and tiles. The names and arguments are those
+ * with which "Advanced RenderMan" (A. Apodaca and L. Gritz, 1999) has made such a header known.
+ */
+#ifndef PATTERNS_H
+#define PATTERNS_H
+
+#include "filterwidth.h"
+
+/* From 0 at a to 1 at b in a straight line. */
+#ifndef boxstep
+#define boxstep(a, b, x) clamp(((x) - (a)) / ((b) - (a)), 0, 1)
+#endif
+
+/* 1 between the two edges, for a sample from x - dx/2 to x + dx/2: the part of it that is inside. */
+float filteredpulse(float edge0, edge1, x, dx) {
+  float width = max(dx, MINFILTWIDTH);
+  float from = x - width / 2;
+  return max(0, (min(from + width, edge1) - max(from, edge0)) / width);
+}
+
+/* 1 in the first `edge` of each period: the difference of the integral of the train at both ends of the sample. */
+float pulsetrainintegral(float edge, period, x) {
+  float periods = floor(x / period);
+  return periods * edge + min(edge, x - periods * period);
+}
+
+float filteredpulsetrain(float edge, period, x, dx) {
+  float width = max(dx, MINFILTWIDTH);
+  return (pulsetrainintegral(edge, period, x + width / 2) - pulsetrainintegral(edge, period, x - width / 2)) / width;
+}
+
+/* |x|: the integral of it, x|x|/2, likewise. */
+float filteredabs(float x, dx) {
+  float width = max(dx, MINFILTWIDTH);
+  float from = x - width / 2, to = x + width / 2;
+  return (to * abs(to) - from * abs(from)) / (2 * width);
+}
+
+/* Up from e0 to e1, down from e2 to e3. */
+#ifndef smoothpulse
+#define smoothpulse(e0, e1, e2, e3, x) (smoothstep(e0, e1, x) - smoothstep(e2, e3, x))
+#endif
+#ifndef smoothpulsetrain
+#define smoothpulsetrain(e0, e1, e2, e3, period, x) smoothpulse(e0, e1, e2, e3, mod(x, period))
+#endif
+
+/* A colour that differs a little for each index, by amounts in hue, saturation and lightness. */
+color varyEach(color Cin; float index, varyhue, varysat, varylum) {
+  color hsl = ctransform("hsl", Cin);
+  color vary = color cellnoise(index + 0.5) - 0.5;
+  float hue = mod(comp(hsl, 0) + varyhue * comp(vary, 0), 1);
+  float saturation = clamp(comp(hsl, 1) + varysat * comp(vary, 1), 0, 1);
+  float lightness = clamp(comp(hsl, 2) + varylum * comp(vary, 2), 0, 1);
+  return ctransform("hsl", "rgb", color(hue, saturation, lightness));
+}
+
+/* Square tiles of size 1, every other row moved by half a tile: which tile, where in it, and how much of the sample is
+ * not in the groove around it. */
+float tilepattern(float ss, tt, ds, dt; float groovewidth, grooveheight;
+                  output float swhichtile, twhichtile, stile, ttile) {
+  twhichtile = floor(tt);
+  ttile = tt - twhichtile;
+  float moved = ss + (mod(twhichtile, 2) == 1 ? 0.5 : 0);
+  swhichtile = floor(moved);
+  stile = moved - swhichtile;
+  return filteredpulsetrain(1 - groovewidth, 1, moved - groovewidth / 2, ds) *
+         filteredpulsetrain(1 - grooveheight, 1, tt - grooveheight / 2, dt);
+}
+
+#endif

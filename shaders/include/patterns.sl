@@ -1,0 +1,2 @@
+/* The name under which some shaders know patterns.h. */
+#include "patterns.h"

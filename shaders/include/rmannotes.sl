@@ -1,0 +1,2 @@
+/* The other name of rmannotes.h. */
+#include "rmannotes.h"

@@ -1,0 +1,1 @@
+class modern(float a = 1) { public void surface(output color Ci, Oi) { x->y(); } }

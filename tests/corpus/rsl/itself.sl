@@ -1,0 +1,2 @@
+#include "itself.sl"
+surface a() {}
