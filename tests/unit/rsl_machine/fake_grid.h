@@ -101,6 +101,7 @@ class FakeGrid {
   std::vector<std::string> reports, printed;
   std::vector<std::vector<uint8_t>> masks;  ///< Of each call of illuminance, ambient, texture and gather.
   TmTextureOptions textureOptions{};
+  std::string filter;  ///< Of those; what they point at has gone with the program.
   TmRayOptions rayOptions{};
   TmOcclusion occlusionOptions{};
   std::string asked;  ///< Of the last file that was asked for.

@@ -55,7 +55,7 @@ inline void FakeGrid::setServices() {
                         const float* t, TmVec3 out) -> int32_t {
     FakeGrid& me = of(h);
     me.seen(g);
-    me.asked = name, me.textureOptions = *o;
+    me.asked = name, me.textureOptions = *o, me.filter = o->filter ? o->filter : "";
     each(g, [&](int i) {
       out.x[i] = s[i];
       if (out.y) out.y[i] = t[i], out.z[i] = static_cast<float>(o->channel);

@@ -102,7 +102,7 @@ TEST_F(Services, TexturesHaveAChannelARegionAndAList) {
   expect(at(0, 4), {4, -4, 2});
   EXPECT_EQ(fake.asked, "a.tex");
   EXPECT_EQ(fake.textureOptions.sblur, 0.25f);
-  EXPECT_STREQ(fake.textureOptions.filter, "gaussian");
+  EXPECT_EQ(fake.filter, "gaussian");
   EXPECT_EQ(fake.textureOptions.region[0], nullptr);
   EXPECT_TRUE(reported("\"nothing\", which there is not"));
   EXPECT_TRUE(reported("\"width\" that has a value of another type"));
