@@ -127,36 +127,40 @@ TEST(Control, UnmaskedInstructionsReachAllPoints) {
 
 /// The host calls a shader while another waits for its answer, on the same thread.
 TEST(Control, ProgramsRunWithinServicesOfOthers) {
+  // Each run keeps a number and a text of its own over two services, in which others run.
   Builder b;
-  const int32_t out = b.parameter("out", Base::Color, {0, 0, 0}, true), u = b.global("u", Shape::Number),
-                kept = b.variable(Shape::Triple), label = b.variable(Shape::Text);
-  b.copy(kept, b.triple(1, 2, 3));
-  b.copy(label, b.text("a text that is longer than a short one"));
+  const int32_t out = b.parameter("out", Base::Float, {0}, true), time = b.global("time", Shape::Number, false),
+                u = b.global("u", Shape::Number), kept = b.variable(), label = b.variable(Shape::Text);
+  const int32_t pattern = b.text("a text that is longer than a short one, at %f");
+  b.copy(kept, time);
+  b.emit(Op::Format, {label}, {pattern, time});
   b.branch(b.value(Op::Less, {u, b.number(0.7f)}), [&] {
-    const int32_t ambient = b.value(Op::Ambient, {}, Shape::Triple);
-    b.branch(b.value(Op::TextEqual, {label, b.text("a text that is longer than a short one")}), [&] {
-      b.copy(out, b.value(Op::Add, {kept, ambient}, Shape::Triple));
-    });
+    for (int k = 0; k < 2; ++k) b.emit(Op::Ambient, {b.temporary(Shape::Triple)}, {});
+    const int32_t again = b.value(Op::Format, {pattern, time}, Shape::Text);
+    b.branch(b.value(Op::TextEqual, {label, again}), [&] { b.copy(out, kept); });
   });
+  static const Program* running;
+  static int depth, runs;
+  const auto ambient = [](void*, const TmGrid* g, TmVec3) {
+    if (depth == 3) return;
+    ++depth, ++runs;
+    FakeGrid inner(300);
+    inner.services.ambient = g->call->ambient;
+    inner.bind(running->code());
+    inner.grid.time = static_cast<float>(10 * runs);
+    const float expected = inner.grid.time;
+    run(*running, inner.grid);
+    EXPECT_EQ(inner.output(0)[0], expected);
+    --depth;
+  };
   FakeGrid fake(64);
   fake.bind(b.code);
-  static const Program* running;
-  static int depth;
+  fake.services.ambient = ambient;
   const Program program(std::move(b.code));
-  running = &program, depth = 0;
-  fake.services.ambient = [](void*, const TmGrid* g, TmVec3 to) {
-    if (++depth < 4) {
-      FakeGrid inner(300);
-      inner.services.ambient = g->call->ambient;
-      inner.bind(running->code());
-      run(*running, inner.grid);
-      EXPECT_EQ(inner.output(0, 2)[0], 3 + static_cast<float>(depth));
-    }
-    for (int i = 0; i < g->count; ++i)
-      if (g->active[i]) rsl::set(to, i, {0, 0, static_cast<float>(depth)});
-  };
+  running = &program, depth = runs = 0;
   run(program, fake.grid);
-  for (int i = 0; i < 64; ++i) EXPECT_EQ(fake.output(0, 2)[i], fake.grid.u[i] < 0.7f ? 7.0f : 0.0f);
+  EXPECT_EQ(runs, 2 + 4 + 8);
+  for (int i = 0; i < 64; ++i) EXPECT_EQ(fake.output(0)[i], fake.grid.u[i] < 0.7f ? 0.25f : 0.0f);
 }
 
 }  // namespace

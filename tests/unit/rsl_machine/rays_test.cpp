@@ -61,6 +61,21 @@ TEST_F(Services, GatherRunsOneBodyForHitsAndTheOtherForMisses) {
   EXPECT_TRUE(reported("\"nonsense\", which there is not"));
 }
 
+TEST_F(Services, WhoHasLeftIsGatheredNoMoreAndTheMaskOfTheQuestionStays) {
+  const int32_t rounds = number(), P = b.global("P", Shape::Triple), label = b.label();
+  b.copy(rounds, b.number(0));
+  const Builder::Body count = [&] {
+    b.copy(rounds, b.value(Op::Add, {rounds, b.number(1)}));
+    b.branch(where(0.5f), [&] { b.leave(label); });
+  };
+  b.scope(label, [&] { b.nest(Op::Gather, {b.text(""), P, P, b.number(1), b.number(4)}, 0, {count, count}); });
+  run();
+  EXPECT_EQ(fake.output(0)[3], 1);
+  EXPECT_EQ(fake.output(0)[13], 4);
+  ASSERT_EQ(fake.masks.size(), 5u);
+  for (const auto& mask : fake.masks) EXPECT_EQ(mask, fake.masks[0]);
+}
+
 TEST_F(Services, GatherOfAnUnknownCategoryIsReported) {
   const int32_t hits = number(), P = b.global("P", Shape::Triple);
   b.nest(Op::Gather, {b.text("pointless"), P, P, b.number(1), b.number(1)}, 0,
