@@ -66,6 +66,7 @@ class Lowering {
   /// In order; values that a later expression may change are copied.
   std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
   int32_t name(const Expr& e);
+  int32_t ofLamp(Global g);
   int32_t element(const Expr& e);
   int32_t tuple(const Expr& e);
   int32_t binary(const Expr& e);
@@ -104,7 +105,7 @@ class Lowering {
   std::map<const Variable*, int32_t> registers_;
   std::map<float, int32_t> numbers_;
   std::map<std::string, int32_t> texts_;
-  std::map<Global, int32_t> globals_;
+  std::map<Global, int32_t> globals_, lamp_;
   struct LoopLabels {
     int32_t leave, next;
   };
