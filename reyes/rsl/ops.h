@@ -87,8 +87,9 @@ namespace tomales::compiler {
   /* Structure (code.h) */                                                                                           \
   OP(If, "=f", "")      /* body, other */                                                                            \
   OP(Loop, "=f", "")    /* blocks: condition, which leaves its result in the register; body; step */                 \
-  OP(Scope, "=", "")    /* body: what Leave may leave */                                                             \
-  OP(Leave, "=", "")    /* extra: the label of a Scope or Loop around it */
+                        /* extra: a label. What leaves it ends the loop, what leaves extra + 1 goes on with step */    \
+  OP(Scope, "=", "")    /* body. extra: a label, which Leave may leave */                                              \
+  OP(Leave, "=", "")    /* extra: a label that is open. Active points are out until what has it ends */
 // clang-format on
 
 enum class Op : uint8_t {

@@ -25,7 +25,11 @@ class Setting {
       : type(t), varying{all.x, all.y, all.z}, number_(first.x), color_(first) {}
 
   float number() const { return wanted(TM_FLOAT), number_; }
-  int whole() const { return static_cast<int>(number()); }
+  /// 0 where the number is none that has one.
+  int whole() const {
+    const float x = number();
+    return x > -1e9f && x < 1e9f ? static_cast<int>(x) : 0;
+  }
   const char* text() const { return wanted(TM_STRING), text_; }
   /// A number counts for all components.
   Color color() const { return isNumber() ? Color{number(), number(), number()} : (wanted(type), color_); }

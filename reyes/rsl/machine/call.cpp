@@ -5,13 +5,10 @@
 namespace tomales::compiler {
 
 void Call::finish() {
-  if (pendings_ == 0) return;
-  const int32_t first = run.firstActive();
-  for (int k = 0; k < pendings_; ++k) {
-    const Pending& p = pending_[k];
+  for (const Pending& p : pending_) {
     const Lanes& l = run.lane(p.r);
     for (ptrdiff_t c = 0; c < floatsOf(run.reg(p.r)); ++c)
-      std::fill_n(l.data + c * l.component, kBlock, p.from[c * p.component + first]);
+      std::fill_n(l.data + c * l.component, kBlock, p.from[c * p.component + run.firstActive()]);
   }
 }
 
@@ -24,12 +21,25 @@ TmConstVec3 Call::tripleOf(int32_t r) {
   return {to, to + n, to + 2 * n};
 }
 
+TmConstVec3 Call::copied(size_t k) {
+  const auto n = static_cast<size_t>(run.padded);
+  const TmConstVec3 from = triple(k);
+  float* const to = run.memory.floats(3 * n);
+  std::copy_n(from.x, n, to), std::copy_n(from.y, n, to + n), std::copy_n(from.z, n, to + 2 * n);
+  return {to, to + n, to + 2 * n};
+}
+
 const float* Call::numberOf(int32_t r) {
   const Lanes& l = run.lane(r);
   if (l.block != 0) return l.data;
   float* const to = run.memory.floats(static_cast<size_t>(run.padded));
   std::fill_n(to, run.padded, *l.data);
   return to;
+}
+
+int32_t Call::whole(size_t k, const char* what) {
+  const float x = one(k, what);
+  return x > -kMostWhole && x < kMostWhole ? static_cast<int32_t>(x) : 0;
 }
 
 float Call::one(size_t k, const char* what) {
@@ -56,7 +66,7 @@ float* Call::give(int32_t r, int32_t width, int32_t apart) {
   const Lanes& l = run.lane(r);
   const bool varies = l.block != 0;
   float* const to = varies ? l.data : run.memory.floats(static_cast<size_t>(width) * static_cast<size_t>(apart));
-  if (!varies) pending_[pendings_++] = {r, to, apart};
+  if (!varies) pending_.push_back({r, to, apart});
   for (ptrdiff_t c = 0; c < width; ++c)
     if (!varies)
       std::fill_n(to + c * apart, apart, l.data[c * l.component]);

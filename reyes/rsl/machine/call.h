@@ -1,5 +1,7 @@
 // One call of a service: arguments as the arrays that it wants, results back into registers.
 #pragma once
+#include <vector>
+
 #include "reyes/rsl/machine/masks.h"
 #include "reyes/rsl/machine/table.h"
 
@@ -20,10 +22,14 @@ class Call {
 
   bool has(size_t k) const { return k < of.in.size() && of.in[k] >= 0; }
   TmConstVec3 triple(size_t k) { return tripleOf(of.in[k]); }
+  /// Its own copy, which a body may not assign.
+  TmConstVec3 copied(size_t k);
   const float* number(size_t k) { return numberOf(of.in[k]); }
   const char* text(size_t k) const { return run.text(of.in[k]).c_str(); }
   /// One value for all: of points that differ the first active one's, which is reported.
   float one(size_t k, const char* what);
+  /// The same as a whole number; 0 where it is none.
+  int32_t whole(size_t k, const char* what);
 
   /// To be filled by the service.
   TmVec3 giveTriple(size_t k = 0) { return giveTripleTo(of.out[k]); }
@@ -40,14 +46,14 @@ class Call {
 
  private:
   float* give(int32_t r, int32_t width, int32_t apart);
+  static constexpr float kMostWhole = 1e9f;
   const Borrowed borrowed_{run.memory};
-  static constexpr int kMost = 16;
   struct Pending {
-    int32_t r = -1;
-    const float* from = nullptr;
-    int32_t component = 0;
-  } pending_[kMost];  ///< Registers of one value, whose service gives one for each point.
-  int pendings_ = 0;
+    int32_t r;
+    const float* from;
+    int32_t component;
+  };
+  std::vector<Pending> pending_;  ///< Registers of one value, whose service gives one for each point.
 };
 
 /// A value that ask() or textureInfo() has told, into a register, for active points. False, and nothing changes: it has

@@ -10,8 +10,8 @@
 namespace tomales::compiler {
 namespace {
 
-// A loop of a few instructions takes about a tenth of a microsecond an iteration, so this is some seconds.
-std::atomic<int64_t> loopLimit{20'000'000};
+// A loop of ten instructions takes about a microsecond an iteration of 256 points, so this is some seconds.
+std::atomic<int64_t> loopLimit{5'000'000};
 
 void executeIf(Run& run, const Step& s) {
   const Lanes& condition = run.lane(s.of->in[0]);

@@ -103,7 +103,7 @@ void take(Run& run, int32_t r, const Source& s) {
   const bool usable = run.program.located(r).where == Where::Given && s.c[0] && !s.same && !s.reversed;
   if (usable && (width == 1 || evenlySpaced(s))) {
     const ptrdiff_t apart = width == 1 ? 0 : s.c[1] - s.c[0];
-    if (apart == static_cast<int32_t>(apart)) {
+    if (apart == static_cast<int32_t>(apart) && (width == 1 || apart != 0)) {
       l = {const_cast<float*>(s.c[0]), kBlock, static_cast<int32_t>(apart)};  // never assigned
       return;
     }

@@ -39,15 +39,6 @@ void specularScale(Run& run, const Step& s) {
   call.set(run.specularScale);
 }
 
-/// Its own copy: the body may assign what was asked for.
-TmConstVec3 copied(Call& call, size_t k) {
-  const auto n = static_cast<size_t>(call.run.padded);
-  const TmConstVec3 from = call.triple(k);
-  float* const to = call.run.memory.floats(3 * n);
-  std::copy_n(from.x, n, to), std::copy_n(from.y, n, to + n), std::copy_n(from.z, n, to + 2 * n);
-  return {to, to + n, to + 2 * n};
-}
-
 void assign(Run& run, int32_t r, TmConstVec3 from) {
   if (r < 0) return;
   const Lanes& l = run.lane(r);
@@ -81,8 +72,8 @@ void ask(Call& call, const std::string& category, TmIlluminance& query) {
   // Volumes that give a P ask in the air, whatever P is (TmIlluminance::P).
   const bool inAir = run.program.code().kind == ShaderKind::Volume;
   const bool own = call.has(1) && !inAir && isUntouchedP(run, call.of.in[1]);
-  if (call.has(1) && !own) query.P = copied(call, 1);
-  if (call.has(2)) query.axis = copied(call, 2);
+  if (call.has(1) && !own) query.P = call.copied(1);
+  if (call.has(2)) query.axis = call.copied(2);
   if (!call.has(3)) return;
   if (run.varies(call.of.in[3])) {
     float* const angles = run.memory.floats(static_cast<size_t>(run.padded));

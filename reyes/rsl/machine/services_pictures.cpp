@@ -10,7 +10,7 @@ TmVec3 channels(Call& call) {
   return call.giveTriple();
 }
 
-int32_t firstChannel(Call& call) { return call.has(1) ? static_cast<int32_t>(call.one(1, "channels")) : 0; }
+int32_t firstChannel(Call& call) { return call.has(1) ? call.whole(1, "channels") : 0; }
 
 void texture(Run& run, const Step& s) {
   Call call(run, s);

@@ -1,4 +1,5 @@
 // Rays (rispec-table 9.6).
+#include "reyes/base/stop.h"
 #include "reyes/rsl/machine/lists.h"
 
 namespace tomales::compiler {
@@ -32,21 +33,13 @@ void transmission(Run& run, const Step& s) {
 void hemisphere(Run& run, const Step& s) {
   Call call(run, s);
   rsl::HemisphereList list = listed(call, rsl::HemisphereList());
-  if (call.has(2)) list.rays.samples = static_cast<int32_t>(call.one(2, "numbers of samples"));
+  if (call.has(2)) list.rays.samples = call.whole(2, "numbers of samples");
   list.options.pointCloud = list.pointBased ? list.file : nullptr;
   if (s.of->op == Op::Occlusion)
     list.options.covered = call.giveNumber();
   else
     list.options.radiance = call.giveTriple();
   call.services.occlusion(call.host, call.g, &list.rays, call.triple(0), call.triple(1), &list.options);
-}
-
-TmConstVec3 copied(Call& call, size_t k) {
-  const auto n = static_cast<size_t>(call.run.padded);
-  const TmConstVec3 from = call.triple(k);
-  float* const to = call.run.memory.floats(3 * n);
-  std::copy_n(from.x, n, to), std::copy_n(from.y, n, to + n), std::copy_n(from.z, n, to + 2 * n);
-  return {to, to + n, to + 2 * n};
 }
 
 /// What a category means; false: it is none. `category` lives as long as the options.
@@ -78,15 +71,14 @@ void gather(Run& run, const Step& s) {
     if (value.fills.x) outputs.push_back({name.c_str(), value.fills});
     return value.fills.x != nullptr;
   });
-  options.coneAngle = call.one(3, "angles of a cone"),
-  options.samples = static_cast<int32_t>(call.one(4, "numbers of samples"));
+  options.coneAngle = call.one(3, "angles of a cone"), options.samples = call.whole(4, "numbers of samples");
   if (!setCategory(category, options)) return run.missing("gathers \"" + category + "\", which there is not");
-  const TmConstVec3 P = copied(call, 1), direction = copied(call, 2);
+  const TmConstVec3 P = call.copied(1), direction = call.copied(2);
   const auto n = static_cast<size_t>(run.padded);
   uint8_t *const asked = run.memory.bytes(n), *const met = run.memory.bytes(n), *const hit = run.memory.bytes(n),
                  *const missed = run.memory.bytes(n);
   std::copy_n(run.mask->on, n, asked);
-  for (int32_t ray = 0; run.mask->any; ++ray) {
+  for (int32_t ray = 0; run.mask->any && !stopRequested(); ++ray) {
     std::fill_n(met, n, uint8_t{0});
     run.grid.active = asked;
     if (!call.services.gather(call.host, &run.grid, &options, P, direction, ray, met, outputs.data(),

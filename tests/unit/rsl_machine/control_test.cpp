@@ -100,7 +100,7 @@ TEST(Control, ALoopWithoutEndIsReportedAndTheBatchGetsWhatThereIs) {
       [&] { c.b.copy(c.count, c.b.number(-2)); });
   c.b.copy(c.count, c.b.number(-3));
   c.run();
-  setLoopLimit(20'000'000);
+  setLoopLimit(5'000'000);
   ASSERT_EQ(c.fake.reports.size(), 1u);
   EXPECT_NE(c.fake.reports[0].find("1000 iterations"), std::string::npos) << c.fake.reports[0];
   for (int i = 0; i < 5; ++i) EXPECT_EQ(c[i], i < 2 ? 1003.0f : 0.0f) << "nothing more runs";
@@ -114,7 +114,7 @@ TEST(Control, AWishToStopEndsALoop) {
   requestStop();
   c.run();
   requestStop(false);
-  setLoopLimit(20'000'000);
+  setLoopLimit(5'000'000);
   EXPECT_EQ(c[0], 0);
 }
 

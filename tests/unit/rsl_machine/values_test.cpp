@@ -53,6 +53,15 @@ TEST_F(Values, GlobalsThatAreTheSameForAllPoints) {
             (std::vector<std::string>{"0.250000 0.500000 3.000000 0.000000 4.000000 0.000000 1.000000 100.000000"}));
 }
 
+TEST_F(Values, ComponentsOfAGlobalMayBeOneArray) {
+  const float* const zero = fake.array();
+  fake.grid.dPdtime = {zero, zero, zero};
+  const int32_t o = output({1, 1, 1});
+  b.copy(o, b.global("dPdtime", Shape::Triple));
+  run();
+  expect({out(0, 4), out(0, 4, 1), out(0, 4, 2)}, {0, 0, 0});
+}
+
 TEST_F(Values, ADisplacementMovesPointsThatAreActive) {
   b.code.kind = ShaderKind::Displacement;
   fake.active[2] = 0;
