@@ -113,22 +113,23 @@ class Studio : public Stage {
     light("spotlight", {intensity, tint, from, to, number("coneangle", 0.6f), number("conedeltaangle", 0.2f),
                         number("beamdistribution", 3)});
   }
-  ShadePoints somewhere() {
+  /// Normals of unit length are those of ray hits.
+  ShadePoints somewhere(bool hits = false) {
     std::mt19937 random(5);
-    std::uniform_real_distribution<float> any(-1, 1);
-    const auto vector = [&] { return vec3(any(random), any(random), any(random)); };
+    std::uniform_real_distribution<float> number(-1, 1);
+    const auto vector = [&] { return vec3(number(random), number(random), number(random)); };
     std::vector<vec3> P;
     for (int i = 0; i < 64; ++i) P.push_back(vec3(0.5f, 0.5f, 5) + vector());
     ShadePoints out = points(P);
     for (int i = 0; i < 64; ++i) {
-      const vec3 N = 3.0f * vector() + vec3(0, 0, 0.1f);
+      const vec3 any = 3.0f * vector() + vec3(0, 0, 0.1f), N = hits ? glm::normalize(any) : any;
       out.set3(kNx, i, N), out.set3(kNgx, i, glm::normalize(N)), out.set3(kIx, i, 5.0f * vector() + vec3(0, 0.1f, 0));
     }
     return out;
   }
-  ShadedPoints surfaceOf(const std::string& name, const ParamList& params) {
+  ShadedPoints surfaceOf(const std::string& name, const ParamList& params, const ShadeContext& context = {}) {
     surface(name, params), shine();
-    return shade(somewhere());
+    return shade(somewhere(context.kind == RayKind::Diffuse), context);
   }
   ShadedPoints volumeOf(const std::string& name, const ParamList& params) {
     surface("constant");
@@ -209,10 +210,36 @@ TEST_P(StandardShaders, GiveWhatTheBuiltInOnesGive) {
     for (const auto& entry : studio->told()) ADD_FAILURE() << entry.message;
 }
 
+// What is found is true: shaders that do not emit are black in the dark, those that are even look the same everywhere.
+TEST_P(StandardShaders, AreFoundToBeWhatTheyAre) {
+  const auto& [name, kind, params] = GetParam();
+  if (kind != TM_SURFACE) return;
+  const auto shaded = [&, name = name, params = params](Illumination light) {
+    Studio studio(true);
+    ShadeContext context;
+    context.kind = RayKind::Diffuse, context.light = light;
+    return studio.surfaceOf(name, params, context);
+  };
+  const uint32_t found = Studio(true).shader(name, kind).capabilities;
+  const ShadedPoints dark = shaded(Illumination::None), even = shaded(Illumination::Unit);
+  bool same = true;
+  for (int i = 0; i < 64; ++i) {
+    if (!(found & (TM_EMITS | TM_TRACES))) expectColor(dark.color(i), vec3(0), 0);
+    for (int k = 0; k < 3; ++k) same = same && std::abs(even.color(i)[k] - even.color(0)[k]) < 1e-5f;
+  }
+  if (found & TM_EVEN) {
+    EXPECT_TRUE(same);
+  }
+}
+
 TEST_P(StandardShaders, AreFoundToBeWhatTheBuiltInOnesDeclare) {
   const auto& [name, kind, params] = GetParam();
-  Studio written(true), builtIn(false);
-  EXPECT_EQ(written.shader(name, kind).capabilities, builtIn.shader(name, kind).capabilities);
+  const uint32_t found = Studio(true).shader(name, kind).capabilities,
+                 declared = Studio(false).shader(name, kind).capabilities;
+  // What their authors did not care to declare.
+  const uint32_t further = kind == TM_DISPLACEMENT ? TM_DERIVATIVES : TM_EVEN;
+  EXPECT_EQ(found & ~further, declared & ~further);
+  EXPECT_EQ(declared & ~found, 0u);
 }
 
 std::vector<Named> all() {
