@@ -281,11 +281,12 @@ class ShaderRegistry {
   bool loadPlugin(const std::string& path);
   /// Adds the shaders of a compiled .sl file, which then come before others of their names.
   bool addText(std::shared_ptr<const RslFile> file, const std::string& path);
-  /// By name and kind. A shader that is not known yet is looked for as NAME.so in the trusted folders and then along
-  /// `searchPath` (the scene's; folders separated by colons, empty: the working folder), then as NAME.sl along
-  /// `searchPath`, in the trusted folders and in `beside`, the folder of the file that names it. A plugin in a folder
-  /// that is not trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".."
-  /// or an absolute name leads to. A .sl that has errors is reported with all of them.
+  /// By name and kind. Shaders that have been loaded come first, and built-in ones whose look RISpec fixes; then
+  /// NAME.so in the trusted folders; then NAME.sl along `searchPath` (the scene's; folders separated by colons, empty:
+  /// the working folder), in the trusted folders and in `beside`, the folder of the file that names it; then other
+  /// built-in ones; then NAME.so along `searchPath`. A plugin in a folder that is not trusted is reported, once, and
+  /// not loaded; so is one outside of a trusted folder that a name with ".." or an absolute name leads to. A .sl that
+  /// has errors is reported with all of them.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
   std::vector<const TmShader*> all() const;

@@ -36,6 +36,8 @@ struct ShaderRegistry::Impl {
   std::set<std::string> distrusted;  // plugins that were reported as such
   std::set<std::string> toldOf;      // what was wrong with shaders' texts
   std::vector<std::shared_ptr<const RslFile>> texts{};
+  std::set<const TmShader*> builtIn{};
+  std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -45,6 +47,8 @@ struct ShaderRegistry::Impl {
   bool load(const std::string& path);
   std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
   std::string heldBy(const std::string& path) const;
+  const TmShader* search(const std::string& name, TmKind kind, const std::string& searchPath,
+                         const std::string& beside);
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
                            const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
@@ -148,6 +152,14 @@ std::vector<std::string> pluginFiles(const std::string& name, const std::string&
   return out;
 }
 
+/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which is held against it.
+bool isOfSpecification(std::string_view name) {
+  static constexpr std::string_view kNames[] = {
+      "constant",     "matte",      "metal",     "shinymetal", "plastic", "paintedplastic", "ambientlight",
+      "distantlight", "pointlight", "spotlight", "depthcue",   "fog",     "bumpy",          "background"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
 /// Does the name of a shader lead out of the folders that it is looked for in?
 bool leavesFolders(const fs::path& name) {
   return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
@@ -176,11 +188,16 @@ ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->add(library, origin);
+  impl_->answers.clear();
+  std::vector<const TmShader*> added;
+  const bool works = impl_->add(library, origin, &added);
+  impl_->builtIn.insert(added.begin(), added.end());
+  return works;
 }
 
 bool ShaderRegistry::loadPlugin(const std::string& path) {
   const std::lock_guard lock(impl_->mutex);
+  impl_->answers.clear();
   return impl_->load(path);
 }
 
@@ -188,6 +205,7 @@ bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::str
   const std::lock_guard lock(impl_->mutex);
   if (file->errors() > 0) return impl_->refuse(path, file->messages()), false;
   impl_->texts.push_back(file);
+  impl_->answers.clear();
   return impl_->add(file->library(), path);
 }
 
@@ -205,20 +223,33 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
   return found.shader;
 }
 
+const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kind, const std::string& searchPath,
+                                             const std::string& beside) {
+  const TmShader* const own = known(name, kind);
+  if (own && (!builtIn.count(own) || isOfSpecification(name))) return own;
+  if (!leavesFolders(name))
+    for (const std::string& file : pluginFiles(name, trust.folders))
+      if (load(file))
+        if (const TmShader* s = known(name, kind); s && s != own) return s;
+  if (const TmShader* s = findText(name, kind, searchPath, beside)) return s;
+  if (own) return own;
+  std::vector<std::string> others;  // plugins of that name without such a shader
+  for (const std::string& file : trustedFiles(name, searchPath)) {
+    if (!load(file)) continue;
+    if (const TmShader* s = known(name, kind)) return s;
+    others.push_back(file);
+  }
+  for (const std::string& file : others)
+    refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, heldBy(file)));
+  return nullptr;
+}
+
 const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath,
                                      const std::string& beside) {
   const std::lock_guard lock(impl_->mutex);
-  if (const TmShader* s = impl_->known(name, kind)) return s;
-  std::vector<std::string> others;  // plugins of that name without such a shader
-  for (const std::string& file : impl_->trustedFiles(name, searchPath)) {
-    if (!impl_->load(file)) continue;
-    if (const TmShader* s = impl_->known(name, kind)) return s;
-    others.push_back(file);
-  }
-  if (const TmShader* s = impl_->findText(name, kind, searchPath, beside)) return s;
-  for (const std::string& file : others)
-    impl_->refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, impl_->heldBy(file)));
-  return nullptr;
+  const auto [answer, isNew] = impl_->answers.try_emplace({name, kind, searchPath, beside}, nullptr);
+  if (isNew) answer->second = impl_->search(name, kind, searchPath, beside);
+  return answer->second;
 }
 
 std::vector<const TmShader*> ShaderRegistry::all() const {

@@ -11,7 +11,7 @@ struct Angles {
 
   RSL_INLINE explicit Angles(const float* x) {
     uint32_t far = 0;
-    for (int k = 0; k < kBlock; ++k) {
+    RSL_LANES for (int k = 0; k < kBlock; ++k) {
       const Angle a = angleOf(x[k]);
       rest[k] = a.rest, quarters[k] = a.quarters;
       far |= std::abs(x[k]) < kFar ? 0u : 1u;

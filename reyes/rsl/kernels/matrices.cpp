@@ -1,133 +1,157 @@
 // Matrices (RISpec 15.4): sixteen numbers a point, row by row; points are rows, the translation is the last row.
 #include "reyes/rsl/kernels/angles.h"
-#include "reyes/shader/shadeops.h"
+#include "reyes/rsl/kernels/matrix_block.h"
 
 namespace tomales::compiler::kernels {
 
+using rsl::Matrix;
 using rsl::Vec3;
 
 namespace {
 
-/// The numbers of a block, each of all its points.
-struct Block {
-  const Lanes& lanes;
-  int b;
-  RSL_INLINE float* operator()(int row, int column) const { return planeOf(lanes, b, 4 * row + column); }
-  RSL_INLINE rsl::Matrix at(int k) const {
-    rsl::Matrix m;
-    for (int i = 0; i < 16; ++i) m.m[i / 4][i % 4] = planeOf(lanes, b, i)[k];
-    return m;
+/// Every block of `out` is what `left`, which sets a MatrixBlock, gives for it, times that of the first argument: the
+/// new transformation comes first.
+template <class Left>
+RSL_INLINE void before(int blocks, const Lanes& out, const Lanes* in, const Left& left) {
+  for (int b = 0; b < blocks; ++b) {
+    MatrixBlock first, second(in[0], b), result;
+    left(b, first);
+    multiply(first, second, result);
+    result.write(out, b);
   }
-  RSL_INLINE void set(int k, const rsl::Matrix& m) const {
-    for (int i = 0; i < 16; ++i) planeOf(lanes, b, i)[k] = m.m[i / 4][i % 4];
-  }
-};
+}
 
-/// 0 to 3, rounded down; what is not a number is 0.
-RSL_INLINE float heldIndex(float x) { return x >= 3 ? 3.0f : x >= 2 ? 2.0f : x >= 1 ? 1.0f : 0.0f; }
+/// Row and column, 0 to 3 each and rounded down, as a place among the sixteen; what is not a number is 0.
+RSL_INLINE void placesOf(const Lanes& row, const Lanes& column, int b, float* places) {
+  const auto held = [](float x) RSL_INLINED {
+    return (x >= 1 ? 1.0f : 0.0f) + (x >= 2 ? 1.0f : 0.0f) + (x >= 3 ? 1.0f : 0.0f);
+  };
+  const float *i = planeOf(row, b), *j = planeOf(column, b);
+  RSL_LANES for (int k = 0; k < kBlock; ++k) places[k] = 4 * held(i[k]) + held(j[k]);
+}
 
 }  // namespace
 
 RSL_KERNEL(MatrixOf) {
-  for (int b = 0; b < blocks; ++b)
-    for (int i = 0; i < 16; ++i) {
-      const float* value = planeOf(*in, b);
-      float* to = planeOf(out, b, i);
-#pragma GCC ivdep
-      for (int k = 0; k < kBlock; ++k) to[k] = i == 15 ? 1.0f : i % 5 == 0 ? value[k] : 0.0f;
-    }
-}
-RSL_KERNEL(MakeMatrix) {
-  for (int i = 0; i < 16; ++i) each(blocks, componentOf(out, i), in + i, [](float x) RSL_INLINED { return x; });
-}
-RSL_KERNEL(MatrixProduct) {
-  for (int b = 0; b < blocks; ++b)
-    for (int i = 0; i < 16; ++i) {
-      const Block l{in[0], b}, r{in[1], b};
-      const int row = i / 4, column = i % 4;
-      const float *a0 = l(row, 0), *a1 = l(row, 1), *a2 = l(row, 2), *a3 = l(row, 3);
-      const float *b0 = r(0, column), *b1 = r(1, column), *b2 = r(2, column), *b3 = r(3, column);
-      float* to = planeOf(out, b, i);
-#pragma GCC ivdep
-      for (int k = 0; k < kBlock; ++k) to[k] = a0[k] * b0[k] + a1[k] * b1[k] + a2[k] * b2[k] + a3[k] * b3[k];
-    }
-}
-RSL_KERNEL(MatrixInverse) {
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < kBlock; ++k) {
-      rsl::Matrix inverse;
-      rsl::invert(Block{*in, b}.at(k), &inverse);
-      Block{out, b}.set(k, inverse);
-    }
-}
-RSL_KERNEL(Determinant) {
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < kBlock; ++k) planeOf(out, b)[k] = rsl::determinant(Block{*in, b}.at(k));
-}
-RSL_KERNEL(TranslateMatrix) {
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < kBlock; ++k)
-      Block{out, b}.set(k, rsl::translate(Block{in[0], b}.at(k), Plane<Vec3>(in[1], b).get(k)));
-}
-RSL_KERNEL(RotateMatrix) {
   for (int b = 0; b < blocks; ++b) {
-    const Angles angles(planeOf(in[1], b));
-    for (int k = 0; k < kBlock; ++k)
-      Block{out, b}.set(
-          k, rsl::rotate(Block{in[0], b}.at(k), cosineOf(angles[k]), sineOf(angles[k]), Plane<Vec3>(in[2], b).get(k)));
+    MatrixBlock m;
+    for (int i = 0; i < 3; ++i) copyBlock(m.at[i][i], planeOf(in[0], b));
+    m.write(out, b);
   }
 }
-RSL_KERNEL(ScaleMatrix) {
+RSL_KERNEL(MakeMatrix) {
   for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < kBlock; ++k)
-      Block{out, b}.set(k, rsl::scale(Block{in[0], b}.at(k), Plane<Vec3>(in[1], b).get(k)));
+    for (int c = 0; c < 16; ++c) copyBlock(planeOf(out, b, c), planeOf(in[c], b));
 }
+RSL_KERNEL(MatrixProduct) {
+  for (int b = 0; b < blocks; ++b) {
+    const MatrixBlock left(in[0], b), right(in[1], b);
+    MatrixBlock result;
+    multiply(left, right, result);
+    result.write(out, b);
+  }
+}
+RSL_KERNEL(TranslateMatrix) {
+  before(blocks, out, in, [&](int b, MatrixBlock& m) RSL_INLINED {
+    for (int j = 0; j < 3; ++j) copyBlock(m.at[3][j], planeOf(in[1], b, j));
+  });
+}
+RSL_KERNEL(ScaleMatrix) {
+  before(blocks, out, in, [&](int b, MatrixBlock& m) RSL_INLINED {
+    for (int j = 0; j < 3; ++j) copyBlock(m.at[j][j], planeOf(in[1], b, j));
+  });
+}
+RSL_KERNEL(RotateMatrix) {
+  before(blocks, out, in, [&](int b, MatrixBlock& m) RSL_INLINED {
+    const Angles angles(planeOf(in[1], b));
+    const Plane<Vec3> axis(in[2], b);
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 unit{i == 0 ? 1.0f : 0.0f, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f};
+      float *x = m.at[i][0], *y = m.at[i][1], *z = m.at[i][2];
+      RSL_LANES for (int k = 0; k < kBlock; ++k) {
+        const Vec3 row = rsl::rotated(unit, cosineOf(angles[k]), sineOf(angles[k]), {}, axis.get(k));
+        x[k] = row.x, y[k] = row.y, z[k] = row.z;
+      }
+    }
+  });
+}
+
+RSL_KERNEL(MatrixInverse) {
+  for (int b = 0; b < blocks; ++b) {
+    MatrixBlock left(in[0], b), inverse;
+    float determinant[kBlock], exists[kBlock];
+    invert(left, inverse, determinant, exists);
+    const MatrixBlock identity;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const float *found = inverse.at[i][j], *none = identity.at[i][j];
+        float* to = planeOf(out, b, 4 * i + j);
+        RSL_LANES for (int k = 0; k < kBlock; ++k) to[k] = exists[k] == 0 ? none[k] : found[k];
+      }
+  }
+}
+RSL_KERNEL(Determinant) {
+  for (int b = 0; b < blocks; ++b) {
+    MatrixBlock left(in[0], b), inverse;
+    float determinant[kBlock], exists[kBlock];
+    invert(left, inverse, determinant, exists);
+    copyBlock(planeOf(out, b), determinant);
+  }
+}
+
 RSL_KERNEL(TransformPoint) {
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < kBlock; ++k)
-      Plane<Vec3>(out, b).set(k, rsl::transform(Block{in[0], b}.at(k), Plane<Vec3>(in[1], b).get(k)));
+  each(blocks, out, in, [](Matrix m, Vec3 p) RSL_INLINED { return rsl::transform(m, p); });
 }
 RSL_KERNEL(TransformVector) {
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < kBlock; ++k)
-      Plane<Vec3>(out, b).set(k, rsl::vtransform(Block{in[0], b}.at(k), Plane<Vec3>(in[1], b).get(k)));
+  each(blocks, out, in, [](Matrix m, Vec3 v) RSL_INLINED { return rsl::vtransform(m, v); });
 }
 RSL_KERNEL(TransformNormal) {
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < kBlock; ++k)
-      Plane<Vec3>(out, b).set(k, rsl::ntransform(Block{in[0], b}.at(k), Plane<Vec3>(in[1], b).get(k)));
+  for (int b = 0; b < blocks; ++b) {
+    MatrixBlock left(in[0], b), inverse;
+    float determinant[kBlock], exists[kBlock];
+    invert(left, inverse, determinant, exists);
+    const Plane<Vec3> to(out, b), normal(in[1], b);
+    const auto& m = inverse.at;
+    RSL_LANES for (int k = 0; k < kBlock; ++k) {
+      const Vec3 n = normal.get(k),
+                 r{rsl::dot({m[0][0][k], m[0][1][k], m[0][2][k]}, n), rsl::dot({m[1][0][k], m[1][1][k], m[1][2][k]}, n),
+                   rsl::dot({m[2][0][k], m[2][1][k], m[2][2][k]}, n)};
+      const bool none = determinant[k] == 0;
+      to.set(k, {none ? 0 : r.x, none ? 0 : r.y, none ? 0 : r.z});
+    }
+  }
 }
+
 RSL_KERNEL(MatrixElement) {
   for (int b = 0; b < blocks; ++b) {
-    float* to = planeOf(out, b);
-    for (int i = 0; i < 16; ++i) {
-      const float *row = planeOf(in[1], b), *column = planeOf(in[2], b), *from = planeOf(in[0], b, i);
-      const float n = static_cast<float>(i);
-#pragma GCC ivdep
-      for (int k = 0; k < kBlock; ++k) to[k] = 4 * heldIndex(row[k]) + heldIndex(column[k]) == n ? from[k] : to[k];
+    float place[kBlock], *to = planeOf(out, b);
+    placesOf(in[1], in[2], b, place);
+    copyBlock(to, planeOf(in[0], b));
+    for (int c = 1; c < 16; ++c) {
+      const float *from = planeOf(in[0], b, c), here = static_cast<float>(c);
+      RSL_LANES for (int k = 0; k < kBlock; ++k) to[k] = place[k] == here ? from[k] : to[k];
     }
   }
 }
 RSL_KERNEL(SetMatrixElement) {
-  for (int b = 0; b < blocks; ++b)
-    for (int i = 0; i < 16; ++i) {
-      const float *row = planeOf(in[1], b), *column = planeOf(in[2], b), *value = planeOf(in[3], b);
-      const float *from = planeOf(in[0], b, i), n = static_cast<float>(i);
-      float* to = planeOf(out, b, i);
-#pragma GCC ivdep
-      for (int k = 0; k < kBlock; ++k) to[k] = 4 * heldIndex(row[k]) + heldIndex(column[k]) == n ? value[k] : from[k];
-    }
-}
-RSL_KERNEL(MatrixEqual) {
   for (int b = 0; b < blocks; ++b) {
-    float* to = planeOf(out, b);
-    for (int k = 0; k < kBlock; ++k) to[k] = 1;
-    for (int i = 0; i < 16; ++i) {
-      const float *l = planeOf(in[0], b, i), *r = planeOf(in[1], b, i);
-#pragma GCC ivdep
-      for (int k = 0; k < kBlock; ++k) to[k] = l[k] == r[k] ? to[k] : 0.0f;
+    float place[kBlock];
+    placesOf(in[1], in[2], b, place);
+    const float* value = planeOf(in[3], b);
+    for (int c = 0; c < 16; ++c) {
+      const float *from = planeOf(in[0], b, c), here = static_cast<float>(c);
+      float* to = planeOf(out, b, c);
+      RSL_LANES for (int k = 0; k < kBlock; ++k) to[k] = place[k] == here ? value[k] : from[k];
     }
   }
+}
+RSL_KERNEL(MatrixEqual) {
+  each(blocks, out, in, [](Matrix a, Matrix b) RSL_INLINED {
+    const auto row = [&](int i) RSL_INLINED {
+      return (a.m[i][0] == b.m[i][0]) & (a.m[i][1] == b.m[i][1]) & (a.m[i][2] == b.m[i][2]) & (a.m[i][3] == b.m[i][3]);
+    };
+    return row(0) & row(1) & row(2) & row(3) ? 1.0f : 0.0f;
+  });
 }
 
 }  // namespace tomales::compiler::kernels

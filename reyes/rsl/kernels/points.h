@@ -2,12 +2,22 @@
 // the compiler vectorises, once for each kind of processor.
 #pragma once
 #include <cstddef>
+#include <cstring>
+#include <utility>
 
 #include "reyes/rsl/kernels.h"
 #include "reyes/shader/math.h"
 
 /// The head of a kernel of that name in the table.
 #define RSL_KERNEL(name) RSL_HOT void name(int blocks, const Lanes& out, const Lanes* in)
+
+/// Before a loop over the points of a block: what is written is read at the same point alone (kernels.h), so order does
+/// not count; and the loop is not to be unrolled before it is vectorised.
+#if defined(__GNUC__) && !defined(__clang__)
+#define RSL_LANES _Pragma("GCC ivdep") _Pragma("GCC unroll 1")
+#else
+#define RSL_LANES
+#endif
 
 namespace tomales::compiler::kernels {
 
@@ -19,6 +29,9 @@ RSL_OPS(RSL_OP)
 RSL_INLINE float* planeOf(const Lanes& l, int b, int c = 0) {
   return l.data + static_cast<ptrdiff_t>(b) * l.block + static_cast<ptrdiff_t>(c) * l.component;
 }
+
+/// A loop would become a call.
+RSL_INLINE void copyBlock(float* to, const float* from) { std::memcpy(to, from, kBlock * sizeof(float)); }
 
 /// The values of one block, by point.
 template <class T>
@@ -38,11 +51,9 @@ struct Plane<rsl::Vec3> {
   RSL_INLINE void set(int k, rsl::Vec3 v) const { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
 };
 
-/// What `out` overlaps is read at the same point alone (kernels.h), which is what `ivdep` says.
 template <class Op, class Out, class... In>
 RSL_INLINE void eachPoint(const Op& op, const Plane<Out> out, const Plane<In>... in) {
-#pragma GCC ivdep
-  for (int k = 0; k < kBlock; ++k) out.set(k, op(in.get(k)...));
+  RSL_LANES for (int k = 0; k < kBlock; ++k) out.set(k, op(in.get(k)...));
 }
 template <class Op, class Out, class... In, int... argument>
 RSL_INLINE void eachBlock(int blocks, const Lanes& out, const Lanes* in, const Op& op, Out (Op::*)(In...) const,

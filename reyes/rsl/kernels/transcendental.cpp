@@ -40,7 +40,7 @@ RSL_INLINE void eachAngle(int blocks, const Lanes& out, const Lanes& in, const O
   for (int b = 0; b < blocks; ++b) {
     const Angles angles(planeOf(in, b));
     float* result = planeOf(out, b);
-    for (int k = 0; k < kBlock; ++k) result[k] = of(angles[k]);
+    RSL_LANES for (int k = 0; k < kBlock; ++k) result[k] = of(angles[k]);
   }
 }
 

@@ -49,10 +49,11 @@ RSL_INLINE double log2Of(float x) {
 RSL_INLINE float expOf(float x) { return static_cast<float>(exp2Of(x * kLog2OfE)); }
 RSL_INLINE float logOf(float x) { return static_cast<float>(x < 0 ? kNone : kLogOf2 * log2Of(x)); }
 RSL_INLINE float powOf(float x, float y) {
-  const double l = log2Of(std::abs(x)), power = exp2Of(l == 0 || y == 0 ? 0 : y * l);
-  const bool whole = rsl::wholeBelow(y) == y, odd = whole && rsl::wholeBelow(0.5f * y) != 0.5f * y;
-  const float signedPower = std::copysign(static_cast<float>(power), odd ? x : 1.0f);
-  return x < 0 && !whole && std::abs(x) < static_cast<float>(kInfinite) ? static_cast<float>(kNone) : signedPower;
+  const float size = std::abs(x), finite = std::numeric_limits<float>::max();
+  const bool whole = rsl::wholeBelow(y) == y, odd = whole & (rsl::wholeBelow(0.5f * y) != 0.5f * y);
+  const float power = rsl::chosen((size == 1) | (y == 0), 1, static_cast<float>(exp2Of(y * log2Of(size))));
+  return rsl::chosen((x < 0) & !whole & (size <= finite), static_cast<float>(kNone),
+                     std::copysign(power, rsl::chosen(odd, x, 1)));
 }
 
 /// x less the nearest whole number of quarter turns; the last two bits of that number count.

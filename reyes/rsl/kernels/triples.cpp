@@ -7,7 +7,8 @@ namespace tomales::compiler::kernels {
 using rsl::Vec3;
 
 RSL_KERNEL(MakeTriple) {
-  each(blocks, out, in, [](float x, float y, float z) RSL_INLINED { return Vec3{x, y, z}; });
+  for (int b = 0; b < blocks; ++b)
+    for (int c = 0; c < 3; ++c) copyBlock(planeOf(out, b, c), planeOf(in[c], b));
 }
 RSL_KERNEL(Component) {
   each(blocks, out, in, [](Vec3 v, float which) RSL_INLINED {
@@ -58,7 +59,7 @@ RSL_KERNEL(RotatePoint) {
   for (int b = 0; b < blocks; ++b) {
     const Angles angles(planeOf(in[1], b));
     const Plane<Vec3> to(out, b), Q(in[0], b), P0(in[2], b), P1(in[3], b);
-#pragma GCC ivdep
+    RSL_LANES
     for (int k = 0; k < kBlock; ++k)
       to.set(k, rsl::rotated(Q.get(k), cosineOf(angles[k]), sineOf(angles[k]), P0.get(k), P1.get(k)));
   }
