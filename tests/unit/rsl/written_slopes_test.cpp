@@ -144,7 +144,7 @@ TEST(WrittenSlopes, AreThoseOfDifferences) {
     for (size_t i = 0; i < slope.size(); ++i) {
       const float should = 1000 * 4 * (above[i] - below[i]) / (2 * kAside);  // du is 1/4
       ASSERT_NEAR(slope[i], should, 0.02f + 0.02f * std::abs(should)) << "seed " << seed << ", point " << i << "\n"
-                                                                       << text.text();
+                                                                      << text.text();
       steep += std::abs(should) > 1;
     }
   }
