@@ -12,9 +12,9 @@ namespace tomales::compiler {
 using rsl::Vec3;
 
 struct CaseOptions {
-  const char* outside = "";       ///< Functions before the shader.
-  const char* parameters = "";    ///< Further ones, each with a semicolon.
-  const char* kind = "surface";   ///
+  const char* outside = "";     ///< Functions before the shader.
+  const char* parameters = "";  ///< Further ones, each with a semicolon.
+  const char* kind = "surface";
   float tolerance = 4e-6f;        ///< Of the answer's size, or absolute below 1.
   const char* message = nullptr;  ///< A part of what the renderer is told; null: it is told nothing.
 };

@@ -19,7 +19,7 @@ Cases derivativeCases() {
       {"Du of what the host knows", "x = Du(s);", 4},
       {"Dv of what does not change along v", "x = Dv(s);", 0},
       {"Dv", "x = Dv(t);", 6},
-      {"Du of u and v", "x = Du(P) . vector (1, 1, 1);", 4},
+      {"Du of all components", "x = Du(P) . vector (1, 1, 1);", 4},
       {"Du of a point", "w = Du(P);", Vec3{4, 0, 0}},
       {"Dv of a point", "w = Dv(P);", Vec3{0, 4, 0}},
       {"a constant does not change", "x = Du(3) + Dv(7);", 0},
