@@ -98,12 +98,20 @@ class Analysis {
              const Drop& drop) const {
     for (const Instruction& i : block) {
       const auto has = [&](int32_t r) { return r < 0 || in[static_cast<size_t>(r)] != 0; };
+      if (i.op == Op::Leave && holds.followsControl && !control) dropGlobals(drop);
       forEachWrite(i, [&](int32_t r) {
         if (!holds.keeps(i, has, *this) || (holds.followsControl && !control)) drop(r);
       });
       const bool inner = control && ((i.op != Op::If && i.op != Op::Loop) || has(i.in[0]));
       for (const Block& b : i.blocks) visit(b, inner, in, holds, drop);
     }
+  }
+
+  /// What stands behind a Leave is not run by those who have left: no result keeps what it held.
+  template <class Drop>
+  void dropGlobals(const Drop& drop) const {
+    for (size_t k = 0; k < code_.registers.size(); ++k)
+      if (code_.registers[k].origin == Origin::Global) drop(static_cast<int32_t>(k));
   }
 
   /// Is black where no light is: it reflects, and does not shine.
