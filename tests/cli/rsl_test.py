@@ -276,19 +276,19 @@ t.expect_run("macros that explode", ["compile", "bomb.sl"], 2, "bomb.sl:")
 t.write("self.sl", '#include "self.sl"\n' + plain("self", "1"))
 t.expect_run("a file that includes itself", ["compile", "self.sl"], 2, "self.sl:1:")
 
-# A shader that changes between two frames of one process, which reads the second when the first is done.
+# A shader that changes between two frames of one process, which waits for the second in a pipe when the first is done.
 t.write("edited.sl", plain("edited", "color(0, 1, 0)"))
-process = subprocess.Popen([t.program, "-"], cwd=t.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-process.stdin.write(("FrameBegin 1\n" + SCENE % ("frame1", "", 'Surface "edited"', "") + "FrameEnd\n").encode())
-process.stdin.flush()
+os.mkfifo(t.folder / "second.rib")
+scene("first", 'Surface "edited"')
+process = subprocess.Popen([t.program, "first.rib", "second.rib"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 end = time.time() + 30
-while not (t.folder / "frame1.exr").exists() and time.time() < end:
+while not (t.folder / "first.exr").exists() and time.time() < end:
     time.sleep(0.02)
-first_was_done = (t.folder / "frame1.exr").exists()
 t.write("edited.sl", plain("edited", "color(0, 0, 1)") + "/* longer */\n")
-errors = process.communicate(("FrameBegin 2\n" + SCENE % ("frame2", "", 'Surface "edited"', "") + "FrameEnd\n").encode(), timeout=60)[1]
+with open(t.folder / "second.rib", "w") as pipe:
+    pipe.write(SCENE % ("second", "", 'Surface "edited"', ""))
+errors = process.communicate(timeout=60)[1]
 t.expect(process.returncode == 0 and not errors, f"two frames of one process ({errors[:200]})")
-if first_was_done:
-    expect_all("frame1", GREEN, "the first has the shader as it was")
-expect_all("frame2", BLUE, "the second has it as it has become")
+expect_all("first", GREEN, "the first has the shader as it was")
+expect_all("second", BLUE, "the second has it as it has become")
 t.finish()
