@@ -1,5 +1,6 @@
 // Private to the lowering (lower*.cpp).
 #pragma once
+#include <initializer_list>
 #include <map>
 
 #include "reyes/rsl/builtins.h"
@@ -12,6 +13,9 @@ Shape shapeOf(const Type& type);
 
 /// The default of a text that is computed when the shader runs: no shader gives this one.
 constexpr const char* kTextNotGiven = "\x1bnot given";
+
+/// Is there a statement of one of these kinds in it? Functions that it defines do not count.
+bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds);
 
 class Lowering {
  public:
@@ -48,6 +52,7 @@ class Lowering {
   void ifElse(int32_t condition, Block then, Block otherwise);
   void loop(const Expr* condition, const Stmt& body, const Expr* step);
   void jump(const Stmt& s);
+  // --- lower_light.cpp
   /// `body` within labels that `break` and `continue` of it may leave.
   template <class Body>
   void breakable(const Stmt& within, const Body& body);
