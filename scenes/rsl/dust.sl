@@ -5,7 +5,7 @@ volume dust(float density = 0.05, steps = 24; color dustcolor = 1; float uneven 
   for (k = 0; k < steps; k += 1) {
     /* From the eye on; the same random part of a step for a whole ray would leave bands. */
     point Q = P - I + ((k + random()) / steps) * I;
-    float d = density * (1 - uneven + 2 * uneven * float noise(frequency * transform("world", Q)));
+    float d = density * (1 - uneven + 2 * uneven * float noise(frequency * transform("shader", Q)));
     float passes = exp(-d * stride);
     color lit = 0;
     illuminance (Q) lit += Cl;

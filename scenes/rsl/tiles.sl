@@ -11,7 +11,7 @@ float stripes(float x, width) {
 surface tiles(float Ka = 1, Kd = 0.8, Ks = 0.3, roughness = 0.04, Kr = 0.25;
               float size = 0.8, joint = 0.02;
               color first = color(0.55, 0.52, 0.46), second = color(0.1, 0.12, 0.13), jointcolor = color(0.2, 0.19, 0.18)) {
-  point q = transform("world", P) / size;
+  point q = transform("shader", P) / size;
   float x = xcomp(q), y = zcomp(q);
   float dx = filterwidth(x), dy = filterwidth(y);
   float a = stripes(x, dx), b = stripes(y, dy);

@@ -106,7 +106,8 @@ TEST_F(Passes, SurfacesThatEmitAreFound) {
 }
 
 TEST_F(Passes, SurfacesThatAreEvenAreFound) {
-  EXPECT_TRUE(found("Ci = Cs * diffuse(N);") & TM_EVEN);
+  EXPECT_TRUE(found("Ci = Cs * diffuse(faceforward(normalize(N), I));") & TM_EVEN);
+  EXPECT_FALSE(found("Ci = Cs * diffuse(N);") & TM_EVEN) << "N may face away from the eye";
   EXPECT_TRUE(found("Ci = Cs * p; if (p > 2) Ci = 0;") & TM_EVEN);
   EXPECT_FALSE(found("Ci = Cs * noise(P);") & TM_EVEN);
   EXPECT_FALSE(found("Ci = Cs; if (s > 2) Ci = 0;") & TM_EVEN) << "where it is chosen by places";
