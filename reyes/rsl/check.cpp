@@ -84,7 +84,6 @@ void Checker::initialise(Variable& v) {
 void Checker::parameter(Variable& v) {
   initialise(v);
   declare(v);
-  v.assigned = true;
 }
 
 void Checker::function(Function& f) {

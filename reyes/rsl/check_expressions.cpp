@@ -174,7 +174,7 @@ Type Checker::typeOfCast(Expr& e) {
 // The context's type goes down through arithmetic to the functions that have results of several types: in
 // `point Q = P + .1 * noise(P)` noise gives a point (RISpec 15: the function is chosen by what is wanted).
 void Checker::retarget(Expr& e, const Type& wanted) {
-  if (e.type == wanted || e.type == kUnknown || wanted == kUnknown) return;
+  if (e.type == kUnknown || wanted == kUnknown) return;
   switch (e.kind) {
     case ExprKind::Tuple:
       if (isTriplet(e) && wanted.isTriple()) e.type = wanted;
@@ -210,9 +210,9 @@ void Checker::retarget(Expr& e, const Type& wanted) {
       return;
     case ExprKind::Call: {
       if (e.missing) e.type = wanted;
-      if (e.builtin < 0) return;
+      if (e.builtin < 0 || e.type == wanted) return;
       const auto [first, count] = rowsOf(e.text);
-      int best = e.type == wanted ? 0 : -1;
+      int best = -1;
       int32_t chosen = -1;
       for (int32_t row = first; row < first + count; ++row) {
         const Builtin& b = builtins()[static_cast<size_t>(row)];

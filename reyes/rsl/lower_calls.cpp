@@ -42,7 +42,7 @@ int32_t Lowering::inlined(const Expr& e, const Function& f) {
     const Variable& p = *f.parameters[i];
     if (p.output) {
       registers_[&p] = target(*e.args[i], after);
-    } else if (!p.assigned || p.type.isArray()) {
+    } else if (p.type.isArray() || (!p.assigned && shape(given[i]) == shapeOf(p.type))) {
       registers_[&p] = given[i];
     } else {
       const int32_t from = given[i];

@@ -110,10 +110,29 @@ int32_t Lowering::name(const Expr& e) {
     const auto g = static_cast<Global>(v.global);
     if (!info(g).readableIn(code_.kind))
       messages_.error(e.place, fmt::format("{} shaders have no \"{}\"", compiler::name(code_.kind), e.text), e.length);
-    return global(g);
+    return code_.kind == ShaderKind::Light ? ofLamp(g) : global(g);
   }
   const auto it = registers_.find(&v);
   return it != registers_.end() ? it->second : variable(v);
+}
+
+// In a light shader P is where the light is and N where it looks: the origin and the z axis of its space. (RISpec has
+// points of an area light there, which the host only gives to built-in ones.)
+int32_t Lowering::ofLamp(Global g) {
+  if (g != Global::P && g != Global::N && g != Global::Ng) return global(g);
+  const auto [it, isNew] = lamp_.try_emplace(g, -1);
+  if (!isNew) return it->second;
+  const bool position = g == Global::P;
+  const int32_t own = constant(Shape::Triple, {0, 0, position ? 0.0f : 1.0f}), current = temporary(Shape::Triple);
+  it->second = add({.shape = Shape::Triple, .origin = Origin::Variable});
+  Register& r = code_.registers[static_cast<size_t>(it->second)];
+  r.name = info(g).name, r.depth = 0;
+  Instruction first{.op = Op::TransformSpace, .out = {current}, .in = {text("shader"), text("current"), own}};
+  first.extra = position ? TM_AS_POINT : TM_AS_NORMAL;
+  Instruction second{.op = Op::Copy, .out = {it->second}, .in = {current}};
+  second.masked = false;
+  code_.body.insert(code_.body.begin(), {std::move(first), std::move(second)});
+  return it->second;
 }
 
 int32_t Lowering::element(const Expr& e) {

@@ -8,12 +8,6 @@
 namespace tomales::compiler {
 namespace {
 
-bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds) {
-  if (std::find(kinds.begin(), kinds.end(), s.kind) != kinds.end()) return true;
-  if (s.kind == StmtKind::Define) return false;
-  return std::any_of(s.body.begin(), s.body.end(), [&](const StmtPtr& part) { return contains(*part, kinds); });
-}
-
 /// The default without the cast that says what is meant anyway.
 const Expr& inShaderSpace(const Expr& e) {
   const bool spatial = e.written.isTriple() && e.written.base != Base::Color;
@@ -21,6 +15,12 @@ const Expr& inShaderSpace(const Expr& e) {
 }
 
 }  // namespace
+
+bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds) {
+  if (std::find(kinds.begin(), kinds.end(), s.kind) != kinds.end()) return true;
+  if (s.kind == StmtKind::Define) return false;
+  return std::any_of(s.body.begin(), s.body.end(), [&](const StmtPtr& part) { return contains(*part, kinds); });
+}
 
 void Lowering::shader(const Shader& s) {
   code_.kind = s.kind, code_.name = s.name, code_.doc = s.doc;
@@ -231,85 +231,6 @@ void Lowering::loop(const Expr* until, const Stmt& body, const Expr* step) {
 void Lowering::jump(const Stmt& s) {
   const LoopLabels& labels = loops_[loops_.size() - static_cast<size_t>(s.count)];
   emit(Op::Leave, {}, {}).extra = s.kind == StmtKind::Break ? labels.leave : labels.next;
-}
-
-template <class Body>
-void Lowering::breakable(const Stmt& within, const Body& body) {
-  if (!contains(within, {StmtKind::Break, StmtKind::Continue})) {
-    loops_.push_back({-1, -1});
-    body([&](const Stmt& s) { return block([&] { statement(s); }); });
-    loops_.pop_back();
-    return;
-  }
-  const int32_t leave = code_.labels++, next = code_.labels++;
-  loops_.push_back({leave, next});
-  const auto scope = [&](int32_t label, Block inner) {
-    Instruction& i = emit(Op::Scope, {}, {});
-    i.extra = label;
-    i.blocks.push_back(std::move(inner));
-  };
-  Block all =
-      block([&] { body([&](const Stmt& s) { return block([&] { scope(next, block([&] { statement(s); })); }); }); });
-  scope(leave, std::move(all));
-  loops_.pop_back();
-}
-
-void Lowering::illuminance(const Stmt& s) {
-  const auto& e = s.exprs;
-  size_t at = e[0]->type.is(Base::String) ? 1 : 0;
-  const int32_t category = at == 1 ? value(*e[0]) : -1, position = value(*e[at++]);
-  int32_t axis = -1, angle = -1;
-  if (at < e.size() && !e[at]->type.is(Base::String)) axis = value(*e[at++]), angle = value(*e[at++]);
-  std::vector<std::pair<const Expr*, int32_t>> after;
-  const std::vector<Setting> list = settings(e, at, "illuminance", after);
-  const int32_t L = global(Global::L), Cl = global(Global::Cl);
-  breakable(*s.body[0], [&](const auto& bodyOf) {
-    Block body = bodyOf(*s.body[0]);
-    Block stores = block([&] {
-      for (const auto& [to, from] : after) store(*to, from);
-    });
-    body.insert(body.begin(), std::make_move_iterator(stores.begin()), std::make_move_iterator(stores.end()));
-    Instruction& i = emit(Op::Illuminance, {L, Cl}, {category, position, axis, angle});
-    i.settings = list;
-    i.blocks.push_back(std::move(body));
-  });
-}
-
-void Lowering::gather(const Stmt& s) {
-  const auto& e = s.exprs;
-  std::vector<int32_t> in;
-  for (size_t i = 0; i < 5; ++i) in.push_back(value(*e[i]));
-  std::vector<std::pair<const Expr*, int32_t>> after;
-  const std::vector<Setting> list = settings(e, 5, "gather", after);
-  for (const auto& [to, from] : after)
-    messages_.error(to->place, "gather() fills plain variables only, not elements of arrays", to->length);
-  breakable(s, [&](const auto& bodyOf) {
-    Block hit = bodyOf(*s.body[0]), miss;
-    if (s.body.size() > 1) miss = bodyOf(*s.body[1]);
-    Instruction& i = emit(Op::Gather, {}, in);
-    i.settings = list;
-    i.blocks.push_back(std::move(hit));
-    i.blocks.push_back(std::move(miss));
-  });
-}
-
-void Lowering::illuminate(const Stmt& s) {
-  const int32_t from = value(*s.exprs[0]), L = global(Global::L);
-  copy(L, compute(Op::Sub, {global(Global::Ps), from}, Shape::Triple));
-  if (s.exprs.size() == 1) return statement(*s.body[0]);
-  const int32_t axis = compute(Op::Normalize, {value(*s.exprs[1])}), angle = value(*s.exprs[2]);
-  const int32_t cosine = compute(Op::Dot, {compute(Op::Normalize, {L}), axis});
-  const int32_t inside = compute(Op::LessEqual, {compute(Op::Cos, {angle}, Shape::Number), cosine});
-  ifElse(inside, block([&] { statement(*s.body[0]); }), {});
-}
-
-void Lowering::solar(const Stmt& s) {
-  const int32_t L = global(Global::L);
-  if (!s.exprs.empty()) {
-    const int32_t axis = value(*s.exprs[0]), angle = value(*s.exprs[1]);
-    copy(L, compute(Op::ConeLight, {axis, angle}));
-  }
-  statement(*s.body[0]);
 }
 
 }  // namespace tomales::compiler

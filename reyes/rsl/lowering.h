@@ -1,5 +1,6 @@
 // Private to the lowering (lower*.cpp).
 #pragma once
+#include <initializer_list>
 #include <map>
 
 #include "reyes/rsl/builtins.h"
@@ -12,6 +13,9 @@ Shape shapeOf(const Type& type);
 
 /// The default of a text that is computed when the shader runs: no shader gives this one.
 constexpr const char* kTextNotGiven = "\x1bnot given";
+
+/// Is there a statement of one of these kinds in it? Functions that it defines do not count.
+bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds);
 
 class Lowering {
  public:
@@ -48,6 +52,7 @@ class Lowering {
   void ifElse(int32_t condition, Block then, Block otherwise);
   void loop(const Expr* condition, const Stmt& body, const Expr* step);
   void jump(const Stmt& s);
+  // --- lower_light.cpp
   /// `body` within labels that `break` and `continue` of it may leave.
   template <class Body>
   void breakable(const Stmt& within, const Body& body);
@@ -66,6 +71,7 @@ class Lowering {
   /// In order; values that a later expression may change are copied.
   std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
   int32_t name(const Expr& e);
+  int32_t ofLamp(Global g);
   int32_t element(const Expr& e);
   int32_t tuple(const Expr& e);
   int32_t binary(const Expr& e);
@@ -104,7 +110,7 @@ class Lowering {
   std::map<const Variable*, int32_t> registers_;
   std::map<float, int32_t> numbers_;
   std::map<std::string, int32_t> texts_;
-  std::map<Global, int32_t> globals_;
+  std::map<Global, int32_t> globals_, lamp_;
   struct LoopLabels {
     int32_t leave, next;
   };

@@ -45,7 +45,9 @@ std::string pointedAt(std::string_view line, size_t column, size_t length) {
 }
 
 std::string oneMessage(const Sources& sources, Severity severity, Place place, size_t length, std::string_view text) {
-  std::string out = fmt::format("{}: {}: {}\n", sources.text(place), name(severity), text);
+  const bool nowhere = place.file < 0 && severity == Severity::Note;  // about what is part of the renderer
+  std::string out = nowhere ? fmt::format("{}: {}\n", name(severity), text)
+                            : fmt::format("{}: {}: {}\n", sources.text(place), name(severity), text);
   const std::string_view line = sources.line(place.file, place.line);
   if (!line.empty() && place.column > 0) out += pointedAt(line, static_cast<size_t>(place.column), length);
   return out;

@@ -33,9 +33,19 @@ float filterstep(float edge, x; string name1; float value1; string name2, value2
 /* The area of a micropolygon whose points were at p. */
 float area(point p) { return length(__stepu(p) ^ __stepv(p)); }
 float area(point p; string strategy) { return area(p); }
-float Deriv(float x, by) { return Du(x) / Du(by) + Dv(x) / Dv(by); }
-color Deriv(color x; float by) { return Du(x) / Du(by) + Dv(x) / Dv(by); }
-vector Deriv(point x; float by) { return Du(x) / Du(by) + Dv(x) / Dv(by); }
+/* A direction along which `by` does not change tells nothing. */
+float Deriv(float x, by) {
+  float a = Du(by), b = Dv(by);
+  return (a == 0 ? 0 : Du(x) / a) + (b == 0 ? 0 : Dv(x) / b);
+}
+color Deriv(color x; float by) {
+  float a = Du(by), b = Dv(by);
+  return (a == 0 ? color 0 : Du(x) / a) + (b == 0 ? color 0 : Dv(x) / b);
+}
+vector Deriv(point x; float by) {
+  float a = Du(by), b = Dv(by);
+  return (a == 0 ? vector 0 : Du(x) / a) + (b == 0 ? vector 0 : Dv(x) / b);
+}
 
 vector faceforward(vector n, i) { return faceforward(n, i, Ng); }
 void fresnel(vector i, n; float eta; output float Kr, Kt) {

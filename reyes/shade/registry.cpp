@@ -203,7 +203,7 @@ bool ShaderRegistry::loadPlugin(const std::string& path) {
 
 bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::string& path) {
   const std::lock_guard lock(impl_->mutex);
-  if (file->errors() > 0) return impl_->refuse(path, file->messages()), false;
+  if (file->errors() > 0) return impl_->refuse(path, "does not compile:\n" + file->messages()), false;
   impl_->texts.push_back(file);
   impl_->answers.clear();
   return impl_->add(file->library(), path);
@@ -218,7 +218,8 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
   const auto tell = [&](const std::string& where, const std::string& what) {
     if (toldOf.insert(where + what).second) refuse(where, what);
   };
-  if (!found.problem.empty()) tell(found.file, found.problem);
+  if (!found.problem.empty())
+    tell(found.file, (found.problem.starts_with("has no") ? "" : "does not compile:\n") + found.problem);
   if (!found.remark.empty()) tell(name, found.remark);
   return found.shader;
 }

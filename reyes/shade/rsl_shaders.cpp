@@ -90,6 +90,11 @@ bool mentions(const fs::path& path, const std::string& name) {
   return false;
 }
 
+std::string lowered(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 std::vector<std::string> candidates(const std::string& name, const std::vector<std::string>& folders) {
   std::vector<std::string> out;
   std::error_code none;
@@ -106,6 +111,9 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
     std::sort(here.begin(), here.end());
     for (const fs::path& file : here)
       if (mentions(file, name)) out.push_back(file.string());
+    // Scenes from systems that do not tell capitals in names of files.
+    for (const fs::path& file : here)
+      if (lowered(file.stem().string()) == lowered(name)) out.push_back(file.string());
   }
   return out;
 }
@@ -136,7 +144,7 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
     }
     const TmShaderLibrary& library = *compiled->library();
     // A file with one shader of another name than its own is meant where the file is named.
-    const bool only = library.count == 1 && fs::path(file).stem() == shaderName;
+    const bool only = library.count == 1 && lowered(fs::path(file).stem().string()) == lowered(shaderName);
     std::string others;
     for (int32_t k = 0; k < library.count; ++k) {
       const TmShader* s = library.shaders[k];

@@ -18,7 +18,8 @@ void compile(const std::string& path, const RslSettings& settings, const Compile
   const bool tells = file->errors() > 0 || file->missing() > 0 || !command.quiet;
   if (tells) std::fputs(file->messages().c_str(), stderr);
   if (file->errors() > 0)
-    log.report(Severity::Error, "compile-" + path, {}, fmt::format("{}: {} errors", path, file->errors()));
+    log.report(Severity::Error, "compile-" + path, {},
+               fmt::format("{}: {} error{}", path, file->errors(), file->errors() == 1 ? "" : "s"));
   else if (file->missing() > 0)
     log.report(
         Severity::Missing, "compile-" + path, {},

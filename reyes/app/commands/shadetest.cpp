@@ -42,7 +42,11 @@ Tried findShaders(const ShadetestCommand& command, ShaderRegistry& registry, Log
   if (fs::path(name).extension() == ".sl") {
     const auto file = RslFile::compile(name, {.includeFolders = command.folders});
     Tried out{{}, file->files()};
-    if (file->errors() == 0) std::fputs(file->messages().c_str(), stderr);
+    if (file->errors() > 0) {
+      log.report(Severity::Error, "shadetest-compile", {}, name + " does not compile:\n" + file->messages());
+      return out;
+    }
+    std::fputs(file->messages().c_str(), stderr);
     if (!registry.addText(file, name)) return out;
     for (int32_t k = 0; k < file->library()->count; ++k) out.shaders.push_back(file->library()->shaders[k]);
     if (out.shaders.empty()) log.report(Severity::Error, "shadetest", {}, name + " has no shader that can be tried");
@@ -206,31 +210,33 @@ std::vector<fs::file_time_type> timesOf(const std::vector<std::string>& files) {
   return out;
 }
 
-/// Returns the files whose change would change the result.
-std::vector<std::string> tryOnce(const ShadetestCommand& command, Log& log) {
+struct Outcome {
+  int code = 0;
+  std::vector<std::string> files;  ///< Whose change would change the result.
+};
+
+Outcome tryOnce(const ShadetestCommand& command) {
+  Log log;
   ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, no scene does
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const Tried tried = findShaders(command, registry, log);
-  if (tried.shaders.empty()) {
-    log.report(Severity::Error, "shadetest-none", {}, "nothing was shaded");
-    return tried.files;
-  }
+  if (tried.shaders.empty()) return {std::max<int>(exitCodeOf(log), kUnreadable), tried.files};
   if (!command.check) test(command, *tried.shaders.front(), registry, log);
   for (size_t k = 0; command.check && k < tried.shaders.size(); ++k) check(*tried.shaders[k], log);
-  return tried.files;
+  return {exitCodeOf(log), tried.files};
 }
 
 }  // namespace
 
 int shadetestCommand(const ShadetestCommand& command) {
   for (;;) {
-    Log log;
-    const std::vector<std::string> files = tryOnce(command, log);
-    if (!command.watch || files.empty()) return exitCodeOf(log);
+    const Outcome outcome = tryOnce(command);
+    if (!command.watch || outcome.files.empty()) return outcome.code;
     std::fflush(stdout);
     constexpr auto kLook = std::chrono::milliseconds(100);
-    for (const auto before = timesOf(files); timesOf(files) == before; std::this_thread::sleep_for(kLook))
-      if (stopRequested()) return exitCodeOf(log);
+    for (const auto before = timesOf(outcome.files); timesOf(outcome.files) == before;
+         std::this_thread::sleep_for(kLook))
+      if (stopRequested()) return outcome.code;
   }
 }
 

@@ -98,12 +98,20 @@ class Analysis {
              const Drop& drop) const {
     for (const Instruction& i : block) {
       const auto has = [&](int32_t r) { return r < 0 || in[static_cast<size_t>(r)] != 0; };
+      if (i.op == Op::Leave && holds.followsControl && !control) dropGlobals(drop);
       forEachWrite(i, [&](int32_t r) {
         if (!holds.keeps(i, has, *this) || (holds.followsControl && !control)) drop(r);
       });
       const bool inner = control && ((i.op != Op::If && i.op != Op::Loop) || has(i.in[0]));
       for (const Block& b : i.blocks) visit(b, inner, in, holds, drop);
     }
+  }
+
+  /// What stands behind a Leave is not run by those who have left: no result keeps what it held.
+  template <class Drop>
+  void dropGlobals(const Drop& drop) const {
+    for (size_t k = 0; k < code_.registers.size(); ++k)
+      if (code_.registers[k].origin == Origin::Global) drop(static_cast<int32_t>(k));
   }
 
   /// Is black where no light is: it reflects, and does not shine.
@@ -199,8 +207,19 @@ class Analysis {
     return false;
   }
 
+  /// A normal on the side from which the surface is seen.
+  struct Facing {
+    static constexpr bool followsControl = false;
+    bool starts(const Register&, const Code&) const { return false; }
+    template <class Has>
+    bool keeps(const Instruction& i, const Has& has, const Analysis&) const {
+      return i.op == Op::Faceforward || ((i.op == Op::Copy || i.op == Op::Normalize) && has(i.in[0]));
+    }
+  };
+
   /// Comes of Cs, Os, parameters and light alone, not of places, directions or pictures.
   struct Even {
+    const std::vector<char>& facing;
     static constexpr bool followsControl = true;
     bool starts(const Register& r, const Code&) const {
       if (r.origin != Origin::Global) return true;
@@ -222,9 +241,10 @@ class Analysis {
     bool keeps(const Instruction& i, const Has& has, const Analysis&) const {
       switch (i.op) {
         case Op::Ambient:
-        case Op::Diffuse:  // whatever normal: the same light is on every side
-        case Op::Specular:
           return true;
+        case Op::Diffuse:  // by whatever normal that faces the eye: the same light is on every side
+        case Op::Specular:
+          return facing[static_cast<size_t>(i.in[0])] != 0;
         default:
           break;
       }
@@ -235,7 +255,8 @@ class Analysis {
     }
   };
   bool isEven() const {
-    const std::vector<char> even = greatest(Even{});
+    const std::vector<char> facing = greatest(Facing{});
+    const std::vector<char> even = greatest(Even{facing});
     bool seen = true;
     for (size_t k = 0; k < code_.registers.size(); ++k)
       if (is(static_cast<int32_t>(k), Global::Ci) || is(static_cast<int32_t>(k), Global::Oi)) seen &= even[k] != 0;

@@ -4,6 +4,7 @@
 // change over a micropolygon.
 #include <algorithm>
 
+#include "reyes/rsl/globals.h"
 #include "reyes/rsl/passes/passes.h"
 #include "reyes/rsl/passes/rules.h"
 #include "reyes/rsl/passes/walk.h"
@@ -18,10 +19,12 @@ class Derivation {
   explicit Derivation(Code& code) : code_(code), writes_(writeCounts(code)) {}
 
   void run() {
+    bool asks = false;
     forEach(code_.body, [&](const Instruction& i) {
-      if (isStep(i) && !isOfHost(i.in[0])) need(i.in[0]);
+      asks |= isStep(i);
+      if (isStep(i)) need(i.in[0]);
     });
-    if (needed_.empty()) return;
+    if (!asks) return;
     for (bool more = true; more;) {
       const size_t before = needed_.size();
       forEach(code_.body, [&](const Instruction& i) { reach(i); });
@@ -91,9 +94,7 @@ class Derivation {
     for (const int32_t r : needed_) {
       if (at(r).origin != Origin::Global && at(r).origin != Origin::Parameter) continue;
       for (const Op side : {Op::StepU, Op::StepV}) {
-        const int32_t value = add(at(r).shape, Origin::Temporary, 0, 0);
-        out.push_back({.op = side, .out = {value}, .in = {r}});
-        out.push_back({.op = Op::Copy, .out = {step(r, side)}, .in = {value}, .masked = false});
+        out.push_back({.op = Op::Copy, .out = {step(r, side)}, .in = {hostStep(r, side)}, .masked = false});
       }
     }
     return out;
@@ -104,19 +105,49 @@ class Derivation {
     if (!changes(r)) return zero_;
     if (static_cast<size_t>(r) < steps_.size() && isNeeded(r))
       return side == Op::StepU ? steps_[static_cast<size_t>(r)].u : steps_[static_cast<size_t>(r)].v;
-    if (!isOfHost(r)) return zero_;
+    return isOfHost(r) ? hostStep(r, side) : zero_;
+  }
+
+  /// What the host knows: places, normals, coordinates, and what primitive variables give. I changes as the place that
+  /// it leads to.
+  int32_t hostStep(int32_t r, Op side) {
+    if (at(r).origin == Origin::Global) switch (static_cast<Global>(at(r).index)) {
+        case Global::P:
+        case Global::N:
+        case Global::u:
+        case Global::v:
+        case Global::s:
+        case Global::t:
+          break;
+        case Global::I:
+        case Global::Ps:
+          r = place();
+          break;
+        default:
+          return zero_;
+      }
     for (const Instruction& i : asked_)
       if (i.op == side && i.in[0] == r) return i.out[0];
     const int32_t out = add(at(r).shape, Origin::Temporary, 0, 0);
     asked_.push_back({.op = side, .out = {out}, .in = {r}});
     return out;
   }
+  /// The register of P.
+  int32_t place() {
+    for (size_t k = 0; k < code_.registers.size(); ++k)
+      if (code_.registers[k].origin == Origin::Global && code_.registers[k].index == static_cast<int32_t>(Global::P))
+        return static_cast<int32_t>(k);
+    const int32_t r = add(Shape::Triple, Origin::Global, 0, 0);
+    code_.registers.back().name = info(Global::P).name;
+    code_.registers.back().index = static_cast<int32_t>(Global::P);
+    return r;
+  }
 
   Block rewritten(Block block) {
     Block out;
     for (Instruction& i : block) {
       for (Block& inner : i.blocks) inner = rewritten(std::move(inner));
-      if (isStep(i) && !isOfHost(i.in[0])) {
+      if (isStep(i)) {
         const int32_t value = step(i.in[0], i.op);
         // A Step under a mask is of all points, like every pure instruction.
         out.push_back({.op = Op::Copy, .out = i.out, .in = {value}, .place = i.place, .masked = false});

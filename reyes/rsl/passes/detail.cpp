@@ -139,6 +139,12 @@ class Inference {
 
 void inferDetail(Code& code, const std::vector<bool>& varying, Messages& messages) {
   Inference(code, varying).run();
+  forEach(code.body, [&](const Instruction& i) {
+    if (i.op == Op::Copy && i.masked && code.registers[static_cast<size_t>(i.out[0])].shape == Shape::Text)
+      messages.warning(i.place,
+                       "a string is chosen by what differs from point to point; strings are the same for all "
+                       "points, so the last choice that any point makes counts");
+  });
   for (const Register& r : code.registers)
     if (r.declared == Detail::Uniform && r.varying && r.origin == Origin::Variable)
       messages.warning(r.place,

@@ -205,6 +205,14 @@ int32_t byDifference(RuleContext& c, Rule& rule) {
       const int32_t half = rule.mul(rule.constant(k == 0 ? -.5f : .5f), step);
       moved.in[at] = rule.each(Op::Add, {c.i.in[at], half});
     }
+    const bool picture = c.i.op == Op::TextureF || c.i.op == Op::TextureT;
+    if (picture && moved.in[4] < 0) {  // half a micropolygon away it covers as much as in its middle
+      const Shape number = Shape::Number;
+      moved.in[4] = rule.compute(Op::StepU, {c.i.in[2]}, number),
+      moved.in[5] = rule.compute(Op::StepU, {c.i.in[3]}, number);
+      moved.in[6] = rule.compute(Op::StepV, {c.i.in[2]}, number),
+      moved.in[7] = rule.compute(Op::StepV, {c.i.in[3]}, number);
+    }
     c.code.registers.push_back({.shape = rule.shape(rule.y())});
     ends[k] = static_cast<int32_t>(c.code.registers.size()) - 1;
     moved.out = {ends[k]};

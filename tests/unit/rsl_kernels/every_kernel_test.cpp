@@ -19,7 +19,7 @@ struct Reference {
 template <class T>
 T taken(const float*& at) {
   T value;
-  std::memcpy(&value, at, sizeof value);
+  std::copy_n(at, sizeof value / sizeof(float), reinterpret_cast<float*>(&value));
   at += sizeof value / sizeof(float);
   return value;
 }
@@ -63,6 +63,7 @@ class EveryKernel : public testing::TestWithParam<Entry> {
   const Entry entry = GetParam();
   Numbers numbers{static_cast<uint32_t>(entry.op) + 1};
 
+  /// Slopes are held against differences: slopes_test.cpp.
   bool hasReference() const { return entry.op != Op::Slope3F && entry.op != Op::Slope3T; }
   Values random(int floats, bool varying, bool tame) {
     Values v(floats, kBlocks, varying);
@@ -109,7 +110,7 @@ TEST_P(EveryKernel, IsThereAndSoIsWhatItIsHeldAgainst) {
 }
 
 TEST_P(EveryKernel, GivesWhatItsFunctionGivesWhateverVaries) {
-  if (!hasReference()) GTEST_SKIP() << "slopes_test.cpp";
+  if (!hasReference()) return;
   const uint32_t all = (1u << entry.takes.size()) - 1;
   for (int round = 0; round < 40 && !HasFatalFailure(); ++round)
     for (uint32_t uniform = 0; uniform < 16 && !HasFatalFailure(); ++uniform) {
@@ -121,7 +122,7 @@ TEST_P(EveryKernel, GivesWhatItsFunctionGivesWhateverVaries) {
 }
 
 TEST_P(EveryKernel, ComputesOneBlockForAUniformResult) {
-  if (!hasReference()) GTEST_SKIP() << "slopes_test.cpp";
+  if (!hasReference()) return;
   std::vector<Values> in = arguments(~0u, true);
   Values out(entry.floatsOut(), kBlocks, false);
   kernelOf(entry.op)(1, out.lanes(), lanesOf(in).data());
@@ -130,7 +131,7 @@ TEST_P(EveryKernel, ComputesOneBlockForAUniformResult) {
 
 /// As kernels.h allows it, for each argument in turn.
 TEST_P(EveryKernel, WritesOverAnArgumentWhereItIsComponentwise) {
-  if (entry.gives != "*") GTEST_SKIP() << "not componentwise";
+  if (entry.gives != "*") return;
   for (size_t k = 0; k < entry.takes.size(); ++k) {
     std::vector<Values> in = arguments(0, true), before = in;
     const std::vector<Lanes> lanes = lanesOf(in);
@@ -141,7 +142,7 @@ TEST_P(EveryKernel, WritesOverAnArgumentWhereItIsComponentwise) {
 
 /// A number in the place of a triple: its component step is 0.
 TEST_P(EveryKernel, TakesANumberForATripleAsThreeOfIt) {
-  if (!hasReference() || entry.takes.find('t') == std::string::npos) GTEST_SKIP() << "no triples";
+  if (!hasReference() || entry.takes.find('t') == std::string::npos) return;
   std::vector<Values> in = arguments(0, true);
   std::vector<Lanes> lanes = lanesOf(in);
   for (size_t k = 0; k < in.size(); ++k) {

@@ -64,8 +64,8 @@ TEST_F(Services, PrintWritesALineForEachActivePoint) {
   });
   b.emit(Op::Report, {}, {b.text("calls f(), which there is not")});
   run();
-  EXPECT_EQ(fake.printed, (std::vector<std::string>{"0.000000 of 20.000000: 1.000000 2.000000 3.000000 %",
-                                                    "1.000000 of 20.000000: 1.000000 2.000000 3.000000 %"}));
+  EXPECT_EQ(fake.printed, (std::vector<std::string>{"0.000000 of 20: 1.000000 2.000000 3.000000 %",
+                                                    "1.000000 of 20: 1.000000 2.000000 3.000000 %"}));
   EXPECT_TRUE(reported("calls f()"));
 }
 

@@ -9,8 +9,9 @@
 #define TM_OF_THIS_PLUGIN __attribute__((visibility("hidden")))
 
 /// Before a function of plain loops without branches: built for SSE2, AVX2 and AVX-512 and picked by CPU, with the same
-/// bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+/// bits. A build that wants one kind alone defines it as nothing.
+#if defined(RSL_HOT)
+#elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define RSL_HOT __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -80,16 +81,24 @@ RSL_INLINE float smoothstep(float lo, float hi, float x) {
   return t * t * (3 - 2 * t);
 }
 
+/// a where the condition holds, else b. Unlike a conditional expression it is never a branch, which GCC keeps where a
+/// call depends on it, or what it takes for one, such as a conversion to int and back.
+RSL_INLINE float chosen(bool condition, float a, float b) {
+  const uint32_t mask = condition ? 0xffffffffU : 0;
+  return __builtin_bit_cast(float,
+                            (__builtin_bit_cast(uint32_t, a) & mask) | (__builtin_bit_cast(uint32_t, b) & ~mask));
+}
 // Rounded towards zero and down, as std::trunc and std::floor do, in arithmetic that every processor has for many
 // numbers at once: SSE2 has neither.
 RSL_INLINE float wholePart(float x) {
-  const bool whole = !(std::abs(x) < 0x1p23f);  // or not a number
-  const float part = static_cast<float>(static_cast<int32_t>(whole ? 0 : x));
-  return whole ? x : std::copysign(part, x);
+  const bool broken = std::abs(x) < 0x1p23f;  // beyond, all numbers are whole
+  const float part = static_cast<float>(static_cast<int32_t>(chosen(broken, x, 0)));
+  const uint32_t sign = __builtin_bit_cast(uint32_t, x) & 0x80000000U;  // of -0
+  return chosen(broken, __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, part) | sign), x);
 }
 RSL_INLINE float wholeBelow(float x) {
   const float part = wholePart(x);
-  return part > x ? part - 1 : part;
+  return part - (part > x ? 1.0f : 0.0f);
 }
 
 }  // namespace rsl

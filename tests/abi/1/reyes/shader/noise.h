@@ -31,7 +31,7 @@ RSL_INLINE float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 /// is not a number or infinite becomes 0.
 RSL_INLINE int32_t latticeCoordinate(float c) {
   const float rest = c - wholePart(c * 0x1p-20f) * 0x1p20f;
-  return static_cast<int32_t>(std::abs(rest) < 0x1p20f ? rest : 0);
+  return static_cast<int32_t>(chosen(std::abs(rest) < 0x1p20f, rest, 0));
 }
 
 /// Gradient noise in [-1, 1]: zero on the integer lattice, twice differentiable, the same on every machine.
@@ -64,7 +64,8 @@ struct Axis {
   float f;
   RSL_INLINE Axis(float x, float period) {
     const float cell = wholeBelow(x), p = wholeBelow(period);
-    const auto wrapped = [&](float c) RSL_INLINED { return latticeCoordinate(p >= 1 ? c - p * wholeBelow(c / p) : c); };
+    const auto wrapped = [&](float c)
+                             RSL_INLINED { return latticeCoordinate(chosen(p >= 1, c - p * wholeBelow(c / p), c)); };
     f = x - cell, lo = wrapped(cell), hi = wrapped(cell + 1);
   }
   RSL_INLINE int32_t at(int end) const { return end ? hi : lo; }

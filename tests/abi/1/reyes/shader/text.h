@@ -36,18 +36,21 @@ std::string concat(const Parts&... parts) {
   return (std::string() + ... + parts);
 }
 
-/// %f a float, %d a whole number, %c a colour, %p a point, vector or normal, %m a matrix, %s a string: numbers are
-/// separated by spaces and written by what they are, whichever letter asks. %% is one. What has no value stays as it
-/// is. The values are written already.
+/// %f a float, %d a number without its fraction, %c a colour, %p a point, vector or normal, %m a matrix, %s a string:
+/// numbers are separated by spaces and written by what they are, whichever other letter asks. %% is one. What has no
+/// value stays as it is. The values are written already.
 inline std::string formatTexts(const std::string& pattern, const std::vector<std::string>& values) {
   std::string out;
   size_t next = 0;
   for (size_t i = 0; i < pattern.size(); ++i) {
     const bool letter = pattern[i] == '%' && i + 1 < pattern.size();
-    if (letter && pattern[i + 1] != '%' && next < values.size())
-      out += values[next++], ++i;
-    else
+    if (letter && pattern[i + 1] != '%' && next < values.size()) {
+      const std::string& value = values[next++];
+      const bool whole = pattern[++i] == 'd' && value.find_first_not_of("-0123456789.") == value.npos;
+      out += whole ? value.substr(0, value.find('.')) : value;
+    } else {
       out += pattern[i], i += letter && pattern[i + 1] == '%';
+    }
   }
   return out;
 }

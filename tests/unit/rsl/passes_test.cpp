@@ -1,0 +1,176 @@
+// What the passes leave of a shader, and what they find of it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/rsl/shaded.h"
+
+namespace tomales::compiler {
+namespace {
+
+class Passes : public ::testing::Test {
+ protected:
+  const Code& code(const std::string& body, const std::string& kind = "surface") {
+    compiled_ = std::make_unique<CompiledText>(fmt::format(
+        "{} test(float p = 3; output varying float x = 0; output varying color c = 0) {{ {} }}", kind, body));
+    EXPECT_TRUE(compiled_->good()) << compiled_->said();
+    return compiled_->shader().code();
+  }
+  /// How many instructions of this name are left.
+  int count(const std::string& op, const std::string& body) {
+    const std::string text = dump(code(body));
+    int n = 0;
+    for (size_t at = 0; (at = text.find("= " + op + " ", at)) != text.npos; ++at) ++n;
+    return n;
+  }
+  uint32_t found(const std::string& body, const std::string& kind = "surface") { return code(body, kind).capabilities; }
+
+ private:
+  std::unique_ptr<CompiledText> compiled_;
+};
+
+TEST_F(Passes, ConstantsAreFolded) {
+  EXPECT_EQ(count("Mul", "x = 2 * 3 + s;"), 0);
+  EXPECT_EQ(count("Sin", "float a = 0.5; x = sin(a) + s;"), 0);
+  EXPECT_EQ(count("ColorTransform", "c = color \"hsv\" (0.2, 0.3, 0.4) * s;"), 0);
+  EXPECT_EQ(count("Concat", "c = texture(concat(\"a\", \".tx\"));"), 0);
+  EXPECT_EQ(count("Mul", "x = 1 * s;"), 0);
+  EXPECT_EQ(count("Add", "x = s + 0;"), 0);
+  EXPECT_EQ(count("Mul", "x = s * t;"), 1) << "what varies stays";
+}
+
+TEST_F(Passes, WhatIsComputedTwiceIsComputedOnce) {
+  EXPECT_EQ(count("Noise3F", "x = noise(P) + noise(P);"), 1);
+  EXPECT_EQ(count("Noise3F", "float a = noise(P); if (s > 2) x = noise(P); x += a;"), 1);
+  EXPECT_EQ(count("Mul", "float a = s; x = a * t; a = a + p; x += a * t;"), 2) << "a has changed";
+  EXPECT_EQ(count("RandomF", "x = random() + random();"), 2) << "another number each time";
+}
+
+TEST_F(Passes, WhatNobodyReadsIsNotComputed) {
+  EXPECT_EQ(count("Noise3F", "float a = noise(P); float b = a * a; x = 1;"), 0);
+  EXPECT_EQ(count("Noise3F", "float a = 0; if (s > 2) a = noise(P); x = 1;"), 0);
+  EXPECT_EQ(count("Diffuse", "color a = diffuse(N); x = 1;"), 0);
+  EXPECT_EQ(count("Bake3d", "bake3d(\"a\", \"b\", P, N, \"b\", s); x = 1;"), 1) << "it has an effect";
+}
+
+TEST_F(Passes, WhatIsTheSameForAllPointsIsComputedOnce) {
+  EXPECT_NE(dump(code("x = sin(p) * s;")).find("uf"), std::string::npos);
+  for (const Register& r : code("float a = p * 2; if (s > 2) a = 1; x = a;").registers)
+    if (r.name == "a") {
+      EXPECT_TRUE(r.varying) << "it is set at some points";
+    }
+  for (const Register& r : code("float k; for (k = 0; k < p; k += 1) x += s;").registers)
+    if (r.name == "k") {
+      EXPECT_FALSE(r.varying);
+    }
+  for (const Register& r : code("float k; for (k = 0; k < s; k += 1) x += 1;").registers)
+    if (r.name == "k") {
+      EXPECT_TRUE(r.varying) << "some points leave earlier";
+    }
+}
+
+TEST_F(Passes, OnlyWhatAStepReachesIsDifferentiated) {
+  EXPECT_EQ(count("StepU", "x = Du(s * s);"), 1);
+  EXPECT_EQ(count("StepV", "x = Du(s * s);"), 0);
+  EXPECT_EQ(count("StepU", "x = Du(s * s) + t * t;"), 1) << "nobody asks how t changes";
+  EXPECT_EQ(count("Slope3F", "x = Du(noise(P));"), 1);
+  EXPECT_EQ(count("Noise3F", "x = Du(noise(P));"), 0) << "the value itself is not asked for";
+}
+
+TEST_F(Passes, RegistersShareSlots) {
+  std::string body = "float a = s;";
+  for (int k = 0; k < 100; ++k)
+    body += fmt::format("float a{0} = sin({1}) * t; x += a{0};", k, k == 0 ? "a" : fmt::format("a{}", k - 1));
+  EXPECT_LT(code(body).varyingFloats, 20);
+}
+
+TEST_F(Passes, SurfacesThatKeepOpacityAreFound) {
+  EXPECT_TRUE(found("Oi = Os; Ci = Cs;") & TM_KEEPS_OPACITY);
+  EXPECT_TRUE(found("Ci = Cs;") & TM_KEEPS_OPACITY) << "Oi stays Os";
+  EXPECT_TRUE(found("if (s > 2) Oi = Os;") & TM_KEEPS_OPACITY);
+  EXPECT_FALSE(found("Oi = 0.5 * Os;") & TM_KEEPS_OPACITY);
+  EXPECT_FALSE(found("Oi = Os; if (s > 2) Oi = 0;") & TM_KEEPS_OPACITY);
+  EXPECT_FALSE(found("setcomp(Oi, 0, 0);") & TM_KEEPS_OPACITY);
+  EXPECT_FALSE(found("void f(output color a) { a = 0; } f(Oi);") & TM_KEEPS_OPACITY);
+}
+
+TEST_F(Passes, SurfacesThatEmitAreFound) {
+  EXPECT_TRUE(found("Ci = Cs;") & TM_EMITS);
+  EXPECT_TRUE(found("x = 1;") & TM_EMITS) << "Ci stays Cs";
+  EXPECT_TRUE(found("Ci = Cs * diffuse(N) + 0.1;") & TM_EMITS);
+  EXPECT_TRUE(found("if (s > 2) Ci = Cs * diffuse(N);") & TM_EMITS) << "elsewhere Ci stays Cs";
+  EXPECT_FALSE(found("Ci = Os * Cs * (ambient() + diffuse(N)) + specular(N, -I, 0.1);") & TM_EMITS);
+  EXPECT_FALSE(found("color a = 0; illuminance (P, N, PI / 2) a += Cl * (normalize(L) . N); Ci = a * Cs;") & TM_EMITS);
+  EXPECT_FALSE(found("Ci = 0; float k; for (k = 0; k < 3; k += 1) Ci += k * diffuse(N);") & TM_EMITS);
+  EXPECT_FALSE(found("Ci = 0;") & TM_EMITS);
+  EXPECT_TRUE(found("color a = 0; illuminance (P) a += 1; Ci = a;") & TM_EMITS);
+}
+
+TEST_F(Passes, SurfacesThatAreEvenAreFound) {
+  EXPECT_TRUE(found("Ci = Cs * diffuse(faceforward(normalize(N), I));") & TM_EVEN);
+  EXPECT_FALSE(found("Ci = Cs * diffuse(N);") & TM_EVEN) << "N may face away from the eye";
+  EXPECT_TRUE(found("Ci = Cs * p; if (p > 2) Ci = 0;") & TM_EVEN);
+  EXPECT_FALSE(found("Ci = Cs * noise(P);") & TM_EVEN);
+  EXPECT_FALSE(found("Ci = Cs; if (s > 2) Ci = 0;") & TM_EVEN) << "where it is chosen by places";
+  EXPECT_FALSE(found("Ci = s > 2 ? Cs : Os;") & TM_EVEN);
+  EXPECT_FALSE(found("Ci = texture(\"a\");") & TM_EVEN);
+  EXPECT_FALSE(found("float k = 0; while (k < s) k += 1; Ci = k;") & TM_EVEN);
+  EXPECT_FALSE(found("Ci = Cs; Oi = s;") & TM_EVEN);
+  EXPECT_FALSE(found("Ci = Cs; if (s > 2) return; Ci = 0;") & TM_EVEN) << "the end of it is reached at some places";
+  EXPECT_FALSE(found("float k; Ci = 0; for (k = 0; k < 3; k += 1) { if (s > k) break; Ci += 1; }") & TM_EVEN);
+}
+
+TEST_F(Passes, WhoTracesAndWhoDifferentiatesIsFound) {
+  EXPECT_TRUE(found("Ci = trace(P, N);") & TM_TRACES);
+  EXPECT_TRUE(found("Ci = occlusion(P, N, 4);") & TM_TRACES);
+  EXPECT_TRUE(found("gather(\"\", P, N, 1, 4) { Ci += 1; }") & TM_TRACES);
+  EXPECT_FALSE(found("float a = occlusion(P, N, 4); x = 1;") & TM_TRACES) << "nobody reads it";
+  EXPECT_TRUE(found("x = Du(s);") & TM_DERIVATIVES);
+  EXPECT_TRUE(found("Ci = texture(\"a\");") & TM_DERIVATIVES);
+  EXPECT_TRUE(found("x = filterstep(0.5, s);") & TM_DERIVATIVES);
+  EXPECT_FALSE(found("x = step(0.5, s);") & TM_DERIVATIVES);
+}
+
+TEST_F(Passes, KindsOfLightsAreFound) {
+  EXPECT_EQ(found("Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_AMBIENT));
+  EXPECT_EQ(found("illuminate (point (0, 0, 0)) Cl = 1;", "light"), 0u);
+  EXPECT_EQ(found("illuminate (point (0, 0, 0), vector (0, 0, 1), 1) Cl = 1;", "light"), 0u);
+  EXPECT_EQ(found("solar (vector (0, 0, 1), 0) Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_SOLAR));
+  EXPECT_EQ(found("if (p > 2) illuminate (point (0, 0, 0)) Cl = 1;", "light"), 0u);
+  EXPECT_TRUE(found("illuminate (point (0, 0, 0)) Cl = transmission(Ps, point (0, 0, 0));", "light") & TM_TRACES);
+}
+
+TEST(Printed, PrintfWritesALineForEachActivePoint) {
+  const CompiledText compiled("surface test() { if (s > 2) printf(\"%d: %f of %s\\n\", s, s / 2, \"a\"); }");
+  ServedGrid g(5);
+  g.active[4] = 0;
+  g.run(compiled.shader());
+  EXPECT_EQ(g.printed, (std::vector<std::string>{"3: 1.500000 of a\n"}));
+}
+
+TEST(Given, ParametersOfPrimitiveVariablesVary) {
+  const CompiledText compiled(
+      "surface test(float p = 3; color q = 1; output varying float x = 0; output varying color c = 0) {"
+      " float k; for (k = 0; k < p; k += 1) x += 1; c = q * p; }");
+  for (const int count : {1, 17, 1000}) {
+    ServedGrid g(count);
+    g.maskAtRandom();
+    g.bindOutputs(compiled.shader().lowered());
+    float *const p = g.array(), *const q = g.array();
+    for (int i = 0; i < count; ++i) p[i] = static_cast<float>(i % 4), q[i] = static_cast<float>(i);
+    g.params[0].c[0] = p, g.params[0].step = 1;
+    g.runBound(compiled.shader());
+    for (int i = 0; i < count; ++i) {
+      const bool on = g.active[static_cast<size_t>(i)] != 0;
+      EXPECT_EQ(g.output(2)[i], on ? p[i] : FakeGrid::kBefore.x);
+      EXPECT_EQ(g.output(3)[i], on ? p[i] : FakeGrid::kBefore.x);
+    }
+    g.bindOutputs(compiled.shader().lowered());
+    g.params[1].c[0] = g.params[1].c[1] = g.params[1].c[2] = q, g.params[1].step = 1;
+    g.runBound(compiled.shader());
+    for (int i = 0; i < count; ++i)
+      EXPECT_EQ(g.output(3)[i], g.active[static_cast<size_t>(i)] ? 3 * q[i] : FakeGrid::kBefore.x);
+  }
+}
+
+}  // namespace
+}  // namespace tomales::compiler

@@ -1,0 +1,41 @@
+// Texts: comparison, concat(), format(), match(), printf() (RISpec 3.2 section 15.5).
+#include "tests/unit/rsl/cases.h"
+
+namespace tomales::compiler {
+
+Cases textCases() {
+  static const Case kCases[] = {
+      {"equal texts", "string a = \"one\"; if (a == \"one\") x = 1;", 1},
+      {"texts that differ", "string a = \"one\"; if (a != \"two\") x = 1;", 1},
+      {"texts that differ in their case", "string a = \"One\"; if (a == \"one\") x = 1;", 0},
+      {"concat", "string a = concat(\"one\", \"two\"); if (a == \"onetwo\") x = 1;", 1},
+      {"concat of three", "if (concat(\"a\", \"b\", \"c\") == \"abc\") x = 1;", 1},
+      {"concat of a parameter",
+       "if (concat(p, \".tx\") == \"wood.tx\") x = 1;",
+       1,
+       {.parameters = "string p = \"wood\";"}},
+      {"concat in a loop",
+       "string a = \"\"; uniform float k; for (k = 0; k < 3; k += 1) a = concat(a, \"x\"); if (a == \"xxx\") x = 1;",
+       1},
+      {"format of a number", "if (format(\"%f\", 1.5) == \"1.500000\") x = 1;", 1},
+      {"format of whole numbers", "if (format(\"%d of %d\", 3, 4) == \"3 of 4\") x = 1;", 1},
+      {"format of a text", "if (format(\"<%s>\", \"a\") == \"<a>\") x = 1;", 1},
+      {"format of a color", "if (format(\"%c\", color (1, 2, 3)) == \"1.000000 2.000000 3.000000\") x = 1;", 1},
+      {"format of a point", "if (format(\"%p\", point (1, 2, 3)) == \"1.000000 2.000000 3.000000\") x = 1;", 1},
+      {"format of a per cent sign", "if (format(\"%%\") == \"%\") x = 1;", 1},
+      {"match of a part", "x = match(\"wo\", \"wood\");", 1},
+      {"match of nothing", "x = match(\"xy\", \"wood\");", 0},
+      {"match of a pattern", "x = match(\"^w.*d$\", \"wood\") + match(\"o+d\", \"wood\") * 10;", 11},
+      {"match of a pattern that must be at the beginning", "x = match(\"^ood\", \"wood\");", 0},
+      {"match of a class of letters", "x = match(\"[0-9]+\", \"wood7\");", 1},
+      {"a text is chosen", "uniform float k = 2; string a = k > 1 ? \"big\" : \"small\"; if (a == \"big\") x = 1;", 1},
+      {"a text in a branch", "string a = \"a\"; uniform float k = 2; if (k > 1) a = \"b\"; if (a == \"b\") x = 1;", 1},
+      {"adjacent texts are one", "string a = \"one\" \"two\"; if (a == \"onetwo\") x = 1;", 1},
+      {"escapes", "if (concat(\"a\\\"\", \"b\") == \"a\\\"b\") x = 1;", 1},
+      {"printf changes nothing", "x = s; printf(\"%f\\n\", s);", [](float i) { return i; }},
+      {"a text without a value is empty", "string a; if (a == \"\") x = 1;", 1},
+  };
+  return kCases;
+}
+
+}  // namespace tomales::compiler
