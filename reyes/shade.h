@@ -270,6 +270,13 @@ struct PluginTrust {
   bool sceneFolders = false;  ///< Folders that the scene names, and the working folder, are trusted too.
 };
 
+/// What a request names.
+struct ShaderName {
+  std::string name;
+  TmKind kind;
+  std::string beside{};  ///< The folder of the file that names it; empty: none does.
+};
+
 /// Shaders by name: built-ins and plugins come through the same table.
 class ShaderRegistry {
  public:
@@ -289,6 +296,9 @@ class ShaderRegistry {
   /// has errors is reported with all of them.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
+  /// Compiles the texts of these at once, on all threads, so that find() only has to look. It says nothing: find()
+  /// answers, and tells what is wrong, as it would without.
+  void prepare(const std::vector<ShaderName>& names, const std::string& searchPath);
   std::vector<const TmShader*> all() const;
 
  private:

@@ -7,13 +7,27 @@
 #include "reyes/shade/substitute.h"
 
 namespace tomales {
+namespace {
+
+/// Where a request stands in a file, the shader may lie beside that file.
+std::string folderOf(const ShaderCall& call) {
+  return call.where.file ? std::filesystem::path(*call.where.file).parent_path().string() : "";
+}
+
+}  // namespace
+
+void Binder::expect(const ShaderCall* call, TmKind kind) {
+  if (call && expected_.insert(call).second) names_.push_back({call->name, kind, folderOf(*call)});
+}
+
+void Binder::prepare() {
+  registry_.prepare(names_, path_);
+  names_.clear();
+}
 
 BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
-  // Where the request stands in a file, the shader may lie beside that file.
-  const std::string beside =
-      call && call->where.file ? std::filesystem::path(*call->where.file).parent_path().string() : "";
-  const TmShader* shader = registry_.find(name, kind, path_, beside);
+  const TmShader* shader = registry_.find(name, kind, path_, call ? folderOf(*call) : "");
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
   if (shader) return bindShader(*shader, call, where, user, currentFromShader, log_);

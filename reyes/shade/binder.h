@@ -2,6 +2,7 @@
 // Threads: one at a time.
 #pragma once
 #include <map>
+#include <set>
 
 #include "reyes/base/search_path.h"
 #include "reyes/shade/bound_scene.h"
@@ -38,6 +39,10 @@ class Binder {
     if (a.surface) call.worldFromShader = a.surface->worldFromShader, call.where = a.surface->where;
     return bind(&call, call.where, user, TM_SURFACE);
   }
+  /// Shaders that are about to be bound: their texts are compiled side by side when prepare() is called, and binding,
+  /// one after the other, finds them done.
+  void expect(const ShaderCall* call, TmKind kind);
+  void prepare();
   std::unique_ptr<const BoundLight> light(const LightCall& call, int index);
   /// Options::wantsIndirect
   std::unique_ptr<const BoundLight> addedIndirectLight(int index);
@@ -62,6 +67,8 @@ class Binder {
   const std::string path_;
   const mat4 cameraFromWorld_;
   std::map<const ShaderCall*, BoundShaderPtr> bound_;
+  std::set<const ShaderCall*> expected_;
+  std::vector<ShaderName> names_;  ///< Of what is expected, since the last prepare().
 };
 
 /// Connects lights that filter an indirect light to their sources; those without one cast no light.

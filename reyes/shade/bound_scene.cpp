@@ -98,6 +98,9 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       skies(textures, skyFromCurrent(cameraFromWorld)) {
   output_ = outputOf(scene.options);
   binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);
+  for (const auto& call : scene.lights) binder_->expect(&call->shader, TM_LIGHT);
+  if (scene.options.imager) binder_->expect(&*scene.options.imager, TM_IMAGER);
+  binder_->prepare();
   for (const auto& call : scene.lights) lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);
   if (scene.options.wantsIndirect) addIndirectLight();
@@ -122,6 +125,12 @@ void BoundScene::addIndirectLight() {
 }
 
 void BoundScene::bindNewGroups() {
+  for (size_t k = groups.size(); k < scene.groups.size(); ++k) {
+    const Attributes& a = *scene.groups[k].attributes;
+    binder_->expect(a.surface.get(), TM_SURFACE), binder_->expect(a.displacement.get(), TM_DISPLACEMENT);
+    for (const auto& air : {a.atmosphere, a.interior, a.exterior}) binder_->expect(air.get(), TM_VOLUME);
+  }
+  binder_->prepare();
   while (groups.size() < scene.groups.size()) groups.push_back(bound(scene.groups[groups.size()]));
 }
 

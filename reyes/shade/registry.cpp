@@ -21,6 +21,18 @@ const char* kindName(TmKind kind) {
   return kNames[kind];
 }
 
+namespace {
+
+/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which is held against it.
+bool isOfSpecification(std::string_view name) {
+  static constexpr std::string_view kNames[] = {
+      "constant",     "matte",      "metal",     "shinymetal", "plastic", "paintedplastic", "ambientlight",
+      "distantlight", "pointlight", "spotlight", "depthcue",   "fog",     "bumpy",          "background"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+}  // namespace
+
 struct ShaderRegistry::Impl {
   Log& log;
   const PluginTrust trust;
@@ -51,6 +63,8 @@ struct ShaderRegistry::Impl {
                          const std::string& beside);
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
                            const std::string& beside);
+  std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
+  bool comesBeforeTexts(const TmShader& s) const { return !builtIn.count(&s) || isOfSpecification(s.name); }
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
     return it == shaders.end() ? nullptr : it->second;
@@ -152,14 +166,6 @@ std::vector<std::string> pluginFiles(const std::string& name, const std::string&
   return out;
 }
 
-/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which is held against it.
-bool isOfSpecification(std::string_view name) {
-  static constexpr std::string_view kNames[] = {
-      "constant",     "matte",      "metal",     "shinymetal", "plastic", "paintedplastic", "ambientlight",
-      "distantlight", "pointlight", "spotlight", "depthcue",   "fog",     "bumpy",          "background"};
-  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
-}
-
 /// Does the name of a shader lead out of the folders that it is looked for in?
 bool leavesFolders(const fs::path& name) {
   return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
@@ -209,12 +215,17 @@ bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::str
   return impl_->add(file->library(), path);
 }
 
-const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind kind, const std::string& searchPath,
-                                               const std::string& beside) {
+std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& searchPath,
+                                                           const std::string& beside) const {
   std::vector<std::string> folders = foldersOf(searchPath);
   for (const std::string& folder : foldersOf(trust.folders)) folders.push_back(folder);
   folders.push_back(beside.empty() ? "." : beside);
-  const RslFound found = findRslShader(name, kind, folders);
+  return folders;
+}
+
+const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind kind, const std::string& searchPath,
+                                               const std::string& beside) {
+  const RslFound found = findRslShader(name, kind, textFolders(searchPath, beside));
   const auto tell = [&](const std::string& where, const std::string& what) {
     if (toldOf.insert(where + what).second) refuse(where, what);
   };
@@ -227,7 +238,7 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
 const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kind, const std::string& searchPath,
                                              const std::string& beside) {
   const TmShader* const own = known(name, kind);
-  if (own && (!builtIn.count(own) || isOfSpecification(name))) return own;
+  if (own && comesBeforeTexts(*own)) return own;
   if (!leavesFolders(name))
     for (const std::string& file : pluginFiles(name, trust.folders))
       if (load(file))
@@ -251,6 +262,18 @@ const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const
   const auto [answer, isNew] = impl_->answers.try_emplace({name, kind, searchPath, beside}, nullptr);
   if (isNew) answer->second = impl_->search(name, kind, searchPath, beside);
   return answer->second;
+}
+
+void ShaderRegistry::prepare(const std::vector<ShaderName>& names, const std::string& searchPath) {
+  const std::lock_guard lock(impl_->mutex);
+  std::vector<RslRequest> requests;
+  for (const ShaderName& n : names) {
+    if (impl_->answers.count({n.name, n.kind, searchPath, n.beside})) continue;
+    const TmShader* const own = impl_->known(n.name, n.kind);
+    if ((own && impl_->comesBeforeTexts(*own)) || !pluginFiles(n.name, impl_->trust.folders).empty()) continue;
+    requests.push_back({n.name, impl_->textFolders(searchPath, n.beside)});
+  }
+  compileRslShaders(requests);
 }
 
 std::vector<const TmShader*> ShaderRegistry::all() const {

@@ -8,9 +8,11 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <set>
 #include <sstream>
 
 #include "reyes/base/input_file.h"
+#include "reyes/base/parallel.h"
 #include "reyes/shade.h"
 
 namespace tomales {
@@ -29,17 +31,18 @@ std::string withoutEnding(const std::string& name) {
 }
 
 /// When a file was written, and how large it is; zeros: there is none.
-std::pair<fs::file_time_type, uintmax_t> stateOf(const std::string& path) {
+using FileState = std::pair<fs::file_time_type, uintmax_t>;
+FileState stateOf(const std::string& path) {
   std::error_code none;
   const auto time = fs::last_write_time(path, none);
   const uintmax_t size = fs::file_size(path, none);
-  return none ? std::pair<fs::file_time_type, uintmax_t>{} : std::pair{time, size};
+  return none ? FileState{} : FileState{time, size};
 }
 
 /// One compiled file. It is never given back, since what is bound may outlive whoever asked.
 struct Compiled {
   std::shared_ptr<const RslFile> file;
-  std::vector<std::pair<std::string, std::pair<fs::file_time_type, uintmax_t>>> read;
+  std::vector<std::pair<std::string, FileState>> read;
   bool isCurrent() const {
     return std::all_of(read.begin(), read.end(), [](const auto& r) { return stateOf(r.first) == r.second; });
   }
@@ -71,23 +74,51 @@ Files& files() {
   return all;
 }
 
-/// Does the text of a file seem to hold a shader of that name? The compiler tells in the end.
-bool mentions(const fs::path& path, const std::string& name) {
-  if (!inputProblem(path.string()).empty()) return false;
+/// Names behind the words that begin a shader in a file's text. The compiler tells in the end.
+std::set<std::string> namesIn(const std::string& path) {
+  std::set<std::string> out;
+  if (!inputProblem(path).empty()) return out;
   std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  const std::string all = text.str();
-  for (size_t at = all.find(name); at != std::string::npos; at = all.find(name, at + 1)) {
-    size_t before = at;
-    while (before > 0 && std::isspace(static_cast<unsigned char>(all[before - 1]))) --before;
-    if (before == at) continue;
-    for (const char* kind : {"surface", "light", "displacement", "volume", "imager"}) {
-      const size_t n = std::char_traits<char>::length(kind);
-      if (before >= n && all.compare(before - n, n, kind) == 0) return true;
+  std::stringstream stream;
+  stream << in.rdbuf();
+  const std::string text = stream.str();
+  const auto isSpace = [&](size_t at) {
+    return at < text.size() && std::isspace(static_cast<unsigned char>(text[at]));
+  };
+  const auto isOfName = [&](size_t at) {
+    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+  };
+  for (const std::string_view kind : {"surface", "light", "displacement", "volume", "imager"})
+    for (size_t at = text.find(kind); at != std::string::npos; at = text.find(kind, at + 1)) {
+      size_t begin = at + kind.size();
+      if (!isSpace(begin)) continue;
+      while (isSpace(begin)) ++begin;
+      size_t end = begin;
+      while (isOfName(end)) ++end;
+      if (end > begin) out.insert(text.substr(begin, end - begin));
     }
+  return out;
+}
+
+/// namesIn() files that were looked at before, as long as they stay as they were.
+class Names {
+ public:
+  bool has(const std::string& path, const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const auto state = stateOf(path);
+    const auto [it, isNew] = files_.try_emplace(path);
+    if (isNew || it->second.first != state) it->second = {state, namesIn(path)};
+    return it->second.second.count(name) > 0;
   }
-  return false;
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::pair<FileState, std::set<std::string>>> files_;
+};
+
+Names& names() {
+  static Names all;
+  return all;
 }
 
 std::string lowered(std::string text) {
@@ -110,12 +141,20 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
       if (it->path().extension() == ".sl" && ++looked < kMostFiles) here.push_back(it->path());
     std::sort(here.begin(), here.end());
     for (const fs::path& file : here)
-      if (mentions(file, name)) out.push_back(file.string());
+      if (names().has(file.string(), name)) out.push_back(file.string());
     // Scenes from systems that do not tell capitals in names of files.
     for (const fs::path& file : here)
       if (lowered(file.stem().string()) == lowered(name)) out.push_back(file.string());
   }
   return out;
+}
+
+/// A request's name as files have it.
+std::string nameInFolders(const std::string& written) {
+  const std::string name = withoutEnding(written);
+  const fs::path path(name);
+  // A scene from elsewhere: its shader may lie in the folders.
+  return path.is_absolute() || name.find("..") != std::string::npos ? path.filename().string() : name;
 }
 
 /// A shader for another renderer, where there is no .sl.
@@ -131,10 +170,7 @@ std::string compiledElsewhere(const std::string& name, const std::vector<std::st
 }  // namespace
 
 RslFound findRslShader(const std::string& written, TmKind kind, const std::vector<std::string>& folders) {
-  std::string name = withoutEnding(written);
-  if (const fs::path path(name); path.is_absolute() || name.find("..") != std::string::npos)
-    name = path.filename().string();  // a scene from elsewhere: its shader may lie in the folders
-  const std::string shaderName = fs::path(name).filename().string();
+  const std::string name = nameInFolders(written), shaderName = fs::path(name).filename().string();
   RslFound out;
   for (const std::string& file : candidates(name, folders)) {
     const std::shared_ptr<const RslFile> compiled = files().compiled(file, folders);
@@ -159,6 +195,15 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
     if (const std::string other = compiledElsewhere(name, folders); !other.empty())
       out.remark = fmt::format("{} is compiled for another renderer; put its .sl beside it", other);
   return out;
+}
+
+void compileRslShaders(const std::vector<RslRequest>& requests) {
+  std::set<std::pair<std::string, std::vector<std::string>>> wanted;
+  for (const RslRequest& r : requests)
+    if (const auto found = candidates(nameInFolders(r.name), r.folders); !found.empty())
+      wanted.emplace(found.front(), r.folders);
+  const std::vector<std::pair<std::string, std::vector<std::string>>> each(wanted.begin(), wanted.end());
+  parallelFor(each.size(), 1, [&](size_t begin, size_t) { files().compiled(each[begin].first, each[begin].second); });
 }
 
 }  // namespace tomales

@@ -22,4 +22,13 @@ struct RslFound {
 /// those of #include too. A file is compiled once for the process, and again when it or what it includes has changed.
 RslFound findRslShader(const std::string& name, TmKind kind, const std::vector<std::string>& folders);
 
+/// A name, and where it is looked for.
+struct RslRequest {
+  std::string name;
+  std::vector<std::string> folders;
+};
+/// Compiles, on all threads, the files that findRslShader() will take first for these names, which then only has to
+/// look. It says nothing: findRslShader() tells what is wrong, in the order in which it is asked.
+void compileRslShaders(const std::vector<RslRequest>& requests);
+
 }  // namespace tomales

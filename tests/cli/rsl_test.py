@@ -276,6 +276,18 @@ t.expect_run("macros that explode", ["compile", "bomb.sl"], 2, "bomb.sl:")
 t.write("self.sl", '#include "self.sl"\n' + plain("self", "1"))
 t.expect_run("a file that includes itself", ["compile", "self.sl"], 2, "self.sl:1:")
 
+# The shaders of a scene are compiled side by side; what is said of them keeps the order of the scene.
+requests = ""
+for k in range(24):
+    broken = k % 7 == 3
+    t.write(f"many{k}.sl", f"surface many{k}() {{ Oi = 1; Ci = {'nowhere' if broken else k / 24}; }}\n")
+    requests += f'AttributeBegin Surface "many{k}" Translate {k / 4} 0 0 Sphere 0.1 -0.1 0.1 360 AttributeEnd\n'
+scene("many", requests)
+told = [t.run("many.rib", "-t", threads) for threads in ("1", "4", "4")]
+t.expect(all(r.returncode == 3 for r in told), "24 shaders, of which three do not compile: exit code 3")
+t.expect([line.split(":")[0].split("/")[-1] for line in told[0].stderr.splitlines() if "does not compile" in line] == ["many3.sl", "many10.sl", "many17.sl"], f"each is named, in the order of the scene ({told[0].stderr[:400]})")
+t.expect(all(r.stderr == told[0].stderr for r in told), "with any number of threads alike")
+
 # A shader that changes between two frames of one process, which waits for the second in a pipe when the first is done.
 t.write("edited.sl", plain("edited", "color(0, 1, 0)"))
 os.mkfifo(t.folder / "second.rib")
