@@ -19,11 +19,15 @@ RSL_INLINE uint32_t latticeHash(int32_t x, int32_t y, int32_t z) {
   return mixIn(mixIn(mixIn(0, x), y), z);
 }
 
+/// x, or -x where the lowest bit of `bits` is set: arithmetic without a choice.
+RSL_INLINE float withSign(float x, uint32_t bits) {
+  return __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, x) ^ (bits << 31));
+}
 /// One of the twelve gradients to the edges of a cube (Perlin 2002, "Improving noise"), by p.
 RSL_INLINE float gradient(uint32_t hash, Vec3 p) {
   const uint32_t h = hash & 15;
   const float a = h < 8 ? p.x : p.y, b = h < 4 ? p.y : (h & 13) == 12 ? p.x : p.z;
-  return (h & 1 ? -a : a) + (h & 2 ? -b : b);
+  return withSign(a, h) + withSign(b, h >> 1);
 }
 
 RSL_INLINE float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
@@ -34,20 +38,40 @@ RSL_INLINE int32_t latticeCoordinate(float c) {
   return static_cast<int32_t>(chosen(std::abs(rest) < 0x1p20f, rest, 0));
 }
 
-/// Gradient noise in [-1, 1]: zero on the integer lattice, twice differentiable, the same on every machine.
-RSL_INLINE float signedNoise(Vec3 p) {
-  const Vec3 cell{wholeBelow(p.x), wholeBelow(p.y), wholeBelow(p.z)}, f = p - cell;
-  const int32_t x = latticeCoordinate(cell.x), y = latticeCoordinate(cell.y), z = latticeCoordinate(cell.z);
+/// A cell of the lattice, and a place in it.
+struct LatticePlace {
+  int32_t x, y, z;
+  Vec3 f;
+};
+RSL_INLINE LatticePlace latticePlace(Vec3 p) {
+  const Vec3 cell{wholeBelow(p.x), wholeBelow(p.y), wholeBelow(p.z)};
+  return {latticeCoordinate(cell.x), latticeCoordinate(cell.y), latticeCoordinate(cell.z), p - cell};
+}
+/// The same, but for the sign of a zero, of a place within kNearLattice of the origin, for a quarter of the work.
+constexpr float kNearLattice = 0x1p19f;
+RSL_INLINE bool isNearLattice(Vec3 p) {
+  return (std::abs(p.x) < kNearLattice) & (std::abs(p.y) < kNearLattice) & (std::abs(p.z) < kNearLattice);
+}
+RSL_INLINE LatticePlace nearLatticePlace(Vec3 p) {
+  const int32_t x = static_cast<int32_t>(p.x), y = static_cast<int32_t>(p.y), z = static_cast<int32_t>(p.z);
+  const int32_t dx = static_cast<float>(x) > p.x, dy = static_cast<float>(y) > p.y, dz = static_cast<float>(z) > p.z;
+  const int32_t cx = x - dx, cy = y - dy, cz = z - dz;
+  return {cx, cy, cz, p - Vec3{static_cast<float>(cx), static_cast<float>(cy), static_cast<float>(cz)}};
+}
+
+RSL_INLINE float signedNoiseAt(const LatticePlace& p) {
   const auto corner = [&](int i, int j, int k) RSL_INLINED {
     const Vec3 offset{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};
-    return gradient(latticeHash(x + i, y + j, z + k), f - offset);
+    return gradient(latticeHash(p.x + i, p.y + j, p.z + k), p.f - offset);
   };
-  const float u = fade(f.x), v = fade(f.y), w = fade(f.z);
+  const float u = fade(p.f.x), v = fade(p.f.y), w = fade(p.f.z);
   const auto face = [&](int k) RSL_INLINED {
     return mix(mix(corner(0, 0, k), corner(1, 0, k), u), mix(corner(0, 1, k), corner(1, 1, k), u), v);
   };
   return clamp(mix(face(0), face(1), w), -1, 1);
 }
+/// Gradient noise in [-1, 1]: zero on the integer lattice, twice differentiable, the same on every machine.
+RSL_INLINE float signedNoise(Vec3 p) { return signedNoiseAt(latticePlace(p)); }
 
 namespace noise_detail {
 
@@ -119,7 +143,8 @@ RSL_INLINE float signedPeriodicNoise(Vec3 p, Vec3 period) {
 constexpr float kNoiseCut = 0.5f;
 
 /// RSL's noise(): the same in [0, 1].
-RSL_INLINE float noise(Vec3 p) { return 0.5f + 0.5f * signedNoise(p); }
+RSL_INLINE float noiseAt(const LatticePlace& p) { return 0.5f + 0.5f * signedNoiseAt(p); }
+RSL_INLINE float noise(Vec3 p) { return noiseAt(latticePlace(p)); }
 RSL_INLINE float noise(float x) { return noise(Vec3{x, kNoiseCut, kNoiseCut}); }
 RSL_INLINE float noise(float x, float y) { return noise(Vec3{x, y, kNoiseCut}); }
 RSL_INLINE float noise(Vec3 p, float t) { return 0.5f + 0.5f * signedNoise4(p, t); }
@@ -132,10 +157,11 @@ RSL_INLINE float pnoise(Vec3 p, float t, Vec3 period, float tPeriod) {
   return 0.5f + 0.5f * signedNoise4(p, t, period, tPeriod);
 }
 /// Constant in each unit cell, [0, 1).
+RSL_INLINE float cellnoiseAt(const LatticePlace& p, int32_t t) {
+  return static_cast<float>(static_cast<int32_t>(noise_detail::hash4(p.x, p.y, p.z, t) >> 8)) * 0x1p-24f;
+}
 RSL_INLINE float cellnoise(Vec3 p, float t = 0) {
-  const auto cell = [](float x) RSL_INLINED { return latticeCoordinate(wholeBelow(x)); };
-  return static_cast<float>(static_cast<int32_t>(noise_detail::hash4(cell(p.x), cell(p.y), cell(p.z), cell(t)) >> 8)) *
-         0x1p-24f;
+  return cellnoiseAt(latticePlace(p), latticeCoordinate(wholeBelow(t)));
 }
 RSL_INLINE float cellnoise(float x, float y = 0) { return cellnoise(Vec3{x, y, 0}); }
 

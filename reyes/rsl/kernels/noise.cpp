@@ -7,10 +7,34 @@
 namespace tomales::compiler::kernels {
 
 using rsl::kNoiseCut;
+using rsl::latticePlace;
+using rsl::nearLatticePlace;
 using rsl::Vec3;
 
-/// Of a number and of a triple: what `parameters` mean is a place, at which `value` asks for a number as of q; the
-/// components of a triple ask at places far from each other.
+RSL_INLINE float cellOf(const rsl::LatticePlace& p) { return rsl::cellnoiseAt(p, 0); }
+
+/// Of a number: `place` is what `parameters` mean, and value(at) the noise at a LatticePlace; of a triple: the
+/// components ask at places far from each other.
+#define RSL_LATTICE_NOISE(name, parameters, place, value)                                          \
+  RSL_INLINE void name##At(int blocks, const Lanes& out, const Lanes* in, Vec3 far) {              \
+    eachByReach(                                                                                   \
+        blocks, out, in, [far] parameters RSL_INLINED { return rsl::isNearLattice(place + far); }, \
+        [far] parameters RSL_INLINED { return value(nearLatticePlace(place + far)); },             \
+        [far] parameters RSL_INLINED { return value(latticePlace(place + far)); });                \
+  }                                                                                                \
+  RSL_KERNEL(name##F) { name##At(blocks, out, in, Vec3{}); }                                       \
+  RSL_KERNEL(name##T) {                                                                            \
+    for (int c = 0; c < 3; ++c) name##At(blocks, componentOf(out, c), in, rsl::kTriplePlaces[c]);  \
+  }
+
+RSL_LATTICE_NOISE(Noise1, (float x), (Vec3{x, kNoiseCut, kNoiseCut}), rsl::noiseAt)
+RSL_LATTICE_NOISE(Noise2, (float x, float y), (Vec3{x, y, kNoiseCut}), rsl::noiseAt)
+RSL_LATTICE_NOISE(Noise3, (Vec3 p), p, rsl::noiseAt)
+RSL_LATTICE_NOISE(Cell1, (float x), (Vec3{x, 0, 0}), cellOf)
+RSL_LATTICE_NOISE(Cell2, (float x, float y), (Vec3{x, y, 0}), cellOf)
+RSL_LATTICE_NOISE(Cell3, (Vec3 p), p, cellOf)
+
+/// The same where `value` asks for the noise at q.
 #define RSL_NOISE(name, parameters, place, value)                          \
   RSL_KERNEL(name##F) {                                                    \
     each(blocks, out, in, [] parameters RSL_INLINED {                      \
@@ -28,14 +52,7 @@ using rsl::Vec3;
     }                                                                      \
   }
 
-RSL_NOISE(Noise1, (float x), (Vec3{x, kNoiseCut, kNoiseCut}), rsl::noise(q))
-RSL_NOISE(Noise2, (float x, float y), (Vec3{x, y, kNoiseCut}), rsl::noise(q))
-RSL_NOISE(Noise3, (Vec3 p), p, rsl::noise(q))
 RSL_NOISE(Noise4, (Vec3 p, float t), p, rsl::noise(q, t))
-
-RSL_NOISE(Cell1, (float x), (Vec3{x, 0, 0}), rsl::cellnoise(q))
-RSL_NOISE(Cell2, (float x, float y), (Vec3{x, y, 0}), rsl::cellnoise(q))
-RSL_NOISE(Cell3, (Vec3 p), p, rsl::cellnoise(q))
 RSL_NOISE(Cell4, (Vec3 p, float t), p, rsl::cellnoise(q, t))
 
 RSL_NOISE(Pnoise1, (float x, float xPeriod), (Vec3{x, kNoiseCut, kNoiseCut}), rsl::pnoise(q, Vec3{xPeriod, 0, 0}))

@@ -70,6 +70,26 @@ RSL_INLINE void each(int blocks, const Lanes& out, const Lanes* in, const Op& op
   eachBlock(blocks, out, in, op, &Op::operator(), argumentsOf(&Op::operator()));
 }
 
+/// The same where there is a shorter way for points that are near: `isNear`, `near` and `far` take what `op` takes. A
+/// block takes the shorter way if all of its points may.
+template <class IsNear, class Near, class Far, class Out, class... In, int... argument>
+RSL_INLINE void eachBlockByReach(int blocks, const Lanes& out, const Lanes* in, const IsNear& isNear, const Near& near,
+                                 const Far& far, Out (Far::*)(In...) const, std::integer_sequence<int, argument...>) {
+  for (int b = 0; b < blocks; ++b) {
+    uint32_t beyond = 0;
+    RSL_LANES for (int k = 0; k < kBlock; ++k) beyond |= isNear(Plane<In>(in[argument], b).get(k)...) ? 0u : 1u;
+    if (beyond == 0)
+      eachPoint<Near, Out, In...>(near, Plane<Out>(out, b), Plane<In>(in[argument], b)...);
+    else
+      eachPoint<Far, Out, In...>(far, Plane<Out>(out, b), Plane<In>(in[argument], b)...);
+  }
+}
+template <class IsNear, class Near, class Far>
+RSL_INLINE void eachByReach(int blocks, const Lanes& out, const Lanes* in, const IsNear& isNear, const Near& near,
+                            const Far& far) {
+  eachBlockByReach(blocks, out, in, isNear, near, far, &Far::operator(), argumentsOf(&Far::operator()));
+}
+
 /// The component of one number.
 inline Lanes componentOf(const Lanes& l, int c) {
   return {l.data + static_cast<ptrdiff_t>(c) * l.component, l.block, l.component};

@@ -121,6 +121,20 @@ TEST_P(EveryKernel, GivesWhatItsFunctionGivesWhateverVaries) {
     }
 }
 
+/// Noise has a shorter way for blocks of points that are all near the origin: at its edges, and between cells.
+TEST_P(EveryKernel, GivesItAtWholeNumbersAndAsFarOutAsBlocksAreNear) {
+  if (!hasReference() || references().at(entry.op).ulps > 0) return;
+  static const float kEdges[] = {0.0f, -0.0f, 1.0f, -1.0f, -2.0f, -0.5f, -1e-30f, 0x1.fffffep+18f, -0x1.fffffep+18f};
+  for (const float scale : {1.0f, 2.0f}) {
+    std::vector<Values> in = arguments(0, true);
+    for (Values& v : in)
+      for (size_t k = 0; k < v.data.size(); ++k) v.data[k] = scale * kEdges[(k * 7 + k / 16) % std::size(kEdges)];
+    Values out(entry.floatsOut(), kBlocks, true);
+    kernelOf(entry.op)(kBlocks, out.lanes(), lanesOf(in).data());
+    expectReference(in, out, "edges");
+  }
+}
+
 TEST_P(EveryKernel, ComputesOneBlockForAUniformResult) {
   if (!hasReference()) return;
   std::vector<Values> in = arguments(~0u, true);
