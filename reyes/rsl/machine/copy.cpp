@@ -19,6 +19,12 @@ void copyLane(Run& run, bool all, const float* from, bool fromVaries, float* to,
     fillWhere(run.padded, run.mask->on, *from, to);
 }
 
+void executeComponent(Run& run, const Step& s) {
+  const Lanes &from = run.lane(s.in[0]), &to = run.lane(s.out);
+  copyLane(run, true, from.data + s.component * static_cast<ptrdiff_t>(from.component), from.block != 0, to.data,
+           to.block != 0);
+}
+
 void copyTexts(Run& run, int32_t from, int32_t to) {
   const int32_t has = run.reg(from).length, wants = elementsOf(run.reg(to));
   for (int32_t e = 0; e < (has > 0 ? std::min(has, wants) : wants); ++e)
@@ -139,6 +145,8 @@ constexpr Row kRows[] = {{Op::Copy, executeCopy},        {Op::SetElement, execut
                          {Op::ElementM, executeElement}, {Op::ElementS, executeElementText}};
 
 }  // namespace
+
+Execute componentRunner() { return executeComponent; }
 
 std::span<const Row> copyRows() { return kRows; }
 

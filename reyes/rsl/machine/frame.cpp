@@ -1,10 +1,11 @@
 #include "reyes/rsl/machine/frame.h"
 
-#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "reyes/rsl/machine/machine.h"
+#include "reyes/rsl/machine/masks.h"
 
 namespace tomales::compiler {
 
@@ -50,11 +51,9 @@ Run::Run(const Program& p, const TmGrid& g)
     }
   }
   whole.on = memory.bytes(points);
-  whole.any = false;
-  for (int32_t i = 0; i < padded; ++i) {
-    whole.on[i] = i < count && g.active[i] != 0;
-    whole.any |= whole.on[i] != 0;
-  }
+  whole.any = begin(padded, count, g.active, whole.on);
+  // Whoever takes points out does so by masks within this one, or ends them all.
+  everywhere = count == padded && std::memchr(whole.on, 0, points) == nullptr;
 }
 
 const std::string& Run::text(int32_t r, int32_t element) const {

@@ -30,6 +30,7 @@ struct Run {
   size_t texts = 0;        ///< The first of this run.
   Mask whole;
   Mask* mask = &whole;
+  bool everywhere = false;  ///< All points were active at first, and there is no padding.
   int32_t light = -1;       ///< Inside illuminance: which.
   int32_t randoms = 0;      ///< Calls of random() so far.
   float specularScale = 0;  ///< 0: not asked yet.
@@ -53,6 +54,9 @@ struct Run {
   void warn(const std::string& message);
   void missing(const std::string& message);
 };
+
+/// Makes a register of `width` components these arrays, which lie evenly apart; false: they do not.
+bool useArrays(Lanes& l, int32_t width, const float* x, const float* y, const float* z);
 
 /// The registers of globals and parameters, before the program runs (given.cpp); and what is stored afterwards.
 void open(Run& run);

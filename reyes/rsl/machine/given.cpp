@@ -94,20 +94,14 @@ Source sourceOf(Global global, ShaderKind kind, const TmGrid& g) {
   return {};
 }
 
-bool evenlySpaced(const Source& s) { return s.c[1] - s.c[0] == s.c[2] - s.c[1]; }
-
 /// The register is what the source holds: in place where it can be.
 void take(Run& run, int32_t r, const Source& s) {
   Lanes& l = run.lanes[r];
+  const Located& located = run.program.located(r);
   const int32_t width = floatsOf(run.reg(r));
-  const bool usable = run.program.located(r).where == Where::Given && s.c[0] && !s.same && !s.reversed;
-  if (usable && (width == 1 || evenlySpaced(s))) {
-    const ptrdiff_t apart = width == 1 ? 0 : s.c[1] - s.c[0];
-    if (apart == static_cast<int32_t>(apart) && (width == 1 || apart != 0)) {
-      l = {const_cast<float*>(s.c[0]), kBlock, static_cast<int32_t>(apart)};  // never assigned
-      return;
-    }
-  }
+  const bool usable = located.where == Where::Given && s.c[0] && !s.same && !s.reversed;
+  if (usable && useArrays(l, width, s.c[0], s.c[1], s.c[2])) return;  // never assigned
+  if (!located.opens) return;
   for (int32_t c = 0; c < width; ++c) {
     float* const to = l.data + c * static_cast<ptrdiff_t>(l.component);
     const int32_t n = l.block == 0 ? kBlock : run.padded;
@@ -161,13 +155,15 @@ void takeParameter(Run& run, int32_t r) {
   const Parameter& p = run.program.code().parameters[static_cast<size_t>(reg.index)];
   const TmValue& v = run.given.params[reg.index];
   if (reg.shape == Shape::Text) return takeTexts(run, r, p, v);
-  if (p.output) return takeDefault(run, r, p);
+  if (p.output) return run.program.located(r).opens ? takeDefault(run, r, p) : void();
   if (reg.length > 0 || reg.shape == Shape::Matrix) return takeSame(run, r, v);
   take(run, r, {{v.c[0], v.c[1], v.c[2]}, v.step == 0});
 }
 
 void storeComponent(const Run& run, const float* from, bool varies, float* to) {
-  if (varies)
+  if (varies && run.everywhere)
+    std::copy_n(from, run.padded, to);
+  else if (varies)
     copyWhere(run.padded, run.whole.on, from, to);
   else
     fillWhere(run.padded, run.whole.on, *from, to);
@@ -221,34 +217,35 @@ bool isOutput(const Run& run, const Register& r) {
          r.shape != Shape::Text && r.shape != Shape::Matrix && r.length == 0;
 }
 
-template <class Each>
-void forUsed(const Run& run, const Each& each) {
-  for (int32_t r = 0; r < static_cast<int32_t>(run.program.code().registers.size()); ++r)
-    if (run.program.located(r).where != Where::Nowhere) each(r, run.reg(r));
-}
-
 }  // namespace
 
+bool useArrays(Lanes& l, int32_t width, const float* x, const float* y, const float* z) {
+  const ptrdiff_t apart = width == 1 ? 0 : y - x;
+  if (apart != static_cast<int32_t>(apart) || (width != 1 && (apart == 0 || z - y != apart))) return false;
+  l = {const_cast<float*>(x), kBlock, static_cast<int32_t>(apart)};
+  return true;
+}
+
 void open(Run& run) {
-  forUsed(run, [&](int32_t r, const Register& reg) {
-    if (reg.origin == Origin::Parameter) takeParameter(run, r);
+  for (const int32_t r : run.program.ofHost()) {
+    if (run.reg(r).origin == Origin::Parameter) takeParameter(run, r);
     const int32_t global = run.program.located(r).global;
     if (global >= 0) take(run, r, sourceOf(static_cast<Global>(global), run.program.code().kind, run.given));
-  });
+  }
 }
 
 void store(Run& run) {
   bool Ci = false, Oi = false;
   // Control may have taken points out; what they have computed counts.
-  for (int32_t i = 0; i < run.padded; ++i) run.whole.on[i] = i < run.count && run.given.active[i] != 0;
-  forUsed(run, [&](int32_t r, const Register& reg) {
-    if (isOutput(run, reg)) storeOutput(run, r);
+  if (!run.everywhere) begin(run.padded, run.count, run.given.active, run.whole.on);
+  for (const int32_t r : run.program.ofHost()) {
+    if (isOutput(run, run.reg(r))) storeOutput(run, r);
     const Located& l = run.program.located(r);
-    if (l.global < 0 || !l.assigned) return;
+    if (l.global < 0 || !l.assigned) continue;
     const auto global = static_cast<Global>(l.global);
     storeGlobal(run, global, r);
     Ci |= global == Global::Ci, Oi |= global == Global::Oi;
-  });
+  }
   if (run.program.code().kind == ShaderKind::Surface) storeOwnColors(run, Ci, Oi);
 }
 

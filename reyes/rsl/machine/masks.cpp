@@ -2,6 +2,17 @@
 
 namespace tomales::compiler {
 
+TOMALES_HOT bool begin(int n, int count, const uint8_t* active, uint8_t* on) {
+  uint8_t some = 0;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    on[i] = active[i] != 0;
+    some |= on[i];
+  }
+  std::fill(on + count, on + n, uint8_t{0});
+  return some != 0;
+}
+
 TOMALES_HOT bool narrow(int n, const uint8_t* outer, const float* condition, uint8_t* inner, uint8_t* other,
                         bool& anyOther) {
   uint8_t some = 0, rest = 0;

@@ -6,6 +6,8 @@ namespace tomales::compiler {
 
 // --- Over n bytes of masks (a multiple of kBlock)
 
+/// 1 where `active` of the first `count` points is not 0, else 0. Returns whether there are any.
+bool begin(int n, int count, const uint8_t* active, uint8_t* on);
 /// inner: outer where `condition` is not 0; other: where it is. inner may be outer. Returns whether inner has any.
 bool narrow(int n, const uint8_t* outer, const float* condition, uint8_t* inner, uint8_t* other, bool& anyOther);
 /// Takes `leaving` out. Returns whether any remain.

@@ -4,6 +4,7 @@
 
 #include "reyes/rsl/globals.h"
 #include "reyes/rsl/machine/table.h"
+#include "reyes/rsl/passes/walk.h"
 
 namespace tomales::compiler {
 namespace {
@@ -17,6 +18,9 @@ int32_t lastLabel(const Block& block) {
   }
   return last;
 }
+
+/// As kernels/triples.cpp holds the number to 0..2.
+int32_t componentOf(float which) { return which >= 2 ? 2 : which >= 1 ? 1 : 0; }
 
 /// Ranges that touch become one.
 void join(std::vector<Program::Cleared>& ranges) {
@@ -39,6 +43,7 @@ Program::Program(Code code) : code_(std::move(code)) {
   used_.resize(code_.registers.size());
   left_.resize(static_cast<size_t>(std::max(code_.labels, lastLabel(code_.body) + 1)));
   find(code_.body);
+  findOverwritten();
   locate();
   body_ = prepared(code_.body);
 }
@@ -48,6 +53,7 @@ void Program::find(const Block& block) {
     if (r < 0) return;
     used_[static_cast<size_t>(r)] = true;
     Located& l = located_[static_cast<size_t>(r)];
+    if (assigned) l.once = !l.assigned;
     l.assigned |= assigned, l.partly |= partly;
   };
   for (const Instruction& i : block) {
@@ -56,6 +62,29 @@ void Program::find(const Block& block) {
     for (const Setting& s : i.settings) use(s.name, false), use(s.value, s.fills);
     if (i.op == Op::Leave) left_[static_cast<size_t>(i.extra)] = true;
     for (const Block& inner : i.blocks) find(inner);
+  }
+}
+
+/// Registers that are written at all points before anything looks at them. What stands behind a loop may never be
+/// reached: a loop without end is left (control.cpp).
+void Program::findOverwritten() {
+  std::vector<bool> touched(located_.size(), false);
+  for (const Instruction& i : code_.body) {
+    forEachRead(i, [&](int32_t r) { touched[static_cast<size_t>(r)] = true; });
+    bool loops = i.op == Op::Loop || i.op == Op::Gather;
+    for (const Block& inner : i.blocks)
+      forEach(inner, [&](const Instruction& within) {
+        const auto touch = [&](int32_t r) { touched[static_cast<size_t>(r)] = true; };
+        forEachRead(within, touch), forEachWrite(within, touch);
+        loops |= within.op == Op::Loop || within.op == Op::Gather;
+      });
+    if (loops) return;
+    const bool whole = i.blocks.empty() && !i.masked && (info(i.op).kernel() || i.op == Op::Copy);
+    forEachWrite(i, [&](int32_t r) {
+      if (whole && !touched[static_cast<size_t>(r)] && reg(r).length == 0)
+        located_[static_cast<size_t>(r)].opens = false;
+      touched[static_cast<size_t>(r)] = true;
+    });
   }
 }
 
@@ -70,6 +99,7 @@ void Program::locate() {
     const int32_t size = floatsOf(r) * elementsOf(r);
     if (const GlobalInfo* global = r.origin == Origin::Global ? findGlobal(r.name) : nullptr)
       l.global = static_cast<int32_t>(global->global);
+    if (l.global >= 0 || r.origin == Origin::Parameter) ofHost_.push_back(static_cast<int32_t>(k));
     if (r.shape == Shape::Text) {
       l.where = Where::Texts, l.at = texts_;
       if (r.origin != Origin::Constant) texts_ += elementsOf(r);
@@ -103,6 +133,10 @@ Steps Program::prepared(const Block& block) const {
       if (s.kernel && info(i.op).componentwise()) s.components = floatsOf(reg(s.out));
     }
     s.execute = s.kernel ? runnerOf(s) : executeOf(i.op);
+    if (i.op == Op::Component && reg(i.in[1]).origin == Origin::Constant) {
+      s.component = componentOf(reg(i.in[1]).floats[0]);
+      s.execute = componentRunner();
+    }
     if (i.op == Op::Scope || i.op == Op::Loop) s.left[0] = left_[static_cast<size_t>(i.extra)];
     if (i.op == Op::Loop) s.left[1] = left_[static_cast<size_t>(i.extra) + 1];
     for (const Block& inner : i.blocks) s.blocks.push_back(prepared(inner));

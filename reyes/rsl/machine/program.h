@@ -20,6 +20,7 @@ struct Step {
   int32_t out = -1;        ///< The first result.
   int32_t in[4] = {};      ///< The first operands.
   int32_t components = 1;  ///< Of the result, where a kernel does one at a time.
+  int32_t component = 0;   ///< Of Op::Component: which, where that is known.
   bool uniform = false;    ///< The result is one value for the batch.
   bool left[2] = {};       ///< Something leaves the label `extra`, `extra` + 1, of a Scope or Loop.
   std::vector<Steps> blocks;
@@ -38,6 +39,8 @@ struct Located {
   Where where = Where::Nowhere;
   bool assigned = false;  ///< Some instruction writes it.
   bool partly = false;    ///< Some instruction writes it at active points alone.
+  bool once = false;      ///< One instruction writes it.
+  bool opens = true;      ///< What it holds at first may be looked at.
   int32_t at = 0;
   int32_t global = -1;  ///< A Global (globals.h).
 };
@@ -53,6 +56,8 @@ class Program {
   const Located& located(int32_t r) const { return located_[static_cast<size_t>(r)]; }
   const float* constants() const { return constants_.data(); }
   const Steps& body() const { return body_; }
+  /// Globals and parameters that are used, in the order of their numbers.
+  const std::vector<int32_t>& ofHost() const { return ofHost_; }
   /// Registers that may be read where nobody has written: floats a point (varying) or values (uniform), from ... to.
   struct Cleared {
     bool varying;
@@ -65,6 +70,7 @@ class Program {
 
  private:
   void find(const Block& block);
+  void findOverwritten();
   void locate();
   Steps prepared(const Block& block) const;
   Code code_;
@@ -72,6 +78,7 @@ class Program {
   std::vector<bool> used_, left_;  // registers; labels
   AlignedVector<float> constants_;
   std::vector<Cleared> cleared_;
+  std::vector<int32_t> ofHost_;
   Steps body_;
   int32_t varying_ = 0, uniform_ = 0, texts_ = 0;
 };

@@ -41,7 +41,9 @@ void specularScale(Run& run, const Step& s) {
 
 void assign(Run& run, int32_t r, TmConstVec3 from) {
   if (r < 0) return;
-  const Lanes& l = run.lane(r);
+  Lanes& l = run.lanes[r];
+  // What nobody else writes need not be copied.
+  if (l.block != 0 && run.program.located(r).once && useArrays(l, 3, from.x, from.y, from.z)) return;
   const float* const c[3] = {from.x, from.y, from.z};
   for (ptrdiff_t k = 0; k < 3; ++k)
     if (l.block != 0)

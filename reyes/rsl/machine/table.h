@@ -11,6 +11,9 @@ Execute executeOf(Op op);
 /// Calls the kernel of a step.
 Execute runnerOf(const Step& s);
 
+/// Op::Component where it is known which.
+Execute componentRunner();
+
 struct Row {
   Op op;
   Execute execute;

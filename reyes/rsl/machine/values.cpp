@@ -44,14 +44,19 @@ void colorTransform(Run& run, const Step& s) {
 struct Knots {
   std::vector<Reader> readers;
   int32_t count = 0, width = 1;
-  bool array = false;
+  bool array = false, vary = false;
   Knots(const Run& run, const Instruction& of, int32_t components) : width(components) {
     for (size_t k = 2; k < of.in.size(); ++k) readers.emplace_back(run, of.in[k]);
+    for (size_t k = 2; k < of.in.size(); ++k) vary |= run.varies(of.in[k]);
     array = readers.size() == 1 && run.reg(of.in[2]).length > 0;
     count = array ? run.reg(of.in[2]).length : static_cast<int32_t>(readers.size());
   }
   float at(int32_t knot, int32_t component, int32_t i) const {
     return array ? readers[0](i, knot * width + component) : readers[static_cast<size_t>(knot)](i, component);
+  }
+  /// The last of fewer than four counts again.
+  void fill(std::vector<float>& own, int32_t component, int32_t i) const {
+    for (size_t k = 0; k < own.size(); ++k) own[k] = at(std::min(static_cast<int32_t>(k), count - 1), component, i);
   }
 };
 
@@ -60,7 +65,7 @@ float curve(rsl::Basis basis, bool solved, float x, const std::vector<float>& kn
   return solved ? rsl::solveSpline(basis, x, knots.data(), n) : rsl::spline(basis, x, knots.data(), n);
 }
 
-/// Bases are those of reyes/shader/noise.h, "solve..." their inverses. The last of fewer than four knots counts again.
+/// Bases are those of reyes/shader/noise.h, "solve..." their inverses.
 void spline(Run& run, const Step& s) {
   constexpr std::string_view kSolve = "solve";
   std::string name = run.text(s.of->in[0]);
@@ -72,10 +77,9 @@ void spline(Run& run, const Step& s) {
   const Knots knots(run, *s.of, width);
   if (knots.count == 0) return;
   std::vector<float> own(static_cast<size_t>(std::max(4, knots.count)));
-  for (int32_t i = 0; i < pointsOf(run, to); ++i)
-    for (int32_t c = 0; c < width; ++c) {
-      for (size_t k = 0; k < own.size(); ++k)
-        own[k] = knots.at(std::min(static_cast<int32_t>(k), knots.count - 1), c, i);
+  for (int32_t c = 0; c < width; ++c)
+    for (int32_t i = 0; i < pointsOf(run, to); ++i) {
+      if (i == 0 || knots.vary) knots.fill(own, c, i);
       const float at = x(i);
       write(run, to, i, c, at == at ? curve(basis, solved, at, own) : 0.0f);
     }
