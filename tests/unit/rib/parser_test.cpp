@@ -104,7 +104,7 @@ TEST(Parser, APrimitiveVariableThatIsNotDeclaredIsMissing) {
 }
 
 TEST(Parser, AnUnknownRequestIsMissingAndANearNameIsSaid) {
-  const Requests r("Shpere 1 -1 1 360\ncolor 1 0 0\nWobble 1");
+  const Requests r("Shpere 1 -1 1 360\nIdentity\ncolor 1 0 0\nIdentity\nWobble 1");
   ASSERT_EQ(r.log.entries().size(), 3u);
   EXPECT_EQ(r.log.worst(), Severity::Missing);
   EXPECT_NE(r.log.entries()[0].message.find("did you mean \"Sphere\"?"), std::string::npos);
