@@ -178,7 +178,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
   for (auto& [name, file] : files) {
     file.finish({settings.world, photonInputs(names, settings)});
     if (file.count() == 0)
-      log.report(settings.photons.direct ? Severity::Warning : Severity::Info, "photons-none-" + name, {},
+      log.report(settings.photons.direct ? Severity::Warning : Severity::Info, "photons-none", {},
                  fmt::format("no photon came to the objects of photon map \"{}\"{}", name,
                              settings.photons.direct ? "" : " but straight from lights"));
   }

@@ -21,7 +21,8 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
                                                   "it casts no light", "the air is clear",
                                                   "the picture stays as it is"};
   log_.report(Severity::Missing, "shader-missing", where,
-              fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName(kind), name, kConsequences[kind]));
+              fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName(kind), name, kConsequences[kind]),
+              fmt::format("{} {}", kindName(kind), name));
   if (kind != TM_SURFACE) return nullptr;
   return bindShader(substituteSurface(), nullptr, where, user, currentFromShader, log_);
 }

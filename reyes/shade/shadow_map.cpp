@@ -154,9 +154,10 @@ const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& wher
   std::string error;
   it->second = ShadowMap::read(path.empty() ? name : path, error);
   if (!it->second)
-    log_.report(Severity::Missing, fmt::format("shadow-map {}", name), where,
+    log_.report(Severity::Missing, "shadow-map", where,
                 fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name,
-                            error.empty() ? "not found" : error));
+                            error.empty() ? "not found" : error),
+                name);
   return it->second.get();
 }
 

@@ -27,7 +27,7 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
   for (const std::string& name : names.ofReflectors()) {
     const fs::path points = atlasFile(clouds, name, ".ptc");
     if (!fs::exists(points)) {
-      log.report(Severity::Missing, "points-none-" + name, {},
+      log.report(Severity::Missing, "points-none", {},
                  fmt::format("there are no points \"{}\": its objects reflect no indirect light", points.string()));
       continue;
     }
