@@ -32,7 +32,7 @@ struct LogEntry {
   std::string code;     ///< Stable short name, e.g. "rib-unknown-request".
   std::string message;  ///< What was wrong, with the object's name, and what was done instead.
   SourceLoc where;
-  int count = 1;  ///< How often it was reported.
+  int count = 1;                    ///< How often it was reported.
   std::vector<SourceLoc> places{};  ///< The first of them, `where` among them; no more than Log::kMostPlaces.
 };
 

@@ -199,8 +199,7 @@ void test(const ShadetestCommand& command, const TmShader& shader, ShaderRegistr
 void check(const TmShader& shader, Log& log) {
   const std::vector<std::string> faults = faultsOf(shader);
   std::puts(fmt::format("shader: {}\nfaults: {}", shader.name, faults.size()).c_str());
-  for (const std::string& fault : faults)
-    log.report(Severity::Missing, "shadetest-check", {}, fault);
+  for (const std::string& fault : faults) log.report(Severity::Missing, "shadetest-check", {}, fault);
 }
 
 std::vector<fs::file_time_type> timesOf(const std::vector<std::string>& files) {

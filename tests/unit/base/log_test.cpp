@@ -24,7 +24,8 @@ std::string printedBy(const std::function<void(Log&)>& work) {
 
 TEST(Log, OneCauseInManyPlacesIsOneEntryWithACountAndTheFirstPlaces) {
   Log log(Log::Verbosity::Quiet);
-  for (int line = 1; line <= 93; ++line) log.report(Severity::Missing, "shader-missing", at(line), "\"rock\" is unknown");
+  for (int line = 1; line <= 93; ++line)
+    log.report(Severity::Missing, "shader-missing", at(line), "\"rock\" is unknown");
   ASSERT_EQ(log.entries().size(), 1u);
   const LogEntry entry = log.entries()[0];
   EXPECT_EQ(entry.count, 93);
