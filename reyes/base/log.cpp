@@ -36,7 +36,7 @@ Log::~Log() { printRepeated(); }
 
 bool Log::isWanted(Severity severity) const {
   return verbosity_ == Verbosity::Verbose || severity > Severity::Warning ||
-         (verbosity_ == Verbosity::Normal && severity == Severity::Warning);
+         (verbosity_ == Verbosity::Normal && severity >= Severity::Note);
 }
 
 void Log::printRepeated() const {
@@ -71,7 +71,7 @@ void Log::report(Severity severity, std::string_view code, const SourceLoc& wher
   }
   entries_.push_back({severity, std::string(code), message, where, 1, {where}});
   const bool wanted = isWanted(severity);
-  static constexpr const char* kNames[] = {"info", "warning", "missing", "error", "output error"};
+  static constexpr const char* kNames[] = {"info", "note", "warning", "missing", "error", "output error"};
   const int line = wanted ? ++lines_[entries_.back().code] : 0;
   if (wanted && line <= kMostLinesOfCode)
     std::fprintf(stderr, "%s: %s: %s [%s]\n", where.text().c_str(), kNames[static_cast<int>(severity)], message.c_str(),

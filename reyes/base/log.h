@@ -21,6 +21,7 @@ struct SourceLoc {
 
 enum class Severity {
   Info,
+  Note,     ///< Worth a word, and nothing of the picture depends on it.
   Warning,  ///< Something was ignored or repaired; the picture is what the scene asks for as far as we know.
   Missing,  ///< A texture, shader, archive or object is missing or unusable; a substitute is rendered (exit code 3).
   Error,    ///< The scene could not be read (exit code 2).

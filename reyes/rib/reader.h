@@ -90,6 +90,7 @@ class Reader {
   bool spend(size_t cost);
   /// Geometry "brickmap": its file is found like a texture.
   void geometry(const Request& request);
+  std::vector<std::string> foldersFor(const char* category) const;
   /// Along Option "searchpath" of that category. Empty: nowhere.
   std::string findFile(const std::string& name, const char* category) const;
 

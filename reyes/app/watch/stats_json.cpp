@@ -28,7 +28,7 @@ Json shadersOf(const Stats& stats) {
 }
 
 Json warningsOf(const Log& log) {
-  static constexpr const char* kSeverity[] = {"info", "warning", "missing", "error", "output"};
+  static constexpr const char* kSeverity[] = {"info", "note", "warning", "missing", "error", "output"};
   Json out = Json::array();
   for (const LogEntry& e : log.entries())
     out.push_back({{"code", e.code},
