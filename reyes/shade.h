@@ -295,6 +295,8 @@ class ShaderRegistry {
   std::string hintOfMissing(const std::string& name, TmKind kind, const std::string& searchPath,
                             const std::string& beside) const;
   std::vector<const TmShader*> all() const;
+  /// What addLibrary() was told of a shader, or the file that it is from.
+  std::string originOf(const TmShader& shader) const;
 
  private:
   struct Impl;

@@ -238,6 +238,7 @@ bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const Br
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                 const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
                 Log& log) {
+  constexpr float kShareOfPhotons = 0.6f;  // of the time, about
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeAtlasFolder(irradiance);
   const std::set<std::string> maps = names.all();
@@ -247,9 +248,11 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   });
   if (!traced) {
     const StageTimer timer(stats, "photons");
-    writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
+    const AtlasProgress tracing = [&](float share) { progress(kShareOfPhotons * share); };
+    writePhotons(photons, scene, rays, shading, names, settings, progress ? tracing : progress, stats, log);
   }
   returnFreeMemory();
+  size_t finished = 0;
   std::vector<MapFigures> made;
   int64_t kept = 0;
   for (const std::string& name : maps) {
@@ -264,6 +267,8 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
     }
     if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
     returnFreeMemory();
+    const float share = static_cast<float>(++finished) / static_cast<float>(maps.size());
+    if (progress) progress(kShareOfPhotons + (1 - kShareOfPhotons) * share);
   }
   stats.photons.groupsKept += kept;
   warnOfEstimates(scene, names, made, log);

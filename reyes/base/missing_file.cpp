@@ -91,8 +91,7 @@ std::string listOfFolders(const std::vector<std::string>& folders) {
     if (const std::string f = folder.empty() ? "." : folder; std::find(names.begin(), names.end(), f) == names.end())
       names.push_back(f);
   std::string out;
-  for (size_t i = 0; i < names.size(); ++i)
-    out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  for (size_t i = 0; i < names.size(); ++i) out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return out;
 }
 

@@ -132,11 +132,9 @@ class Cache : public TextureCache {
   std::string find(const std::string& name) const { return findFile(name, settings.searchPath); }
 
   std::string notFound(const std::string& name) const {
-    static const std::vector<std::string> endings = {".tif", ".tiff", ".tx",   ".tex", ".txr", ".tdl",
-                                                     ".exr", ".png",  ".jpeg", ".jpg", ".hdr", ".tga"};
     std::vector<std::string> folders = foldersOf(settings.searchPath);
     folders.push_back(".");
-    return "not found in " + listOfFolders(folders) + hintOfMissing(name, endings, folders);
+    return "not found in " + listOfFolders(folders) + hintOfMissing(name, pictureEndings(), folders);
   }
 
   std::unique_ptr<const Picture> open(const std::string& name) {

@@ -69,6 +69,7 @@ void Reader::replay(const Request& r, const std::string& name, const Requests& a
 
 void Reader::readArchiveFile(const Request& r, const std::string& name) {
   const std::string path = findFile(name, "archive");
+  tellOfFile(r, "archive", name, path);
   const auto stream = path.empty() ? nullptr : ByteStream::open(path);
   const std::string quoted = "\"" + name.substr(0, 200) + "\" ";
   if (!stream)
@@ -108,8 +109,10 @@ bool Reader::spend(size_t cost) {
 /// Names of files become what the search path finds.
 void Reader::geometry(const Request& r) {
   Request found = r;
-  const auto find = [this](std::string& file) {
-    if (const std::string path = findFile(file, "texture"); !path.empty()) file = path;
+  const auto find = [&](std::string& file) {
+    const std::string path = findFile(file, "texture");
+    tellOfFile(r, "texture", file, path);
+    if (!path.empty()) file = path;
   };
   for (Param& p : found.params)
     if (p.name == "filename") std::for_each(p.strings.begin(), p.strings.end(), find);

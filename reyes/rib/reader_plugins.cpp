@@ -19,6 +19,7 @@ void Reader::dynamicLoad(const Request& r) {
   };
   std::string path = findFile(call[0], "procedural");
   if (path.empty()) path = findFile(call[0] + ".so", "procedural");
+  tellOfFile(r, "plugin", call[0], path);
   if (path.empty()) return missing("is not found (Option \"searchpath\" \"procedural\")");
   const Plugin& plugin = plugins_->load(path);
   if (!plugin.trouble.empty()) return missing(plugin.trouble);

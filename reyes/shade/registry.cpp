@@ -39,6 +39,7 @@ struct ShaderRegistry::Impl {
   std::set<std::string> toldOf;      // what was wrong with shaders' texts
   std::vector<std::shared_ptr<const RslFile>> texts{};
   std::set<const TmShader*> builtIn{};
+  std::map<const TmShader*, std::string> origins{};
   std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
 
   void refuse(const std::string& origin, const std::string& problem) {
@@ -111,7 +112,7 @@ bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string
       refuse(origin, fmt::format("shader number {} lacks {}", i + 1, lack));
     else if (shader->fault)
       refuse(origin, fmt::format("shader \"{}\" {}", shader->name, shader->fault));
-    else if (shaders[{shader->kind, shader->name}] = shader; added)
+    else if (shaders[{shader->kind, shader->name}] = shader, origins[shader] = origin; added)
       added->push_back(shader);
   }
   return true;
@@ -229,6 +230,7 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
   if (!found.problem.empty())
     tell(found.file, (found.problem.starts_with("has no") ? "" : "does not compile:\n") + found.problem);
   if (!found.remark.empty()) tell(name, found.remark);
+  if (found.shader) origins[found.shader] = found.file;
   return found.shader;
 }
 
@@ -280,6 +282,12 @@ std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kin
   }
   const std::string lies = tomales::hintOfMissing(name + ".sl", {".sl"}, impl_->textFolders(searchPath, beside));
   return lies.empty() ? didYouMean(name, ofKind) : lies;
+}
+
+std::string ShaderRegistry::originOf(const TmShader& shader) const {
+  const std::lock_guard lock(impl_->mutex);
+  const auto it = impl_->origins.find(&shader);
+  return it == impl_->origins.end() ? "" : it->second;
 }
 
 std::vector<const TmShader*> ShaderRegistry::all() const {

@@ -157,12 +157,11 @@ const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& wher
   if (!it->second && path.empty()) {
     std::vector<std::string> folders = foldersOf(searchPath_);
     folders.push_back(".");
-    error = "not found in " + listOfFolders(folders) + hintOfMissing(name, {".exr", ".tif", ".shd", ".z"}, folders);
+    error = "not found in " + listOfFolders(folders) + hintOfMissing(name, pictureEndings(), folders);
   }
   if (!it->second)
     log_.report(Severity::Missing, "shadow-map", where,
-                fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name,
-                            error),
+                fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name, error),
                 name);
   return it->second.get();
 }

@@ -4,8 +4,15 @@
 
 namespace tomales {
 
+struct InfoCommand {
+  std::string file;  ///< Or the name of a shader.
+  bool json = false;
+  bool allowSystem = false;
+  std::string shaderFolders;
+};
+
 /// Prints to standard output, as JSON or as text; returns the exit code.
-int infoCommand(const std::string& file, bool json);
+int infoCommand(const InfoCommand& command);
 int compareCommand(const std::string& test, const std::string& reference, const std::string& differenceFile, bool json);
 
 }  // namespace tomales

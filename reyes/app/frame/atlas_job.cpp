@@ -74,7 +74,7 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading) 
 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    Stats& stats, Log& log) {
+                                                    const AtlasProgress& progress, Stats& stats, Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene, shading);
   const std::string given = atlasFolder(settings, shading);
   const bool points = asksPoints(settings, shading);
@@ -98,7 +98,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     const bool byHand = points || isMadeByHand(folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
     if (!byHand)
-      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log); }, log);
+      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, progress, stats, log); }, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);
     return maps;

@@ -71,7 +71,7 @@ void FrameJob::openAll() {
 
 bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(stats_, "hide");
-  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? 0.3f : 0.5f), stats_, log_, sink);
+  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? kHidden : kGathered), stats_, log_, sink);
 }
 
 void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
@@ -86,10 +86,11 @@ void FrameJob::prepareRays() {
   const StageTimer timer(stats_, "raytrace");
   rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
-  if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
+  if (mode_ == GiMode::Atlas)
+    services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, lightProgress(), stats_, log_));
   if (mode_ == GiMode::Radiosity)
     services_->setRadiositySource([this] {
-      return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, stats_, log_);
+      return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, lightProgress(), stats_, log_);
     });
   if (mode_ == GiMode::Baked) services_->setAtlas(openBaked(scene_, *shading_, settings_, log_));
 }
@@ -120,7 +121,8 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
     show = [&](int stride) {
       preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted()));
     };
-  services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted(), show);
+  services_->gatherPass(layout, tiles, meter_.stage(makesLight() ? kLightMade : kHidden, kGathered), &interrupted(),
+                        show);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && !interrupted())
@@ -152,7 +154,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
     context.indirect = false;
   }
   DeepFrame frame = layout;
-  const float begin = gathers() ? 0.7f : 0.5f;
+  constexpr float begin = kGathered;
   size_t shaded = 0;
   bool complete = true;
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {

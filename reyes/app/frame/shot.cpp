@@ -71,11 +71,13 @@ void ShotJob::prepareLight() {
   if (job_->mode() == GiMode::Atlas)
     job_->services()->setAtlasSource([this] {
       const RayTools& tools = *world_->tools();
-      return prepareAtlas(tools.rays->scene(), *tools.rays, *tools.shading, settings_, stats_, log_);
+      return prepareAtlas(tools.rays->scene(), *tools.rays, *tools.shading, settings_, job_->lightProgress(), stats_,
+                          log_);
     });
   if (job_->mode() == GiMode::Radiosity)
-    job_->services()->setRadiositySource(
-        [this] { return prepareRadiosity(*world_->tools(), job_->camera(), settings_, stats_, log_); });
+    job_->services()->setRadiositySource([this] {
+      return prepareRadiosity(*world_->tools(), job_->camera(), settings_, job_->lightProgress(), stats_, log_);
+    });
   if (job_->mode() == GiMode::Baked)
     log_.report(Severity::Missing, "baked-folder", {},
                 "--gi baked is for tomales render: shaded without indirect light");

@@ -1,0 +1,105 @@
+#include "reyes/app/commands/shader_info.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "reyes/base/missing_file.h"
+
+namespace tomales {
+namespace {
+
+Json defaultOf(const TmParamDecl& p) {
+  static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
+  const int32_t type = TM_TYPE_OF(p.type);
+  Json value = Json::array();
+  for (int i = 0; i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? p.floats[i] : 0.0f);
+  for (int i = 0; type == TM_STRING && p.strings && i < p.arrayLength; ++i) value.push_back(p.strings[i]);
+  return value;
+}
+
+Json paramInfo(const TmParamDecl& p) {
+  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
+  const int32_t type = TM_TYPE_OF(p.type);
+  const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = (p.type & TM_OUTPUT) != 0;
+  Json out = {{"name", p.name}, {"type", known ? std::string(output ? "output " : "") + kTypes[type] : "?"}};
+  if (!output) out["default"] = known ? defaultOf(p) : Json::array();
+  out["doc"] = p.doc ? p.doc : "";
+  if (const char* role = roleName(p.role)) out["role"] = role;
+  return out;
+}
+
+}  // namespace
+
+bool isScalarList(const Json& j) {
+  return j.is_array() && std::none_of(j.begin(), j.end(), [](const Json& e) { return e.is_structured(); });
+}
+
+std::string lineOf(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json shaderInfo(const TmShader& s) {
+  Json params = Json::array();
+  for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
+  Json standard = Json::array();
+  for (const TmParamDecl& p : standardParams(static_cast<TmKind>(s.kind))) standard.push_back(paramInfo(p));
+  return {{"name", s.name},
+          {"kind", s.kind >= 0 && s.kind <= TM_IMAGER ? kindName(static_cast<TmKind>(s.kind)) : "?"},
+          {"doc", s.doc ? s.doc : ""},
+          {"parameters", params},
+          {"standard_parameters", standard}};
+}
+
+Json textInfo(const std::string& path, Log& log) {
+  const auto file = RslFile::compile(path, {});
+  if (file->errors() > 0) {
+    log.report(Severity::Error, "shader-read", {}, file->messages());
+    return {};
+  }
+  Json shaders = Json::array();
+  for (int32_t k = 0; k < file->library()->count; ++k) {
+    const TmShader& shader = *file->library()->shaders[k];
+    Json about = shaderInfo(shader);
+    const std::vector<RslParameter> details = file->parameters(shader);
+    for (size_t p = 0; p < details.size(); ++p) {
+      if (!details[p].detail.empty()) about["parameters"][p]["detail"] = details[p].detail;
+      if (details[p].computed) about["parameters"][p]["default"] = "computed";
+    }
+    shaders.push_back(std::move(about));
+  }
+  return {{"file", path}, {"kind", "shaders"}, {"shaders", shaders}};
+}
+
+Json pluginInfo(const std::string& file, const PluginTrust& trust, Log& log) {
+  ShaderRegistry registry(log, trust);
+  if (!registry.loadPlugin(std::filesystem::absolute(file).string())) {
+    log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0},
+               "is not a shader plugin of this version");
+    return {};
+  }
+  Json shaders = Json::array();
+  for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
+  return {{"file", file}, {"kind", "shaders"}, {"shaders", shaders}};
+}
+
+Json namedShaderInfo(const std::string& name, const PluginTrust& trust, Log& log) {
+  ShaderRegistry registry(log, trust);
+  registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  Json shaders = Json::array();
+  std::string origin;
+  for (int kind = TM_SURFACE; kind <= TM_IMAGER; ++kind)
+    if (const TmShader* shader = registry.find(name, static_cast<TmKind>(kind), "")) {
+      origin = registry.originOf(*shader);
+      if (origin.ends_with(".sl")) return textInfo(origin, log);
+      shaders.push_back(shaderInfo(*shader));
+    }
+  if (!shaders.empty()) return {{"file", origin}, {"kind", "shaders"}, {"shaders", shaders}};
+  log.report(Severity::Error, "file-read", {std::make_shared<std::string>(name), 0},
+             fmt::format("is neither a file nor a shader that is built in or lies in the working folder{}; tomales "
+                         "list shaders names those that are built in",
+                         registry.hintOfMissing(name, TM_SURFACE, "", "")));
+  return {};
+}
+
+}  // namespace tomales
