@@ -90,7 +90,7 @@ t.expect(len(brief.splitlines()) <= 60 and "--samples" in brief and "--brick-cac
 t.expect("--brick-cache" in whole and "--samples" in whole, "and --help-all has the rest")
 t.expect(brief.index("Picture:") < brief.index("--format") < brief.index("Light:") < brief.index("--gi") < brief.index("Run:") < brief.index("--progress"), "in groups")
 commands = [line.split()[0] for line in t.run("--help").stdout.split("Subcommands:")[1].splitlines() if line.startswith("  ") and not line.startswith("   ")]
-commands = [c for c in commands if not c.isdigit()]
+commands = [c for c in commands if c.isalpha()]
 t.expect({"render", "list", "view"} <= set(commands), f"the commands are listed: {commands}")
 for command in commands:
     t.expect(f"Examples:\n  tomales {'' if command == 'render' else command + ' '}" in t.run(command, "--help").stdout, f"{command} has an example")

@@ -59,8 +59,9 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
        "--baked", in.render.bakedFolder,
        "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
-  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
-            "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
+  addParsed(
+      *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
+      "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "reyes/base/missing_file.h"
+#include "reyes/base/near_names.h"
+#include "reyes/base/search_path.h"
 
 namespace tomales {
 namespace {
@@ -86,19 +88,21 @@ Json pluginInfo(const std::string& file, const PluginTrust& trust, Log& log) {
 Json namedShaderInfo(const std::string& name, const PluginTrust& trust, Log& log) {
   ShaderRegistry registry(log, trust);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  for (const std::string& folder : registry.textFolders("", ""))
+    if (const std::string text = findFile(name + ".sl", folder); !text.empty()) return textInfo(text, log);
+  if (const std::string plugin = findFile(name + ".so", trust.folders); !plugin.empty())
+    return pluginInfo(plugin, trust, log);
   Json shaders = Json::array();
-  std::string origin;
-  for (int kind = TM_SURFACE; kind <= TM_IMAGER; ++kind)
-    if (const TmShader* shader = registry.find(name, static_cast<TmKind>(kind), "")) {
-      origin = registry.originOf(*shader);
-      if (origin.ends_with(".sl")) return textInfo(origin, log);
-      shaders.push_back(shaderInfo(*shader));
-    }
-  if (!shaders.empty()) return {{"file", origin}, {"kind", "shaders"}, {"shaders", shaders}};
+  std::vector<std::string> known;
+  for (const TmShader* shader : registry.all()) {
+    known.push_back(shader->name);
+    if (name == shader->name) shaders.push_back(shaderInfo(*shader));
+  }
+  if (!shaders.empty()) return {{"file", "built-in"}, {"kind", "shaders"}, {"shaders", shaders}};
   log.report(Severity::Error, "file-read", {std::make_shared<std::string>(name), 0},
-             fmt::format("is neither a file nor a shader that is built in or lies in the working folder{}; tomales "
-                         "list shaders names those that are built in",
-                         registry.hintOfMissing(name, TM_SURFACE, "", "")));
+             fmt::format("is neither a file nor the name of a shader, built in (tomales list shaders), in {} or in a "
+                         "folder of --shaders{}",
+                         listOfFolders(registry.textFolders("", "")), didYouMean(name, known)));
   return {};
 }
 

@@ -14,7 +14,7 @@ Json shaderInfo(const TmShader& shader);
 /// Of all shaders of a file: a text in the shading language, or a plugin. Null, and reported: it cannot be read.
 Json textInfo(const std::string& path, Log& log);
 Json pluginInfo(const std::string& path, const PluginTrust& trust, Log& log);
-/// Of the shaders of that name that a scene in the working folder would find; null, and reported: there are none.
+/// Of a shader in NAME.sl, NAME.so or built in; null, and reported: there is none.
 Json namedShaderInfo(const std::string& name, const PluginTrust& trust, Log& log);
 
 /// Is it an array of values that fit on a line?
