@@ -241,15 +241,41 @@ std::vector<std::string> FrameOutput::names() const {
 
 bool shades(const Options& options) {
   return options.displays.empty() ||
-         std::any_of(options.displays.begin(), options.displays.end(), [](const DisplayCall& d) {
-           return !writesShadowMap(d) && d.type != "deepshad" && d.mode != "z" && d.type != "null";
-         });
+         std::any_of(options.displays.begin(), options.displays.end(),
+                     [](const DisplayCall& d) { return !writesMap(d) && d.mode != "z" && d.type != "null"; });
 }
 
 FrameOutput outputOf(const Options& options, Log* log) { return Planner(options, log).plan(); }
 
-bool writesShadowMap(const DisplayCall& display) { return display.type == "shadow" || display.type == "zfile"; }
+namespace {
 
-bool writesDeep(const DisplayCall& display) { return display.type == "deepshad" || display.type == "deepexr"; }
+/// Types of Displays that say what is written, and not only in which format.
+struct MapType {
+  std::string_view name;
+  bool deep;   ///< A list of depths in every pixel.
+  bool shows;  ///< It has colours too.
+};
+constexpr MapType kMapTypes[] = {
+    {"shadow", false, false}, {"zfile", false, false}, {"deepshad", true, false}, {"deepexr", true, true}};
+
+const MapType* mapType(const DisplayCall& display) {
+  const auto* it = std::find_if(std::begin(kMapTypes), std::end(kMapTypes),
+                                [&](const MapType& t) { return t.name == display.type; });
+  return it == std::end(kMapTypes) ? nullptr : it;
+}
+
+}  // namespace
+
+bool writesMap(const DisplayCall& display) {
+  const MapType* type = mapType(display);
+  return type && !type->shows;
+}
+
+bool writesShadowMap(const DisplayCall& display) { return writesMap(display) && !writesDeep(display); }
+
+bool writesDeep(const DisplayCall& display) {
+  const MapType* type = mapType(display);
+  return type && type->deep;
+}
 
 }  // namespace tomales

@@ -81,9 +81,11 @@ bool shades(const Options& options);
 /// Reports channels that are not declared, and parameters that are not understood, if `log` is given.
 FrameOutput outputOf(const Options& options, Log* log = nullptr);
 
-/// Is the type of a Display one that has depth and nothing else: "shadow", "zfile"?
+/// Is the type of a Display one of maps for later frames, which show nothing: "shadow", "zfile", "deepshad"?
+bool writesMap(const DisplayCall& display);
+/// One of those that has depth and nothing else: "shadow", "zfile"?
 bool writesShadowMap(const DisplayCall& display);
-/// Is it a deep one, with a list of depths in every pixel: "deepshad", "deepexr"?
+/// One with a list of depths in every pixel: "deepshad", "deepexr"?
 bool writesDeep(const DisplayCall& display);
 
 }  // namespace tomales

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "reyes/base/plugin_trust.h"
 #include "reyes/base/stats.h"
 #include "reyes/grid.h"
 #include "reyes/points.h"
@@ -262,13 +263,6 @@ const char* kindName(TmKind kind);
 const char* roleName(int32_t role);
 /// Parameters that every shader of a kind understands, whether or not it declares them.
 std::span<const TmParamDecl> standardParams(TmKind kind);
-
-/// Which folders shader plugins may be loaded from. A plugin is native code, while a scene, which names shaders and
-/// search paths, may come from a stranger.
-struct PluginTrust {
-  std::string folders{};      ///< Folders that the user named, separated by colons: searched before those of the scene.
-  bool sceneFolders = false;  ///< Folders that the scene names, and the working folder, are trusted too.
-};
 
 /// Shaders by name: built-ins and plugins come through the same table.
 class ShaderRegistry {

@@ -130,12 +130,6 @@ size_t brickCacheBytes(const RenderSettings& settings) {
   return std::min(settings.brickCacheBytes, static_cast<size_t>(std::max(kLeastCache, *settings.memoryLimit / 8)));
 }
 
-bool namesPicture(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".exr" || extension == ".tif" || extension == ".tiff" || extension == ".png";
-}
-
 std::string withFrameNumber(const std::string& path, int frame) {
   const size_t first = path.find('#');
   if (first == std::string::npos) return path;

@@ -83,8 +83,6 @@ std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", 
 int64_t textureShare(int64_t memoryLimit);
 size_t brickCacheBytes(const RenderSettings& settings);
 
-/// Can a picture be written under this name?
-bool namesPicture(const std::string& path);
 /// Runs of '#' become the frame number, padded to their length.
 std::string withFrameNumber(const std::string& path, int frame);
 

@@ -29,7 +29,7 @@ std::optional<std::string> parseOutput(const std::string& text) {
 }
 
 void addOutput(CLI::App& app, RenderSettings& s) {
-  addParsed(app, "-o", s.output, parseOutput, "FILE.exr|.tif|.png",
+  addParsed(app, "-o", s.output, parseOutput, pictureNames(),
             "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
             "scene without Display writes "
             "ri.exr");

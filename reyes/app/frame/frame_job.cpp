@@ -215,7 +215,8 @@ void FrameJob::openPreview(const DeepFrame& layout) {
 void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   openPreview(frame);
   const RowViewer viewer = preview_ ? [&](const Image& rows) { preview_->show(rows); } : RowViewer{};
-  writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
+  writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed, pluginTrust(settings_)},
+             stats_, log_);
   if (services_) services_->reportAtlas(stats_);
   if (rays_) rays_->report(stats_);
   preview_.reset();
@@ -248,9 +249,10 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
   return false;
 }
 
-bool displaysHaveFolders(const Options& options, Log& log) {
+bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log) {
   bool all = true;
   for (const DisplayCall& display : options.displays) {
+    if (!driverOf(display, options, trust).empty()) continue;
     makeFolderOf(display.name);
     all = hasFolder(display.name, display.where, log) && all;
   }

@@ -80,7 +80,7 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
 /// Only if it is relative: scenes of modellers name folders of their project. One that cannot be made is found out when
 /// the file is written.
 void makeFolderOf(const std::string& file);
-/// Makes those that are relative.
-bool displaysHaveFolders(const Options& options, Log& log);
+/// Makes those that are relative. What goes to display drivers needs none.
+bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log);
 
 }  // namespace tomales

@@ -40,22 +40,18 @@ void makeDraft(Scene& scene) {
   o.indirectSamples = kRays;
 }
 
-bool isMap(const DisplayCall& d) { return writesShadowMap(d) || d.type == "deepshad"; }
-
-/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. PNG is for
-/// looking at: no alpha, and sRGB unless the scene's Exposure encodes already.
+/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. What is
+/// for looking at has no alpha, and is sRGB unless the scene's Exposure encodes already.
 void overrideOutput(Options& options, const std::string& output, bool onePicture) {
-  const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), isMap);
+  const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), writesMap);
   if (first == options.displays.end()) return;
   if (onePicture)
-    options.displays.erase(std::remove_if(first + 1, options.displays.end(), std::not_fn(isMap)),
+    options.displays.erase(std::remove_if(first + 1, options.displays.end(), std::not_fn(writesMap)),
                            options.displays.end());
   DisplayCall& display = *first;
   display.name = withFrameNumber(output, options.frame);
   display.type = "file";
-  std::string extension = std::filesystem::path(output).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".png") return;
+  if (!isForScreens(output)) return;
   display.mode = "rgb";
   if (options.exposureGamma == 1 && !findParam(display.params, "transfer")) {
     Param transfer;
@@ -66,8 +62,9 @@ void overrideOutput(Options& options, const std::string& output, bool onePicture
 
 }  // namespace
 
-void dropDisplays(Options& options, Log& log) {
-  const auto isWindow = [](const DisplayCall& d) {
+void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
+  const auto isWindow = [&](const DisplayCall& d) {
+    if (!driverOf(d, options, trust).empty()) return false;
     return d.type == "framebuffer" || d.type == "it" || d.type == "windows" || d.type == "x11";
   };
   const bool someFile =
@@ -80,7 +77,8 @@ void dropDisplays(Options& options, Log& log) {
       return true;
     }
     const std::string path = std::filesystem::path(d.name).lexically_normal().string();
-    if (files.insert(namesPicture(path) ? path : path + " " + d.type).second) return false;
+    const bool isPicture = namesPicture(path) && driverOf(d, options, trust).empty();
+    if (files.insert(isPicture ? path : path + " " + d.type).second) return false;
     log.report(Severity::Warning, "display-twice", d.where,
                "Display \"" + d.name + "\" would write over an earlier Display of this frame; left out");
     return true;

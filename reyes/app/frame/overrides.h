@@ -9,7 +9,7 @@ namespace tomales {
 void applyOverrides(Scene& scene, const RenderSettings& settings);
 
 /// Leaves out, with a message, Displays that would write over an earlier one's file, and windows beside files.
-void dropDisplays(Options& options, Log& log);
+void dropDisplays(Options& options, const PluginTrust& trust, Log& log);
 
 /// With the memory for geometry that Option "limits" "geocachememory" and --geometry-cache allow.
 RaySettings raySettings(const RenderSettings& settings, const Options& options);

@@ -89,7 +89,7 @@ bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob&
 void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log,
                  const std::function<void()>& afterStage) {
   const DeepFrame layout = layOutFrame(scene);
-  if (!displaysHaveFolders(scene.options, log) || !fitsMemory(scene, layout, log)) return;
+  if (!displaysHaveFolders(scene.options, pluginTrust(settings), log) || !fitsMemory(scene, layout, log)) return;
   checkDisplays(scene.options, log);
   FrameJob job(scene, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);

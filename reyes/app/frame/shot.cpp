@@ -37,7 +37,7 @@ ShotJob::ShotJob(std::unique_ptr<DfbFile> file, const RenderSettings& settings, 
 bool ShotJob::edit() {
   if (!settings_.edits.empty() && !editScene(settings_.edits, shot_.scene, log_)) return false;
   applyOverrides(shot_.scene, settings_);
-  dropDisplays(shot_.scene.options, log_);
+  dropDisplays(shot_.scene.options, pluginTrust(settings_), log_);
   if (settings_.crop) {
     const PixelRect asked = Camera(shot_.scene.options).crop(), &whole = shot_.frame.crop;
     shot_.frame.crop = {std::max(asked.x0, whole.x0), std::max(asked.y0, whole.y0), std::min(asked.x1, whole.x1),
@@ -107,7 +107,7 @@ std::optional<DeepTile> ShotJob::load(size_t index) {
 }
 
 void ShotJob::shadePicture() {
-  if (!displaysHaveFolders(shot_.scene.options, log_)) return;
+  if (!displaysHaveFolders(shot_.scene.options, pluginTrust(settings_), log_)) return;
   checkDisplays(shot_.scene.options, log_);
   prepareLight();
   const auto load = [this](size_t index) { return this->load(index); };

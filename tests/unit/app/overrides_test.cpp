@@ -130,7 +130,7 @@ TEST(Overrides, ADisplayNeverWritesOverAnotherOfItsFrame) {
     options.displays.back().name = name, options.displays.back().type = type;
   }
   Log log(Log::Verbosity::Quiet);
-  dropDisplays(options, log);
+  dropDisplays(options, {}, log);
   ASSERT_EQ(options.displays.size(), 3u);
   EXPECT_EQ(options.displays[1].type, "openexr");
   EXPECT_EQ(log.count("display-window"), 1);
@@ -139,7 +139,7 @@ TEST(Overrides, ADisplayNeverWritesOverAnotherOfItsFrame) {
   Options window;
   window.displays.emplace_back();
   window.displays.back().type = "framebuffer";
-  dropDisplays(window, log);
+  dropDisplays(window, {}, log);
   EXPECT_EQ(window.displays.size(), 1u);  // else there would be no picture at all
 }
 
