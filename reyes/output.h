@@ -5,7 +5,7 @@
 //               1--* Channel    floats of a pixel; 0, 1, 2 are always Ci, a and z
 //               1--* Selection  one for each Display: which floats, under which names
 #pragma once
-#include "reyes/state.h"
+#include "reyes/surface_variables.h"
 
 namespace tomales {
 
@@ -29,8 +29,6 @@ struct Variable {
   SourceLoc where;  ///< Location of the request that asks for it.
 };
 
-/// Objects, Materials: Cryptomatte, six ranks of id and coverage.
-enum class ChannelKind : uint8_t { Color, Alpha, Depth, Variable, Objects, Materials };
 inline bool isMatte(ChannelKind kind) { return kind == ChannelKind::Objects || kind == ChannelKind::Materials; }
 /// Names of Cryptomatte layers.
 inline const char* matteLayer(ChannelKind kind) {
