@@ -8,10 +8,10 @@
 #include "reyes/base/input_file.h"
 #include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
-#include "reyes/shade.h"
 #include "reyes/shade/plugin_trial.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shade/rsl_shaders.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 

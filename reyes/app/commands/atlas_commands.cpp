@@ -16,6 +16,7 @@
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {

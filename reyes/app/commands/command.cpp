@@ -18,6 +18,7 @@
 #include "reyes/base/crash_note.h"
 #include "reyes/base/deep_stack.h"
 #include "reyes/base/input_file.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
@@ -105,6 +106,7 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
       ->type_name("SHOT.icf");
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
+  c->add_option("--baked", in.render.bakedFolder, "Brick maps of gathered light, for --gi baked")->type_name("FOLDER");
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
   addShotOptions(*c, in.render);
@@ -112,7 +114,8 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildInfo(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .dfb, .icf, .exr, .tif, .png or shader .sl or .so file");
+  CLI::App* c = app.add_subcommand(
+      "info", "What is in a .rib, .dfb, .icf, picture (" + pictureExtensions() + ") or shader .sl or .so file");
   c->add_option("FILE", in.first)->required();
   c->add_flag("--json", in.json, "As JSON");
   c->callback([&] { code = infoCommand(in.first, in.json); });

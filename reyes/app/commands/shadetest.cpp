@@ -18,6 +18,7 @@
 #include "reyes/image.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {

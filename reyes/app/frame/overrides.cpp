@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-#include "reyes/output.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
@@ -85,40 +85,6 @@ void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
   });
 }
 
-std::optional<HitRadianceChoice> hitRadianceOf(GiChoice choice, const ShadingSystem& shading) {
-  switch (choice) {
-    case GiChoice::Scene:
-      if (const auto request = shading.indirectRequest()) return request->hitRadiance;
-      return std::nullopt;
-    case GiChoice::Gather:
-      return HitRadianceChoice::Shader;
-    case GiChoice::Atlas:
-      return HitRadianceChoice::Atlas;
-    case GiChoice::Points:
-      return HitRadianceChoice::Points;
-    case GiChoice::Radiosity:
-      return HitRadianceChoice::Radiosity;
-    default:
-      return std::nullopt;
-  }
-}
-
-GiMode giModeOf(GiChoice choice, const ShadingSystem& shading) {
-  if (choice == GiChoice::Reference) return GiMode::Reference;
-  if (choice == GiChoice::Baked) return GiMode::Baked;
-  const std::optional<HitRadianceChoice> asked = hitRadianceOf(choice, shading);
-  if (!asked) return GiMode::None;
-  switch (*asked) {
-    case HitRadianceChoice::Atlas:
-    case HitRadianceChoice::Points:
-      return GiMode::Atlas;
-    case HitRadianceChoice::Radiosity:
-      return GiMode::Radiosity;
-    default:
-      return GiMode::Gather;
-  }
-}
-
 /// What renderers of old made do with is no use to anybody: 64 MB are the least that a scene may ask for.
 void raiseTextureMemory(Options& options) {
   constexpr float kLeast_KB = 1 << 16;
@@ -145,7 +111,7 @@ RaySettings raySettings(const RenderSettings& settings, const Options& options) 
 }
 
 bool tracesFullGeometry(const RenderSettings& settings) {
-  return settings.fullGeometry.value_or(settings.gi == GiChoice::Reference);
+  return settings.fullGeometry.value_or(settings.gi && settings.gi->fullGeometry);
 }
 
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
@@ -161,7 +127,7 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
   if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
   if (settings.crop) o.cropWindow = *settings.crop;
-  if (settings.gi != GiChoice::Scene && settings.gi != GiChoice::None) o.wantsIndirect = true;
+  if (settings.gi && settings.gi->mode != GiMode::None) o.wantsIndirect = true;
   if (settings.draft) makeDraft(scene);
   if (settings.pixelSamples) o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;

@@ -2,9 +2,7 @@
 
 #include <atomic>
 
-#include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/overrides.h"
-#include "reyes/app/frame/radiosity_job.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/rib.h"
 
@@ -68,17 +66,9 @@ void ShotJob::prepareLight() {
   job_ = std::make_unique<FrameJob>(shot_.scene, settings_, stats_, log_);
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
-  if (job_->mode() == GiMode::Atlas)
-    job_->services()->setAtlasSource([this] {
-      const RayTools& tools = *world_->tools();
-      return prepareAtlas(tools.rays->scene(), *tools.rays, *tools.shading, settings_, stats_, log_);
-    });
-  if (job_->mode() == GiMode::Radiosity)
-    job_->services()->setRadiositySource(
-        [this] { return prepareRadiosity(*world_->tools(), job_->camera(), settings_, stats_, log_); });
-  if (job_->mode() == GiMode::Baked)
-    log_.report(Severity::Missing, "baked-folder", {},
-                "--gi baked is for tomales render: shaded without indirect light");
+  if (!settings_.bakedFolder.empty() && !job_->method().usesBaked)
+    log_.report(Severity::Warning, "baked-unused", {},
+                "--baked: a shot shows what is there (--gi baked), and adds nothing; tomales render does");
   if (!irradiance_) return;
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
