@@ -16,26 +16,12 @@
 #include "reyes/image.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* nameOf(ErrorFunction function) {
-  switch (function) {
-    case ErrorFunction::Ward:
-      return "ward";
-    case ErrorFunction::Hessian:
-      return "hessian";
-    case ErrorFunction::Split:
-      return "split";
-    case ErrorFunction::Plain:
-      return "plain";
-    default:
-      return "screen";
-  }
-}
 
 Json sceneInfo(const Scene& scene) {
   std::set<std::string> shaders;
@@ -225,7 +211,7 @@ Json icfInfo(const std::string& file, Log& log) {
     for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
     caches.push_back({{"records", c.cache.records().size()},
                       {"frames", c.frames.size()},
-                      {"error_function", nameOf(c.plan.cache.errorFunction)},
+                      {"error_function", infoOf(c.plan.cache.errorFunction).name},
                       {"kappa", c.plan.cache.kappa},
                       {"samples", c.plan.gather.samples},
                       {"mean_irradiance_over_pi", {mean.x, mean.y, mean.z}}});
