@@ -43,6 +43,8 @@ class Lowering {
 
   // --- lower_shader.cpp: parameters, statements
   void parameter(const Variable& v);
+  int32_t outputParameter(const Variable& v);
+  void givenParameter(const Variable& v);
   bool constantDefault(const Variable& v, Parameter& p);
   void computedDefault(const Variable& v, int32_t reg);
   void statement(const Stmt& s);

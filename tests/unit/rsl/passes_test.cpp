@@ -151,6 +151,7 @@ TEST(Given, ParametersOfPrimitiveVariablesVary) {
   const CompiledText compiled(
       "surface test(float p = 3; color q = 1; output varying float x = 0; output varying color c = 0) {"
       " float k; for (k = 0; k < p; k += 1) x += 1; c = q * p; }");
+  const size_t x = outputNamed(compiled, "x"), c = outputNamed(compiled, "c");
   for (const int count : {1, 17, 1000}) {
     ServedGrid g(count);
     g.maskAtRandom();
@@ -161,15 +162,37 @@ TEST(Given, ParametersOfPrimitiveVariablesVary) {
     g.runBound(compiled.shader());
     for (int i = 0; i < count; ++i) {
       const bool on = g.active[static_cast<size_t>(i)] != 0;
-      EXPECT_EQ(g.output(2)[i], on ? p[i] : FakeGrid::kBefore.x);
-      EXPECT_EQ(g.output(3)[i], on ? p[i] : FakeGrid::kBefore.x);
+      EXPECT_EQ(g.output(x)[i], on ? p[i] : FakeGrid::kBefore.x);
+      EXPECT_EQ(g.output(c)[i], on ? p[i] : FakeGrid::kBefore.x);
     }
     g.bindOutputs(compiled.shader().lowered());
     g.params[1].c[0] = g.params[1].c[1] = g.params[1].c[2] = q, g.params[1].step = 1;
     g.runBound(compiled.shader());
     for (int i = 0; i < count; ++i)
-      EXPECT_EQ(g.output(3)[i], g.active[static_cast<size_t>(i)] ? 3 * q[i] : FakeGrid::kBefore.x);
+      EXPECT_EQ(g.output(c)[i], g.active[static_cast<size_t>(i)] ? 3 * q[i] : FakeGrid::kBefore.x);
   }
+}
+
+TEST(Given, OutputsStartAsWhatTheSceneGives) {
+  const CompiledText compiled(
+      "light test(output varying float fog = 2; output color tint = 1; output float size[2] = {1, 2}) {"
+      " fog += size[1]; Cl = tint * fog; }");
+  const auto given = [&](const char* name) -> size_t {
+    const auto& all = compiled.shader().lowered().parameters;
+    return static_cast<size_t>(std::find_if(all.begin(), all.end(),
+                                            [&](const Parameter& p) { return p.name == name && !p.output; }) -
+                               all.begin());
+  };
+  ServedGrid g(20);
+  g.bindOutputs(compiled.shader().lowered());
+  const float fog = 5, tint[] = {1, 2, 4}, size[] = {10, 20};
+  g.params[given("fog")].c[0] = &fog;
+  for (size_t k = 0; k < 3; ++k) g.params[given("tint")].c[k] = tint + k;
+  g.params[given("size")].c[0] = size;
+  g.runBound(compiled.shader());
+  EXPECT_EQ(g.output(outputNamed(compiled, "fog"))[7], 25);
+  EXPECT_EQ(g.output(outputNamed(compiled, "tint"), 2)[7], 4) << "nobody assigns it";
+  EXPECT_EQ(g.grid.Cl.y[7], 50);
 }
 
 }  // namespace
