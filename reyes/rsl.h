@@ -18,7 +18,6 @@ struct RslSettings {
 
 /// What a TmParamDecl does not say of a parameter.
 struct RslParameter {
-  std::string name;
   std::string detail;     ///< "uniform", "varying", or empty: its file does not say.
   bool computed = false;  ///< Its default is no constant: the shader computes it.
 };

@@ -79,8 +79,7 @@ std::vector<RslParameter> RslFile::parameters(const TmShader& shader) const {
   for (const HostedShader& p : impl_->shaders) {
     if (p.host() != &shader) continue;
     for (const Parameter& parameter : p.lowered().parameters)
-      out.push_back({parameter.name,
-                     parameter.detail == Detail::Varying   ? "varying"
+      out.push_back({parameter.detail == Detail::Varying   ? "varying"
                      : parameter.detail == Detail::Uniform ? "uniform"
                                                            : "",
                      parameter.computed});

@@ -168,11 +168,12 @@ Json textInfo(const std::string& path, Log& log) {
   for (int32_t k = 0; k < file->library()->count; ++k) {
     const TmShader& shader = *file->library()->shaders[k];
     Json about = shaderInfo(shader);
-    for (const RslParameter& said : file->parameters(shader))
+    const std::vector<RslParameter> details = file->parameters(shader);
+    for (size_t at = 0; at < details.size(); ++at)
       for (Json& p : about["parameters"]) {
-        if (p["name"] != said.name) continue;
-        if (!said.detail.empty()) p["detail"] = said.detail;
-        if (said.computed) p["default"] = "computed";
+        if (p["name"] != shader.params[at].name) continue;
+        if (!details[at].detail.empty()) p["detail"] = details[at].detail;
+        if (details[at].computed) p["default"] = "computed";
       }
     shaders.push_back(std::move(about));
   }
