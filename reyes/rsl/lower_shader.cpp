@@ -16,12 +16,6 @@ const Expr& inShaderSpace(const Expr& e) {
 
 }  // namespace
 
-bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds) {
-  if (std::find(kinds.begin(), kinds.end(), s.kind) != kinds.end()) return true;
-  if (s.kind == StmtKind::Define) return false;
-  return std::any_of(s.body.begin(), s.body.end(), [&](const StmtPtr& part) { return contains(*part, kinds); });
-}
-
 void Lowering::shader(const Shader& s) {
   code_.kind = s.kind, code_.name = s.name, code_.doc = s.doc;
   for (const auto& p : s.parameters) parameter(*p);
