@@ -112,9 +112,28 @@ Json paramInfo(const TmParamDecl& p) {
   return out;
 }
 
+/// What a scene may give to an output, which is a parameter of its own. Null: nothing.
+const TmParamDecl* inputOf(const TmShader& s, const TmParamDecl& output) {
+  for (int i = 0; i < s.paramCount; ++i)
+    if (!(s.params[i].type & TM_OUTPUT) && std::string_view(s.params[i].name) == output.name) return &s.params[i];
+  return nullptr;
+}
+
+bool hasOutput(const TmShader& s, const TmParamDecl& input) {
+  return std::any_of(s.params, s.params + s.paramCount, [&](const TmParamDecl& p) {
+    return (p.type & TM_OUTPUT) != 0 && std::string_view(p.name) == input.name;
+  });
+}
+
 Json shaderInfo(const TmShader& s) {
   Json params = Json::array();
-  for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
+  for (int i = 0; i < s.paramCount; ++i) {
+    const TmParamDecl& p = s.params[i];
+    const bool output = (p.type & TM_OUTPUT) != 0;
+    if (!output && hasOutput(s, p)) continue;
+    params.push_back(paramInfo(p));
+    if (const TmParamDecl* input = output ? inputOf(s, p) : nullptr) params.back()["default"] = defaultOf(*input);
+  }
   Json standard = Json::array();
   for (const TmParamDecl& p : standardParams(static_cast<TmKind>(s.kind))) standard.push_back(paramInfo(p));
   return {{"name", s.name},
@@ -136,10 +155,12 @@ Json textInfo(const std::string& path, Log& log) {
     const TmShader& shader = *file->library()->shaders[k];
     Json about = shaderInfo(shader);
     const std::vector<RslParameter> details = file->parameters(shader);
-    for (size_t p = 0; p < details.size(); ++p) {
-      if (!details[p].detail.empty()) about["parameters"][p]["detail"] = details[p].detail;
-      if (details[p].computed) about["parameters"][p]["default"] = "computed";
-    }
+    for (size_t at = 0; at < details.size(); ++at)
+      for (Json& p : about["parameters"]) {
+        if (p["name"] != shader.params[at].name) continue;
+        if (!details[at].detail.empty()) p["detail"] = details[at].detail;
+        if (details[at].computed) p["default"] = "computed";
+      }
     shaders.push_back(std::move(about));
   }
   return {{"file", path}, {"kind", "shaders"}, {"shaders", shaders}};
