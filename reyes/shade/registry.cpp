@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <set>
 
+#include "reyes/base/crash_note.h"
 #include "reyes/base/input_file.h"
+#include "reyes/base/loaded_plugins.h"
+#include "reyes/base/plugin_trial.h"
 #include "reyes/base/search_path.h"
+#include "reyes/base/trust.h"
 #include "reyes/shade.h"
-#include "reyes/shade/plugin_trial.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shade/rsl_shaders.h"
 
@@ -134,6 +137,8 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
     untriedSaid = true,
     log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
                "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
+  noteLoadedPlugin(path);
+  const CrashNote note({"shader plugin", path.c_str(), "while plugins are loaded", nullptr, nullptr, 0});
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
@@ -174,10 +179,7 @@ std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& n
     if (trust.sceneFolders)
       out.push_back(file);
     else if (out.empty() && distrusted.insert(file).second)
-      refuse(file,
-             "is native code in a folder that the scene names, and is not loaded; --shaders FOLDER names a folder "
-             "whose plugins you trust, "
-             "--allow-system trusts those of the scene");
+      refuse(file, kPluginRefusal);
   }
   return out;
 }
