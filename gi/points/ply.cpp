@@ -28,7 +28,7 @@ class VertexSum {
     std::memcpy(bytes_.data() + sizeof sum_, vertex.data(), vertex.size_bytes());
     sum_ = checksum(bytes_);
   }
-  uint64_t value() const { return sum_; }
+  std::string text() const { return fmt::format("{:016x}", sum_); }
 
  private:
   uint64_t sum_;
@@ -126,7 +126,7 @@ PlyFigures readVertices(PlyReader& in, const PlyElement& element, const std::str
     writer.add(P, normalizeOr(N, vec3(0.0f)), r, values.data() + VertexLayout::kFixed);
     ++figures.points;
   }
-  if (in.sum() && *in.sum() != sum.value()) failPly(path, "is damaged: its checksum is that of other vertices");
+  if (in.sum() && *in.sum() != sum.text()) failPly(path, "is damaged: its checksum is that of other vertices");
   readRest();
   writer.finish();
   return figures;
@@ -172,7 +172,7 @@ void writePly(const PointFile& cloud, const std::string& path) {
   std::string header = headerOf(cloud);
   VertexSum sum(header);
   forEachVertex(cloud, [&](std::span<const float> vertex) { sum.add(vertex); });
-  header.insert(header.rfind(kEndOfHeader), fmt::format("{}{:016x}\n", kPlySumComment, sum.value()));
+  header.insert(header.rfind(kEndOfHeader), fmt::format("{}{}\n", kPlySumComment, sum.text()));
   write(header.data(), header.size());
   forEachVertex(cloud, [&](std::span<const float> vertex) { write(vertex.data(), vertex.size_bytes()); });
   if (!file->finish(why)) failed(why);

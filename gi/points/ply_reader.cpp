@@ -87,7 +87,7 @@ void PlyReader::readHeader() {
   while (true) {
     if (!getLine(line)) failPly(path_, "ends within its header");
     if (line.starts_with(kPlySumComment))
-      sum_ = std::strtoull(line.c_str() + kPlySumComment.size(), nullptr, 16);
+      sum_ = line.substr(kPlySumComment.size());
     else
       header_ += line + "\n";
     std::istringstream words(line);

@@ -30,7 +30,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 };
 
-/// The comment of our own files that holds VertexSum::value() in hexadecimal digits.
+/// The comment of our own files that holds the VertexSum.
 constexpr std::string_view kPlySumComment = "comment checksum of Tomales ";
 
 [[noreturn]] void failPly(const std::string& path, const std::string& what);
@@ -45,7 +45,7 @@ class PlyReader {
   /// Its lines, without that of the sum,
   const std::string& header() const { return header_; }
   /// which only our own files have.
-  std::optional<uint64_t> sum() const { return sum_; }
+  const std::optional<std::string>& sum() const { return sum_; }
 
   double number(const PlyScalar& type);
   void skip(const PlyElement& element);
@@ -62,7 +62,7 @@ class PlyReader {
 
   const std::string path_;
   std::string header_ = "ply\n";
-  std::optional<uint64_t> sum_;
+  std::optional<std::string> sum_;
   std::ifstream in_;
   std::optional<Encoding> encoding_;
   std::vector<PlyElement> elements_;
