@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gi/services.h"
+#include "reyes/base/trust.h"
 
 namespace tomales {
 
@@ -55,14 +56,15 @@ struct RenderSettings {
   bool progress = false;
   std::string preview;                     ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;  ///< To explain.
-  bool allowSystem = false;                ///< The RIB may start programs and load plugins.
-  std::string shaderFolders;  ///< The user's, separated by colons: their plugins are trusted whatever the RIB may do.
+  Trust trust;                             ///< Of the code that the RIB names.
+  std::string outputRoot;                  ///< What the RIB names is written below it; empty: anywhere.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };
 
 inline PluginTrust pluginTrust(const RenderSettings& settings) {
-  return {.folders = settings.shaderFolders, .sceneFolders = settings.allowSystem};
+  const Trust& t = settings.trust;
+  return {.folders = t.shaderFolders + ":" + t.pluginFolders(), .sceneFolders = t.allowsPluginsOfScene()};
 }
 inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }
 

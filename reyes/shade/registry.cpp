@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <set>
 
+#include "reyes/base/crash_note.h"
 #include "reyes/base/input_file.h"
+#include "reyes/base/loaded_plugins.h"
+#include "reyes/base/plugin_trial.h"
 #include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
-#include "reyes/shade/plugin_trial.h"
+#include "reyes/base/trust.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shade/rsl_shaders.h"
 #include "reyes/shader_registry.h"
@@ -135,6 +138,8 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
     untriedSaid = true,
     log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
                "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
+  noteLoadedPlugin(path);
+  const CrashNote note({"shader plugin", path.c_str(), "while plugins are loaded", nullptr, nullptr, 0});
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
@@ -157,7 +162,7 @@ bool isOfSpecification(std::string_view name) {
 std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& name, const std::string& searchPath) {
   PluginFiles found = findPlugins(name, searchPath, trust);
   for (const std::string& file : found.refused)
-    if (distrusted.insert(file).second) refuse(file, kPluginRefused);
+    if (distrusted.insert(file).second) refuse(file, kPluginRefusal);
   return std::move(found.trusted);
 }
 

@@ -258,7 +258,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       ->check(CLI::Range(2, 10000));
   c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
-  addTrust(*c, s.allowSystem, s.shaderFolders);
+  addTrust(*c, s.trust);
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
       ->type_name("FOLDER");
   c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);

@@ -12,6 +12,7 @@
 #include "gi/point_file.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/settings.h"
+#include "reyes/base/apart.h"
 #include "reyes/dfb.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
@@ -166,16 +167,21 @@ Json textInfo(const std::string& path, Log& log) {
   return {{"file", path}, {"kind", "shaders"}, {"shaders", shaders}};
 }
 
+/// Its code runs, and may crash, in a process of its own.
 Json pluginInfo(const std::string& file, Log& log) {
-  ShaderRegistry registry(log);
-  if (!registry.loadPlugin(std::filesystem::absolute(file).string())) {
-    log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0},
-               "is not a shader plugin of this version");
-    return {};
-  }
-  Json shaders = Json::array();
-  for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
-  return {{"file", file}, {"kind", "shaders"}, {"shaders", shaders}};
+  constexpr int kMostSeconds = 20;
+  const auto describe = [&] {
+    ShaderRegistry registry(log);
+    if (!registry.loadPlugin(std::filesystem::absolute(file).string())) return std::string();
+    Json shaders = Json::array();
+    for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
+    return shaders.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  std::string fate = "is not a shader plugin of this version";
+  const std::string shaders = madeApart(describe, kMostSeconds, fate).value_or("");
+  if (!shaders.empty()) return {{"file", file}, {"kind", "shaders"}, {"shaders", Json::parse(shaders)}};
+  log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0}, fate);
+  return {};
 }
 
 void unreadable(const std::string& file, const char* kind, const std::string& error, Log& log) {

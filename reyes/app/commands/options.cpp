@@ -111,14 +111,17 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
 }
 
-void addTrust(CLI::App& app, bool& allowSystem, std::string& shaderFolders) {
-  app.add_flag("--allow-system", allowSystem,
-               "The RIB may run code that it brings: programs by System and Procedural \"RunProgram\", plugins by "
-               "\"DynamicLoad\", and shader "
-               "plugins in the working folder and on its search path");
-  app.add_option(
-         "--shaders", shaderFolders,
-         "Folders of shader plugins that you trust, separated by colons; they are searched before those of the RIB")
+void addTrust(CLI::App& app, Trust& trust) {
+  app.add_flag("--allow-system", trust.programs,
+               "The RIB may start programs (System, Procedural \"RunProgram\"), and all that --allow-plugins allows");
+  app.add_flag("--allow-plugins", trust.scenePlugins,
+               "The RIB may load plugins, which can do whatever you can, from the working folder and its search paths");
+  app.add_option("--plugin-path", trust.pluginPath,
+                 "Folders of plugins that you trust, separated by colons; they are searched before those of the RIB, "
+                 "and followed by TOMALES_PLUGIN_PATH and ~/.config/tomales/plugins")
+      ->type_name("FOLDERS");
+  app.add_option("--shaders", trust.shaderFolders,
+                 "Folders of shaders, separated by colons, whose plugins you trust; they come before all others")
       ->type_name("FOLDERS")
       ->envname("TOMALES_SHADERS");
 }
@@ -132,7 +135,10 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--texture-cache", s.textureCache,
                  "Where converted pictures are kept (default: $TOMALES_TEXTURE_CACHE, or the user's cache folder)")
       ->type_name("FOLDER");
-  addTrust(app, s.allowSystem, s.shaderFolders);
+  addTrust(app, s.trust);
+  app.add_option("--output-root", s.outputRoot,
+                 "Keep all files that the RIB writes below this folder; names that lead out of it are refused")
+      ->type_name("FOLDER");
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(

@@ -8,8 +8,10 @@
 #include "reyes/app/exit_code.h"
 #include "reyes/app/frame/light_sources.h"
 #include "reyes/base/folder_lock.h"
+#include "reyes/base/output_root.h"
 #include "reyes/base/stop.h"
 #include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_folder.h"
 #include "reyes/world_sum.h"
 
 namespace tomales {
@@ -54,7 +56,9 @@ void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
 
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading) {
   if (!settings.atlasFolder.empty()) return settings.atlasFolder;
-  return shading.indirectRequest().value_or(IndirectRequest{}).atlas;
+  const std::string named = shading.indirectRequest().value_or(IndirectRequest{}).atlas;
+  const bool onlyRead = named.empty() || asksPoints(settings, shading) || isMadeByHand(named);
+  return onlyRead ? named : placeBelow(settings.outputRoot, named);
 }
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading) {
@@ -100,6 +104,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
                    "waits for another program that uses the atlas in \"" + folder.string() + "\"");
       });
     const bool byHand = points || isMadeByHand(folder);
+    if (byHand) requireFinished(points ? fs::path(given) : folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
     if (!byHand)
       makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log); }, log);

@@ -31,7 +31,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       camera_(scene.options),
       registry_(log, pluginTrust(settings)),
       meter_(settings.progress),
-      clouds_(pathOf(scene.options.searchPaths, "texture")) {
+      clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
   shading_->setClouds(&clouds_);
