@@ -6,6 +6,7 @@
 
 #include "reyes/base/missing_file.h"
 #include "reyes/shade/substitute.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 

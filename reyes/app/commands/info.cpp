@@ -19,21 +19,6 @@
 namespace tomales {
 namespace {
 
-const char* nameOf(ErrorFunction function) {
-  switch (function) {
-    case ErrorFunction::Ward:
-      return "ward";
-    case ErrorFunction::Hessian:
-      return "hessian";
-    case ErrorFunction::Split:
-      return "split";
-    case ErrorFunction::Plain:
-      return "plain";
-    default:
-      return "screen";
-  }
-}
-
 Json channelInfo(const Image& image, size_t channel) {
   double sum = 0;
   float low = kInfinity, high = -kInfinity;
@@ -125,7 +110,7 @@ Json icfInfo(const std::string& file, Log& log) {
     for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
     caches.push_back({{"records", c.cache.records().size()},
                       {"frames", c.frames.size()},
-                      {"error_function", nameOf(c.plan.cache.errorFunction)},
+                      {"error_function", infoOf(c.plan.cache.errorFunction).name},
                       {"kappa", c.plan.cache.kappa},
                       {"samples", c.plan.gather.samples},
                       {"mean_irradiance_over_pi", {mean.x, mean.y, mean.z}}});
@@ -190,17 +175,18 @@ Json ownInfo(const std::string& file, Json (*infoOfKind)(const std::string&), Lo
   }
 }
 
-Json infoOf(const std::string& file, const PluginTrust& trust, Log& log) {
+Json infoOf(const std::string& file, const Trust& trust, Log& log) {
+  const std::string extension = std::filesystem::path(file).extension().string();
   std::error_code none;
-  if (!std::filesystem::exists(file, none) && file != "-" && file.find('/') == std::string::npos)
-    return namedShaderInfo(file, trust, log);
-  if (const auto extension = std::filesystem::path(file).extension(); extension == ".ptc" || extension == ".bkm")
+  const bool named = extension.empty() && file != "-" && file.find('/') == std::string::npos;
+  if (named && !std::filesystem::exists(file, none)) return namedShaderInfo(file, pluginTrust(trust), log);
+  if (extension == ".ptc" || extension == ".bkm")
     return ownInfo(file, extension == ".ptc" ? pointsInfo : bricksInfo, log);
   if (namesPicture(file)) return imageInfo(file, log);
   if (file.ends_with(".dfb")) return dfbInfo(file, log);
   if (file.ends_with(".icf")) return icfInfo(file, log);
   if (file.ends_with(".sl")) return textInfo(file, log);
-  if (std::filesystem::path(file).extension() == ".so") return pluginInfo(file, trust, log);
+  if (extension == ".so") return pluginInfo(file, log);
   return isForeign(file, log) ? Json{} : sceneInfo(file, trust, log);
 }
 
@@ -208,7 +194,7 @@ Json infoOf(const std::string& file, const PluginTrust& trust, Log& log) {
 
 int infoCommand(const InfoCommand& command) {
   Log log;
-  Json info = infoOf(command.file, {.folders = command.shaderFolders, .sceneFolders = command.allowSystem}, log);
+  Json info = infoOf(command.file, command.trust, log);
   const int64_t missing = info.contains("needs") ? missingOf(info.at("needs")) : 0;
   if (command.json && !info.is_null()) {
     std::puts(info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());

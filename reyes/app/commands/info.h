@@ -2,13 +2,14 @@
 #pragma once
 #include <string>
 
+#include "reyes/base/trust.h"
+
 namespace tomales {
 
 struct InfoCommand {
   std::string file;  ///< Or the name of a shader.
   bool json = false;
-  bool allowSystem = false;
-  std::string shaderFolders;
+  Trust trust;
 };
 
 /// Prints to standard output, as JSON or as text; returns the exit code.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "reyes/app/commands/scene_needs.h"
+#include "reyes/app/settings.h"
 
 namespace tomales {
 namespace {
@@ -37,11 +38,11 @@ Json frameInfo(const Scene& scene) {
 
 }  // namespace
 
-Json sceneInfo(const std::string& file, const PluginTrust& trust, Log& log) {
+Json sceneInfo(const std::string& file, const Trust& trust, Log& log) {
   Json frames = Json::array();
-  SceneNeeds needs(trust, log);
+  SceneNeeds needs(pluginTrust(trust), log);
   RibSettings rib;
-  rib.allowSystem = trust.sceneFolders;
+  rib.trust = trust;
   rib.onFile = [&](const FileUse& use) { needs.add(use); };
   rib.onMake = [&](const Request& request) { needs.addMade(request); };
   rib.onScene = [&](Scene&& scene) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/apart.h"
 #include "reyes/base/missing_file.h"
 #include "reyes/base/near_names.h"
 #include "reyes/base/search_path.h"
@@ -31,6 +32,19 @@ Json paramInfo(const TmParamDecl& p) {
   return out;
 }
 
+/// What a scene may give to an output, which is a parameter of its own. Null: nothing.
+const TmParamDecl* inputOf(const TmShader& s, const TmParamDecl& output) {
+  for (int i = 0; i < s.paramCount; ++i)
+    if (!(s.params[i].type & TM_OUTPUT) && std::string_view(s.params[i].name) == output.name) return &s.params[i];
+  return nullptr;
+}
+
+bool hasOutput(const TmShader& s, const TmParamDecl& input) {
+  return std::any_of(s.params, s.params + s.paramCount, [&](const TmParamDecl& p) {
+    return (p.type & TM_OUTPUT) != 0 && std::string_view(p.name) == input.name;
+  });
+}
+
 }  // namespace
 
 bool isScalarList(const Json& j) {
@@ -43,7 +57,13 @@ std::string lineOf(const Json& value) {
 
 Json shaderInfo(const TmShader& s) {
   Json params = Json::array();
-  for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
+  for (int i = 0; i < s.paramCount; ++i) {
+    const TmParamDecl& p = s.params[i];
+    const bool output = (p.type & TM_OUTPUT) != 0;
+    if (!output && hasOutput(s, p)) continue;
+    params.push_back(paramInfo(p));
+    if (const TmParamDecl* input = output ? inputOf(s, p) : nullptr) params.back()["default"] = defaultOf(*input);
+  }
   Json standard = Json::array();
   for (const TmParamDecl& p : standardParams(static_cast<TmKind>(s.kind))) standard.push_back(paramInfo(p));
   return {{"name", s.name},
@@ -64,25 +84,32 @@ Json textInfo(const std::string& path, Log& log) {
     const TmShader& shader = *file->library()->shaders[k];
     Json about = shaderInfo(shader);
     const std::vector<RslParameter> details = file->parameters(shader);
-    for (size_t p = 0; p < details.size(); ++p) {
-      if (!details[p].detail.empty()) about["parameters"][p]["detail"] = details[p].detail;
-      if (details[p].computed) about["parameters"][p]["default"] = "computed";
-    }
+    for (size_t at = 0; at < details.size(); ++at)
+      for (Json& p : about["parameters"]) {
+        if (p["name"] != shader.params[at].name) continue;
+        if (!details[at].detail.empty()) p["detail"] = details[at].detail;
+        if (details[at].computed) p["default"] = "computed";
+      }
     shaders.push_back(std::move(about));
   }
   return {{"file", path}, {"kind", "shaders"}, {"shaders", shaders}};
 }
 
-Json pluginInfo(const std::string& file, const PluginTrust& trust, Log& log) {
-  ShaderRegistry registry(log, trust);
-  if (!registry.loadPlugin(std::filesystem::absolute(file).string())) {
-    log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0},
-               "is not a shader plugin of this version");
-    return {};
-  }
-  Json shaders = Json::array();
-  for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
-  return {{"file", file}, {"kind", "shaders"}, {"shaders", shaders}};
+// Its code runs, and may crash, in a process of its own.
+Json pluginInfo(const std::string& file, Log& log) {
+  constexpr int kMostSeconds = 20;
+  const auto describe = [&] {
+    ShaderRegistry registry(log);
+    if (!registry.loadPlugin(std::filesystem::absolute(file).string())) return std::string();
+    Json shaders = Json::array();
+    for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
+    return shaders.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  std::string fate = "is not a shader plugin of this version";
+  const std::string shaders = madeApart(describe, kMostSeconds, fate).value_or("");
+  if (!shaders.empty()) return {{"file", file}, {"kind", "shaders"}, {"shaders", Json::parse(shaders)}};
+  log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0}, fate);
+  return {};
 }
 
 Json namedShaderInfo(const std::string& name, const PluginTrust& trust, Log& log) {
@@ -90,8 +117,7 @@ Json namedShaderInfo(const std::string& name, const PluginTrust& trust, Log& log
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   for (const std::string& folder : registry.textFolders("", ""))
     if (const std::string text = findFile(name + ".sl", folder); !text.empty()) return textInfo(text, log);
-  if (const std::string plugin = findFile(name + ".so", trust.folders); !plugin.empty())
-    return pluginInfo(plugin, trust, log);
+  if (const std::string plugin = findFile(name + ".so", trust.folders); !plugin.empty()) return pluginInfo(plugin, log);
   Json shaders = Json::array();
   std::vector<std::string> known;
   for (const TmShader* shader : registry.all()) {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 Json shaderInfo(const TmShader& shader);
 /// Of all shaders of a file: a text in the shading language, or a plugin. Null, and reported: it cannot be read.
 Json textInfo(const std::string& path, Log& log);
-Json pluginInfo(const std::string& path, const PluginTrust& trust, Log& log);
+Json pluginInfo(const std::string& path, Log& log);
 /// Of a shader in NAME.sl, NAME.so or built in; null, and reported: there is none.
 Json namedShaderInfo(const std::string& name, const PluginTrust& trust, Log& log);
 
