@@ -7,6 +7,7 @@
 #include "reyes/base/deep_stack.h"
 #include "reyes/shade/binder.h"
 #include "reyes/shade/roles.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -25,25 +26,25 @@ int countOf(const BoundShader& light, TmRole role, int fallback, int least, int 
   return used;
 }
 
-void warnOfValue(const BoundShader& light, TmRole role, const std::string& value, const char* consequence, Log& log) {
+void warnOfValue(const BoundShader& light, TmRole role, const std::string& value, const std::string& consequence,
+                 Log& log) {
   log.report(Severity::Warning, fmt::format("light-{}", roleName(role)), light.where,
              fmt::format("{}: {} \"{}\" is not supported; {}", light.user, light.find(role)->name, value, consequence));
 }
 
-std::string errorFunctionOf(const BoundShader& light, const std::string& fallback, Log& log) {
-  const std::string name = light.text(TM_ROLE_ERROR_FUNCTION, fallback);
-  if (name != "screen" && name != "ward" && name != "hessian" && name != "split" && name != "plain")
-    warnOfValue(light, TM_ROLE_ERROR_FUNCTION, name, "\"screen\" is used", log);
-  return name;
+ErrorFunction errorFunctionOf(const BoundShader& light, ErrorFunction fallback, Log& log) {
+  const std::string name = light.text(TM_ROLE_ERROR_FUNCTION, infoOf(fallback).name);
+  const auto found = errorFunctionNamed(name);
+  if (!found)
+    warnOfValue(light, TM_ROLE_ERROR_FUNCTION, name, fmt::format("\"{}\" is used", infoOf(fallback).name), log);
+  return found.value_or(fallback);
 }
 
-HitRadianceChoice hitRadianceOf(const BoundShader& light, Log& log) {
-  const std::string name = light.text(TM_ROLE_HIT_RADIANCE, "shader");
-  if (name == "atlas") return HitRadianceChoice::Atlas;
-  if (name == "points") return HitRadianceChoice::Points;
-  if (name == "radiosity") return HitRadianceChoice::Radiosity;
-  if (name != "shader") warnOfValue(light, TM_ROLE_HIT_RADIANCE, name, "gather rays run the shaders", log);
-  return HitRadianceChoice::Shader;
+const GiMethod* methodOf(const BoundShader& light, const GiMethod* fallback, Log& log) {
+  const std::string name = light.text(TM_ROLE_HIT_RADIANCE, fallback->radiance);
+  if (const GiMethod* found = giMethodOfRadiance(name)) return found;
+  warnOfValue(light, TM_ROLE_HIT_RADIANCE, name, "gather rays run the shaders", log);
+  return fallback;
 }
 
 IndirectQuery queryOf(const BoundShader& light, int samplesInstead, Log& log) {
@@ -59,7 +60,7 @@ IndirectQuery queryOf(const BoundShader& light, int samplesInstead, Log& log) {
 
 IndirectRequest requestOf(const BoundShader& light, const IndirectQuery& query, Log& log) {
   IndirectRequest out;
-  out.hitRadiance = hitRadianceOf(light, log);
+  out.method = methodOf(light, out.method, log);
   out.atlas = light.text(TM_ROLE_ATLAS, "");
   if (const RoleValue* bounces = light.find(TM_ROLE_BOUNCES); bounces && bounces->given) out.bounces = query.bounces;
   return out;
