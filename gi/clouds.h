@@ -9,7 +9,7 @@
 #include "gi/clouds/diffusion.h"
 #include "gi/clouds/disks.h"
 #include "reyes/base/log.h"
-#include "reyes/shade.h"
+#include "reyes/shade_services.h"
 
 namespace tomales {
 

@@ -9,7 +9,7 @@ struct Trust {
   bool programs = false;        ///< The scene may start programs; then it may load whatever it likes, too.
   bool scenePlugins = false;    ///< Plugins may come from folders that only the scene names, and the working folder.
   std::string pluginPath{};     ///< --plugin-path: folders, separated by colons, that plugins may come from.
-  std::string shaderFolders{};  ///< --shaders: likewise, for shaders alone, and before those.
+  std::string shaderFolders{};  ///< --shaders: likewise, for shaders and displays, before those.
 
   /// pluginPath, then TOMALES_PLUGIN_PATH, then tomales/plugins in the user's configuration (XDG_CONFIG_HOME, else
   /// ~/.config) and in the library folder of the installation.

@@ -16,12 +16,6 @@ const Expr& inShaderSpace(const Expr& e) {
 
 }  // namespace
 
-bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds) {
-  if (std::find(kinds.begin(), kinds.end(), s.kind) != kinds.end()) return true;
-  if (s.kind == StmtKind::Define) return false;
-  return std::any_of(s.body.begin(), s.body.end(), [&](const StmtPtr& part) { return contains(*part, kinds); });
-}
-
 void Lowering::shader(const Shader& s) {
   code_.kind = s.kind, code_.name = s.name, code_.doc = s.doc;
   for (const auto& p : s.parameters) parameter(*p);
@@ -33,9 +27,31 @@ void Lowering::shader(const Shader& s) {
   scope.blocks.push_back(std::move(body));
 }
 
+// What the host writes it cannot give too (TM_OUTPUT): an output is two parameters of one name, and starts as the one
+// that is given.
 void Lowering::parameter(const Variable& v) {
+  const bool stored = v.output && !v.type.isArray() && !v.type.is(Base::Matrix) && !v.type.is(Base::String);
+  const int32_t output = stored ? outputParameter(v) : -1;
+  givenParameter(v);
+  if (!stored) return;
+  const int32_t given = registers_[&v];
+  initialise(output, given);
+  if (v.assigned) registers_[&v] = output;
+}
+
+int32_t Lowering::outputParameter(const Variable& v) {
   Parameter p;
-  p.name = v.name, p.type = v.type, p.detail = v.detail, p.output = v.output, p.place = v.place;
+  p.name = v.name, p.type = v.type, p.output = true, p.place = v.place;
+  const int32_t reg = variable(v);
+  Register& r = code_.registers[static_cast<size_t>(reg)];
+  r.origin = Origin::Parameter, r.index = static_cast<int32_t>(code_.parameters.size());
+  code_.parameters.push_back(std::move(p));
+  return reg;
+}
+
+void Lowering::givenParameter(const Variable& v) {
+  Parameter p;
+  p.name = v.name, p.type = v.type, p.detail = v.detail, p.place = v.place;
   if (p.type.length == kOpenArray) p.type.length = 1;
   const bool constantValue = constantDefault(v, p);
   const int32_t reg = variable(v);

@@ -9,11 +9,12 @@
 #include "reyes/base/input_file.h"
 #include "reyes/base/loaded_plugins.h"
 #include "reyes/base/plugin_trial.h"
+#include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
 #include "reyes/base/trust.h"
-#include "reyes/shade.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shade/rsl_shaders.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
@@ -148,15 +149,6 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
 
 namespace {
 
-std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath) {
-  std::vector<std::string> out;
-  for (const fs::path folder : foldersOf(searchPath)) {
-    std::error_code none;
-    if (const fs::path file = folder / (name + ".so"); fs::is_regular_file(file, none)) out.push_back(file.string());
-  }
-  return out;
-}
-
 /// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which is held against it.
 bool isOfSpecification(std::string_view name) {
   static constexpr std::string_view kNames[] = {
@@ -165,23 +157,13 @@ bool isOfSpecification(std::string_view name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// Does the name of a shader lead out of the folders that it is looked for in?
-bool leavesFolders(const fs::path& name) {
-  return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
-}
-
 }  // namespace
 
 std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& name, const std::string& searchPath) {
-  std::vector<std::string> out;
-  if (!leavesFolders(name)) out = pluginFiles(name, trust.folders);
-  for (const std::string& file : pluginFiles(name, searchPath.empty() ? "." : searchPath)) {
-    if (trust.sceneFolders)
-      out.push_back(file);
-    else if (out.empty() && distrusted.insert(file).second)
-      refuse(file, kPluginRefusal);
-  }
-  return out;
+  PluginFiles found = findPlugins(name, searchPath, trust);
+  for (const std::string& file : found.refused)
+    if (distrusted.insert(file).second) refuse(file, kPluginRefusal);
+  return std::move(found.trusted);
 }
 
 ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust)

@@ -17,6 +17,7 @@
 #include "reyes/base/unfinished_file.h"
 #include "reyes/base/unfinished_folder.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -196,7 +197,7 @@ int viewCommand(const ViewCommand& command) {
     const PointCloud cloud = fs::path(command.input).extension() == ".bkm"
                                  ? voxelsOf(BrickFile(command.input), command.level)
                                  : cloudOf(command.input);
-    writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
+    writeImage(command.output, pictureOf(cloud, settings), isForScreens(command.output), log);
   });
   return exitCodeOf(log);
 }

@@ -18,6 +18,7 @@
 #include "reyes/base/crash_note.h"
 #include "reyes/base/deep_stack.h"
 #include "reyes/base/input_file.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
@@ -105,6 +106,7 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
       ->type_name("SHOT.icf");
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
+  c->add_option("--baked", in.render.bakedFolder, "Brick maps of gathered light, for --gi baked")->type_name("FOLDER");
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
   addShotOptions(*c, in.render);
@@ -112,7 +114,8 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildInfo(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .dfb, .icf, .exr, .tif, .png or shader .sl or .so file");
+  CLI::App* c = app.add_subcommand(
+      "info", "What is in a .rib, .dfb, .icf, picture (" + pictureExtensions() + ") or shader .sl or .so file");
   c->add_option("FILE", in.first)->required();
   c->add_flag("--json", in.json, "As JSON");
   c->callback([&] { code = infoCommand(in.first, in.json); });
@@ -123,8 +126,7 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
   c->add_option("A", in.first)->required();
   c->add_option("B", in.second, "The reference")->required();
   c->add_flag("--json", in.json, "As JSON");
-  addParsed(*c, "--diff", in.difference, parseOutput, "FILE.exr|.tif|.png",
-            "Write the absolute difference as a picture");
+  addParsed(*c, "--diff", in.difference, parseOutput, pictureNames(), "Write the absolute difference as a picture");
   c->callback([&] { code = compareCommand(in.first, in.second, in.difference, in.json); });
 }
 
@@ -158,7 +160,7 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
   addParsed(
       *c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM",
       "Points along u and v (default 64x64)");
-  addParsed(*c, "-o", in.shadetest.output, parseOutput, "FILE.exr|.tif|.png", "Picture of Ci");
+  addParsed(*c, "-o", in.shadetest.output, parseOutput, pictureNames(), "Picture of Ci");
   c->add_flag("--check", in.shadetest.check,
               "Does the shader, or do all of the file, what they declare? Exit code 3 if not");
   c->callback([&] { code = shadetestCommand(in.shadetest); });
@@ -215,7 +217,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   CLI::App* view = app.add_subcommand(
       "view", "A picture of a point cloud, photon map, brick map, or of the records of an irradiance cache");
   view->add_option("FILE", in.view.input)->required();
-  addParsed(*view, "-o", in.view.output, parseOutput, "FILE.png|.exr|.tif", "The picture");
+  addParsed(*view, "-o", in.view.output, parseOutput, pictureNames(), "The picture");
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
   view->add_option("--level", in.view.level, "Level of a brick map, 0 the coarsest (default: the finest)");
   view->add_option("--camera", in.view.camera, "Look with the camera of this RIB file")->type_name("SCENE.rib");

@@ -1,14 +1,14 @@
 #include "reyes/app/commands/options.h"
 
 #include "reyes/base/deep_stack.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
 
-GiChoice giOrUsageError(const std::string& text) {
-  if (const auto choice = parseGi(text)) return *choice;
-  throw CLI::ValidationError(
-      "--gi", "\"" + text + "\" is none of scene, none, gather, atlas, points, radiosity, baked, reference");
+const GiMethod* giOrUsageError(const std::string& text) {
+  if (const auto method = parseGi(text)) return *method;
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, " + giMethodNames());
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ std::optional<std::string> parseOutput(const std::string& text) {
 }
 
 void addOutput(CLI::App& app, RenderSettings& s) {
-  addParsed(app, "-o", s.output, parseOutput, "FILE.exr|.tif|.png",
+  addParsed(app, "-o", s.output, parseOutput, pictureNames(),
             "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
             "scene without Display writes "
             "ri.exr");
@@ -61,14 +61,14 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, atlas, points, radiosity, baked, reference")
+         "Indirect light: scene (as the RIB says), " + giMethodNames())
       ->type_name("MODE");
   app.add_option("--samples", s.samples, "Gather rays of an irradiance sample, or paths of a point for the reference")
       ->check(CLI::Range(1, 1 << 20));
   app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   app.add_option("--max-error", s.maxError, "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(between(0.0, 1e6));
-  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian|split|plain",
+  addParsed(app, "--error-function", s.errorFunction, errorFunctionNamed, errorFunctionNames(),
             "How far an irradiance record may be used");
   app.add_flag_callback(
       "--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");

@@ -77,7 +77,7 @@ class RenderRun {
       const OrderlyEnd orderly;
       ++rendered_;
       applyOverrides(scene, settings_);
-      dropDisplays(scene.options, log_);
+      dropDisplays(scene.options, pluginTrust(settings_), log_);
       warnAboutOverwriting(scene);
       warnOfFloatRange(scene, log_);
       if (!settings_.draft) warnOfCoarseDicing(scene, log_);

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "reyes/app/exit_code.h"
-#include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/light_sources.h"
 #include "reyes/base/folder_lock.h"
 #include "reyes/base/output_root.h"
 #include "reyes/base/stop.h"
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool asksPoints(const RenderSettings& settings, const ShadingSystem& shading) {
-  return hitRadianceOf(settings.gi, shading) == HitRadianceChoice::Points;
+  return methodOf(settings, shading).byPointClouds;
 }
 
 /// Brick maps, so that a ray finds the mean over its footprint, of those point clouds that are there.
@@ -38,6 +38,10 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
       throw FileError(fmt::format("\"{}\" has no channel \"irradiance\"", points.string()));
     writeIrradianceBricks(points, atlasFile(folder, name, ".bkm"), settings);
   }
+}
+
+bool hasGeometry(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.shapes.empty(); });
 }
 
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
@@ -123,7 +127,8 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Shadi
     return nullptr;
   }
   try {
-    const AtlasSettings atlas = atlasSettings(settings, scene, shading);
+    AtlasSettings atlas = atlasSettings(settings, scene, shading);
+    if (!hasGeometry(scene)) atlas.world = 0;  // what the world of a shot was is not known
     auto maps = std::make_unique<const IrradianceAtlas>(
         settings.bakedFolder, scene, mapNames(scene, shading, atlas).ofSurfaces(), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);

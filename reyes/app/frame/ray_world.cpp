@@ -3,6 +3,7 @@
 #include "reyes/app/frame/hide.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
