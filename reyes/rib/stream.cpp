@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <new>
 
+#include "reyes/base/stop.h"
+
 namespace tomales::rib {
 namespace {
 constexpr size_t kBufferSize = 1 << 16;
@@ -55,6 +57,7 @@ std::unique_ptr<ByteStream> ByteStream::fromProgram(Source source) {
 }
 
 bool ByteStream::fill() {
+  throwIfStopped();
   if (closed_) return false;
   if (!inflater_) {
     const size_t n = source_(raw_.get(), kBufferSize);

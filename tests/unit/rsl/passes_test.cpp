@@ -147,6 +147,25 @@ TEST(Printed, PrintfWritesALineForEachActivePoint) {
   EXPECT_EQ(g.printed, (std::vector<std::string>{"3: 1.500000 of a\n"}));
 }
 
+// RenderMan Companion, listing 16.26: a glow that assigns Oi = 0 alone where it is not to be seen.
+TEST(Uncoloured, WhatIsTransparentAndWasGivenNoColourShowsNothing) {
+  const auto Ci = [](const std::string& body, int point) {
+    const CompiledText compiled("surface test() { " + body + " }");
+    EXPECT_TRUE(compiled.good()) << compiled.said();
+    ServedGrid g(5);
+    g.run(compiled.shader());
+    return g.grid.Ci.x[point];
+  };
+  const std::string glow = "if (s > 2) { Ci = Cs * 0.5; Oi = 0.5; } else Oi = 0;";
+  EXPECT_EQ(Ci(glow, 3), 0.125f);
+  EXPECT_EQ(Ci(glow, 1), 0);
+  EXPECT_EQ(Ci("Oi = 0;", 1), 0);
+  EXPECT_EQ(Ci("if (s > 2) return; Oi = 0;", 1), 0);
+  EXPECT_EQ(Ci("if (s > 2) return; Oi = 0;", 3), 0.25f);
+  EXPECT_EQ(Ci("Oi = 0.5;", 1), 0.25f);
+  EXPECT_EQ(Ci("Ci = Cs; Oi = 0;", 1), 0.25f) << "light that covers nothing is added";
+}
+
 TEST(Given, ParametersOfPrimitiveVariablesVary) {
   const CompiledText compiled(
       "surface test(float p = 3; color q = 1; output varying float x = 0; output varying color c = 0) {"

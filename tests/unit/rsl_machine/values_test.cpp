@@ -157,7 +157,7 @@ TEST_F(Values, OutputsStartWithTheirDefault) {
   fake.active[1] = 0;
   run();
   expect({out(0, 0), out(0, 0, 1), out(0, 0, 2)}, {1, 2, 3});
-  EXPECT_EQ(out(1, 1), 0) << "not active";
+  EXPECT_EQ(out(0, 1), 0) << "not active";
 }
 
 TEST_F(Values, OutputsThatNobodyWantsAreNotStored) {
