@@ -52,7 +52,8 @@ struct RibSettings {
   std::function<void(const Request&)> onMake;
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
-  bool allowSystem = false;  ///< System and Procedural "RunProgram" may start programs, "DynamicLoad" load plugins.
+  bool allowSystem = false;    ///< System and Procedural "RunProgram" may start programs, "DynamicLoad" load plugins.
+  std::string allowedProgram;  ///< RunProgram may start this command in any case; empty: none.
   double programPatience_s = 60;  ///< The longest that a RunProgram may keep us waiting.
 };
 
@@ -65,6 +66,11 @@ bool readRibText(const std::string& text, const std::string& name, const RibSett
 /// The requests as they are written: archives, conditions and programs are not followed. Returns as readRib.
 bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
+
+/// The request table, a line for each request: its name, the letters of its arguments (reyes/rib/request_table.h) or -,
+/// "parameters" or -, and what becomes of it: "works", "draws" (works, and the picture needs it), "ignored", or
+/// "missing" (ignored, though the picture needs it).
+std::string ribRequests();
 
 /// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that
 /// the last Attribute "identifier" "name" has named (none: all), LightSource to the light of that handle, Exposure,

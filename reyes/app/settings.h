@@ -58,6 +58,7 @@ struct RenderSettings {
   std::string preview;                     ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;  ///< To explain.
   bool allowSystem = false;                ///< The RIB may start programs and load plugins.
+  std::string allowedProgram;              ///< The RIB may start this command in any case; empty: none.
   std::string shaderFolders;  ///< The user's, separated by colons: their plugins are trusted whatever the RIB may do.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;

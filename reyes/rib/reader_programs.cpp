@@ -90,7 +90,7 @@ bool Reader::canRead(const Request& r, const std::string& kind, const std::strin
                        : plugin ? "plugin"
                                 : "file"));
   else
-    return !(program || plugin) || allowed(r, what);
+    return !(program || plugin) || (program && what == settings_.allowedProgram) || allowed(r, what);
   return false;
 }
 

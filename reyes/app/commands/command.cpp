@@ -1,6 +1,7 @@
 #include "reyes/app/commands/command.h"
 
 #include <csignal>
+#include <cstdio>
 
 #include "reyes/app/chart/chart.h"
 #include "reyes/app/chart/stability.h"
@@ -18,6 +19,7 @@
 #include "reyes/base/crash_note.h"
 #include "reyes/base/deep_stack.h"
 #include "reyes/base/input_file.h"
+#include "reyes/rib.h"
 
 namespace tomales {
 namespace {
@@ -56,6 +58,9 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
        "--baked", in.render.bakedFolder,
        "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
+  c->add_option("--allow-program", in.render.allowedProgram,
+                "The RIB may start this program, by this very command, and no other")
+      ->type_name("COMMAND");
   addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
             "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
@@ -173,6 +178,12 @@ void buildCatrib(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = catribCommand(in.catrib); });
 }
 
+void buildRequests(CLI::App& app) {
+  app.add_subcommand("requests",
+                     "Every request of RIB with its arguments, for programs that write it (reyes/rib.h:ribRequests)")
+      ->callback([] { std::fputs(ribRequests().c_str(), stdout); });
+}
+
 void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   CLI::App* photons = app.add_subcommand("photons", "Photon maps of a scene, one file for each group of objects");
   photons->add_option("-o", in.render.output, "Folder to write to")->required()->type_name("FOLDER");
@@ -274,8 +285,9 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
 }
 
 bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert",
-                           "info", "compare", "chart", "catrib", "shadetest", "compile", "-h", "--help", "--version"})
+  for (const char* name :
+       {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert", "info", "compare",
+        "chart", "catrib", "requests", "shadetest", "compile", "-h", "--help", "--version"})
     if (text == name) return true;
   return false;
 }
@@ -295,6 +307,7 @@ int parseAndRun(int argc, char** argv) {
   buildCompare(app, in, code);
   buildChart(app, in, code);
   buildCatrib(app, in, code);
+  buildRequests(app);
   buildCompile(app, in, code);
   buildShadetest(app, in, code);
   buildAtlas(app, in, code);

@@ -37,6 +37,7 @@ class RenderRun {
   int run() {
     RibSettings rib;
     rib.allowSystem = settings_.allowSystem;
+    rib.allowedProgram = settings_.allowedProgram;
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
     rib.onMake = [this](const Request& request) {
       made_ = true;
