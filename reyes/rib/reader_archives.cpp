@@ -5,6 +5,7 @@
 
 #include "reyes/base/search_path.h"
 #include "reyes/rib/reader.h"
+#include "reyes/rib/zip.h"
 
 namespace tomales::rib {
 namespace {
@@ -124,7 +125,9 @@ std::string Reader::findFile(const std::string& written, const char* category) c
   folders.insert(folders.end(), settings_.archivePath.begin(), settings_.archivePath.end());
   std::error_code ignored;
   for (const fs::path folder : folders)
-    if (const fs::path path = folder / name; fs::is_regular_file(path, ignored)) return path.string();
+    if (const fs::path path = folder / name;
+        fs::is_regular_file(path, ignored) || fs::is_regular_file(fileOfMember(path.string()), ignored))
+      return path.string();
   return "";
 }
 

@@ -77,6 +77,7 @@ constexpr Signature kTable[] = {
     {"ColorSamples", "FF", kNone, kWorks},
     {"RelativeDetail", "f", kNone, kWorks},
     {"Option", "s", kParams, kWorks},
+    {"Options", "sh", kParams, kNotYet},
     // Attributes
     {"Attribute", "s", kParams, kWorks},
     {"Color", "c", kNone, kWorks},

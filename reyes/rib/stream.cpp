@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <new>
 
+#include "reyes/rib/zip.h"
+
 namespace tomales::rib {
 namespace {
 constexpr size_t kBufferSize = 1 << 16;
@@ -31,7 +33,10 @@ std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
   std::error_code ignored;
   if (path != "-" && std::filesystem::is_directory(path, ignored)) return nullptr;
   std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
-  if (!file) return nullptr;
+  if (!file) {
+    Source member = zipMember(path);
+    return member ? std::unique_ptr<ByteStream>(new ByteStream(std::move(member))) : nullptr;
+  }
   const std::shared_ptr<std::FILE> owner(file, [](std::FILE* f) {
     if (f != stdin) std::fclose(f);
   });

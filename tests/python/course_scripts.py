@@ -33,6 +33,8 @@ given = options.parse_args()
 temporary = tempfile.TemporaryDirectory()
 copy = given.keep or pathlib.Path(temporary.name, "copy")
 shutil.copytree(given.folder, copy, dirs_exist_ok=True)
+for shader in copy.rglob("*.osl"):
+    shader.with_suffix(".oso").touch()  # some scripts want their shaders compiled; the renderer has other ones in their place
 small = "-t 1 --draft --format 64x48"
 environment = {**os.environ, "PYTHONPATH": str(bindings), "PYTHONDONTWRITEBYTECODE": "1", "TOMALES_RENDER_OPTIONS": small,
                "TOMALES": tomales.program.find(), "TOMALES_TEXTURE_CACHE": str(pathlib.Path(temporary.name, "textures"))}

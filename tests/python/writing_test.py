@@ -108,6 +108,7 @@ class Spellings(unittest.TestCase):
         expected = 'Surface "plastic" "Kd" [0.5] "texturename" ["a.tif"]'
         self.assertEqual(self.line(lambda ri: ri.Surface("plastic", {"Kd": 0.5, "texturename": "a.tif"})), expected)
         self.assertEqual(self.line(lambda ri: ri.Surface("plastic", Kd=[0.5], texturename=["a.tif"])), expected)
+        self.assertEqual(self.line(lambda ri: ri.Surface("plastic", {"Kd": 0.5}, "texturename", "a.tif")), expected)
         self.assertEqual(self.line(lambda ri: ri.Surface("plastic", None)), 'Surface "plastic"')
 
     def test_handles_are_given_or_made(self):
@@ -115,7 +116,7 @@ class Spellings(unittest.TestCase):
         text = written("ascii", lambda ri: handles.extend([
             ri.LightSource("pointlight", {ri.HANDLEID: "key", "intensity": 2}), ri.LightSource("pointlight"), ri.ObjectBegin(), ri.Light("PxrRectLight", "rect"),
         ])).decode()
-        self.assertEqual(handles, ["key", 1, 2, "rect"])
+        self.assertEqual(handles, ["key", "1", "2", "rect"])
         for line in ('LightSource "pointlight" "key" "intensity" [2]\n', 'LightSource "pointlight" 1\n', "ObjectBegin 2\n", 'Light "PxrRectLight" "rect"\n'):
             self.assertIn(line, text)
 

@@ -11,8 +11,9 @@ class CallError(Exception):
     """A call that cannot become a request, and why."""
 
 
-def encoded(signature: Signature, arguments: list[Any], encoder: Encoder, color_samples: int = 3) -> list[bytes]:
-    """One piece of RIB for each positional argument. Raises CallError.
+def encoded(signature: Signature, arguments: list[Any], encoder: Encoder, color_samples: int = 3) -> tuple[list[bytes], dict[str, Any]]:
+    """Pieces of RIB for the positional arguments, and the parameters that follow them as tokens and values (as in C:
+    Surface("plastic", "Kd", 0.5)). Raises CallError.
 
     Fixed numbers of numbers may be bare or in lists, and lists may be nested: Rotate(30, 1, 0, 0), Rotate(30, [1, 0, 0]).
     """
@@ -28,9 +29,10 @@ def encoded(signature: Signature, arguments: list[Any], encoder: Encoder, color_
             out += _one(letter, left, encoder, color_samples)
         except (TypeError, ValueError, OverflowError) as problem:
             raise CallError(f"{kind}: {problem}") from None
-    if left:
+    tokens, values = left[::2], left[1::2]
+    if len(tokens) != len(values) or not all(isinstance(token, str) for token in tokens):
         raise CallError(f"{len(left)} arguments more than it takes")
-    return out
+    return out, dict(zip(tokens, values))
 
 
 def _one(letter: str, left: list[Any], encoder: Encoder, color_samples: int) -> list[bytes]:
@@ -48,6 +50,8 @@ def _one(letter: str, left: list[Any], encoder: Encoder, color_samples: int) -> 
     if len(values) != 1:
         raise ValueError(f"one value is needed, not {len(values)}")
     value = values[0]
+    if letter == "h" and str(value).isdigit():
+        value = int(value)  # the handles of RISpec 3.2
     if isinstance(value, str):
         if letter in "fi":
             raise ValueError(f'a number is needed, not "{value}"')

@@ -167,7 +167,7 @@ class Ri:
         given = named.pop(key) if key is not None else None
         if len(positional) <= at:
             stream.handles += given is None
-            value = stream.handles if given is None else given
+            value = str(stream.handles) if given is None else given
             positional.append(value[0] if isinstance(value, (list, tuple)) else value)
         return positional[at]
 

@@ -55,7 +55,8 @@ class Stream:
     def request(self, signature: Signature, arguments: list[Any], parameters: dict[str, Any], place: Place) -> None:
         """Raises CallError; nothing is written then."""
         encoder = self.form.encoder
-        parts = encoded(signature, arguments, encoder, self.color_samples)
+        parts, more = encoded(signature, arguments, encoder, self.color_samples)
+        parameters = {**parameters, **more}
         if parameters and not signature.takes_parameters:
             raise CallError("it takes no parameters")
         for token, value in parameters.items():
