@@ -57,7 +57,7 @@ class Requests(unittest.TestCase):
         self.assertGreater(len(SIGNATURES), 120)
 
     def test_every_request_is_a_method_that_the_renderer_reads(self):
-        special = {"version", "Option", "Procedural"}  # have tests of their own
+        special = {"version", "Option", "Procedural", "Declare"}  # have tests of their own
         for form in ("ascii", "binary"):
             for name, signature in SIGNATURES.items():
                 if name in special:
@@ -69,10 +69,16 @@ class Requests(unittest.TestCase):
                 self.assertIn(name, text)
                 self.assertEqual("0.5 2" in text, bool(parameters), text)
 
+    def test_declarations_return_their_names(self):
+        names = []
+        rib = written("ascii", lambda ri: names.append(ri.Declare("heat", "varying float")))
+        self.assertTrue(rib.endswith(b'Declare "heat" "varying float"\n'))
+        self.assertEqual(names, ["heat"])
+
     def test_text_and_code_say_the_same(self):
         def calls(ri):
             for name, signature in SIGNATURES.items():
-                if name not in ("version", "Option", "Procedural", "ColorSamples"):
+                if name not in ("version", "Option", "Procedural", "Declare", "ColorSamples"):
                     getattr(ri, name)(*arguments_of(signature))
             for size in (1, 127, 128, -128, -129, 32767, 8388608, 2**31 - 1, -(2**31)):
                 ri.PointsPolygons([size], [1, size], {"float[4] mine": [size, 0.5, 1e30, -1e-30], "string[2] s": ["", "z" * 300]})

@@ -1,4 +1,6 @@
 // Archives that are members of zip files.
+#include <unistd.h>
+
 #include <fstream>
 
 #include "reyes/rib/stream.h"
@@ -43,7 +45,7 @@ std::string zipOf(const std::string& text, bool damaged = false) {
 
 /// A zip file at this path.
 std::string written(const std::string& content) {
-  const std::string path = testing::TempDir() + "tomales_models.zip";
+  const std::string path = testing::TempDir() + "tomales_models_" + std::to_string(getpid()) + ".zip";
   std::ofstream(path, std::ios::binary) << content;
   return path;
 }

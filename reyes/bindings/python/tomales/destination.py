@@ -16,7 +16,7 @@ from typing import IO, Protocol
 
 from . import program
 
-#: Gets detail and data of a procedural and returns RIB.
+#: Gets detail and data of a procedural, and returns what relay.py passes on.
 Answer = Callable[[float, str], bytes]
 
 
@@ -43,7 +43,7 @@ def open_destination(name: object, answer: Answer, compress: bool) -> Destinatio
         command, _, arguments = text[len("launch:") :].partition("?")
         given = [a for a in shlex.split(arguments) if not a.startswith(("-ctrl", "$ctrl", "-xcpt"))]
         if pathlib.Path(command.strip()).name in ("prman", "render", "tomales"):
-            return Renderer(program.from_prman(given) + program.more_options(), answer)
+            return Renderer(program.merged(program.from_prman(given) + program.more_options()), answer)
         return Piped([command.strip(), *given])
     return File(open(text, "wb"), compress, close=True)
 
@@ -175,5 +175,5 @@ class Renderer(Piped):
                 return relay.close()
             question += part
         detail, _, data = question.decode().rstrip("\n").partition(" ")
-        rib = self._answer(float(detail), data)
-        relay.sendall(len(rib).to_bytes(8, "big") + rib)
+        answer = self._answer(float(detail), data)
+        relay.sendall(len(answer).to_bytes(8, "big") + answer)

@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from .ri import Ri
 
 
+_CLOSED = b"\xff"  # RunProgram's protocol: RISpec 3.2, section 5.10
+
+
 class Procedurals:
     """Those of one stream. The renderer knows them by their numbers."""
 
@@ -34,7 +37,7 @@ class Procedurals:
             free(data)
 
     def answer(self, detail: float, number: str) -> bytes:
-        """The RIB of a procedural. What its function raises becomes an error, and what it wrote before is used."""
+        """The RIB of a procedural, and the byte that closes it: not where its function raises, which becomes an error."""
         data, subdivide, _ = self._all[int(number)]
         stream = self._ri._stream
         assert stream is not None
@@ -43,7 +46,8 @@ class Procedurals:
             subdivide(data, detail)
         except Exception:
             self._ri._error("Procedural", traceback.format_exc().rstrip())
-        return stream.end_answer()
+            return stream.end_answer()
+        return stream.end_answer() + _CLOSED
 
     def free(self) -> None:
         for data, _, free in self._all:

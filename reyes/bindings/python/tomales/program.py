@@ -32,7 +32,19 @@ def find() -> str:
 
 def more_options() -> list[str]:
     """Options of every rendering that is started from Python: those of Init and of $TOMALES_RENDER_OPTIONS."""
-    return _more + shlex.split(os.environ.get("TOMALES_RENDER_OPTIONS", ""))
+    return merged(_more + shlex.split(os.environ.get("TOMALES_RENDER_OPTIONS", "")))
+
+
+def merged(options: Iterable[str]) -> list[str]:
+    """Every option once, with its latest values: the command line takes none twice."""
+    groups: dict[str, list[str]] = {}
+    name = ""
+    for word in options:
+        if word.startswith("-") and not word[1:2].isdigit():
+            name = word
+            groups.pop(name, None)
+        groups.setdefault(name, []).append(word)
+    return [word for group in groups.values() for word in group]
 
 
 def from_prman(arguments: Iterable[str]) -> list[str]:
