@@ -7,6 +7,7 @@
 #include <functional>
 #include <iosfwd>
 
+#include "reyes/base/trust.h"
 #include "reyes/scene.h"
 
 namespace tomales {
@@ -52,8 +53,7 @@ struct RibSettings {
   std::function<void(const Request&)> onMake;
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
-  bool allowSystem = false;    ///< System and Procedural "RunProgram" may start programs, "DynamicLoad" load plugins.
-  std::string allowedProgram;  ///< RunProgram may start this command in any case; empty: none.
+  Trust trust{};  ///< Of the programs of System and Procedural "RunProgram", and the plugins of "DynamicLoad".
   double programPatience_s = 60;  ///< The longest that a RunProgram may keep us waiting.
 };
 

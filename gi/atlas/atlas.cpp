@@ -13,6 +13,7 @@
 #include "reyes/base/folder_lock.h"
 #include "reyes/base/process.h"
 #include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_folder.h"
 
 namespace tomales {
 namespace {
@@ -175,6 +176,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
       scene, rays, shading, settings.photons,
       [&](std::span<const StoredPhoton> photons) { std::for_each(photons.begin(), photons.end(), add); }, progress,
       stats, log);
+  UnfinishedFolder set(folder);
   for (auto& [name, file] : files) {
     file.finish({settings.world, photonInputs(names, settings)});
     if (file.count() == 0)
@@ -182,6 +184,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
                  fmt::format("no photon came to the objects of photon map \"{}\"{}", name,
                              settings.photons.direct ? "" : " but straight from lights"));
   }
+  set.finish();
   stats.photons.emitted += figures.emitted, stats.photons.stored += figures.stored;
   stats.photons.groups += static_cast<int64_t>(files.size());
   return figures;

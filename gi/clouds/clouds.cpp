@@ -8,6 +8,7 @@
 
 #include "gi/photons/irradiance.h"
 #include "gi/point_file.h"
+#include "reyes/base/output_root.h"
 #include "reyes/base/search_path.h"
 
 namespace tomales {
@@ -233,7 +234,7 @@ void CloudFiles::write(Log& log) {
                  fmt::format("{} of {} baked points are not finite or have a negative radius; dropped", baked.dropped,
                              baked.dropped + baked.cloud.count()));
     try {
-      writePointFile(sorted(baked.cloud), file);
+      writePointFile(sorted(baked.cloud), placeBelow(outputRoot_, file));
     } catch (const FileError& e) {
       log.report(Severity::Output, "bake3d", where, e.what());
     }

@@ -78,8 +78,9 @@ bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& e
   return error.empty();
 }
 
-bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, bool sealed,
-           std::string& error) {
+/// `scratch`: a folder of the same file system. What a killed process has left there is removed.
+bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, const fs::path& scratch,
+           bool sealed, std::string& error) {
   OIIO::ImageSpec config;
   const bool exr = fs::path(file).extension() == ".exr";
   config.attribute("maketx:fileformatname", exr ? "openexr" : "tiff");
@@ -88,7 +89,7 @@ bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std
   try {
     // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a
     // killed process would leave.
-    const TemporaryFolder folder(throughLinks(file).parent_path());
+    const TemporaryFolder folder(scratch);
     const fs::path made = folder.path() / "texture";
     if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, made.string(), config))
       error = oiioError();
@@ -122,7 +123,8 @@ Making convert(const TextureRecipe& recipe, std::string& error) {
   else if (OIIO::ImageBuf whole; readWhole(recipe.pictures.front(), whole, error))
     picture = std::move(whole);
   if (!picture) return Making::Unreadable;
-  return write(*picture, recipe, recipe.file, false, error) ? Making::Done : Making::Unwritable;
+  const fs::path beside = throughLinks(recipe.file).parent_path();
+  return write(*picture, recipe, recipe.file, beside, false, error) ? Making::Done : Making::Unwritable;
 }
 
 std::string tiledFile(const std::string& picture, const std::string& folder, std::string& error, std::string& note) {
@@ -142,7 +144,7 @@ std::string tiledFile(const std::string& picture, const std::string& folder, std
   fs::create_directories(file.parent_path(), problem);
   TextureRecipe recipe;
   // A cache that cannot be written costs time and memory, and nothing else: OpenImageIO makes the levels in memory.
-  if (problem || !write(whole, recipe, file.string(), true, error)) return error.clear(), picture;
+  if (problem || !write(whole, recipe, file.string(), folder, true, error)) return error.clear(), picture;
   return file.string();
 }
 

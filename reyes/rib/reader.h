@@ -109,6 +109,9 @@ class Reader {
 
   // Plugins (reader_plugins.cpp)
   void dynamicLoad(const Request& request);
+  /// Empty, and reported: there is no such file, or none that may be loaded.
+  std::string pluginFile(const Request& request, const std::string& name) const;
+  void missingPlugin(const Request& request, const std::string& name, const std::string& why) const;
   void callPlugin(const Request& request, const std::string& name, const std::function<void(float)>& subdivide);
   void takeCall(const RiCall& call);
 

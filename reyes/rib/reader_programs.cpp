@@ -91,7 +91,7 @@ bool Reader::canRead(const Request& r, const std::string& kind, const std::strin
                        : plugin ? "plugin"
                                 : "file"));
   else
-    return !(program || plugin) || (program && what == settings_.allowedProgram) || allowed(r, what);
+    return program ? what == settings_.trust.program || allowed(r, what) : !plugin || !pluginFile(r, what).empty();
   return false;
 }
 
@@ -123,11 +123,12 @@ void Reader::delayedArchive(const Request& r) {
 void Reader::perform(const char* blockName, const SourceLoc& where) { builder_.request({blockName, {}, {}, where}); }
 
 bool Reader::allowed(const Request& r, const std::string& command) const {
-  if (!settings_.allowSystem)
+  if (!settings_.trust.programs)
     report(Severity::Missing, "rib-system", r,
-           fmt::format("\"{}\" is not run, because programs and plugins of scenes are not allowed (--allow-system)",
+           fmt::format("\"{}\" is not run, because programs of a scene can do whatever you can; --allow-system allows "
+                       "them",
                        command.substr(0, 200)));
-  return settings_.allowSystem;
+  return settings_.trust.programs;
 }
 
 // RISpec 3.2 section 5.10: one line of detail and data in, RIB out, closed by 0377; then the program waits for the next

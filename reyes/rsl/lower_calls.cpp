@@ -136,7 +136,8 @@ int32_t Lowering::builtin(const Expr& e, const Builtin& b) {
       return compute(Op::ShaderName, {of_});
     }
     case Emit::Print: {
-      const std::vector<int32_t> in = arguments(e, b, e.args.size());
+      std::vector<int32_t> in = arguments(e, b, e.args.size());
+      for (size_t i = 0; i < in.size(); ++i) in[i] = widened(in[i], e.args[i]->type);
       if (b.op != Op::Print) return compute(b.op, in);
       emit(b.op, {}, in);
       return number(0);
@@ -200,7 +201,7 @@ std::vector<Setting> Lowering::settings(const std::vector<ExprPtr>& list, size_t
     Setting s;
     s.fills = name.kind == ExprKind::String && isFilled(function, name.text);
     s.name = value(name);
-    s.value = s.fills ? target(of, after) : value(of);
+    s.value = s.fills ? target(of, after) : widened(value(of), of.type);
     s.base = of.type.base;
     out.push_back(s);
   }

@@ -78,6 +78,10 @@ std::vector<std::string> nearNames(std::string_view wanted, const std::vector<st
   const size_t farthest = std::max<size_t>(1, wanted.size() / 3);
   std::vector<std::pair<size_t, const std::string*>> near;
   for (const std::string& name : known) {
+    if (std::ranges::equal(name, wanted, [](char a, char b) { return std::tolower(a) == std::tolower(b); })) {
+      near.emplace_back(0, &name);
+      continue;
+    }
     const size_t difference = name.size() > wanted.size() ? name.size() - wanted.size() : wanted.size() - name.size();
     if (difference > farthest) continue;
     const size_t distance = editDistance(wanted, name);

@@ -93,7 +93,7 @@ TmConstVec3 Batch::velocity() {
 
 void Batch::openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin) {
   for (const BoundVariable& v : variables) {
-    if (v.from != BoundVariable::From::Output) continue;
+    if (v.from != VariableSource::Output) continue;
     TmValue& value = params_[static_cast<size_t>(v.index)];
     for (int k = 0; k < v.width; ++k) {
       float* to = out.variables[static_cast<size_t>(v.first + k)].data() + begin;
@@ -112,7 +112,7 @@ void Batch::closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoin
     std::copy_n(k == 0 ? tm.Oi.x : k == 1 ? tm.Oi.y : tm.Oi.z, n, out.Oi[k].data() + begin);
   }
   for (const BoundVariable& v : variables)
-    for (int k = 0; v.from == BoundVariable::From::Output && k < v.width; ++k)
+    for (int k = 0; v.from == VariableSource::Output && k < v.width; ++k)
       std::copy_n(params_[static_cast<size_t>(v.index)].c[k], n,
                   out.variables[static_cast<size_t>(v.first + k)].data() + begin);
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "reyes/shade/substitute.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 

@@ -4,6 +4,7 @@
 
 #include "reyes/shade/binder.h"
 #include "reyes/shader/params.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -45,7 +46,7 @@ void findPrimvars(BoundGroup& g) {
 void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
   for (size_t i = 0; i < output.variables.size(); ++i) {
     const Variable& v = output.variables[i];
-    const auto writes = [&](const BoundGroup& g) { return g.variables[i].from != BoundVariable::From::Nothing; };
+    const auto writes = [&](const BoundGroup& g) { return g.variables[i].from != VariableSource::Nothing; };
     if (std::any_of(scene.groups.begin(), scene.groups.end(), writes)) continue;
     scene.log.report(Severity::Warning, fmt::format("channel-unwritten {}", v.source), v.where,
                      fmt::format("no shader and no surface of this frame has an output \"{}\"; the channel holds {}",

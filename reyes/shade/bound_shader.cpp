@@ -6,6 +6,7 @@
 
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shade/roles.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {

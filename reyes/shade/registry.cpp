@@ -5,12 +5,16 @@
 #include <filesystem>
 #include <set>
 
+#include "reyes/base/crash_note.h"
 #include "reyes/base/input_file.h"
+#include "reyes/base/loaded_plugins.h"
+#include "reyes/base/plugin_trial.h"
+#include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
-#include "reyes/shade.h"
-#include "reyes/shade/plugin_trial.h"
+#include "reyes/base/trust.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shade/rsl_shaders.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
@@ -134,6 +138,8 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
     untriedSaid = true,
     log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
                "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
+  noteLoadedPlugin(path);
+  const CrashNote note({"shader plugin", path.c_str(), "while plugins are loaded", nullptr, nullptr, 0});
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
@@ -143,15 +149,6 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
 
 namespace {
 
-std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath) {
-  std::vector<std::string> out;
-  for (const fs::path folder : foldersOf(searchPath)) {
-    std::error_code none;
-    if (const fs::path file = folder / (name + ".so"); fs::is_regular_file(file, none)) out.push_back(file.string());
-  }
-  return out;
-}
-
 /// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which is held against it.
 bool isOfSpecification(std::string_view name) {
   static constexpr std::string_view kNames[] = {
@@ -160,26 +157,13 @@ bool isOfSpecification(std::string_view name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// Does the name of a shader lead out of the folders that it is looked for in?
-bool leavesFolders(const fs::path& name) {
-  return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
-}
-
 }  // namespace
 
 std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& name, const std::string& searchPath) {
-  std::vector<std::string> out;
-  if (!leavesFolders(name)) out = pluginFiles(name, trust.folders);
-  for (const std::string& file : pluginFiles(name, searchPath.empty() ? "." : searchPath)) {
-    if (trust.sceneFolders)
-      out.push_back(file);
-    else if (out.empty() && distrusted.insert(file).second)
-      refuse(file,
-             "is native code in a folder that the scene names, and is not loaded; --shaders FOLDER names a folder "
-             "whose plugins you trust, "
-             "--allow-system trusts those of the scene");
-  }
-  return out;
+  PluginFiles found = findPlugins(name, searchPath, trust);
+  for (const std::string& file : found.refused)
+    if (distrusted.insert(file).second) refuse(file, kPluginRefusal);
+  return std::move(found.trusted);
 }
 
 ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust)

@@ -12,6 +12,7 @@
 
 #include "reyes/base/input_file.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {

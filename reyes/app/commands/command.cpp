@@ -19,6 +19,7 @@
 #include "reyes/base/crash_note.h"
 #include "reyes/base/deep_stack.h"
 #include "reyes/base/input_file.h"
+#include "reyes/image.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -58,7 +59,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
        "--baked", in.render.bakedFolder,
        "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
-  c->add_option("--allow-program", in.render.allowedProgram,
+  c->add_option("--allow-program", in.render.trust.program,
                 "The RIB may start this program, by this very command, and no other")
       ->type_name("COMMAND");
   addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
@@ -110,6 +111,7 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
       ->type_name("SHOT.icf");
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
+  c->add_option("--baked", in.render.bakedFolder, "Brick maps of gathered light, for --gi baked")->type_name("FOLDER");
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
   addShotOptions(*c, in.render);
@@ -117,7 +119,8 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildInfo(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .dfb, .icf, .exr, .tif, .png or shader .sl or .so file");
+  CLI::App* c = app.add_subcommand(
+      "info", "What is in a .rib, .dfb, .icf, picture (" + pictureExtensions() + ") or shader .sl or .so file");
   c->add_option("FILE", in.first)->required();
   c->add_flag("--json", in.json, "As JSON");
   c->callback([&] { code = infoCommand(in.first, in.json); });
@@ -128,8 +131,7 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
   c->add_option("A", in.first)->required();
   c->add_option("B", in.second, "The reference")->required();
   c->add_flag("--json", in.json, "As JSON");
-  addParsed(*c, "--diff", in.difference, parseOutput, "FILE.exr|.tif|.png",
-            "Write the absolute difference as a picture");
+  addParsed(*c, "--diff", in.difference, parseOutput, pictureNames(), "Write the absolute difference as a picture");
   c->callback([&] { code = compareCommand(in.first, in.second, in.difference, in.json); });
 }
 
@@ -163,7 +165,7 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
   addParsed(
       *c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM",
       "Points along u and v (default 64x64)");
-  addParsed(*c, "-o", in.shadetest.output, parseOutput, "FILE.exr|.tif|.png", "Picture of Ci");
+  addParsed(*c, "-o", in.shadetest.output, parseOutput, pictureNames(), "Picture of Ci");
   c->add_flag("--check", in.shadetest.check,
               "Does the shader, or do all of the file, what they declare? Exit code 3 if not");
   c->callback([&] { code = shadetestCommand(in.shadetest); });
@@ -226,7 +228,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   CLI::App* view = app.add_subcommand(
       "view", "A picture of a point cloud, photon map, brick map, or of the records of an irradiance cache");
   view->add_option("FILE", in.view.input)->required();
-  addParsed(*view, "-o", in.view.output, parseOutput, "FILE.png|.exr|.tif", "The picture");
+  addParsed(*view, "-o", in.view.output, parseOutput, pictureNames(), "The picture");
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
   view->add_option("--level", in.view.level, "Level of a brick map, 0 the coarsest (default: the finest)");
   view->add_option("--camera", in.view.camera, "Look with the camera of this RIB file")->type_name("SCENE.rib");
@@ -267,7 +269,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       ->check(CLI::Range(2, 10000));
   c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
-  addTrust(*c, s.allowSystem, s.shaderFolders);
+  addTrust(*c, s.trust);
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
       ->type_name("FOLDER");
   c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);

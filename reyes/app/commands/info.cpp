@@ -12,30 +12,17 @@
 #include "gi/point_file.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/settings.h"
+#include "reyes/base/apart.h"
 #include "reyes/dfb.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* nameOf(ErrorFunction function) {
-  switch (function) {
-    case ErrorFunction::Ward:
-      return "ward";
-    case ErrorFunction::Hessian:
-      return "hessian";
-    case ErrorFunction::Split:
-      return "split";
-    case ErrorFunction::Plain:
-      return "plain";
-    default:
-      return "screen";
-  }
-}
 
 Json sceneInfo(const Scene& scene) {
   std::set<std::string> shaders;
@@ -126,9 +113,28 @@ Json paramInfo(const TmParamDecl& p) {
   return out;
 }
 
+/// What a scene may give to an output, which is a parameter of its own. Null: nothing.
+const TmParamDecl* inputOf(const TmShader& s, const TmParamDecl& output) {
+  for (int i = 0; i < s.paramCount; ++i)
+    if (!(s.params[i].type & TM_OUTPUT) && std::string_view(s.params[i].name) == output.name) return &s.params[i];
+  return nullptr;
+}
+
+bool hasOutput(const TmShader& s, const TmParamDecl& input) {
+  return std::any_of(s.params, s.params + s.paramCount, [&](const TmParamDecl& p) {
+    return (p.type & TM_OUTPUT) != 0 && std::string_view(p.name) == input.name;
+  });
+}
+
 Json shaderInfo(const TmShader& s) {
   Json params = Json::array();
-  for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
+  for (int i = 0; i < s.paramCount; ++i) {
+    const TmParamDecl& p = s.params[i];
+    const bool output = (p.type & TM_OUTPUT) != 0;
+    if (!output && hasOutput(s, p)) continue;
+    params.push_back(paramInfo(p));
+    if (const TmParamDecl* input = output ? inputOf(s, p) : nullptr) params.back()["default"] = defaultOf(*input);
+  }
   Json standard = Json::array();
   for (const TmParamDecl& p : standardParams(static_cast<TmKind>(s.kind))) standard.push_back(paramInfo(p));
   return {{"name", s.name},
@@ -150,25 +156,32 @@ Json textInfo(const std::string& path, Log& log) {
     const TmShader& shader = *file->library()->shaders[k];
     Json about = shaderInfo(shader);
     const std::vector<RslParameter> details = file->parameters(shader);
-    for (size_t p = 0; p < details.size(); ++p) {
-      if (!details[p].detail.empty()) about["parameters"][p]["detail"] = details[p].detail;
-      if (details[p].computed) about["parameters"][p]["default"] = "computed";
-    }
+    for (size_t at = 0; at < details.size(); ++at)
+      for (Json& p : about["parameters"]) {
+        if (p["name"] != shader.params[at].name) continue;
+        if (!details[at].detail.empty()) p["detail"] = details[at].detail;
+        if (details[at].computed) p["default"] = "computed";
+      }
     shaders.push_back(std::move(about));
   }
   return {{"file", path}, {"kind", "shaders"}, {"shaders", shaders}};
 }
 
+/// Its code runs, and may crash, in a process of its own.
 Json pluginInfo(const std::string& file, Log& log) {
-  ShaderRegistry registry(log);
-  if (!registry.loadPlugin(std::filesystem::absolute(file).string())) {
-    log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0},
-               "is not a shader plugin of this version");
-    return {};
-  }
-  Json shaders = Json::array();
-  for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
-  return {{"file", file}, {"kind", "shaders"}, {"shaders", shaders}};
+  constexpr int kMostSeconds = 20;
+  const auto describe = [&] {
+    ShaderRegistry registry(log);
+    if (!registry.loadPlugin(std::filesystem::absolute(file).string())) return std::string();
+    Json shaders = Json::array();
+    for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
+    return shaders.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  std::string fate = "is not a shader plugin of this version";
+  const std::string shaders = madeApart(describe, kMostSeconds, fate).value_or("");
+  if (!shaders.empty()) return {{"file", file}, {"kind", "shaders"}, {"shaders", Json::parse(shaders)}};
+  log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0}, fate);
+  return {};
 }
 
 void unreadable(const std::string& file, const char* kind, const std::string& error, Log& log) {
@@ -225,7 +238,7 @@ Json icfInfo(const std::string& file, Log& log) {
     for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
     caches.push_back({{"records", c.cache.records().size()},
                       {"frames", c.frames.size()},
-                      {"error_function", nameOf(c.plan.cache.errorFunction)},
+                      {"error_function", infoOf(c.plan.cache.errorFunction).name},
                       {"kappa", c.plan.cache.kappa},
                       {"samples", c.plan.gather.samples},
                       {"mean_irradiance_over_pi", {mean.x, mean.y, mean.z}}});

@@ -1,14 +1,14 @@
 #include "reyes/app/commands/options.h"
 
 #include "reyes/base/deep_stack.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
 
-GiChoice giOrUsageError(const std::string& text) {
-  if (const auto choice = parseGi(text)) return *choice;
-  throw CLI::ValidationError(
-      "--gi", "\"" + text + "\" is none of scene, none, gather, atlas, points, radiosity, baked, reference");
+const GiMethod* giOrUsageError(const std::string& text) {
+  if (const auto method = parseGi(text)) return *method;
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, " + giMethodNames());
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ std::optional<std::string> parseOutput(const std::string& text) {
 }
 
 void addOutput(CLI::App& app, RenderSettings& s) {
-  addParsed(app, "-o", s.output, parseOutput, "FILE.exr|.tif|.png",
+  addParsed(app, "-o", s.output, parseOutput, pictureNames(),
             "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
             "scene without Display writes "
             "ri.exr");
@@ -61,14 +61,14 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, atlas, points, radiosity, baked, reference")
+         "Indirect light: scene (as the RIB says), " + giMethodNames())
       ->type_name("MODE");
   app.add_option("--samples", s.samples, "Gather rays of an irradiance sample, or paths of a point for the reference")
       ->check(CLI::Range(1, 1 << 20));
   app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   app.add_option("--max-error", s.maxError, "Error allowed in irradiance interpolation; 0 computes every point")
       ->check(between(0.0, 1e6));
-  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian|split|plain",
+  addParsed(app, "--error-function", s.errorFunction, errorFunctionNamed, errorFunctionNames(),
             "How far an irradiance record may be used");
   app.add_flag_callback(
       "--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
@@ -111,14 +111,17 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
 }
 
-void addTrust(CLI::App& app, bool& allowSystem, std::string& shaderFolders) {
-  app.add_flag("--allow-system", allowSystem,
-               "The RIB may run code that it brings: programs by System and Procedural \"RunProgram\", plugins by "
-               "\"DynamicLoad\", and shader "
-               "plugins in the working folder and on its search path");
-  app.add_option(
-         "--shaders", shaderFolders,
-         "Folders of shader plugins that you trust, separated by colons; they are searched before those of the RIB")
+void addTrust(CLI::App& app, Trust& trust) {
+  app.add_flag("--allow-system", trust.programs,
+               "The RIB may start programs (System, Procedural \"RunProgram\"), and all that --allow-plugins allows");
+  app.add_flag("--allow-plugins", trust.scenePlugins,
+               "The RIB may load plugins, which can do whatever you can, from the working folder and its search paths");
+  app.add_option("--plugin-path", trust.pluginPath,
+                 "Folders of plugins that you trust, separated by colons; they are searched before those of the RIB, "
+                 "and followed by TOMALES_PLUGIN_PATH and ~/.config/tomales/plugins")
+      ->type_name("FOLDERS");
+  app.add_option("--shaders", trust.shaderFolders,
+                 "Folders of shaders, separated by colons, whose plugins you trust; they come before all others")
       ->type_name("FOLDERS")
       ->envname("TOMALES_SHADERS");
 }
@@ -132,7 +135,10 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--texture-cache", s.textureCache,
                  "Where converted pictures are kept (default: $TOMALES_TEXTURE_CACHE, or the user's cache folder)")
       ->type_name("FOLDER");
-  addTrust(app, s.allowSystem, s.shaderFolders);
+  addTrust(app, s.trust);
+  app.add_option("--output-root", s.outputRoot,
+                 "Keep all files that the RIB writes below this folder; names that lead out of it are refused")
+      ->type_name("FOLDER");
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(

@@ -36,12 +36,12 @@ class RenderRun {
 
   int run() {
     RibSettings rib;
-    rib.allowSystem = settings_.allowSystem;
-    rib.allowedProgram = settings_.allowedProgram;
+    rib.trust = settings_.trust;
+    if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
     rib.onMake = [this](const Request& request) {
       made_ = true;
-      performMake(request, log_);
+      performMake(request, settings_.outputRoot, log_);
     };
     parse_.emplace(stats_, "parse");
     const bool read = readAll(rib);
@@ -77,7 +77,7 @@ class RenderRun {
       const OrderlyEnd orderly;
       ++rendered_;
       applyOverrides(scene, settings_);
-      dropDisplays(scene.options, log_);
+      dropDisplays(scene.options, pluginTrust(settings_), log_);
       warnAboutOverwriting(scene);
       warnOfFloatRange(scene, log_);
       if (!settings_.draft) warnOfCoarseDicing(scene, log_);

@@ -18,6 +18,7 @@
 #include "reyes/image.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -131,7 +132,7 @@ void testColors(const ShadetestCommand& command, const Trial& trial, const std::
   }
   std::puts(fmt::format("nanoseconds a point: {:.1f}", time_ns / static_cast<double>(count)).c_str());
   say("Ci least", low), say("Ci mean", mean), say("Ci greatest", high);
-  if (!command.output.empty()) writeImage(command.output, image, fs::path(command.output).extension() == ".png", log);
+  if (!command.output.empty()) writeImage(command.output, image, isForScreens(command.output), log);
 }
 
 Image blankImage(const std::array<int, 2>& size, std::vector<std::string> channels) {

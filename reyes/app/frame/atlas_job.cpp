@@ -6,10 +6,12 @@
 #include <optional>
 
 #include "reyes/app/exit_code.h"
-#include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/light_sources.h"
 #include "reyes/base/folder_lock.h"
+#include "reyes/base/output_root.h"
 #include "reyes/base/stop.h"
 #include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_folder.h"
 #include "reyes/world_sum.h"
 
 namespace tomales {
@@ -18,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool asksPoints(const RenderSettings& settings, const ShadingSystem& shading) {
-  return hitRadianceOf(settings.gi, shading) == HitRadianceChoice::Points;
+  return methodOf(settings, shading).byPointClouds;
 }
 
 /// Brick maps, so that a ray finds the mean over its footprint, of those point clouds that are there.
@@ -38,6 +40,10 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
   }
 }
 
+bool hasGeometry(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.shapes.empty(); });
+}
+
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
   if (const auto strange = maps.strange(world))
     log.report(
@@ -50,7 +56,9 @@ void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
 
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading) {
   if (!settings.atlasFolder.empty()) return settings.atlasFolder;
-  return shading.indirectRequest().value_or(IndirectRequest{}).atlas;
+  const std::string named = shading.indirectRequest().value_or(IndirectRequest{}).atlas;
+  const bool onlyRead = named.empty() || asksPoints(settings, shading) || isMadeByHand(named);
+  return onlyRead ? named : placeBelow(settings.outputRoot, named);
 }
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading) {
@@ -96,6 +104,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
                    "waits for another program that uses the atlas in \"" + folder.string() + "\"");
       });
     const bool byHand = points || isMadeByHand(folder);
+    if (byHand) requireFinished(points ? fs::path(given) : folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
     if (!byHand)
       makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log); }, log);
@@ -118,7 +127,8 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Shadi
     return nullptr;
   }
   try {
-    const AtlasSettings atlas = atlasSettings(settings, scene, shading);
+    AtlasSettings atlas = atlasSettings(settings, scene, shading);
+    if (!hasGeometry(scene)) atlas.world = 0;  // what the world of a shot was is not known
     auto maps = std::make_unique<const IrradianceAtlas>(
         settings.bakedFolder, scene, mapNames(scene, shading, atlas).ofSurfaces(), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);

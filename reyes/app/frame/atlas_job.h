@@ -5,7 +5,8 @@
 
 namespace tomales {
 
-/// settings.atlasFolder, or that of the scene's indirect lights; empty: neither.
+/// settings.atlasFolder, or that of the scene's indirect lights, below settings.outputRoot unless it is only read;
+/// empty: neither. Throws WriteError.
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading);
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading);

@@ -274,7 +274,7 @@ TEST_F(Binding, EveryRadianceThatGatherRaysMaySeeIsKnownAndSoIsTheAtlas) {
   for (const char* name : {"shader", "radiosity", "atlas", "points"})
     light("indirectlight", {text("radiance", name), text("atlas", "maps")});
   ASSERT_TRUE(system().indirectRequest());
-  EXPECT_EQ(system().indirectRequest()->hitRadiance, HitRadianceChoice::Radiosity) << "the first that says so";
+  EXPECT_EQ(system().indirectRequest()->method, giMethodNamed("radiosity")) << "the first that says so";
   EXPECT_EQ(system().indirectRequest()->atlas, "maps");
   EXPECT_FALSE(system().indirectRequest()->bounces) << "photons have their own number unless the scene says one";
   EXPECT_EQ(log.entries().size(), 0u);
