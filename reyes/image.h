@@ -35,6 +35,7 @@ class PixelFilter {
   PixelFilter(const std::string& name, float xWidth, float yWidth, bool* known = nullptr);
   float operator()(float x, float y) const;  ///< Weight at an offset from the pixel centre, in pixels.
   bool hasNegativeLobes() const;
+  static std::vector<std::string> names();
   int reachX() const, reachY() const;  ///< Number of pixels that the filter reaches beyond its own.
  private:
   int kind_;

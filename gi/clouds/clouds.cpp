@@ -230,7 +230,7 @@ void CloudFiles::write(Log& log) {
   for (const auto& [file, baked] : baked_) {
     const SourceLoc where{std::make_shared<const std::string>(file), 0};
     if (baked.dropped > 0)
-      log.report(Severity::Warning, "bake3d-points-" + file, where,
+      log.report(Severity::Warning, "bake3d-points", where,
                  fmt::format("{} of {} baked points are not finite or have a negative radius; dropped", baked.dropped,
                              baked.dropped + baked.cloud.count()));
     try {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gi/services.h"
+#include "reyes/base/plugin_trust.h"
 #include "reyes/base/trust.h"
 
 namespace tomales {
@@ -62,10 +63,10 @@ struct RenderSettings {
   std::string commandLine;
 };
 
-inline PluginTrust pluginTrust(const RenderSettings& settings) {
-  const Trust& t = settings.trust;
+inline PluginTrust pluginTrust(const Trust& t) {
   return {.folders = t.shaderFolders + ":" + t.pluginFolders(), .sceneFolders = t.allowsPluginsOfScene()};
 }
+inline PluginTrust pluginTrust(const RenderSettings& settings) { return pluginTrust(settings.trust); }
 inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }
 
 // Each returns nothing when the text is not of its form.

@@ -1,5 +1,5 @@
-// Whose code may run. A plugin is native code, and a program of the shell may do what its user may, while the scene that
-// names them may come from a stranger. docs/security.md has the table. Threads: plain object.
+// Whose code may run. A plugin is native code, and a program of the shell may do what its user may, while the scene
+// that names them may come from a stranger. docs/security.md has the table. Threads: plain object.
 #pragma once
 #include <string>
 

@@ -90,6 +90,10 @@ class Reader {
   bool spend(size_t cost);
   /// Geometry "brickmap": its file is found like a texture.
   void geometry(const Request& request);
+  void tellOfFile(const Request& request, const char* kind, const std::string& name, const std::string& path) const {
+    if (settings_.onFile) settings_.onFile({kind, name, path, request.where});
+  }
+  std::vector<std::string> foldersFor(const char* category) const;
   /// Along Option "searchpath" of that category. Empty: nowhere.
   std::string findFile(const std::string& name, const char* category) const;
 

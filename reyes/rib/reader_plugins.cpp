@@ -16,6 +16,7 @@ constexpr size_t kPluginCost = 10;
 void Reader::dynamicLoad(const Request& r) {
   const std::vector<std::string>& call = r.args[1].strings;
   const std::string path = pluginFile(r, call[0]);
+  tellOfFile(r, "plugin", call[0], path);
   if (path.empty()) return;
   const Plugin& plugin = plugins_->load(path);
   if (!plugin.trouble.empty()) return missingPlugin(r, call[0], plugin.trouble);

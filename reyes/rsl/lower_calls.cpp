@@ -49,6 +49,8 @@ int32_t Lowering::inlined(const Expr& e, const Function& f) {
       initialise(variable(p), from);
     }
   }
+  const auto nothing = [&] { return shapeOf(f.result) == Shape::Text ? text("") : number(0); };
+  if (!hasRoom()) return nothing();  // functions that call two of the next one double with each
   // Only a return at the very end needs no label.
   const Stmt* last = f.body->body.empty() ? nullptr : f.body->body.back().get();
   const int returns = returnsIn(*f.body);
@@ -72,8 +74,7 @@ int32_t Lowering::inlined(const Expr& e, const Function& f) {
   }
   functions_.pop_back();
   for (const auto& [to, from] : after) store(*to, from);
-  if (result < 0) result = shapeOf(f.result) == Shape::Text ? text("") : number(0);
-  return result;
+  return result < 0 ? nothing() : result;
 }
 
 std::vector<int32_t> Lowering::arguments(const Expr& e, const Builtin& b, size_t count) {

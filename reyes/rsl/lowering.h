@@ -27,6 +27,8 @@ class Lowering {
   int32_t constant(Shape shape, std::vector<float> floats);
   int32_t global(Global g);
   int32_t variable(const Variable& v);  ///< A register of its own for it, which it stands for from now on.
+  /// Counts an instruction or an inlined function. False, and reported once: there are too many.
+  bool hasRoom();
   Instruction& emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in);
   /// An instruction with one result, of its signature's shape (of `shape` if that is `*`).
   int32_t compute(Op op, std::vector<int32_t> in, Shape shape = Shape::Number);

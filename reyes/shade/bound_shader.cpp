@@ -109,8 +109,9 @@ class Binding {
 
  private:
   void warn(const char* code, std::string_view parameter, const std::string& problem) {
-    log_.report(Severity::Warning, fmt::format("{}-{}-{}", code, bound_.shader->name, parameter), bound_.where,
-                fmt::format("{}: shader \"{}\": {}", bound_.user, bound_.shader->name, problem));
+    log_.report(Severity::Warning, code, bound_.where,
+                fmt::format("{}: shader \"{}\": {}", bound_.user, bound_.shader->name, problem),
+                fmt::format("{} {}", bound_.shader->name, parameter));
   }
 
   ParameterValue valueOf(const TmParamDecl& decl, const Param* given) {

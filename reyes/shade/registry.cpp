@@ -8,6 +8,8 @@
 #include "reyes/base/crash_note.h"
 #include "reyes/base/input_file.h"
 #include "reyes/base/loaded_plugins.h"
+#include "reyes/base/missing_file.h"
+#include "reyes/base/near_names.h"
 #include "reyes/base/plugin_trial.h"
 #include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
@@ -41,6 +43,7 @@ struct ShaderRegistry::Impl {
   std::set<std::string> toldOf;      // what was wrong with shaders' texts
   std::vector<std::shared_ptr<const RslFile>> texts{};
   std::set<const TmShader*> builtIn{};
+  std::map<const TmShader*, std::string> origins{};
   std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
 
   void refuse(const std::string& origin, const std::string& problem) {
@@ -51,6 +54,7 @@ struct ShaderRegistry::Impl {
   bool load(const std::string& path);
   std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
   std::string heldBy(const std::string& path) const;
+  std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
   const TmShader* search(const std::string& name, TmKind kind, const std::string& searchPath,
                          const std::string& beside);
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
@@ -112,7 +116,7 @@ bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string
       refuse(origin, fmt::format("shader number {} lacks {}", i + 1, lack));
     else if (shader->fault)
       refuse(origin, fmt::format("shader \"{}\" {}", shader->name, shader->fault));
-    else if (shaders[{shader->kind, shader->name}] = shader; added)
+    else if (shaders[{shader->kind, shader->name}] = shader, origins[shader] = origin; added)
       added->push_back(shader);
   }
   return true;
@@ -193,18 +197,24 @@ bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::str
   return impl_->add(file->library(), path);
 }
 
+std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& searchPath,
+                                                           const std::string& beside) const {
+  std::vector<std::string> out = foldersOf(searchPath);
+  for (const std::string& folder : foldersOf(trust.folders)) out.push_back(folder);
+  out.push_back(beside.empty() ? "." : beside);
+  return out;
+}
+
 const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind kind, const std::string& searchPath,
                                                const std::string& beside) {
-  std::vector<std::string> folders = foldersOf(searchPath);
-  for (const std::string& folder : foldersOf(trust.folders)) folders.push_back(folder);
-  folders.push_back(beside.empty() ? "." : beside);
-  const RslFound found = findRslShader(name, kind, folders);
+  const RslFound found = findRslShader(name, kind, textFolders(searchPath, beside));
   const auto tell = [&](const std::string& where, const std::string& what) {
     if (toldOf.insert(where + what).second) refuse(where, what);
   };
   if (!found.problem.empty())
     tell(found.file, (found.problem.starts_with("has no") ? "" : "does not compile:\n") + found.problem);
   if (!found.remark.empty()) tell(name, found.remark);
+  if (found.shader) origins[found.shader] = found.file;
   return found.shader;
 }
 
@@ -235,6 +245,33 @@ const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const
   const auto [answer, isNew] = impl_->answers.try_emplace({name, kind, searchPath, beside}, nullptr);
   if (isNew) answer->second = impl_->search(name, kind, searchPath, beside);
   return answer->second;
+}
+
+std::vector<std::string> ShaderRegistry::textFolders(const std::string& searchPath, const std::string& beside) const {
+  return impl_->textFolders(searchPath, beside);
+}
+
+std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kind, const std::string& searchPath,
+                                          const std::string& beside) const {
+  const std::string name = fs::path(withoutShaderEnding(written)).filename().string();
+  std::vector<std::string> ofKind;
+  {
+    const std::lock_guard lock(impl_->mutex);
+    for (const auto& [key, shader] : impl_->shaders) {
+      if (key.first == kind)
+        ofKind.push_back(key.second);
+      else if (key.second == name)
+        return fmt::format("; the shader of that name is a {}", kindName(static_cast<TmKind>(key.first)));
+    }
+  }
+  const std::string lies = tomales::hintOfMissing(name + ".sl", {".sl"}, impl_->textFolders(searchPath, beside));
+  return lies.empty() ? didYouMean(name, ofKind) : lies;
+}
+
+std::string ShaderRegistry::originOf(const TmShader& shader) const {
+  const std::lock_guard lock(impl_->mutex);
+  const auto it = impl_->origins.find(&shader);
+  return it == impl_->origins.end() ? "" : it->second;
 }
 
 std::vector<const TmShader*> ShaderRegistry::all() const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "reyes/app/commands/foreign_file.h"
 #include "reyes/app/commands/make.h"
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/hide.h"
@@ -63,6 +64,7 @@ class RenderRun {
  private:
   /// Interrupted frames are the last: what follows them is not read.
   bool readAll(const RibSettings& rib) {
+    if (isAnyForeign(settings_.files, log_)) return false;
     try {
       return readRib(settings_.files, rib, log_);
     } catch (const Stopped&) {

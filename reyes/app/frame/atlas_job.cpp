@@ -29,7 +29,7 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
   for (const std::string& name : names.ofReflectors()) {
     const fs::path points = atlasFile(clouds, name, ".ptc");
     if (!fs::exists(points)) {
-      log.report(Severity::Missing, "points-none-" + name, {},
+      log.report(Severity::Missing, "points-none", {},
                  fmt::format("there are no points \"{}\": its objects reflect no indirect light", points.string()));
       continue;
     }
@@ -82,7 +82,7 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading) 
 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    Stats& stats, Log& log) {
+                                                    const AtlasProgress& progress, Stats& stats, Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene, shading);
   const std::string given = atlasFolder(settings, shading);
   const bool points = asksPoints(settings, shading);
@@ -107,7 +107,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     if (byHand) requireFinished(points ? fs::path(given) : folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
     if (!byHand)
-      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log); }, log);
+      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, progress, stats, log); }, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);
     return maps;

@@ -18,7 +18,7 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading);
 /// reported.
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    Stats& stats, Log& log);
+                                                    const AtlasProgress& progress, Stats& stats, Log& log);
 
 /// The light of settings.bakedFolder, for GiMode::Baked. Null after an error, which has been reported.
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,
