@@ -200,7 +200,9 @@ bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::str
 std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& searchPath,
                                                            const std::string& beside) const {
   std::vector<std::string> out = foldersOf(searchPath);
-  for (const std::string& folder : foldersOf(trust.folders)) out.push_back(folder);
+  std::error_code none;
+  for (const std::string& folder : foldersOf(trust.folders))
+    if (fs::is_directory(folder, none)) out.push_back(folder);  // those of a user and an installation may not be there
   out.push_back(beside.empty() ? "." : beside);
   return out;
 }

@@ -33,6 +33,18 @@ Json filters() {
   return out;
 }
 
+Json displays() {
+  Json out = Json::array();
+  for (const DisplayFormat& f : displayFormats())
+    out.push_back({{"name", f.type},
+                   {"doc", f.title},
+                   {"other_types", f.otherTypes},
+                   {"extensions", f.extensions},
+                   {"compressions", f.compressions},
+                   {"own_parameters", f.parameters}});
+  return out;
+}
+
 struct Listed {
   const char* name;
   Json (*list)();
@@ -43,6 +55,7 @@ const Listed kListed[] = {{"shaders", [] { return shaders(std::nullopt); }},
                           {"lights", [] { return shaders(TM_LIGHT); }},
                           {"volumes", [] { return shaders(TM_VOLUME); }},
                           {"imagers", [] { return shaders(TM_IMAGER); }},
+                          {"displays", displays},
                           {"filters", filters}};
 
 /// A line for what it is, and one for each parameter.
@@ -51,6 +64,9 @@ void printText(const Json& listed) {
     const std::string kind = one.contains("kind") ? one.at("kind").get<std::string>() + " " : "";
     const auto doc = one.at("doc").get<std::string>();
     std::puts(fmt::format("{}{}{}{}", kind, one.at("name").get<std::string>(), doc.empty() ? "" : ": ", doc).c_str());
+    for (const auto& [key, value] : one.items())
+      if (isScalarList(value) && !value.empty() && key != "parameters")
+        std::puts(fmt::format("    {}: {}", key, lineOf(value)).c_str());
     for (const Json& p : one.value("parameters", Json::array())) {
       const Json fallback = p.value("default", Json());
       const bool single = fallback.is_array() && fallback.size() == 1;
