@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gi/services.h"
+#include "reyes/base/plugin_trust.h"
 
 namespace tomales {
 

@@ -119,7 +119,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted(), show);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
-  if (!settings_.bakedFolder.empty() && rays_ && !interrupted())
+  if (!settings_.bakedFolder.empty() && !interrupted())
     bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);
 }
 
