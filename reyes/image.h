@@ -35,6 +35,7 @@ class PixelFilter {
   PixelFilter(const std::string& name, float xWidth, float yWidth, bool* known = nullptr);
   float operator()(float x, float y) const;  ///< Weight at an offset from the pixel centre, in pixels.
   bool hasNegativeLobes() const;
+  static std::vector<std::string> names();
   int reachX() const, reachY() const;  ///< Number of pixels that the filter reaches beyond its own.
  private:
   int kind_;
@@ -152,6 +153,12 @@ bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log
 bool namesPicture(const std::string& path);
 /// Does it say one whose readers expect colours that are encoded for a screen?
 bool isForScreens(const std::string& path);
+/// A format of pictures: what a Display and the name of its file may say of it.
+struct DisplayFormat {
+  std::string type, title;
+  std::vector<std::string> otherTypes, extensions, compressions, parameters;
+};
+std::vector<DisplayFormat> displayFormats();
 std::string pictureExtensions();  ///< Those of all formats, for messages: "exr, tif, png".
 std::string pictureNames();       ///< Names of pictures, for help: "FILE.exr|.tif|.png".
 std::optional<Image> readImage(const std::string& path, std::string& error);

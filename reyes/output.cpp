@@ -46,7 +46,7 @@ void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
     if (p->ints.size() == count)
       return std::vector<float>(p->ints.begin(), p->ints.end());  // RenderMan for Maya: "int[4] quantize"
     if (log)
-      log->report(Severity::Warning, fmt::format("channel-{}", name), asker.where,
+      log->report(Severity::Warning, "channel-parameter", asker.where,
                   fmt::format("{}: \"{}\" needs {} numbers; ignored", asker.name, name, count));
     return std::nullopt;
   };

@@ -36,7 +36,14 @@ class ShaderRegistry {
   /// has errors is reported with all of them.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
+  /// The folders where find() looks for the text of a shader.
+  std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
+  /// Of a shader that find() has not found: what there is of that name or a similar one, as the end of a message.
+  std::string hintOfMissing(const std::string& name, TmKind kind, const std::string& searchPath,
+                            const std::string& beside) const;
   std::vector<const TmShader*> all() const;
+  /// What addLibrary() was told of a shader, or the file that it is from.
+  std::string originOf(const TmShader& shader) const;
 
  private:
   struct Impl;

@@ -7,6 +7,7 @@
 
 #include "gi/services.h"
 #include "reyes/base/plugin_trust.h"
+#include "reyes/base/trust.h"
 
 namespace tomales {
 
@@ -56,15 +57,16 @@ struct RenderSettings {
   bool progress = false;
   std::string preview;                     ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;  ///< To explain.
-  bool allowSystem = false;                ///< The RIB may start programs and load plugins.
-  std::string shaderFolders;  ///< The user's, separated by colons: their plugins are trusted whatever the RIB may do.
+  Trust trust;                             ///< Of the code that the RIB names.
+  std::string outputRoot;                  ///< What the RIB names is written below it; empty: anywhere.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };
 
-inline PluginTrust pluginTrust(const RenderSettings& settings) {
-  return {.folders = settings.shaderFolders, .sceneFolders = settings.allowSystem};
+inline PluginTrust pluginTrust(const Trust& t) {
+  return {.folders = t.shaderFolders + ":" + t.pluginFolders(), .sceneFolders = t.allowsPluginsOfScene()};
 }
+inline PluginTrust pluginTrust(const RenderSettings& settings) { return pluginTrust(settings.trust); }
 inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }
 
 // Each returns nothing when the text is not of its form.

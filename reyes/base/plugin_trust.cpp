@@ -9,10 +9,6 @@ namespace tomales {
 
 namespace fs = std::filesystem;
 
-const char* const kPluginRefused =
-    "is native code in a folder that the scene names, and is not loaded; --shaders FOLDER names a folder whose plugins "
-    "you trust, --allow-system trusts those of the scene";
-
 std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath) {
   std::vector<std::string> out;
   for (const fs::path folder : foldersOf(searchPath)) {

@@ -21,8 +21,6 @@ std::vector<std::string> pluginFiles(const std::string& name, const std::string&
 /// NAME.so in the trusted folders, then along the scene's search path (empty: the working folder). A name with ".." and
 /// an absolute one lead out of the trusted folders, so those are not searched for it.
 PluginFiles findPlugins(const std::string& name, const std::string& searchPath, const PluginTrust& trust);
-/// What is wrong with a refused file, for a message that begins with its name.
-extern const char* const kPluginRefused;
 
 /// Does the name of a plugin lead out of the folders that it is looked for in?
 bool leavesFolders(const std::string& name);

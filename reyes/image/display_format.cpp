@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "reyes/base/search_path.h"
+#include "reyes/base/trust.h"
 #include "reyes/display_driver.h"
 #include "reyes/image/formats.h"
 
@@ -126,7 +127,7 @@ std::string driverOf(const DisplayCall& display, const Options& options, const P
 void warnOfRefusedDriver(const DisplayCall& display, const Options& options, const PluginTrust& trust, Log& log) {
   if (!namesDriver(display)) return;
   for (const std::string& file : findPlugins(display.type, pathOf(options.searchPaths, "display"), trust).refused)
-    log.report(Severity::Missing, "display-plugin", display.where, file + " " + kPluginRefused);
+    log.report(Severity::Missing, "display-plugin", display.where, file + " " + kPluginRefusal);
 }
 
 FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {

@@ -36,6 +36,14 @@ bool PictureFormat::takes(std::string_view param) const {
   });
 }
 
+std::vector<DisplayFormat> displayFormats() {
+  const auto texts = [](const Words& words) { return std::vector<std::string>(words.begin(), words.end()); };
+  std::vector<DisplayFormat> out;
+  for (const PictureFormat* f : pictureFormats())
+    out.push_back({f->name, f->title, texts(f->types), texts(f->extensions), texts(f->compressions), texts(f->params)});
+  return out;
+}
+
 const PictureFormat* formatOfType(std::string_view displayType) {
   for (const PictureFormat* f : pictureFormats())
     if (displayType == f->name || has(f->types, displayType)) return f;

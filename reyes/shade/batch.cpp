@@ -264,10 +264,11 @@ CrashNote::Text Batch::crashText() const {
           .line = where.line};
 }
 
-void Batch::report(Severity severity, const char* code, const std::string& problem) const {
+void Batch::report(Severity severity, const char* code, const std::string& problem, const std::string& subject) const {
   const std::string who = running->user == group.object ? running->user : running->user + ", on " + group.object;
-  scene.log.report(severity, fmt::format("{}-{}", code, running->shader->name), running->where,
-                   fmt::format("{}: shader \"{}\" {}", who, running->shader->name, problem));
+  scene.log.report(severity, code, running->where,
+                   fmt::format("{}: shader \"{}\" {}", who, running->shader->name, problem),
+                   fmt::format("{} {}", running->shader->name, subject.empty() ? problem : subject));
 }
 
 }  // namespace tomales

@@ -92,6 +92,9 @@ void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
   }
 }
 
+/// For all points. A shader with an output of that role says it for each point, as it runs.
+bool isSaid(const BoundShader& light, TmRole role) { return light.output(role) < 0 && light.number(role, 0) != 0; }
+
 bool hasGeometry(const LightCall& call, const Scene& scene) {
   return std::any_of(scene.groups.begin(), scene.groups.end(),
                      [&](const ShadeGroup& g) { return g.attributes->areaLight == call.index; });
@@ -146,8 +149,8 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   light->bound = bound, light->index = index;
   light->group = bound->text(TM_ROLE_GROUP, call.handle);
   light->category = bound->text(TM_ROLE_CATEGORY, "");
-  light->nondiffuse = bound->number(TM_ROLE_NONDIFFUSE, 0) != 0;
-  light->nonspecular = bound->number(TM_ROLE_NONSPECULAR, 0) != 0;
+  light->nondiffuse = isSaid(*bound, TM_ROLE_NONDIFFUSE);
+  light->nonspecular = isSaid(*bound, TM_ROLE_NONSPECULAR);
   light->visible = bound->number(TM_ROLE_VISIBLE, 1) != 0;
   setLighting(*light, log_);
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);

@@ -8,7 +8,9 @@
 #include "reyes/app/commands/atlas_commands.h"
 #include "reyes/app/commands/catrib.h"
 #include "reyes/app/commands/compile.h"
+#include "reyes/app/commands/help.h"
 #include "reyes/app/commands/info.h"
+#include "reyes/app/commands/list.h"
 #include "reyes/app/commands/options.h"
 #include "reyes/app/commands/render.h"
 #include "reyes/app/commands/shade.h"
@@ -36,6 +38,7 @@ struct Invocation {
   ChartSettings chart;
   bool stability = false;
   std::string first, second, difference;
+  InfoCommand info;
   bool json = false;
 };
 
@@ -57,8 +60,9 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
        "--baked", in.render.bakedFolder,
        "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
-  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
-            "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
+  addParsed(
+      *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
+      "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
@@ -114,10 +118,21 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
 
 void buildInfo(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand(
-      "info", "What is in a .rib, .dfb, .icf, picture (" + pictureExtensions() + ") or shader .sl or .so file");
-  c->add_option("FILE", in.first)->required();
+      "info",
+      "What is in a .rib, .dfb, .icf, picture (" + pictureExtensions() +
+          ") or shader .sl or .so file, or of a shader by its name; of a scene, which files and shaders that it needs "
+          "are missing");
+  c->add_option("FILE", in.info.file, "A file, or the name of a shader")->required();
+  c->add_flag("--json", in.info.json, "As JSON");
+  addTrust(*c, in.info.trust);
+  c->callback([&] { code = infoCommand(in.info); });
+}
+
+void buildList(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("list", "What is built in, with parameters, types, defaults and what they are for");
+  c->add_option("KIND", in.first)->required()->check(CLI::IsMember(listedKinds()));
   c->add_flag("--json", in.json, "As JSON");
-  c->callback([&] { code = infoCommand(in.first, in.json); });
+  c->callback([&] { code = listCommand(in.first, in.json); });
 }
 
 void buildCompare(CLI::App& app, Invocation& in, int& code) {
@@ -257,7 +272,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       ->check(CLI::Range(2, 10000));
   c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
-  addTrust(*c, s.allowSystem, s.shaderFolders);
+  addTrust(*c, s.trust);
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
       ->type_name("FOLDER");
   c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);
@@ -274,11 +289,11 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
   });
 }
 
-bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert",
-                           "info", "compare", "chart", "catrib", "shadetest", "compile", "-h", "--help", "--version"})
+/// Else the arguments are those of render.
+bool namesCommand(const CLI::App& app, const std::string& text) {
+  for (const char* name : {"-h", "--help", "--help-all", "--version"})
     if (text == name) return true;
-  return false;
+  return !app.get_subcommands([&](const CLI::App* c) { return c->get_name() == text; }).empty();
 }
 
 int parseAndRun(int argc, char** argv) {
@@ -286,6 +301,7 @@ int parseAndRun(int argc, char** argv) {
   app.set_version_flag("--version", std::string("tomales ") + kVersion);
   app.footer(exitCodeHelp());
   app.require_subcommand(1);
+  setHelp(app);
   Invocation in;
   int code = kDone;
   buildRender(app, in, code);
@@ -293,17 +309,19 @@ int parseAndRun(int argc, char** argv) {
   buildGather(app, in, code);
   buildShade(app, in, code);
   buildInfo(app, in, code);
+  buildList(app, in, code);
   buildCompare(app, in, code);
   buildChart(app, in, code);
   buildCatrib(app, in, code);
   buildCompile(app, in, code);
   buildShadetest(app, in, code);
   buildAtlas(app, in, code);
+  finishHelp(app);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
   in.render.commandLine = "tomales";
   for (const std::string& a : arguments) in.render.commandLine += " " + a;
-  if (!arguments.empty() && !namesCommand(arguments.front())) arguments.insert(arguments.begin(), "render");
+  if (!arguments.empty() && !namesCommand(app, arguments.front())) arguments.insert(arguments.begin(), "render");
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes a vector from its back
   try {
     app.parse(arguments);

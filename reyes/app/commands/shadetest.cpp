@@ -69,7 +69,7 @@ std::string writtenParameters(const ShadetestCommand& command, const TmShader& s
     const auto* end = shader.params + shader.paramCount;
     const auto* p = std::find_if(shader.params, end, [&](const TmParamDecl& d) { return d.name == name; });
     if (p == end || at == std::string::npos) {
-      log.report(Severity::Missing, "shadetest-" + name, {},
+      log.report(Severity::Missing, "shadetest-parameter", {},
                  fmt::format("shader \"{}\" has no parameter \"{}\"; it is ignored", shader.name, name));
       continue;
     }
@@ -200,8 +200,7 @@ void test(const ShadetestCommand& command, const TmShader& shader, ShaderRegistr
 void check(const TmShader& shader, Log& log) {
   const std::vector<std::string> faults = faultsOf(shader);
   std::puts(fmt::format("shader: {}\nfaults: {}", shader.name, faults.size()).c_str());
-  for (size_t k = 0; k < faults.size(); ++k)
-    log.report(Severity::Missing, fmt::format("shadetest-check-{}-{}", shader.name, k), {}, faults[k]);
+  for (const std::string& fault : faults) log.report(Severity::Missing, "shadetest-check", {}, fault);
 }
 
 std::vector<fs::file_time_type> timesOf(const std::vector<std::string>& files) {

@@ -31,7 +31,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       camera_(scene.options),
       registry_(log, pluginTrust(settings)),
       meter_(settings.progress),
-      clouds_(pathOf(scene.options.searchPaths, "texture")) {
+      clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
   shading_->setClouds(&clouds_);
@@ -71,7 +71,7 @@ void FrameJob::openAll() {
 
 bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(stats_, "hide");
-  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? 0.3f : 0.5f), stats_, log_, sink);
+  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? kHidden : kGathered), stats_, log_, sink);
 }
 
 void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
@@ -92,7 +92,8 @@ void FrameJob::prepareRays(RaySource rays) {
   raySource_ = std::move(rays);
   services_ = std::make_unique<GiServices>(scene_, camera_, raySource_, *shading_, giSettings(), stats_);
   shading_->setServices(services_.get());
-  setLightSources(*services_, *method_, {raySource_, scene_, *shading_, camera_, settings_, stats_, log_});
+  setLightSources(*services_, *method_,
+                  {raySource_, scene_, *shading_, camera_, settings_, lightProgress(), stats_, log_});
 }
 
 GiSettings FrameJob::giSettings() const {
@@ -116,7 +117,8 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
     show = [&](int stride) {
       preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted()));
     };
-  services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted(), show);
+  services_->gatherPass(layout, tiles, meter_.stage(makesLight() ? kLightMade : kHidden, kGathered), &interrupted(),
+                        show);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && !interrupted())
@@ -148,7 +150,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
     context.indirect = false;
   }
   DeepFrame frame = layout;
-  const float begin = gathers() ? 0.7f : 0.5f;
+  constexpr float begin = kGathered;
   size_t shaded = 0;
   bool complete = true;
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {

@@ -46,8 +46,13 @@ class FrameJob {
   GiServices* services() { return services_.get(); }
   ShadingSystem& shading() { return *shading_; }
   FrameControl control(float begin, float end);
+  /// Is told how far the maps are that indirect light is made of before anything is gathered.
+  std::function<void(float)> lightProgress() { return meter_.stage(kHidden, kLightMade); }
 
  private:
+  /// Shares of a frame that are done when its stages end.
+  static constexpr float kHidden = 0.3f, kLightMade = 0.5f, kGathered = 0.7f;
+  bool makesLight() const { return mode() == GiMode::Atlas || mode() == GiMode::Radiosity; }
   void warnAboutPixels() const;
   GiMode mode() const { return method_->mode; }
   bool traces() const { return mode() != GiMode::None || shading_->needsRays(); }

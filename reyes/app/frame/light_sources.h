@@ -8,13 +8,14 @@ namespace tomales {
 /// The method of the command line or, where that leaves it to the scene, of its indirect lights.
 const GiMethod& methodOf(const RenderSettings& settings, const ShadingSystem& shading);
 
-/// All of it outlives the services.
+/// All that it refers to outlives the services.
 struct FrameOfLight {
   const RaySource& rays;
   const Scene& scene;  ///< That is shaded; of a shot it has no geometry.
   const ShadingSystem& shading;
   const Camera& camera;
   const RenderSettings& settings;
+  std::function<void(float)> progress;  ///< Is told how far the maps are, by any thread.
   Stats& stats;
   Log& log;
 };

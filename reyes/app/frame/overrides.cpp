@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 
+#include "reyes/base/output_root.h"
 #include "reyes/image.h"
 
 namespace tomales {
@@ -38,6 +39,18 @@ void makeDraft(Scene& scene) {
   changeAttributes(scene,
                    [](Attributes& a) { a.displacement = nullptr, a.displacementBound = 0, a.shadingRate *= kCoarser; });
   o.indirectSamples = kRays;
+}
+
+/// What the scene writes, but not what the user has named, and where it is read again.
+void keepBelow(const std::string& root, const std::string& output, Options& options) {
+  const bool writesDisplays = output.empty() || namesPicture(output);  // else a .dfb or .icf
+  const std::string ours = withFrameNumber(output, options.frame);
+  for (DisplayCall& d : options.displays)
+    if (writesDisplays && d.name != ours) d.name = placeBelow(root, d.name);
+  std::string& textures = options.searchPaths["texture"];
+  textures = root + ":" + textures;
+  std::string& converted = options.searchPaths["texturecache"];
+  if (!converted.empty()) converted = placeBelow(root, converted);
 }
 
 /// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. What is
@@ -132,8 +145,8 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (settings.pixelSamples) o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
   if (o.displays.empty()) o.displays.emplace_back();
-  if (namesPicture(settings.output))
-    overrideOutput(o, settings.output, settings.onePicture);  // else it is a .dfb or .icf
+  if (namesPicture(settings.output)) overrideOutput(o, settings.output, settings.onePicture);
+  if (!settings.outputRoot.empty()) keepBelow(settings.outputRoot, settings.output, o);
   if (settings.shadingRate) changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
   if (tracesFullGeometry(settings))
     changeAttributes(scene, [](Attributes& a) { a.trace.displacements = true, a.trace.rate = TessellationMode::Full; });
