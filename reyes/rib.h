@@ -76,6 +76,11 @@ bool readRibText(const std::string& text, const std::string& name, const RibSett
 bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
 
+/// The request table, a line for each request: its name, the letters of its arguments (reyes/rib/request_table.h) or -,
+/// "parameters" or -, and what becomes of it: "works", "draws" (works, and the picture needs it), "ignored", or
+/// "missing" (ignored, though the picture needs it).
+std::string ribRequests();
+
 /// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that
 /// the last Attribute "identifier" "name" has named (none: all), LightSource to the light of that handle, Exposure,
 /// Imager and Quantize to the frame. A shader that stays the same keeps the parameters that are not given. Other

@@ -10,6 +10,7 @@ struct Trust {
   bool scenePlugins = false;    ///< Plugins may come from folders that only the scene names, and the working folder.
   std::string pluginPath{};     ///< --plugin-path: folders, separated by colons, that plugins may come from.
   std::string shaderFolders{};  ///< --shaders: likewise, for shaders and displays, before those.
+  std::string program{};        ///< --allow-program: RunProgram may start this very command in any case.
 
   /// pluginPath, then TOMALES_PLUGIN_PATH, then tomales/plugins in the user's configuration (XDG_CONFIG_HOME, else
   /// ~/.config) and in the library folder of the installation.

@@ -65,6 +65,7 @@ void Reader::procedural2(const Request& r) {
   const std::string &kind = r.args[0].strings[0], &bounding = r.args[1].strings[0];
   const bool program = kind == "RunProgram2", plugin = kind == "DynamicLoad2";
   const Param* bound = findParam(r.params, "bound");
+  if (!bound) bound = findParam(r.params, "__bound");  // so PRMan spells it
   Request plain{r.name, {}, {}, r.where};
   const auto strings = [](std::vector<std::string> s) { return RibArg{RibArg::Kind::Strings, {}, std::move(s)}; };
   plain.args.push_back({RibArg::Kind::String, {}, {kind.ends_with('2') ? kind.substr(0, kind.size() - 1) : kind}});
@@ -90,7 +91,7 @@ bool Reader::canRead(const Request& r, const std::string& kind, const std::strin
                        : plugin ? "plugin"
                                 : "file"));
   else
-    return program ? allowed(r, what) : !plugin || !pluginFile(r, what).empty();
+    return program ? what == settings_.trust.program || allowed(r, what) : !plugin || !pluginFile(r, what).empty();
   return false;
 }
 

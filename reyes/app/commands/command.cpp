@@ -1,6 +1,7 @@
 #include "reyes/app/commands/command.h"
 
 #include <csignal>
+#include <cstdio>
 
 #include "reyes/app/chart/chart.h"
 #include "reyes/app/chart/stability.h"
@@ -21,6 +22,7 @@
 #include "reyes/base/deep_stack.h"
 #include "reyes/base/input_file.h"
 #include "reyes/image.h"
+#include "reyes/rib.h"
 
 namespace tomales {
 namespace {
@@ -60,6 +62,9 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
        "--baked", in.render.bakedFolder,
        "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
+  c->add_option("--allow-program", in.render.trust.program,
+                "The RIB may start this program, by this very command, and no other")
+      ->type_name("COMMAND");
   addParsed(
       *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
       "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
@@ -189,6 +194,12 @@ void buildCatrib(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = catribCommand(in.catrib); });
 }
 
+void buildRequests(CLI::App& app) {
+  app.add_subcommand("requests",
+                     "Every request of RIB with its arguments, for programs that write it (reyes/rib.h:ribRequests)")
+      ->callback([] { std::fputs(ribRequests().c_str(), stdout); });
+}
+
 void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   CLI::App* photons = app.add_subcommand("photons", "Photon maps of a scene, one file for each group of objects");
   photons->add_option("-o", in.render.output, "Folder to write to")->required()->type_name("FOLDER");
@@ -313,6 +324,7 @@ int parseAndRun(int argc, char** argv) {
   buildCompare(app, in, code);
   buildChart(app, in, code);
   buildCatrib(app, in, code);
+  buildRequests(app);
   buildCompile(app, in, code);
   buildShadetest(app, in, code);
   buildAtlas(app, in, code);
