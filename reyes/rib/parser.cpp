@@ -21,7 +21,7 @@ bool looksLikeRequest(const std::string& word) {
 }  // namespace
 
 Parser::Parser(ByteStream& stream, std::string file, Dictionary& dictionary, Log& log)
-    : file_(std::make_shared<const std::string>(std::move(file))), lexer_(stream), dictionary_(dictionary), log_(log) {}
+    : lexer_(stream, std::move(file)), dictionary_(dictionary), log_(log) {}
 
 std::optional<Request> Parser::next() {
   for (; !at(Kind::End); ++senseless_) {

@@ -27,7 +27,7 @@ class Parser {
  private:
   using Kind = Token::Kind;
   bool at(Kind kind) const { return lexer_.peek().kind == kind; }
-  SourceLoc here() const { return {file_, lexer_.peek().line}; }
+  SourceLoc here() const { return {lexer_.file(), lexer_.peek().line}; }
   void warn(const char* code, const SourceLoc& where, const std::string& message,
             Severity severity = Severity::Warning) const;
   /// Reports what is wrong with the request; always false.
@@ -53,7 +53,6 @@ class Parser {
   /// The same, with a message if they do not.
   bool fitsDeclaration(const std::string& token, const Param& param) const;
 
-  std::shared_ptr<const std::string> file_;
   Lexer lexer_;
   Dictionary& dictionary_;
   Log& log_;

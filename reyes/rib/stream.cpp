@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <new>
 
+#include "reyes/base/stop.h"
 #include "reyes/rib/zip_member.h"
 
 namespace tomales::rib {
@@ -60,6 +61,7 @@ std::unique_ptr<ByteStream> ByteStream::fromProgram(Source source) {
 }
 
 bool ByteStream::fill() {
+  throwIfStopped();
   if (closed_) return false;
   if (!inflater_) {
     size_t n = source_(raw_.get(), kBufferSize);

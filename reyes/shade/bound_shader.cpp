@@ -7,6 +7,7 @@
 #include "reyes/base/near_names.h"
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shade/roles.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -109,8 +110,9 @@ class Binding {
 
  private:
   void warn(const char* code, std::string_view parameter, const std::string& problem) {
-    log_.report(Severity::Warning, fmt::format("{}-{}-{}", code, bound_.shader->name, parameter), bound_.where,
-                fmt::format("{}: shader \"{}\": {}", bound_.user, bound_.shader->name, problem));
+    log_.report(Severity::Warning, code, bound_.where,
+                fmt::format("{}: shader \"{}\": {}", bound_.user, bound_.shader->name, problem),
+                fmt::format("{} {}", bound_.shader->name, parameter));
   }
 
   ParameterValue valueOf(const TmParamDecl& decl, const Param* given) {

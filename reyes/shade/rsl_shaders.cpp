@@ -12,6 +12,7 @@
 
 #include "reyes/base/input_file.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -20,13 +21,6 @@ namespace fs = std::filesystem;
 
 /// Endings of shaders that other renderers have compiled.
 constexpr const char* kCompiled[] = {".slo", ".sdr", ".slx", ".slc", ".sdl", ".dll", ".sl"};
-
-std::string withoutEnding(const std::string& name) {
-  for (const char* ending : kCompiled)
-    if (name.size() > std::char_traits<char>::length(ending) && name.ends_with(ending))
-      return name.substr(0, name.size() - std::char_traits<char>::length(ending));
-  return name;
-}
 
 /// When a file was written, and how large it is; zeros: there is none.
 std::pair<fs::file_time_type, uintmax_t> stateOf(const std::string& path) {
@@ -130,8 +124,15 @@ std::string compiledElsewhere(const std::string& name, const std::vector<std::st
 
 }  // namespace
 
+std::string withoutShaderEnding(const std::string& name) {
+  for (const char* ending : kCompiled)
+    if (name.size() > std::char_traits<char>::length(ending) && name.ends_with(ending))
+      return name.substr(0, name.size() - std::char_traits<char>::length(ending));
+  return name;
+}
+
 RslFound findRslShader(const std::string& written, TmKind kind, const std::vector<std::string>& folders) {
-  std::string name = withoutEnding(written);
+  std::string name = withoutShaderEnding(written);
   if (const fs::path path(name); path.is_absolute() || name.find("..") != std::string::npos)
     name = path.filename().string();  // a scene from elsewhere: its shader may lie in the folders
   const std::string shaderName = fs::path(name).filename().string();
