@@ -9,14 +9,15 @@
 #include "gi/clouds/diffusion.h"
 #include "gi/clouds/disks.h"
 #include "reyes/base/log.h"
-#include "reyes/shade.h"
+#include "reyes/shade_services.h"
 
 namespace tomales {
 
 class CloudFiles final : public CloudServices {
  public:
-  /// searchPath: folders separated by colons, for reading.
-  explicit CloudFiles(std::string searchPath) : searchPath_(std::move(searchPath)) {}
+  /// searchPath: folders separated by colons, for reading. Files are written below outputRoot, if it is not empty.
+  explicit CloudFiles(std::string searchPath, std::string outputRoot = {})
+      : searchPath_(std::move(searchPath)), outputRoot_(std::move(outputRoot)) {}
 
   bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) override;
   bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) override;
@@ -46,7 +47,7 @@ class CloudFiles final : public CloudServices {
   const Opened<Data>& openedWhole(std::map<Key, Opened<Data>>& known, const Key& key, const std::string& file,
                                   const Make& make);
 
-  const std::string searchPath_;
+  const std::string searchPath_, outputRoot_;
   std::mutex mutex_;
   std::map<std::string, Baked> baked_;
   std::map<std::tuple<std::string, int, float>, Opened<BrickMap>>

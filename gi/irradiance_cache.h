@@ -9,28 +9,22 @@
 #include <vector>
 
 #include "gi/cache/irradiance_record.h"
+#include "gi/error_function.h"
 #include "reyes/base/block_vector.h"
 
 namespace tomales {
 
 using IrradianceRecords = BlockVector<IrradianceRecord>;
 
-enum class ErrorFunction {
-  Screen,   ///< approximate-gi eq. 2 to 5
-  Ward,     ///< Ward's split sphere, with the limits of Screen.
-  Hessian,  ///< Schwarzhaupt, Jensen, Jarosz 2012
-  Split,    ///< Ward and Heckbert 1992, for comparison: no limits in pixels, and records do not check each other.
-  /// Screen as published, for comparison: records do not check each other, and each is extrapolated by its own
-  /// gradients alone.
-  Plain,
-};
-
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
-  float kappa = 1;       ///< Eq. 2: radii are divided by kappa. Infinite: no record is ever reused.
-  float maxPixels = 10;  ///< R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist"),
-  float minPixels = 1.5f;  ///< R- of eq. 3, in the same unit.
-  float enough = 0.05f;    ///< Sum of weights that a point needs to be interpolated; with less it gets its own record.
+  float kappa =
+      infoOf(ErrorFunction::Screen).kappa;  ///< Eq. 2: radii are divided by it. Infinite: no record is reused.
+  /// R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist"), and R- in the same
+  /// unit.
+  float maxPixels = infoOf(ErrorFunction::Screen).maxPixels, minPixels = infoOf(ErrorFunction::Screen).minPixels;
+  /// Sum of weights that a point needs to be interpolated; with less it gets its own record.
+  float enough = infoOf(ErrorFunction::Screen).enough;
   bool operator==(const CacheSettings&) const = default;
 };
 

@@ -3,7 +3,8 @@
 //   x y z, nx ny nz, radius, then the channels: NAME for one float, NAME_0 NAME_1 ... for several
 // Files that are read may be ASCII or binary of either byte order, with any scalar types. red green blue become the
 // channel "Cs" (bytes as 0..1); other properties become channels, runs of NAME_0 NAME_1 ... one of several floats;
-// other elements are skipped.
+// other elements are skipped. A comment in the header of our own files holds a checksum of the rest of the header and
+// of the vertices, which is compared when they are read.
 // Threads: none.
 #pragma once
 #include "gi/point_file.h"
@@ -19,7 +20,8 @@ struct PlyFigures {
 };
 
 /// Converts PLY to .ptc, in the order of the file. `radius`: for points that have none. Normals are made unit. Throws
-/// FileError: no PLY, no x y z, a list among the properties of its vertices, or truncated.
+/// FileError: no PLY, no x y z, a list among the properties of its vertices, truncated, longer than it says, with
+/// another checksum, or with lengths of more than 1e18.
 PlyFigures convertPly(const std::string& path, const std::string& out, float radius);
 
 }  // namespace tomales

@@ -4,6 +4,7 @@
 #include "gi/atlas.h"
 #include "gi/gather.h"
 #include "gi/gather/hit_radiance.h"
+#include "gi/method.h"
 #include "raytrace/emitters.h"
 #include "reyes/deep.h"
 
@@ -12,15 +13,6 @@
 #include <optional>
 
 namespace tomales {
-
-enum class GiMode {
-  None,       ///< Direct light only: indirect lights give nothing.
-  Gather,     ///< One bounce, shaded hits, irradiance caching.
-  Atlas,      ///< All bounces: gather rays look up the irradiance of photons in brick maps; irradiance caching.
-  Radiosity,  ///< One bounce from baked direct light, in textures or brick maps; irradiance caching.
-  Baked,      ///< All light from brick maps that were gathered for earlier frames (irradiance-atlas 6.3): no rays.
-  Reference,  ///< Brute-force path tracing of the same transport: unbiased for diffuse surfaces.
-};
 
 struct GiSettings {
   GiMode mode = GiMode::Gather;
@@ -57,7 +49,7 @@ struct RayTools {
 /// geometry cannot be had, which has been reported; rays then meet nothing.
 using RaySource = std::function<const RayTools*()>;
 using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
-using RadiositySource = std::function<std::unique_ptr<const HitRadiance>()>;
+using HitRadianceSource = std::function<std::unique_ptr<const HitRadiance>()>;
 
 /// Does the cache keep answers of occlusion() where a group asks for it (ShadingSystem::asksOcclusion)?
 bool keepsOcclusion(const GiSettings&);
@@ -80,8 +72,8 @@ class GiServices final : public ShadeServices {
   void setAtlas(std::unique_ptr<const IrradianceAtlas> atlas);
   /// Sets a function that brings the atlas when the first point has to be gathered. Any thread may call it.
   void setAtlasSource(AtlasSource source);
-  /// The same for GiMode::Radiosity.
-  void setRadiositySource(RadiositySource source);
+  /// The same for what gather rays meet in GiMode::Radiosity.
+  void setHitRadianceSource(HitRadianceSource source);
   void reportAtlas(Stats& stats) const;  ///< Adds statistics; called after the last lookup.
 
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one

@@ -69,7 +69,8 @@ CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Lo
   if (log)
     log->report(Severity::Warning, "trace-tessellation", o.where,
                 fmt::format("{} asks for {:.0f} x {:.0f} polygons for rays in one patch: limited to {:.0f}; {}",
-                            objectName(o), nu, nv, most, remedy));
+                            objectName(o), nu, nv, most, remedy),
+                o.where.text());
   // Halving keeps the proportions until one side is a single polygon.
   while (nu * nv > most) (nu > nv ? nu : nv) = std::ceil(std::max(nu, nv) / 2);
   return {static_cast<int>(nu), static_cast<int>(nv)};

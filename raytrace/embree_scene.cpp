@@ -42,10 +42,15 @@ RTCDevice newDevice() {
                            "); is there too little memory?");
 }
 
+const SharedShapes kNoShapes;
+
 }  // namespace
 
 struct EmbreeScene::Impl {
-  Impl(const std::vector<CoarseGroup>& g, const SharedShapes& s) : groups(g), shapes(s), device(newDevice()) {}
+  Impl(const std::vector<CoarseGroup>& g, const SharedShapes& s) : groups(g), shapes(s), device(newDevice()) {
+    rtcSetDeviceMemoryMonitorFunction(device, &countBytes, this);
+    scene = newScene();
+  }
   ~Impl() {
     chunks.reset();
     if (scene) rtcReleaseScene(scene);
@@ -126,8 +131,26 @@ struct EmbreeScene::Impl {
     return out;
   }
 
-  void attachInstances(const std::vector<uint32_t>& groupOf, const std::vector<uint32_t>& masks,
-                       const std::vector<bool>& opaque) {
+  /// Those that are parts of solids, or all others.
+  void attachGroups(const RayGroups& all, bool solids) {
+    std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float, uint32_t>, std::vector<Geometry::Run>> alike;
+    for (uint32_t i = 0; i < groups.size(); ++i) {
+      const CoarseGroup& g = groups[i];
+      fades |= !g.detail.whole();
+      if (g.solid != solids) continue;
+      const auto plain = static_cast<uint32_t>(g.quads.size() - g.onlyCoarse),
+                 coarse = static_cast<uint32_t>(g.onlyCoarse);
+      for (const auto& [run, mask] : {std::pair(Geometry::Run{i, 0, plain}, maskAtAllLevels(all.masks[i])),
+                                      std::pair(Geometry::Run{i, plain, coarse}, maskAt(all.masks[i], Level::Coarse))})
+        if (run.count > 0)
+          alike[{mask, all.opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi,
+                 g.quads.size() < kManyQuads ? 0 : i + 1}]
+              .push_back(run);
+    }
+    for (auto& [kind, runs] : alike) attach(std::move(runs), std::get<0>(kind), std::get<1>(kind));
+  }
+
+  void attachInstances(const RayGroups& all) {
     std::vector<RTCScene> scenes;
     for (const CoarseGroup& mesh : shapes.masters) scenes.push_back(sceneOf(mesh));
     instances.firstId = static_cast<uint32_t>(geometries.size());
@@ -136,14 +159,24 @@ struct EmbreeScene::Impl {
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
       rtcSetGeometryInstancedScene(geometry, scenes[instance.master]);
       rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &instance.cameraFromObject[0][0]);
-      instances.mask.push_back(maskAtAllLevels(masks[groupOf[i]]));
+      instances.mask.push_back(maskAtAllLevels(all.masks[instance.group]));
       rtcSetGeometryMask(geometry, instances.mask.back());
       attach(scene, geometry, instances.firstId + static_cast<uint32_t>(i), nullptr);
-      instances.group.push_back(groupOf[i]);
-      instances.opaque.push_back(opaque[groupOf[i]]);
+      instances.group.push_back(instance.group);
+      instances.opaque.push_back(all.opaque[instance.group]);
       instances.mirrors.push_back(glm::determinant(mat3(instance.cameraFromObject)) < 0);
     }
     for (RTCScene s : scenes) rtcReleaseScene(s);  // the instances hold it
+    instances.firstChunk = instances.firstId + static_cast<uint32_t>(instances.group.size());
+  }
+
+  void commit(Log& log) {
+    rtcCommitScene(scene);
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error != RTC_ERROR_NONE)
+      log.report(Severity::Missing, "trace-embree", {},
+                 "Embree could not build the scene for rays: they may miss objects");
   }
 
   /// `mask` is Embree's mask.
@@ -162,14 +195,13 @@ struct EmbreeScene::Impl {
 
   void addOfInstance(Surroundings& out, uint32_t instance, uint32_t quad, uint32_t mask) const {
     if (!(instances.mask[instance] & mask)) return;
-    const auto& [object, master, cameraFromObject, normals] = shapes.instances[instance];
+    const auto& [object, group, master, cameraFromObject, normals] = shapes.instances[instance];
     const CoarseGroup& g = shapes.masters[master];
     if (g.trimmed) return out.giveUp();
     const std::array<vec3, 4> corners = g.corners(quad);
     std::array<vec3, 4> placed = corners;
     for (vec3& p : placed) p = transformPoint(cameraFromObject, p);
-    out.add(instances.group[instance], quad, g.flipsNormal != instances.mirrors[instance], placed,
-            static_cast<int>(instance), corners);
+    out.add(group, quad, g.flipsNormal != instances.mirrors[instance], placed, static_cast<int>(instance), corners);
   }
 
   void requireChunks() const {
@@ -197,42 +229,26 @@ struct EmbreeScene::Impl {
   }
 };
 
-EmbreeScene::EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes,
-                         const std::vector<uint32_t>& groupOf, const std::vector<uint32_t>& masks,
-                         const std::vector<bool>& opaque, bool solids, Log& log, const Chunks* chunks,
-                         size_t chunkBytes)
-    : impl_(std::make_unique<Impl>(groups, shapes)) {
-  rtcSetDeviceMemoryMonitorFunction(impl_->device, &Impl::countBytes, impl_.get());
-  impl_->scene = impl_->newScene();
-  std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float, uint32_t>, std::vector<Geometry::Run>> alike;
-  for (uint32_t i = 0; i < groups.size(); ++i) {
-    const CoarseGroup& g = groups[i];
-    impl_->fades |= !g.detail.whole();
-    if (g.solid != solids) continue;
-    const auto plain = static_cast<uint32_t>(g.quads.size() - g.onlyCoarse),
-               coarse = static_cast<uint32_t>(g.onlyCoarse);
-    for (const auto& [run, mask] : {std::pair(Geometry::Run{i, 0, plain}, maskAtAllLevels(masks[i])),
-                                    std::pair(Geometry::Run{i, plain, coarse}, maskAt(masks[i], Level::Coarse))})
-      if (run.count > 0)
-        alike[{mask, opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi,
-               g.quads.size() < kManyQuads ? 0 : i + 1}]
-            .push_back(run);
-  }
-  for (auto& [kind, runs] : alike) impl_->attach(std::move(runs), std::get<0>(kind), std::get<1>(kind));
+EmbreeScene::EmbreeScene(const RayGroups& groups, const SharedShapes& shapes, const Chunks& chunks, size_t chunkBytes,
+                         Log& log)
+    : impl_(std::make_unique<Impl>(groups.meshes, shapes)) {
+  impl_->attachGroups(groups, false);
   // With several threads the order of primitives in a leaf would depend on their number, and with it which of two hits
   // at equal t is found first.
   const ThreadLimit one(1);
-  impl_->attachInstances(groupOf, masks, opaque);
-  const uint32_t end = impl_->instances.firstId + static_cast<uint32_t>(impl_->instances.group.size());
-  impl_->instances.firstChunk = end;
-  if (chunks && !chunks->all().empty())
-    impl_->chunks.emplace(*chunks, chunkBytes).attach(impl_->device, impl_->scene, end, end, groups, masks, opaque);
-  rtcCommitScene(impl_->scene);
-  const RTCError error = rtcGetDeviceError(impl_->device);
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (error != RTC_ERROR_NONE)
-    log.report(Severity::Missing, "trace-embree", {},
-               "Embree could not build the scene for rays: they may miss objects");
+  impl_->attachInstances(groups);
+  const uint32_t end = impl_->instances.firstChunk;
+  if (!chunks.all().empty())
+    impl_->chunks.emplace(chunks, chunkBytes)
+        .attach(impl_->device, impl_->scene, end, end, groups.meshes, groups.masks, groups.opaque);
+  impl_->commit(log);
+}
+
+EmbreeScene::EmbreeScene(const RayGroups& groups, Log& log) : impl_(std::make_unique<Impl>(groups.meshes, kNoShapes)) {
+  impl_->attachGroups(groups, true);
+  const ThreadLimit one(1);  // as above
+  impl_->attachInstances(groups);
+  impl_->commit(log);
 }
 
 EmbreeScene::~EmbreeScene() = default;

@@ -11,16 +11,22 @@
 
 namespace tomales {
 
+/// The shade groups of a scene, by number: their polygons, the rays that see them, and whether they let none through.
+struct RayGroups {
+  const std::vector<CoarseGroup>& meshes;
+  const std::vector<uint32_t>& masks;
+  const std::vector<bool>& opaque;
+};
+
 class EmbreeScene {
  public:
-  /// Makes the scene of groups that are parts of solids (`solids`), or of all others and the instances. Rays of
-  /// masks[i] see shade group i, which is opaque if opaque[i]. groupOf: group of each instance. `groups` and `shapes`
-  /// must outlive this. Where groups fade between levels of detail, a ray sees those whose share holds its number: a
-  /// hash of the ray, within the share of the surface that it leaves, so that one level of detail does not shadow
-  /// another in its place. `chunks`, if not null, must outlive this too; at most about `chunkBytes` of them are kept.
-  EmbreeScene(const std::vector<CoarseGroup>& groups, const SharedShapes& shapes, const std::vector<uint32_t>& groupOf,
-              const std::vector<uint32_t>& masks, const std::vector<bool>& opaque, bool solids, Log& log,
-              const Chunks* chunks = nullptr, size_t chunkBytes = 0);
+  /// Makes the scene of all groups but parts of solids, of the instances and of the chunks; at most about `chunkBytes`
+  /// of these are kept. The meshes, `shapes` and `chunks` must outlive this. Where groups fade between levels of
+  /// detail, a ray sees those whose share holds its number: a hash of the ray, within the share of the surface that it
+  /// leaves, so that one level of detail does not shadow another in its place.
+  EmbreeScene(const RayGroups& groups, const SharedShapes& shapes, const Chunks& chunks, size_t chunkBytes, Log& log);
+  /// Makes the scene of parts of solids alone.
+  EmbreeScene(const RayGroups& groups, Log& log);
   ~EmbreeScene();
 
   /// Nearest hit with ray.bias < t < ray.tMax; ray.offset is not used.

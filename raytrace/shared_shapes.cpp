@@ -83,19 +83,19 @@ SharedShapes shareShapes(const Scene& scene, const Camera& camera, const Shading
     mesh.deviation *= shrink, mesh.size *= shrink;
     for (const int i : *objects) {
       const mat4& m = object(i).cameraFromObject.keys.front();
-      out.instances.push_back(
-          {i, static_cast<uint32_t>(out.masters.size() - 1), m, glm::transpose(glm::inverse(mat3(m)))});
+      out.instances.push_back({i, static_cast<uint32_t>(object(i).group), static_cast<uint32_t>(out.masters.size() - 1),
+                               m, glm::transpose(glm::inverse(mat3(m)))});
       out.shared[static_cast<size_t>(i)] = true;
     }
   }
   return out;
 }
 
-void addFigures(const SharedShapes& shapes, const Scene& scene, std::vector<CoarseGroup>& groups) {
+void addFigures(const SharedShapes& shapes, std::vector<CoarseGroup>& groups) {
   for (const CoarseInstance& instance : shapes.instances) {
     const CoarseGroup& mesh = shapes.masters[instance.master];
     const float grow = growth(mat3(instance.cameraFromObject));
-    CoarseGroup& group = groups[static_cast<size_t>(scene.objects[static_cast<size_t>(instance.object)].group)];
+    CoarseGroup& group = groups[instance.group];
     group.deviation = std::max(group.deviation, mesh.deviation * grow);
     group.size = std::max(group.size, mesh.size * grow);
   }

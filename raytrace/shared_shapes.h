@@ -9,7 +9,7 @@ namespace tomales {
 
 struct CoarseInstance {
   int object;
-  uint32_t master;
+  uint32_t group, master;
   mat4 cameraFromObject;
   mat3 normals;  ///< Transforms normals to current space, on the RISpec side; they are not of unit length.
 };
@@ -23,6 +23,6 @@ struct SharedShapes {
 SharedShapes shareShapes(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log);
 
 /// Adds deviation and size of the instances to their groups.
-void addFigures(const SharedShapes& shapes, const Scene& scene, std::vector<CoarseGroup>& groups);
+void addFigures(const SharedShapes& shapes, std::vector<CoarseGroup>& groups);
 
 }  // namespace tomales

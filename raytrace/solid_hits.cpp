@@ -13,9 +13,9 @@ constexpr float kRounding = 1e-5f;  ///< Relative to the hit's position: surface
 SolidHits::SolidHits(const Scene& scene, const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
                      Log& log)
     : scene_(scene), groups_(groups), masks_(masks) {
-  if (!scene.solids.empty())
-    embree_.emplace(groups, noShapes_, std::vector<uint32_t>(), std::vector<uint32_t>(groups.size(), ~0U),
-                    std::vector<bool>(groups.size(), false), true, log);
+  const std::vector<uint32_t> seenByAll(groups.size(), ~0U);
+  const std::vector<bool> opaque(groups.size(), false);
+  if (!scene.solids.empty()) embree_.emplace(RayGroups{groups, seenByAll, opaque}, log);
 }
 
 void SolidHits::surfaces(const Ray& ray, float window, uint32_t mask, HitList& out) const {

@@ -28,7 +28,6 @@ class SolidHits {
   const Scene& scene_;
   const std::vector<CoarseGroup>& groups_;
   const std::vector<uint32_t>& masks_;
-  const SharedShapes noShapes_{};
   std::optional<EmbreeScene> embree_;
 };
 

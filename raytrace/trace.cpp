@@ -45,14 +45,7 @@ std::vector<bool> opaqueOf(const Scene& scene, const std::vector<bool>& constant
 std::vector<CoarseGroup> coarseGroups(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
                                       const SharedShapes& shapes, Log& log) {
   std::vector<CoarseGroup> groups = tessellate(scene, camera, shading, log, shapes.shared);
-  addFigures(shapes, scene, groups);
-  return groups;
-}
-
-std::vector<uint32_t> groupsOfInstances(const Scene& scene, const SharedShapes& shapes) {
-  std::vector<uint32_t> groups;
-  for (const CoarseInstance& instance : shapes.instances)
-    groups.push_back(static_cast<uint32_t>(scene.objects[static_cast<size_t>(instance.object)].group));
+  addFigures(shapes, groups);
   return groups;
 }
 
@@ -79,8 +72,7 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
       opacityIsConstant(constantOpacityOf(s, shading)),
       masks(masksOf(s)),
       opaque(opaqueOf(s, opacityIsConstant)),
-      embree(groups, shapes, groupsOfInstances(s, shapes), masks, opaque, false, log, &chunks,
-             settings.geometryCacheBytes),
+      embree({groups, masks, opaque}, shapes, chunks, settings.geometryCacheBytes, log),
       solids(s, groups, masks, log),
       emitters(s, groups),
       displacementBounds(groups.size(), 0.0f) {

@@ -2,6 +2,7 @@
 // order).
 #pragma once
 #include <functional>
+#include "reyes/base/plugin_trust.h"
 #include "reyes/base/stats.h"
 #include "reyes/camera.h"
 #include "reyes/deep.h"
@@ -34,6 +35,7 @@ class PixelFilter {
   PixelFilter(const std::string& name, float xWidth, float yWidth, bool* known = nullptr);
   float operator()(float x, float y) const;  ///< Weight at an offset from the pixel centre, in pixels.
   bool hasNegativeLobes() const;
+  static std::vector<std::string> names();
   int reachX() const, reachY() const;  ///< Number of pixels that the filter reaches beyond its own.
  private:
   int kind_;
@@ -113,15 +115,21 @@ bool checkDisplays(const Options& options, Log& log);
 /// Applies the exposure of Options, gain and gamma, to colours; alpha stays.
 void expose(Image& image, const Options& options);
 
-/// The file of one Display. It picks the Display's floats, encodes, quantises and writes band after band to an
-/// UnfinishedFile; the last step renames. The format is given by `display.type` or the name's extension (.exr .tif
-/// .png); 8-bit types are sRGB only where the Display's "string transfer" says so. Failures are reported to the log,
-/// once.
+/// The plugin that takes a Display instead of a file (reyes/display_api.h), because its type names no format; empty:
+/// there is none. Those that come with the program are found first, then others as findPlugins() has them, along Option
+/// "searchpath" "display".
+std::string driverOf(const DisplayCall& display, const Options& options, const PluginTrust& trust);
+
+/// The file of one Display, or the display driver that takes its picture. It picks the Display's floats, encodes,
+/// quantises and writes band after band to an UnfinishedFile; the last step renames. The format is given by
+/// `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where the Display's "string
+/// transfer" says so. Failures are reported to the log, once.
 class DisplayFile {
  public:
-  /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: that of the Display.
+  /// `shape`: a picture without pixels. `output`: outputOf(options); `index`: that of the Display. `trust`: where a
+  /// display driver may be loaded from.
   DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
-              const View& view = {}, const MatteNames& names = {});
+              const View& view = {}, const MatteNames& names = {}, const PluginTrust& trust = {});
   ~DisplayFile();
   /// Writes the next rows from the top: 64 or a multiple, except for the last call. Returns false if it cannot be
   /// written.
@@ -139,7 +147,20 @@ class DisplayFile {
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log);
 /// Writes a whole picture at once.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
+/// Colours are encoded as sRGB if `srgb` is set and the format holds integers.
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log);
+/// Does the name's extension say a format that can be written?
+bool namesPicture(const std::string& path);
+/// Does it say one whose readers expect colours that are encoded for a screen?
+bool isForScreens(const std::string& path);
+/// A format of pictures: what a Display and the name of its file may say of it.
+struct DisplayFormat {
+  std::string type, title;
+  std::vector<std::string> otherTypes, extensions, compressions, parameters;
+};
+std::vector<DisplayFormat> displayFormats();
+std::string pictureExtensions();  ///< Those of all formats, for messages: "exr, tif, png".
+std::string pictureNames();       ///< Names of pictures, for help: "FILE.exr|.tif|.png".
 std::optional<Image> readImage(const std::string& path, std::string& error);
 
 /// Figures of `tomales compare` over colour channels of images of equal size.

@@ -8,31 +8,6 @@
 namespace tomales {
 namespace {
 
-/// Variables that every surface has (RISpec 3.2 table 12.1), and two for denoisers.
-const std::map<std::string, ValueType, std::less<>> kStandard = {{"Ci", ValueType::Color},
-                                                                 {"Oi", ValueType::Color},
-                                                                 {"Cs", ValueType::Color},
-                                                                 {"Os", ValueType::Color},
-                                                                 {"cryptoobject", ValueType::Color},
-                                                                 {"cryptomaterial", ValueType::Color},
-                                                                 {"a", ValueType::Float},
-                                                                 {"alpha", ValueType::Float},
-                                                                 {"z", ValueType::Float},
-                                                                 {"P", ValueType::Point},
-                                                                 {"N", ValueType::Normal},
-                                                                 {"Ng", ValueType::Normal},
-                                                                 {"I", ValueType::Vector},
-                                                                 {"dPdu", ValueType::Vector},
-                                                                 {"dPdv", ValueType::Vector},
-                                                                 {"u", ValueType::Float},
-                                                                 {"v", ValueType::Float},
-                                                                 {"s", ValueType::Float},
-                                                                 {"t", ValueType::Float},
-                                                                 {"du", ValueType::Float},
-                                                                 {"dv", ValueType::Float},
-                                                                 {"albedo", ValueType::Color},
-                                                                 {"normal", ValueType::Normal}};
-
 std::vector<std::string> namesIn(const std::string& mode) {
   if (!mode.empty() && mode.find_first_not_of("rgbaz") == std::string::npos) {
     std::vector<std::string> letters;
@@ -71,7 +46,7 @@ void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
     if (p->ints.size() == count)
       return std::vector<float>(p->ints.begin(), p->ints.end());  // RenderMan for Maya: "int[4] quantize"
     if (log)
-      log->report(Severity::Warning, fmt::format("channel-{}", name), asker.where,
+      log->report(Severity::Warning, "channel-parameter", asker.where,
                   fmt::format("{}: \"{}\" needs {} numbers; ignored", asker.name, name, count));
     return std::nullopt;
   };
@@ -161,19 +136,19 @@ class Planner {
   int channelNamed(const std::string& name, const DisplayCall& display, Encoding& encoding) {
     const auto declared = options_.channels.find(name);
     const bool isDeclared = declared != options_.channels.end();
-    const auto standard = kStandard.find(name);
-    if (!isDeclared && standard == kStandard.end()) {
+    const SurfaceVariable* standard = surfaceVariable(name);
+    if (!isDeclared && !standard) {
       warn(display, "display-channel",
            fmt::format("\"{}\" has not been declared by DisplayChannel; it is left out", name));
       return -1;
     }
     Channel channel;
     channel.name = name;
-    channel.type = isDeclared ? declared->second.type : standard->second;
+    channel.type = isDeclared ? declared->second.type : standard->type;
     const Param* given = isDeclared ? findParam(declared->second.params, "source") : nullptr;
     const std::string source = given && !given->strings.empty() ? given->strings[0] : name;
-    channel.kind = kindOf(source);
-    if (channel.kind != ChannelKind::Variable) channel.type = kStandard.find(source)->second;
+    const SurfaceVariable* shown = surfaceVariable(source);
+    if (shown && shown->kind != ChannelKind::Variable) channel.kind = shown->kind, channel.type = shown->type;
     channel.composited = channel.type == ValueType::Color || channel.kind == ChannelKind::Alpha;
     channel.sampling = {Reduce::Filter, options_.filter, options_.xFilterWidth, options_.yFilterWidth};
     if (isDeclared) {
@@ -186,14 +161,6 @@ class Planner {
       channel.variable =
           variable({source, channel.type, channel.fill, 0, isDeclared ? declared->second.where : display.where});
     return addChannel(std::move(channel));
-  }
-
-  static ChannelKind kindOf(const std::string& source) {
-    if (source == "Ci") return ChannelKind::Color;
-    if (source == "a" || source == "alpha") return ChannelKind::Alpha;
-    if (source == "cryptoobject") return ChannelKind::Objects;
-    if (source == "cryptomaterial") return ChannelKind::Materials;
-    return source == "z" ? ChannelKind::Depth : ChannelKind::Variable;
   }
 
   int variable(Variable wanted) {
@@ -241,15 +208,41 @@ std::vector<std::string> FrameOutput::names() const {
 
 bool shades(const Options& options) {
   return options.displays.empty() ||
-         std::any_of(options.displays.begin(), options.displays.end(), [](const DisplayCall& d) {
-           return !writesShadowMap(d) && d.type != "deepshad" && d.mode != "z" && d.type != "null";
-         });
+         std::any_of(options.displays.begin(), options.displays.end(),
+                     [](const DisplayCall& d) { return !writesMap(d) && d.mode != "z" && d.type != "null"; });
 }
 
 FrameOutput outputOf(const Options& options, Log* log) { return Planner(options, log).plan(); }
 
-bool writesShadowMap(const DisplayCall& display) { return display.type == "shadow" || display.type == "zfile"; }
+namespace {
 
-bool writesDeep(const DisplayCall& display) { return display.type == "deepshad" || display.type == "deepexr"; }
+/// Types of Displays that say what is written, and not only in which format.
+struct MapType {
+  std::string_view name;
+  bool deep;   ///< A list of depths in every pixel.
+  bool shows;  ///< It has colours too.
+};
+constexpr MapType kMapTypes[] = {
+    {"shadow", false, false}, {"zfile", false, false}, {"deepshad", true, false}, {"deepexr", true, true}};
+
+const MapType* mapType(const DisplayCall& display) {
+  const auto* it = std::find_if(std::begin(kMapTypes), std::end(kMapTypes),
+                                [&](const MapType& t) { return t.name == display.type; });
+  return it == std::end(kMapTypes) ? nullptr : it;
+}
+
+}  // namespace
+
+bool writesMap(const DisplayCall& display) {
+  const MapType* type = mapType(display);
+  return type && !type->shows;
+}
+
+bool writesShadowMap(const DisplayCall& display) { return writesMap(display) && !writesDeep(display); }
+
+bool writesDeep(const DisplayCall& display) {
+  const MapType* type = mapType(display);
+  return type && type->deep;
+}
 
 }  // namespace tomales

@@ -5,7 +5,7 @@
 //               1--* Channel    floats of a pixel; 0, 1, 2 are always Ci, a and z
 //               1--* Selection  one for each Display: which floats, under which names
 #pragma once
-#include "reyes/state.h"
+#include "reyes/surface_variables.h"
 
 namespace tomales {
 
@@ -29,8 +29,6 @@ struct Variable {
   SourceLoc where;  ///< Location of the request that asks for it.
 };
 
-/// Objects, Materials: Cryptomatte, six ranks of id and coverage.
-enum class ChannelKind : uint8_t { Color, Alpha, Depth, Variable, Objects, Materials };
 inline bool isMatte(ChannelKind kind) { return kind == ChannelKind::Objects || kind == ChannelKind::Materials; }
 /// Names of Cryptomatte layers.
 inline const char* matteLayer(ChannelKind kind) {
@@ -81,9 +79,11 @@ bool shades(const Options& options);
 /// Reports channels that are not declared, and parameters that are not understood, if `log` is given.
 FrameOutput outputOf(const Options& options, Log* log = nullptr);
 
-/// Is the type of a Display one that has depth and nothing else: "shadow", "zfile"?
+/// Is the type of a Display one of maps for later frames, which show nothing: "shadow", "zfile", "deepshad"?
+bool writesMap(const DisplayCall& display);
+/// One of those that has depth and nothing else: "shadow", "zfile"?
 bool writesShadowMap(const DisplayCall& display);
-/// Is it a deep one, with a list of depths in every pixel: "deepshad", "deepexr"?
+/// One with a list of depths in every pixel: "deepshad", "deepexr"?
 bool writesDeep(const DisplayCall& display);
 
 }  // namespace tomales

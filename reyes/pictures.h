@@ -61,6 +61,13 @@ struct TextureSettings {
       note{};  ///< Is told what was damaged in the folder and is made anew; called by any thread.
 };
 
+/// Endings of names of pictures, maps of other renderers among them.
+inline const std::vector<std::string>& pictureEndings() {
+  static const std::vector<std::string> endings = {".tif", ".tiff", ".tx",  ".tex", ".txr", ".tdl", ".exr", ".png",
+                                                   ".jpg", ".jpeg", ".hdr", ".tga", ".shd", ".env", ".z"};
+  return endings;
+}
+
 struct TextureFigures {
   int64_t tileRequests = 0, tileMisses = 0, bytesRead = 0;
 };

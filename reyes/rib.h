@@ -7,6 +7,7 @@
 #include <functional>
 #include <iosfwd>
 
+#include "reyes/base/trust.h"
 #include "reyes/scene.h"
 
 namespace tomales {
@@ -44,15 +45,24 @@ class RiSink {
   virtual void request(const Request& request) = 0;
 };
 
+/// A file that a stream names.
+struct FileUse {
+  const char* kind;        ///< "archive", "texture", "plugin", or "program", which is a command.
+  std::string name, path;  ///< As it is written, and where it lies; an empty path: nowhere, or it may not be used.
+  SourceLoc where;
+};
+
 struct RibSettings {
   /// Called at every WorldEnd with the frozen scene, in stream order.
   std::function<void(Scene&&)> onScene;
   /// MakeTexture, MakeShadow and their kin: what earlier worlds have written becomes a map for later ones. Empty: they
   /// do nothing.
   std::function<void(const Request&)> onMake;
+  /// Called with every file that is read, or would be if it were there.
+  std::function<void(const FileUse&)> onFile{};
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
-  bool allowSystem = false;  ///< System and Procedural "RunProgram" may start programs, "DynamicLoad" load plugins.
+  Trust trust{};  ///< Of the programs of System and Procedural "RunProgram", and the plugins of "DynamicLoad".
   double programPatience_s = 60;  ///< The longest that a RunProgram may keep us waiting.
 };
 
@@ -65,6 +75,11 @@ bool readRibText(const std::string& text, const std::string& name, const RibSett
 /// The requests as they are written: archives, conditions and programs are not followed. Returns as readRib.
 bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
+
+/// The request table, a line for each request: its name, the letters of its arguments (reyes/rib/request_table.h) or -,
+/// "parameters" or -, and what becomes of it: "works", "draws" (works, and the picture needs it), "ignored", or
+/// "missing" (ignored, though the picture needs it).
+std::string ribRequests();
 
 /// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that
 /// the last Attribute "identifier" "name" has named (none: all), LightSource to the light of that handle, Exposure,

@@ -1,6 +1,7 @@
 #include "reyes/scene.h"
 
 #include "reyes/base/parallel.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -165,7 +166,7 @@ void Scene::freeze() {
   }
   for (size_t i = 0; i < procedurals.size(); ++i) {
     derive(procedurals[i]);
-    procedurals[i].name = hashCombine(0x70726f63U, static_cast<uint32_t>(i));
+    procedurals[i].name = hashCombine(randomStream("proc"), static_cast<uint32_t>(i));
   }
 }
 

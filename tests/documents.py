@@ -4,7 +4,7 @@ import re
 import sys
 
 root = pathlib.Path(sys.argv[1])
-top = "reyes|raytrace|gi|shaders|scenes|tests|docs"
+top = "reyes|raytrace|gi|shaders|displays|scenes|tests|docs"
 named = re.compile(rf"(?<![\w./-])((?:{top})/[\w./-]*\w)(?::([A-Za-z_][\w:~]*))?")
 linked = re.compile(r"\]\((?!https?:|mailto:)([^)#\s]*)(?:#([^)\s]*))?\)")
 bad = []

@@ -18,7 +18,7 @@ def formatter():
 
 
 root = pathlib.Path(sys.argv[1])
-folders = ("reyes", "raytrace", "gi", "shaders", "tests", "docs", "scenes")
+folders = ("reyes", "raytrace", "gi", "shaders", "displays", "tests", "docs", "scenes")
 files = sorted(f for folder in folders for f in (root / folder).rglob("*") if f.suffix in (".cpp", ".h"))
 if not formatter():
     print(f"clang-format {VERSION} is not installed")

@@ -13,6 +13,7 @@
 #include "reyes/base/folder_lock.h"
 #include "reyes/base/process.h"
 #include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_folder.h"
 
 namespace tomales {
 namespace {
@@ -175,13 +176,15 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
       scene, rays, shading, settings.photons,
       [&](std::span<const StoredPhoton> photons) { std::for_each(photons.begin(), photons.end(), add); }, progress,
       stats, log);
+  UnfinishedFolder set(folder);
   for (auto& [name, file] : files) {
     file.finish({settings.world, photonInputs(names, settings)});
     if (file.count() == 0)
-      log.report(settings.photons.direct ? Severity::Warning : Severity::Info, "photons-none-" + name, {},
+      log.report(settings.photons.direct ? Severity::Warning : Severity::Info, "photons-none", {},
                  fmt::format("no photon came to the objects of photon map \"{}\"{}", name,
                              settings.photons.direct ? "" : " but straight from lights"));
   }
+  set.finish();
   stats.photons.emitted += figures.emitted, stats.photons.stored += figures.stored;
   stats.photons.groups += static_cast<int64_t>(files.size());
   return figures;
@@ -238,6 +241,7 @@ bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const Br
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                 const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
                 Log& log) {
+  constexpr float kShareOfPhotons = 0.6f;  // of the time, about
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeAtlasFolder(irradiance);
   const std::set<std::string> maps = names.all();
@@ -247,9 +251,11 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   });
   if (!traced) {
     const StageTimer timer(stats, "photons");
-    writePhotons(photons, scene, rays, shading, names, settings, progress, stats, log);
+    const AtlasProgress tracing = [&](float share) { progress(kShareOfPhotons * share); };
+    writePhotons(photons, scene, rays, shading, names, settings, progress ? tracing : progress, stats, log);
   }
   returnFreeMemory();
+  size_t finished = 0;
   std::vector<MapFigures> made;
   int64_t kept = 0;
   for (const std::string& name : maps) {
@@ -264,6 +270,8 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
     }
     if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
     returnFreeMemory();
+    const float share = static_cast<float>(++finished) / static_cast<float>(maps.size());
+    if (progress) progress(kShareOfPhotons + (1 - kShareOfPhotons) * share);
   }
   stats.photons.groupsKept += kept;
   warnOfEstimates(scene, names, made, log);

@@ -42,7 +42,7 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
 
 const BrickMap* IrradianceAtlas::open(const fs::path& file) {
   if (!fs::exists(file)) {
-    log_.report(Severity::Missing, "atlas-no-map-" + file.stem().string(), {},
+    log_.report(Severity::Missing, "atlas-no-map", {},
                 fmt::format("irradiance map \"{}\" is missing: its objects reflect no indirect light", file.string()));
     return nullptr;
   }

@@ -82,24 +82,11 @@ struct IrradianceCache::Impl {
   RecordTree tree{bound};
   IrradianceRecords records{};
   double luminanceSum = 0;  // sum over the records' E
+  const ErrorFunctionInfo& info = infoOf(settings.errorFunction);
 
   float size(const IrradianceRecord& r) const {
-    switch (settings.errorFunction) {
-      case ErrorFunction::Ward:
-      case ErrorFunction::Split:
-        return r.harmonicMean;
-      case ErrorFunction::Hessian:
-        return std::min(r.smoothRadius, r.closest * settings.kappa);
-      default:
-        return r.closest * 0.5f;
-    }
-  }
-  bool isWard() const {
-    return settings.errorFunction == ErrorFunction::Ward || settings.errorFunction == ErrorFunction::Split;
-  }
-
-  bool isPublished() const {
-    return settings.errorFunction == ErrorFunction::Split || settings.errorFunction == ErrorFunction::Plain;
+    if (info.splitSphere) return r.harmonicMean;
+    return info.curvature ? std::min(r.smoothRadius, r.closest * settings.kappa) : r.closest * 0.5f;
   }
 
   // Returns the distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
@@ -117,10 +104,8 @@ struct IrradianceCache::Impl {
   enum class Disagreement { None, Steep, Discontinuous };
 
   Disagreement disagreementOf(const vec3& a, const vec3& b, float noise) const {
-    if (isPublished()) return Disagreement::None;
-    const float tolerance = settings.errorFunction == ErrorFunction::Ward
-                                ? 4 * kDisagreement
-                                : kDisagreement;  // kappa counts four times there
+    if (info.published) return Disagreement::None;
+    const float tolerance = info.splitSphere ? 4 * kDisagreement : kDisagreement;  // kappa counts four times there
     const float larger = std::max(luminance(a), luminance(b)),
                 off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
     const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
@@ -185,7 +170,7 @@ struct IrradianceCache::Impl {
     const float front = upright * (1 - std::max(0.0f, behind));
     const float position = std::sqrt(distance2) / radius;
     const float angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
-    if (!isWard()) {
+    if (!info.splitSphere) {
       const float error = std::max(position, settings.kappa * angle / std::sqrt(kMaxAngleTerm));  // eq. 2
       return front * std::max(0.0f, 1 - error);                                                   // eq. 5
     }
@@ -208,7 +193,7 @@ struct IrradianceCache::Impl {
   ValidityBounds boundsAt(float pixelSize, float wider) const {
     constexpr float kRounding = 1e-4f;
     const float angle =
-        isWard() ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
+        info.splitSphere ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
     return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize, wider * (1 + kRounding) / settings.kappa,
             1 - angle - kRounding};
   }
@@ -252,10 +237,10 @@ struct IrradianceCache::Impl {
   // Returns the error of the mean of linearly extrapolated records, to the second order.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
                    float pixelSize) const {
-    if (isPublished()) return vec3(0.0f);
+    if (info.published) return vec3(0.0f);
     const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
-    if (settings.errorFunction == ErrorFunction::Hessian)
+    if (info.curvature)
       for (const Candidate& c : candidates) {
         const IrradianceRecord& r = records[c.record];
         out += 0.5f * c.weight / weight * bentBy(r, step, reach(size(r), pixelSize));
@@ -322,7 +307,7 @@ IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, co
 
 void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider) const {
   if (places.empty()) return;
-  if (impl_->isPublished() || impl_->settings.errorFunction == ErrorFunction::Hessian) wider = 1;
+  if (impl_->info.published || impl_->info.curvature) wider = 1;
   if (impl_->settings.kappa < kInfinity) {
     thread_local Vicinity near;
     thread_local std::vector<Candidate> found;

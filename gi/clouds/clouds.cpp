@@ -8,6 +8,7 @@
 
 #include "gi/photons/irradiance.h"
 #include "gi/point_file.h"
+#include "reyes/base/output_root.h"
 #include "reyes/base/search_path.h"
 
 namespace tomales {
@@ -229,11 +230,11 @@ void CloudFiles::write(Log& log) {
   for (const auto& [file, baked] : baked_) {
     const SourceLoc where{std::make_shared<const std::string>(file), 0};
     if (baked.dropped > 0)
-      log.report(Severity::Warning, "bake3d-points-" + file, where,
+      log.report(Severity::Warning, "bake3d-points", where,
                  fmt::format("{} of {} baked points are not finite or have a negative radius; dropped", baked.dropped,
                              baked.dropped + baked.cloud.count()));
     try {
-      writePointFile(sorted(baked.cloud), file);
+      writePointFile(sorted(baked.cloud), placeBelow(outputRoot_, file));
     } catch (const FileError& e) {
       log.report(Severity::Output, "bake3d", where, e.what());
     }

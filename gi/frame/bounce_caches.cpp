@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "reyes/base/parallel.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/camera.h"
 
@@ -23,7 +24,7 @@ constexpr double kSettled = 0.002;
 
 int phaseOf(uint32_t key) {
   int phase = kPhases - 1;
-  for (uint32_t h = hash32(key ^ 0x626f756eU); phase > 0 && (h & 1); h >>= 1) --phase;
+  for (uint32_t h = hash32(key ^ randomStream("boun")); phase > 0 && (h & 1); h >>= 1) --phase;
   return phase;
 }
 
@@ -140,12 +141,12 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   settings.curvature = false;
   settings.indirect = false;
   settings.depth = bounces;
-  const std::vector<GatherPoint> seen = hitsFrom(*tools.rays, camera, from, 0x68697473U);
+  const std::vector<GatherPoint> seen = hitsFrom(*tools.rays, camera, from, randomStream("hits"));
   Bound3 bound;
   for (const GatherPoint& p : seen) bound.extend(p.position);
   levels_.emplace_back(bound, kCoarse);
   cover(tools, seen, settings, run);
-  cover(tools, hitsFrom(*tools.rays, camera, points_, 0x6d6f7265U), settings, run);
+  cover(tools, hitsFrom(*tools.rays, camera, points_, randomStream("more")), settings, run);
   settings.indirect = true;
   for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
     settings.depth = bounces - b + 1;

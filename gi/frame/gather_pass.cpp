@@ -265,7 +265,7 @@ class GatherPass {
   }
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
-    const KnownLight known = isLight(site.cache) ? KnownLight{&state_.spots, state_.radiosity.get()} : KnownLight{};
+    const KnownLight known = isLight(site.cache) ? KnownLight{&state_.spots, state_.hitRadiance.get()} : KnownLight{};
     GatherSettings settings = state_.caches[site.cache].plan.gather;
     GatherPoint point = site.point;
     // Bright spots are searched with other rays than those of the final records: a spot that all of these miss would be

@@ -8,37 +8,16 @@
 namespace tomales {
 namespace {
 
-/// Cache settings for a `maxerror`. Ward's split sphere needs a = 1/4 for the error that the paper's function has at
-/// kappa = 1 (docs/measured/irradiance_cache.md), so that `maxerror` means the same for both. The Hessian, which knows
-/// where light is even, has about as many records as that. Where more error is allowed, its records lie less close to
-/// edges, so that some are left for other places and fewer overlap: their error is then no noise (docs/decisions/0106).
 CacheSettings settingsOf(ErrorFunction function, float maxError) {
-  switch (function) {
-    case ErrorFunction::Ward:
-      return {.errorFunction = function, .kappa = 4};
-    case ErrorFunction::Split:
-      return {.errorFunction = function, .kappa = 4, .maxPixels = kInfinity, .minPixels = 0};
-    case ErrorFunction::Hessian:
-      return {.errorFunction = function,
-              .kappa = 0.87f,
-              .maxPixels = 40,
-              .minPixels = maxError,
-              .enough = 0.2f / std::max(1.0f, maxError)};
-    default:
-      return {.errorFunction = function};
-  }
+  const ErrorFunctionInfo& info = infoOf(function);
+  CacheSettings out{function, info.kappa, info.maxPixels, info.minPixels, info.enough};
+  if (info.limitsFollowError) out.minPixels *= maxError, out.enough /= std::max(1.0f, maxError);
+  return out;
 }
 
 // Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
-
-ErrorFunction errorFunctionNamed(const std::string& name) {
-  if (name == "ward") return ErrorFunction::Ward;
-  if (name == "hessian") return ErrorFunction::Hessian;
-  if (name == "split") return ErrorFunction::Split;
-  return name == "plain" ? ErrorFunction::Plain : ErrorFunction::Screen;
-}
 
 /// E/pi that came by mirrors and glass, which gather rays do not find.
 vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, float pixelSize) {
@@ -99,7 +78,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
     if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;
   const RayTools* tools = gatherTools(state);
   if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), point.normal, point.normal, point.normal};
-  const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.radiosity.get()};
+  const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.hitRadiance.get()};
   const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, known, state.stats);
   const IndirectAnswer answer{record.E, record.dominant[0], record.dominant[1], record.dominant[2]};
   if (answers && answers->recording) answers->indirect[name] = answer;
@@ -111,15 +90,12 @@ const RayTools* gatherTools(const GiState& state) {
   if (tools)
     std::call_once(state.sourcesOnce, [&] {
       if (state.atlasSource) state.atlas = state.atlasSource();
-      if (state.radiositySource) state.radiosity = state.radiositySource();
+      if (state.hitRadianceSource) state.hitRadiance = state.hitRadianceSource();
     });
   return tools;
 }
 
-bool interpolatesIndirect(const GiState& state) {
-  const GiMode mode = state.settings.mode;
-  return mode == GiMode::Gather || mode == GiMode::Atlas || mode == GiMode::Radiosity;
-}
+bool interpolatesIndirect(const GiState& state) { return giMethodOf(state.settings.mode).caches; }
 
 GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) {
   const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
@@ -127,8 +103,8 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   GatherPlan plan;
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
-  plan.cache = settingsOf(settings.errorFunction.value_or(errorFunctionNamed(query.errorFunction)), maxError);
-  plan.gather.curvature = plan.cache.errorFunction == ErrorFunction::Hessian && maxError > 0;
+  plan.cache = settingsOf(settings.errorFunction.value_or(query.errorFunction), maxError);
+  plan.gather.curvature = infoOf(plan.cache.errorFunction).curvature && maxError > 0;
   if (plan.gather.curvature) plan.gather.maxError = maxError;
   plan.cache.kappa = maxError > 0 ? plan.cache.kappa / maxError : kInfinity;
   plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
@@ -146,7 +122,7 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
 int bouncesFor(const GiState& state, const IndirectQuery& query) {
   const int asked = state.settings.bounces > 0 ? state.settings.bounces : query.bounces;
   const GiMode mode = state.settings.mode;
-  return mode == GiMode::None ? 0 : mode == GiMode::Atlas || mode == GiMode::Radiosity ? std::min(asked, 1) : asked;
+  return mode == GiMode::None ? 0 : giMethodOf(mode).hitsHoldAll ? std::min(asked, 1) : asked;
 }
 
 vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {

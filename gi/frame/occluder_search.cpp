@@ -1,5 +1,6 @@
 #include "gi/frame/occluder_search.h"
 
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -31,7 +32,7 @@ bool OccluderSearch::isUnderOccluder(const GatherPoint& p, float closest, float 
   if (slanted >= met) return false;
   vec3 tangent, bitangent;
   orthonormalBasis(p.normal, tangent, bitangent);
-  const float azimuth = 2 * kPi * unitFloat(hash32(p.key ^ 0x73686565U));
+  const float azimuth = 2 * kPi * unitFloat(hash32(p.key ^ randomStream("shee")));
   const vec3 aside = std::cos(azimuth) * tangent + std::sin(azimuth) * bitangent;
   for (const float side : {-kSlant, kSlant}) {
     ray.direction = kSlant * p.normal + side * aside;

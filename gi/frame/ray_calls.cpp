@@ -1,6 +1,7 @@
 // Rays that shaders ask for: one from each point of a batch, their hits shaded together.
 #include "gi/frame/state.h"
 #include "gi/gather/layers.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -166,7 +167,8 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
     ray.filter = filter.passesAll() ? nullptr : &filter;
     const SampleName name = points.name(i);
     rays.add(i, ray,
-             {hashCombine(name.key, 0x74726163U, static_cast<uint32_t>(hitContext.depth + hitContext.specularDepth)),
+             {hashCombine(name.key, randomStream("trac"),
+                          static_cast<uint32_t>(hitContext.depth + hitContext.specularDepth)),
               name.sequence * static_cast<uint32_t>(query.count) + static_cast<uint32_t>(query.number)});
   }
   rays.trace();

@@ -1,11 +1,12 @@
 // Origins and times of rays that leave points which may move.
 #include "gi/frame/state.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
 
 float rayTime(const RayScene& rays, const ShadePoints& points, int i, int number, int count, uint32_t seed) {
-  constexpr uint32_t kTimeStream = 0x74696d65U;  // keeps times independent of the directions at the same point
+  constexpr uint32_t kTimeStream = randomStream("time");  // keeps times independent of the directions at the same point
   const float own = points.channel(kTime)[i];
   if (own >= 0) return own;
   if (!rays.samplesTime(points.group())) return 0;

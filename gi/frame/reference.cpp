@@ -1,14 +1,16 @@
 // indirectDiffuse() by path tracing: for the reference, and for hits that no cache of their bounce serves.
 #include "gi/frame/state.h"
 #include "gi/gather/layers.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
 
-constexpr size_t kRaysPerBatch = 4096;         // shaded together
-constexpr uint32_t kPathStream = 0x70617468U;  // keeps directions independent of the light samples at the same point
+constexpr size_t kRaysPerBatch = 4096;  // shaded together
+constexpr uint32_t kPathStream =
+    randomStream("path");  // keeps directions independent of the light samples at the same point
 
 // Sums of one point over its paths.
 struct PathSum {

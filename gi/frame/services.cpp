@@ -112,11 +112,11 @@ void GiServices::setAtlas(std::unique_ptr<const IrradianceAtlas> atlas) { impl_-
 
 void GiServices::setAtlasSource(AtlasSource source) { impl_->atlasSource = std::move(source); }
 
-void GiServices::setRadiositySource(RadiositySource source) { impl_->radiositySource = std::move(source); }
+void GiServices::setHitRadianceSource(HitRadianceSource source) { impl_->hitRadianceSource = std::move(source); }
 
 void GiServices::reportAtlas(Stats& stats) const {
   if (impl_->atlas) impl_->atlas->report(stats);
-  if (impl_->radiosity) impl_->radiosity->report(stats);
+  if (impl_->hitRadiance) impl_->hitRadiance->report(stats);
 }
 
 void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {

@@ -21,11 +21,11 @@ struct GiState {
   BounceCaches bounces{};                                ///< Written by fillCaches().
   /// Queries of each group; written by learnOcclusionQueries() alone.
   mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};
-  bool cachesGiven = false;                                ///< The caches were not gathered for this very frame.
-  std::optional<PixelRect> anew{};                         ///< Pixels whose given records have been taken out.
-  AtlasSource atlasSource{};                               ///< May be empty.
-  RadiositySource radiositySource{};                       ///< May be empty.
-  mutable std::unique_ptr<const HitRadiance> radiosity{};  ///< Set in GiMode::Radiosity alone.
+  bool cachesGiven = false;                                  ///< The caches were not gathered for this very frame.
+  std::optional<PixelRect> anew{};                           ///< Pixels whose given records have been taken out.
+  AtlasSource atlasSource{};                                 ///< May be empty.
+  HitRadianceSource hitRadianceSource{};                     ///< May be empty.
+  mutable std::unique_ptr<const HitRadiance> hitRadiance{};  ///< Set in GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
 };
 

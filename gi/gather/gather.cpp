@@ -3,6 +3,7 @@
 #include "gi/gather/hemisphere.h"
 #include "gi/gather/hessian.h"
 #include "gi/gather/rays.h"
+#include "reyes/base/random_streams.h"
 
 namespace tomales {
 namespace {
@@ -125,8 +126,8 @@ class Hemisphere {
     for (const int cell : chosen) {
       scratch_.raysOfCell[static_cast<size_t>(cell)] += strata;
       for (int s = 0; s < strata; ++s) {
-        const uint32_t name = hashCombine(key_, rays_.number(), 0x66696e65U);
-        const vec2 inside{unitFloat(hash32(name)), unitFloat(hash32(name ^ 0x9e3779b9U))};
+        const uint32_t name = hashCombine(key_, rays_.number(), randomStream("fine"));
+        const vec2 inside{unitFloat(hash32(name)), unitFloat(hash32(name ^ randomStream("second")))};
         const vec3 local = inCell(cell, (vec2(s / split, s % split) + inside) / static_cast<float>(split));
         scratch_.fineDirections.push_back(
             rays_.add(static_cast<int>(scratch_.fineCells.size()), cell, local, count_ * static_cast<size_t>(strata)));
@@ -143,7 +144,8 @@ class Hemisphere {
     if (targets == 0 || count_ < kLeastPerSpot * targets) return;
     const size_t probes = std::max<size_t>(1, count_ / (kRaysOfProbe * targets));
     for (size_t i = 0; i < targets * probes; ++i) {
-      const vec3 local = rays_.toLocal(aim_.probe(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ 0x70726f62U)));
+      const vec3 local =
+          rays_.toLocal(aim_.probe(i / probes, sobol2(static_cast<uint32_t>(i), key_ ^ randomStream("prob"))));
       if (local.z > 0) rays_.add(static_cast<int>(i), cellOf(cells_, local), local, 4 * count_);
     }
     rays_.see(stats, targets * probes, scratch_.aimed);
@@ -166,9 +168,9 @@ class Hemisphere {
     aims_ = byChance() < kFoundByChance ? worthAiming() : 0;
     if (aims_ < kLeastAimed) aims_ = 0;
     for (size_t i = 0; i < aims_; ++i) {
-      const float choice =
-          (static_cast<float>(i) + sobol1(static_cast<uint32_t>(i), key_ ^ 0x73706f74U)) / static_cast<float>(aims_);
-      const vec3 d = aim_.direction(choice, sobol2(static_cast<uint32_t>(i), key_ ^ 0x61696d73U));
+      const float choice = (static_cast<float>(i) + sobol1(static_cast<uint32_t>(i), key_ ^ randomStream("spot"))) /
+                           static_cast<float>(aims_);
+      const vec3 d = aim_.direction(choice, sobol2(static_cast<uint32_t>(i), key_ ^ randomStream("aims")));
       const vec3 local = rays_.toLocal(d);
       if (local.z <= 0) continue;
       const int cell = cellOf(cells_, local);

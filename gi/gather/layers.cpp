@@ -1,6 +1,7 @@
 #include "gi/gather/layers.h"
 
 #include "gi/gather.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -33,7 +34,7 @@ Ray RayLayers::behind(const RayScene& scene, const Ray& ray, const Hit& hit) {
 
 void RayLayers::keep(size_t to, size_t from, const Ray& ray, const vec3& passes) {
   rays[to] = ray, elements[to] = elements[from], clear[to] = passes;
-  names[to] = {hashCombine(names[from].key, 0x6c617965U), names[from].sequence};
+  names[to] = {hashCombine(names[from].key, randomStream("laye")), names[from].sequence};
 }
 
 void RayLayers::resize(size_t count) {

@@ -1,6 +1,7 @@
 // Private to gi: directions and times of the rays of one hemisphere.
 #pragma once
 #include "gi/gather.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -12,12 +13,13 @@ class CellJitter {
  public:
   CellJitter(const HemisphereCells& cells, uint32_t key)
       : key_(key),
-        height_(permutation(cells.sectors, key ^ 0x51633e2dU)),
-        angle_(permutation(cells.rings, key ^ 0x68bc21ebU)) {}
+        height_(permutation(cells.sectors, key ^ randomStream("height"))),
+        angle_(permutation(cells.rings, key ^ randomStream("angle"))) {}
 
   vec2 operator()(int ring, int sector, uint32_t ray) const {
     const uint32_t name = hashCombine(key_, ray);
-    return {within(height_, sector, name ^ 0x3c6ef372U), within(angle_, ring, name ^ 0xa54ff53aU)};
+    return {within(height_, sector, name ^ randomStream("in height")),
+            within(angle_, ring, name ^ randomStream("in angle"))};
   }
 
  private:
@@ -35,11 +37,11 @@ class RayTimes {
   RayTimes(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key)
       : fixed_(std::max(point.time, 0.0f)), key_(key) {
     if (point.time < 0 && scene.samplesTime(point.group))
-      strata_ = permutation(static_cast<int>(count), key ^ 0x74696d65U);
+      strata_ = permutation(static_cast<int>(count), key ^ randomStream("time"));
   }
   float operator()(size_t ray) const {
     if (strata_.empty()) return fixed_;
-    const float inside = unitFloat(hashCombine(key_, static_cast<uint32_t>(ray), 0x74696d65U));
+    const float inside = unitFloat(hashCombine(key_, static_cast<uint32_t>(ray), randomStream("time")));
     return std::min((static_cast<float>(strata_[ray]) + inside) / static_cast<float>(strata_.size()), 0x1.fffffep-1f);
   }
 

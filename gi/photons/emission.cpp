@@ -4,6 +4,7 @@
 
 #include "gi/photons/sky.h"
 #include "raytrace/emitters.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/base/simd.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr int kProbes = 4;  ///< In each cell of a cone
 constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
-constexpr uint32_t kSecondPair = 0x70686f74U;
+constexpr uint32_t kSecondPair = randomStream("phot");
 /// Cells where no probe saw light get this share of the brightest cell, so that a beam between the probes is not lost.
 constexpr double kFloor = 1e-3;
 /// Bias of photons from a point light, relative to the size of the scene and the distance of its origin: such lights

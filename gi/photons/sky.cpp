@@ -1,5 +1,6 @@
 #include "gi/photons/sky.h"
 
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -12,7 +13,7 @@ constexpr float kThroughPortals = 0.75f;  ///< Share of photons through portals,
 constexpr uint32_t kRays = 256;           ///< Number of rays that find on which side of a portal the sky is.
 /// Least share of the sky that counts as free on a side of a portal: glass may have been in the way of all those rays.
 constexpr float kLeastFree = 1.0f / 32;
-constexpr uint32_t kPlaces = 0x706f7274U, kDirections = 0x61737065U;
+constexpr uint32_t kPlaces = randomStream("port"), kDirections = randomStream("aspe");
 
 vec3 direction(double cosTheta, double phi) {
   const double r = std::sqrt(std::max(0.0, 1 - cosTheta * cosTheta));

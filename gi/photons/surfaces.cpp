@@ -16,7 +16,7 @@ PhotonSurfaces::PhotonSurfaces(const RayScene& rays, const ShadingSystem& shadin
     const std::string& name = g.attributes->photon.shadingModel;
     const std::optional<PhotonModel> model = photonModel(name);
     if (!model)
-      log.report(Severity::Warning, "photons-model-" + name, scene.where,
+      log.report(Severity::Warning, "photons-model", scene.where,
                  "photon shadingmodel \"" + name + "\" is not known; matte is used");
     models_.push_back(model.value_or(PhotonModel::Matte));
   }

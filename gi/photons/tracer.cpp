@@ -3,13 +3,14 @@
 #include "gi/gather.h"
 #include "raytrace/emitter_shapes.h"
 #include "raytrace/hit_list.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
 
-constexpr uint32_t kBounceStream = 0x626f756eU, kMediumStream = 0x6d656469U;
+constexpr uint32_t kBounceStream = randomStream("boun"), kMediumStream = randomStream("medi");
 /// The spread of a gather ray of about a hundred; irradiance is estimated over more.
 constexpr float kDiffuseSpread = 0.1f;
 constexpr uint32_t kMostPasses =

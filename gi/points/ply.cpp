@@ -3,179 +3,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <limits>
 #include <optional>
-#include <sstream>
+#include <span>
 
-#include "reyes/base/input_file.h"
+#include "gi/points/ply_reader.h"
+#include "reyes/base/checksum.h"
 #include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "PLY is written and read on little-endian machines");
+/// No length is larger: its square would be infinite.
+constexpr float kLargest = 1e18f;
 
-enum class Encoding { Ascii, Little, Big };
-
-struct Scalar {
-  size_t bytes;
-  double (*value)(const std::byte*);
-  double whole;  ///< The value that stands for 1 in a colour.
-};
-
-template <class T>
-double valueOf(const std::byte* at) {
-  T v;
-  std::memcpy(&v, at, sizeof v);
-  return static_cast<double>(v);
-}
-
-template <class T>
-Scalar scalar() {
-  return {sizeof(T), valueOf<T>, std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0};
-}
-
-std::optional<Scalar> scalarNamed(const std::string& type) {
-  if (type == "char" || type == "int8") return scalar<int8_t>();
-  if (type == "uchar" || type == "uint8") return scalar<uint8_t>();
-  if (type == "short" || type == "int16") return scalar<int16_t>();
-  if (type == "ushort" || type == "uint16") return scalar<uint16_t>();
-  if (type == "int" || type == "int32") return scalar<int32_t>();
-  if (type == "uint" || type == "uint32") return scalar<uint32_t>();
-  if (type == "float" || type == "float32") return scalar<float>();
-  if (type == "double" || type == "float64") return scalar<double>();
-  return std::nullopt;
-}
-
-struct Property {
-  std::string name;
-  Scalar type;
-  std::optional<Scalar> length;  ///< Type of a list's length, for lists.
-};
-
-struct Element {
-  std::string name;
-  uint64_t count = 0;
-  std::vector<Property> properties;
-};
-
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw FileError(fmt::format("\"{}\": {}", path, what));
-}
-
-/// Reads a file after its header, number by number.
-class PlyReader {
+/// Of the header and all vertices, in the order of the file. Chained, so that it can be taken while they are streamed.
+class VertexSum {
  public:
-  explicit PlyReader(const std::string& path) : path_(path) {
-    if (const std::string problem = inputProblem(path); !problem.empty()) fail(path, "cannot be read: " + problem);
-    in_.open(path, std::ios::binary);
-    readHeader();
+  explicit VertexSum(std::string_view header) : sum_(checksum(std::as_bytes(std::span(header)))) {}
+  void add(std::span<const float> vertex) {
+    bytes_.resize(sizeof sum_ + vertex.size_bytes());
+    std::memcpy(bytes_.data(), &sum_, sizeof sum_);
+    std::memcpy(bytes_.data() + sizeof sum_, vertex.data(), vertex.size_bytes());
+    sum_ = checksum(bytes_);
   }
-
-  const std::vector<Element>& elements() const { return elements_; }
-
-  double number(const Scalar& type) {
-    if (encoding_ == Encoding::Ascii) {
-      std::string word;
-      in_ >> word;
-      char* end = nullptr;
-      const double v = std::strtod(word.c_str(), &end);  // takes "nan" and "inf", unlike streams
-      if (word.empty()) fail(path_, "ends too early");
-      if (*end != 0) fail(path_, "holds what is no number: " + word.substr(0, 40));
-      return v;
-    }
-    std::byte bytes[8];
-    if (!in_.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(type.bytes)))
-      fail(path_, "ends too early");
-    if (encoding_ == Encoding::Big) std::reverse(bytes, bytes + type.bytes);
-    return type.value(bytes);
-  }
-
-  void skip(const Element& element) {
-    if (element.properties.empty()) return;  // its elements take no bytes, however many
-    for (uint64_t i = 0; i < element.count; ++i)
-      for (const Property& p : element.properties) {
-        const double count = p.length ? number(*p.length) : 1;
-        for (double k = 0; k < count; ++k) number(p.type);
-      }
-  }
+  std::string text() const { return fmt::format("{:016x}", sum_); }
 
  private:
-  void readHeader() {
-    std::string line;
-    if (!getLine(line) || line != "ply") fail(path_, "is no PLY file");
-    while (true) {
-      if (!getLine(line)) fail(path_, "ends within its header");
-      std::istringstream words(line);
-      std::string word;
-      words >> word;
-      if (word == "end_header") break;
-      if (word == "format") readFormat(words);
-      if (word == "element") {
-        Element e;
-        if (!(words >> e.name >> e.count)) fail(path_, "has a damaged header: " + line);
-        elements_.push_back(e);
-      }
-      if (word == "property") readProperty(words, line);
-    }
-    if (!encoding_) fail(path_, "does not say its format");
-  }
-
-  bool getLine(std::string& line) {
-    constexpr size_t kLongest = 4096;
-    line.clear();
-    for (char c; line.size() < kLongest && in_.get(c);) {
-      if (c == '\n') {
-        if (!line.empty() && line.back() == '\r') line.pop_back();
-        return true;
-      }
-      line += c;
-    }
-    return false;
-  }
-
-  void readFormat(std::istringstream& words) {
-    std::string name;
-    words >> name;
-    if (name == "ascii") encoding_ = Encoding::Ascii;
-    if (name == "binary_little_endian") encoding_ = Encoding::Little;
-    if (name == "binary_big_endian") encoding_ = Encoding::Big;
-  }
-
-  void readProperty(std::istringstream& words, const std::string& line) {
-    std::string type, name;
-    std::optional<Scalar> length;
-    words >> type;
-    if (type == "list") {
-      words >> type;
-      if (length = scalarNamed(type); !length) fail(path_, "has a damaged header: " + line);
-      words >> type;
-    }
-    words >> name;
-    const std::optional<Scalar> scalar = scalarNamed(type);
-    if (!scalar || name.empty() || elements_.empty()) fail(path_, "has a damaged header: " + line);
-    elements_.back().properties.push_back({name, *scalar, length});
-  }
-
-  const std::string path_;
-  std::ifstream in_;
-  std::optional<Encoding> encoding_;
-  std::vector<Element> elements_;
+  uint64_t sum_;
+  Bytes bytes_;
 };
+
+constexpr const char* kEndOfHeader = "end_header\n";
 
 /// Offset of each property of a vertex among its kFixed floats and the channels after them.
 class VertexLayout {
  public:
   enum Fixed { X, Y, Z, Nx, Ny, Nz, Radius, kFixed };
 
-  explicit VertexLayout(const std::vector<Property>& properties) {
+  explicit VertexLayout(const std::vector<PlyProperty>& properties) {
     static constexpr std::string_view kNames[kFixed] = {"x", "y", "z", "nx", "ny", "nz", "radius"};
-    for (const Property& p : properties) {
+    for (const PlyProperty& p : properties) {
       const auto* fixed = std::find(kNames, kNames + kFixed, p.name);
       if (fixed != kNames + kFixed) {
         const auto place = static_cast<size_t>(fixed - kNames);
@@ -224,19 +93,28 @@ class VertexLayout {
   size_t width_ = 0;
 };
 
-PlyFigures readVertices(PlyReader& in, const Element& element, const std::string& path, const std::string& out,
-                        float radius) {
-  for (const Property& p : element.properties)
-    if (p.length) fail(path, fmt::format("vertices with a list (\"{}\") are not supported", p.name));
+PlyFigures readVertices(PlyReader& in, const PlyElement& element, const std::string& path, const std::string& out,
+                        float radius, const std::function<void()>& readRest) {
+  for (const PlyProperty& p : element.properties)
+    if (p.length) failPly(path, fmt::format("vertices with a list (\"{}\") are not supported", p.name));
   const VertexLayout layout(element.properties);
   if (!layout.has(VertexLayout::X) || !layout.has(VertexLayout::Y) || !layout.has(VertexLayout::Z))
-    fail(path, "its vertices have no x, y and z");
+    failPly(path, "its vertices have no x, y and z");
   PointFileWriter writer(out, layout.channels());
-  std::vector<float> values(layout.width(), 0.0f);
+  std::vector<float> values(layout.width(), 0.0f), asWritten(element.properties.size());
+  VertexSum sum(in.header());
   PlyFigures figures;
   for (uint64_t i = 0; i < element.count; ++i) {
-    for (size_t p = 0; p < element.properties.size(); ++p)
-      values[layout.place(p)] = static_cast<float>(in.number(element.properties[p].type) * layout.scale(p));
+    for (size_t p = 0; p < element.properties.size(); ++p) {
+      const double number = in.number(element.properties[p].type);
+      asWritten[p] = static_cast<float>(number);
+      values[layout.place(p)] = static_cast<float>(number * layout.scale(p));
+    }
+    if (in.sum()) sum.add(asWritten);
+    for (int k = 0; k < VertexLayout::kFixed; ++k)
+      if (std::abs(values[static_cast<size_t>(k)]) > kLargest && std::isfinite(values[static_cast<size_t>(k)]))
+        failPly(path, fmt::format("is damaged: {:g} in vertex {} is more than any length",
+                                  values[static_cast<size_t>(k)], i + 1));
     const vec3 P(values[VertexLayout::X], values[VertexLayout::Y], values[VertexLayout::Z]);
     const vec3 N(values[VertexLayout::Nx], values[VertexLayout::Ny], values[VertexLayout::Nz]);
     const float r = layout.has(VertexLayout::Radius) ? values[VertexLayout::Radius] : radius;
@@ -248,6 +126,8 @@ PlyFigures readVertices(PlyReader& in, const Element& element, const std::string
     writer.add(P, normalizeOr(N, vec3(0.0f)), r, values.data() + VertexLayout::kFixed);
     ++figures.points;
   }
+  if (in.sum() && *in.sum() != sum.text()) failPly(path, "is damaged: its checksum is that of other vertices");
+  readRest();
   writer.finish();
   return figures;
 }
@@ -259,19 +139,22 @@ std::string headerOf(const PointFile& cloud) {
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "radius"}) property(name);
   for (const CloudChannel& c : cloud.channels())
     for (int k = 0; k < c.width; ++k) property(c.width == 1 ? c.name : fmt::format("{}_{}", c.name, k));
-  return h + "end_header\n";
+  return h + kEndOfHeader;
 }
 
-void writeRows(const PointFile& cloud, size_t chunk, const std::function<void(const void* data, size_t size)>& write) {
+void forEachVertex(const PointFile& cloud, const std::function<void(std::span<const float>)>& take) {
   PointCloud points;
-  cloud.read(chunk, points);
-  std::vector<float> rows;
-  for (size_t i = 0; i < points.count(); ++i) {
-    const vec3 p = points.position[i], n = points.normal[i];
-    rows.insert(rows.end(), {p.x, p.y, p.z, n.x, n.y, n.z, points.radius[i]});
-    rows.insert(rows.end(), points.at(i), points.at(i) + points.width());
+  std::vector<float> vertex;
+  for (size_t chunk = 0; chunk < cloud.chunkCount(); ++chunk) {
+    points = PointCloud();
+    cloud.read(chunk, points);
+    for (size_t i = 0; i < points.count(); ++i) {
+      const vec3 p = points.position[i], n = points.normal[i];
+      vertex = {p.x, p.y, p.z, n.x, n.y, n.z, points.radius[i]};
+      vertex.insert(vertex.end(), points.at(i), points.at(i) + points.width());
+      take(vertex);
+    }
   }
-  write(rows.data(), rows.size() * sizeof(float));
 }
 
 }  // namespace
@@ -286,19 +169,26 @@ void writePly(const PointFile& cloud, const std::string& path) {
     if (std::fwrite(data, 1, size, file->stream()) != size) failed(std::strerror(errno));
   };
   if (!file) failed(why);
-  const std::string header = headerOf(cloud);
+  std::string header = headerOf(cloud);
+  VertexSum sum(header);
+  forEachVertex(cloud, [&](std::span<const float> vertex) { sum.add(vertex); });
+  header.insert(header.rfind(kEndOfHeader), fmt::format("{}{}\n", kPlySumComment, sum.text()));
   write(header.data(), header.size());
-  for (size_t chunk = 0; chunk < cloud.chunkCount(); ++chunk) writeRows(cloud, chunk, write);
+  forEachVertex(cloud, [&](std::span<const float> vertex) { write(vertex.data(), vertex.size_bytes()); });
   if (!file->finish(why)) failed(why);
 }
 
 PlyFigures convertPly(const std::string& path, const std::string& out, float radius) {
   PlyReader in(path);
-  for (const Element& element : in.elements()) {
-    if (element.name == "vertex") return readVertices(in, element, path, out, radius);
-    in.skip(element);
-  }
-  fail(path, "has no vertices");
+  const auto& elements = in.elements();
+  const auto isVertex = [](const PlyElement& e) { return e.name == "vertex"; };
+  const auto vertices = std::find_if(elements.begin(), elements.end(), isVertex);
+  if (vertices == elements.end()) failPly(path, "has no vertices");
+  std::for_each(elements.begin(), vertices, [&](const PlyElement& e) { in.skip(e); });
+  return readVertices(in, *vertices, path, out, radius, [&] {
+    std::for_each(vertices + 1, elements.end(), [&](const PlyElement& e) { in.skip(e); });
+    in.requireEnd();
+  });
 }
 
 }  // namespace tomales

@@ -1,5 +1,6 @@
 #include "gi/radiosity/bake.h"
 
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/dice.h"
 
@@ -9,7 +10,7 @@ namespace {
 constexpr int kSamples = 2;  ///< Samples along each edge of a texel.
 constexpr float kShare = 1.0f / (kSamples * kSamples);
 constexpr size_t kSamplesPerBatch = 1024;
-constexpr uint32_t kBakeStream = 0x72616469U;
+constexpr uint32_t kBakeStream = randomStream("radi");
 
 /// Collects samples of texels, to shade many together.
 class Samples {
@@ -58,7 +59,7 @@ void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, Bak
   const Object& object = scene.objects[static_cast<size_t>(texel.object)];
   for (int k = 0; k < kSamples * kSamples; ++k) {
     const uint32_t name = hashCombine(texel.key, static_cast<uint32_t>(k));
-    const vec2 jitter{unitFloat(hash32(name)), unitFloat(hash32(name ^ 0x9e3779b9U))};
+    const vec2 jitter{unitFloat(hash32(name)), unitFloat(hash32(name ^ randomStream("second")))};
     const vec2 uv =
         texel.square.corner + texel.square.size * (vec2(k % kSamples, k / kSamples) + jitter) / float{kSamples};
     if (!object.shape().keeps(texel.patch, uv.x, uv.y)) continue;

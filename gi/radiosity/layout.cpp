@@ -96,7 +96,7 @@ std::vector<int> bakedObjects(const Scene& scene, const ShadingSystem& shading, 
       mapped.push_back(static_cast<int>(i));
     else
       log.report(
-          Severity::Info, fmt::format("radiosity-map-{}", why), o.where,
+          Severity::Info, "radiosity-map", o.where,
           fmt::format("\"{}\" has no radiosity map, because {}; it is shaded where gather rays hit it", a.name, why));
   }
   return mapped;

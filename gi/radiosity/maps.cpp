@@ -1,5 +1,7 @@
 #include "gi/radiosity/maps.h"
 
+#include <atomic>
+
 #include "gi/radiosity/bake.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/stop.h"
@@ -87,6 +89,7 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
       for (RadiosityChart& c : s.side(back)) c.allocate(), charts.push_back(&c);
   const std::vector<TexelRun> runs = texelRuns(surfaces_);
   const RadiosityBake bake{rays, shading, settings};
+  std::atomic<size_t> done{0};
   parallelFor(runs.size(), 1, [&](size_t r, size_t) {
     throwIfStopped();
     std::vector<RadiosityChart>& of = surfaces_[static_cast<size_t>(runs[r].object)].side(runs[r].back);
@@ -95,6 +98,7 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
     forEachTexel(of, runs[r], [&](uint32_t patch, size_t t) {
       of[patch].texels[t] = baked[k].radiance, of[patch].coverage[t] = baked[k].coverage, ++k;
     });
+    if (settings.progress) settings.progress(static_cast<float>(++done) / static_cast<float>(runs.size()));
   });
   parallelFor(charts.size(), kChartsPerTask, [&](size_t begin, size_t end) {
     for (size_t c = begin; c < end; ++c) charts[c]->makeLevels();

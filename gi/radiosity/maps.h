@@ -5,6 +5,8 @@
 // objects, shaders that trace rays, and surfaces that displacement moves for rays. Values are radiance, the same
 // towards all directions, as hits of gather rays are shaded. Threads: const members may be called concurrently.
 #pragma once
+#include <functional>
+
 #include "gi/gather/hit_radiance.h"
 #include "reyes/camera.h"
 
@@ -15,6 +17,7 @@ struct RadiositySettings {
   uint32_t seed = 0;
   /// Limit for all maps together, about 20 bytes a texel. The maps are halved until they keep it.
   int64_t mostTexels = int64_t{1} << 25;
+  std::function<void(float)> progress{};  ///< Is told how far baking is, by any thread.
 };
 
 /// Texels of one side of a patch, row by row, v down, and all coarser levels after them.

@@ -37,6 +37,8 @@ class Baking {
         baked[r] = bakeTexels(bake_, chartsOf(runs[wave + r]), runs[wave + r]);
       });
       for (size_t r = 0; r < baked.size(); ++r) write(runs[wave + r], baked[r], files);
+      if (bake_.settings.progress)
+        bake_.settings.progress(static_cast<float>(wave + baked.size()) / static_cast<float>(runs.size()));
     }
   }
 

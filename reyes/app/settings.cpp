@@ -92,25 +92,9 @@ std::optional<int64_t> parseBytes(const std::string& text) {
   return value << shift;
 }
 
-std::optional<GiChoice> parseGi(const std::string& text) {
-  if (text == "scene") return GiChoice::Scene;
-  if (text == "none") return GiChoice::None;
-  if (text == "gather") return GiChoice::Gather;
-  if (text == "atlas") return GiChoice::Atlas;
-  if (text == "points") return GiChoice::Points;
-  if (text == "radiosity") return GiChoice::Radiosity;
-  if (text == "baked") return GiChoice::Baked;
-  if (text == "reference") return GiChoice::Reference;
-  return std::nullopt;
-}
-
-std::optional<ErrorFunction> parseErrorFunction(const std::string& text) {
-  if (text == "screen") return ErrorFunction::Screen;
-  if (text == "ward") return ErrorFunction::Ward;
-  if (text == "hessian") return ErrorFunction::Hessian;
-  if (text == "split") return ErrorFunction::Split;
-  if (text == "plain") return ErrorFunction::Plain;
-  return std::nullopt;
+std::optional<const GiMethod*> parseGi(const std::string& text) {
+  const GiMethod* method = giMethodNamed(text);
+  return method || text == "scene" ? std::optional(method) : std::nullopt;
 }
 
 std::optional<double> parseSeconds(const std::string& text) {
@@ -128,12 +112,6 @@ int64_t textureShare(int64_t memoryLimit) { return std::max(kLeastCache, memoryL
 size_t brickCacheBytes(const RenderSettings& settings) {
   if (!settings.memoryLimit) return settings.brickCacheBytes;
   return std::min(settings.brickCacheBytes, static_cast<size_t>(std::max(kLeastCache, *settings.memoryLimit / 8)));
-}
-
-bool namesPicture(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".exr" || extension == ".tif" || extension == ".tiff" || extension == ".png";
 }
 
 std::string withFrameNumber(const std::string& path, int frame) {

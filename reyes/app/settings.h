@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "gi/services.h"
+#include "reyes/base/plugin_trust.h"
+#include "reyes/base/trust.h"
 
 namespace tomales {
 
 constexpr const char* kVersion = "0.1.0";
-
-enum class GiChoice { Scene, None, Gather, Atlas, Points, Radiosity, Baked, Reference };
 
 struct RenderSettings {
   std::vector<std::string> files;  ///< One RIB stream; "-" is standard input.
@@ -21,9 +21,9 @@ struct RenderSettings {
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
   std::optional<float> shadingRate;
-  bool draft = false;                      ///< Coarse and fast, to place lights by.
-  std::optional<std::vector<int>> frames;  ///< Sorted. None: all.
-  GiChoice gi = GiChoice::Scene;
+  bool draft = false;                          ///< Coarse and fast, to place lights by.
+  std::optional<std::vector<int>> frames;      ///< Sorted. None: all.
+  const GiMethod* gi = nullptr;                ///< Null: as the scene's indirect light asks.
   int samples = 0, bounces = 0;                ///< 0: as the scene's indirect light asks.
   float maxError = -1;                         ///< < 0: likewise.
   std::optional<ErrorFunction> errorFunction;  ///< None: likewise.
@@ -37,9 +37,9 @@ struct RenderSettings {
       0.03f;  ///< Of the brick maps of --gi atlas: bricks whose voxels vary by less of the map's mean are left out.
   float radiosityTexels = 1;    ///< Times as many along each edge of a radiosity map as objects ask.
   std::string radiosityFolder;  ///< Radiosity maps are written there too; empty: nowhere.
-  std::string atlasFolder;  ///< Brick maps to use, or to make; empty: made in a temporary folder. For GiChoice::Points:
-                            ///< point clouds.
-  std::string bakedFolder;  ///< Brick maps of gathered light: added to, or with GiChoice::Baked used; empty: none.
+  std::string atlasFolder;      ///< Brick maps to use, or to make; empty: made in a temporary folder. For --gi points:
+                                ///< point clouds.
+  std::string bakedFolder;      ///< Brick maps of gathered light: added to, or with --gi baked used; empty: none.
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int> bucketSize;
   std::vector<std::string> edits;  ///< RIB files of changes to a shot.
@@ -57,15 +57,16 @@ struct RenderSettings {
   bool progress = false;
   std::string preview;                     ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;  ///< To explain.
-  bool allowSystem = false;                ///< The RIB may start programs and load plugins.
-  std::string shaderFolders;  ///< The user's, separated by colons: their plugins are trusted whatever the RIB may do.
+  Trust trust;                             ///< Of the code that the RIB names.
+  std::string outputRoot;                  ///< What the RIB names is written below it; empty: anywhere.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };
 
-inline PluginTrust pluginTrust(const RenderSettings& settings) {
-  return {.folders = settings.shaderFolders, .sceneFolders = settings.allowSystem};
+inline PluginTrust pluginTrust(const Trust& t) {
+  return {.folders = t.shaderFolders + ":" + t.pluginFolders(), .sceneFolders = t.allowsPluginsOfScene()};
 }
+inline PluginTrust pluginTrust(const RenderSettings& settings) { return pluginTrust(settings.trust); }
 inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }
 
 // Each returns nothing when the text is not of its form.
@@ -74,8 +75,8 @@ std::optional<std::array<int, 2>> parsePixel(const std::string& text);          
 std::optional<std::array<float, 4>> parseCrop(const std::string& text);                     ///< "0,0.5,0.25,1"
 std::optional<std::vector<int>> parseFrames(const std::string& text);                       ///< "1-10x2,15"
 std::optional<int64_t> parseBytes(const std::string& text);                                 ///< "600M", "2G", "1000000"
-std::optional<GiChoice> parseGi(const std::string& text);
-std::optional<ErrorFunction> parseErrorFunction(const std::string& text);
+/// Null for "scene", which leaves it to the scene.
+std::optional<const GiMethod*> parseGi(const std::string& text);
 std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", "10m", "2h"
 
 /// Shares of --memory-limit: for textures a quarter, for bricks --brick-cache but no more than an eighth; at least 1 MB
@@ -83,8 +84,6 @@ std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", 
 int64_t textureShare(int64_t memoryLimit);
 size_t brickCacheBytes(const RenderSettings& settings);
 
-/// Can a picture be written under this name?
-bool namesPicture(const std::string& path);
 /// Runs of '#' become the frame number, padded to their length.
 std::string withFrameNumber(const std::string& path, int frame);
 

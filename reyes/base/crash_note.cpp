@@ -7,6 +7,8 @@
 #include <cstring>
 #include <memory>
 
+#include "reyes/base/loaded_plugins.h"
+
 namespace tomales {
 namespace {
 
@@ -48,6 +50,11 @@ extern "C" void onCrash(int signal) {
     if (t->other) put(", on "), put(t->other);
     put(": "), put(t->kind), put(" \""), put(t->name), put("\" crashes ("), put(nameOf(signal));
     put("); this ends the program\n");
+  } else if (loadedPlugin(0)) {
+    put("tomales: error: the program crashes ("), put(nameOf(signal));
+    put("); it has loaded plugins, one of which may be to blame:");
+    for (int i = 0; loadedPlugin(i); ++i) put(" "), put(loadedPlugin(i));
+    put("\n");
   }
   raise(signal);  // the default, which kills, is back: SA_RESETHAND
 }

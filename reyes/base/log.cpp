@@ -1,5 +1,6 @@
 #include "reyes/base/log.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace tomales {
@@ -9,18 +10,68 @@ std::string SourceLoc::text() const {
   return line > 0 ? *file + ":" + std::to_string(line) : *file;
 }
 
-void Log::report(Severity severity, std::string_view code, const SourceLoc& where, const std::string& message) {
-  const std::lock_guard lock(mutex_);
-  const auto [it, fresh] =
-      index_.try_emplace({std::string(code), where.file ? *where.file : "", where.line}, entries_.size());
-  if (!fresh) {
-    ++entries_[it->second].count;
-    return;
+namespace {
+
+bool isSame(const SourceLoc& a, const SourceLoc& b) {
+  return a.line == b.line && (a.file == b.file || (a.file && b.file && *a.file == *b.file));
+}
+
+void addPlace(LogEntry& entry, const SourceLoc& where) {
+  std::vector<SourceLoc>& places = entry.places;
+  if (places.size() == Log::kMostPlaces) return;
+  if (std::none_of(places.begin(), places.end(), [&](const SourceLoc& p) { return isSame(p, where); }))
+    places.push_back(where);
+}
+
+/// How a message begins, for a line that has been said in full before.
+std::string beginning(const std::string& message) {
+  constexpr size_t kLongest = 60;
+  const size_t end = std::min(message.find_first_of(";\n"), message.size());
+  return end <= kLongest ? message.substr(0, end) : message.substr(0, kLongest) + " ...";
+}
+
+}  // namespace
+
+Log::~Log() { printRepeated(); }
+
+bool Log::isWanted(Severity severity) const {
+  return verbosity_ == Verbosity::Verbose || severity > Severity::Warning ||
+         (verbosity_ == Verbosity::Normal && severity >= Severity::Note);
+}
+
+void Log::printRepeated() const {
+  std::vector<const LogEntry*> repeated;
+  for (const LogEntry& e : entries_)
+    if (e.places.size() > 1 && isWanted(e.severity)) repeated.push_back(&e);
+  std::stable_sort(repeated.begin(), repeated.end(),
+                   [](const LogEntry* a, const LogEntry* b) { return a->count > b->count; });
+  for (size_t i = 0; i < std::min(repeated.size(), kMostRepeated); ++i) {
+    const LogEntry& e = *repeated[i];
+    std::string places;
+    for (const SourceLoc& p : e.places) places += (places.empty() ? "" : ", ") + p.text();
+    std::fprintf(stderr, "tomales: %d times: %s [%s]: %s%s\n", e.count, beginning(e.message).c_str(), e.code.c_str(),
+                 places.c_str(), static_cast<size_t>(e.count) > e.places.size() ? ", ..." : "");
   }
-  entries_.push_back({severity, std::string(code), message, where});
-  const bool wanted = verbosity_ == Verbosity::Verbose || severity > Severity::Warning ||
-                      (verbosity_ == Verbosity::Normal && severity == Severity::Warning);
-  static constexpr const char* kNames[] = {"info", "warning", "missing", "error", "output error"};
+  if (repeated.size() > kMostRepeated)
+    std::fprintf(stderr, "tomales: %zu other messages came from several places as well; the statistics have them\n",
+                 repeated.size() - kMostRepeated);
+}
+
+void Log::report(Severity severity, std::string_view code, const SourceLoc& where, const std::string& message,
+                 std::string_view subject) {
+  const std::lock_guard lock(mutex_);
+  const bool wholeFile = where.file && where.line == 0;
+  const auto [it, fresh] = index_.try_emplace(
+      {std::string(code), !subject.empty() ? std::string(subject) : message + (wholeFile ? *where.file : "")},
+      entries_.size());
+  if (!fresh) {
+    LogEntry& known = entries_[it->second];
+    ++known.count;
+    return addPlace(known, where);
+  }
+  entries_.push_back({severity, std::string(code), message, where, 1, {where}});
+  const bool wanted = isWanted(severity);
+  static constexpr const char* kNames[] = {"info", "note", "warning", "missing", "error", "output error"};
   const int line = wanted ? ++lines_[entries_.back().code] : 0;
   if (wanted && line <= kMostLinesOfCode)
     std::fprintf(stderr, "%s: %s: %s [%s]\n", where.text().c_str(), kNames[static_cast<int>(severity)], message.c_str(),

@@ -1,5 +1,6 @@
 #include "reyes/base/search_path.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -16,6 +17,17 @@ std::vector<std::string> foldersOf(const std::string& searchPath) {
 std::string pathOf(const std::map<std::string, std::string>& searchPaths, const std::string& kind) {
   const auto it = searchPaths.find(kind);
   return it == searchPaths.end() ? std::string() : it->second;
+}
+
+std::vector<std::string> filesWithin(const std::string& searchPath, const std::string& file) {
+  namespace fs = std::filesystem;
+  const fs::path name = file;
+  std::vector<std::string> out;
+  if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end()) return out;
+  std::error_code none;
+  for (const fs::path folder : foldersOf(searchPath))
+    if (fs::is_regular_file(folder / name, none)) out.push_back((folder / name).string());
+  return out;
 }
 
 std::string findFile(const std::string& name, const std::string& searchPath) {

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <set>
 
+#include "reyes/base/stop.h"
 #include "reyes/frame/piece_node.h"
 
 namespace tomales {
@@ -221,7 +222,12 @@ class ProceduralNode : public OpeningNode {
       : OpeningNode(context, place, range, Opening::Shared), procedural_(procedural) {}
 
   HideNodes open(const BucketRange& within) override {
-    Expansion inside = context_.scene.opened(procedural_);
+    Expansion inside;
+    try {
+      inside = context_.scene.opened(procedural_);
+    } catch (const Stopped&) {  // the bucket is given up as all others are that are not finished
+      return {};
+    }
     std::set<PrimPtr> shapes;
     for (const Object& o : inside.objects) shapes.insert(o.shapes.begin(), o.shapes.end());
     bytes_ = bytesOf(shapes);

@@ -126,7 +126,7 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
   DisplayFiles files(stats);
   for (size_t i = 0; i < options.displays.size(); ++i)
     if (options.displays[i].type != "null")
-      files.add(std::make_unique<DisplayFile>(filter.shape(), output, i, options, log, view, names));
+      files.add(std::make_unique<DisplayFile>(filter.shape(), output, i, options, log, view, names, control.trust));
   for (int y = frame.crop.y0; y < frame.crop.y1; y += kBandRows) {
     const int end = std::min(y + kBandRows, frame.crop.y1);
     // One thread writes rows while the others hide and shade those below.

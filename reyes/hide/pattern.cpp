@@ -1,6 +1,7 @@
 // Correlated multi-jittered sampling (Kensler 2013): every cell of the xSamples by ySamples raster holds one
 // sample, and so does every column and row of the finer raster with count() columns and rows.
 
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/hide.h"
 #include "reyes/hide/aperture.h"
@@ -58,7 +59,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
       detail_.assign(size, 0);
   const ApertureShape throughAperture(aperture);
   for (uint32_t p = 0; p < static_cast<uint32_t>(patterns_); ++p) {
-    const uint32_t name = hashCombine(seed, 0x70617474U, p);
+    const uint32_t name = hashCombine(seed, randomStream("patt"), p);
     const std::vector<int> inColumn = permutation(ySamples, hash32(name ^ 1U));
     const std::vector<int> inRow = permutation(xSamples, hash32(name ^ 2U));
     const Times times(xSamples, ySamples, name);

@@ -2,6 +2,7 @@
 #include "reyes/image/cryptomatte.h"
 #include "reyes/image/deep_rows.h"
 #include "reyes/image/display_format.h"
+#include "reyes/image/formats.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
@@ -70,10 +71,17 @@ Metadata matrix(const char* name, const mat4& m) {
 
 struct DisplayFile::Impl {
   Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l, const View& view,
-       const MatteNames& names)
+       const MatteNames& names, const PluginTrust& trust)
       : display(o.displays[index]), options(o), log(l), path(display.name), selection(output.displays[index]) {
-    warnAboutParams(display, log);
-    format = formatOf(display, path, log);
+    const std::string driver = driverOf(display, options, trust);
+    if (driver.empty()) {
+      warnOfRefusedDriver(display, options, trust, log);
+      warnAboutParams(display, log);
+      format = formatOf(display, path, log);
+    } else {
+      format = {&driverFormat(), SampleType::Float};
+      format.driver = {driver, display, view};
+    }
     format.pixelAspect = options.pixelAspect;
     shape = whole;
     shape.channels.clear(), shape.pixels.clear();
@@ -98,19 +106,20 @@ struct DisplayFile::Impl {
       // Depth, position and ids lose their meaning in half floats.
       if (depth.back() || channel.type == ValueType::Point || isMatte(channel.kind)) format.precise.push_back(f.name);
     }
-    bool good = format.name == "openexr" || prepareIntegers();
+    bool good = !format.kind->quantises || prepareIntegers();
     for (const Channel& c : output.channels)
       if (isMatte(c.kind) && std::any_of(selection.begin(), selection.end(), [&](const SelectedFloat& f) {
             return &output.channels[static_cast<size_t>(f.channel)] == &c;
           }))
         good = addMatte(c.kind, names) && good;
     if (good) file = std::make_unique<PictureFile>(path, shape, format);
+    if (file && format.driver) warnOfUnreadParams(display, file->unread(), log);
   }
 
   bool addMatte(ChannelKind kind, const MatteNames& names) {
-    if (format.name != "openexr") {
+    if (!format.kind->carriesNames) {
       log.report(Severity::Output, "display-matte", display.where,
-                 "\"" + path + "\" could not be written: Cryptomatte needs OpenEXR");
+                 "\"" + path + "\" could not be written: Cryptomatte needs " + pictureFormats().front()->title);
       return false;
     }
     for (Metadata& m : cryptoMetadata(matteLayer(kind), kind == ChannelKind::Objects ? names.objects : names.materials))
@@ -121,7 +130,7 @@ struct DisplayFile::Impl {
   void openDeep() {
     format.deep = true, format.tile = 0, format.multipart = false, format.compression.clear();
     format.precise = {"Z", "ZBack"};
-    merge.opacityOnly = display.type == "deepshad";
+    merge.opacityOnly = writesMap(display);
     if (const Param* p = findParam(display.params, "mergedepth")) merge.depth = std::max(0.0f, p->number(0));
     if (const Param* p = findParam(display.params, "mergeopacity")) merge.opacity = std::max(0.0f, p->number(0));
     shape.channels = merge.opacityOnly ? std::vector<std::string>{"AR", "AG", "AB", "Z", "ZBack"}
@@ -142,24 +151,26 @@ struct DisplayFile::Impl {
       floats = floats || q.one <= 0, wide = wide || q.one > 255 || q.max > 255;
       quantizers.push_back(q);
     }
-    if (floats && format.name == "tiff") {
+    if (floats && format.kind->floats) {
       quantizers.clear();
       format.type = SampleType::Float;
       return true;
     }
     if (floats && anyDepth) {
-      log.report(Severity::Output, "display-depth", display.where,
-                 "\"" + path + "\" could not be written: PNG holds no depth; use OpenEXR or TIFF");
+      log.report(
+          Severity::Output, "display-depth", display.where,
+          "\"" + path + "\" could not be written: " + format.kind->title + " holds no depth; use " + floatFormats());
       return false;
     }
     if (floats) {
       log.report(Severity::Warning, "display-quantize", display.where,
-                 "Display \"" + display.name + "\": PNG holds no floating point numbers; quantised to 8 bits");
+                 "Display \"" + display.name + "\": " + format.kind->title +
+                     " holds no floating point numbers; quantised to 8 bits");
       quantizers.assign(selection.size(), Quantize{});
       wide = false;
     }
     screen = displayText(display, "transfer") == "srgb" && !anyDepth;
-    format.unassociatedAlpha = screen || (format.name == "png" && !anyDepth);
+    format.unassociatedAlpha = screen || (format.kind->dividesColor && !anyDepth);
     format.type = wide ? SampleType::UInt16 : SampleType::UInt8;
     return true;
   }
@@ -215,8 +226,8 @@ struct DisplayFile::Impl {
 };
 
 DisplayFile::DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
-                         const View& view, const MatteNames& names)
-    : impl_(new Impl(shape, output, index, options, log, view, names)) {}
+                         const View& view, const MatteNames& names, const PluginTrust& trust)
+    : impl_(new Impl(shape, output, index, options, log, view, names, trust)) {}
 DisplayFile::~DisplayFile() = default;
 bool DisplayFile::write(const Image& rows) { return impl_->write(rows); }
 bool DisplayFile::write(const DeepRows& rows) { return impl_->write(rows); }
@@ -255,15 +266,16 @@ bool makeShadow(const std::string& picture, const std::string& map, const Source
 }
 
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log) {
-  FileFormat format = formatOfExtension(path);
-  if (format.name.empty()) {
+  const PictureFormat* kind = formatOfExtension(path);
+  if (!kind) {
     log.report(Severity::Output, "image-write", {},
-               "\"" + path + "\" could not be written: its extension names none of exr, tif, png");
+               "\"" + path + "\" could not be written: its extension names none of " + pictureExtensions());
     return false;
   }
+  FileFormat format{kind, kind->usualType()};
   Image copy = image;
   if (format.type == SampleType::UInt8) {
-    format.unassociatedAlpha = srgb || format.name == "png";
+    format.unassociatedAlpha = srgb || kind->dividesColor;
     if (format.unassociatedAlpha) divideByAlpha(copy);
     if (srgb) encodeForScreen(copy);
     quantise(copy, std::vector<Quantize>(copy.channels.size(), Quantize{255, 0, 255, 0}), 255);

@@ -2,30 +2,25 @@
 
 #include <filesystem>
 
+#include "reyes/base/search_path.h"
+#include "reyes/base/trust.h"
+#include "reyes/display_driver.h"
+#include "reyes/image/formats.h"
+
 namespace tomales {
 namespace {
 
-FileFormat formatOfType(const std::string& type) {
-  if (type == "openexr" || type == "exr") return {"openexr", SampleType::Float};
-  if (type == "shadow" || type == "zfile" || type == "deepshad" || type == "deepexr")
-    return {"openexr", SampleType::Float};
-  if (type == "tiff" || type == "tif") return {"tiff", SampleType::UInt8};
-  if (type == "png") return {"png", SampleType::UInt8};
-  return {"", SampleType::Float};
-}
-
-constexpr std::string_view kOnlyExr[] = {"exrpixeltype",   "type",       "tiled",       "multipart",
-                                         "chromaticities", "mergedepth", "mergeopacity"};
 constexpr std::string_view kHeader = "exrheader_";
 
-bool knowsParam(const std::string& name) {
-  static constexpr std::string_view kNames[] = {"transfer",       "exrpixeltype",   "type",        "compression",
-                                                "exrcompression", "tiled",          "multipart",   "quantize",
-                                                "dither",         "filter",         "filterwidth", "exposure",
-                                                "origin",         "chromaticities", "mergedepth",  "mergeopacity",
-                                                "asrgba"};  // asrgba: Ci and a are R G B A here anyway
-  return name.starts_with(kHeader) || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+/// Parameters that pictures of every format take. asrgba: Ci and a are R G B A here anyway.
+bool everyFormatTakes(const std::string& name) {
+  static constexpr std::string_view kNames[] = {"transfer", "compression", "exrcompression", "quantize", "dither",
+                                                "filter",   "filterwidth", "exposure",       "origin",   "asrgba"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
+
+/// Does its type say what is written, and not only in which format?
+bool writesPass(const DisplayCall& display) { return writesMap(display) || writesDeep(display); }
 
 std::string compressionOf(const DisplayCall& display) {
   const std::string plain = displayText(display, "compression");
@@ -64,25 +59,26 @@ void setExr(const DisplayCall& display, FileFormat& format) {
   format.metadata = metadataOf(display);
 }
 
+/// Is the type of this Display left to drivers?
+bool namesDriver(const DisplayCall& display) {
+  return !writesPass(display) && display.type != "file" && display.type != "null" && !formatOfType(display.type);
+}
+
 void setCompression(const DisplayCall& display, FileFormat& format, Log& log) {
-  static const std::vector<std::string_view> kExr = {"none",  "rle", "zip",  "zips", "piz",
-                                                     "pxr24", "b44", "b44a", "dwaa", "dwab"};
-  static const std::vector<std::string_view> kTiff = {"none", "rle", "zip", "zips", "lzw"}, kPng = {"zip"};
-  const std::vector<std::string_view>& known = format.name == "openexr" ? kExr : format.name == "tiff" ? kTiff : kPng;
   const std::string asked = compressionOf(display);
   if (asked.empty()) return;
+  const Words& known = format.kind->compressions;
   if (std::find(known.begin(), known.end(), asked) != known.end())
     format.compression = asked;
   else
     log.report(Severity::Warning, "display-compression", display.where,
-               "Display \"" + display.name + "\": files of type " + format.name + " have no compression \"" + asked +
-                   "\"; ignored");
+               "Display \"" + display.name + "\": files of type " + format.kind->name + " have no compression \"" +
+                   asked + "\"; ignored");
 }
 
-void warnOfWhatOnlyExrHas(const DisplayCall& display, const FileFormat& format, Log& log) {
+void warnOfWhatOthersHave(const DisplayCall& display, const PictureFormat& format, Log& log) {
   for (const Param& p : display.params)
-    if (p.name.starts_with(kHeader) ||
-        std::find(std::begin(kOnlyExr), std::end(kOnlyExr), p.name) != std::end(kOnlyExr))
+    if (anyFormatTakes(p.name) && !format.takes(p.name))
       log.report(
           Severity::Warning, "display-parameter", display.where,
           "Display \"" + display.name + "\": files of type " + format.name + " have no \"" + p.name + "\"; ignored");
@@ -103,7 +99,7 @@ void warnAboutParams(const DisplayCall& display, Log& log) {
                "Display \"" + display.name + "\": " + what + "; ignored");
   };
   for (const Param& p : display.params)
-    if (!knowsParam(p.name))
+    if (!everyFormatTakes(p.name) && !anyFormatTakes(p.name))
       warn("no parameter \"" + p.name + "\"");
     else if (p.name == "origin" && std::any_of(p.ints.begin(), p.ints.end(), [](int at) { return at != 0; }))
       warn("\"origin\" is a place in a frame buffer, and this is a file");
@@ -112,23 +108,44 @@ void warnAboutParams(const DisplayCall& display, Log& log) {
   if (!type.empty() && type != "half" && type != "float") warn("no pixel type \"" + type + "\"");
 }
 
+void warnOfUnreadParams(const DisplayCall& display, const std::vector<std::string>& unread, Log& log) {
+  static constexpr std::string_view kOurs[] = {"filter", "filterwidth", "exposure", "origin", "asrgba"};
+  for (const std::string& name : unread)
+    if (std::find(std::begin(kOurs), std::end(kOurs), name) == std::end(kOurs))
+      log.report(Severity::Warning, "display-parameter", display.where,
+                 "Display \"" + display.name + "\": display driver \"" + display.type + "\" has no parameter \"" +
+                     name + "\"; ignored");
+}
+
+std::string driverOf(const DisplayCall& display, const Options& options, const PluginTrust& trust) {
+  if (!namesDriver(display)) return {};
+  if (std::string supplied = suppliedDriver(display.type); !supplied.empty()) return supplied;
+  const PluginFiles found = findPlugins(display.type, pathOf(options.searchPaths, "display"), trust);
+  return found.trusted.empty() ? std::string() : found.trusted.front();
+}
+
+void warnOfRefusedDriver(const DisplayCall& display, const Options& options, const PluginTrust& trust, Log& log) {
+  if (!namesDriver(display)) return;
+  for (const std::string& file : findPlugins(display.type, pathOf(options.searchPaths, "display"), trust).refused)
+    log.report(Severity::Missing, "display-plugin", display.where, file + " " + kPluginRefusal);
+}
+
 FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
-  FileFormat format = formatOfType(display.type);
-  const bool unknown = format.name.empty() && display.type != "file";
-  if (format.name.empty()) format = formatOfExtension(path);
-  if (format.name.empty()) {
-    format = {"openexr", SampleType::Float};
-    path = std::filesystem::path(path).replace_extension(".exr").string();
+  const PictureFormat* kind = writesPass(display) ? pictureFormats().front() : formatOfType(display.type);
+  const bool unknown = !kind && display.type != "file";
+  if (!kind) kind = formatOfExtension(path);
+  if (!kind) {
+    kind = pictureFormats().front();
+    path = std::filesystem::path(path).replace_extension(kind->extensions.front()).string();
   }
   if (unknown)
     log.report(Severity::Warning, "display-type", display.where,
                "Display \"" + display.name + "\": no display type \"" + display.type + "\"; \"" + path +
-                   "\" is written, of type " + format.name);
+                   "\" is written, of type " + kind->name);
+  FileFormat format{kind, kind->usualType()};
   setCompression(display, format, log);
-  if (format.name == "openexr")
-    setExr(display, format);
-  else
-    warnOfWhatOnlyExrHas(display, format, log);
+  if (kind->carriesNames) setExr(display, format);
+  warnOfWhatOthersHave(display, *kind, log);
   return format;
 }
 

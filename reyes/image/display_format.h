@@ -8,6 +8,10 @@ namespace tomales {
 std::string displayText(const DisplayCall& display, const char* name);
 /// Reports the parameters that are unknown and ignored.
 void warnAboutParams(const DisplayCall& display, Log& log);
+/// Reports parameters that a driver has not read, unless the renderer has.
+void warnOfUnreadParams(const DisplayCall& display, const std::vector<std::string>& unread, Log& log);
+/// Reports a driver that would be taken if it were trusted.
+void warnOfRefusedDriver(const DisplayCall& display, const Options& options, const PluginTrust& trust, Log& log);
 /// Decides the file format, and the name where the Display leaves it open (RISpec's "ri.pic" names no format).
 FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log);
 

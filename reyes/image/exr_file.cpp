@@ -247,14 +247,29 @@ class ExrFile : public FormatWriter {
   std::unique_ptr<Imf::MultiPartOutputFile> file;
 };
 
-}  // namespace
-
 std::unique_ptr<FormatWriter> openExr(const std::string& path, const Image& shape, const FileFormat& format) {
   const std::vector<Part> parts = partsOf(shape.channels, format.multipart);
   const bool rows =
       parts.size() == 1 && !format.deep && format.tile == 0 && compressionOf(format) == Imf::ZIP_COMPRESSION;
   if (rows) return openExrRows(path, shape, headerOf(shape, format, parts[0]));
   return std::make_unique<ExrFile>(path, shape, format);
+}
+
+}  // namespace
+
+const PictureFormat& exrFormat() {
+  static const PictureFormat row = {
+      .name = "openexr",
+      .title = "OpenEXR",
+      .types = {"exr"},
+      .extensions = {".exr"},
+      .compressions = {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"},
+      .params = {"exrpixeltype", "type", "tiled", "multipart", "chromaticities", "mergedepth", "mergeopacity",
+                 "exrheader_*"},
+      .floats = true,
+      .carriesNames = true,
+      .open = openExr};
+  return row;
 }
 
 }  // namespace tomales

@@ -119,6 +119,12 @@ bool PixelFilter::hasNegativeLobes() const {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
+std::vector<std::string> PixelFilter::names() {
+  std::vector<std::string> out;
+  for (const Named& filter : kFilters) out.push_back(filter.name);
+  return out;
+}
+
 int PixelFilter::reachX() const { return reach(xWidth_); }
 int PixelFilter::reachY() const { return reach(yWidth_); }
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <memory>
 
-#include "reyes/image/image_file.h"
+#include "reyes/image/formats.h"
 
 namespace tomales {
 
@@ -15,13 +15,8 @@ class FormatWriter {
   virtual void write(const Image& rows) = 0;
   virtual void write(const DeepRows& rows);
   virtual void close() = 0;
+  virtual std::vector<std::string> unread() const { return {}; }  ///< As of PictureFile.
 };
-
-/// `shape`: the whole picture, without pixels. For integer types, pixels hold integers already.
-std::unique_ptr<FormatWriter> openExr(const std::string& path, const Image& shape, const FileFormat& format);
-std::unique_ptr<FormatWriter> openTiff(const std::string& path, const Image& shape, const FileFormat& format);
-/// One to four channels of integers; colour must have been divided by alpha.
-std::unique_ptr<FormatWriter> openPng(const std::string& path, const Image& shape, const FileFormat& format);
 
 /// The pixels of `rows` as bytes of `type`, from the first row to the last.
 std::vector<std::byte> packed(const Image& rows, SampleType type);

@@ -1,7 +1,6 @@
 #include "reyes/image/image_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <filesystem>
 
@@ -22,11 +21,6 @@ void pack(const Image& rows, std::byte* out) {
   }
 }
 
-std::unique_ptr<FormatWriter> openFormat(const std::string& path, const Image& shape, const FileFormat& format) {
-  if (format.name == "openexr") return openExr(path, shape, format);
-  return format.name == "tiff" ? openTiff(path, shape, format) : openPng(path, shape, format);
-}
-
 }  // namespace
 
 std::vector<std::byte> packed(const Image& rows, SampleType type) {
@@ -43,20 +37,13 @@ std::vector<std::byte> packed(const Image& rows, SampleType type) {
 
 void FormatWriter::write(const DeepRows&) { throw std::runtime_error("only OpenEXR holds deep pixels"); }
 
-FileFormat formatOfExtension(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (extension == ".exr") return {"openexr", SampleType::Float};
-  if (extension == ".tif" || extension == ".tiff") return {"tiff", SampleType::UInt8};
-  if (extension == ".png") return {"png", SampleType::UInt8};
-  return {"", SampleType::Float};
-}
-
 struct PictureFile::Impl {
   Impl(const std::string& path, const Image& whole, const FileFormat& f)
-      : file(UnfinishedFile::create(path, UnfinishedKind::Scratch, problem)), shape(whole), format(f) {
-    failed = !file || !guarded([&] { writer = openFormat(file->path(), shape, format); });
+      : file(f.driver ? nullptr : UnfinishedFile::create(path, UnfinishedKind::Scratch, problem)),
+        shape(whole),
+        format(f) {
+    const bool ready = f.driver || file;
+    failed = !ready || !guarded([&] { writer = format.kind->open(file ? file->path() : path, shape, format); });
   }
 
   template <class Rows>
@@ -67,7 +54,7 @@ struct PictureFile::Impl {
   bool close() {
     if (failed || !guarded([&] { writer->close(); })) return false;
     std::string why;
-    return file->finish(why) || fail(why);
+    return !file || file->finish(why) || fail(why);
   }
 
   template <class Write>
@@ -85,8 +72,8 @@ struct PictureFile::Impl {
     return false;
   }
 
-  std::string problem;  // first: opening the file says what it is
-  const std::unique_ptr<UnfinishedFile> file;
+  std::string problem;                         // first: opening the file says what it is
+  const std::unique_ptr<UnfinishedFile> file;  // null: a driver takes the picture
   const Image shape;
   const FileFormat format;
   std::unique_ptr<FormatWriter> writer;
@@ -102,6 +89,9 @@ bool PictureFile::write(const Image& rows) { return !impl_->failed && impl_->wri
 bool PictureFile::write(const DeepRows& rows) { return !impl_->failed && impl_->write(rows); }
 bool PictureFile::close() { return impl_->close(); }
 const std::string& PictureFile::error() const { return impl_->problem; }
+std::vector<std::string> PictureFile::unread() const {
+  return impl_->writer ? impl_->writer->unread() : std::vector<std::string>();
+}
 
 Making copyShadowMap(const std::string& from, const std::string& to, std::string& error) {
   {

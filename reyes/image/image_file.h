@@ -14,8 +14,17 @@ struct Metadata {
   std::vector<float> numbers;  ///< 16 numbers are a matrix.
 };
 
+struct PictureFormat;
+
+/// A picture for a plugin (reyes/display_driver.h) instead of a file.
+struct DriverCall {
+  std::string plugin;
+  DisplayCall display;
+  View view;
+};
+
 struct FileFormat {
-  std::string name;                       ///< "openexr", "tiff", "png"
+  const PictureFormat* kind = nullptr;
   SampleType type = SampleType::Float;    ///< Integer types: pixels hold integers already, 0..255 or 0..65535.
   bool unassociatedAlpha = false;         ///< Colour has been divided by alpha.
   std::string compression = {};           ///< Empty: the format's best lossless one.
@@ -25,12 +34,11 @@ struct FileFormat {
   std::vector<std::string> precise = {};  ///< Channels that stay float in a file of halves.
   std::vector<Metadata> metadata = {};
   float pixelAspect = 1;  ///< Width of a pixel over its height.
+  std::optional<DriverCall> driver = {};
 };
 
-/// Format of a file by its name's extension; an empty name: no format that can be written.
-FileFormat formatOfExtension(const std::string& path);
-
 /// Writes a picture to an UnfinishedFile; close() gives it its name. A file that is not closed leaves nothing behind.
+/// Pictures for drivers are no files.
 class PictureFile {
  public:
   static constexpr int kBandRows = 64;
@@ -43,6 +51,8 @@ class PictureFile {
   bool write(const DeepRows& rows);
   bool close();
   const std::string& error() const;
+  /// Parameters of a Display that its driver has not read.
+  std::vector<std::string> unread() const;
 
  private:
   struct Impl;

@@ -27,6 +27,7 @@ struct Handles {
   png_infop info = nullptr;
 };
 
+/// One to four channels of integers.
 class PngFile : public FormatWriter {
  public:
   PngFile(const std::string& path, const Image& shape, const FileFormat& format) : format_(format) {
@@ -90,8 +91,19 @@ class PngFile : public FormatWriter {
 
 }  // namespace
 
-std::unique_ptr<FormatWriter> openPng(const std::string& path, const Image& shape, const FileFormat& format) {
-  return std::make_unique<PngFile>(path, shape, format);
+const PictureFormat& pngFormat() {
+  static const PictureFormat row = {.name = "png",
+                                    .title = "PNG",
+                                    .extensions = {".png"},
+                                    .compressions = {"zip"},
+                                    .quantises = true,
+                                    .dividesColor = true,
+                                    .isForScreens = true,
+                                    .open = [](const std::string& path, const Image& shape,
+                                               const FileFormat& format) -> std::unique_ptr<FormatWriter> {
+                                      return std::make_unique<PngFile>(path, shape, format);
+                                    }};
+  return row;
 }
 
 }  // namespace tomales

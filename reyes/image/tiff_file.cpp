@@ -107,8 +107,19 @@ class TiffFile : public FormatWriter {
 
 }  // namespace
 
-std::unique_ptr<FormatWriter> openTiff(const std::string& path, const Image& shape, const FileFormat& format) {
-  return std::make_unique<TiffFile>(path, shape, format);
+const PictureFormat& tiffFormat() {
+  static const PictureFormat row = {.name = "tiff",
+                                    .title = "TIFF",
+                                    .types = {"tif"},
+                                    .extensions = {".tif", ".tiff"},
+                                    .compressions = {"none", "rle", "zip", "zips", "lzw"},
+                                    .floats = true,
+                                    .quantises = true,
+                                    .open = [](const std::string& path, const Image& shape,
+                                               const FileFormat& format) -> std::unique_ptr<FormatWriter> {
+                                      return std::make_unique<TiffFile>(path, shape, format);
+                                    }};
+  return row;
 }
 
 }  // namespace tomales

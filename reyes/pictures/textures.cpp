@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "reyes/base/input_file.h"
+#include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/pictures/convert.h"
 
@@ -130,6 +131,12 @@ class Cache : public TextureCache {
   /// As it is found along the search path; empty: nowhere.
   std::string find(const std::string& name) const { return findFile(name, settings.searchPath); }
 
+  std::string notFound(const std::string& name) const {
+    std::vector<std::string> folders = foldersOf(settings.searchPath);
+    folders.push_back(".");
+    return "not found in " + listOfFolders(folders) + hintOfMissing(name, pictureEndings(), folders);
+  }
+
   std::unique_ptr<const Picture> open(const std::string& name) {
     auto picture = std::make_unique<Picture>();
     size_t length = 0;
@@ -141,7 +148,7 @@ class Cache : public TextureCache {
     if (!picture->tiled) add(name, 0, *picture);
     std::error_code none;
     if (picture->tiles.empty() && picture->error.empty())
-      picture->error = fs::exists(name, none) ? inputProblem(name) : "not found";
+      picture->error = fs::exists(name, none) ? inputProblem(name) : notFound(name);
     return picture;
   }
 

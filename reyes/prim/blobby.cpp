@@ -2,6 +2,7 @@
 // onto the surface: positions are exact at every dicing rate, and derivatives follow from the field's gradient.
 #include <fmt/format.h>
 
+#include "reyes/base/stop.h"
 #include "reyes/prim/blobby_code.h"
 #include "reyes/prim/blobby_mesh.h"
 #include "reyes/prim/interpolation.h"
@@ -41,6 +42,7 @@ class Blobby : public Prim {
       : Prim(std::move(primvars)), field_(field), mesh_(std::move(mesh)) {
     fields_.reserve(mesh_.quads.size());
     for (uint32_t patch = 0; patch < patchCount(); ++patch) {
+      throwIfStopped();
       const Bound3 hull = hullOf(patch, {});
       fields_.push_back(field.within({hull.lo, hull.hi}));
     }

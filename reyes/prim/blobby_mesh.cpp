@@ -1,5 +1,7 @@
 #include "reyes/prim/blobby_mesh.h"
 
+#include "reyes/base/stop.h"
+
 namespace tomales {
 namespace {
 
@@ -99,6 +101,7 @@ class Contourer {
   }
 
   void refine(uint32_t index, const BlobField& outer) {
+    throwIfStopped();
     if (cells_.size() > mostCells_) return;
     const Box box = boxOf(cells_[index]);
     const BlobField field = outer.within(box);
@@ -274,6 +277,7 @@ std::optional<double> meetSurface(const BlobField& field, const dvec3& p, const 
 BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobField& moved) {
   BlobMesh out = mesh;
   for (BlobVertex& v : out.vertices) {
+    throwIfStopped();
     const dvec3 start = field.carried(v.position, moved), gradient = moved.at(start).gradient;
     const double steepness = glm::length(gradient);
     const dvec3 outward = steepness > 0 ? -gradient / steepness : dvec3(v.outward);

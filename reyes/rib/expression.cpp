@@ -11,8 +11,9 @@ namespace tomales::rib {
 namespace {
 
 constexpr int kDeepest = 200;
-constexpr size_t kMostSteps = 1 << 26;  ///< Of a comparison with a pattern, which may look at each character
-                                        ///< of the text for each of its own.
+constexpr size_t kMostSteps = 1 << 26;       ///< Of a comparison with a pattern, which may look at each character
+                                             ///< of the text for each of its own.
+constexpr size_t kMostToldOfUnknown = 1000;  ///< Bytes of names.
 
 void checkLength(size_t bytes) {
   if (bytes > kLongestText) throw ExpressionError(fmt::format("its text would be longer than {} bytes", kLongestText));
@@ -219,19 +220,21 @@ bool holds(const std::string& expression, const Variables& variables) {
   return isTrue(Evaluator(expression, variables).all());
 }
 
+// No name holds a brace, or longer and longer ones would be sought in "${${${...".
 std::string substitute(const std::string& text, char mark, const Variables& variables, std::string& unknown) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {
     const bool opens = text[i] == mark && i + 1 < text.size() && text[i + 1] == '{';
-    const size_t close = opens ? text.find('}', i) : std::string::npos;
-    const std::string name = close == std::string::npos ? "" : text.substr(i + 2, close - i - 2);
+    const size_t close = opens ? text.find_first_of("{}", i + 2) : std::string::npos;
+    const bool whole = close != std::string::npos && text[close] == '}';
+    const std::string name = whole ? text.substr(i + 2, close - i - 2) : "";
     if (const auto value = name.empty() ? std::nullopt : variables(name)) {
       out += *value;
       checkLength(out.size());
       i = close;
       continue;
     }
-    if (!name.empty()) unknown += (unknown.empty() ? "" : ", ") + name;
+    if (!name.empty() && unknown.size() < kMostToldOfUnknown) unknown += (unknown.empty() ? "" : ", ") + name;
     out += text[i];
   }
   return out;

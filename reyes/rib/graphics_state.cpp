@@ -112,7 +112,7 @@ void GraphicsState::warn(const Request& request, const char* code, const std::st
 
 void GraphicsState::warnOnce(const std::string& key, const SourceLoc& where, const char* code,
                              const std::string& message, Severity severity) {
-  if (said_.insert(key).second) log.report(severity, code, where, message);
+  log.report(severity, code, where, message, key);
 }
 
 bool isFinite(const Motion& m) {

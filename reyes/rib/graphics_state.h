@@ -106,7 +106,7 @@ class GraphicsState {
   Motion cameraFromObject() const { return world ? world->cameraFromWorld * scope.ctm : scope.ctm; }
 
   void warn(const Request& request, const char* code, const std::string& message) const;
-  /// Only for the first of all sites that share the key.
+  /// One message for all sites that share the key.
   void warnOnce(const std::string& key, const SourceLoc& where, const char* code, const std::string& message,
                 Severity severity = Severity::Warning);
   void warnOnce(const std::string& key, const Request& request, const char* code, const std::string& message,
@@ -123,7 +123,6 @@ class GraphicsState {
   };
   std::vector<Saved> stack_;
   size_t tooDeep_ = 0;
-  std::set<std::string> said_;
 };
 
 bool isFinite(const Motion& m);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 #include <utility>
 
@@ -125,16 +126,30 @@ void Lexer::takeWrittenNumbers(std::vector<T>& out) {
 }
 
 void Lexer::skipBlanks() {
-  bool comment = false;
-  for (int c = stream_.peek(); c != ByteStream::kEnd; c = stream_.peek()) {
-    if (c == '#') comment = true;
-    if (!comment && !isBlank(c)) return;
-    if (c == '\n') {
-      ++line_;
-      comment = false;
+  for (int c = stream_.peek(); isBlank(c) || c == '#'; c = stream_.peek()) {
+    if (c == '#') {
+      skipComment();
+      continue;
     }
+    line_ += c == '\n';
     stream_.get();
   }
+}
+
+void Lexer::skipComment() {
+  std::string text;
+  for (int c = stream_.get(); c != '\n'; c = stream_.get()) {
+    if (c == ByteStream::kEnd) return;
+    if (text.size() < kLongestWord) text += static_cast<char>(c);
+  }
+  ++line_;
+  int line = 0, begin = 0;
+  const size_t end = text.rfind('"');
+  if (std::sscanf(text.c_str(), "#line %9d \"%n", &line, &begin) != 1 || begin == 0 || end < static_cast<size_t>(begin))
+    return;
+  line_ = line;
+  file_ =
+      std::make_shared<const std::string>(text.substr(static_cast<size_t>(begin), end - static_cast<size_t>(begin)));
 }
 
 void Lexer::readString() {

@@ -2,6 +2,7 @@
 // belong to no token come out as Junk.
 #pragma once
 #include <array>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -17,7 +18,7 @@ struct Token {
   ScannedNumber number{};     ///< May be infinite or NaN: writers print "inf" and "nan" when their input was broken.
   std::vector<float> floats;  ///< Floats: an encoded array, brackets included.
   std::string text;           ///< Of a String without quotes and escapes, of a Name; for Junk, what it is.
-  int line = 1;
+  int line = 1;               ///< Of Lexer::file().
 };
 
 /// For messages: "the number 3", "a string \"...\"", "the end of the file".
@@ -32,9 +33,14 @@ class Lexer {
   /// bytes wherever it is used, so it must not be long either.
   static constexpr size_t kLongestString = 1 << 20, kLongestWord = 4096, kLongestDefinition = 1024;
 
-  explicit Lexer(ByteStream& stream) : stream_(stream) { advance(); }
+  Lexer(ByteStream& stream, std::string file) : stream_(stream), file_(std::make_shared<std::string>(std::move(file))) {
+    advance();
+  }
 
   const Token& peek() const { return token_; }
+  /// Where the token is: in the stream, or in the program that wrote it, if that said so by a comment of the form
+  /// #line 12 "scene.py". The line after such a comment has the number that it gives, as in C.
+  const std::shared_ptr<const std::string>& file() const { return file_; }
   void advance();
 
   bool atNumbers() const { return token_.kind == Token::Kind::Number || token_.kind == Token::Kind::Floats; }
@@ -49,6 +55,7 @@ class Lexer {
   /// False: it was a definition, the token is still to come.
   bool readToken();
   void skipBlanks();
+  void skipComment();
   void readString();
   void readEscape();
   void readWord();
@@ -70,6 +77,7 @@ class Lexer {
   void readFloats(uint64_t count);
 
   ByteStream& stream_;
+  std::shared_ptr<const std::string> file_;
   Token token_;
   int line_ = 1;
   std::array<std::string, 256> requests_;

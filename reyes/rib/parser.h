@@ -27,12 +27,13 @@ class Parser {
  private:
   using Kind = Token::Kind;
   bool at(Kind kind) const { return lexer_.peek().kind == kind; }
-  SourceLoc here() const { return {file_, lexer_.peek().line}; }
+  SourceLoc here() const { return {lexer_.file(), lexer_.peek().line}; }
   void warn(const char* code, const SourceLoc& where, const std::string& message,
             Severity severity = Severity::Warning) const;
   /// Reports what is wrong with the request; always false.
   bool fail(const std::string& expected);
   void skipToKnownRequest(bool reportUnknown);
+  void unknownRequest(const std::string& name) const;
 
   bool readArguments(const Signature& signature);
   bool readArgument(char letter);
@@ -42,12 +43,16 @@ class Parser {
   bool readArray(RibArg::Kind kind);
   bool readParameters(const std::string& category);
   bool readParameter(const std::string& category);
-  void keepPrivate(const std::string& token, Param param);
+  /// Is the token a name whose type the values show, if it is declared nowhere?
+  bool valuesTellTypeOf(const std::string& token) const;
+  static Param typedByValues(const std::string& name, Param values);
   /// Numbers into `ints` or `floats`, by the parameter's type.
   bool readValues(Param& param);
+  size_t widthOf(const Param& param) const;  ///< Numbers in one element, as they are written.
+  bool valuesFit(const Param& param) const;
+  /// The same, with a message if they do not.
   bool fitsDeclaration(const std::string& token, const Param& param) const;
 
-  std::shared_ptr<const std::string> file_;
   Lexer lexer_;
   Dictionary& dictionary_;
   Log& log_;

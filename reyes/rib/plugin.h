@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include "reyes/base/plugin_trial.h"
 #include "reyes/ri.h"
 
 namespace tomales::rib {
@@ -16,7 +17,8 @@ struct Plugin {
   std::string trouble;  ///< Why it cannot be used; empty: it can.
 };
 
-/// Libraries stay in memory once they are loaded: procedurals keep pointers to their functions. Threads: concurrent.
+/// Libraries are tried in a process of their own, then loaded, and stay in memory: procedurals keep pointers to their
+/// functions. Threads: concurrent.
 class PluginPool {
  public:
   const Plugin& load(const std::string& path);
@@ -24,6 +26,7 @@ class PluginPool {
  private:
   std::mutex mutex_;
   std::map<std::string, Plugin> plugins_;
+  PluginTrial trial_;
 };
 
 }  // namespace tomales::rib

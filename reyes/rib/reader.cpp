@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/stop.h"
 #include "reyes/rib/parser.h"
 #include "reyes/rib/variables.h"
 
@@ -91,6 +92,7 @@ void Reader::leave() {
 }
 
 void Reader::handle(const Request& r) {
+  throwIfStopped();
   last_ = r.where;
   Level& level = open_.back();
   if (level.recording) return record(r);

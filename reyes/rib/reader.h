@@ -90,6 +90,10 @@ class Reader {
   bool spend(size_t cost);
   /// Geometry "brickmap": its file is found like a texture.
   void geometry(const Request& request);
+  void tellOfFile(const Request& request, const char* kind, const std::string& name, const std::string& path) const {
+    if (settings_.onFile) settings_.onFile({kind, name, path, request.where});
+  }
+  std::vector<std::string> foldersFor(const char* category) const;
   /// Along Option "searchpath" of that category. Empty: nowhere.
   std::string findFile(const std::string& name, const char* category) const;
 
@@ -109,6 +113,9 @@ class Reader {
 
   // Plugins (reader_plugins.cpp)
   void dynamicLoad(const Request& request);
+  /// Empty, and reported: there is no such file, or none that may be loaded.
+  std::string pluginFile(const Request& request, const std::string& name) const;
+  void missingPlugin(const Request& request, const std::string& name, const std::string& why) const;
   void callPlugin(const Request& request, const std::string& name, const std::function<void(float)>& subdivide);
   void takeCall(const RiCall& call);
 

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 
+#include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/rib/reader.h"
+#include "reyes/rib/zip_member.h"
 
 namespace tomales::rib {
 namespace {
@@ -19,6 +21,12 @@ std::string canonical(const std::string& path) {
   std::error_code error;
   const fs::path out = fs::weakly_canonical(path, error);
   return error ? path : out.string();
+}
+
+/// Of a member of a zip file, that of the zip file.
+std::string folderOf(const std::string& path) {
+  const std::string zip = zipOf(path);
+  return fs::path(zip.empty() ? path : zip).parent_path().string();
 }
 
 }  // namespace
@@ -68,13 +76,14 @@ void Reader::replay(const Request& r, const std::string& name, const Requests& a
 
 void Reader::readArchiveFile(const Request& r, const std::string& name) {
   const std::string path = findFile(name, "archive");
+  tellOfFile(r, "archive", name, path);
   const auto stream = path.empty() ? nullptr : ByteStream::open(path);
   const std::string quoted = "\"" + name.substr(0, 200) + "\" ";
   if (!stream)
     report(Severity::Missing, "rib-missing-archive", r,
-           quoted + "is missing or unreadable; nothing is read in its place");
-  else if (mayEnter(r, canonical(path), kFileCost) &&
-           read(*stream, path, canonical(path), fs::path(path).parent_path()) == 0)
+           quoted + "is missing or unreadable, looked for in " + listOfFolders(foldersFor("archive")) +
+               hintOfMissing(name, {".rib"}, foldersFor("archive")) + "; nothing is read in its place");
+  else if (mayEnter(r, canonical(path), kFileCost) && read(*stream, path, canonical(path), folderOf(path)) == 0)
     report(Severity::Missing, "rib-empty", r, quoted + "holds no RIB request that could be read");
 }
 
@@ -106,8 +115,10 @@ bool Reader::spend(size_t cost) {
 /// Names of files become what the search path finds.
 void Reader::geometry(const Request& r) {
   Request found = r;
-  const auto find = [this](std::string& file) {
-    if (const std::string path = findFile(file, "texture"); !path.empty()) file = path;
+  const auto find = [&](std::string& file) {
+    const std::string path = findFile(file, "texture");
+    tellOfFile(r, "texture", file, path);
+    if (!path.empty()) file = path;
   };
   for (Param& p : found.params)
     if (p.name == "filename") std::for_each(p.strings.begin(), p.strings.end(), find);
@@ -116,15 +127,20 @@ void Reader::geometry(const Request& r) {
   builder_.request(found);
 }
 
+std::vector<std::string> Reader::foldersFor(const char* category) const {
+  std::vector<std::string> out = foldersOf(pathOf(builder_.options().searchPaths, category));
+  out.push_back(open_.back().folder);
+  out.insert(out.end(), settings_.archivePath.begin(), settings_.archivePath.end());
+  return out;
+}
+
 // The search path first, then beside the file that reads, then where the caller says.
 std::string Reader::findFile(const std::string& written, const char* category) const {
   const std::string name = mapped(written, builder_.dirMap());
-  std::vector<std::string> folders = foldersOf(pathOf(builder_.options().searchPaths, category));
-  folders.push_back(open_.back().folder);
-  folders.insert(folders.end(), settings_.archivePath.begin(), settings_.archivePath.end());
   std::error_code ignored;
-  for (const fs::path folder : folders)
-    if (const fs::path path = folder / name; fs::is_regular_file(path, ignored)) return path.string();
+  for (const fs::path folder : foldersFor(category))
+    if (const fs::path path = folder / name; fs::is_regular_file(path, ignored) || !zipOf(path.string()).empty())
+      return path.string();
   return "";
 }
 

@@ -2,6 +2,8 @@
 // alone, ours need not be ready to be entered again, and what it says before it fails is kept.
 #include <fmt/format.h>
 
+#include "reyes/base/crash_note.h"
+#include "reyes/base/search_path.h"
 #include "reyes/rib/reader.h"
 
 namespace tomales::rib {
@@ -13,20 +15,37 @@ constexpr size_t kPluginCost = 10;
 
 void Reader::dynamicLoad(const Request& r) {
   const std::vector<std::string>& call = r.args[1].strings;
-  const auto missing = [&](const std::string& why) {
-    report(Severity::Missing, "rib-plugin", r,
-           fmt::format("plugin \"{}\" {}; nothing is drawn in its place", call[0].substr(0, 200), why));
-  };
-  std::string path = findFile(call[0], "procedural");
-  if (path.empty()) path = findFile(call[0] + ".so", "procedural");
-  if (path.empty()) return missing("is not found (Option \"searchpath\" \"procedural\")");
+  const std::string path = pluginFile(r, call[0]);
+  tellOfFile(r, "plugin", call[0], path);
+  if (path.empty()) return;
   const Plugin& plugin = plugins_->load(path);
-  if (!plugin.trouble.empty()) return missing(plugin.trouble);
+  if (!plugin.trouble.empty()) return missingPlugin(r, call[0], plugin.trouble);
   std::string text = call.size() > 1 ? call[1] : "";
   callPlugin(r, call[0], [&](float detail) {
     const std::unique_ptr<void, void (*)(RtPointer)> data(plugin.convertParameters(text.data()), plugin.free);
     plugin.subdivide(data.get(), detail);
   });
+}
+
+std::string Reader::pluginFile(const Request& r, const std::string& name) const {
+  const std::string files[] = {name, name + ".so"};
+  for (const std::string& file : files)
+    if (const auto trusted = filesWithin(settings_.trust.pluginFolders(), file); !trusted.empty())
+      return trusted.front();
+  for (const std::string& file : files) {
+    std::string path = findFile(file, "procedural");
+    if (path.empty()) continue;
+    if (settings_.trust.allowsPluginsOfScene()) return path;
+    missingPlugin(r, path, kPluginRefusal);
+    return {};
+  }
+  missingPlugin(r, name, "is not found (--plugin-path, Option \"searchpath\" \"procedural\")");
+  return {};
+}
+
+void Reader::missingPlugin(const Request& r, const std::string& name, const std::string& why) const {
+  report(Severity::Missing, "rib-plugin", r,
+         fmt::format("plugin \"{}\" {}; nothing is drawn in its place", name.substr(0, 200), why));
 }
 
 void Reader::callPlugin(const Request& r, const std::string& name, const std::function<void(float)>& subdivide) {
@@ -39,6 +58,8 @@ void Reader::callPlugin(const Request& r, const std::string& name, const std::fu
   std::string trouble;
   try {
     const std::lock_guard alone(pluginMutex());
+    const CrashNote note(
+        {"plugin", name.c_str(), "Procedural", nullptr, r.where.file ? r.where.file->c_str() : nullptr, r.where.line});
     recordRiCalls(
         {dictionary_, place.scope.uBasis.step, place.scope.vBasis.step, r.where}, log_, [&] { subdivide(detail); },
         calls);

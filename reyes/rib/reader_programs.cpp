@@ -65,6 +65,7 @@ void Reader::procedural2(const Request& r) {
   const std::string &kind = r.args[0].strings[0], &bounding = r.args[1].strings[0];
   const bool program = kind == "RunProgram2", plugin = kind == "DynamicLoad2";
   const Param* bound = findParam(r.params, "bound");
+  if (!bound) bound = findParam(r.params, "__bound");  // so PRMan spells it
   Request plain{r.name, {}, {}, r.where};
   const auto strings = [](std::vector<std::string> s) { return RibArg{RibArg::Kind::Strings, {}, std::move(s)}; };
   plain.args.push_back({RibArg::Kind::String, {}, {kind.ends_with('2') ? kind.substr(0, kind.size() - 1) : kind}});
@@ -90,7 +91,7 @@ bool Reader::canRead(const Request& r, const std::string& kind, const std::strin
                        : plugin ? "plugin"
                                 : "file"));
   else
-    return !(program || plugin) || allowed(r, what);
+    return program ? what == settings_.trust.program || allowed(r, what) : !plugin || !pluginFile(r, what).empty();
   return false;
 }
 
@@ -122,17 +123,20 @@ void Reader::delayedArchive(const Request& r) {
 void Reader::perform(const char* blockName, const SourceLoc& where) { builder_.request({blockName, {}, {}, where}); }
 
 bool Reader::allowed(const Request& r, const std::string& command) const {
-  if (!settings_.allowSystem)
-    report(Severity::Missing, "rib-system", r,
-           fmt::format("\"{}\" is not run, because programs and plugins of scenes are not allowed (--allow-system)",
-                       command.substr(0, 200)));
-  return settings_.allowSystem;
+  if (settings_.trust.programs) return true;
+  tellOfFile(r, "program", command, "");
+  report(Severity::Missing, "rib-system", r,
+         fmt::format("\"{}\" is not run, because programs of a scene can do whatever you can; --allow-system allows "
+                     "them",
+                     command.substr(0, 200)));
+  return false;
 }
 
 // RISpec 3.2 section 5.10: one line of detail and data in, RIB out, closed by 0377; then the program waits for the next
 // line.
 void Reader::runProgram(const Request& r) {
   const std::vector<std::string>& call = r.args[1].strings;
+  tellOfFile(r, "program", call[0], call[0]);
   const std::string name = "output of " + call[0];
   if (!mayEnter(r, fmt::format("{}: program {}", open_.size(), call[0]), kProgramCost)) return;
   const float detail = isBox(r.args[2].numbers) ? builder_.rasterArea(r.args[2].numbers) : kInfinity;

@@ -1,8 +1,11 @@
 #include "reyes/rib/request_table.h"
 
+#include <fmt/format.h>
+
 #include <unordered_map>
 
 #include "reyes/prim.h"
+#include "reyes/rib.h"
 
 namespace tomales::rib {
 namespace {
@@ -68,12 +71,13 @@ constexpr Signature kTable[] = {
     {"Display", "sss", kParams, kWorks},
     {"DisplayChannel", "s", kParams, kWorks},
     {"Hider", "s", kParams, kWorks},
-    {"Integrator", "ss", kParams, kWorks},
-    {"DisplayFilter", "ss", kParams, kWorks},
-    {"SampleFilter", "ss", kParams, kWorks},
+    {"Integrator", "sh", kParams, kWorks},
+    {"DisplayFilter", "sh", kParams, kWorks},
+    {"SampleFilter", "sh", kParams, kWorks},
     {"ColorSamples", "FF", kNone, kWorks},
     {"RelativeDetail", "f", kNone, kWorks},
     {"Option", "s", kParams, kWorks},
+    {"Options", "sh", kParams, kNotYet},
     // Attributes
     {"Attribute", "s", kParams, kWorks},
     {"Color", "c", kNone, kWorks},
@@ -88,11 +92,11 @@ constexpr Signature kTable[] = {
     {"Interior", "s", kParams, kWorks},
     {"Exterior", "s", kParams, kWorks},
     {"Shader", "sh", kParams, kNotYet},
-    {"Bxdf", "ss", kParams, kWorks},
-    {"Light", "ss", kParams, kWorks},
-    {"LightFilter", "ss", kParams, kWorks},
-    {"Pattern", "ss", kParams, kWorks},
-    {"Displace", "ss", kParams, kWorks},
+    {"Bxdf", "sh", kParams, kWorks},
+    {"Light", "sh", kParams, kWorks},
+    {"LightFilter", "sh", kParams, kWorks},
+    {"Pattern", "sh", kParams, kWorks},
+    {"Displace", "sh", kParams, kWorks},
     {"VPSurface", "s", kParams, kNotYet},
     {"VPAtmosphere", "s", kParams, kNotYet},
     {"VPInterior", "s", kParams, kNotYet},
@@ -159,6 +163,25 @@ Signature signatureOf(const Quadric& quadric) {
   return {quadric.name, kCounts.substr(static_cast<size_t>(quadric.numberCount), 1), kParams, kDraws};
 }
 
+std::string_view nameOf(Support support) {
+  switch (support) {
+    case Support::Works:
+      return "works";
+    case Support::Draws:
+      return "draws";
+    case Support::NotYet:
+      return "ignored";
+    case Support::NotYetGeometry:
+      return "missing";
+  }
+  return "";
+}
+
+std::string lineOf(const Signature& s) {
+  return fmt::format("{} {} {} {}\n", s.name, s.arguments.empty() ? "-" : s.arguments,
+                     s.parameterList ? "parameters" : "-", nameOf(s.support));
+}
+
 }  // namespace
 
 const Signature* findSignature(std::string_view name) {
@@ -172,4 +195,21 @@ const Signature* findSignature(std::string_view name) {
   return it == index.end() ? nullptr : &it->second;
 }
 
+const std::vector<std::string>& requestNames() {
+  static const auto names = [] {
+    std::vector<std::string> out;
+    for (const Signature& s : kTable) out.emplace_back(s.name);
+    for (const Quadric& q : quadrics()) out.emplace_back(q.name);
+    return out;
+  }();
+  return names;
+}
+
 }  // namespace tomales::rib
+
+std::string tomales::ribRequests() {
+  std::string out;
+  for (const rib::Signature& s : rib::kTable) out += rib::lineOf(s);
+  for (const Quadric& q : quadrics()) out += rib::lineOf(rib::signatureOf(q));
+  return out;
+}

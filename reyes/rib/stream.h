@@ -17,7 +17,7 @@ class ByteStream {
   /// bomb.
   static constexpr size_t kHarmless_bytes = size_t{64} << 20, kLargestRatio = 200;
 
-  /// Null if `path` cannot be opened or is a folder; "-" is standard input.
+  /// Null if `path` cannot be opened or is a folder; "-" is standard input. "a.zip!b.rib" is a member of a zip file.
   static std::unique_ptr<ByteStream> open(const std::string& path);
   /// `text` must outlive the stream.
   static std::unique_ptr<ByteStream> fromMemory(const std::string& text);

@@ -92,6 +92,10 @@ void Checker::function(Function& f) {
   scopes_.emplace_back().isFunction = true;
   for (const auto& p : f.parameters) parameter(*p);
   statement(*f.body);
+  if (f.result != Type{} && !contains(*f.body, {StmtKind::Return}))
+    messages_.warning(f.place,
+                      fmt::format("\"{}\" gives a {}, and has no 'return': it gives 0", f.name, name(f.result)),
+                      static_cast<int32_t>(f.name.size()));
   scopes_.pop_back();
   current_ = outer, loops_ = loops;
 }
@@ -110,6 +114,8 @@ void Checker::shader(Shader& s) {
 
 void Checker::condition(Expr& e) {
   if (!e.checked) type(e);
+  if (e.kind == ExprKind::Assign && e.text == "=" && !e.args[0]->text.empty())
+    messages_.warning(e.place, fmt::format("this assigns \"{}\"; '==' compares", e.args[0]->text), e.length);
   if (e.type.isTriple() || e.type == kUnknown) return;  // some shaders ask whether a triple is not 0
   expect(e, {Base::Float}, "as a condition");
 }
@@ -190,9 +196,11 @@ void Checker::statement(Stmt& s) {
 }
 
 void Checker::jump(const Stmt& s) {
-  if (s.count > loops_ || s.count < 1)
-    messages_.error(s.place, fmt::format("'{} {}' has only {} loops around it",
-                                         s.kind == StmtKind::Break ? "break" : "continue", s.count, loops_));
+  const char* const word = s.kind == StmtKind::Break ? "break" : "continue";
+  if (loops_ == 0)
+    messages_.error(s.place, fmt::format("'{}' stands in no loop", word));
+  else if (s.count > loops_ || s.count < 1)
+    messages_.error(s.place, fmt::format("'{} {}' has only {} loops around it", word, s.count, loops_));
 }
 
 void Checker::returned(Stmt& s) {

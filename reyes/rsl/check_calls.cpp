@@ -187,7 +187,14 @@ bool isFilled(std::string_view function, std::string_view name) {
 void Checker::unknownFunction(Expr& e) {
   e.missing = true;
   if (!told_.insert({1, e.text}).second) return;
-  const auto near = nearNames(e.text, functionNames());
+  if (Variable* v = find(e.text)) {
+    v->used = true;
+    return messages_.error(e.place, fmt::format("\"{}\" is a variable, and no function", e.text), e.length);
+  }
+  std::vector<std::string> known = functionNames();
+  for (const Base b : {Base::Float, Base::Color, Base::Point, Base::Vector, Base::Normal, Base::Matrix, Base::String})
+    known.push_back(name(b));  // a cast looks like a call
+  const auto near = nearNames(e.text, known);
   messages_.missing(e.place,
                     fmt::format("there is no function \"{}\"{}: its value is a loud one", e.text,
                                 near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near.front())),

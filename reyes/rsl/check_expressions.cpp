@@ -74,6 +74,7 @@ Type Checker::typeOfIndex(Expr& e) {
   expect(*e.args[1], {Base::Float}, "as an index");
   if (of.is(Base::String)) return of;  // a channel of a picture, which only the functions of pictures take
   if (of == kUnknown) return of;
+  if (of.isTriple()) return {Base::Float};  // not of RISpec, but later shaders write a component so
   if (!of.isArray()) {
     messages_.error(e.place, fmt::format("\"{}\" is a {}, not an array", e.args[0]->text, name(of)), e.length);
     return kUnknown;
@@ -134,7 +135,7 @@ Type Checker::typeOfConditional(Expr& e) {
 
 void Checker::assigned(Expr& e, const char* where) {
   Expr* to = &e;
-  if (to->kind == ExprKind::Index) to = to->args[0].get();
+  while (to->kind == ExprKind::Index) to = to->args[0].get();
   if (to->kind != ExprKind::Name || !to->variable) {
     if (e.type != kUnknown)
       messages_.error(e.place, fmt::format("a variable is needed {}, to be assigned", where), e.length);
@@ -241,7 +242,10 @@ void Checker::expect(Expr& e, const Type& wanted, const char* where) {
   if (!e.checked) type(e);
   retarget(e, wanted);
   const int far = distance(e, wanted);
-  if (far < 0)
+  if (far < 0 && e.type == Type{})
+    messages_.error(e.place, fmt::format("a {} is needed {}, and {}() gives nothing", name(wanted), where, e.text),
+                    e.length);
+  else if (far < 0)
     messages_.error(e.place, fmt::format("a {} is needed {}, and this is a {}", name(wanted), where, name(e.type)),
                     e.length);
   else if (far > kDoubtful)

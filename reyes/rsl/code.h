@@ -64,7 +64,7 @@ struct Parameter {
   std::string name;
   Type type;
   Detail detail = Detail::Unstated;
-  bool output = false;
+  bool output = false;        ///< The host takes what becomes of it, a number or triple, and gives nothing.
   std::vector<float> floats;  ///< The default, where it is a constant; in shader space.
   std::vector<std::string> texts;
   /// The default is computed when the shader runs and nothing is given: `floats` is kNotGiven then.

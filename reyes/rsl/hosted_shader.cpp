@@ -1,5 +1,10 @@
 #include "reyes/rsl/hosted_shader.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "reyes/rsl/lower.h"
 #include "reyes/rsl/machine/machine.h"
 #include "reyes/rsl/passes/passes.h"
@@ -44,6 +49,23 @@ std::vector<bool> shadowMaps(const Code& code) {
   return out;
 }
 
+/// Memory is for a batch of points in each thread.
+void refuseHuge(const Code& code, Messages& messages) {
+  constexpr int32_t kMostFloats = 1 << 17;
+  constexpr double kBatch = 256, kMegabyte = 1 << 20;
+  if (code.varyingFloats <= kMostFloats) return;
+  const auto largest =
+      std::max_element(code.registers.begin(), code.registers.end(), [](const Register& a, const Register& b) {
+        return a.varying * a.length * floatsOf(a.shape) < b.varying * b.length * floatsOf(b.shape);
+      });
+  const auto megabytes = [&](int32_t floats) { return std::ceil(floats * sizeof(float) * kBatch / kMegabyte); };
+  messages.error(largest->place,
+                 fmt::format("what varies of this shader needs {} MB for {} points, \"{}\" most of it; {} MB are the "
+                             "limit",
+                             megabytes(code.varyingFloats), kBatch, largest->name, megabytes(kMostFloats)),
+                 static_cast<int32_t>(largest->name.size()));
+}
+
 std::unique_ptr<const Program> programOf(Code code, const std::vector<bool>& varying, Messages& messages) {
   optimise(code, varying, messages);
   return std::make_unique<Program>(std::move(code));
@@ -59,6 +81,7 @@ HostedShader::HostedShader(const Checked& checked, const Shader& shader, const s
     return;
   }
   uniform_ = programOf(lowered_, std::vector<bool>(lowered_.parameters.size(), false), messages);
+  refuseHuge(code(), messages);
   declareParameters();
   TmShader& host = host_.shader;
   host_.program = this;

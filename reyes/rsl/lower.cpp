@@ -66,10 +66,14 @@ int32_t Lowering::variable(const Variable& v) {
   return registers_[&v] = add(std::move(r));
 }
 
-Instruction& Lowering::emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in) {
+bool Lowering::hasRoom() {
   if (++instructions_ == kMostInstructions)
     messages_.error(place_, "the shader is too large once its functions are inlined");
-  if (instructions_ > kMostInstructions) block_->clear();
+  return instructions_ <= kMostInstructions;
+}
+
+Instruction& Lowering::emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in) {
+  if (!hasRoom()) block_->clear();
   block_->push_back({.op = op, .out = std::move(out), .in = std::move(in), .place = place_});
   return block_->back();
 }

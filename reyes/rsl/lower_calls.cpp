@@ -49,6 +49,8 @@ int32_t Lowering::inlined(const Expr& e, const Function& f) {
       initialise(variable(p), from);
     }
   }
+  const auto nothing = [&] { return shapeOf(f.result) == Shape::Text ? text("") : number(0); };
+  if (!hasRoom()) return nothing();  // functions that call two of the next one double with each
   // Only a return at the very end needs no label.
   const Stmt* last = f.body->body.empty() ? nullptr : f.body->body.back().get();
   const int returns = returnsIn(*f.body);
@@ -72,8 +74,7 @@ int32_t Lowering::inlined(const Expr& e, const Function& f) {
   }
   functions_.pop_back();
   for (const auto& [to, from] : after) store(*to, from);
-  if (result < 0) result = shapeOf(f.result) == Shape::Text ? text("") : number(0);
-  return result;
+  return result < 0 ? nothing() : result;
 }
 
 std::vector<int32_t> Lowering::arguments(const Expr& e, const Builtin& b, size_t count) {
@@ -136,7 +137,8 @@ int32_t Lowering::builtin(const Expr& e, const Builtin& b) {
       return compute(Op::ShaderName, {of_});
     }
     case Emit::Print: {
-      const std::vector<int32_t> in = arguments(e, b, e.args.size());
+      std::vector<int32_t> in = arguments(e, b, e.args.size());
+      for (size_t i = 0; i < in.size(); ++i) in[i] = widened(in[i], e.args[i]->type);
       if (b.op != Op::Print) return compute(b.op, in);
       emit(b.op, {}, in);
       return number(0);
@@ -200,7 +202,7 @@ std::vector<Setting> Lowering::settings(const std::vector<ExprPtr>& list, size_t
     Setting s;
     s.fills = name.kind == ExprKind::String && isFilled(function, name.text);
     s.name = value(name);
-    s.value = s.fills ? target(of, after) : value(of);
+    s.value = s.fills ? target(of, after) : widened(value(of), of.type);
     s.base = of.type.base;
     out.push_back(s);
   }

@@ -39,6 +39,10 @@ int32_t Lowering::value(const Expr& e, const Type& wanted) {
   return widens ? compute(Op::MatrixOf, {reg}) : reg;
 }
 
+int32_t Lowering::widened(int32_t reg, const Type& type) {
+  return type.isTriple() && shape(reg) == Shape::Number ? compute(Op::MakeTriple, {reg, reg, reg}) : reg;
+}
+
 std::vector<int32_t> Lowering::values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted) {
   std::vector<int32_t> out;
   for (size_t i = 0; i < list.size(); ++i) {
@@ -137,6 +141,7 @@ int32_t Lowering::ofLamp(Global g) {
 
 int32_t Lowering::element(const Expr& e) {
   const int32_t array = value(*e.args[0]), index = value(*e.args[1]);
+  if (e.args[0]->type.isTriple()) return compute(Op::Component, {array, index});
   switch (shape(array)) {
     case Shape::Number:
       return compute(Op::ElementF, {array, index});
@@ -192,11 +197,13 @@ int32_t Lowering::conditional(const Expr& e) {
 void Lowering::store(const Expr& to, int32_t from) {
   if (to.kind == ExprKind::Index) {
     const int32_t array = value(*to.args[0]), index = value(*to.args[1]);
+    if (to.args[0]->type.isTriple()) return store(*to.args[0], compute(Op::SetComponent, {array, index, from}));
     emit(Op::SetElement, {array}, {index, from});
     return;
   }
   const Variable& v = *to.variable;
-  if (v.global >= 0 && !info(static_cast<Global>(v.global)).writableIn(code_.kind))
+  const GlobalInfo* global = v.global >= 0 ? &info(static_cast<Global>(v.global)) : nullptr;
+  if (global && global->readableIn(code_.kind) && !global->writableIn(code_.kind))
     messages_.warning(
         to.place,
         fmt::format("a {} shader that assigns \"{}\" changes it for itself alone", compiler::name(code_.kind), to.text),

@@ -4,6 +4,7 @@
 #include "reyes/rsl/lowering.h"
 #include "reyes/rsl/machine/machine.h"
 #include "reyes/rsl/passes/passes.h"
+#include "reyes/rsl/passes/walk.h"
 
 namespace tomales::compiler {
 namespace {
@@ -16,26 +17,63 @@ const Expr& inShaderSpace(const Expr& e) {
 
 }  // namespace
 
-bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds) {
-  if (std::find(kinds.begin(), kinds.end(), s.kind) != kinds.end()) return true;
-  if (s.kind == StmtKind::Define) return false;
-  return std::any_of(s.body.begin(), s.body.end(), [&](const StmtPtr& part) { return contains(*part, kinds); });
-}
-
 void Lowering::shader(const Shader& s) {
   code_.kind = s.kind, code_.name = s.name, code_.doc = s.doc;
   for (const auto& p : s.parameters) parameter(*p);
   functions_.push_back({-1, code_.labels++});
-  if (!contains(*s.body, {StmtKind::Return})) return statement(*s.body);
-  Block body = block([&] { statement(*s.body); });
-  Instruction& scope = emit(Op::Scope, {}, {});
-  scope.extra = functions_.back().label;
-  scope.blocks.push_back(std::move(body));
+  if (contains(*s.body, {StmtKind::Return})) {
+    Block body = block([&] { statement(*s.body); });
+    Instruction& scope = emit(Op::Scope, {}, {});
+    scope.extra = functions_.back().label;
+    scope.blocks.push_back(std::move(body));
+  } else {
+    statement(*s.body);
+  }
+  if (s.kind == ShaderKind::Surface) hideUncoloured();
 }
 
+// RISpec leaves open what Ci and Oi hold at first; they are Cs and Os here. Shaders of glows and rings assign Oi = 0
+// alone where nothing is to be seen (RenderMan Companion, listing 16.26), and Cs must not shine there.
+void Lowering::hideUncoloured() {
+  const auto assigns = [](const Block& block, int32_t reg) {
+    return std::any_of(block.begin(), block.end(), [&](const Instruction& i) {
+      return std::find(i.out.begin(), i.out.end(), reg) != i.out.end();
+    });
+  };
+  const int32_t Ci = global(Global::Ci), Oi = global(Global::Oi);
+  bool clears = false;
+  forEach(code_.body, [&](const Instruction& i) { forEachWrite(i, [&](int32_t r) { clears |= r == Oi; }); });
+  if (!clears || assigns(code_.body, Ci)) return;
+  const int32_t black = number(0), uncoloured = compute(Op::TripleEqual, {Ci, global(Global::Cs)});
+  const int32_t hidden = compute(Op::And, {uncoloured, compute(Op::TripleEqual, {Oi, black})});
+  copy(Ci, compute(Op::Select, {hidden, black, Ci}, Shape::Triple));
+}
+
+// What the host writes it cannot give too (TM_OUTPUT): an output is two parameters of one name, and starts as the one
+// that is given.
 void Lowering::parameter(const Variable& v) {
+  const bool stored = v.output && !v.type.isArray() && !v.type.is(Base::Matrix) && !v.type.is(Base::String);
+  const int32_t output = stored ? outputParameter(v) : -1;
+  givenParameter(v);
+  if (!stored) return;
+  const int32_t given = registers_[&v];
+  initialise(output, given);
+  if (v.assigned) registers_[&v] = output;
+}
+
+int32_t Lowering::outputParameter(const Variable& v) {
   Parameter p;
-  p.name = v.name, p.type = v.type, p.detail = v.detail, p.output = v.output, p.place = v.place;
+  p.name = v.name, p.type = v.type, p.output = true, p.place = v.place;
+  const int32_t reg = variable(v);
+  Register& r = code_.registers[static_cast<size_t>(reg)];
+  r.origin = Origin::Parameter, r.index = static_cast<int32_t>(code_.parameters.size());
+  code_.parameters.push_back(std::move(p));
+  return reg;
+}
+
+void Lowering::givenParameter(const Variable& v) {
+  Parameter p;
+  p.name = v.name, p.type = v.type, p.detail = v.detail, p.place = v.place;
   if (p.type.length == kOpenArray) p.type.length = 1;
   const bool constantValue = constantDefault(v, p);
   const int32_t reg = variable(v);

@@ -1,6 +1,5 @@
 // Private to the lowering (lower*.cpp).
 #pragma once
-#include <initializer_list>
 #include <map>
 
 #include "reyes/rsl/builtins.h"
@@ -13,9 +12,6 @@ Shape shapeOf(const Type& type);
 
 /// The default of a text that is computed when the shader runs: no shader gives this one.
 constexpr const char* kTextNotGiven = "\x1bnot given";
-
-/// Is there a statement of one of these kinds in it? Functions that it defines do not count.
-bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds);
 
 class Lowering {
  public:
@@ -31,6 +27,8 @@ class Lowering {
   int32_t constant(Shape shape, std::vector<float> floats);
   int32_t global(Global g);
   int32_t variable(const Variable& v);  ///< A register of its own for it, which it stands for from now on.
+  /// Counts an instruction or an inlined function. False, and reported once: there are too many.
+  bool hasRoom();
   Instruction& emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in);
   /// An instruction with one result, of its signature's shape (of `shape` if that is `*`).
   int32_t compute(Op op, std::vector<int32_t> in, Shape shape = Shape::Number);
@@ -43,6 +41,9 @@ class Lowering {
 
   // --- lower_shader.cpp: parameters, statements
   void parameter(const Variable& v);
+  void hideUncoloured();
+  int32_t outputParameter(const Variable& v);
+  void givenParameter(const Variable& v);
   bool constantDefault(const Variable& v, Parameter& p);
   void computedDefault(const Variable& v, int32_t reg);
   void statement(const Stmt& s);
@@ -68,6 +69,8 @@ class Lowering {
   /// Likewise, as a type that may be another: a number stays one where a triple is wanted, since it counts for all
   /// components; where a matrix is, it becomes one.
   int32_t value(const Expr& e, const Type& wanted);
+  /// A number that stands for a triple, as one: for what looks at each component by itself.
+  int32_t widened(int32_t reg, const Type& type);
   /// In order; values that a later expression may change are copied.
   std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
   int32_t name(const Expr& e);

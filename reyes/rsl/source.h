@@ -84,7 +84,7 @@ class Messages {
   bool keeps_ = true;  ///< The error or warning that notes now belong to.
 };
 
-/// The names that `wanted` may be a misspelling of, the nearest first, at most `most`.
+/// The names that `wanted` may be a misspelling of, the nearest first, at most `most`. Capitals count least.
 std::vector<std::string> nearNames(std::string_view wanted, const std::vector<std::string>& known, size_t most = 1);
 
 }  // namespace tomales::compiler

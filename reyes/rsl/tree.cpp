@@ -1,5 +1,7 @@
 #include "reyes/rsl/tree.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace tomales::compiler {
@@ -30,6 +32,12 @@ std::string name(const Type& type) {
   if (!type.isArray()) return name(type.base);
   return type.length == kOpenArray ? fmt::format("{}[]", name(type.base))
                                    : fmt::format("{}[{}]", name(type.base), type.length);
+}
+
+bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds) {
+  if (std::find(kinds.begin(), kinds.end(), s.kind) != kinds.end()) return true;
+  if (s.kind == StmtKind::Define) return false;
+  return std::any_of(s.body.begin(), s.body.end(), [&](const StmtPtr& part) { return contains(*part, kinds); });
 }
 
 }  // namespace tomales::compiler

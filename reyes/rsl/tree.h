@@ -1,6 +1,7 @@
 // What the parser makes of a file: functions and shaders as trees. check.h fills in types and what names mean.
 // RISpec 3.2 sections 11 to 14.
 #pragma once
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -114,6 +115,9 @@ struct Stmt {
   std::vector<std::unique_ptr<Variable>> variables;
   std::unique_ptr<Function> function;
 };
+
+/// Is there a statement of one of these kinds in it? Functions that it defines do not count.
+bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds);
 
 struct Function {
   std::string name;

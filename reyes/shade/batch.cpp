@@ -93,7 +93,7 @@ TmConstVec3 Batch::velocity() {
 
 void Batch::openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin) {
   for (const BoundVariable& v : variables) {
-    if (v.from != BoundVariable::From::Output) continue;
+    if (v.from != VariableSource::Output) continue;
     TmValue& value = params_[static_cast<size_t>(v.index)];
     for (int k = 0; k < v.width; ++k) {
       float* to = out.variables[static_cast<size_t>(v.first + k)].data() + begin;
@@ -112,7 +112,7 @@ void Batch::closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoin
     std::copy_n(k == 0 ? tm.Oi.x : k == 1 ? tm.Oi.y : tm.Oi.z, n, out.Oi[k].data() + begin);
   }
   for (const BoundVariable& v : variables)
-    for (int k = 0; v.from == BoundVariable::From::Output && k < v.width; ++k)
+    for (int k = 0; v.from == VariableSource::Output && k < v.width; ++k)
       std::copy_n(params_[static_cast<size_t>(v.index)].c[k], n,
                   out.variables[static_cast<size_t>(v.first + k)].data() + begin);
 }
@@ -264,10 +264,11 @@ CrashNote::Text Batch::crashText() const {
           .line = where.line};
 }
 
-void Batch::report(Severity severity, const char* code, const std::string& problem) const {
+void Batch::report(Severity severity, const char* code, const std::string& problem, const std::string& subject) const {
   const std::string who = running->user == group.object ? running->user : running->user + ", on " + group.object;
-  scene.log.report(severity, fmt::format("{}-{}", code, running->shader->name), running->where,
-                   fmt::format("{}: shader \"{}\" {}", who, running->shader->name, problem));
+  scene.log.report(severity, code, running->where,
+                   fmt::format("{}: shader \"{}\" {}", who, running->shader->name, problem),
+                   fmt::format("{} {}", running->shader->name, subject.empty() ? problem : subject));
 }
 
 }  // namespace tomales

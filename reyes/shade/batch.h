@@ -50,7 +50,7 @@ class Batch {
   /// Fills in a value that lives as long as the batch: `type` is what the numbers (or the text) are.
   void answer(const std::vector<float>& numbers, const std::string& text, TmType type, int32_t& typeOut, TmValue& out);
   /// Once per shader and place of request.
-  void report(Severity severity, const char* code, const std::string& problem) const;
+  void report(Severity severity, const char* code, const std::string& problem, const std::string& subject = {}) const;
 
   const BoundScene& scene;
   const BoundGroup& group;

@@ -7,6 +7,7 @@
 #include "reyes/base/deep_stack.h"
 #include "reyes/shade/binder.h"
 #include "reyes/shade/roles.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -25,25 +26,25 @@ int countOf(const BoundShader& light, TmRole role, int fallback, int least, int 
   return used;
 }
 
-void warnOfValue(const BoundShader& light, TmRole role, const std::string& value, const char* consequence, Log& log) {
+void warnOfValue(const BoundShader& light, TmRole role, const std::string& value, const std::string& consequence,
+                 Log& log) {
   log.report(Severity::Warning, fmt::format("light-{}", roleName(role)), light.where,
              fmt::format("{}: {} \"{}\" is not supported; {}", light.user, light.find(role)->name, value, consequence));
 }
 
-std::string errorFunctionOf(const BoundShader& light, const std::string& fallback, Log& log) {
-  const std::string name = light.text(TM_ROLE_ERROR_FUNCTION, fallback);
-  if (name != "screen" && name != "ward" && name != "hessian" && name != "split" && name != "plain")
-    warnOfValue(light, TM_ROLE_ERROR_FUNCTION, name, "\"screen\" is used", log);
-  return name;
+ErrorFunction errorFunctionOf(const BoundShader& light, ErrorFunction fallback, Log& log) {
+  const std::string name = light.text(TM_ROLE_ERROR_FUNCTION, infoOf(fallback).name);
+  const auto found = errorFunctionNamed(name);
+  if (!found)
+    warnOfValue(light, TM_ROLE_ERROR_FUNCTION, name, fmt::format("\"{}\" is used", infoOf(fallback).name), log);
+  return found.value_or(fallback);
 }
 
-HitRadianceChoice hitRadianceOf(const BoundShader& light, Log& log) {
-  const std::string name = light.text(TM_ROLE_HIT_RADIANCE, "shader");
-  if (name == "atlas") return HitRadianceChoice::Atlas;
-  if (name == "points") return HitRadianceChoice::Points;
-  if (name == "radiosity") return HitRadianceChoice::Radiosity;
-  if (name != "shader") warnOfValue(light, TM_ROLE_HIT_RADIANCE, name, "gather rays run the shaders", log);
-  return HitRadianceChoice::Shader;
+const GiMethod* methodOf(const BoundShader& light, const GiMethod* fallback, Log& log) {
+  const std::string name = light.text(TM_ROLE_HIT_RADIANCE, fallback->radiance);
+  if (const GiMethod* found = giMethodOfRadiance(name)) return found;
+  warnOfValue(light, TM_ROLE_HIT_RADIANCE, name, "gather rays run the shaders", log);
+  return fallback;
 }
 
 IndirectQuery queryOf(const BoundShader& light, int samplesInstead, Log& log) {
@@ -59,7 +60,7 @@ IndirectQuery queryOf(const BoundShader& light, int samplesInstead, Log& log) {
 
 IndirectRequest requestOf(const BoundShader& light, const IndirectQuery& query, Log& log) {
   IndirectRequest out;
-  out.hitRadiance = hitRadianceOf(light, log);
+  out.method = methodOf(light, out.method, log);
   out.atlas = light.text(TM_ROLE_ATLAS, "");
   if (const RoleValue* bounces = light.find(TM_ROLE_BOUNCES); bounces && bounces->given) out.bounces = query.bounces;
   return out;
@@ -90,6 +91,9 @@ void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
     light.shadows = light.shadows || !mapped;
   }
 }
+
+/// For all points. A shader with an output of that role says it for each point, as it runs.
+bool isSaid(const BoundShader& light, TmRole role) { return light.output(role) < 0 && light.number(role, 0) != 0; }
 
 bool hasGeometry(const LightCall& call, const Scene& scene) {
   return std::any_of(scene.groups.begin(), scene.groups.end(),
@@ -145,8 +149,8 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   light->bound = bound, light->index = index;
   light->group = bound->text(TM_ROLE_GROUP, call.handle);
   light->category = bound->text(TM_ROLE_CATEGORY, "");
-  light->nondiffuse = bound->number(TM_ROLE_NONDIFFUSE, 0) != 0;
-  light->nonspecular = bound->number(TM_ROLE_NONSPECULAR, 0) != 0;
+  light->nondiffuse = isSaid(*bound, TM_ROLE_NONDIFFUSE);
+  light->nonspecular = isSaid(*bound, TM_ROLE_NONSPECULAR);
   light->visible = bound->number(TM_ROLE_VISIBLE, 1) != 0;
   setLighting(*light, log_);
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);

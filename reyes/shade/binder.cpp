@@ -4,7 +4,9 @@
 
 #include <filesystem>
 
+#include "reyes/base/missing_file.h"
 #include "reyes/shade/substitute.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -35,7 +37,13 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
                                                   "it casts no light", "the air is clear",
                                                   "the picture stays as it is"};
   log_.report(Severity::Missing, "shader-missing", where,
-              fmt::format("{}: {} shader \"{}\" is unknown; {}", user, kindName(kind), name, kConsequences[kind]));
+              fmt::format("{}: {} shader \"{}\" is unknown{}; {}", user, kindName(kind), name,
+                          registry_.hintOfMissing(name, kind, path_, beside), kConsequences[kind]),
+              fmt::format("{} {}", kindName(kind), name));
+  log_.report(Severity::Note, "shader-folders", {},
+              fmt::format("shaders that are not built in (tomales list shaders) were looked for as NAME.sl in {}; "
+                          "--shaders FOLDER names another folder",
+                          listOfFolders(registry_.textFolders(path_, beside))));
   if (kind != TM_SURFACE) return nullptr;
   return bindShader(substituteSurface(), nullptr, where, user, currentFromShader, log_);
 }

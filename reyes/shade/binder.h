@@ -6,6 +6,7 @@
 
 #include "reyes/base/search_path.h"
 #include "reyes/shade/bound_scene.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 

@@ -4,6 +4,7 @@
 
 #include "reyes/shade/binder.h"
 #include "reyes/shader/params.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -19,11 +20,11 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
     for (const Primvar& p : primvars) {
       const bool same = p.name == decl.name && p.width == width && decl.arrayLength == 1;
       if (same && isUniform(decl))
-        log.report(Severity::Warning, fmt::format("shader-parameter-uniform-{}-{}", bound.shader->name, decl.name),
-                   bound.where,
+        log.report(Severity::Warning, "shader-parameter-uniform", bound.where,
                    fmt::format(
                        "{}: shader \"{}\": parameter \"{}\" is uniform; the primitive variable of that name is ignored",
-                       bound.user, bound.shader->name, decl.name));
+                       bound.user, bound.shader->name, decl.name),
+                   fmt::format("{} {}", bound.shader->name, decl.name));
       else if (same)
         out.push_back({i, offset, width});
       offset += p.width;
@@ -45,9 +46,9 @@ void findPrimvars(BoundGroup& g) {
 void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
   for (size_t i = 0; i < output.variables.size(); ++i) {
     const Variable& v = output.variables[i];
-    const auto writes = [&](const BoundGroup& g) { return g.variables[i].from != BoundVariable::From::Nothing; };
+    const auto writes = [&](const BoundGroup& g) { return g.variables[i].from != VariableSource::Nothing; };
     if (std::any_of(scene.groups.begin(), scene.groups.end(), writes)) continue;
-    scene.log.report(Severity::Warning, fmt::format("channel-unwritten {}", v.source), v.where,
+    scene.log.report(Severity::Warning, "channel-unwritten", v.where,
                      fmt::format("no shader and no surface of this frame has an output \"{}\"; the channel holds {}",
                                  v.source, v.fill));
   }

@@ -2,6 +2,7 @@
 // space.
 #pragma once
 #include "reyes/shader_api.h"
+#include "reyes/shader_registry.h"
 #include "reyes/state.h"
 
 namespace tomales {

@@ -21,8 +21,7 @@ std::vector<CloudValue> valuesOf(const TmChannel* values, int32_t count) {
 }
 
 bool refuse(const Batch& batch, const char* file, const std::string& problem) {
-  batch.report(Severity::Missing, fmt::format("cloud-{}", file).c_str(),
-               fmt::format("point cloud \"{}\": {}", file, problem));
+  batch.report(Severity::Missing, "point-cloud", fmt::format("point cloud \"{}\": {}", file, problem), file);
   return false;
 }
 

@@ -72,7 +72,8 @@ void checkBound(const BoundScene& scene, const Object& object, float longest) {
   scene.log.report(Severity::Warning, "displacement-bound", object.where,
                    fmt::format("{}: displaced by more than its bound allows; parts may be cut off: Attribute "
                                "\"displacementbound\" needs \"sphere\" {:.4g} or more in \"{}\" space",
-                               objectName(object), needed, space));
+                               objectName(object), needed, space),
+                   object.where.text());
 }
 
 /// Undoes what is not finite, so that one bad vertex does not tear the mesh to infinity.

@@ -1,5 +1,6 @@
 #include "reyes/shade/environment_rays.h"
 
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/picture_services.h"
 #include "reyes/shade/ray_services.h"
@@ -9,7 +10,7 @@
 namespace tomales {
 namespace {
 
-constexpr uint32_t kEnvironmentStream = 0x656e7669U;
+constexpr uint32_t kEnvironmentStream = randomStream("envi");
 
 vec2 randomOf(const Batch& batch, int i, int ray, int samples) {
   const SampleName name = batch.points->name(i);

@@ -1,6 +1,7 @@
 // Glossy surfaces under lights that have an extent. A highlight is a sum over samples of the light and over samples of
 // the surface's own lobe, weighted by the power heuristic (Veach and Guibas 1995, "Optimally Combining Sampling
 // Techniques for Monte Carlo Rendering"): small lights are found by their own samples, narrow lobes by theirs.
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
@@ -10,7 +11,7 @@
 namespace tomales {
 namespace {
 
-constexpr uint32_t kLobeStream = 0x6c6f6265U;
+constexpr uint32_t kLobeStream = randomStream("lobe");
 
 /// What is displaced goes by its place on the object, so that grids which meet there agree; light probes and pixels
 /// have one name for all.

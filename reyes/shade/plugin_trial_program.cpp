@@ -2,11 +2,41 @@
 #include <dlfcn.h>
 
 #include <climits>
+#include <cstring>
 
-#include "reyes/shade/plugin_trial_socket.h"
+#include "reyes/base/plugin_trial_socket.h"
 #include "reyes/shader_api.h"
 
 using namespace tomales::trial;
+
+namespace {
+
+volatile size_t read_bytes = 0;  // so that no reading is left out
+
+void read(const char* text) {
+  if (text) read_bytes = read_bytes + std::strlen(text);
+}
+
+void read(const TmParamDecl& p) {
+  read(p.name), read(p.doc);
+  const bool texts = TM_TYPE_OF(p.type) == TM_STRING;
+  for (int32_t i = 0; texts && p.strings && i < p.arrayLength; ++i) read(p.strings[i]);
+  for (int32_t i = 0; !texts && p.floats && i < p.arrayLength; ++i) read_bytes = read_bytes + (p.floats[i] != 0);
+}
+
+/// Whatever the renderer will read of a plugin of its version: a pointer that leads nowhere is to end this process.
+void read(const TmShaderLibrary* library) {
+  if (!library || library->abi != TM_SHADER_ABI || library->structBytes < sizeof(TmShaderLibrary)) return;
+  read(library->fault);
+  for (int32_t k = 0; k < library->count; ++k) {
+    const TmShader* s = library->shaders[k];
+    if (!s || s->abi != TM_SHADER_ABI || s->structBytes < sizeof(TmShader)) continue;
+    read(s->name), read(s->doc), read(s->fault);
+    for (int32_t i = 0; s->params && s->paramBytes == sizeof(TmParamDecl) && i < s->paramCount; ++i) read(s->params[i]);
+  }
+}
+
+}  // namespace
 
 int main() {
   constexpr int kIdleMilliseconds = 200;
@@ -17,8 +47,10 @@ int main() {
     const ssize_t length = recv(kSocket, path, PATH_MAX, 0);
     if (length <= 0 || !say(kBegins)) break;
     path[length] = 0;
-    if (void* handle = dlopen(path, RTLD_NOW | RTLD_LOCAL))
-      if (const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL))) function();
+    void* handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!handle) handle = dlopen(path, RTLD_LAZY | RTLD_LOCAL);  // procedurals call functions that the renderer has
+    if (handle)
+      if (const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL))) read(function());
     say(kLives);
   }
   _exit(0);  // destructors of plugins are not on trial

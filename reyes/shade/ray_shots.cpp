@@ -1,5 +1,6 @@
 #include "reyes/shade/ray_shots.h"
 
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/footprint.h"
 #include "reyes/shade/primary.h"
@@ -9,7 +10,7 @@ namespace {
 
 constexpr float kSpecularCone =
     10 * kPi / 180;  ///< trace:specularthreshold of rispec-table 3.2: wider rays are diffuse.
-constexpr uint32_t kConeStream = 0x636f6e65U, kBaseStream = 0x62617365U;
+constexpr uint32_t kConeStream = randomStream("cone"), kBaseStream = randomStream("base");
 
 }  // namespace
 

@@ -5,12 +5,18 @@
 #include <filesystem>
 #include <set>
 
+#include "reyes/base/crash_note.h"
 #include "reyes/base/input_file.h"
+#include "reyes/base/loaded_plugins.h"
+#include "reyes/base/missing_file.h"
+#include "reyes/base/near_names.h"
+#include "reyes/base/plugin_trial.h"
+#include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
-#include "reyes/shade.h"
-#include "reyes/shade/plugin_trial.h"
+#include "reyes/base/trust.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shade/rsl_shaders.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
@@ -49,6 +55,7 @@ struct ShaderRegistry::Impl {
   std::set<std::string> toldOf;      // what was wrong with shaders' texts
   std::vector<std::shared_ptr<const RslFile>> texts{};
   std::set<const TmShader*> builtIn{};
+  std::map<const TmShader*, std::string> origins{};
   std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
 
   void refuse(const std::string& origin, const std::string& problem) {
@@ -59,11 +66,11 @@ struct ShaderRegistry::Impl {
   bool load(const std::string& path);
   std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
   std::string heldBy(const std::string& path) const;
+  std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
   const TmShader* search(const std::string& name, TmKind kind, const std::string& searchPath,
                          const std::string& beside);
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
                            const std::string& beside);
-  std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
   bool comesBeforeTexts(const TmShader& s) const { return !builtIn.count(&s) || isOfSpecification(s.name); }
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
@@ -122,7 +129,7 @@ bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string
       refuse(origin, fmt::format("shader number {} lacks {}", i + 1, lack));
     else if (shader->fault)
       refuse(origin, fmt::format("shader \"{}\" {}", shader->name, shader->fault));
-    else if (shaders[{shader->kind, shader->name}] = shader; added)
+    else if (shaders[{shader->kind, shader->name}] = shader, origins[shader] = origin; added)
       added->push_back(shader);
   }
   return true;
@@ -148,6 +155,8 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
     untriedSaid = true,
     log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
                "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
+  noteLoadedPlugin(path);
+  const CrashNote note({"shader plugin", path.c_str(), "while plugins are loaded", nullptr, nullptr, 0});
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
@@ -155,37 +164,11 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
   return plugin.loaded = add(function(), path, &plugin.shaders);
 }
 
-namespace {
-
-std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath) {
-  std::vector<std::string> out;
-  for (const fs::path folder : foldersOf(searchPath)) {
-    std::error_code none;
-    if (const fs::path file = folder / (name + ".so"); fs::is_regular_file(file, none)) out.push_back(file.string());
-  }
-  return out;
-}
-
-/// Does the name of a shader lead out of the folders that it is looked for in?
-bool leavesFolders(const fs::path& name) {
-  return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
-}
-
-}  // namespace
-
 std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& name, const std::string& searchPath) {
-  std::vector<std::string> out;
-  if (!leavesFolders(name)) out = pluginFiles(name, trust.folders);
-  for (const std::string& file : pluginFiles(name, searchPath.empty() ? "." : searchPath)) {
-    if (trust.sceneFolders)
-      out.push_back(file);
-    else if (out.empty() && distrusted.insert(file).second)
-      refuse(file,
-             "is native code in a folder that the scene names, and is not loaded; --shaders FOLDER names a folder "
-             "whose plugins you trust, "
-             "--allow-system trusts those of the scene");
-  }
-  return out;
+  PluginFiles found = findPlugins(name, searchPath, trust);
+  for (const std::string& file : found.refused)
+    if (distrusted.insert(file).second) refuse(file, kPluginRefusal);
+  return std::move(found.trusted);
 }
 
 ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust)
@@ -217,10 +200,12 @@ bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::str
 
 std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& searchPath,
                                                            const std::string& beside) const {
-  std::vector<std::string> folders = foldersOf(searchPath);
-  for (const std::string& folder : foldersOf(trust.folders)) folders.push_back(folder);
-  folders.push_back(beside.empty() ? "." : beside);
-  return folders;
+  std::vector<std::string> out = foldersOf(searchPath);
+  std::error_code none;
+  for (const std::string& folder : foldersOf(trust.folders))
+    if (fs::is_directory(folder, none)) out.push_back(folder);  // those of a user and an installation may not be there
+  out.push_back(beside.empty() ? "." : beside);
+  return out;
 }
 
 const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind kind, const std::string& searchPath,
@@ -232,6 +217,7 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
   if (!found.problem.empty())
     tell(found.file, (found.problem.starts_with("has no") ? "" : "does not compile:\n") + found.problem);
   if (!found.remark.empty()) tell(name, found.remark);
+  if (found.shader) origins[found.shader] = found.file;
   return found.shader;
 }
 
@@ -274,6 +260,33 @@ void ShaderRegistry::prepare(const std::vector<ShaderName>& names, const std::st
     requests.push_back({n.name, impl_->textFolders(searchPath, n.beside)});
   }
   compileRslShaders(requests);
+}
+
+std::vector<std::string> ShaderRegistry::textFolders(const std::string& searchPath, const std::string& beside) const {
+  return impl_->textFolders(searchPath, beside);
+}
+
+std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kind, const std::string& searchPath,
+                                          const std::string& beside) const {
+  const std::string name = fs::path(withoutShaderEnding(written)).filename().string();
+  std::vector<std::string> ofKind;
+  {
+    const std::lock_guard lock(impl_->mutex);
+    for (const auto& [key, shader] : impl_->shaders) {
+      if (key.first == kind)
+        ofKind.push_back(key.second);
+      else if (key.second == name)
+        return fmt::format("; the shader of that name is a {}", kindName(static_cast<TmKind>(key.first)));
+    }
+  }
+  const std::string lies = tomales::hintOfMissing(name + ".sl", {".sl"}, impl_->textFolders(searchPath, beside));
+  return lies.empty() ? didYouMean(name, ofKind) : lies;
+}
+
+std::string ShaderRegistry::originOf(const TmShader& shader) const {
+  const std::lock_guard lock(impl_->mutex);
+  const auto it = impl_->origins.find(&shader);
+  return it == impl_->origins.end() ? "" : it->second;
 }
 
 std::vector<const TmShader*> ShaderRegistry::all() const {

@@ -1,4 +1,5 @@
 #include "reyes/shade/roles.h"
+#include "reyes/shader_registry.h"
 
 #include <algorithm>
 #include <array>

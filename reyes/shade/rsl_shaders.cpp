@@ -14,6 +14,7 @@
 #include "reyes/base/input_file.h"
 #include "reyes/base/parallel.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -22,13 +23,6 @@ namespace fs = std::filesystem;
 
 /// Endings of shaders that other renderers have compiled.
 constexpr const char* kCompiled[] = {".slo", ".sdr", ".slx", ".slc", ".sdl", ".dll", ".sl"};
-
-std::string withoutEnding(const std::string& name) {
-  for (const char* ending : kCompiled)
-    if (name.size() > std::char_traits<char>::length(ending) && name.ends_with(ending))
-      return name.substr(0, name.size() - std::char_traits<char>::length(ending));
-  return name;
-}
 
 /// When a file was written, and how large it is; zeros: there is none.
 using FileState = std::pair<fs::file_time_type, uintmax_t>;
@@ -151,7 +145,7 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
 
 /// A request's name as files have it.
 std::string nameInFolders(const std::string& written) {
-  const std::string name = withoutEnding(written);
+  const std::string name = withoutShaderEnding(written);
   const fs::path path(name);
   // A scene from elsewhere: its shader may lie in the folders.
   return path.is_absolute() || name.find("..") != std::string::npos ? path.filename().string() : name;
@@ -168,6 +162,13 @@ std::string compiledElsewhere(const std::string& name, const std::vector<std::st
 }
 
 }  // namespace
+
+std::string withoutShaderEnding(const std::string& name) {
+  for (const char* ending : kCompiled)
+    if (name.size() > std::char_traits<char>::length(ending) && name.ends_with(ending))
+      return name.substr(0, name.size() - std::char_traits<char>::length(ending));
+  return name;
+}
 
 RslFound findRslShader(const std::string& written, TmKind kind, const std::vector<std::string>& folders) {
   const std::string name = nameInFolders(written), shaderName = fs::path(name).filename().string();

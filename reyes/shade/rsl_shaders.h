@@ -9,6 +9,9 @@
 
 namespace tomales {
 
+/// The name without the ending that shaders have which other renderers have compiled, or texts (.slo, .sl).
+std::string withoutShaderEnding(const std::string& name);
+
 /// What became of a name.
 struct RslFound {
   const TmShader* shader = nullptr;

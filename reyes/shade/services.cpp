@@ -98,19 +98,22 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
 
 void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   const Batch& batch = batchOf(host);
-  // Messages are told apart by how they begin, since a value may follow, and into so many codes: what a shader makes up
-  // is not to fill the log.
-  constexpr size_t kAlike = 24, kCodes = 4096;
+  // Messages are told apart by how they begin, since a value may follow, and into so many subjects: what a shader makes
+  // up is not to fill the log.
+  constexpr size_t kAlike = 24, kSubjects = 4096;
   const std::string text = message;
-  const uint64_t site = checksum(std::as_bytes(std::span(text).first(std::min(kAlike, text.size())))) % kCodes;
+  const uint64_t site = checksum(std::as_bytes(std::span(text).first(std::min(kAlike, text.size())))) % kSubjects;
   const bool misses = severity >= TM_MISSING;
-  batch.report(misses ? Severity::Missing : Severity::Warning,
-               fmt::format("shader-{}-{}", misses ? "misses" : "says", site).c_str(), text);
+  batch.report(misses ? Severity::Missing : Severity::Warning, misses ? "shader-misses" : "shader-says", text,
+               std::to_string(site));
 }
 
 void print(void* host, const TmGrid*, const char* text) {
   const ShadeContext& context = batchOf(host).context;
-  if (!context.rehearsal && !context.sketch) std::fputs((std::string(text) + "\n").c_str(), stderr);
+  if (context.rehearsal || context.sketch) return;
+  std::string line = text;
+  if (!line.ends_with('\n')) line += '\n';
+  std::fputs(line.c_str(), stderr);
 }
 
 TmServices table() {

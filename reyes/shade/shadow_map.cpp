@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reyes/base/missing_file.h"
 #include "reyes/base/rng.h"
 #include "reyes/base/search_path.h"
 #include "reyes/pictures.h"
@@ -153,10 +154,15 @@ const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& wher
   const std::string path = findFile(name, searchPath_);
   std::string error;
   it->second = ShadowMap::read(path.empty() ? name : path, error);
+  if (!it->second && path.empty()) {
+    std::vector<std::string> folders = foldersOf(searchPath_);
+    folders.push_back(".");
+    error = "not found in " + listOfFolders(folders) + hintOfMissing(name, pictureEndings(), folders);
+  }
   if (!it->second)
-    log_.report(Severity::Missing, fmt::format("shadow-map {}", name), where,
-                fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name,
-                            error.empty() ? "not found" : error));
+    log_.report(Severity::Missing, "shadow-map", where,
+                fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name, error),
+                name);
   return it->second.get();
 }
 

@@ -41,7 +41,9 @@ vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p) {
   rasterScale(batch, kind, scale, origin);
   vec3 eye, direction;
   batch.scene.camera.ray(vec2(p) * scale + origin, eye, direction);
-  return eye + direction * ((p.z - eye.z) / direction.z);
+  const float nearest = batch.scene.camera.nearClip();
+  const float depth = std::abs(p.z) < nearest ? nearest : p.z;
+  return eye + direction * ((depth - eye.z) / direction.z);
 }
 
 mat3 environmentDirections(const Batch& batch, const char* name) {

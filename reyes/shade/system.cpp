@@ -2,6 +2,7 @@
 
 #include "reyes/shade/batch.h"
 #include "reyes/shade/substitute.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -89,7 +90,7 @@ std::optional<IndirectRequest> ShadingSystem::indirectRequest() const {
     if (!light || !light->can(TM_LIGHT_INDIRECT) || light->filters) continue;
     const IndirectRequest& said = light->request;
     if (!out) out.emplace();
-    if (out->hitRadiance == HitRadianceChoice::Shader) out->hitRadiance = said.hitRadiance;
+    if (out->method == IndirectRequest().method) out->method = said.method;
     if (out->atlas.empty()) out->atlas = said.atlas;
     if (!out->bounces) out->bounces = said.bounces;
   }

@@ -60,9 +60,10 @@ bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::
   for (int i = 0; i < q.count; ++i)
     if (q.active[i])
       for (int k = 0; k < std::min(q.channels, 3); ++k) channels[k][i] = k == 1 ? 0.0f : 1.0f;
-  impl_->log.report(Severity::Missing, fmt::format("texture-missing {}", q.name), where,
+  impl_->log.report(Severity::Missing, "texture-missing", where,
                     fmt::format("{}: texture \"{}\" cannot be read ({}); magenta is used", user, q.name,
-                                error.empty() ? "not found" : error));
+                                error.empty() ? "not found" : error),
+                    q.name);
   return false;
 }
 

@@ -5,22 +5,8 @@
 namespace tomales {
 namespace {
 
-using From = BoundVariable::From;
+using From = VariableSource;
 constexpr std::string_view kLightGroup = "lightgroup:";
-
-struct Standard {
-  std::string_view name;
-  From from;
-  int channel;
-  int width = 3;
-};
-constexpr Standard kStandard[] = {
-    {"P", From::Channel, kPx},   {"N", From::Channel, kNx},       {"Ng", From::Channel, kNgx},
-    {"I", From::Channel, kIx},   {"dPdu", From::Channel, kDpduX}, {"dPdv", From::Channel, kDpdvX},
-    {"u", From::Channel, kU, 1}, {"v", From::Channel, kV, 1},     {"s", From::Channel, kS, 1},
-    {"t", From::Channel, kT, 1}, {"du", From::Channel, kDu, 1},   {"dv", From::Channel, kDv, 1},
-    {"Cs", From::Color, 0},      {"albedo", From::Color, 0},      {"Os", From::Opacity, 0},
-    {"Oi", From::Opacity, 0},    {"normal", From::Normal, 0}};
 
 void find(const Variable& wanted, const BoundGroup& group, BoundVariable& out) {
   if (const int output = group.surface->output(wanted.source, wanted.type); output >= 0) {
@@ -31,11 +17,11 @@ void find(const Variable& wanted, const BoundGroup& group, BoundVariable& out) {
     out.from = From::LightGroup, out.lights = wanted.source.substr(kLightGroup.size());
     return;
   }
-  for (const Standard& s : kStandard)
-    if (s.name == wanted.source && s.width == out.width) {
-      out.from = s.from, out.index = s.channel;
-      return;
-    }
+  const SurfaceVariable* known = surfaceVariable(wanted.source);
+  if (known && known->kind == ChannelKind::Variable && floatsPerValue(known->type) == out.width) {
+    out.from = known->source, out.index = known->channel;
+    return;
+  }
   int offset = kFixedChannels;
   for (const Primvar& p : group.group->primvars) {
     if (p.name == wanted.source && p.width == out.width) out.from = From::Channel, out.index = offset;

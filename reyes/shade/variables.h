@@ -12,7 +12,7 @@ struct BoundGroup;
 
 /// Where a group finds one of FrameOutput::variables.
 struct BoundVariable {
-  enum class From { Nothing, Channel, Color, Opacity, Normal, Output, LightGroup } from = From::Nothing;
+  VariableSource from = VariableSource::Nothing;
   int index = 0;             ///< Channel: of ShadePoints. Output: of TmShader::params.
   bool composited = false;   ///< Channel: a colour, which arrives premultiplied.
   std::string lights;        ///< LightGroup: its name; empty: what no light brings.

@@ -134,7 +134,8 @@ typedef struct TmServices {
   int32_t (*ask)(void* host, const TmGrid*, int32_t whom, int32_t light, const char* name, int32_t* type, TmValue* out);
   /* Tells the user once per shader and object; `severity` is a TmSeverity. */
   void (*report)(void* host, const TmGrid*, int32_t severity, const char* message);
-  /* RISpec printf(): a line on standard error, whole whatever other threads say. */
+  /* RISpec printf(): a line on standard error, whole whatever other threads say. It ends with one newline, whether
+   * the text has it or not. */
   void (*print)(void* host, const TmGrid*, const char* text);
 } TmServices;
 

@@ -11,6 +11,7 @@
 #include "reyes/base/stats.h"
 #include "reyes/frame.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 extern const TmShaderLibrary* tomales_builtin_shaders(void);
 

@@ -8,6 +8,7 @@
 #include "reyes/dice.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 #include "reyes/sl.h"
 
 namespace {

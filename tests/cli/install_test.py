@@ -46,6 +46,10 @@ do("cmake --install into an empty prefix", ["cmake", "--install", build, "--pref
 headers = sorted(p.name for p in (prefix / "include").rglob("*") if p.is_file())
 t.expect("shader.h" in headers and "sl.h" in headers and len(headers) > 10, "the headers of plugins are there")
 
+module = next((prefix / "lib").rglob("tomales/ri.py")).parent.parent
+said = do("the module of Python finds the program", ["env", "-u", "TOMALES", f"PYTHONPATH={module}", "python3", "-c", "import prman, tomales; print(tomales.program.find())"])
+t.expect(said.stdout.strip() == str(prefix / "bin/tomales"), "that was installed with it: " + said.stdout)
+
 page = (docs / "shader_writing.md").read_text()
 first = re.search(r"```cpp\n(#include.*?)```", page, re.DOTALL)[1]
 t.write("dots.cpp", first)

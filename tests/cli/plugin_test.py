@@ -21,7 +21,7 @@ def pixels(name):
 build("tree.so", example / "tree.c")
 tree = (example / "tree.rib").read_text()
 t.write("tree.rib", tree)
-small = ["--format", "96x96", "--pixel-samples", "2x2", "--allow-system"]
+small = ["--format", "96x96", "--pixel-samples", "2x2", "--plugin-path", "."]
 result = t.expect_run("the example plugin", ["tree.rib", "-o", "one.exr", "-t", "1", *small], 0)
 t.expect(not result.stderr, "draws without a word")
 t.expect_run("with four threads", ["tree.rib", "-o", "four.exr", "-t", "4", *small], 0)
@@ -30,7 +30,7 @@ t.write("bare.rib", "\n".join(line for line in tree.splitlines() if "DynamicLoad
 t.run("bare.rib", "-o", "bare.exr", *small)
 t.expect(pixels("bare.exr") != pixels("one.exr"), "and there is a tree")
 line = 1 + tree[: tree.index("Procedural \"Dyn")].count("\n")
-t.expect_run("without leave", ["tree.rib", "-o", "no.tif", "--format", "8x8"], 3, f"tree.rib:{line}", "--allow-system")
+t.expect_run("without leave", ["tree.rib", "-o", "no.tif", "--format", "8x8"], 3, f"tree.rib:{line}", "--allow-plugins")
 
 scene = 'Display "o.exr" "file" "rgba" Format 8 8 1 Translate 0 0 5 WorldBegin\nProcedural "DynamicLoad" ["%s" "x"] [-1 1 -1 1 -1 1]\nWorldEnd\n'
 t.write("plugin.cpp", """#include <reyes/ri.h>
@@ -49,5 +49,5 @@ t.write("fake.so", "no library")
 for name, says in (("throws", "out of twigs"), ("half", "has no function Subdivide, Free"), ("fake.so", "cannot be loaded"),
                    ("nowhere", "is not found"), ("", "names no plugin")):
     t.write("bad.rib", scene % name)
-    t.expect_run(f"plugin \"{name}\"", ["bad.rib", "--allow-system"], 3, "bad.rib:2", says)
+    t.expect_run(f"plugin \"{name}\"", ["bad.rib", "--allow-plugins"], 3, "bad.rib:2", says)
 t.finish()

@@ -36,7 +36,8 @@ class Suite:
     def run(self, *arguments, stdin=None):
         return subprocess.run([self.program, *arguments], cwd=self.folder, input=stdin, capture_output=True,
                               timeout=60, text=True, errors="replace",
-                              env={**os.environ, "TOMALES_TEXTURE_CACHE": str(self.folder / "textures")})
+                              env={"XDG_CONFIG_HOME": str(self.folder / "config"), **os.environ,
+                                   "TOMALES_TEXTURE_CACHE": str(self.folder / "textures")})
 
     def expect(self, condition, message):
         print(("ok      " if condition else "FAILED  ") + message)

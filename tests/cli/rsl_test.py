@@ -225,6 +225,24 @@ expect_all("outputs", GREEN, "leave Ci alone")
 mask = picture("mask")
 t.expect(all(abs(c[0] - ((x + 0.5) / 64 + 0.25)) < 0.02 and abs(c[1] - ((y + 0.5) / 64 + 0.25)) < 0.02 and c[2] == 1 for (x, y), c in mask.items()), f"show s and t ({mask[0, 0]}, {mask[31, 31]})")
 t.expect({p[0] for p in pixels(t.folder / "plain.exr").values()} == {2}, "and numbers")
+t.write("keyed.sl", "surface keyed(output varying color paint = 0; output float amount = 0) { Oi = 1; Ci = paint * amount; amount = 3; }\n")
+scene("keyed", 'Surface "keyed" "color paint" [0 0 1] "float amount" [1]')
+render("outputs of which the scene gives the first values", "keyed")
+expect_all("keyed", BLUE, "have them")
+scene("keyed2", 'Surface "keyed" "float amount" [1]', variables='"constant color paint" [1 0 0]')
+render("or a primitive variable", "keyed2")
+expect_all("keyed2", RED, "have those")
+t.write("dull.sl", "light dull(output float __nonspecular = 0, __nondiffuse = 0) { illuminate (point \"camera\" (0, 0, 0)) { Cl = 1; } }\n"
+        "light changing(output float __nondiffuse = 1) { illuminate (point \"camera\" (0, 0, 0)) { Cl = 1; __nondiffuse = 0; } }\n")
+t.write("parts.sl", "surface parts() { Oi = 1; normal n = faceforward(normalize(N), I); color d = diffuse(n), r = specular(n, -normalize(I), 100);"
+        " Ci = color(comp(d, 0) > .1, comp(r, 0) > .1, 0); }\n")
+for name, given, color in (("both", "", (1, 1, 0)), ("dull", '"float __nonspecular" [1]', RED), ("shiny", '"float __nondiffuse" [1]', GREEN)):
+    scene(name, f'LightSource "dull" 1 {given} Surface "parts"')
+    render(f"a light whose outputs are for the renderer: {name}", name)
+    expect_all(name, color, "is seen by those that it says")
+scene("changing", 'LightSource "changing" 1 Surface "parts"')
+render("a light that changes such an output", "changing")
+expect_all("changing", (1, 1, 0), "has the last word, point by point")
 
 # The other kinds.
 t.write("kinds.sl", """light lamp(color shade = 1) { Cl = shade; }

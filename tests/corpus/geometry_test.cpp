@@ -11,6 +11,7 @@
 #include "reyes/dice.h"
 #include "reyes/frame.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 #include "reyes/split.h"
 
 extern const TmShaderLibrary* tomales_builtin_shaders(void);

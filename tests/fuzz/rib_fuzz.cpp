@@ -9,6 +9,7 @@
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 extern const TmShaderLibrary* tomales_builtin_shaders(void);
 

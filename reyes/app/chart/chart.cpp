@@ -266,8 +266,10 @@ std::vector<std::string> sharedArguments(const ChartSettings& s) {
   if (s.format) out = out + Arguments{"--format", fmt::format("{}x{}", (*s.format)[0], (*s.format)[1])};
   if (s.bounces > 0) out = out + Arguments{"--bounces", std::to_string(s.bounces)};
   if (s.threads > 0) out = out + Arguments{"-t", std::to_string(s.threads)};
-  if (s.allowSystem) out.push_back("--allow-system");
-  if (!s.shaderFolders.empty()) out = out + Arguments{"--shaders", s.shaderFolders};
+  if (s.trust.programs) out.push_back("--allow-system");
+  if (s.trust.scenePlugins) out.push_back("--allow-plugins");
+  if (!s.trust.pluginPath.empty()) out = out + Arguments{"--plugin-path", s.trust.pluginPath};
+  if (!s.trust.shaderFolders.empty()) out = out + Arguments{"--shaders", s.trust.shaderFolders};
   return out;
 }
 

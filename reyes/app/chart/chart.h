@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "reyes/base/trust.h"
+
 namespace tomales {
 
 struct ChartSettings {
@@ -15,14 +17,13 @@ struct ChartSettings {
   std::string folder;              ///< Of what has been measured; empty: the user's cache.
   double budget_s = 600;           ///< Wall time after which no further rendering starts, and a running one ends.
   std::optional<std::array<int, 2>> format;
-  int batches = 32;           ///< Most independent pictures of the reference, at least 2.
-  int bounces = 0;            ///< 0: as the scene's indirect light asks.
-  int threads = 0;            ///< Of each rendering. 0: as many as the machine has.
-  bool allowSystem = false;   ///< The RIB may start programs and load plugins.
-  std::string shaderFolders;  ///< Whose plugins are trusted, separated by colons.
+  int batches = 32;  ///< Most independent pictures of the reference, at least 2.
+  int bounces = 0;   ///< 0: as the scene's indirect light asks.
+  int threads = 0;   ///< Of each rendering. 0: as many as the machine has.
+  Trust trust;       ///< Of the code that the RIB names.
 };
 
-/// What every rendering is told beside the scene: --format, --bounces, -t, --allow-system, --shaders.
+/// What every rendering is told beside the scene: --format, --bounces, -t, whose code may run.
 std::vector<std::string> sharedArguments(const ChartSettings& settings);
 
 /// As a shell would take them.

@@ -15,7 +15,9 @@
 #include "reyes/base/parallel.h"
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
+#include "reyes/base/unfinished_folder.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -31,6 +33,7 @@ std::vector<fs::path> pointFiles(const std::vector<std::string>& inputs) {
       out.emplace_back(input);
       continue;
     }
+    requireFinished(input);
     for (const auto& entry : fs::directory_iterator(input, problem))
       if (entry.path().extension() == ".ptc") out.push_back(entry.path());
     if (problem) throw FileError(fmt::format("folder \"{}\" cannot be read: {}", input, problem.message()));
@@ -68,7 +71,7 @@ void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
 std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
   std::optional<Scene> scene;
   RibSettings rib;
-  rib.allowSystem = settings.allowSystem;
+  rib.trust = settings.trust;
   rib.onScene = [&](Scene&& s) {
     if (!scene) scene = std::move(s);
   };
@@ -122,11 +125,14 @@ int irradianceCommand(const IrradianceCommand& command) {
   Log log;
   guarded(log, [&] {
     makeAtlasFolder(command.output);
-    for (const fs::path& file : pointFiles(command.inputs)) {
+    const std::vector<fs::path> files = pointFiles(command.inputs);
+    UnfinishedFolder set(command.output);
+    for (const fs::path& file : files) {
       const fs::path out = fs::path(command.output) / file.filename();
       refuseInput(out, {file.string()});
       writeIrradiance(file, out, command.settings);
     }
+    set.finish();
   });
   return exitCodeOf(log);
 }
@@ -153,9 +159,12 @@ void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(con
     joinPointFiles(files, all);
     make(all, command.output);
   } else {
+    std::optional<UnfinishedFolder> set;
+    if (!one) set.emplace(command.output);
     for (const fs::path& file : files)
       make(file, one ? fs::path(command.output)
                      : fs::path(command.output) / fs::path(file).filename().replace_extension(".bkm"));
+    if (set) set->finish();
   }
 }
 
@@ -188,7 +197,7 @@ int viewCommand(const ViewCommand& command) {
     const PointCloud cloud = fs::path(command.input).extension() == ".bkm"
                                  ? voxelsOf(BrickFile(command.input), command.level)
                                  : cloudOf(command.input);
-    writeImage(command.output, pictureOf(cloud, settings), fs::path(command.output).extension() == ".png", log);
+    writeImage(command.output, pictureOf(cloud, settings), isForScreens(command.output), log);
   });
   return exitCodeOf(log);
 }

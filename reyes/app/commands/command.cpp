@@ -1,6 +1,7 @@
 #include "reyes/app/commands/command.h"
 
 #include <csignal>
+#include <cstdio>
 
 #include "reyes/app/chart/chart.h"
 #include "reyes/app/chart/stability.h"
@@ -8,7 +9,9 @@
 #include "reyes/app/commands/atlas_commands.h"
 #include "reyes/app/commands/catrib.h"
 #include "reyes/app/commands/compile.h"
+#include "reyes/app/commands/help.h"
 #include "reyes/app/commands/info.h"
+#include "reyes/app/commands/list.h"
 #include "reyes/app/commands/options.h"
 #include "reyes/app/commands/render.h"
 #include "reyes/app/commands/shade.h"
@@ -18,6 +21,8 @@
 #include "reyes/base/crash_note.h"
 #include "reyes/base/deep_stack.h"
 #include "reyes/base/input_file.h"
+#include "reyes/image.h"
+#include "reyes/rib.h"
 
 namespace tomales {
 namespace {
@@ -35,6 +40,7 @@ struct Invocation {
   ChartSettings chart;
   bool stability = false;
   std::string first, second, difference;
+  InfoCommand info;
   bool json = false;
 };
 
@@ -56,8 +62,12 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
        "--baked", in.render.bakedFolder,
        "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
-  addParsed(*c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
-            "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file");
+  c->add_option("--allow-program", in.render.trust.program,
+                "The RIB may start this program, by this very command, and no other")
+      ->type_name("COMMAND");
+  addParsed(
+      *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
+      "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
@@ -112,10 +122,22 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildInfo(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("info", "What is in a .rib, .dfb, .icf, .exr, .tif, .png or shader .sl or .so file");
-  c->add_option("FILE", in.first)->required();
+  CLI::App* c = app.add_subcommand(
+      "info",
+      "What is in a .rib, .dfb, .icf, picture (" + pictureExtensions() +
+          ") or shader .sl or .so file, or of a shader by its name; of a scene, which files and shaders that it needs "
+          "are missing");
+  c->add_option("FILE", in.info.file, "A file, or the name of a shader")->required();
+  c->add_flag("--json", in.info.json, "As JSON");
+  addTrust(*c, in.info.trust);
+  c->callback([&] { code = infoCommand(in.info); });
+}
+
+void buildList(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("list", "What is built in, with parameters, types, defaults and what they are for");
+  c->add_option("KIND", in.first)->required()->check(CLI::IsMember(listedKinds()));
   c->add_flag("--json", in.json, "As JSON");
-  c->callback([&] { code = infoCommand(in.first, in.json); });
+  c->callback([&] { code = listCommand(in.first, in.json); });
 }
 
 void buildCompare(CLI::App& app, Invocation& in, int& code) {
@@ -123,8 +145,7 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
   c->add_option("A", in.first)->required();
   c->add_option("B", in.second, "The reference")->required();
   c->add_flag("--json", in.json, "As JSON");
-  addParsed(*c, "--diff", in.difference, parseOutput, "FILE.exr|.tif|.png",
-            "Write the absolute difference as a picture");
+  addParsed(*c, "--diff", in.difference, parseOutput, pictureNames(), "Write the absolute difference as a picture");
   c->callback([&] { code = compareCommand(in.first, in.second, in.difference, in.json); });
 }
 
@@ -158,7 +179,7 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
   addParsed(
       *c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM",
       "Points along u and v (default 64x64)");
-  addParsed(*c, "-o", in.shadetest.output, parseOutput, "FILE.exr|.tif|.png", "Picture of Ci");
+  addParsed(*c, "-o", in.shadetest.output, parseOutput, pictureNames(), "Picture of Ci");
   c->add_flag("--check", in.shadetest.check,
               "Does the shader, or do all of the file, what they declare? Exit code 3 if not");
   c->callback([&] { code = shadetestCommand(in.shadetest); });
@@ -171,6 +192,12 @@ void buildCatrib(CLI::App& app, Invocation& in, int& code) {
   c->add_flag("--binary", in.catrib.binary, "Binary RIB instead of ASCII");
   c->add_flag("--gzip", in.catrib.gzip, "Compressed");
   c->callback([&] { code = catribCommand(in.catrib); });
+}
+
+void buildRequests(CLI::App& app) {
+  app.add_subcommand("requests",
+                     "Every request of RIB with its arguments, for programs that write it (reyes/rib.h:ribRequests)")
+      ->callback([] { std::fputs(ribRequests().c_str(), stdout); });
 }
 
 void buildAtlas(CLI::App& app, Invocation& in, int& code) {
@@ -215,7 +242,7 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   CLI::App* view = app.add_subcommand(
       "view", "A picture of a point cloud, photon map, brick map, or of the records of an irradiance cache");
   view->add_option("FILE", in.view.input)->required();
-  addParsed(*view, "-o", in.view.output, parseOutput, "FILE.png|.exr|.tif", "The picture");
+  addParsed(*view, "-o", in.view.output, parseOutput, pictureNames(), "The picture");
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
   view->add_option("--level", in.view.level, "Level of a brick map, 0 the coarsest (default: the finest)");
   view->add_option("--camera", in.view.camera, "Look with the camera of this RIB file")->type_name("SCENE.rib");
@@ -256,7 +283,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       ->check(CLI::Range(2, 10000));
   c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
-  addTrust(*c, s.allowSystem, s.shaderFolders);
+  addTrust(*c, s.trust);
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
       ->type_name("FOLDER");
   c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);
@@ -273,11 +300,11 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
   });
 }
 
-bool namesCommand(const std::string& text) {
-  for (const char* name : {"render", "hide", "gather", "shade", "photons", "irradiance", "brickmake", "view", "convert",
-                           "info", "compare", "chart", "catrib", "shadetest", "compile", "-h", "--help", "--version"})
+/// Else the arguments are those of render.
+bool namesCommand(const CLI::App& app, const std::string& text) {
+  for (const char* name : {"-h", "--help", "--help-all", "--version"})
     if (text == name) return true;
-  return false;
+  return !app.get_subcommands([&](const CLI::App* c) { return c->get_name() == text; }).empty();
 }
 
 int parseAndRun(int argc, char** argv) {
@@ -285,6 +312,7 @@ int parseAndRun(int argc, char** argv) {
   app.set_version_flag("--version", std::string("tomales ") + kVersion);
   app.footer(exitCodeHelp());
   app.require_subcommand(1);
+  setHelp(app);
   Invocation in;
   int code = kDone;
   buildRender(app, in, code);
@@ -292,17 +320,20 @@ int parseAndRun(int argc, char** argv) {
   buildGather(app, in, code);
   buildShade(app, in, code);
   buildInfo(app, in, code);
+  buildList(app, in, code);
   buildCompare(app, in, code);
   buildChart(app, in, code);
   buildCatrib(app, in, code);
+  buildRequests(app);
   buildCompile(app, in, code);
   buildShadetest(app, in, code);
   buildAtlas(app, in, code);
+  finishHelp(app);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
   in.render.commandLine = "tomales";
   for (const std::string& a : arguments) in.render.commandLine += " " + a;
-  if (!arguments.empty() && !namesCommand(arguments.front())) arguments.insert(arguments.begin(), "render");
+  if (!arguments.empty() && !namesCommand(app, arguments.front())) arguments.insert(arguments.begin(), "render");
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes a vector from its back
   try {
     app.parse(arguments);

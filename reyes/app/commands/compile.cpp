@@ -12,17 +12,17 @@ namespace {
 
 void compile(const std::string& path, const RslSettings& settings, const CompileCommand& command, Log& log) {
   if (const std::string problem = inputProblem(path); !problem.empty())
-    return log.report(Severity::Error, "compile-" + path, {}, fmt::format("{} cannot be read: {}", path, problem));
+    return log.report(Severity::Error, "compile", {}, fmt::format("{} cannot be read: {}", path, problem));
   if (!command.dump.empty()) std::fputs(RslFile::dump(path, settings, command.dump).c_str(), stdout);
   const std::shared_ptr<const RslFile> file = RslFile::compile(path, settings);
   const bool tells = file->errors() > 0 || file->missing() > 0 || !command.quiet;
   if (tells) std::fputs(file->messages().c_str(), stderr);
   if (file->errors() > 0)
-    log.report(Severity::Error, "compile-" + path, {},
+    log.report(Severity::Error, "compile", {},
                fmt::format("{}: {} error{}", path, file->errors(), file->errors() == 1 ? "" : "s"));
   else if (file->missing() > 0)
     log.report(
-        Severity::Missing, "compile-" + path, {},
+        Severity::Missing, "compile", {},
         fmt::format("{}: {} functions that it calls are nowhere; it runs with substitutes", path, file->missing()));
 }
 

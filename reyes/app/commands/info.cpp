@@ -4,70 +4,20 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "gi/brick_file.h"
 #include "gi/icf.h"
 #include "gi/point_file.h"
+#include "reyes/app/commands/foreign_file.h"
+#include "reyes/app/commands/scene_info.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/settings.h"
 #include "reyes/dfb.h"
 #include "reyes/image.h"
-#include "reyes/rib.h"
-#include "reyes/shade.h"
 
 namespace tomales {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-const char* nameOf(ErrorFunction function) {
-  switch (function) {
-    case ErrorFunction::Ward:
-      return "ward";
-    case ErrorFunction::Hessian:
-      return "hessian";
-    case ErrorFunction::Split:
-      return "split";
-    case ErrorFunction::Plain:
-      return "plain";
-    default:
-      return "screen";
-  }
-}
-
-Json sceneInfo(const Scene& scene) {
-  std::set<std::string> shaders;
-  int64_t patches = 0;
-  for (const Object& object : scene.objects) {
-    patches += object.shape().patchCount();
-    for (const auto& call : {object.attributes->surface, object.attributes->displacement})
-      if (call) shaders.insert(call->name);
-  }
-  for (const auto& light : scene.lights) shaders.insert(light->shader.name);
-  Json displays = Json::array();
-  for (const DisplayCall& d : scene.options.displays)
-    displays.push_back({{"name", d.name}, {"type", d.type}, {"mode", d.mode}});
-  return {{"frame", scene.options.frame},
-          {"resolution", {scene.options.xResolution, scene.options.yResolution}},
-          {"pixel_samples", {scene.options.xSamples, scene.options.ySamples}},
-          {"objects", scene.objects.size()},
-          {"procedurals", scene.procedurals.size()},
-          {"patches", patches},
-          {"lights", scene.lights.size()},
-          {"shade_groups", scene.groups.size()},
-          {"shaders", shaders},
-          {"displays", displays}};
-}
-
-Json ribInfo(const std::string& file, Log& log) {
-  Json frames = Json::array();
-  RibSettings rib;
-  rib.onScene = [&](Scene&& scene) { frames.push_back(sceneInfo(scene)); };
-  readRib({file}, rib, log);
-  return {{"file", file}, {"kind", "rib"}, {"frames", frames}};
-}
 
 Json channelInfo(const Image& image, size_t channel) {
   double sum = 0;
@@ -104,71 +54,6 @@ Json imageInfo(const std::string& file, Log& log) {
           {"origin", {image->originX, image->originY}},
           {"display_size", {image->displayWidth, image->displayHeight}},
           {"channels", channels}};
-}
-
-Json defaultOf(const TmParamDecl& p) {
-  static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
-  const int32_t type = TM_TYPE_OF(p.type);
-  Json value = Json::array();
-  for (int i = 0; i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? p.floats[i] : 0.0f);
-  for (int i = 0; type == TM_STRING && p.strings && i < p.arrayLength; ++i) value.push_back(p.strings[i]);
-  return value;
-}
-
-Json paramInfo(const TmParamDecl& p) {
-  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
-  const int32_t type = TM_TYPE_OF(p.type);
-  const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = (p.type & TM_OUTPUT) != 0;
-  Json out = {{"name", p.name}, {"type", known ? std::string(output ? "output " : "") + kTypes[type] : "?"}};
-  if (!output) out["default"] = known ? defaultOf(p) : Json::array();
-  out["doc"] = p.doc ? p.doc : "";
-  if (const char* role = roleName(p.role)) out["role"] = role;
-  return out;
-}
-
-Json shaderInfo(const TmShader& s) {
-  Json params = Json::array();
-  for (int i = 0; i < s.paramCount; ++i) params.push_back(paramInfo(s.params[i]));
-  Json standard = Json::array();
-  for (const TmParamDecl& p : standardParams(static_cast<TmKind>(s.kind))) standard.push_back(paramInfo(p));
-  return {{"name", s.name},
-          {"kind", s.kind >= 0 && s.kind <= TM_IMAGER ? kindName(static_cast<TmKind>(s.kind)) : "?"},
-          {"doc", s.doc ? s.doc : ""},
-          {"parameters", params},
-          {"standard_parameters", standard}};
-}
-
-/// Of a file in the shading language.
-Json textInfo(const std::string& path, Log& log) {
-  const auto file = RslFile::compile(path, {});
-  if (file->errors() > 0) {
-    log.report(Severity::Error, "shader-read", {}, file->messages());
-    return {};
-  }
-  Json shaders = Json::array();
-  for (int32_t k = 0; k < file->library()->count; ++k) {
-    const TmShader& shader = *file->library()->shaders[k];
-    Json about = shaderInfo(shader);
-    const std::vector<RslParameter> details = file->parameters(shader);
-    for (size_t p = 0; p < details.size(); ++p) {
-      if (!details[p].detail.empty()) about["parameters"][p]["detail"] = details[p].detail;
-      if (details[p].computed) about["parameters"][p]["default"] = "computed";
-    }
-    shaders.push_back(std::move(about));
-  }
-  return {{"file", path}, {"kind", "shaders"}, {"shaders", shaders}};
-}
-
-Json pluginInfo(const std::string& file, Log& log) {
-  ShaderRegistry registry(log);
-  if (!registry.loadPlugin(std::filesystem::absolute(file).string())) {
-    log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0},
-               "is not a shader plugin of this version");
-    return {};
-  }
-  Json shaders = Json::array();
-  for (const TmShader* shader : registry.all()) shaders.push_back(shaderInfo(*shader));
-  return {{"file", file}, {"kind", "shaders"}, {"shaders", shaders}};
 }
 
 void unreadable(const std::string& file, const char* kind, const std::string& error, Log& log) {
@@ -225,7 +110,7 @@ Json icfInfo(const std::string& file, Log& log) {
     for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
     caches.push_back({{"records", c.cache.records().size()},
                       {"frames", c.frames.size()},
-                      {"error_function", nameOf(c.plan.cache.errorFunction)},
+                      {"error_function", infoOf(c.plan.cache.errorFunction).name},
                       {"kappa", c.plan.cache.kappa},
                       {"samples", c.plan.gather.samples},
                       {"mean_irradiance_over_pi", {mean.x, mean.y, mean.z}}});
@@ -237,10 +122,6 @@ Json icfInfo(const std::string& file, Log& log) {
           {"caches", caches}};
 }
 
-bool isScalarList(const Json& j) {
-  return j.is_array() && std::none_of(j.begin(), j.end(), [](const Json& e) { return e.is_structured(); });
-}
-
 /// One "name: value" a line, indented by depth.
 void printText(const Json& j, int depth) {
   for (const auto& [key, value] : j.items()) {
@@ -249,9 +130,7 @@ void printText(const Json& j, int depth) {
       std::puts(fmt::format("{}{}:", indent, j.is_array() ? "- " + key : key).c_str());
       printText(value, depth + 1);
     } else {
-      const std::string text =
-          value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
-      std::puts(fmt::format("{}{}: {}", indent, key, text).c_str());
+      std::puts(fmt::format("{}{}: {}", indent, key, lineOf(value)).c_str());
     }
   }
 }
@@ -296,26 +175,36 @@ Json ownInfo(const std::string& file, Json (*infoOfKind)(const std::string&), Lo
   }
 }
 
-Json infoOf(const std::string& file, Log& log) {
-  if (const auto extension = std::filesystem::path(file).extension(); extension == ".ptc" || extension == ".bkm")
+Json infoOf(const std::string& file, const Trust& trust, Log& log) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  std::error_code none;
+  const bool named = extension.empty() && file != "-" && file.find('/') == std::string::npos;
+  if (named && !std::filesystem::exists(file, none)) return namedShaderInfo(file, pluginTrust(trust), log);
+  if (extension == ".ptc" || extension == ".bkm")
     return ownInfo(file, extension == ".ptc" ? pointsInfo : bricksInfo, log);
   if (namesPicture(file)) return imageInfo(file, log);
   if (file.ends_with(".dfb")) return dfbInfo(file, log);
   if (file.ends_with(".icf")) return icfInfo(file, log);
   if (file.ends_with(".sl")) return textInfo(file, log);
-  return std::filesystem::path(file).extension() == ".so" ? pluginInfo(file, log) : ribInfo(file, log);
+  if (extension == ".so") return pluginInfo(file, log);
+  return isForeign(file, log) ? Json{} : sceneInfo(file, trust, log);
 }
 
 }  // namespace
 
-int infoCommand(const std::string& file, bool json) {
+int infoCommand(const InfoCommand& command) {
   Log log;
-  const Json info = infoOf(file, log);
-  if (json && !info.is_null())
+  Json info = infoOf(command.file, command.trust, log);
+  const int64_t missing = info.contains("needs") ? missingOf(info.at("needs")) : 0;
+  if (command.json && !info.is_null()) {
     std::puts(info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-  else if (!info.is_null())
+  } else if (!info.is_null()) {
+    const Json needs = info.value("needs", Json());
+    info.erase("needs"), info.erase("missing");
     printText(info, 0);
-  return exitCodeOf(log);
+    if (!needs.is_null()) printNeeds(needs);
+  }
+  return missing > 0 ? std::max(exitCodeOf(log), kIncomplete) : exitCodeOf(log);
 }
 
 }  // namespace tomales

@@ -2,10 +2,18 @@
 #pragma once
 #include <string>
 
+#include "reyes/base/trust.h"
+
 namespace tomales {
 
+struct InfoCommand {
+  std::string file;  ///< Or the name of a shader.
+  bool json = false;
+  Trust trust;
+};
+
 /// Prints to standard output, as JSON or as text; returns the exit code.
-int infoCommand(const std::string& file, bool json);
+int infoCommand(const InfoCommand& command);
 int compareCommand(const std::string& test, const std::string& reference, const std::string& differenceFile, bool json);
 
 }  // namespace tomales

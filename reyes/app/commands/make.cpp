@@ -8,6 +8,8 @@
 #include "reyes/app/commands/atlas_commands.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/frame/frame_job.h"
+#include "reyes/base/output_root.h"
+#include "reyes/base/search_path.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
 
@@ -98,9 +100,18 @@ void makeBrickMap(const Request& r, Log& log) {
   }
 }
 
-}  // namespace
+/// The same with the names of its files as they are below the root. Throws WriteError.
+Request placed(const Request& request, const std::string& root) {
+  Request out = request;
+  const size_t target = request.name == "MakeCubeFaceEnvironment" ? 6 : 1;
+  for (size_t i = 0; i < target; ++i)
+    for (std::string& source : out.args[i].strings)
+      if (const std::string found = findFile(source, root); !found.empty()) source = found;
+  for (std::string& file : out.args[target].strings) file = placeBelow(root, file);
+  return out;
+}
 
-void performMake(const Request& r, Log& log) {
+void perform(const Request& r, Log& log) {
   if (r.name == "MakeBrickMap") return makeBrickMap(r, log);
   warnAboutParams(r, {}, log);
   if (r.name == "MakeShadow") {
@@ -115,6 +126,16 @@ void performMake(const Request& r, Log& log) {
     log.report(
         severityOf(made), "make-texture", r.where,
         fmt::format("{}: \"{}\" cannot be made of \"{}\" ({})", r.name, recipe.file, recipe.pictures.front(), error));
+}
+
+}  // namespace
+
+void performMake(const Request& request, const std::string& outputRoot, Log& log) {
+  try {
+    perform(placed(request, outputRoot), log);
+  } catch (const WriteError& e) {
+    log.report(Severity::Output, "output-root", request.where, fmt::format("{}: {}", request.name, e.what()));
+  }
 }
 
 }  // namespace tomales

@@ -4,7 +4,8 @@
 
 namespace tomales {
 
-/// What cannot be made is reported with the place of the request.
-void performMake(const Request& request, Log& log);
+/// Below `outputRoot`, if it is not empty; pictures are sought there first. What cannot be made is reported with the
+/// place of the request.
+void performMake(const Request& request, const std::string& outputRoot, Log& log);
 
 }  // namespace tomales

@@ -1,14 +1,17 @@
 #include "reyes/app/commands/options.h"
 
+#include <fmt/format.h>
+
 #include "reyes/base/deep_stack.h"
+#include "reyes/image.h"
+#include "reyes/state.h"
 
 namespace tomales {
 namespace {
 
-GiChoice giOrUsageError(const std::string& text) {
-  if (const auto choice = parseGi(text)) return *choice;
-  throw CLI::ValidationError(
-      "--gi", "\"" + text + "\" is none of scene, none, gather, atlas, points, radiosity, baked, reference");
+const GiMethod* giOrUsageError(const std::string& text) {
+  if (const auto method = parseGi(text)) return *method;
+  throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, " + giMethodNames());
 }
 
 }  // namespace
@@ -29,7 +32,7 @@ std::optional<std::string> parseOutput(const std::string& text) {
 }
 
 void addOutput(CLI::App& app, RenderSettings& s) {
-  addParsed(app, "-o", s.output, parseOutput, "FILE.exr|.tif|.png",
+  addParsed(app, "-o", s.output, parseOutput, pictureNames(),
             "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
             "scene without Display writes "
             "ri.exr");
@@ -39,44 +42,55 @@ void addOutput(CLI::App& app, RenderSettings& s) {
 
 void addCrop(CLI::App& app, RenderSettings& s) {
   addParsed(app, "--crop", s.crop, parseCrop, "X0,X1,Y0,Y1",
-            "Part of the frame, 0..1 from the top left, as RIB CropWindow");
+            "Part of the frame, 0..1 from the top left (default: the scene's CropWindow, or all)");
 }
 
 void addPictureOptions(CLI::App& app, RenderSettings& s) {
   const auto format = [](const std::string& t) { return parsePair(t, 1, 65536); };
+  const Options unasked;  // what a scene has that says nothing
   const auto pixelSamples = [](const std::string& t) { return parsePair(t, 1, 64); };
-  addParsed(app, "--format", s.format, format, "WxH", "Resolution in pixels");
+  addParsed(
+      app, "--format", s.format, format, "WxH",
+      fmt::format("Resolution in pixels (default: the scene's, or {}x{})", unasked.xResolution, unasked.yResolution));
   addCrop(app, s);
-  addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM", "Samples of a pixel");
-  app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels, for all objects")
+  addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM",
+            fmt::format("Samples of a pixel (default: the scene's, or {}x{})", unasked.xSamples, unasked.ySamples));
+  app.add_option("--shading-rate", s.shadingRate,
+                 "Area of a micropolygon in pixels, for all objects (default: as they ask, or 1)")
       ->check(between(1e-3, 1e6));
   app.add_flag("--draft", s.draft,
                "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the "
                "area, 2x2 samples");
-  addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames");
-  app.add_option("--seed", s.seed, "Of all random numbers");
-  app.add_option("--bucket-size", s.bucketSize, "Edge of a bucket in pixels")->check(CLI::Range(1, 4096));
+  addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
+  app.add_option("--seed", s.seed, fmt::format("Of all random numbers (default {})", s.seed));
+  app.add_option("--bucket-size", s.bucketSize,
+                 fmt::format("Edge of a bucket in pixels (default: the scene's, or {})", unasked.bucketWidth))
+      ->check(CLI::Range(1, 4096));
 }
 
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (as the RIB says), none, gather, atlas, points, radiosity, baked, reference")
+         "Indirect light: scene (the default: as the RIB says), " + giMethodNames())
       ->type_name("MODE");
-  app.add_option("--samples", s.samples, "Gather rays of an irradiance sample, or paths of a point for the reference")
+  app.add_option(
+         "--samples", s.samples,
+         "Gather rays of an irradiance sample, or paths of a point for the reference (default: as the scene asks)")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
-  app.add_option("--max-error", s.maxError, "Error allowed in irradiance interpolation; 0 computes every point")
+  app.add_option("--bounces", s.bounces, "Most diffuse bounces (default: as the scene asks)")
+      ->check(CLI::Range(1, kMostBounces));
+  app.add_option("--max-error", s.maxError,
+                 "Error allowed in irradiance interpolation; 0 computes every point (default: as the scene asks)")
       ->check(between(0.0, 1e6));
-  addParsed(app, "--error-function", s.errorFunction, parseErrorFunction, "screen|ward|hessian|split|plain",
-            "How far an irradiance record may be used");
+  addParsed(app, "--error-function", s.errorFunction, errorFunctionNamed, errorFunctionNames(),
+            "How far an irradiance record may be used (default: as the scene asks)");
   app.add_flag_callback(
       "--indirect-only", [&s] { s.direct = false; }, "Leave out direct light where the eye looks");
   app.add_option("--light-samples", s.lightSamples,
                  "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")
       ->check(CLI::Range(1, 4096));
-  app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone");
-  app.add_option("--photons", s.photons, "Photons to emit for --gi atlas")
+  app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone (default: that of --seed)");
+  app.add_option("--photons", s.photons, fmt::format("Photons to emit for --gi atlas (default {})", s.photons))
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
   app.add_option_function<std::string>(
          "--atlas-direct", [&s](const std::string& t) { s.atlasDirect = t == "stored"; },
@@ -88,8 +102,9 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
                  "Folder of brick maps: used if they are there, else made and kept; for --gi radiosity likewise, of "
                  "direct light; for --gi points of point clouds")
       ->type_name("FOLDER");
-  app.add_option("--radiosity-texels", s.radiosityTexels,
-                 "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity")
+  app.add_option(
+         "--radiosity-texels", s.radiosityTexels,
+         "Times as many texels along each edge of a radiosity map as objects ask, for --gi radiosity (default 1)")
       ->check(between(1e-3, 1e3));
   app.add_option("--radiosity-maps", s.radiosityFolder,
                  "Write the radiosity maps there: a tiled MIP EXR for each object and side; not with --atlas")
@@ -111,14 +126,17 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
 }
 
-void addTrust(CLI::App& app, bool& allowSystem, std::string& shaderFolders) {
-  app.add_flag("--allow-system", allowSystem,
-               "The RIB may run code that it brings: programs by System and Procedural \"RunProgram\", plugins by "
-               "\"DynamicLoad\", and shader "
-               "plugins in the working folder and on its search path");
-  app.add_option(
-         "--shaders", shaderFolders,
-         "Folders of shader plugins that you trust, separated by colons; they are searched before those of the RIB")
+void addTrust(CLI::App& app, Trust& trust) {
+  app.add_flag("--allow-system", trust.programs,
+               "The RIB may start programs (System, Procedural \"RunProgram\"), and all that --allow-plugins allows");
+  app.add_flag("--allow-plugins", trust.scenePlugins,
+               "The RIB may load plugins, which can do whatever you can, from the working folder and its search paths");
+  app.add_option("--plugin-path", trust.pluginPath,
+                 "Folders of plugins that you trust, separated by colons; they are searched before those of the RIB, "
+                 "and followed by TOMALES_PLUGIN_PATH and ~/.config/tomales/plugins")
+      ->type_name("FOLDERS");
+  app.add_option("--shaders", trust.shaderFolders,
+                 "Folders of shaders, separated by colons, whose plugins you trust; they come before all others")
       ->type_name("FOLDERS")
       ->envname("TOMALES_SHADERS");
 }
@@ -132,7 +150,10 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--texture-cache", s.textureCache,
                  "Where converted pictures are kept (default: $TOMALES_TEXTURE_CACHE, or the user's cache folder)")
       ->type_name("FOLDER");
-  addTrust(app, s.allowSystem, s.shaderFolders);
+  addTrust(app, s.trust);
+  app.add_option("--output-root", s.outputRoot,
+                 "Keep all files that the RIB writes below this folder; names that lead out of it are refused")
+      ->type_name("FOLDER");
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(

@@ -35,8 +35,7 @@ void addOutput(CLI::App& app, RenderSettings& s);
 void addCrop(CLI::App& app, RenderSettings& s);
 void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Of the frame; --crop among them.
 void addLightOptions(CLI::App& app, RenderSettings& s);
-/// What code of others may run: --allow-system and --shaders.
-void addTrust(CLI::App& app, bool& allowSystem, std::string& shaderFolders);
+void addTrust(CLI::App& app, Trust& trust);            ///< Whose code may run.
 void addRunOptions(CLI::App& app, RenderSettings& s);  ///< Threads, statistics, memory of textures, how much is said.
 void addWatching(CLI::App& app, RenderSettings& s);    ///< --preview, --pixel
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "reyes/app/commands/foreign_file.h"
 #include "reyes/app/commands/make.h"
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/hide.h"
@@ -36,11 +37,12 @@ class RenderRun {
 
   int run() {
     RibSettings rib;
-    rib.allowSystem = settings_.allowSystem;
+    rib.trust = settings_.trust;
+    if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
     rib.onMake = [this](const Request& request) {
       made_ = true;
-      performMake(request, log_);
+      performMake(request, settings_.outputRoot, log_);
     };
     parse_.emplace(stats_, "parse");
     const bool read = readAll(rib);
@@ -62,6 +64,7 @@ class RenderRun {
  private:
   /// Interrupted frames are the last: what follows them is not read.
   bool readAll(const RibSettings& rib) {
+    if (isAnyForeign(settings_.files, log_)) return false;
     try {
       return readRib(settings_.files, rib, log_);
     } catch (const Stopped&) {
@@ -76,7 +79,7 @@ class RenderRun {
       const OrderlyEnd orderly;
       ++rendered_;
       applyOverrides(scene, settings_);
-      dropDisplays(scene.options, log_);
+      dropDisplays(scene.options, pluginTrust(settings_), log_);
       warnAboutOverwriting(scene);
       warnOfFloatRange(scene, log_);
       if (!settings_.draft) warnOfCoarseDicing(scene, log_);

@@ -16,6 +16,7 @@
 #include "reyes/frame.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {

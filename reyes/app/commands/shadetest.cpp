@@ -18,6 +18,7 @@
 #include "reyes/image.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -68,7 +69,7 @@ std::string writtenParameters(const ShadetestCommand& command, const TmShader& s
     const auto* end = shader.params + shader.paramCount;
     const auto* p = std::find_if(shader.params, end, [&](const TmParamDecl& d) { return d.name == name; });
     if (p == end || at == std::string::npos) {
-      log.report(Severity::Missing, "shadetest-" + name, {},
+      log.report(Severity::Missing, "shadetest-parameter", {},
                  fmt::format("shader \"{}\" has no parameter \"{}\"; it is ignored", shader.name, name));
       continue;
     }
@@ -131,7 +132,7 @@ void testColors(const ShadetestCommand& command, const Trial& trial, const std::
   }
   std::puts(fmt::format("nanoseconds a point: {:.1f}", time_ns / static_cast<double>(count)).c_str());
   say("Ci least", low), say("Ci mean", mean), say("Ci greatest", high);
-  if (!command.output.empty()) writeImage(command.output, image, fs::path(command.output).extension() == ".png", log);
+  if (!command.output.empty()) writeImage(command.output, image, isForScreens(command.output), log);
 }
 
 Image blankImage(const std::array<int, 2>& size, std::vector<std::string> channels) {
@@ -199,8 +200,7 @@ void test(const ShadetestCommand& command, const TmShader& shader, ShaderRegistr
 void check(const TmShader& shader, Log& log) {
   const std::vector<std::string> faults = faultsOf(shader);
   std::puts(fmt::format("shader: {}\nfaults: {}", shader.name, faults.size()).c_str());
-  for (size_t k = 0; k < faults.size(); ++k)
-    log.report(Severity::Missing, fmt::format("shadetest-check-{}-{}", shader.name, k), {}, faults[k]);
+  for (const std::string& fault : faults) log.report(Severity::Missing, "shadetest-check", {}, fault);
 }
 
 std::vector<fs::file_time_type> timesOf(const std::vector<std::string>& files) {

@@ -6,10 +6,12 @@
 #include <optional>
 
 #include "reyes/app/exit_code.h"
-#include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/light_sources.h"
 #include "reyes/base/folder_lock.h"
+#include "reyes/base/output_root.h"
 #include "reyes/base/stop.h"
 #include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_folder.h"
 #include "reyes/world_sum.h"
 
 namespace tomales {
@@ -18,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool asksPoints(const RenderSettings& settings, const ShadingSystem& shading) {
-  return hitRadianceOf(settings.gi, shading) == HitRadianceChoice::Points;
+  return methodOf(settings, shading).byPointClouds;
 }
 
 /// Brick maps, so that a ray finds the mean over its footprint, of those point clouds that are there.
@@ -27,7 +29,7 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
   for (const std::string& name : names.ofReflectors()) {
     const fs::path points = atlasFile(clouds, name, ".ptc");
     if (!fs::exists(points)) {
-      log.report(Severity::Missing, "points-none-" + name, {},
+      log.report(Severity::Missing, "points-none", {},
                  fmt::format("there are no points \"{}\": its objects reflect no indirect light", points.string()));
       continue;
     }
@@ -50,7 +52,9 @@ void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
 
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading) {
   if (!settings.atlasFolder.empty()) return settings.atlasFolder;
-  return shading.indirectRequest().value_or(IndirectRequest{}).atlas;
+  const std::string named = shading.indirectRequest().value_or(IndirectRequest{}).atlas;
+  const bool onlyRead = named.empty() || asksPoints(settings, shading) || isMadeByHand(named);
+  return onlyRead ? named : placeBelow(settings.outputRoot, named);
 }
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading) {
@@ -74,7 +78,7 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading) 
 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    Stats& stats, Log& log) {
+                                                    const AtlasProgress& progress, Stats& stats, Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene, shading);
   const std::string given = atlasFolder(settings, shading);
   const bool points = asksPoints(settings, shading);
@@ -96,9 +100,10 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
                    "waits for another program that uses the atlas in \"" + folder.string() + "\"");
       });
     const bool byHand = points || isMadeByHand(folder);
+    if (byHand) requireFinished(points ? fs::path(given) : folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
     if (!byHand)
-      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, {}, stats, log); }, log);
+      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, progress, stats, log); }, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);
     return maps;

@@ -5,7 +5,8 @@
 
 namespace tomales {
 
-/// settings.atlasFolder, or that of the scene's indirect lights; empty: neither.
+/// settings.atlasFolder, or that of the scene's indirect lights, below settings.outputRoot unless it is only read;
+/// empty: neither. Throws WriteError.
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading);
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading);
@@ -17,7 +18,7 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading);
 /// reported.
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    Stats& stats, Log& log);
+                                                    const AtlasProgress& progress, Stats& stats, Log& log);
 
 /// The light of settings.bakedFolder, for GiMode::Baked. Null after an error, which has been reported.
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "reyes/app/frame/atlas_job.h"
+#include "reyes/app/frame/light_sources.h"
 #include "reyes/app/frame/limits.h"
 #include "reyes/app/frame/overrides.h"
-#include "reyes/app/frame/radiosity_job.h"
 #include "reyes/app/frame/turns_timer.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/pixel_report.h"
@@ -31,18 +31,18 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       camera_(scene.options),
       registry_(log, pluginTrust(settings)),
       meter_(settings.progress),
-      clouds_(pathOf(scene.options.searchPaths, "texture")) {
+      clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
   shading_->setClouds(&clouds_);
-  mode_ = giModeOf(settings.gi, *shading_);
+  method_ = &methodOf(settings, *shading_);
   if (traces())
     open([](const Attributes& a) {
       const Visibility& v = a.visibility;
       return v.diffuse || v.specular || v.transmission || v.photon;
     });
-  gathers_ = mode_ == GiMode::Gather || mode_ == GiMode::Atlas || mode_ == GiMode::Radiosity;
-  for (size_t g = 0; g < scene.groups.size() && mode_ == GiMode::None && keepsOcclusion(giSettings()); ++g)
+  gathers_ = method_->caches;
+  for (size_t g = 0; g < scene.groups.size() && mode() == GiMode::None && keepsOcclusion(giSettings()); ++g)
     gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
   warnAboutPixels();
 }
@@ -71,7 +71,7 @@ void FrameJob::openAll() {
 
 bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(stats_, "hide");
-  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? 0.3f : 0.5f), stats_, log_, sink);
+  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? kHidden : kGathered), stats_, log_, sink);
 }
 
 void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
@@ -86,27 +86,24 @@ void FrameJob::prepareRays() {
   const StageTimer timer(stats_, "raytrace");
   rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
-  if (mode_ == GiMode::Atlas) services_->setAtlas(prepareAtlas(scene_, *rays_, *shading_, settings_, stats_, log_));
-  if (mode_ == GiMode::Radiosity)
-    services_->setRadiositySource([this] {
-      return prepareRadiosity({rays_.get(), shading_.get()}, camera_, settings_, stats_, log_);
-    });
-  if (mode_ == GiMode::Baked) services_->setAtlas(openBaked(scene_, *shading_, settings_, log_));
 }
 
 void FrameJob::prepareRays(RaySource rays) {
-  services_ = std::make_unique<GiServices>(scene_, camera_, std::move(rays), *shading_, giSettings(), stats_);
+  raySource_ = std::move(rays);
+  services_ = std::make_unique<GiServices>(scene_, camera_, raySource_, *shading_, giSettings(), stats_);
   shading_->setServices(services_.get());
+  setLightSources(*services_, *method_,
+                  {raySource_, scene_, *shading_, camera_, settings_, lightProgress(), stats_, log_});
 }
 
 GiSettings FrameJob::giSettings() const {
-  return {mode_,
+  return {mode(),
           settings_.samples,
           settings_.bounces,
           settings_.maxError,
           lightSeedOf(settings_),
           settings_.errorFunction,
-          mode_ != GiMode::Atlas || storesDirect(settings_, *shading_)};
+          mode() != GiMode::Atlas || storesDirect(settings_, *shading_)};
 }
 
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
@@ -120,7 +117,8 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
     show = [&](int stride) {
       preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted()));
     };
-  services_->gatherPass(layout, tiles, meter_.stage(0.3f, 0.7f), &interrupted(), show);
+  services_->gatherPass(layout, tiles, meter_.stage(makesLight() ? kLightMade : kHidden, kGathered), &interrupted(),
+                        show);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && !interrupted())
@@ -131,9 +129,9 @@ ShadeContext FrameJob::shadeContext() const {
   ShadeContext context;
   context.seed = lightSeedOf(settings_);
   context.direct = settings_.direct;
-  context.lightSamples = settings_.lightSamples > 0   ? settings_.lightSamples
-                         : mode_ == GiMode::Reference ? referenceLightSamples()
-                                                      : 0;
+  context.lightSamples = settings_.lightSamples > 0 ? settings_.lightSamples
+                         : method_->isReference     ? referenceLightSamples()
+                                                    : 0;
   return context;
 }
 
@@ -152,7 +150,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
     context.indirect = false;
   }
   DeepFrame frame = layout;
-  const float begin = gathers() ? 0.7f : 0.5f;
+  constexpr float begin = kGathered;
   size_t shaded = 0;
   bool complete = true;
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
@@ -215,7 +213,8 @@ void FrameJob::openPreview(const DeepFrame& layout) {
 void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   openPreview(frame);
   const RowViewer viewer = preview_ ? [&](const Image& rows) { preview_->show(rows); } : RowViewer{};
-  writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed}, stats_, log_);
+  writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed, pluginTrust(settings_)},
+             stats_, log_);
   if (services_) services_->reportAtlas(stats_);
   if (rays_) rays_->report(stats_);
   preview_.reset();
@@ -248,9 +247,10 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
   return false;
 }
 
-bool displaysHaveFolders(const Options& options, Log& log) {
+bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log) {
   bool all = true;
   for (const DisplayCall& display : options.displays) {
+    if (!driverOf(display, options, trust).empty()) continue;
     makeFolderOf(display.name);
     all = hasFolder(display.name, display.where, log) && all;
   }

@@ -6,6 +6,7 @@
 #include "reyes/app/watch/progress.h"
 #include "reyes/base/stats.h"
 #include "reyes/frame.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
@@ -39,16 +40,22 @@ class FrameJob {
   bool gathers() const { return gathers_; }
   /// Warns if records that stand in for a gather pass were made without one. file: where they come from.
   void checkRecords(const GiSettings& gathered, const std::string& file) const;
-  GiMode mode() const { return mode_; }
+  const GiMethod& method() const { return *method_; }
   const Camera& camera() const { return camera_; }
   GiSettings giSettings() const;
   GiServices* services() { return services_.get(); }
   ShadingSystem& shading() { return *shading_; }
   FrameControl control(float begin, float end);
+  /// Is told how far the maps are that indirect light is made of before anything is gathered.
+  std::function<void(float)> lightProgress() { return meter_.stage(kHidden, kLightMade); }
 
  private:
+  /// Shares of a frame that are done when its stages end.
+  static constexpr float kHidden = 0.3f, kLightMade = 0.5f, kGathered = 0.7f;
+  bool makesLight() const { return mode() == GiMode::Atlas || mode() == GiMode::Radiosity; }
   void warnAboutPixels() const;
-  bool traces() const { return mode_ != GiMode::None || shading_->needsRays(); }
+  GiMode mode() const { return method_->mode; }
+  bool traces() const { return mode() != GiMode::None || shading_->needsRays(); }
   /// A ray may go anywhere, so what rays may meet is read before the first of them, on screen or not, and kept.
   void open(const std::function<bool(const Attributes&)>& wanted);
   int referenceLightSamples() const;
@@ -69,8 +76,9 @@ class FrameJob {
   ProgressMeter meter_;
   CloudFiles clouds_;
   std::unique_ptr<ShadingSystem> shading_;
-  GiMode mode_ = GiMode::None;  ///< As the lights ask, once they are bound.
+  const GiMethod* method_ = nullptr;  ///< As the lights ask, once they are bound.
   std::unique_ptr<RayScene> rays_;
+  RaySource raySource_;
   std::unique_ptr<GiServices> services_;
   std::unique_ptr<Preview> preview_;
 };
@@ -80,7 +88,7 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
 /// Only if it is relative: scenes of modellers name folders of their project. One that cannot be made is found out when
 /// the file is written.
 void makeFolderOf(const std::string& file);
-/// Makes those that are relative.
-bool displaysHaveFolders(const Options& options, Log& log);
+/// Makes those that are relative. What goes to display drivers needs none.
+bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log);
 
 }  // namespace tomales

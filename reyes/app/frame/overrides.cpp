@@ -5,7 +5,8 @@
 #include <functional>
 #include <set>
 
-#include "reyes/output.h"
+#include "reyes/base/output_root.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
@@ -40,22 +41,30 @@ void makeDraft(Scene& scene) {
   o.indirectSamples = kRays;
 }
 
-bool isMap(const DisplayCall& d) { return writesShadowMap(d) || d.type == "deepshad"; }
+/// What the scene writes, but not what the user has named, and where it is read again.
+void keepBelow(const std::string& root, const std::string& output, Options& options) {
+  const bool writesDisplays = output.empty() || namesPicture(output);  // else a .dfb or .icf
+  const std::string ours = withFrameNumber(output, options.frame);
+  for (DisplayCall& d : options.displays)
+    if (writesDisplays && d.name != ours) d.name = placeBelow(root, d.name);
+  std::string& textures = options.searchPaths["texture"];
+  textures = root + ":" + textures;
+  std::string& converted = options.searchPaths["texturecache"];
+  if (!converted.empty()) converted = placeBelow(root, converted);
+}
 
-/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. PNG is for
-/// looking at: no alpha, and sRGB unless the scene's Exposure encodes already.
+/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. What is
+/// for looking at has no alpha, and is sRGB unless the scene's Exposure encodes already.
 void overrideOutput(Options& options, const std::string& output, bool onePicture) {
-  const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), isMap);
+  const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), writesMap);
   if (first == options.displays.end()) return;
   if (onePicture)
-    options.displays.erase(std::remove_if(first + 1, options.displays.end(), std::not_fn(isMap)),
+    options.displays.erase(std::remove_if(first + 1, options.displays.end(), std::not_fn(writesMap)),
                            options.displays.end());
   DisplayCall& display = *first;
   display.name = withFrameNumber(output, options.frame);
   display.type = "file";
-  std::string extension = std::filesystem::path(output).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".png") return;
+  if (!isForScreens(output)) return;
   display.mode = "rgb";
   if (options.exposureGamma == 1 && !findParam(display.params, "transfer")) {
     Param transfer;
@@ -66,8 +75,9 @@ void overrideOutput(Options& options, const std::string& output, bool onePicture
 
 }  // namespace
 
-void dropDisplays(Options& options, Log& log) {
-  const auto isWindow = [](const DisplayCall& d) {
+void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
+  const auto isWindow = [&](const DisplayCall& d) {
+    if (!driverOf(d, options, trust).empty()) return false;
     return d.type == "framebuffer" || d.type == "it" || d.type == "windows" || d.type == "x11";
   };
   const bool someFile =
@@ -80,45 +90,12 @@ void dropDisplays(Options& options, Log& log) {
       return true;
     }
     const std::string path = std::filesystem::path(d.name).lexically_normal().string();
-    if (files.insert(namesPicture(path) ? path : path + " " + d.type).second) return false;
+    const bool isPicture = namesPicture(path) && driverOf(d, options, trust).empty();
+    if (files.insert(isPicture ? path : path + " " + d.type).second) return false;
     log.report(Severity::Warning, "display-twice", d.where,
                "Display \"" + d.name + "\" would write over an earlier Display of this frame; left out");
     return true;
   });
-}
-
-std::optional<HitRadianceChoice> hitRadianceOf(GiChoice choice, const ShadingSystem& shading) {
-  switch (choice) {
-    case GiChoice::Scene:
-      if (const auto request = shading.indirectRequest()) return request->hitRadiance;
-      return std::nullopt;
-    case GiChoice::Gather:
-      return HitRadianceChoice::Shader;
-    case GiChoice::Atlas:
-      return HitRadianceChoice::Atlas;
-    case GiChoice::Points:
-      return HitRadianceChoice::Points;
-    case GiChoice::Radiosity:
-      return HitRadianceChoice::Radiosity;
-    default:
-      return std::nullopt;
-  }
-}
-
-GiMode giModeOf(GiChoice choice, const ShadingSystem& shading) {
-  if (choice == GiChoice::Reference) return GiMode::Reference;
-  if (choice == GiChoice::Baked) return GiMode::Baked;
-  const std::optional<HitRadianceChoice> asked = hitRadianceOf(choice, shading);
-  if (!asked) return GiMode::None;
-  switch (*asked) {
-    case HitRadianceChoice::Atlas:
-    case HitRadianceChoice::Points:
-      return GiMode::Atlas;
-    case HitRadianceChoice::Radiosity:
-      return GiMode::Radiosity;
-    default:
-      return GiMode::Gather;
-  }
 }
 
 /// What renderers of old made do with is no use to anybody: 64 MB are the least that a scene may ask for.
@@ -147,7 +124,7 @@ RaySettings raySettings(const RenderSettings& settings, const Options& options) 
 }
 
 bool tracesFullGeometry(const RenderSettings& settings) {
-  return settings.fullGeometry.value_or(settings.gi == GiChoice::Reference);
+  return settings.fullGeometry.value_or(settings.gi && settings.gi->fullGeometry);
 }
 
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
@@ -163,13 +140,13 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
   if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
   if (settings.crop) o.cropWindow = *settings.crop;
-  if (settings.gi != GiChoice::Scene && settings.gi != GiChoice::None) o.wantsIndirect = true;
+  if (settings.gi && settings.gi->mode != GiMode::None) o.wantsIndirect = true;
   if (settings.draft) makeDraft(scene);
   if (settings.pixelSamples) o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
   if (o.displays.empty()) o.displays.emplace_back();
-  if (namesPicture(settings.output))
-    overrideOutput(o, settings.output, settings.onePicture);  // else it is a .dfb or .icf
+  if (namesPicture(settings.output)) overrideOutput(o, settings.output, settings.onePicture);
+  if (!settings.outputRoot.empty()) keepBelow(settings.outputRoot, settings.output, o);
   if (settings.shadingRate) changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
   if (tracesFullGeometry(settings))
     changeAttributes(scene, [](Attributes& a) { a.trace.displacements = true, a.trace.rate = TessellationMode::Full; });

@@ -81,10 +81,13 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
 }  // namespace
 
 std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
-                                                    const RenderSettings& settings, Stats& stats, Log& log) {
+                                                    const RenderSettings& settings,
+                                                    const std::function<void(float)>& progress, Stats& stats,
+                                                    Log& log) {
   const StageTimer timer(stats, "radiosity");
   const Scene& scene = tools.rays->scene();
-  const RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
+  RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
+  radiosity.progress = progress;
   if (const std::string folder = atlasFolder(settings, *tools.shading); !folder.empty())
     return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
   std::unique_ptr<const RadiosityMaps> maps;

@@ -9,7 +9,9 @@ namespace tomales {
 /// that is there already. Null after an error, which has been reported. Else they are textures in memory; with a
 /// settings.radiosityFolder each is written there too, as a tiled MIP EXR for each object and side: NAME.exr and
 /// NAME.back.exr, by Attribute "identifier" "name". What cannot be written is reported.
+/// `progress` is told how far baking is, by any thread.
 std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
-                                                    const RenderSettings& settings, Stats& stats, Log& log);
+                                                    const RenderSettings& settings,
+                                                    const std::function<void(float)>& progress, Stats& stats, Log& log);
 
 }  // namespace tomales

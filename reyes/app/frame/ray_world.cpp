@@ -3,6 +3,7 @@
 #include "reyes/app/frame/hide.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
@@ -81,7 +82,8 @@ std::unique_ptr<RayWorld::Built> RayWorld::build() {
   int world = 0;
   RibSettings rib;
   rib.archivePath = {shot_.folder};
-  rib.allowSystem = settings_.allowSystem;
+  if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
+  rib.trust = settings_.trust;
   rib.onScene = [&](Scene&& s) {
     if (world++ == shot_.world) scene = std::move(s);
   };

@@ -89,11 +89,11 @@ bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob&
 void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log,
                  const std::function<void()>& afterStage) {
   const DeepFrame layout = layOutFrame(scene);
-  if (!displaysHaveFolders(scene.options, log) || !fitsMemory(scene, layout, log)) return;
+  if (!displaysHaveFolders(scene.options, pluginTrust(settings), log) || !fitsMemory(scene, layout, log)) return;
   checkDisplays(scene.options, log);
   FrameJob job(scene, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
-  if (!settings.bakedFolder.empty() && !gathers && job.mode() != GiMode::Baked)
+  if (!settings.bakedFolder.empty() && !gathers && !job.method().usesBaked)
     log.report(Severity::Warning, "baked-unused", {},
                "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
   const int64_t budget_bytes = tileBudget(settings, 0);
@@ -122,7 +122,7 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
     job.hide(layout, sink);
     returnFreeMemory();  // the grids
     afterStage();
-    if (settings.memoryLimit && job.mode() == GiMode::Atlas)
+    if (settings.memoryLimit && job.method().makesMaps)
       store.shrinkTo(0, spill);  // photons need the room; buckets come back as they are read
     if (!given) job.prepareRays();
     if (settings.memoryLimit) {

@@ -2,9 +2,7 @@
 
 #include <atomic>
 
-#include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/overrides.h"
-#include "reyes/app/frame/radiosity_job.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/rib.h"
 
@@ -37,7 +35,7 @@ ShotJob::ShotJob(std::unique_ptr<DfbFile> file, const RenderSettings& settings, 
 bool ShotJob::edit() {
   if (!settings_.edits.empty() && !editScene(settings_.edits, shot_.scene, log_)) return false;
   applyOverrides(shot_.scene, settings_);
-  dropDisplays(shot_.scene.options, log_);
+  dropDisplays(shot_.scene.options, pluginTrust(settings_), log_);
   if (settings_.crop) {
     const PixelRect asked = Camera(shot_.scene.options).crop(), &whole = shot_.frame.crop;
     shot_.frame.crop = {std::max(asked.x0, whole.x0), std::max(asked.y0, whole.y0), std::min(asked.x1, whole.x1),
@@ -68,17 +66,6 @@ void ShotJob::prepareLight() {
   job_ = std::make_unique<FrameJob>(shot_.scene, settings_, stats_, log_);
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
-  if (job_->mode() == GiMode::Atlas)
-    job_->services()->setAtlasSource([this] {
-      const RayTools& tools = *world_->tools();
-      return prepareAtlas(tools.rays->scene(), *tools.rays, *tools.shading, settings_, stats_, log_);
-    });
-  if (job_->mode() == GiMode::Radiosity)
-    job_->services()->setRadiositySource(
-        [this] { return prepareRadiosity(*world_->tools(), job_->camera(), settings_, stats_, log_); });
-  if (job_->mode() == GiMode::Baked)
-    log_.report(Severity::Missing, "baked-folder", {},
-                "--gi baked is for tomales render: shaded without indirect light");
   if (!irradiance_) return;
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
@@ -107,7 +94,7 @@ std::optional<DeepTile> ShotJob::load(size_t index) {
 }
 
 void ShotJob::shadePicture() {
-  if (!displaysHaveFolders(shot_.scene.options, log_)) return;
+  if (!displaysHaveFolders(shot_.scene.options, pluginTrust(settings_), log_)) return;
   checkDisplays(shot_.scene.options, log_);
   prepareLight();
   const auto load = [this](size_t index) { return this->load(index); };

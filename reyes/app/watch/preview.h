@@ -1,6 +1,4 @@
-// Shows a picture while it is made, in a viewer that listens to the protocol of tev (github.com/Tom94/tev): packets
-// over TCP, each 4 bytes of length, 1 of type, then the fields; numbers little-endian, strings ended by 0. Only
-// CreateImage (4) and UpdateImage with strides (6) are sent.
+// Shows a picture while it is made, by the display driver "tev" (displays/tev.cpp), in a viewer that listens.
 #pragma once
 #include <condition_variable>
 #include <deque>
@@ -9,14 +7,14 @@
 #include <thread>
 
 #include "reyes/base/log.h"
-#include "reyes/image.h"
+#include "reyes/display_driver.h"
 
 namespace tomales {
 
 class Preview {
  public:
   /// `address`: "host:port". Nobody there: reported once, and the picture is made without.
-  Preview(std::string address, std::string name, const DeepFrame& layout, Log& log);
+  Preview(std::string address, const std::string& name, const DeepFrame& layout, Log& log);
   /// Waits a second at most for a viewer that lags behind.
   ~Preview();
   Preview(const Preview&) = delete;
@@ -26,18 +24,17 @@ class Preview {
 
  private:
   void run();
-  bool connect();
-  bool send(const std::string& packet);
+  std::optional<Image> next();
 
-  const std::string address_, name_;
-  const PixelRect crop_;
+  const std::string address_;
+  const DriverPicture picture_;
   Log& log_;
-  int socket_ = -1;
   std::mutex mutex_;
-  std::condition_variable wake_;
-  std::deque<std::string> waiting_;
+  std::condition_variable wake_, ended_;
+  std::deque<Image> waiting_;
   size_t waiting_bytes_ = 0;
   bool done_ = false, closed_ = false;
+  DisplayDriver* driver_ = nullptr;  ///< That of the thread, while it lives.
   std::thread thread_;
 };
 

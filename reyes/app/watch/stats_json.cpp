@@ -28,15 +28,19 @@ Json shadersOf(const Stats& stats) {
 }
 
 Json warningsOf(const Log& log) {
-  static constexpr const char* kSeverity[] = {"info", "warning", "missing", "error", "output"};
+  static constexpr const char* kSeverity[] = {"info", "note", "warning", "missing", "error", "output"};
   Json out = Json::array();
-  for (const LogEntry& e : log.entries())
+  for (const LogEntry& e : log.entries()) {
+    Json places = Json::array();
+    for (const SourceLoc& place : e.places) places.push_back(place.text());
     out.push_back({{"code", e.code},
                    {"severity", kSeverity[static_cast<int>(e.severity)]},
                    {"message", e.message},
                    {"file", e.where.file ? *e.where.file : ""},
                    {"line", e.where.line},
-                   {"count", e.count}});
+                   {"count", e.count},
+                   {"places", places}});
+  }
   return out;
 }
 

@@ -135,19 +135,12 @@ void takeTexts(Run& run, int32_t r, const Parameter& p, const TmValue& v) {
   }
 }
 
-/// Outputs start with their default, which is in shader space.
+/// An output starts as its default; that of nothing is 0.
 void takeDefault(Run& run, int32_t r, const Parameter& p) {
   const Lanes& l = run.lane(r);
-  const int32_t width = floatsOf(run.reg(r));
-  for (int32_t f = 0; f < width * elementsOf(run.reg(r)); ++f)
-    std::fill_n(l.data + f * static_cast<ptrdiff_t>(run.stride(r)), l.block == 0 ? kBlock : run.padded,
-                static_cast<size_t>(f) < p.floats.size() ? p.floats[static_cast<size_t>(f)] : 0.0f);
-  const Base base = p.type.base;
-  if (l.block == 0 || width != 3 || base == Base::Color || p.type.isArray()) return;
-  const int32_t kind = base == Base::Point ? TM_AS_POINT : base == Base::Vector ? TM_AS_VECTOR : TM_AS_NORMAL;
-  float* const to[3] = {l.data, l.data + l.component, l.data + 2 * static_cast<ptrdiff_t>(l.component)};
-  run.grid.call->transform(run.grid.host, run.asking(), kind, "shader", "current", {to[0], to[1], to[2]},
-                           {to[0], to[1], to[2]});
+  for (int32_t k = 0; k < floatsOf(run.reg(r)); ++k)
+    std::fill_n(l.data + k * static_cast<ptrdiff_t>(run.stride(r)), l.block == 0 ? kBlock : run.padded,
+                static_cast<size_t>(k) < p.floats.size() ? p.floats[static_cast<size_t>(k)] : 0.0f);
 }
 
 void takeParameter(Run& run, int32_t r) {
@@ -213,8 +206,7 @@ void storeOwnColors(Run& run, bool Ci, bool Oi) {
 }
 
 bool isOutput(const Run& run, const Register& r) {
-  return r.origin == Origin::Parameter && run.program.code().parameters[static_cast<size_t>(r.index)].output &&
-         r.shape != Shape::Text && r.shape != Shape::Matrix && r.length == 0;
+  return r.origin == Origin::Parameter && run.program.code().parameters[static_cast<size_t>(r.index)].output;
 }
 
 }  // namespace

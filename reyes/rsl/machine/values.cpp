@@ -9,10 +9,14 @@ namespace {
 /// Points to work on: one where the result is.
 int32_t pointsOf(const Run& run, int32_t to) { return run.varies(to) ? run.padded : 1; }
 
-/// Component c of a register at a point. Registers of one value have room for kBlock points.
+/// Component c of a register at a point. Registers of one value have room for kBlock points. A number counts for all
+/// components of the triple that is wanted.
 class Reader {
  public:
-  Reader(const Run& run, int32_t r) : data_(run.lane(r).data), stride_(run.stride(r)), step_(run.varies(r) ? 1 : 0) {}
+  Reader(const Run& run, int32_t r)
+      : data_(run.lane(r).data),
+        stride_(run.reg(r).shape == Shape::Number && run.reg(r).length == 0 ? 0 : run.stride(r)),
+        step_(run.varies(r) ? 1 : 0) {}
   float operator()(int32_t i, ptrdiff_t c = 0) const { return data_[c * stride_ + i * step_]; }
 
  private:

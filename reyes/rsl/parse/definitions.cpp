@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "reyes/rsl/parse/parser.h"
 #include "reyes/rsl/quote.h"
 
@@ -169,17 +171,34 @@ std::unique_ptr<Variable> Parser::variable(const Specifiers& s) {
   return out;
 }
 
+namespace {
+
+/// Of numbers alone; none: it holds something else.
+std::optional<float> constantOf(const Expr& e) {
+  if (e.kind == ExprKind::Number) return e.number;
+  if (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary) return {};
+  const std::optional<float> a = constantOf(*e.args[0]);
+  if (!a || e.args.size() == 1) return a && e.text == "-" ? -*a : a;
+  const std::optional<float> b = constantOf(*e.args[1]);
+  if (!b) return {};
+  if (e.text == "+") return *a + *b;
+  if (e.text == "-") return *a - *b;
+  if (e.text == "*") return *a * *b;
+  return e.text == "/" ? std::optional(*a / *b) : std::nullopt;
+}
+
+}  // namespace
+
 int32_t Parser::arrayLength() {
   const Token& open = take();
   int32_t length = kOpenArray;
   if (!here().is("]")) {
     const Token& t = here();
-    if (t.kind != TokenKind::Number) fail("expected the length of the array, a number,");
-    take();
-    if (!(t.number >= 1 && t.number <= static_cast<float>(kMostElements) &&
-          t.number == static_cast<float>(static_cast<int32_t>(t.number))))
+    if (t.kind != TokenKind::Number && !t.is("(") && !t.is("-")) fail("expected the length of the array, a number,");
+    const std::optional<float> number = constantOf(*expression());
+    if (!number || !(*number >= 1 && *number <= static_cast<float>(kMostElements) && *number == std::floor(*number)))
       failAt(t, fmt::format("the length of an array is a whole number from 1 to {}", kMostElements));
-    length = static_cast<int32_t>(t.number);
+    length = static_cast<int32_t>(*number);
   }
   expectClosing("]", open);
   return length;

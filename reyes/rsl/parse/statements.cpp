@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <map>
+
 #include "reyes/rsl/parse/parser.h"
 #include "reyes/rsl/quote.h"
 
@@ -50,6 +52,9 @@ StmtPtr Parser::statement() {
   if (t.text == "return") return returnStatement();
   if (t.text == "else") failAt(t, "'else' without an 'if' before it");
   if (t.text == "do" && here(1).is("{")) failAt(t, "RSL has no 'do' loop, only 'while' and 'for'");
+  if (t.text == "switch" && here(1).is("(")) failAt(t, "RSL has no 'switch', only 'if' and 'else'");
+  if (baseNamed(t.text) && here(1).is("["))
+    failAt(here(1), fmt::format("the length of an array stands behind its name: '{} x[3]'", t.text));
   if (here(1).is("(")) {
     if (t.text == "illuminance") return lightStatement(StmtKind::Illuminance);
     if (t.text == "illuminate") return lightStatement(StmtKind::Illuminate);
@@ -65,7 +70,15 @@ StmtPtr Parser::statement() {
 void Parser::failNoStatement() {
   static const std::vector<std::string> kKnown{"float", "color",  "point",   "vector",  "normal", "matrix", "string",
                                                "void",  "extern", "uniform", "varying", "output", "return"};
+  static const std::map<std::string_view, const char*> kOfOtherLanguages{
+      {"int", "RSL has no 'int': every number is a 'float'"},
+      {"double", "RSL has no 'double': every number is a 'float'"},
+      {"half", "RSL has no 'half': every number is a 'float'"},
+      {"bool", "RSL has no 'bool': 'float' holds 1 or 0"},
+      {"const", "RSL has no 'const'; a name for a value that stays is made by '#define'"},
+      {"then", "an 'if' has no 'then': the statement follows the brackets"}};
   const Token& t = here();
+  if (const auto it = kOfOtherLanguages.find(t.text); it != kOfOtherLanguages.end()) failAt(t, it->second);
   const std::vector<std::string> near = nearNames(t.text, kKnown);
   failAt(t, quoted(t.text) + " is no type" + (near.empty() ? "" : "; did you mean '" + near[0] + "'?"));
 }

@@ -54,6 +54,8 @@ void Parser::fail(std::string text, const std::vector<std::string>& known) {
   const Token& t = here();
   if (t.kind == TokenKind::Name && (t.text == "class" || t.text == "struct")) refuseRsl2(t, quoted(t.text));
   if (t.is("->")) refuseRsl2(t, "'->'");
+  if (t.is("&") || t.is("|")) failAt(t, fmt::format("RSL has no '{0}'; '{0}{0}' joins conditions", t.text));
+  if (t.is("*") && at_ > 0 && tokens_[at_ - 1].is("*")) failAt(t, "RSL has no '**'; pow(x, y) is the power");
   text += " before " + described(t);
   const std::vector<std::string> near =
       t.kind == TokenKind::Name ? nearNames(t.text, known) : std::vector<std::string>();

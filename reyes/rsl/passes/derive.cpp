@@ -43,9 +43,11 @@ class Derivation {
  private:
   const Register& at(int32_t r) const { return code_.registers[static_cast<size_t>(r)]; }
   /// The host can tell its change.
-  bool isOfHost(int32_t r) const {
-    return (at(r).origin == Origin::Global || at(r).origin == Origin::Parameter) &&
-           writes_[static_cast<size_t>(r)] == 0;
+  bool isOfHost(int32_t r) const { return isGiven(r) && writes_[static_cast<size_t>(r)] == 0; }
+  /// Holds something before the shader runs.
+  bool isGiven(int32_t r) const {
+    return at(r).origin == Origin::Global ||
+           (at(r).origin == Origin::Parameter && !code_.parameters[static_cast<size_t>(at(r).index)].output);
   }
   bool changes(int32_t r) const {
     return r >= 0 && at(r).varying && (at(r).shape == Shape::Number || at(r).shape == Shape::Triple);
@@ -92,7 +94,7 @@ class Derivation {
   Block starts() {
     Block out;
     for (const int32_t r : needed_) {
-      if (at(r).origin != Origin::Global && at(r).origin != Origin::Parameter) continue;
+      if (!isGiven(r)) continue;
       for (const Op side : {Op::StepU, Op::StepV}) {
         out.push_back({.op = Op::Copy, .out = {step(r, side)}, .in = {hostStep(r, side)}, .masked = false});
       }

@@ -2,6 +2,7 @@
 // detail of local variables to the compiler).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "reyes/rsl/globals.h"
@@ -137,19 +138,30 @@ class Inference {
 
 }  // namespace
 
-void inferDetail(Code& code, const std::vector<bool>& varying, Messages& messages) {
-  Inference(code, varying).run();
+void inferDetail(Code& code, const std::vector<bool>& varying) { Inference(code, varying).run(); }
+
+void warnOfDetail(const Code& lowered, const std::vector<bool>& varying, Messages& messages) {
+  const bool any = std::any_of(lowered.registers.begin(), lowered.registers.end(), [](const Register& r) {
+    return r.origin == Origin::Variable && (r.declared == Detail::Uniform || r.shape == Shape::Text);
+  });
+  if (!any) return;
+  Code code = lowered;
+  inferDetail(code, varying);
+  std::set<int32_t> told;
   forEach(code.body, [&](const Instruction& i) {
-    if (i.op == Op::Copy && i.masked && code.registers[static_cast<size_t>(i.out[0])].shape == Shape::Text)
+    if (i.op != Op::Copy) return;
+    const Register& r = code.registers[static_cast<size_t>(i.out[0])];
+    if (i.masked && r.shape == Shape::Text)
       messages.warning(i.place,
                        "a string is chosen by what differs from point to point; strings are the same for all "
                        "points, so the last choice that any point makes counts");
-  });
-  for (const Register& r : code.registers)
-    if (r.declared == Detail::Uniform && r.varying && r.origin == Origin::Variable)
+    // What lights and messages bring is left out: it is the same for all points more often than not.
+    const bool given = code.registers[static_cast<size_t>(i.in[0])].varying;
+    if (r.declared == Detail::Uniform && r.origin == Origin::Variable && given && told.insert(i.out[0]).second)
       messages.warning(r.place,
                        fmt::format("\"{}\" is declared uniform and is given values that vary; it varies", r.name),
                        static_cast<int32_t>(r.name.size()));
+  });
 }
 
 }  // namespace tomales::compiler

@@ -3,9 +3,10 @@
 namespace tomales::compiler {
 
 void optimise(Code& code, const std::vector<bool>& varying, Messages& messages) {
+  warnOfDetail(code, varying, messages);
   foldConstants(code);
   removeUnused(code);
-  inferDetail(code, varying, messages);
+  inferDetail(code, varying);
   deriveSteps(code);
   foldConstants(code);
   shareExpressions(code);

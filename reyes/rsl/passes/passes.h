@@ -7,9 +7,12 @@
 namespace tomales::compiler {
 
 /// Says for each register whether it varies over the batch, and for each instruction whether all points are active
-/// there. `varying[k]`: parameter k is given by a primitive variable. Warns where a variable that is declared `uniform`
-/// has to vary.
-void inferDetail(Code& code, const std::vector<bool>& varying, Messages& messages);
+/// there. `varying[k]`: parameter k is given by a primitive variable.
+void inferDetail(Code& code, const std::vector<bool>& varying);
+
+/// What is doubtful of lowered code, before anything is folded away: a variable that is declared `uniform` and has to
+/// vary, a text that is chosen by what varies.
+void warnOfDetail(const Code& lowered, const std::vector<bool>& varying, Messages& messages);
 
 /// Pure instructions on constants become constants, by the kernels that would run them: the same bits. x * 1, x + 0
 /// and the like become x. Returns the register that holds what `of` held (for a value that is looked at from outside).

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "reyes/app/frame/light_sources.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -58,13 +60,15 @@ TEST(Overrides, ASceneWithoutDisplayGetsTheDefaultOne) {
 }
 
 /// Of a scene with these requests in its world, by the choice.
-GiMode modeOf(const std::string& lights, GiChoice choice) {
+GiMode modeOf(const std::string& lights, const char* choice) {
   const Scene scene = sceneOf("WorldBegin\n" + lights + "Sphere 1 -1 1 360\nWorldEnd\n");
   Log log(Log::Verbosity::Quiet);
   Stats stats;
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  return giModeOf(choice, ShadingSystem(scene, registry, nullptr, log, stats));
+  RenderSettings settings;
+  settings.gi = giMethodNamed(choice);
+  return methodOf(settings, ShadingSystem(scene, registry, nullptr, log, stats)).mode;
 }
 
 TEST(Overrides, TheGiModeIsThatOfTheCommandLineOrElseOfTheIndirectLight) {
@@ -72,15 +76,15 @@ TEST(Overrides, TheGiModeIsThatOfTheCommandLineOrElseOfTheIndirectLight) {
                           atlas = "LightSource \"indirectlight\" 1 \"string radiance\" \"atlas\"\n",
                           points = "LightSource \"indirectlight\" 1 \"string radiance\" \"points\"\n",
                           radiosity = "LightSource \"indirectlight\" 1 \"string radiance\" \"radiosity\"\n";
-  EXPECT_EQ(modeOf(none, GiChoice::Scene), GiMode::None);
-  EXPECT_EQ(modeOf(gather, GiChoice::Scene), GiMode::Gather);
-  EXPECT_EQ(modeOf(atlas, GiChoice::Scene), GiMode::Atlas);
-  EXPECT_EQ(modeOf(points, GiChoice::Scene), GiMode::Atlas);
-  EXPECT_EQ(modeOf(radiosity, GiChoice::Scene), GiMode::Radiosity);
-  EXPECT_EQ(modeOf(gather + atlas, GiChoice::Scene), GiMode::Atlas) << "one of several that asks";
-  EXPECT_EQ(modeOf(atlas, GiChoice::None), GiMode::None);
-  EXPECT_EQ(modeOf(atlas, GiChoice::Gather), GiMode::Gather);
-  EXPECT_EQ(modeOf(none, GiChoice::Points), GiMode::Atlas);
+  EXPECT_EQ(modeOf(none, "scene"), GiMode::None);
+  EXPECT_EQ(modeOf(gather, "scene"), GiMode::Gather);
+  EXPECT_EQ(modeOf(atlas, "scene"), GiMode::Atlas);
+  EXPECT_EQ(modeOf(points, "scene"), GiMode::Atlas);
+  EXPECT_EQ(modeOf(radiosity, "scene"), GiMode::Radiosity);
+  EXPECT_EQ(modeOf(gather + atlas, "scene"), GiMode::Atlas) << "one of several that asks";
+  EXPECT_EQ(modeOf(atlas, "none"), GiMode::None);
+  EXPECT_EQ(modeOf(atlas, "gather"), GiMode::Gather);
+  EXPECT_EQ(modeOf(none, "points"), GiMode::Atlas);
 }
 
 TEST(Overrides, AGiModeAsksForAnIndirectLight) {
@@ -88,7 +92,7 @@ TEST(Overrides, AGiModeAsksForAnIndirectLight) {
   RenderSettings settings;
   applyOverrides(scene, settings);
   EXPECT_FALSE(scene.options.wantsIndirect);
-  settings.gi = GiChoice::Gather;
+  settings.gi = giMethodNamed("gather");
   applyOverrides(scene, settings);
   EXPECT_TRUE(scene.options.wantsIndirect);
   EXPECT_EQ(scene.lights.size(), 1u) << "it is added where lights are bound";
@@ -130,7 +134,7 @@ TEST(Overrides, ADisplayNeverWritesOverAnotherOfItsFrame) {
     options.displays.back().name = name, options.displays.back().type = type;
   }
   Log log(Log::Verbosity::Quiet);
-  dropDisplays(options, log);
+  dropDisplays(options, {}, log);
   ASSERT_EQ(options.displays.size(), 3u);
   EXPECT_EQ(options.displays[1].type, "openexr");
   EXPECT_EQ(log.count("display-window"), 1);
@@ -139,7 +143,7 @@ TEST(Overrides, ADisplayNeverWritesOverAnotherOfItsFrame) {
   Options window;
   window.displays.emplace_back();
   window.displays.back().type = "framebuffer";
-  dropDisplays(window, log);
+  dropDisplays(window, {}, log);
   EXPECT_EQ(window.displays.size(), 1u);  // else there would be no picture at all
 }
 

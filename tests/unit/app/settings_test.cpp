@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "reyes/image.h"
+
 namespace tomales {
 namespace {
 
@@ -44,9 +46,10 @@ TEST(OutputName, PicturesAreKnownByTheirExtension) {
   for (const char* name : {"a.jpg", "exr", "a.exr.gz", ""}) EXPECT_FALSE(namesPicture(name)) << name;
 }
 
-TEST(GiChoice, HasNames) {
-  EXPECT_EQ(parseGi("points"), GiChoice::Points);
-  EXPECT_EQ(parseGi("reference"), GiChoice::Reference);
+TEST(GiMethod, HasNames) {
+  EXPECT_EQ(parseGi("points"), giMethodNamed("points"));
+  EXPECT_EQ(parseGi("reference"), giMethodNamed("reference"));
+  EXPECT_EQ(parseGi("scene"), nullptr) << "is left to the scene";
   EXPECT_FALSE(parseGi("Gather"));
 }
 

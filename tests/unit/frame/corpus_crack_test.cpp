@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "places.h"
+#include "reyes/shader_registry.h"
 #include "tests/unit/frame/hidden_body.h"
 
 namespace tomales {

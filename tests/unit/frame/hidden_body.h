@@ -6,6 +6,7 @@
 
 #include "reyes/frame.h"
 #include "reyes/rib.h"
+#include "reyes/shader_registry.h"
 
 extern const TmShaderLibrary* tomales_builtin_shaders(void);
 

@@ -7,6 +7,7 @@
 
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {

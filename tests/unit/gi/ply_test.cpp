@@ -93,6 +93,23 @@ TEST_F(Ply, PointsWithoutAFinitePlaceAreDroppedAndCounted) {
   EXPECT_EQ(figures.dropped, 2u);
 }
 
+TEST_F(Ply, AnyFlippedBitOfOurOwnFilesIsNoticed) {
+  PointCloud cloud;
+  cloud.channels = {{"power", 3}};
+  const float power[] = {1, 2, 3};
+  for (int i = 0; i < 4; ++i) cloud.add({static_cast<float>(i), 1, 2}, {0, 0, 1}, 0.5f, power);
+  writePointFile(cloud, at("a.ptc"));
+  writePly(PointFile(at("a.ptc")), at("a.ply"));
+  std::ifstream in(at("a.ply"), std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  for (size_t byte = 0; byte < whole.size(); ++byte) {
+    std::string text = whole;
+    text[byte] = static_cast<char>(text[byte] ^ (1 << byte % 8));
+    if (text.find("comment checksum of Tomales ") == std::string::npos && byte < whole.find("end_header")) continue;
+    EXPECT_THROW(convertPly(wrote(text), at("bad.ptc"), 0), FileError) << "byte " << byte;
+  }
+}
+
 TEST_F(Ply, WhatIsDamagedIsNamedAndLeavesNoFile) {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
@@ -108,6 +125,8 @@ TEST_F(Ply, WhatIsDamagedIsNamedAndLeavesNoFile) {
                              "ply\nformat ascii 1.0\nelement vertex 1\nproperty list int float x\nend_header\n0\n",
                              header + "1 2 3 4 5",
                              header + "1 2 3 4 5 six",
+                             header + "1 2 3 4 5 6 7",
+                             header + "1 2 3 4 -1e30 6",
                              std::string(100'000, 'p')};
   for (const std::string& text : bad) {
     EXPECT_THROW(convertPly(wrote(text), at("bad.ptc"), 0), FileError) << text.substr(0, 80);

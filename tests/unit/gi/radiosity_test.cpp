@@ -162,7 +162,7 @@ TEST(RadiosityMaps, GatherAsShadersDoForNoShaderAtHits) {
   const auto mapped = world.use({.mode = GiMode::Radiosity});
   auto maps =
       std::make_unique<const RadiosityMaps>(world.rays, world.shading, world.camera, RadiositySettings{}, world.log);
-  mapped->setRadiositySource([&] { return std::move(maps); });
+  mapped->setHitRadianceSource([&] { return std::move(maps); });
   const int64_t before = world.stats.shade.verticesShaded;
   gatherFrame(*mapped, frame);
   const std::vector<vec3> found = indirectOf(*mapped, world, frame);
@@ -198,7 +198,7 @@ TEST(RadiosityBricks, GatherAsShadersDoForNoShaderAtHits) {
   const auto baked = world.use({.mode = GiMode::Radiosity});
   const BrickBake bake(world);
   auto bricks = bake.make(world);
-  baked->setRadiositySource([&] { return std::move(bricks); });
+  baked->setHitRadianceSource([&] { return std::move(bricks); });
   const int64_t before = world.stats.shade.verticesShaded;
   gatherFrame(*baked, frame);
   const std::vector<vec3> found = indirectOf(*baked, world, frame);

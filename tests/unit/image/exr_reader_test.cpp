@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "reyes/base/rng.h"
-#include "reyes/image/image_file.h"
+#include "reyes/image/formats.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
@@ -51,7 +51,8 @@ TEST_F(ExrReader, PicturesAreWhatOpenImageIOReads) {
   Image image{70,  65, {"A", "N.z", "R", "N.x", "G", "B", "Z", "diffuse.B", "diffuse.R", "N.y", "ZBack"}, {}, 3, 5,
               200, 210};
   for (int i = 0; i < 70 * 65 * 11; ++i) image.pixels.push_back(static_cast<float>(i % 977) / 977);
-  FileFormat half{"openexr", SampleType::Half}, tiled{"openexr", SampleType::Float}, parts = tiled;
+  FileFormat half{formatOfType("openexr"), SampleType::Half}, tiled{formatOfType("openexr"), SampleType::Float},
+      parts = tiled;
   half.precise = {"Z"}, half.metadata = {camera_, screen_};
   tiled.tile = 64, parts.multipart = true;
   for (const FileFormat& format : {half, tiled, parts}) {
@@ -73,7 +74,7 @@ TEST_F(ExrReader, NoiseThatDoesNotCompressAndLongNamesAreWhatOpenImageIOReads) {
   Image image{33, 37, {"a_name_longer_than_the_31_bytes_of_old_files", "k"}, {}, 0, 0, 33, 37};
   for (uint32_t i = 0; i < 33 * 37 * 2; ++i)
     image.pixels.push_back(__builtin_bit_cast(float, hash32(i) & ~0x00800000U));  // no infinities
-  FileFormat format{"openexr", SampleType::Float};
+  FileFormat format{formatOfType("openexr"), SampleType::Float};
   format.metadata = {{"another_name_that_is_longer_than_31_bytes", "text", {}}};
   write(image, format);
   EXPECT_GE(fs::file_size(path_), image.pixels.size() * sizeof(float));
@@ -85,7 +86,7 @@ TEST_F(ExrReader, NoiseThatDoesNotCompressAndLongNamesAreWhatOpenImageIOReads) {
 }
 
 TEST_F(ExrReader, DeepPixelsAreWhatOpenImageIOReads) {
-  FileFormat format{"openexr", SampleType::Half};
+  FileFormat format{formatOfType("openexr"), SampleType::Half};
   format.deep = true, format.precise = {"Z", "ZBack"}, format.metadata = {camera_, screen_};
   const Image shape{5, 3, {"AR", "AG", "AB", "Z", "ZBack"}, {}, 2, 1, 9, 8};
   DeepRows rows{2, 1, 5, 3, {}, {}};

@@ -19,7 +19,7 @@ struct Trusting {
   Log log{Log::Verbosity::Quiet};
   explicit Trusting(const std::string& text) {
     RibSettings settings;
-    settings.allowSystem = true;
+    settings.trust.programs = true;
     settings.programPatience_s = 2;
     settings.onScene = [this](Scene&& s) { scenes.push_back(opened(std::move(s))); };
     readRibText(text, "test.rib", settings, log);
@@ -124,7 +124,7 @@ TEST(RunProgram, IsStartedOnceForManyCalls) {
     std::vector<Scene> scenes;
     Log log(Log::Verbosity::Quiet);
     RibSettings settings;
-    settings.allowSystem = true;
+    settings.trust.programs = true;
     settings.programPatience_s = 10;
     settings.onScene = [&](Scene&& s) {
       const ThreadLimit one(1);

@@ -13,7 +13,7 @@ using Kind = Token::Kind;
 std::vector<Token> tokens(const std::string& text) {
   const auto stream = ByteStream::fromMemory(text);
   std::vector<Token> out;
-  for (Lexer lexer(*stream); lexer.peek().kind != Kind::End; lexer.advance()) out.push_back(lexer.peek());
+  for (Lexer lexer(*stream, "scene.rib"); lexer.peek().kind != Kind::End; lexer.advance()) out.push_back(lexer.peek());
   return out;
 }
 
@@ -78,6 +78,23 @@ TEST(Lexer, GivesUpOnStringsWithoutEndAndOnEndlessWords) {
   EXPECT_LT(list[0].text.size(), 100u);
 }
 
+TEST(Lexer, TakesPlacesFromTheProgramThatWroteTheStream) {
+  const std::string text =
+      "1\n#line 70 \"a scene.py\"\n2 # line 5 \"no.py\"\n3\n#line x \"no.py\"\n#line 4\n#line 5 \"no.py\n4\n#line 9 "
+      "\"b\"";
+  const auto stream = ByteStream::fromMemory(text);
+  Lexer lexer(*stream, "scene.rib");
+  const std::pair<const char*, int> expected[] = {
+      {"scene.rib", 1}, {"a scene.py", 70}, {"a scene.py", 71}, {"a scene.py", 75}};
+  for (const auto& [file, line] : expected) {
+    ASSERT_EQ(lexer.peek().kind, Kind::Number);
+    EXPECT_EQ(*lexer.file(), file);
+    EXPECT_EQ(lexer.peek().line, line);
+    lexer.advance();
+  }
+  EXPECT_EQ(lexer.peek().kind, Kind::End);
+}
+
 TEST(ByteStream, UnpacksGzipAndConcatenatedGzip) {
   std::string text;
   for (int i = 0; i < 50000; ++i) text += std::to_string(i) + " ";
@@ -90,7 +107,7 @@ TEST(ByteStream, UnpacksGzipAndConcatenatedGzip) {
 TEST(ByteStream, ReadsDamagedGzipUpToTheDamage) {
   const std::string whole = gzip("1 2 3 4 5 6 7 8 9 10 11 12"), cut = whole.substr(0, whole.size() - 9);
   const auto stream = ByteStream::fromMemory(cut);
-  Lexer lexer(*stream);
+  Lexer lexer(*stream, "scene.rib");
   while (lexer.peek().kind != Kind::End) lexer.advance();
   EXPECT_TRUE(stream->damaged());
   const std::string badHeader = "\x1f\x8bgarbage that is no gzip";

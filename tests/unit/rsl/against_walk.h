@@ -32,7 +32,8 @@ inline std::string difference(const std::string& text) {
     const TreeWalk walk = walked(shader, g, i);
     for (size_t k = 1; k < shader.parameters.size(); ++k)
       for (int c = 0; c < (shader.parameters[k]->type.isTriple() ? 3 : 1); ++c) {
-        const float is = g.output(k, c)[i], should = walk.valueOf(*shader.parameters[k]).x[c];
+        const float is = g.output(outputNamed(compiled, shader.parameters[k]->name), c)[i],
+                    should = walk.valueOf(*shader.parameters[k]).x[c];
         if (is != should)
           return fmt::format("point {}, {}: {} where {} is right\n{}", i, shader.parameters[k]->name, is, should, text);
       }

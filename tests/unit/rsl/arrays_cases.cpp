@@ -8,6 +8,7 @@ namespace tomales::compiler {
 Cases arrayCases() {
   static const Case kCases[] = {
       {"elements in order", "float a[3] = {5, 6, 7}; x = a[0] * 100 + a[1] * 10 + a[2];", 567},
+      {"a length that is computed", "float a[(1 + 2) * 2 - 1]; x = arraylength(a);", 5},
       {"elements without a value are 0", "float a[3]; x = a[0] + a[1] + a[2] + s;", [](float i) { return i; }},
       {"fewer values than elements", "float a[3] = {5, 6}; x = a[0] * 100 + a[1] * 10 + a[2];", 560},
       {"an index that varies", "float a[4] = {5, 6, 7, 8}; x = a[mod(s, 4)];",

@@ -16,6 +16,24 @@ Cases colorCases() {
        [](float i) {
          return rsl::ctransform("hsv", "rgb", {i / 1000, 1, 1});
        }},
+      {"ctransform of a number that is cast", "c = ctransform(\"hsv\", color s);",
+       [](float i) {
+         return Vec3{0, 0, i};
+       }},
+      {"a number in hsv", "c = color \"hsv\" 1;", Vec3{1, 0, 0}},
+      {"a component by its index", "x = Cs[0] + 10 * Cs[mod(s, 3)];",
+       [](float i) {
+         const int k = static_cast<int>(i) % 3;
+         return 0.25f + 10 * (k == 0 ? 0.25f : k == 1 ? 0.5f : 1);
+       }},
+      {"a component is assigned by its index", "c[1] = s; c[2] += 2;",
+       [](float i) {
+         return Vec3{0, i, 2};
+       }},
+      {"a component of an element", "color a[2] = {1, color (1, 2, 3)}; a[1][0] = s; c = a[1]; x = a[0][2];",
+       [](float i) {
+         return Vec3{i, 2, 3};
+       }},
       {"hsv of a grey", "c = ctransform(\"hsv\", color (0.3, 0.3, 0.3));", Vec3{0, 0, 0.3f}},
       {"hsv of green", "c = ctransform(\"hsv\", color (0, 1, 0));", Vec3{1.0f / 3, 1, 1}},
       {"ctransform into hsl", "c = ctransform(\"hsl\", color (0.2, 0.4, s / 1000));",

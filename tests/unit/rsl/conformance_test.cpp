@@ -21,14 +21,14 @@ bool isClose(float is, float should, float tolerance) {
                             : is == should || std::abs(is - should) <= tolerance * std::max(1.0f, std::abs(should));
 }
 
-/// What is wrong with a point; empty: nothing.
+/// What is wrong with a point; empty: nothing. Each of the three outputs is followed by what is given to it.
 std::string fault(const Case& c, const ServedGrid& g, int i) {
-  const float x = g.output(g.params.size() - 3)[i];
+  const float x = g.output(g.params.size() - 6)[i];
   Vec3 at;
   float* const to[3] = {&at.x, &at.y, &at.z};
   const bool on = g.active[static_cast<size_t>(i)] != 0;
   for (int k = 0; k < 3; ++k) {
-    const float color = g.output(g.params.size() - 2, k)[i], vector = g.output(g.params.size() - 1, k)[i];
+    const float color = g.output(g.params.size() - 4, k)[i], vector = g.output(g.params.size() - 2, k)[i];
     *to[k] = on ? color + vector : color;
   }
   if (!on) return x == FakeGrid::kBefore.x && at.x == FakeGrid::kBefore.x ? "" : "an inactive point has changed";

@@ -98,6 +98,13 @@ Cases mathematicsCases() {
       {"bezier", "x = spline(\"bezier\", mod(s, 11) / 10, 1, 3, 2, 5, 4, 7, 6);",
        [](float i) { return rsl::spline(rsl::Basis::Bezier, std::fmod(i, 11.0f) / 10, kKnots, 7); }},
       {"bezier goes through its ends", "x = spline(\"bezier\", 1, 1, 5, 6, 4);", 4},
+      {"knots that are numbers and colors",
+       "c = spline(s / 1000, color 0, color 0, color (1, 2, 3), color 1, color 1);",
+       [](float i) {
+         const float x[] = {0, 0, 1, 1, 1}, y[] = {0, 0, 2, 1, 1}, z[] = {0, 0, 3, 1, 1};
+         const auto at = [&](const float* knots) { return rsl::spline(rsl::Basis::CatmullRom, i / 1000, knots, 5); };
+         return Vec3{at(x), at(y), at(z)};
+       }},
       {"b-spline of equal knots", "x = spline(\"b-spline\", 0.3, 2, 2, 2, 2);", 2},
       {"b-spline at a knot", "x = spline(\"b-spline\", 0, 1, 3, 2, 9);", 2.5f},
       {"hermite goes through its points",

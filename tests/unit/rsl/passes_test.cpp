@@ -147,10 +147,30 @@ TEST(Printed, PrintfWritesALineForEachActivePoint) {
   EXPECT_EQ(g.printed, (std::vector<std::string>{"3: 1.500000 of a\n"}));
 }
 
+// RenderMan Companion, listing 16.26: a glow that assigns Oi = 0 alone where it is not to be seen.
+TEST(Uncoloured, WhatIsTransparentAndWasGivenNoColourShowsNothing) {
+  const auto Ci = [](const std::string& body, int point) {
+    const CompiledText compiled("surface test() { " + body + " }");
+    EXPECT_TRUE(compiled.good()) << compiled.said();
+    ServedGrid g(5);
+    g.run(compiled.shader());
+    return g.grid.Ci.x[point];
+  };
+  const std::string glow = "if (s > 2) { Ci = Cs * 0.5; Oi = 0.5; } else Oi = 0;";
+  EXPECT_EQ(Ci(glow, 3), 0.125f);
+  EXPECT_EQ(Ci(glow, 1), 0);
+  EXPECT_EQ(Ci("Oi = 0;", 1), 0);
+  EXPECT_EQ(Ci("if (s > 2) return; Oi = 0;", 1), 0);
+  EXPECT_EQ(Ci("if (s > 2) return; Oi = 0;", 3), 0.25f);
+  EXPECT_EQ(Ci("Oi = 0.5;", 1), 0.25f);
+  EXPECT_EQ(Ci("Ci = Cs; Oi = 0;", 1), 0.25f) << "light that covers nothing is added";
+}
+
 TEST(Given, ParametersOfPrimitiveVariablesVary) {
   const CompiledText compiled(
       "surface test(float p = 3; color q = 1; output varying float x = 0; output varying color c = 0) {"
       " float k; for (k = 0; k < p; k += 1) x += 1; c = q * p; }");
+  const size_t x = outputNamed(compiled, "x"), c = outputNamed(compiled, "c");
   for (const int count : {1, 17, 1000}) {
     ServedGrid g(count);
     g.maskAtRandom();
@@ -161,15 +181,74 @@ TEST(Given, ParametersOfPrimitiveVariablesVary) {
     g.runBound(compiled.shader());
     for (int i = 0; i < count; ++i) {
       const bool on = g.active[static_cast<size_t>(i)] != 0;
-      EXPECT_EQ(g.output(2)[i], on ? p[i] : FakeGrid::kBefore.x);
-      EXPECT_EQ(g.output(3)[i], on ? p[i] : FakeGrid::kBefore.x);
+      EXPECT_EQ(g.output(x)[i], on ? p[i] : FakeGrid::kBefore.x);
+      EXPECT_EQ(g.output(c)[i], on ? p[i] : FakeGrid::kBefore.x);
     }
     g.bindOutputs(compiled.shader().lowered());
     g.params[1].c[0] = g.params[1].c[1] = g.params[1].c[2] = q, g.params[1].step = 1;
     g.runBound(compiled.shader());
     for (int i = 0; i < count; ++i)
-      EXPECT_EQ(g.output(3)[i], g.active[static_cast<size_t>(i)] ? 3 * q[i] : FakeGrid::kBefore.x);
+      EXPECT_EQ(g.output(c)[i], g.active[static_cast<size_t>(i)] ? 3 * q[i] : FakeGrid::kBefore.x);
   }
+}
+
+/// What the compiler says of a surface, without the lines that it shows.
+std::string saidOf(const std::string& body, const std::string& before = "") {
+  const CompiledText compiled(before + "surface test() {" + body + "}");
+  std::string out;
+  for (const Message& m : compiled.messages.all()) out += m.text + "\n";
+  return out;
+}
+
+TEST(Said, OfWhatIsLegalAndDoubtful) {
+  EXPECT_EQ(saidOf("uniform float k = s; Ci = k;"),
+            "\"k\" is declared uniform and is given values that vary; it varies\n");
+  EXPECT_EQ(saidOf("uniform float k = 2, i; for (i = 0; i < k; i += 1) Ci *= k;"), "");
+  EXPECT_EQ(saidOf("uniform float k = 0; illuminance (P) { lightsource(\"a\", k); Ci += k; }"), "");
+  EXPECT_EQ(saidOf("float k = 1; if (k = 2) Ci = k;"), "this assigns \"k\"; '==' compares\n");
+  EXPECT_EQ(saidOf("Ci = f(1);", "float f(float x) { float y = x; y += 1; }\n"),
+            "\"f\" gives a float, and has no 'return': it gives 0\n");
+}
+
+TEST(Said, OfWhatIsWrong) {
+  EXPECT_EQ(saidOf("Ci = Oss; Oi = OS;"),
+            "there is no variable \"Oss\"; did you mean \"Os\"?\nthere is no variable \"OS\"; did you mean \"Os\"?\n");
+  EXPECT_EQ(saidOf("break;"), "'break' stands in no loop\n");
+  EXPECT_EQ(saidOf("while (1 == 1) continue 2;"), "'continue 2' has only 1 loops around it\n");
+  EXPECT_EQ(saidOf("float k = 1; Ci = k(2);"), "\"k\" is a variable, and no function\n");
+  EXPECT_EQ(saidOf("color k = setcomp(Ci, 0, 1);"),
+            "a color is needed for \"k\", and setcomp() gives nothing\nthe variable \"k\" is never read\n");
+  EXPECT_EQ(saidOf("Ci = Color (1, 0, 0);"),
+            "there is no function \"Color\" (did you mean \"color\"?): its value is a loud one\n");
+}
+
+TEST(Said, OfMoreMemoryThanThereMayBe) {
+  EXPECT_EQ(saidOf("float a[131072]; a[0] = s; Ci = a[s];"),
+            "what varies of this shader needs 129 MB for 256 points, \"a\" most of it; 128 MB are the limit\n");
+  EXPECT_EQ(saidOf("uniform float a[200000]; a[0] = 3; Ci = a[1];"), "") << "one for all points";
+  EXPECT_EQ(saidOf("float a[10000]; a[0] = s; Ci = a[s];"), "");
+}
+
+TEST(Given, OutputsStartAsWhatTheSceneGives) {
+  const CompiledText compiled(
+      "light test(output varying float fog = 2; output color tint = 1; output float size[2] = {1, 2}) {"
+      " fog += size[1]; Cl = tint * fog; }");
+  const auto given = [&](const char* name) -> size_t {
+    const auto& all = compiled.shader().lowered().parameters;
+    return static_cast<size_t>(
+        std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name && !p.output; }) -
+        all.begin());
+  };
+  ServedGrid g(20);
+  g.bindOutputs(compiled.shader().lowered());
+  const float fog = 5, tint[] = {1, 2, 4}, size[] = {10, 20};
+  g.params[given("fog")].c[0] = &fog;
+  for (size_t k = 0; k < 3; ++k) g.params[given("tint")].c[k] = tint + k;
+  g.params[given("size")].c[0] = size;
+  g.runBound(compiled.shader());
+  EXPECT_EQ(g.output(outputNamed(compiled, "fog"))[7], 25);
+  EXPECT_EQ(g.output(outputNamed(compiled, "tint"), 2)[7], 4) << "nobody assigns it";
+  EXPECT_EQ(g.grid.Cl.y[7], 50);
 }
 
 }  // namespace

@@ -26,6 +26,13 @@ struct CompiledText {
   std::deque<HostedShader> shaders;
 };
 
+/// The place of an output among the parameters, whose values it is given have the same name.
+inline size_t outputNamed(const CompiledText& compiled, std::string_view name) {
+  const std::vector<Parameter>& all = compiled.shader().lowered().parameters;
+  const auto it = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.output && p.name == name; });
+  return static_cast<size_t>(it - all.begin());
+}
+
 /// Over one micropolygon s changes by 1 along u, t by 3 along v, and P by (1, 0, 0) and (0, 2, 0); two lights: one
 /// that lights all points and one that lights those of odd numbers.
 class ServedGrid : public FakeGrid {
@@ -49,16 +56,14 @@ class ServedGrid : public FakeGrid {
   void maskAtRandom() {
     for (int i = 0; i < grid.count; ++i) active[static_cast<size_t>(i)] = rsl::latticeHash(i, grid.count, 77) % 2 != 0;
   }
-  /// What the host does before a shader runs: outputs hold defaults where points are active.
+  /// What the host does before a shader runs. Outputs of active points are 0.
   void bindOutputs(const Code& code) {
     bind(code);
     for (size_t k = 0; k < params.size(); ++k)
       if (code.parameters[k].output)
         for (size_t component = 0; component < 3; ++component) {
-          const std::vector<float>& floats = code.parameters[k].floats;
-          const float first = floats[std::min(component, floats.size() - 1)];
           float* const out = const_cast<float*>(params[k].c[component]);
-          for (int i = 0; i < n; ++i) out[i] = i < grid.count && active[static_cast<size_t>(i)] ? first : kBefore.x;
+          for (int i = 0; i < n; ++i) out[i] = i < grid.count && active[static_cast<size_t>(i)] ? 0 : kBefore.x;
         }
   }
   void run(const HostedShader& shader) {

@@ -21,6 +21,7 @@ Cases textCases() {
       {"format of whole numbers", "if (format(\"%d of %d\", 3, 4) == \"3 of 4\") x = 1;", 1},
       {"format of a text", "if (format(\"<%s>\", \"a\") == \"<a>\") x = 1;", 1},
       {"format of a color", "if (format(\"%c\", color (1, 2, 3)) == \"1.000000 2.000000 3.000000\") x = 1;", 1},
+      {"format of a grey", "if (format(\"%c\", color 1) == \"1.000000 1.000000 1.000000\") x = 1;", 1},
       {"format of a point", "if (format(\"%p\", point (1, 2, 3)) == \"1.000000 2.000000 3.000000\") x = 1;", 1},
       {"format of a per cent sign", "if (format(\"%%\") == \"%\") x = 1;", 1},
       {"match of a part", "x = match(\"wo\", \"wood\");", 1},

@@ -122,13 +122,13 @@ class SmoothText {
   int counters_ = 0;
 };
 
-/// x (output 0) or y (output 1) of all points, where s is greater by `more`.
-std::vector<float> given(const CompiledText& compiled, size_t output, float more) {
+/// x or y of all points, where s is greater by `more`.
+std::vector<float> given(const CompiledText& compiled, const char* output, float more) {
   ServedGrid g(20);
   float* const s = const_cast<float*>(g.grid.s);
   for (int i = 0; i < g.n; ++i) s[i] += 0.25f + more;
   g.run(compiled.shader());
-  const float* const out = g.output(output);
+  const float* const out = g.output(outputNamed(compiled, output));
   return {out, out + g.grid.count};
 }
 
@@ -139,8 +139,8 @@ TEST(WrittenSlopes, AreThoseOfDifferences) {
     const CompiledText compiled(text.text());
     ASSERT_TRUE(compiled.good()) << compiled.said() << text.text();
     constexpr float kAside = 4;
-    const std::vector<float> slope = given(compiled, 1, 0), below = given(compiled, 0, -kAside),
-                             above = given(compiled, 0, kAside);
+    const std::vector<float> slope = given(compiled, "y", 0), below = given(compiled, "x", -kAside),
+                             above = given(compiled, "x", kAside);
     for (size_t i = 0; i < slope.size(); ++i) {
       const float should = 1000 * 4 * (above[i] - below[i]) / (2 * kAside);  // du is 1/4
       ASSERT_NEAR(slope[i], should, 0.02f + 0.02f * std::abs(should)) << "seed " << seed << ", point " << i << "\n"

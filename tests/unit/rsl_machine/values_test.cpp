@@ -151,24 +151,13 @@ TEST_F(Values, ParametersAreUniformOrVaryingAndMayBeAssigned) {
   EXPECT_EQ(fake.params[0].c[0][3], 3) << "what is given stays";
 }
 
-TEST_F(Values, OutputsStartWithTheirDefaultInCurrentSpace) {
+TEST_F(Values, OutputsStartWithTheirDefault) {
   const int32_t color = output({1, 2, 3});
   (void)color;
-  b.parameter("place", Base::Point, {1, 1, 1}, true);
-  fake.services.transform = [](void*, const TmGrid* g, int32_t kind, const char* from, const char* to, TmConstVec3 in,
-                               TmVec3 o) -> int32_t {
-    EXPECT_STREQ(from, "shader");
-    EXPECT_STREQ(to, "current");
-    EXPECT_EQ(kind, TM_AS_POINT);
-    for (int i = 0; i < g->count; ++i)
-      if (g->active[i]) rsl::set(o, i, rsl::get(in, i) + rsl::Vec3{0, 0, 5});
-    return 1;
-  };
   fake.active[1] = 0;
   run();
   expect({out(0, 0), out(0, 0, 1), out(0, 0, 2)}, {1, 2, 3});
-  expect({out(1, 0), out(1, 0, 1), out(1, 0, 2)}, {1, 1, 6});
-  EXPECT_EQ(out(1, 1), 0) << "not active";
+  EXPECT_EQ(out(0, 1), 0) << "not active";
 }
 
 TEST_F(Values, OutputsThatNobodyWantsAreNotStored) {

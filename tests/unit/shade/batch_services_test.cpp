@@ -171,5 +171,11 @@ TEST_F(BatchServices, PrintingIsForThePointsOfTheMask) {
             "0.000000 at 0.000000 0.000000 5.000000 in here\n0.250000 at 0.000000 0.000000 5.000000 in here\n");
 }
 
+TEST_F(BatchServices, ATextThatEndsItsLineIsPrintedWithoutAnEmptyOne) {
+  ::testing::internal::CaptureStderr();
+  asked(1, [](sl::Surface& s) { s.printf("%f\n", s.u); });
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "0.000000\n");
+}
+
 }  // namespace
 }  // namespace tomales

@@ -165,10 +165,18 @@ void travelling(const TmGrid* g) {
 }
 const rsl::Shader travellingShader(TM_SURFACE, "travelling", "", 0, travelling, {&there, &kind});
 
+// Ci: the right upper corner of the picture in screen space; Oi: its centre in current space.
+void cornering(const TmGrid* g) {
+  for (int32_t i = 0; i < g->n; ++i) rsl::store(g->Ci, i, {1, 0, 0}), rsl::store(g->Oi, i, {0.5f, 0.5f, 0});
+  g->call->transform(g->host, g, TM_AS_POINT, "NDC", "screen", rsl::view(g->Ci), g->Ci);
+  g->call->transform(g->host, g, TM_AS_POINT, "NDC", "current", rsl::view(g->Oi), g->Oi);
+}
+const rsl::Shader corneringShader(TM_SURFACE, "cornering", "", 0, cornering, {});
+
 class Spaces : public Stage {
  protected:
   Spaces() {
-    static const TmShader* const shaders[] = {travellingShader};
+    static const TmShader* const shaders[] = {travellingShader, corneringShader};
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     scene.options.projection = ProjectionKind::Perspective;
@@ -206,6 +214,14 @@ TEST_F(Spaces, ProjectedSpacesKeepCameraDepth) {
   expectColor(travel("raster"), {100 + 0.2f * 50, 50 - 0.4f * 50, 5}, 1e-3f);
   expectColor(travel("NDC"), {0.55f, 0.3f, 5});
   expectColor(travel("screen"), {0.2f, 0.4f, 5});
+}
+
+// RISpec table 4.1: z is 0 at the near clipping plane. Lens flares ask for the corners of the picture in this way.
+TEST_F(Spaces, AProjectedPointOfDepthZeroLiesOnTheNearPlane) {
+  surface("cornering", {});
+  const ShadedPoints out = shade(points({vec3(1, 2, 5)}));
+  expectColor(out.color(0), {2, 1, scene.options.nearClip}, 1e-4f);   // the screen window of 200 x 100 pixels
+  expectColor(out.opacity(0), {0, 0, scene.options.nearClip}, 1e-4f);
 }
 
 TEST_F(Spaces, AnUnknownSpaceCopies) { expectColor(travel("nowhere"), {1, 2, 5}); }

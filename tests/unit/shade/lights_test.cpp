@@ -212,7 +212,7 @@ TEST_F(Lights, ShadowsOfMapsThatCannotBeReadAreTraced) {
   light("shadowspot", {number("intensity", 25), to});
   expectColor(shadeOne(), vec3(3 * 0.25f + 1));
   EXPECT_EQ(services.shadowRays, 3);
-  EXPECT_EQ(log.count("shadow-map sun.shd") + log.count("shadow-map a.shd"), 2);
+  EXPECT_EQ(log.count("shadow-map"), 2);
   EXPECT_TRUE(system().needsRays());
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "reyes/shader.h"
+#include "reyes/shader_registry.h"
 #include "tests/unit/shade/installed_headers.h"
 #include "tests/unit/shade/stage.h"
 

@@ -4,6 +4,7 @@
 
 #include "places.h"
 #include "reyes/shader.h"
+#include "reyes/shader_registry.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -103,7 +104,7 @@ TEST_F(Roles, AnIndirectLightOfAnyNameIsKnownForOne) {
   EXPECT_EQ(system().indirectQuery(0)->samples, 77);
   EXPECT_EQ(system().indirectQuery(0)->bounces, 3);
   ASSERT_TRUE(system().indirectRequest());
-  EXPECT_EQ(system().indirectRequest()->hitRadiance, HitRadianceChoice::Points);
+  EXPECT_EQ(system().indirectRequest()->method, giMethodNamed("points"));
   EXPECT_EQ(system().indirectRequest()->atlas, "clouds");
   EXPECT_EQ(system().indirectRequest()->bounces, 3);
   services.E = vec3(1);

@@ -247,7 +247,7 @@ TEST_F(Sl, ALightThatReturnsNanIsDarkAndNamed) {
   light("nanlight"), light("distantlight");
   expectColor(shadeOne(), vec3(1));
   ASSERT_EQ(log.entries().size(), 1u);
-  EXPECT_EQ(log.entries()[0].code, "shader-not-finite-nanlight");
+  EXPECT_EQ(log.entries()[0].code, "shader-not-finite");
 }
 
 TEST_F(Sl, ShadersLearnOfAttributesOptionsAndEachOther) {

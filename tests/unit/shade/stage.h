@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "reyes/shade.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 

@@ -157,7 +157,7 @@ TEST_F(Pictures, WhatIsMissingOrTruncatedIsMagentaAndReported) {
     std::string bytes((std::istreambuf_iterator<char>(in)), {});
     std::ofstream(folder / ("cut" + type), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
     EXPECT_EQ(at(("cut" + type).c_str(), 0.5f, 0.9f), (std::array<float, 3>{1, 0, 1})) << type;
-    EXPECT_EQ(log.count("texture-missing cut" + type), 1);
+    EXPECT_NE(log.entries().back().message.find("cut" + type), std::string::npos);
   }
   EXPECT_EQ(log.worst(), Severity::Missing);
   EXPECT_EQ(filesInCache(), 0u);

@@ -1,4 +1,4 @@
-#include "reyes/shade/plugin_trial.h"
+#include "reyes/base/plugin_trial.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -7,8 +7,8 @@
 
 #include <cstring>
 
+#include "reyes/base/plugin_trial_socket.h"
 #include "reyes/base/process.h"
-#include "reyes/shade/plugin_trial_socket.h"
 
 namespace tomales {
 namespace {

@@ -1,0 +1,77 @@
+// The methods of indirect light, as the command line (--gi) and indirect lights ("radiance") name them. What a method
+// needs beside rays is made by its row in reyes/app/frame/light_sources.cpp.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace tomales {
+
+enum class GiMode {
+  None,       ///< Direct light only: indirect lights give nothing.
+  Gather,     ///< One bounce, shaded hits, irradiance caching.
+  Atlas,      ///< All bounces: gather rays look up the irradiance of photons in brick maps; irradiance caching.
+  Radiosity,  ///< One bounce from baked direct light, in textures or brick maps; irradiance caching.
+  Baked,      ///< All light from brick maps that were gathered for earlier frames (irradiance-atlas 6.3): no rays.
+  Reference,  ///< Brute-force path tracing of the same transport: unbiased for diffuse surfaces.
+};
+
+struct GiMethod {
+  const char* name;                ///< For --gi.
+  GiMode mode;                     ///< How it is carried out.
+  const char* radiance = nullptr;  ///< The "radiance" of an indirect light that asks for it; null: no light can.
+  bool caches = false;             ///< Light is gathered in irradiance records before the frame is shaded.
+  bool hitsHoldAll = false;        ///< What gather rays meet holds the light of all bounces.
+  bool makesMaps = false;          ///< It makes maps of all objects first, which takes memory,
+  bool byPointClouds = false;      ///< of the point clouds of --atlas.
+  bool usesBaked = false;          ///< Light comes from the maps of --baked.
+  bool fullGeometry = false;       ///< Rays see micropolygons unless --ray-geometry says otherwise.
+  bool isReference = false;        ///< Direct light has as many samples as there are paths.
+};
+
+inline constexpr GiMethod kGiMethods[] = {
+    {.name = "none", .mode = GiMode::None},
+    {.name = "gather", .mode = GiMode::Gather, .radiance = "shader", .caches = true},
+    {.name = "atlas",
+     .mode = GiMode::Atlas,
+     .radiance = "atlas",
+     .caches = true,
+     .hitsHoldAll = true,
+     .makesMaps = true},
+    {.name = "points",
+     .mode = GiMode::Atlas,
+     .radiance = "points",
+     .caches = true,
+     .hitsHoldAll = true,
+     .makesMaps = true,
+     .byPointClouds = true},
+    {.name = "radiosity", .mode = GiMode::Radiosity, .radiance = "radiosity", .caches = true, .hitsHoldAll = true},
+    {.name = "baked", .mode = GiMode::Baked, .usesBaked = true},
+    {.name = "reference", .mode = GiMode::Reference, .fullGeometry = true, .isReference = true},
+};
+
+/// Null: there is none.
+constexpr const GiMethod* giMethodNamed(std::string_view name) {
+  for (const GiMethod& m : kGiMethods)
+    if (name == m.name) return &m;
+  return nullptr;
+}
+constexpr const GiMethod* giMethodOfRadiance(std::string_view radiance) {
+  for (const GiMethod& m : kGiMethods)
+    if (m.radiance && radiance == m.radiance) return &m;
+  return nullptr;
+}
+/// The first that is carried out so.
+constexpr const GiMethod& giMethodOf(GiMode mode) {
+  const GiMethod* m = kGiMethods;
+  while (m->mode != mode) ++m;
+  return *m;
+}
+
+/// For help: "none, gather".
+inline std::string giMethodNames() {
+  std::string out;
+  for (const GiMethod& m : kGiMethods) out += (out.empty() ? "" : ", ") + std::string(m.name);
+  return out;
+}
+
+}  // namespace tomales

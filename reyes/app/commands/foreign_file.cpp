@@ -1,0 +1,66 @@
+#include "reyes/app/commands/foreign_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+namespace tomales {
+namespace {
+
+struct Foreign {
+  std::string_view endings;  ///< With blanks around each.
+  const char* what;
+  const char* remedy;  ///< {} stands for the file.
+};
+
+constexpr const char* kExport = "export the scene as RIB from the program that made it";
+constexpr const char* kModel = "it holds geometry alone: export it as RIB from a modeller, with a camera and lights";
+constexpr Foreign kForeign[] = {
+    {" .sl ", "the text of a shader",
+     "Surface \"NAME\" in a scene beside it uses it; tomales compile {} checks it, tomales shadetest {} runs it"},
+    {" .slo .sdr .slx .slc .sdl ", "a shader that another renderer has compiled",
+     "put the text of the shader, its .sl, beside the scene that names it"},
+    {" .oso .osl ", "a shader in Open Shading Language", "shaders are written in RenderMan's language (.sl) or in C++"},
+    {" .so .dylib .dll ", "a plugin", "a scene names what it needs of it; tomales info {} says what it holds"},
+    {" .dfb ", "a deep frame buffer", "tomales shade {} -o FILE.exr makes a picture of it"},
+    {" .icf ", "an irradiance cache",
+     "tomales shade SHOT.dfb --irradiance {} uses it, tomales view {} -o FILE.png shows it"},
+    {" .ptc .bkm ", "a point cloud or brick map", "tomales view {} -o FILE.png shows it"},
+    {" .obj ", "a model in Wavefront's format", kModel},
+    {" .ply .stl .off .3ds ", "a model", kModel},
+    {" .fbx .gltf .glb .dae .abc ", "a model or scene in a format for exchange", kExport},
+    {" .usd .usda .usdc .usdz ", "a stage of OpenUSD", kExport},
+    {" .blend .ma .mb .max .hip .hipnc .c4d .xsi .lwo ", "a modeller's own file", kExport},
+    {" .pbrt .mi .pov .ass .vrscene .nk ", "a scene for another program", "only RIB is read"},
+    {" .exr .tif .tiff .png .jpg .jpeg .tx .tex .hdr .tga ", "a picture",
+     "tomales info {} describes it; a scene uses it as a texture"},
+    {" .py ", "a program in Python",
+     "run it with python3; if it writes RIB, render what it writes, or: python3 {} | tomales -"},
+    {" .zip .tar .tgz .7z .rar ", "an archive of files", "unpack it and render a RIB file in it"},
+};
+
+}  // namespace
+
+bool isForeign(const std::string& file, Log& log) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending.empty() || ending.find(' ') != std::string::npos) return false;
+  const auto* kind = std::find_if(std::begin(kForeign), std::end(kForeign), [&](const Foreign& f) {
+    return f.endings.find(" " + ending + " ") != std::string_view::npos;
+  });
+  if (kind == std::end(kForeign)) return false;
+  std::string remedy = kind->remedy;
+  for (size_t at = remedy.find("{}"); at != std::string::npos; at = remedy.find("{}", at + file.size()))
+    remedy.replace(at, 2, file);
+  log.report(Severity::Error, "not-rib", {std::make_shared<const std::string>(file), 0},
+             fmt::format("is {} by its name, and no RIB: {}", kind->what, remedy));
+  return true;
+}
+
+bool isAnyForeign(const std::vector<std::string>& files, Log& log) {
+  return std::count_if(files.begin(), files.end(), [&](const std::string& f) { return isForeign(f, log); }) > 0;
+}
+
+}  // namespace tomales

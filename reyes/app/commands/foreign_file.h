@@ -1,0 +1,15 @@
+// Files that are given where a RIB file is wanted.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "reyes/base/log.h"
+
+namespace tomales {
+
+/// Is the file, by the ending of its name, of a kind that holds no RIB? Then this is reported, with what it is and what
+/// can be done with it.
+bool isForeign(const std::string& file, Log& log);
+bool isAnyForeign(const std::vector<std::string>& files, Log& log);
+
+}  // namespace tomales

@@ -1,0 +1,12 @@
+// How --help looks: options in groups, those that are wanted every day on one screen, an example for each command.
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace tomales {
+
+/// Puts --help and --help-all into this form, for the commands that are added afterwards too.
+void setHelp(CLI::App& program);
+/// Sorts the options of all commands into their groups, and adds the examples. After all commands have been added.
+void finishHelp(CLI::App& program);
+
+}  // namespace tomales

@@ -1,0 +1,28 @@
+// Which plugins may be loaded. A plugin is native code, while a scene, which names plugins and search paths, may come
+// from a stranger.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace tomales {
+
+struct PluginTrust {
+  std::string folders{};      ///< Folders that the user named, separated by colons: searched before those of the scene.
+  bool sceneFolders = false;  ///< Folders that the scene names, and the working folder, are trusted too.
+};
+
+struct PluginFiles {
+  std::vector<std::string> trusted;
+  std::vector<std::string> refused;  ///< Those of folders that are not trusted, if none is trusted.
+};
+
+/// NAME.so in the folders of a search path.
+std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath);
+/// NAME.so in the trusted folders, then along the scene's search path (empty: the working folder). A name with ".." and
+/// an absolute one lead out of the trusted folders, so those are not searched for it.
+PluginFiles findPlugins(const std::string& name, const std::string& searchPath, const PluginTrust& trust);
+
+/// Does the name of a plugin lead out of the folders that it is looked for in?
+bool leavesFolders(const std::string& name);
+
+}  // namespace tomales

@@ -1,0 +1,63 @@
+// Shaders by name: those of the program, of plugins, and of texts in RSL. Threads: any.
+#pragma once
+#include <memory>
+#include <span>
+
+#include "reyes/base/log.h"
+#include "reyes/base/plugin_trust.h"
+#include "reyes/rsl.h"
+#include "reyes/shader_api.h"
+
+namespace tomales {
+
+/// "surface" ... "imager".
+const char* kindName(TmKind kind);
+/// Of a TmRole; null: there is none of this number.
+const char* roleName(int32_t role);
+/// Parameters that every shader of a kind understands, whether or not it declares them.
+std::span<const TmParamDecl> standardParams(TmKind kind);
+
+/// What a request names.
+struct ShaderName {
+  std::string name;
+  TmKind kind;
+  std::string beside{};  ///< The folder of the file that names it; empty: none does.
+};
+
+/// Built-ins and plugins come through the same table.
+class ShaderRegistry {
+ public:
+  explicit ShaderRegistry(Log& log, PluginTrust trust = {});
+  ~ShaderRegistry();
+  /// Checks versions and sizes before anything else is touched; later libraries win over earlier names.
+  bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
+  /// Opens a .so and adds it. False and a message if it is not a shader plugin of this ABI.
+  bool loadPlugin(const std::string& path);
+  /// Adds the shaders of a compiled .sl file, which then come before others of their names.
+  bool addText(std::shared_ptr<const RslFile> file, const std::string& path);
+  /// By name and kind. Shaders that have been loaded come first, and built-in ones whose look RISpec fixes; then
+  /// NAME.so in the trusted folders; then NAME.sl along `searchPath` (the scene's; folders separated by colons, empty:
+  /// the working folder), in the trusted folders and in `beside`, the folder of the file that names it; then other
+  /// built-in ones; then NAME.so along `searchPath`. A plugin in a folder that is not trusted is reported, once, and
+  /// not loaded; so is one outside of a trusted folder that a name with ".." or an absolute name leads to. A .sl that
+  /// has errors is reported with all of them.
+  const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
+                       const std::string& beside = {});
+  /// Compiles the texts of these at once, on all threads, so that find() only has to look. It says nothing: find()
+  /// answers, and tells what is wrong, as it would without.
+  void prepare(const std::vector<ShaderName>& names, const std::string& searchPath);
+  /// The folders where find() looks for the text of a shader.
+  std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
+  /// Of a shader that find() has not found: what there is of that name or a similar one, as the end of a message.
+  std::string hintOfMissing(const std::string& name, TmKind kind, const std::string& searchPath,
+                            const std::string& beside) const;
+  std::vector<const TmShader*> all() const;
+  /// What addLibrary() was told of a shader, or the file that it is from.
+  std::string originOf(const TmShader& shader) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,102 @@
+"""How scenes of others end: exit codes, messages a scene, and silent failures.
+
+    tests/bench/public_scenes.py build/release/tomales FOLDER ... [--seconds 60] [--list] [-- --pixel-samples 1x1 ...]
+
+Every RIB file in the folders that has a world is rendered at 160 x 120 in a copy of its folder, from where it lies, as one would do by hand; files of
+the same bytes count once. What follows -- goes to the renderer. A message is a line that ends with its code in brackets: one for each cause, however
+often it came. A failure is silent if the exit code is 0 and there is no message, though no picture was written or every pixel of the first is black or
+empty. --list prints a line for each scene.
+"""
+import argparse
+import collections
+import gzip
+import hashlib
+import json
+import pathlib
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+
+MESSAGE = re.compile(r"\[([a-z][a-z0-9-]*)\]$")
+SIZE = "160x120"
+
+
+def text_of(file):
+    data = file.read_bytes()
+    try:
+        return gzip.decompress(data) if data[:2] == b"\x1f\x8b" else data
+    except (OSError, EOFError):
+        return data
+
+
+def scenes_of(folder):
+    """Paths in the folder, one for each content."""
+    seen = {}
+    for file in sorted(p for p in folder.rglob("*") if p.is_file() and (p.suffix.lower() == ".rib" or p.name.lower().endswith(".rib.gz"))):
+        text = text_of(file)
+        if b"WorldBegin" in text:
+            seen.setdefault(hashlib.sha256(text).hexdigest(), file)
+    return sorted(seen.values())
+
+
+def is_dark(program, picture):
+    channels = json.loads(subprocess.run([program, "info", "--json", picture], capture_output=True, text=True, check=True).stdout)["channels"]
+    return all(c["max"] <= 0 for c in channels if c["name"] in "RGB")
+
+
+def render(program, scene, arguments, seconds, scratch):
+    picture = scratch / "picture.exr"
+    picture.unlink(missing_ok=True)
+    command = [program, scene.name, "-o", picture, "--format", SIZE, *arguments]
+    try:
+        done = subprocess.run(command, cwd=scene.parent, capture_output=True, text=True, errors="replace", timeout=seconds, stdin=subprocess.DEVNULL)
+    except subprocess.TimeoutExpired:
+        return {"code": "timeout", "codes": [], "silent": False}
+    codes = [m.group(1) for m in map(MESSAGE.search, done.stderr.splitlines()) if m]
+    silent = done.returncode == 0 and not codes and (not picture.exists() or is_dark(program, picture))
+    return {"code": done.returncode, "codes": codes, "silent": silent}
+
+
+def row(name, results):
+    codes = collections.Counter(str(r["code"]) for r in results)
+    counts = [len(r["codes"]) for r in results]
+    others = ", ".join(f"{k}: {v}" for k, v in sorted(codes.items()) if k not in ("0", "2", "3"))
+    return (f"| {name} | {len(results)} | {codes['0']} | {codes['3']} | {codes['2']} | {others or 'none'} | {statistics.median(counts):g} | "
+            f"{max(counts)} | {sum(r['silent'] for r in results)} |")
+
+
+def main():
+    arguments = sys.argv[1:]
+    rest = arguments[arguments.index("--") + 1:] if "--" in arguments else []
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("folders", type=pathlib.Path, nargs="+")
+    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--list", action="store_true")
+    given = parser.parse_args(arguments[:arguments.index("--")] if "--" in arguments else arguments)
+    program = given.program.resolve()
+    everything, rows, kinds = [], [], collections.Counter()
+    for folder in given.folders:
+        with tempfile.TemporaryDirectory() as temporary:
+            copy = pathlib.Path(temporary) / folder.name
+            shutil.copytree(folder, copy, symlinks=True, ignore=shutil.ignore_patterns(".git"))
+            results = []
+            for scene in scenes_of(copy):
+                results.append(render(program, scene, rest, given.seconds, pathlib.Path(temporary)))
+                kinds.update(set(results[-1]["codes"]))
+                if given.list:
+                    r = results[-1]
+                    print(r["code"], len(r["codes"]), "SILENT" if r["silent"] else "", scene.relative_to(copy), collections.Counter(r["codes"]).most_common(4), flush=True)
+        if results:
+            rows.append(row(folder.name, results))
+            everything += results
+    print("| scenes of | scenes | exit 0 | exit 3 | exit 2 | other ends | messages a scene, median | most | silent failures |\n|---|---|---|---|---|---|---|---|---|")
+    print("\n".join([*rows, row("all", everything)]))
+    print("\nscenes with a message of the code: " + ", ".join(f"{code} {n}" for code, n in kinds.most_common(25)))
+
+
+if __name__ == "__main__":
+    main()

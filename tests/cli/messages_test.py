@@ -1,0 +1,97 @@
+"""What a stranger is told: each cause once, what helps, what a scene needs, what is built in, and what the options are."""
+import json
+
+from program import GOOD, Suite
+
+t = Suite()
+
+
+def lines_with(result, *texts):
+    return [line for line in result.stderr.splitlines() if all(text in line for text in texts)]
+
+
+def scene(world):
+    return 'Display "x.exr" "file" "rgba" Format 16 16 1 Translate 0 0 4 WorldBegin LightSource "distantlight" 1 ' + world + " WorldEnd\n"
+
+
+# One message for each shader, however the file is broken into lines.
+seven = scene(" ".join(f'Surface "rock{n}" Sphere 1 -1 1 360' for n in range(7)))
+t.write("line.rib", seven)
+t.run("catrib", "--binary", "line.rib", "-o", "binary.rib")
+for file in ("line.rib", "binary.rib"):
+    told = t.expect_run(f"seven shaders that are not there, {file}", [file], 3)
+    t.expect(len(lines_with(told, "[shader-missing]")) == 7, "are seven messages: " + told.stderr)
+    t.expect(all(lines_with(told, f'"rock{n}"') for n in range(7)), "which name them")
+
+# One message for one shader, however often it is asked for.
+t.write("many.rib", scene("\n".join('Surface "rock" "Kd" [%g] Sphere 1 -1 1 360' % (0.01 * n) for n in range(93))))
+told = t.expect_run("one shader that 93 lines ask for", ["many.rib"], 3)
+missing = lines_with(told, "[shader-missing]")
+t.expect(len(missing) == 2 and "is unknown" in missing[0] and missing[0].startswith("many.rib:1:"), "is one message: " + told.stderr)
+t.expect(missing[-1].startswith("tomales: 93 times:") and "many.rib:1, many.rib:2, many.rib:3, many.rib:4, ..." in missing[-1], "with its count and first places at the end: " + missing[-1])
+
+# Frames over one picture.
+t.write("frames.rib", "\n".join(f"FrameBegin {n}\n{GOOD}FrameEnd" for n in range(1, 21)))
+told = t.expect_run("twenty frames over one picture", ["frames.rib", "--format", "4x4"], 0)
+t.expect(len(lines_with(told, "written over")) == 2 and lines_with(told, "tomales: 19 times:", "written over"), "are one message and its count: " + told.stderr)
+
+# What is missing: where it was looked for, and what lies near.
+(t.folder / "shaders").mkdir()
+t.write("shaders/rock.sl", "surface rock() { Ci = Cs; Oi = 1; }")
+t.write("near.rib", scene('Surface "rock" Sphere 1 -1 1 360 Surface "Plastik" Sphere 1 -1 1 360 Surface "fog" Sphere 1 -1 1 360 Surface "rock" Sphere 1 -1 1 360'))
+told = t.expect_run("shaders that are not found", ["near.rib"], 3, '"shaders/rock.sl" is there, in a folder that is not searched', 'did you mean "plastic"?',
+                    "the shader of that name is a volume", "looked for as NAME.sl in", "--shaders FOLDER")
+t.expect(len(lines_with(told, "[shader-folders]")) == 1, "are told where they were looked for once: " + told.stderr)
+t.expect_run("and are found there, when the folder is named", ["near.rib", "--shaders", "shaders"], 3)
+t.write("part.rib", "Sphere 1 -1 1 360\n")
+t.write("wood.tif", "no picture")
+t.write("files.rib", scene('ReadArchive "Part.rib" ReadArchive "nowhere.rib" Surface "paintedplastic" "string texturename" ["wood.tx"] Sphere 1 -1 1 360'))
+told = t.expect_run("an archive and a picture that are not found", ["files.rib"], 3, 'there is "part.rib"', 'there is "wood.tif"', "looked for in .", "not found in .")
+
+# What a scene needs.
+needs = t.expect_run("info of a scene", ["info", "near.rib"], 3, "missing: 3 of 4")
+t.expect(any(line.split()[:3] == ["missing", "surface", "rock"] and "near.rib:1" in line for line in needs.stdout.splitlines()), "says what is missing and where it is named: " + needs.stdout)
+t.expect(any(line.split() == ["found", "light", "distantlight", "built-in"] for line in needs.stdout.splitlines()), "and what is built in")
+t.write("delayed.rib", 'Surface "rock" Sphere 1 -1 1 360 ReadArchive "deep.rib"\n')
+t.write("all.rib", scene('ReadArchive "part.rib" Procedural "DelayedReadArchive" ["delayed.rib"] [-1 1 -1 1 -1 1] Procedural "RunProgram" ["ls" "x"] [-1 1 -1 1 -1 1] Surface "plastic" Sphere 1 -1 1 360'))
+told = json.loads(t.expect_run("info --json of a scene", ["info", "all.rib", "--json", "--shaders", "shaders"], 3).stdout)
+found = {(n["kind"], n["name"]): n["found"] for n in told["needs"]}
+t.expect(found == {("archive", "part.rib"): True, ("archive", "delayed.rib"): True, ("archive", "deep.rib"): False, ("program", "ls"): False,
+                   ("light", "distantlight"): True, ("surface", "plastic"): True, ("surface", "rock"): True} and told["missing"] == 2, f"knows archives, programs and shaders: {told['needs']}")
+t.expect(next(n["from"] for n in told["needs"] if n["name"] == "rock") == "shaders/rock.sl", "and where they are")
+t.write("maps.rib", 'FrameBegin 1\n' + scene("Sphere 1 -1 1 360").replace("x.exr", "made.exr") + 'FrameEnd MakeTexture "made.exr" "made.tex" "black" "black" "box" 1 1 FrameBegin 2\n'
+        + scene('Surface "paintedplastic" "string texturename" ["made.tex"] Sphere 1 -1 1 360 Surface "paintedplastic" "string texturename" ["other.tex"] Sphere 1 -1 1 360') + "FrameEnd\n")
+told = json.loads(t.expect_run("info of a scene that makes its maps", ["info", "maps.rib", "--json"], 3).stdout)
+t.expect({n["name"]: n["found"] for n in told["needs"] if n["kind"] == "texture"} == {"made.tex": True, "other.tex": False}, f"knows which: {told['needs']}")
+t.expect_run("info of a scene that has everything", ["info", "frames.rib"], 0, "missing: 0 of 2")
+
+# What is built in.
+told = t.expect_run("info of a built-in shader", ["info", "plastic"], 0, "roughness", "specularcolor", "default")
+t.expect_run("info of a shader's text by its name", ["info", "rock", "--shaders", "shaders"], 0, "shaders/rock.sl")
+t.expect_run("info of a shader that there is not", ["info", "plastik"], 2, 'did you mean "plastic"?', "tomales list shaders")
+for kind, name in {"shaders": "plastic", "surfaces": "disney", "lights": "indirectlight", "displacements": "bumpy", "volumes": "fog", "imagers": "background", "displays": "openexr", "filters": "mitchell"}.items():
+    t.expect_run("list " + kind, ["list", kind], 0, name)
+lights = json.loads(t.expect_run("list --json", ["list", "lights", "--json"], 0).stdout)
+spot = next(light for light in lights if light["name"] == "spotlight")
+cone = next(p for p in spot["parameters"] if p["name"] == "coneangle")
+t.expect(cone["type"] == "float" and len(cone["default"]) == 1 and cone["doc"], f"has types, defaults and words: {cone}")
+t.expect(all(light["doc"] and all(p["doc"] for p in light["parameters"]) for light in lights), "of every light and parameter")
+t.expect_run("list of what there is not", ["list", "gremlins"], 1, "shaders", "filters")
+
+# What is no scene.
+for file, says in {"rock.sl": "tomales compile", "rock.slo": ".sl", "house.obj": "geometry alone", "house.usda": "OpenUSD", "house.blend": "export the scene as RIB",
+                   "x.exr": "tomales info x.exr", "shot.dfb": "tomales shade shot.dfb", "house.PY": "python3"}.items():
+    t.expect_run(file + " is no scene", [file], 2, "no RIB", says)
+    t.expect_run(file + " is none to hide", ["hide", file, "-o", "house.dfb"], 2, "no RIB")
+
+# Help.
+brief, whole = t.run("render", "--help").stdout, t.run("render", "--help-all").stdout
+t.expect(len(brief.splitlines()) <= 60 and "--samples" in brief and "--brick-cache" not in brief and "--help-all" in brief, f"render --help fits a screen: {len(brief.splitlines())} lines")
+t.expect("--brick-cache" in whole and "--samples" in whole, "and --help-all has the rest")
+t.expect(brief.index("Picture:") < brief.index("--format") < brief.index("Light:") < brief.index("--gi") < brief.index("Run:") < brief.index("--progress"), "in groups")
+commands = [line.split()[0] for line in t.run("--help").stdout.split("Subcommands:")[1].splitlines() if line.startswith("  ") and not line.startswith("   ")]
+commands = [c for c in commands if c.isalpha()]
+t.expect({"render", "list", "view"} <= set(commands), f"the commands are listed: {commands}")
+for command in commands:
+    t.expect(f"Examples:\n  tomales {'' if command == 'render' else command + ' '}" in t.run(command, "--help").stdout, f"{command} has an example")
+t.finish()
