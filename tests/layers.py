@@ -44,6 +44,7 @@ THIRD_PARTY = {
     "xxhash.h": ["reyes/base/checksum.cpp"],
     "hwy/": ["reyes/base/vector.h"],
     "zlib.h": ["reyes/rib/stream.cpp"],
+    "zip.h": ["reyes/rib/zip_member.cpp"],
 }
 
 bad = []

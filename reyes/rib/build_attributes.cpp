@@ -256,9 +256,7 @@ void attribute(GraphicsState& s, const Request& r) {
     } else {
       s.scope.edit().user[key] = p;
       // Cryptomatte reads the second (reyes/frame/write_frame.cpp).
-      if (category != "user" && key != "identifier:shadinggroup")
-        s.warnOnce("Attribute " + key, r, "rib-unknown-attribute",
-                   "Attribute \"" + key + "\" has no effect here" + reasonFor("Attribute " + key));
+      if (category != "user" && key != "identifier:shadinggroup") warnOfIgnored(s, r, key);
     }
   }
 }

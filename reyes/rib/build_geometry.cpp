@@ -72,13 +72,9 @@ PrimPtr patch(const Request& r, const Scope& s, Problems& problems) {
 }
 
 PrimPtr patchMesh(const Request& r, const Scope& s, Problems& problems) {
-  const auto periodic = [&](size_t i) {
-    const std::string& wrap = r.args[i].strings[0];
-    if (wrap != "periodic" && wrap != "nonperiodic") throw PrimError("unknown wrap \"" + wrap + "\"");
-    return wrap == "periodic";
-  };
   const int nu = r.args[1].integer(), nv = r.args[3].integer();
-  const bool uPeriodic = periodic(2), vPeriodic = periodic(4);
+  const bool uPeriodic = isPeriodic(r.args[2].strings[0], problems),
+             vPeriodic = isPeriodic(r.args[4].strings[0], problems);
   if (bicubic(r)) return makeBicubicPatchMesh(nu, uPeriodic, s.uBasis, nv, vPeriodic, s.vBasis, r.params, problems);
   return makeBilinearPatchMesh(nu, uPeriodic, nv, vPeriodic, r.params, problems);
 }

@@ -130,8 +130,8 @@ Master::Shapes SceneBuilder::buildShapes(const Keys& keys, const std::vector<flo
 }
 
 PrimPtr SceneBuilder::buildShape(const Request& r, const MotionKeys& motion) {
-  if (isEmptyMesh(r)) {
-    state_.log.report(Severity::Warning, "rib-empty-mesh", r.where, description(r) + ": it has no faces");
+  if (const char* what = emptyOf(r)) {
+    state_.log.report(Severity::Warning, "rib-empty-mesh", r.where, description(r) + ": it has no " + what);
     return nullptr;
   }
   if (hasNoArea(r)) {

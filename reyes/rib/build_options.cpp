@@ -211,6 +211,7 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
       s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {
     return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" ||
+
            key == "texture:width" || key == "texture:filter" || key == "limits:texturememory" ||
            key == "limits:geocachememory" || key == "ribparse:varsubst";
   }
@@ -222,9 +223,7 @@ void option(GraphicsState& s, const Request& r) {
   for (const Param& p : r.params) {
     const std::string key = category + ":" + p.name;
     s.globals.options.user[key] = p;
-    if (!knownOption(s, r, key, p))
-      s.warnOnce("Option " + key, r, "rib-unknown-option",
-                 "Option \"" + key + "\" has no effect here" + reasonFor("Option " + key));
+    if (!knownOption(s, r, key, p)) warnOfIgnored(s, r, key);
   }
 }
 
@@ -234,6 +233,15 @@ float clamped(GraphicsState& s, const Request& r, float value, float least, floa
   const float out = std::clamp(value, least, most);
   if (out != value) s.warn(r, "rib-clamped", fmt::format("{} is out of range, {} is used", value, out));
   return out;
+}
+
+void warnOfIgnored(GraphicsState& s, const Request& r, const std::string& key) {
+  const std::string what = r.name + " " + key, reason = reasonFor(what);
+  const bool option = r.name == "Option";
+  const char* code = reason.empty() ? option ? "rib-unknown-option" : "rib-unknown-attribute"
+                     : option       ? "rib-ignored-option"
+                                    : "rib-ignored-attribute";
+  s.warnOnce(what, r, code, r.name + " \"" + key + "\" has no effect here" + reason);
 }
 
 const HandlerTable& optionHandlers() {

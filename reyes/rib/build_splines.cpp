@@ -11,6 +11,12 @@ NurbsDirection nurbsDirection(const Request& r, size_t first) {
 
 }  // namespace
 
+bool isPeriodic(const std::string& wrap, Problems& problems) {
+  if (wrap != "periodic" && wrap != "nonperiodic")
+    problems.push_back("unknown wrap \"" + wrap + "\"; it is taken for nonperiodic");
+  return wrap == "periodic";
+}
+
 PrimPtr nuPatch(const Request& r, const Scope& s, Problems& problems) {
   return makeNuPatch(nurbsDirection(r, 0), nurbsDirection(r, 5), *s.trim, r.params, problems);
 }
@@ -20,11 +26,10 @@ PrimPtr points(const Request& r, const Scope&, Problems& problems) { return make
 PrimPtr curves(const Request& r, const Scope& s, Problems& problems) {
   const std::string &type = r.args[0].strings[0], &wrap = r.args[2].strings[0];
   if (type != "linear" && type != "cubic") throw PrimError("unknown type of curve \"" + type + "\"");
-  if (wrap != "periodic" && wrap != "nonperiodic") throw PrimError("unknown wrap \"" + wrap + "\"");
   // Ribbons that have a normal of their own cannot be round.
   const bool round = s.roundCurves && !findParam(r.params, "N");
-  return (round ? makeTubes : makeCurves)(type == "cubic", s.vBasis, r.args[1].integers, wrap == "periodic", r.params,
-                                          problems);
+  return (round ? makeTubes : makeCurves)(type == "cubic", s.vBasis, r.args[1].integers, isPeriodic(wrap, problems),
+                                          r.params, problems);
 }
 
 }  // namespace tomales::rib

@@ -24,11 +24,16 @@ Request between(Request a, const Request& b, float t) {
 
 }  // namespace
 
-bool isEmptyMesh(const Request& r) {
+const char* emptyOf(const Request& r) {
   static constexpr std::string_view kMeshes[] = {"PointsPolygons", "PointsGeneralPolygons", "SubdivisionMesh",
                                                  "HierarchicalSubdivisionMesh"};
-  if (std::find(std::begin(kMeshes), std::end(kMeshes), r.name) == std::end(kMeshes)) return false;
-  return r.args[r.name.ends_with("SubdivisionMesh") ? 1 : 0].integers.empty();
+  if (r.name == "Points") {
+    const Param *p = findParam(r.params, "P"), *positions = p ? p : findParam(r.params, "Pw");
+    return positions && positions->floats.empty() ? "points" : nullptr;
+  }
+  if (r.name == "Curves") return r.args[1].integers.empty() ? "curves" : nullptr;
+  if (std::find(std::begin(kMeshes), std::end(kMeshes), r.name) == std::end(kMeshes)) return nullptr;
+  return r.args[r.name.ends_with("SubdivisionMesh") ? 1 : 0].integers.empty() ? "faces" : nullptr;
 }
 
 bool hasNoArea(const Request& r) {

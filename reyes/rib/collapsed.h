@@ -5,7 +5,8 @@
 namespace tomales::rib {
 
 /// Writers leave these where an object has vanished: nothing is missing from the picture.
-bool isEmptyMesh(const Request& r);
+/// What it has none of ("faces"); null: it has some.
+const char* emptyOf(const Request& r);
 /// A quadric whose radius, height or sweep is 0.
 bool hasNoArea(const Request& r);
 

@@ -55,7 +55,8 @@ constexpr Standard kStandard[] = {
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
-     "searchpath:resource searchpath:texturecache shade:specular texture:filter searchpath:dirmap ribparse:varsubst "
+     "searchpath:resource searchpath:texturecache shade:specular texture:filter "
+     "searchpath:dirmap ribparse:varsubst "
      "bucket:order statistics:filename statistics:xmlfilename"},
     {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset texture:width"},
     {"string",
@@ -63,15 +64,17 @@ constexpr Standard kStandard[] = {
      "displacementbound:coordinatesystem "
      "light:shadows indirect:surface photon:globalmap photon:causticmap photon:shadingmodel "
      "dice:strategy trimcurve:sense shade:strategy shade:diffusehitmode shade:specularhitmode "
-     "shade:transmissionhitmode shade:camerahitmode"},
+     "shade:transmissionhitmode shade:camerahitmode render:casts_shadows"},
     {"float",
      "displacementbound:sphere bound:displacement trace:bias trace:offset trace:tessellation indirect:gain "
      "indirect:bleeding "
-     "irradiance:maxerror irradiance:maxpixeldist irradiance:shadingrate radiosity:screentexels radiosity:worldtexels"},
+     "irradiance:maxerror irradiance:maxpixeldist irradiance:shadingrate radiosity:screentexels radiosity:worldtexels "
+     "shade:relativeshadingrate shade:resetrelativeshadingrate"},
     {"color", "indirect:bleedingcolor"},
     {"int",
      "visibility:camera visibility:diffuse visibility:specular visibility:transmission visibility:photon "
-     "visibility:midpoint visibility:trace trace:displacements trace:samplemotion trace:maxdiffusedepth "
+     "visibility:midpoint visibility:trace visibility:indirect trace:displacements trace:samplemotion "
+     "trace:maxdiffusedepth "
      "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair dice:roundcurve cull:hidden "
      "cull:backfacing derivatives:centered derivatives:extrapolate photon:estimator irradiance:nsamples "
      "stitch:enable sides:doubleshaded"},
@@ -139,7 +142,10 @@ bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool&
 
 Dictionary::Dictionary() {
   for (const Standard& s : kStandard)
-    for (const std::string_view name : words(s.names)) declare(std::string(name), s.declaration);
+    for (const std::string_view name : words(s.names)) {
+      declare(std::string(name), s.declaration);
+      (*names_)[std::string(name)].standard = true;
+    }
 }
 
 bool Dictionary::declare(const std::string& name, const std::string& declaration) {
@@ -190,7 +196,7 @@ std::optional<Declaration> Dictionary::find(const std::string& token, const std:
   if (list.size() < 2 || !takeClassAndType(list, d, typed) || list.size() != 1) return std::nullopt;
   name = list[0];
   const Declaration* known = typed ? nullptr : declared(name);
-  if (known) d = {d.storage, known->type, known->arrayLength, d.reference};
+  if (known) d = {d.storage, known->type, known->arrayLength, false, d.reference};
   return d;
 }
 

@@ -14,6 +14,7 @@ struct Declaration {
   Storage storage = Storage::Uniform;
   ValueType type = ValueType::Float;
   int arrayLength = 1;
+  bool standard = false;   ///< Neither inline nor by Declare: the type that such a name has as a rule.
   bool reference = false;  ///< "reference color c": a string that stands in for a value of the type.
 };
 

@@ -4,6 +4,8 @@
 
 namespace tomales::rib {
 
+/// Of "periodic" and "nonperiodic"; anything else is taken for the second, which is a problem.
+bool isPeriodic(const std::string& wrap, Problems& problems);
 PrimPtr nuPatch(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr points(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr curves(const Request& request, const Scope& scope, Problems& problems);

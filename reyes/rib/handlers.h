@@ -54,6 +54,9 @@ inline vec3 asVec3(const RibArg& a, size_t at = 0) { return {a.numbers[at], a.nu
 mat4 asMatrix(const std::vector<float>& sixteen);
 /// Says so where it changes the value.
 float clamped(GraphicsState& state, const Request& request, float value, float least, float most);
+/// Once for each "category:name" of an Option or Attribute. Where something else does what it asks for, that is said,
+/// and nothing is wrong with the picture.
+void warnOfIgnored(GraphicsState& state, const Request& request, const std::string& key);
 ShaderCall makeShaderCall(const GraphicsState& state, const Request& request);
 
 }  // namespace tomales::rib

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "reyes/base/near_names.h"
+#include "reyes/rib/handlers.h"
+
 namespace tomales::rib {
 namespace {
 
@@ -61,10 +64,15 @@ void Parser::skipToKnownRequest(bool reportUnknown) {
   for (; !at(Kind::End); lexer_.advance()) {
     if (!at(Kind::Name)) continue;
     if (findSignature(lexer_.peek().text)) return;
-    if (reportUnknown || looksLikeRequest(lexer_.peek().text))
-      warn("rib-unknown-request", here(), fmt::format("unknown request {}, ignored", lexer_.peek().text.substr(0, 40)));
+    if (reportUnknown || looksLikeRequest(lexer_.peek().text)) unknownRequest(lexer_.peek().text);
     reportUnknown = false;
   }
+}
+
+void Parser::unknownRequest(const std::string& name) const {
+  warn("rib-unknown-request", here(),
+       fmt::format("unknown request {}, ignored{}", name.substr(0, 40), didYouMean(name, requestNames())),
+       Severity::Missing);
 }
 
 bool Parser::readArguments(const Signature& signature) {
@@ -191,6 +199,7 @@ bool Parser::readParameter(const std::string& category) {
   const SourceLoc where = here();
   Param param;
   const auto declaration = dictionary_.find(token, category, param.name);
+  const bool valuesTell = valuesTellTypeOf(token), declared = declaration && !(declaration->standard && valuesTell);
   if (declaration) {
     param.storage = declaration->storage;
     param.type = declaration->reference ? ValueType::String : declaration->type;
@@ -198,23 +207,33 @@ bool Parser::readParameter(const std::string& category) {
   }
   lexer_.advance();
   if (!readValues(param)) return fail(fmt::format("a value of \"{}\"", token));
-  if (!declaration && token.starts_with("__"))
-    keepPrivate(token, std::move(param));
-  else if (!declaration)
-    warn("rib-undeclared", where,
-         fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)));
-  else if (fitsDeclaration(token, param)) {
-    if (declaration->reference) request_.references.emplace_back(param.name, declaration->type);
-    request_.params.push_back(std::move(param));
-  }
+  if (!declaration && !valuesTell)
+    return warn("rib-undeclared", where,
+                fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)),
+                Severity::Missing),
+           true;
+  if (!declared && !(declaration && valuesFit(param))) param = typedByValues(token, std::move(param));
+  if (!fitsDeclaration(token, param)) return true;
+  if (declaration && declaration->reference) request_.references.emplace_back(param.name, declaration->type);
+  if (!declared && !isGeometry(request_.name)) param.arrayLength = 0;
+  request_.params.push_back(std::move(param));
   return true;
 }
 
-// Bridges from modellers leave marks for themselves: "__instanceid".
-void Parser::keepPrivate(const std::string& token, Param param) {
-  param.name = token;
-  param.type = param.strings.empty() ? ValueType::Float : ValueType::String;
-  if (param.strings.empty() || param.floats.empty()) request_.params.push_back(std::move(param));
+// A primitive variable has a class, which its values do not show. All else need not be declared: shaders, options and
+// attributes have types of their own, and bridges from modellers leave marks for themselves ("__instanceid").
+bool Parser::valuesTellTypeOf(const std::string& token) const {
+  const bool bare = token.find_first_of(" \t\r\n[]") == std::string::npos;
+  return bare && (token.starts_with("__") || !isGeometry(request_.name));
+}
+
+Param Parser::typedByValues(const std::string& name, Param values) {
+  Param out;
+  out.name = name;
+  out.type = values.strings.empty() ? ValueType::Float : ValueType::String;
+  out.floats = std::move(values.floats), out.strings = std::move(values.strings);
+  out.floats.insert(out.floats.end(), values.ints.begin(), values.ints.end());
+  return out;
 }
 
 bool Parser::readValues(Param& param) {
@@ -235,19 +254,27 @@ bool Parser::readValues(Param& param) {
   return true;
 }
 
-bool Parser::fitsDeclaration(const std::string& token, const Param& param) const {
-  const bool wantsStrings = param.type == ValueType::String;
-  const size_t numbers = param.ints.size() + param.floats.size(), strings = param.strings.size();
-  const size_t count = wantsStrings ? strings : numbers;
-  const bool mixed = (wantsStrings ? numbers : strings) > 0;
+size_t Parser::widthOf(const Param& param) const {
   const bool color = param.type == ValueType::Color;
-  const auto width = static_cast<size_t>(color ? dictionary_.colorSamples() * param.arrayLength : param.width());
-  if (!mixed && count % width == 0) return true;
+  return static_cast<size_t>(color ? dictionary_.colorSamples() * param.arrayLength : param.width());
+}
+
+bool Parser::valuesFit(const Param& param) const {
+  const size_t numbers = param.ints.size() + param.floats.size(), strings = param.strings.size();
+  const bool text = param.type == ValueType::String;
+  return (text ? numbers : strings) == 0 && (text ? strings : numbers) % widthOf(param) == 0;
+}
+
+bool Parser::fitsDeclaration(const std::string& token, const Param& param) const {
+  if (valuesFit(param)) return true;
+  const bool text = param.type == ValueType::String;
+  const size_t numbers = param.ints.size() + param.floats.size(), strings = param.strings.size();
+  const bool mixed = (text ? numbers : strings) > 0;
   warn("rib-parameter", request_.where,
        mixed ? fmt::format("{}: \"{}\" takes {}; the parameter is ignored", request_.name, token,
-                           wantsStrings ? "strings, not numbers" : "numbers, not strings")
+                           text ? "strings, not numbers" : "numbers, not strings")
              : fmt::format("{}: \"{}\" has {} values, not a multiple of {}; the parameter is ignored", request_.name,
-                           token, count, width));
+                           token, text ? strings : numbers, widthOf(param)));
   return false;
 }
 

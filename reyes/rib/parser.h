@@ -33,6 +33,7 @@ class Parser {
   /// Reports what is wrong with the request; always false.
   bool fail(const std::string& expected);
   void skipToKnownRequest(bool reportUnknown);
+  void unknownRequest(const std::string& name) const;
 
   bool readArguments(const Signature& signature);
   bool readArgument(char letter);
@@ -42,9 +43,14 @@ class Parser {
   bool readArray(RibArg::Kind kind);
   bool readParameters(const std::string& category);
   bool readParameter(const std::string& category);
-  void keepPrivate(const std::string& token, Param param);
+  /// Is the token a name whose type the values show, if it is declared nowhere?
+  bool valuesTellTypeOf(const std::string& token) const;
+  static Param typedByValues(const std::string& name, Param values);
   /// Numbers into `ints` or `floats`, by the parameter's type.
   bool readValues(Param& param);
+  size_t widthOf(const Param& param) const;  ///< Numbers in one element, as they are written.
+  bool valuesFit(const Param& param) const;
+  /// The same, with a message if they do not.
   bool fitsDeclaration(const std::string& token, const Param& param) const;
 
   Lexer lexer_;

@@ -6,7 +6,7 @@
 #include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/rib/reader.h"
-#include "reyes/rib/zip.h"
+#include "reyes/rib/zip_member.h"
 
 namespace tomales::rib {
 namespace {
@@ -21,6 +21,12 @@ std::string canonical(const std::string& path) {
   std::error_code error;
   const fs::path out = fs::weakly_canonical(path, error);
   return error ? path : out.string();
+}
+
+/// Of a member of a zip file, that of the zip file.
+std::string folderOf(const std::string& path) {
+  const std::string zip = zipOf(path);
+  return fs::path(zip.empty() ? path : zip).parent_path().string();
 }
 
 }  // namespace
@@ -77,8 +83,7 @@ void Reader::readArchiveFile(const Request& r, const std::string& name) {
     report(Severity::Missing, "rib-missing-archive", r,
            quoted + "is missing or unreadable, looked for in " + listOfFolders(foldersFor("archive")) +
                hintOfMissing(name, {".rib"}, foldersFor("archive")) + "; nothing is read in its place");
-  else if (mayEnter(r, canonical(path), kFileCost) &&
-           read(*stream, path, canonical(path), fs::path(path).parent_path()) == 0)
+  else if (mayEnter(r, canonical(path), kFileCost) && read(*stream, path, canonical(path), folderOf(path)) == 0)
     report(Severity::Missing, "rib-empty", r, quoted + "holds no RIB request that could be read");
 }
 
@@ -134,8 +139,7 @@ std::string Reader::findFile(const std::string& written, const char* category) c
   const std::string name = mapped(written, builder_.dirMap());
   std::error_code ignored;
   for (const fs::path folder : foldersFor(category))
-    if (const fs::path path = folder / name;
-        fs::is_regular_file(path, ignored) || fs::is_regular_file(fileOfMember(path.string()), ignored))
+    if (const fs::path path = folder / name; fs::is_regular_file(path, ignored) || !zipOf(path.string()).empty())
       return path.string();
   return "";
 }

@@ -195,6 +195,16 @@ const Signature* findSignature(std::string_view name) {
   return it == index.end() ? nullptr : &it->second;
 }
 
+const std::vector<std::string>& requestNames() {
+  static const auto names = [] {
+    std::vector<std::string> out;
+    for (const Signature& s : kTable) out.emplace_back(s.name);
+    for (const Quadric& q : quadrics()) out.emplace_back(q.name);
+    return out;
+  }();
+  return names;
+}
+
 }  // namespace tomales::rib
 
 std::string tomales::ribRequests() {

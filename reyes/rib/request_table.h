@@ -1,7 +1,9 @@
 // The signatures of every request of RISpec 3.2 and of PRMan's extensions. The parser needs them for all
 // requests, also for those that are not rendered: only a signature tells where a request ends.
 #pragma once
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace tomales::rib {
 
@@ -26,5 +28,7 @@ struct Signature {
 
 /// Null: no such request.
 const Signature* findSignature(std::string_view name);
+/// Of all that findSignature() finds.
+const std::vector<std::string>& requestNames();
 
 }  // namespace tomales::rib

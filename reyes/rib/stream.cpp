@@ -8,7 +8,7 @@
 #include <new>
 
 #include "reyes/base/stop.h"
-#include "reyes/rib/zip.h"
+#include "reyes/rib/zip_member.h"
 
 namespace tomales::rib {
 namespace {
@@ -33,11 +33,11 @@ ByteStream::~ByteStream() = default;
 std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
   std::error_code ignored;
   if (path != "-" && std::filesystem::is_directory(path, ignored)) return nullptr;
+  if (path != "-" && !std::filesystem::exists(path, ignored))
+    if (const ZipSource source = openZipMember(path, kHarmless_bytes, kLargestRatio))
+      return std::unique_ptr<ByteStream>(new ByteStream(source));
   std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
-  if (!file) {
-    Source member = zipMember(path);
-    return member ? std::unique_ptr<ByteStream>(new ByteStream(std::move(member))) : nullptr;
-  }
+  if (!file) return nullptr;
   const std::shared_ptr<std::FILE> owner(file, [](std::FILE* f) {
     if (f != stdin) std::fclose(f);
   });
@@ -64,7 +64,8 @@ bool ByteStream::fill() {
   throwIfStopped();
   if (closed_) return false;
   if (!inflater_) {
-    const size_t n = source_(raw_.get(), kBufferSize);
+    size_t n = source_(raw_.get(), kBufferSize);
+    if (n == kBrokenZip) damaged_ = true, n = 0;
     next_ = raw_.get();
     end_ = next_ + n;
     const bool isGzip = !started_ && n >= 2 && raw_[0] == '\x1f' && raw_[1] == '\x8b';
@@ -86,7 +87,8 @@ bool ByteStream::inflateMore() {
   while (z.avail_out == kBufferSize && !damaged_ && inflater.ready) {
     if (z.avail_in == 0) {
       z.next_in = reinterpret_cast<Bytef*>(raw_.get());
-      z.avail_in = static_cast<uInt>(source_(raw_.get(), kBufferSize));
+      const size_t n = source_(raw_.get(), kBufferSize);
+      z.avail_in = n == kBrokenZip ? 0 : static_cast<uInt>(n);
       inflater.in += z.avail_in;
       if (z.avail_in == 0) {
         damaged_ = !inflater.memberEnded;
@@ -106,7 +108,7 @@ bool ByteStream::inflateMore() {
 }
 
 std::string ByteStream::damage() const {
-  if (inflater_->out <= kHarmless_bytes) return "damaged or cut off";
+  if (!inflater_ || inflater_->out <= kHarmless_bytes) return "damaged or cut off";
   return "a bomb or damaged: it swells beyond " + std::to_string(kHarmless_bytes >> 20) + " MiB and " +
          std::to_string(kLargestRatio) + " times its size";
 }

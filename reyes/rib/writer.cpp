@@ -170,9 +170,10 @@ class Writer : public RiSink {
     }
   }
 
-  // A name with blanks or brackets cannot be declared inline: its Declare is among the requests.
+  // What was written bare stays bare. A name with blanks or brackets cannot be declared inline: its Declare is among
+  // the requests.
   void parameter(const Param& p, const Request& r) {
-    const bool inlined = p.name.find_first_of(" \t\r\n[]") == std::string::npos;
+    const bool inlined = p.arrayLength > 0 && p.name.find_first_of(" \t\r\n[]") == std::string::npos;
     const auto reference =
         std::find_if(r.references.begin(), r.references.end(), [&](const auto& f) { return f.first == p.name; });
     encoding_->token(out_, !inlined ? p.name

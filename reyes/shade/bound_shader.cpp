@@ -4,6 +4,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "reyes/base/near_names.h"
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shader_registry.h"
@@ -96,7 +97,7 @@ class Binding {
 
   void bind() {
     const TmShader& shader = *bound_.shader;
-    const auto n = static_cast<size_t>(shader.paramCount);
+    const size_t n = paramCount();
     bound_.floats.resize(n), bound_.strings.resize(n), bound_.values.resize(n + 1);
     bound_.values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // to read it is to crash
     for (size_t i = 0; i < n; ++i) bindDeclared(shader.params[i], i);
@@ -153,9 +154,16 @@ class Binding {
   void warnOfUnknown(const Param& p, std::span<const TmParamDecl> standard) {
     const bool known = declares(p.name) || std::any_of(standard.begin(), standard.end(),
                                                        [&](const TmParamDecl& d) { return d.name == p.name; });
-    if (!known && p.storage != Storage::Constant)  // constants are those of a primitive, which no shader need have
-      warn("shader-parameter-unknown", p.name, fmt::format("has no parameter \"{}\"; it is ignored", p.name));
+    if (known || p.storage == Storage::Constant)
+      return;  // constants are those of a primitive, which no shader need have
+    std::vector<std::string> names;
+    for (const std::span<const TmParamDecl> list : {std::span(bound_.shader->params, paramCount()), standard})
+      for (const TmParamDecl& d : list) names.emplace_back(d.name);
+    warn("shader-parameter-unknown", p.name,
+         fmt::format("has no parameter \"{}\"; it is ignored{}", p.name, didYouMean(p.name, names)));
   }
+
+  size_t paramCount() const { return static_cast<size_t>(bound_.shader->paramCount); }
 
   bool declares(std::string_view name) const {
     const TmShader& shader = *bound_.shader;

@@ -46,6 +46,11 @@ void takeStrings(const TmParamDecl& declared, const Param* given, ParameterValue
     out.remark = fmt::format("has {} strings and was given {}", length, given->strings.size());
 }
 
+/// Is it the type as it stands? What nothing declares is what the shader says, as far as it is numbers or strings.
+bool agrees(int32_t type, const Param& given) {
+  return accepts(type, given.type) || (given.arrayLength == 0 && given.strings.empty() == (type != TM_STRING));
+}
+
 /// May numbers of this type stand where values of `width` floats are wanted?
 bool converts(const Param& given, size_t numbers, size_t width, size_t wanted) {
   const auto own = given.type == ValueType::HPoint ? 3 : static_cast<size_t>(floatsPerValue(given.type));
@@ -55,7 +60,7 @@ bool converts(const Param& given, size_t numbers, size_t width, size_t wanted) {
 void takeNumbers(const TmParamDecl& declared, const Param& given, size_t width, ParameterValue& out) {
   const int32_t type = TM_TYPE_OF(declared.type);
   std::vector<float> numbers = numbersOf(given);
-  if (!accepts(type, given.type) && (numbers.empty() || !converts(given, numbers.size(), width, out.floats.size()))) {
+  if (!agrees(type, given) && (numbers.empty() || !converts(given, numbers.size(), width, out.floats.size()))) {
     out.remark = fmt::format("is a {} and was given a {}; its default is used", nameOf(type), nameOf(given.type));
     return;
   }
@@ -66,7 +71,7 @@ void takeNumbers(const TmParamDecl& declared, const Param& given, size_t width, 
   if (numbers.size() != out.floats.size())
     out.remark = fmt::format("takes {} numbers and was given {}{}", out.floats.size(), count,
                              taken == 0 ? "; its default is used" : "");
-  else if (!accepts(type, given.type))
+  else if (!agrees(type, given))
     out.remark = fmt::format("is a {} and was given a {}, which is converted", nameOf(type), nameOf(given.type));
 }
 

@@ -65,8 +65,51 @@ TEST(Parser, KnowsTheNamesOfACategoryOnlyThere) {
   const Requests r("Attribute \"visibility\" \"camera\" 0\nSurface \"matte\" \"camera\" 0");
   ASSERT_EQ(r.list.size(), 2u);
   EXPECT_EQ(r.list[0].params.at(0).ints, std::vector<int>{0});
-  EXPECT_TRUE(r.list[1].params.empty());
-  EXPECT_EQ(r.log.count("rib-undeclared"), 1);
+  EXPECT_EQ(r.list[1].params.at(0).floats, std::vector<float>{0});
+}
+
+TEST(Parser, WhatIsDeclaredNowhereHasTheTypeOfItsValues) {
+  const Requests r(
+      "Surface \"disney\" \"metallic\" 1 \"tint\" [1 0 .5] \"map\" \"a.tex\" \"Kd\" [.1 .2]\n"
+      "Attribute \"render\" \"casts_shadows\" \"none\"\n"
+      "Attribute \"visibility\" \"transmission\" [\"opaque\"] \"camera\" 0\n"
+      "Option \"mine\" \"all\" [\"a\" \"b\"] \"sizes\" [1 2]\n");
+  EXPECT_TRUE(r.log.entries().empty());
+  ASSERT_EQ(r.list.size(), 4u);
+  const ParamList& disney = r.list[0].params;
+  ASSERT_EQ(disney.size(), 4u);
+  for (const Param& p : disney) EXPECT_EQ(p.arrayLength, 0) << p.name;
+  EXPECT_EQ(disney[1].floats, (std::vector<float>{1, 0, .5f}));
+  EXPECT_EQ(disney[2].type, ValueType::String);
+  EXPECT_EQ(disney[3].floats, (std::vector<float>{.1f, .2f})) << "a shader may have a Kd of its own";
+  EXPECT_EQ(r.list[1].params.at(0).strings, std::vector<std::string>{"none"});
+  EXPECT_EQ(r.list[2].params.at(0).strings, std::vector<std::string>{"opaque"}) << "it is a number as a rule";
+  EXPECT_EQ(r.list[2].params.at(1).ints, std::vector<int>{0});
+  EXPECT_EQ(r.list[3].params.at(0).strings.size(), 2u);
+}
+
+TEST(Parser, WhatDeclareOrTheRequestSaysIsDeclared) {
+  const Requests r("Declare \"glow\" \"uniform color\"\nSurface \"x\" \"float Kd\" 1 \"Ka\" 1");
+  ASSERT_EQ(r.list.size(), 2u);
+  EXPECT_EQ(r.list[1].params.at(0).arrayLength, 1);
+  EXPECT_EQ(r.list[1].params.at(1).arrayLength, 0) << "RISpec's type is that of its own shaders";
+}
+
+TEST(Parser, APrimitiveVariableThatIsNotDeclaredIsMissing) {
+  const Requests r("Sphere 1 -1 1 360 \"fuzz\" [1 2 3 4] \"__mine\" [1]\nSurface \"x\" \"flaot Kd\" 1");
+  EXPECT_EQ(r.list.at(0).params.size(), 1u);
+  EXPECT_TRUE(r.list.at(1).params.empty());
+  EXPECT_EQ(r.log.count("rib-undeclared"), 2);
+  EXPECT_EQ(r.log.worst(), Severity::Missing);
+}
+
+TEST(Parser, AnUnknownRequestIsMissingAndANearNameIsSaid) {
+  const Requests r("Shpere 1 -1 1 360\ncolor 1 0 0\nWobble 1");
+  ASSERT_EQ(r.log.entries().size(), 3u);
+  EXPECT_EQ(r.log.worst(), Severity::Missing);
+  EXPECT_NE(r.log.entries()[0].message.find("did you mean \"Sphere\"?"), std::string::npos);
+  EXPECT_NE(r.log.entries()[1].message.find("did you mean \"Color\"?"), std::string::npos);
+  EXPECT_EQ(r.log.entries()[2].message.find("did you mean"), std::string::npos);
 }
 
 TEST(Parser, ParametersOfTheStandardShadersNeedNoDeclaration) {
@@ -99,10 +142,11 @@ TEST(Parser, ReadsInlineDeclarations) {
 }
 
 TEST(Parser, DropsOnlyTheParameterThatIsWrong) {
-  const Requests r("Surface \"x\" \"Ka\" [\"one\"] \"unheardof\" [1] \"Kd\" 0.5 \"lightcolor\" [1 1]");
+  const Requests r("Surface \"x\" \"float Ka\" [\"one\"] \"mixed\" [1 \"one\"] \"Kd\" 0.5 \"color tint\" [1 1]");
   ASSERT_EQ(r.list.size(), 1u);
   ASSERT_EQ(r.list[0].params.size(), 1u);
   EXPECT_EQ(r.list[0].params[0].name, "Kd");
+  EXPECT_EQ(r.log.count("rib-parameter"), 3);
 }
 
 TEST(Parser, TurnsNumbersIntoHandles) {

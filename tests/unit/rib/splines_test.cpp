@@ -96,8 +96,25 @@ TEST(Geometry, CubicCurvesTakeTheBasisOfV) {
 TEST(Geometry, CurvesThatAreNoneAreDroppedByName) {
   const Reading r(
       inWorld("Curves \"linear\" [1] \"nonperiodic\" \"P\" [0 0 0]\nCurves \"round\" [2] \"nonperiodic\" \"P\" "
-              "[0 0 0 1 0 0]\nCurves \"linear\" [2] \"around\" \"P\" [0 0 0 1 0 0]\nPoints \"P\" []"));
-  EXPECT_EQ(r.log.count("rib-object-dropped"), 4);
+              "[0 0 0 1 0 0]\nPoints"));
+  EXPECT_EQ(r.log.count("rib-object-dropped"), 3);
+}
+
+TEST(Geometry, UnknownWrapsAreNonperiodicWithAWarning) {
+  const Reading r(
+      inWorld("Curves \"linear\" [2] \"around\" \"P\" [0 0 0 1 0 0]\n"
+              "PatchMesh \"bilinear\" 2 \"nowrap\" 2 \"nonperiodic\" \"P\" [0 0 0 1 0 0 0 1 0 1 1 0]"));
+  ASSERT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_EQ(r.object(1).shape().patchCount(), 1u);
+  EXPECT_EQ(r.log.worst(), Severity::Warning);
+  EXPECT_NE(r.log.entries().at(1).message.find("nowrap"), std::string::npos);
+}
+
+TEST(Geometry, NoPointsAndNoCurvesAreNothingAndNothingIsMissing) {
+  const Reading r(inWorld("Points \"P\" []\nCurves \"linear\" [] \"nonperiodic\" \"P\" []\nSphere 1 -1 1 360"));
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+  EXPECT_EQ(r.log.count("rib-empty-mesh"), 2);
+  EXPECT_EQ(r.log.worst(), Severity::Warning);
 }
 
 TEST(Geometry, PointsTurnToTheEyeThroughTheirTransformation) {

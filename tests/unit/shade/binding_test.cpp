@@ -85,6 +85,14 @@ TEST_F(Binding, UnknownAndMistypedParametersAreWarnedAboutAndDefaulted) {
   EXPECT_EQ(log.count("shader-parameter-type"), 1);
 }
 
+TEST_F(Binding, ANearNameIsSaidOfAParameterThatNoShaderHas) {
+  surface("matte", {number("Kdd", 3), number("fuzziness", 3)});
+  shadeOne();
+  ASSERT_EQ(log.entries().size(), 2u);
+  EXPECT_NE(log.entries()[0].message.find("did you mean \"Kd\"?"), std::string::npos) << log.entries()[0].message;
+  EXPECT_EQ(log.entries()[1].message.find("did you mean"), std::string::npos);
+}
+
 TEST_F(Binding, WhatAPrimitiveHasAndTheShaderHasNotIsNoMistake) {
   Param ofPrimitive = number("Kx", 3);
   ofPrimitive.storage = Storage::Constant;
@@ -106,6 +114,35 @@ Param given(ValueType type, std::vector<float> floats) {
   Param p;
   p.name = "x", p.type = type, p.floats = std::move(floats);
   return p;
+}
+
+TEST(ParameterValues, WhatNothingDeclaresIsWhatTheShaderSays) {
+  const auto bare = [](ValueType type, std::vector<float> floats) {
+    Param p = given(type, std::move(floats));
+    p.arrayLength = 0;
+    return p;
+  };
+  struct Case {
+    int32_t type;
+    Param from;
+    std::vector<float> to;
+    bool remarked;
+  };
+  const std::vector<Case> cases = {
+      {TM_COLOR, bare(ValueType::Float, {1, 2, 3}), {1, 2, 3}, false},
+      {TM_COLOR, bare(ValueType::Float, {2}), {2, 2, 2}, false},
+      {TM_NORMAL, bare(ValueType::Color, {1, 2, 3}), {1, 2, 3}, false},
+      {TM_FLOAT, bare(ValueType::Float, {7}), {7}, false},
+      {TM_COLOR, bare(ValueType::Float, {1, 2}), {0, 0, 0}, true},
+      {TM_FLOAT, bare(ValueType::Float, {1, 2}), {1}, true},
+  };
+  for (const Case& c : cases) {
+    const ParameterValue value = parameterValue({"x", c.type, 1, nullptr, nullptr, ""}, &c.from);
+    EXPECT_EQ(value.floats, c.to) << c.type;
+    EXPECT_EQ(!value.remark.empty(), c.remarked) << value.remark;
+  }
+  Param number = bare(ValueType::Float, {1});
+  EXPECT_FALSE(parameterValue({"x", TM_STRING, 1, nullptr, nullptr, ""}, &number).remark.empty());
 }
 
 TEST(ParameterValues, NumbersAreConvertedWhereTheSpecificationAllows) {

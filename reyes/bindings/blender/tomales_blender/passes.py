@@ -61,7 +61,7 @@ class Passes:
             if p.name not in layer.passes:
                 continue
             if p.variable == "z":
-                planes = [numpy.where(numpy.isfinite(channels["z"]), channels["z"], 1e10)]
+                planes = [numpy.where(numpy.isfinite(channels["Z"]), channels["Z"], 1e10)]
             else:
                 suffixes = "xyz" if f"{p.variable}.x" in channels else "XYZ" if f"{p.variable}.X" in channels else "RGB"
                 planes = [channels[f"{p.variable}.{c}"] for c in suffixes]
