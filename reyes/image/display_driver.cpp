@@ -42,7 +42,7 @@ std::string suppliedDriver(const std::string& type) {
 
 struct DisplayDriver::Impl {
   explicit Impl(const std::string& plugin) : name(plugin) {
-    if (const std::string problem = start(); !problem.empty()) fail(problem);
+    if (const std::string why = start(); !why.empty()) fail(why);
   }
   ~Impl() { end(); }
 

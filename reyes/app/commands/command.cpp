@@ -115,7 +115,6 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
       ->type_name("SHOT.icf");
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
-  c->add_option("--baked", in.render.bakedFolder, "Brick maps of gathered light, for --gi baked")->type_name("FOLDER");
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
   addShotOptions(*c, in.render);

@@ -40,10 +40,6 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
   }
 }
 
-bool hasGeometry(const Scene& scene) {
-  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.shapes.empty(); });
-}
-
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
   if (const auto strange = maps.strange(world))
     log.report(
@@ -127,8 +123,7 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Shadi
     return nullptr;
   }
   try {
-    AtlasSettings atlas = atlasSettings(settings, scene, shading);
-    if (!hasGeometry(scene)) atlas.world = 0;  // what the world of a shot was is not known
+    const AtlasSettings atlas = atlasSettings(settings, scene, shading);
     auto maps = std::make_unique<const IrradianceAtlas>(
         settings.bakedFolder, scene, mapNames(scene, shading, atlas).ofSurfaces(), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);

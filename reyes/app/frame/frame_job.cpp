@@ -121,7 +121,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
                         show);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
-  if (!settings_.bakedFolder.empty() && rays_ && !interrupted())
+  if (!settings_.bakedFolder.empty() && !interrupted())
     bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);
 }
 

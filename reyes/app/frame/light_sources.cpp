@@ -25,6 +25,9 @@ void setRadiosity(GiServices& services, const FrameOfLight& frame) {
 
 /// Points are looked up and never gathered, so that there is no first time to wait for.
 void openMapsOfBaked(GiServices& services, const FrameOfLight& frame) {
+  if (!hasGeometry(frame.scene))
+    return frame.log.report(Severity::Missing, "baked-folder", {},
+                            "--gi baked is for tomales render: shaded without indirect light");
   services.setAtlas(openBaked(frame.scene, frame.shading, frame.settings, frame.log));
 }
 

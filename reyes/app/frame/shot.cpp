@@ -66,9 +66,6 @@ void ShotJob::prepareLight() {
   job_ = std::make_unique<FrameJob>(shot_.scene, settings_, stats_, log_);
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
-  if (!settings_.bakedFolder.empty() && !job_->method().usesBaked)
-    log_.report(Severity::Warning, "baked-unused", {},
-                "--baked: a shot shows what is there (--gi baked), and adds nothing; tomales render does");
   if (!irradiance_) return;
   IrradianceShot given = irradiance_->takeShot();
   if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
