@@ -1,0 +1,147 @@
+"""The render engine: a RIB file for each frame, the program tomales, and its picture in Blender's passes."""
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import tempfile
+import threading
+from pathlib import Path
+
+import bpy
+import numpy
+import tomales
+
+from .camera import UnsupportedCamera, resolution
+from .frame import Frame
+from .passes import Passes, wanted
+from .snapshot import ShapeCache, ends_in_subdivision
+
+_PERCENT = re.compile(rb"(\d+)%")
+_LOOK_S = 0.1  #: How often it is seen whether the user wants to stop.
+
+_cache = ShapeCache()  #: Of one rendering of frames; Blender makes an engine for each frame.
+_switched_off: list[tuple[bpy.types.Object, str]] = []
+
+
+class TomalesEngine(bpy.types.RenderEngine):
+    bl_idname = "TOMALES"
+    bl_label = "Tomales"
+    bl_use_preview = False
+    bl_use_shading_nodes_custom = False
+    bl_use_postprocess = True
+
+    def render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        self._messages: list[str] = []
+        settings = depsgraph.scene.tomales
+        # Blender 3.4 crashes in an animation of which a frame has no result, so there is one whatever happens.
+        result = self.begin_result(0, 0, *self._size(depsgraph.scene))
+        with tempfile.TemporaryDirectory(prefix="tomales_") as temporary:
+            folder = Path(bpy.path.abspath(settings.folder)) if settings.folder else Path(temporary)
+            try:
+                self._render(depsgraph, folder, result)
+            except (UnsupportedCamera, OSError, tomales.RiError, tomales.RendererNotFound) as problem:
+                self._error(str(problem))
+        self.end_result(result)
+
+    def _render(self, depsgraph: bpy.types.Depsgraph, folder: Path, result: bpy.types.RenderResult) -> None:
+        scene = depsgraph.scene
+        if not scene.camera:
+            return self._error("the scene has no camera")
+        name = f"{Path(bpy.data.filepath).stem or 'untitled'}.{scene.frame_current:04d}"
+        passes = Passes(depsgraph.view_layer, folder / f"{name}.exr")
+        self.update_stats("", "Writing RIB")
+        rib = Frame(self, depsgraph, folder, _cache, self._warn).write(name, passes)
+        if scene.tomales.export_only or not self._run(rib, folder, shlex.split(scene.tomales.options)):
+            return
+        to_world = numpy.array(scene.camera.matrix_world.normalized().to_3x3()) @ numpy.diag([1, 1, -1])
+        passes.read(result, to_world)
+
+    @staticmethod
+    def _size(scene: bpy.types.Scene) -> tuple[int, int]:
+        width, height = resolution(scene)
+        render = scene.render
+        if not render.use_border:
+            return width, height
+        return int(width * render.border_max_x) - int(width * render.border_min_x), int(height * render.border_max_y) - int(height * render.border_min_y)
+
+    def _run(self, rib: Path, folder: Path, options: list[str]) -> bool:
+        """Whether there is a picture. Shows progress, and ends the program when the user wants to stop."""
+        command = [tomales.program.find(), "render", "--progress", *options, *tomales.program.more_options(), str(rib)]
+        process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        reader = threading.Thread(target=self._listen, args=(process,), daemon=True)
+        reader.start()
+        while process.poll() is None:
+            reader.join(_LOOK_S)
+            self.update_progress(self._progress)
+            if self.test_break():
+                process.terminate()
+                process.wait()
+                return False
+        reader.join()
+        for message in self._messages:
+            self._warn(message)
+        if process.returncode not in (0, 3):
+            self._error(f"the renderer has ended with exit code {process.returncode}: {self._messages[-1] if self._messages else ''}")
+        return process.returncode in (0, 3)
+
+    _progress = 0.0
+
+    def _listen(self, process: subprocess.Popen) -> None:
+        """In a thread of its own: touches nothing of Blender."""
+        assert process.stdout is not None
+        for line in process.stdout:
+            percent = _PERCENT.search(line)
+            if percent and line.startswith(b"R9"):
+                self._progress = int(percent[1]) / 100
+            elif line.strip():
+                self._messages.append(line.decode(errors="replace").strip())
+
+    def _warn(self, message: str) -> None:
+        print("Tomales:", message)
+        self.report({"WARNING"}, message)
+
+    def _error(self, message: str) -> None:
+        print("Tomales:", message)
+        self.report({"ERROR"}, message)
+
+    def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
+        self.register_pass(scene, layer, "Combined", 4, "RGBA", "COLOR")
+        for p in wanted(layer):
+            self.register_pass(scene, layer, p.name, len(p.channels), p.channels, p.kind)
+
+
+@bpy.app.handlers.persistent
+def begin(scene: bpy.types.Scene, *_: object) -> None:
+    """Before frames are rendered."""
+    global _cache
+    _cache = ShapeCache()
+    if scene.render.engine == TomalesEngine.bl_idname and scene.tomales.subdivide and not _switched_off:
+        for obj in scene.objects:
+            if obj.type == "MESH" and ends_in_subdivision(obj) and obj.modifiers[-1].show_render:
+                obj.modifiers[-1].show_render = False  # the cage itself is exported
+                _switched_off.append((obj, obj.modifiers[-1].name))
+
+
+@bpy.app.handlers.persistent
+def end(*_: object) -> None:
+    """After them, or where they are cancelled."""
+    while _switched_off:
+        obj, name = _switched_off.pop()
+        obj.modifiers[name].show_render = True
+
+
+_HANDLERS = (("render_init", begin), ("render_complete", end), ("render_cancel", end))
+
+
+def register() -> None:
+    bpy.utils.register_class(TomalesEngine)
+    for name, handler in _HANDLERS:
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unregister() -> None:
+    end()
+    for name, handler in _HANDLERS:
+        getattr(bpy.app.handlers, name).remove(handler)
+    bpy.utils.unregister_class(TomalesEngine)

@@ -1,0 +1,162 @@
+"""One frame as a RIB file, with archives beside it that later frames use again."""
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+import bpy
+import tomales
+from mathutils import Matrix
+
+from . import lights
+from .camera import flat, write_camera, write_motion
+from .geometry import TIMES
+from .materials import Look, look_of
+from .passes import Passes
+from .snapshot import Placed, ShapeCache, Snapshot, take
+from .textures import Textures
+
+Warn = Callable[[str], None]
+
+
+class Frame:
+    """Writes FOLDER/NAME.rib, FOLDER/archives/HASH.rib and FOLDER/textures/HASH.exr."""
+
+    def __init__(self, engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph, folder: Path, cache: ShapeCache, warn: Warn) -> None:
+        self._engine = engine
+        self._depsgraph = depsgraph
+        self._scene = depsgraph.scene
+        self._settings = depsgraph.scene.tomales
+        self._folder = folder
+        self._cache = cache
+        self._warn = warn
+        self._textures = Textures(folder / "textures", warn)
+        self._looks: dict[str, Look] = {}
+
+    def write(self, name: str, passes: Passes) -> Path:
+        """Raises UnsupportedCamera, and OSError."""
+        camera = self._scene.camera
+        times, snapshots = self._snapshots(camera)
+        first = snapshots[0]
+        path = self._folder / f"{name}.rib"
+        self._folder.mkdir(parents=True, exist_ok=True)
+        lights.write_shaders(self._folder)
+        ri = tomales.Ri()
+        ri.Begin(path)
+        ri.Option("searchpath", {"string shader": f"{self._folder}:@", "string archive": f"{self._folder}:@"})
+        passes.write(ri)
+        self._write_options(ri)
+        if len(times) > 1:
+            ri.Shutter(times[0], times[-1])
+        write_camera(ri, self._scene, camera, self._depsgraph, times, [s.camera for s in snapshots])
+        ri.WorldBegin()
+        ri.Orientation("rh")
+        self._write_lights(ri, first)
+        self._write_objects(ri, times, snapshots)
+        ri.WorldEnd()
+        ri.End()
+        return path
+
+    # When
+
+    def _snapshots(self, camera: bpy.types.Object) -> tuple[list[float], list[Snapshot]]:
+        """At every key of the shutter, or at the frame alone."""
+        times = [0.0]
+        if self._scene.render.use_motion_blur and self._engine:
+            shutter = self._scene.render.motion_blur_shutter
+            begin = {"START": 0, "CENTER": -shutter / 2, "END": -shutter}[self._settings.shutter_position]
+            times = [begin + shutter * t for t in TIMES(self._settings.shutter_keys)]
+        frame, out = self._scene.frame_current, []
+        for time in times:
+            if len(times) > 1:
+                whole = int((frame + time) // 1)
+                self._engine.frame_set(whole, frame + time - whole)
+            out.append(take(self._depsgraph, camera, self._settings.subdivide, self._cache if len(times) == 1 else ShapeCache(), self._warn))
+        if len(times) > 1:
+            self._engine.frame_set(frame, 0.0)
+        return times, out
+
+    # Options and lights
+
+    def _write_options(self, ri: tomales.Ri) -> None:
+        s = self._settings
+        ri.PixelSamples(s.pixel_samples, s.pixel_samples)
+        ri.PixelFilter("gaussian", s.filter_width, s.filter_width)
+        ri.ShadingRate(s.shading_rate)
+
+    def _write_lights(self, ri: tomales.Ri, snapshot: Snapshot) -> None:
+        s, world = self._settings, self._scene.world
+        if s.bounces > 0:
+            ri.LightSource("indirectlight", "indirect", {"float samples": s.gather_samples, "float bounces": s.bounces})
+        sky = lights.write_world(ri, world, "world", self._textures, s.light_samples, self._warn) if world else None
+        for i, (obj, matrix) in enumerate(snapshot.lights.values()):
+            ri.AttributeBegin()
+            ri.Attribute("identifier", {"string name": obj.name})
+            lights.write_light(ri, obj.evaluated_get(self._depsgraph), matrix, f"light{i}", s.light_samples, self._warn)
+            ri.AttributeEnd()
+            ri.Illuminate(f"light{i}", 1)
+        if sky and not self._scene.render.film_transparent:
+            lights.write_sky(ri, sky, snapshot.camera, lights.SKY_RADIUS_SHARE * self._scene.camera.data.clip_end)
+
+    # Objects
+
+    def _write_objects(self, ri: tomales.Ri, times: list[float], snapshots: list[Snapshot]) -> None:
+        first = snapshots[0]
+        pieces = {(key, i): self._archive(key, i, snapshots) for key, shape in first.shapes.items() for i in range(len(shape.pieces))}
+        looks = {(key, i): self._look(shape.materials, shape.pieces[i].slot) for key, shape in first.shapes.items() for i in range(len(shape.pieces))}
+        uses = Counter(placed.shape for placed in first.placed.values())
+        objects: dict[tuple[str, int], str] = {}
+        for piece, archive in pieces.items():
+            if uses[piece[0]] > 1 and not looks[piece].emission:
+                objects[piece] = ri.ObjectBegin()
+                ri.ReadArchive(archive)
+                ri.ObjectEnd()
+        emits = {key for (key, _), look in looks.items() if look.emission}
+        for placed in sorted(first.placed.values(), key=lambda p: p.shape not in emits):
+            self._write_placed(ri, placed, times, snapshots, pieces, looks, objects)
+
+    def _write_placed(self, ri: tomales.Ri, placed: Placed, times: list[float], snapshots: list[Snapshot], pieces: dict, looks: dict, objects: dict) -> None:
+        handles = []
+        ri.AttributeBegin()
+        ri.Attribute("identifier", {"string name": placed.name})
+        if not all(placed.visibility.values()):
+            ri.Attribute("visibility", {f"int {ray}": int(seen) for ray, seen in placed.visibility.items()})
+        write_motion(ri, times, [s.placed[placed.key].matrix if placed.key in s.placed else placed.matrix for s in snapshots])
+        for piece, archive in pieces.items():
+            if piece[0] != placed.shape:
+                continue
+            look = looks[piece]
+            if look.emission:
+                handles.append(ri.AreaLightSource("arealight", {"lightcolor": look.emission, "float samples": self._settings.light_samples}))
+            look.write(ri)
+            ri.ObjectInstance(objects[piece]) if piece in objects else ri.ReadArchive(archive)
+        ri.AttributeEnd()
+        for handle in handles:
+            ri.Illuminate(handle, 1)
+
+    def _look(self, materials: list[str], slot: int) -> Look:
+        name = materials[min(slot, len(materials) - 1)] if materials else ""
+        if name not in self._looks:
+            material = next((m for m in bpy.data.materials if m.name_full == name), None)
+            evaluated = material.evaluated_get(self._depsgraph) if material else None
+            self._looks[name] = look_of(evaluated, self._textures, self._warn)
+        return self._looks[name]
+
+    def _archive(self, key: str, i: int, snapshots: list[Snapshot]) -> str:
+        """The file of a piece, below the folder. Its name tells its contents, so that it is written once."""
+        shape = snapshots[0].shapes[key]
+        known = self._cache.archives.get((key, i)) if self._cache.shapes.get(key) is shape else None
+        if known:
+            return known
+        later = [s.shapes[key].pieces[i] for s in snapshots[1:] if key in s.shapes and len(s.shapes[key].pieces) == len(shape.pieces)]
+        rib = shape.pieces[i].rib(*later)
+        name = f"archives/{hashlib.sha256(rib).hexdigest()[:20]}.rib"
+        path = self._folder / name
+        if not path.exists():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(rib)
+        if self._cache.shapes.get(key) is shape:
+            self._cache.archives[key, i] = name
+        return name

@@ -1,0 +1,194 @@
+"""Meshes, curves and points of evaluated objects as RIB.
+
+Every shape becomes one piece for each of its materials. A piece is RIB without attributes, so that it can be an archive.
+"""
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass, field
+
+import bpy
+import numpy
+import tomales
+
+
+@dataclass
+class Piece:
+    """Geometry of one material."""
+
+    slot: int
+    calls: list[tuple]  #: Of Ri: name, positional arguments, parameters. Values are arrays.
+    #: What moves: the parameters P and N of each call.
+    moving: tuple[str, ...] = ("P", "N")
+
+    def rib(self, *later: Piece) -> bytes:
+        """Binary RIB; with `later` in motion, if those are the same but for P and N."""
+        out = io.BytesIO()
+        ri = tomales.Ri()
+        ri.ErrorHandler("abort")
+        ri.Option("rib", {"string format": "binary"})
+        ri.Begin(out)
+        for i, (name, arguments, parameters) in enumerate(self.calls):
+            keys = [self] + [piece for piece in later if piece.fits(self)]
+            if len(keys) == 1 or not self._moves(i, keys[1:]):
+                getattr(ri, name)(*arguments, parameters)
+                continue
+            ri.MotionBegin(*TIMES(len(keys)))
+            for piece in keys:
+                getattr(ri, name)(*piece.calls[i][1], piece.calls[i][2])
+            ri.MotionEnd()
+        ri.End()
+        return out.getvalue()
+
+    def fits(self, other: Piece) -> bool:
+        """Whether both have the same requests with as many values."""
+        return len(self.calls) == len(other.calls) and all(
+            a[0] == b[0] and all(numpy.shape(a[2].get(k)) == numpy.shape(b[2].get(k)) for k in {*a[2], *b[2]})
+            for a, b in zip(self.calls, other.calls)
+        )
+
+    def _moves(self, i: int, later: list[Piece]) -> bool:
+        return any(not numpy.array_equal(self.calls[i][2]["P"], piece.calls[i][2]["P"]) for piece in later)
+
+
+def TIMES(count: int) -> list[float]:
+    """Keys of a shutter that opens at 0 and closes at 1."""
+    return [i / (count - 1) for i in range(count)]
+
+
+@dataclass
+class _Faces:
+    """A mesh as arrays."""
+
+    points: numpy.ndarray
+    starts: numpy.ndarray
+    counts: numpy.ndarray
+    vertices: numpy.ndarray
+    materials: numpy.ndarray
+    corners: dict[str, numpy.ndarray] = field(default_factory=dict)  #: Face-varying values, a row for each corner.
+
+    @classmethod
+    def of(cls, mesh: bpy.types.Mesh) -> _Faces:
+        return cls(
+            _values(mesh.vertices, "co", "f4", 3),
+            _values(mesh.polygons, "loop_start", "i4"),
+            _values(mesh.polygons, "loop_total", "i4"),
+            _values(mesh.loops, "vertex_index", "i4"),
+            _values(mesh.polygons, "material_index", "i4"),
+        )
+
+    def only(self, chosen: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
+        """Counts of the chosen faces, and the indices of their corners."""
+        of_corner = numpy.repeat(chosen, self.counts)
+        return self.counts[chosen], numpy.flatnonzero(of_corner)
+
+
+def _values(items, name: str, kind: str, width: int = 1) -> numpy.ndarray:
+    out = numpy.empty(len(items) * width, kind)
+    items.foreach_get(name, out)
+    return out.reshape(-1, width) if width > 1 else out
+
+
+def _add_texture_coordinates(mesh: bpy.types.Mesh, faces: _Faces) -> None:
+    """The active set as st, every set under its own name. The origin of pictures is at the top in RIB."""
+    for layer in mesh.uv_layers:
+        uv = _values(layer.data, "uv", "f4", 2)
+        uv[:, 1] = 1 - uv[:, 1]
+        faces.corners[f"facevarying float[2] uv_{_word(layer.name)}"] = uv
+        if layer.active_render:
+            faces.corners["facevarying float[2] st"] = uv
+
+
+def _add_colors(mesh: bpy.types.Mesh, faces: _Faces) -> None:
+    for layer in mesh.color_attributes:
+        color = _values(layer.data, "color", "f4", 4)[:, :3]
+        by_corner = color[faces.vertices] if layer.domain == "POINT" else color
+        faces.corners[f"facevarying color color_{_word(layer.name)}"] = by_corner
+
+
+def _word(name: str) -> str:
+    return "".join(c if c.isalnum() else "_" for c in name)
+
+
+def mesh_pieces(mesh: bpy.types.Mesh, subdivide: bool) -> list[Piece]:
+    """Polygons with their normals, or where `subdivide` a subdivision surface with its creases."""
+    faces = _Faces.of(mesh)
+    if len(faces.counts) == 0:
+        return []
+    _add_texture_coordinates(mesh, faces)
+    _add_colors(mesh, faces)
+    slots = sorted(set(faces.materials.tolist()))
+    make = _subdivision if subdivide else _polygons
+    return [Piece(slot, [make(mesh, faces, faces.materials == slot, len(slots) > 1)]) for slot in slots]
+
+
+def _polygons(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, several: bool) -> tuple:
+    counts, corners = faces.only(chosen)
+    parameters = {"P": faces.points}
+    smooth = _values(mesh.polygons, "use_smooth", "?")
+    if smooth[chosen].any() or mesh.use_auto_smooth or mesh.has_custom_normals:
+        mesh.calc_normals_split()
+        parameters["facevarying normal N"] = _values(mesh.loops, "normal", "f4", 3)[corners]
+    parameters.update({token: values[corners] for token, values in faces.corners.items()})
+    return "PointsPolygons", (counts, faces.vertices[corners]), parameters
+
+
+def _subdivision(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, several: bool) -> tuple:
+    """Faces of other materials are holes, so that the surface stays smooth across the seam."""
+    tags, counts, integers, floats = ["interpolateboundary"], [1, 0], [2], []
+    edges = _values(mesh.edges, "vertices", "i4", 2)
+    creases = _values(mesh.edges, "crease", "f4")
+    for edge in numpy.flatnonzero(creases > 0):
+        tags.append("crease")
+        counts += [2, 1]
+        integers += edges[edge].tolist()
+        floats.append(10.0 if creases[edge] >= 1 else float(creases[edge]) * 10)
+    if several:
+        holes = numpy.flatnonzero(~chosen).tolist()
+        tags.append("hole")
+        counts += [len(holes), 0]
+        integers += holes
+    parameters = {"P": faces.points, **faces.corners}
+    return "SubdivisionMesh", ("catmull-clark", faces.counts, faces.vertices, tags, counts, integers, floats), parameters
+
+
+def curve_pieces(curves: bpy.types.Curves) -> list[Piece]:
+    """Hair curves. Their radii are of the points; without them they are a millimetre wide."""
+    points = _values(curves.points, "position", "f4", 3)
+    counts = _values(curves.curves, "points_length", "i4")
+    if len(counts) == 0:
+        return []
+    radius = curves.attributes.get("radius")
+    width = 2 * _values(radius.data, "value", "f4") if radius else numpy.full(len(points), 0.001, "f4")
+    return [Piece(0, [_strands(points, counts, width)])]
+
+
+def hair_pieces(obj: bpy.types.Object, system: bpy.types.ParticleSystem) -> list[Piece]:
+    """Strands of a particle system, in the space of the object."""
+    settings = system.settings
+    steps = 2**settings.render_step + 1
+    first = len(system.particles) if system.settings.child_type != "NONE" and not settings.use_parent_particles else 0
+    count = len(system.particles) + len(system.child_particles)
+    to_object = obj.matrix_world.inverted_safe()
+    strands = [[to_object @ system.co_hair(obj, particle_no=i, step=step) for step in range(steps)] for i in range(first, count)]
+    if not strands:
+        return []
+    points = numpy.array(strands, "f4").reshape(-1, 3)
+    along = numpy.tile(numpy.linspace(0, 1, steps, dtype="f4"), len(strands))
+    root, tip = settings.root_radius * settings.radius_scale, settings.tip_radius * settings.radius_scale
+    width = 2 * (root + (tip - root) * along)
+    return [Piece(settings.material - 1, [_strands(points, numpy.full(len(strands), steps), width)])]
+
+
+def _strands(points: numpy.ndarray, counts: numpy.ndarray, width: numpy.ndarray) -> tuple:
+    return "Curves", ("linear", counts, "nonperiodic"), {"P": points, "width": width}
+
+
+def particle_pieces(obj: bpy.types.Object, system: bpy.types.ParticleSystem) -> list[Piece]:
+    """Particles that are drawn as halos: disks, in the space of the object."""
+    alive = [p for p in system.particles if p.alive_state == "ALIVE"]
+    if not alive:
+        return []
+    to_object = obj.matrix_world.inverted_safe()
+    points = numpy.array([to_object @ p.location for p in alive], "f4")
+    return [Piece(system.settings.material - 1, [("Points", (), {"P": points, "width": numpy.array([2 * p.size for p in alive], "f4")})])]

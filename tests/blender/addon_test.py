@@ -1,0 +1,123 @@
+"""The add-on against Cycles, in the same Blender: the same scenes give the same pictures."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def blender(script, *arguments, **environment):
+    command = [os.environ["BLENDER"], "-b", "--factory-startup", "--python-exit-code", "9", "-P", str(HERE / script), "--", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=1500, env={**os.environ, **environment})
+
+
+def pairs(figures):
+    """Values of blocks that are bright enough to compare: Cycles', Tomales', and the brightest of Cycles'."""
+    cycles, tomales = ([v for row in figures[e] for block in row for v in block] for e in ("cycles", "tomales"))
+    return list(zip(cycles, tomales)), max(cycles)
+
+
+class Pictures(unittest.TestCase):
+    """Mean colours of 48 blocks of each picture, against Cycles at 256 samples a pixel."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.said = blender("scenes.py", folder.name)
+
+    def figures(self, name):
+        path = self.folder / f"{name}.json"
+        self.assertTrue(path.exists(), self.said.stdout[-3000:] + self.said.stderr[-2000:])
+        return json.loads(path.read_text())
+
+    def expect_mean(self, name, share):
+        """The light of the whole picture."""
+        values, _ = pairs(self.figures(name))
+        cycles, tomales = sum(c for c, _ in values), sum(t for _, t in values)
+        self.assertGreater(cycles, 0)
+        self.assertAlmostEqual(tomales / cycles, 1, delta=share, msg=name)
+
+    def expect_blocks(self, name, share):
+        """Every block, in shares of the brightest."""
+        values, brightest = pairs(self.figures(name))
+        self.assertGreater(brightest, 0)
+        worst = max(abs(c - t) for c, t in values) / brightest
+        self.assertLess(worst, share, name)
+
+    def test_lamps_are_as_strong_as_in_cycles(self):
+        for name in ("area", "disk_lamp", "sun", "point", "spot"):
+            with self.subTest(name):
+                self.expect_mean(name, 0.03)
+                self.expect_blocks(name, 0.08)
+
+    def test_cameras_see_the_same(self):
+        for name in ("camera_shift", "orthographic", "focus", "motion"):
+            with self.subTest(name):
+                self.expect_mean(name, 0.02)
+                self.expect_blocks(name, 0.05)
+
+    def test_pictures_lie_the_same_way(self):
+        self.expect_blocks("texture", 0.05)
+
+    def test_skies_are_turned_the_same_way(self):
+        self.expect_blocks("panorama", 0.06)
+
+    def test_instances_stand_in_their_places(self):
+        self.expect_blocks("instances", 0.05)
+
+    def test_light_bounces(self):
+        self.expect_mean("room", 0.05)
+        self.expect_blocks("room", 0.08)
+
+    def test_subdivision_surfaces_are_those_of_the_cage(self):
+        self.expect_blocks("subdivision", 0.05)
+
+
+class Addon(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.said = blender("features.py", folder.name)
+        path = cls.folder / "features.json"
+        cls.found = json.loads(path.read_text()) if path.exists() else {}
+
+    def of(self, name):
+        self.assertIn(name, self.found, self.said.stdout[-3000:] + self.said.stderr[-2000:])
+        return self.found[name]
+
+    def test_passes_hold_what_they_say(self):
+        passes = self.of("passes")
+        self.assertAlmostEqual(passes["Depth"], 5, delta=0.05)
+        self.assertAlmostEqual(passes["NormalZ"], 1, delta=0.01)
+        self.assertAlmostEqual(passes["DiffCol"], 0.25, delta=0.01)
+
+    def test_archives_are_shared_between_frames(self):
+        """Only transformations change: twelve frames of a hundred objects write as many archives as one."""
+        animation = self.of("animation")
+        self.assertEqual(animation["frames"], 12)
+        self.assertEqual(animation["archives"], 2)
+
+    def test_deformation_is_a_motion_block_of_points(self):
+        self.assertEqual(self.of("deformation"), {"keys": 2, "moves": True})
+
+    def test_hair_curves_and_particles_are_drawn(self):
+        strands = self.of("strands")
+        self.assertIn("Curves", strands)
+        self.assertIn("Points", strands)
+
+    def test_shaders_take_the_place_of_nodes(self):
+        self.assertRegex(self.of("override"), re.compile(r'Surface "plastic".*"float Kd" \[0\.25\]'))
+
+    def test_panoramic_cameras_are_refused_clearly(self):
+        self.assertIn("panoramic cameras are not supported", self.said.stdout)
+
+    def test_what_is_not_supported_is_named(self):
+        self.assertIn("Wave Texture", self.said.stdout)

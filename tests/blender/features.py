@@ -1,0 +1,135 @@
+"""What needs no other renderer to compare with: blender -b --factory-startup -P features.py -- FOLDER. Writes FOLDER/features.json."""
+import glob
+import json
+import os
+import subprocess
+import sys
+
+arguments = sys.argv[sys.argv.index("--") + 1 :]
+sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # scenes.py renders nothing, and lends its tools
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import bpy  # noqa: E402
+import scenes  # noqa: E402
+from scenes import add, camera, empty_scene, exr, light, material  # noqa: E402
+
+FOLDER, found = arguments[0], {}
+
+
+def render(scene, name, **settings):
+    """The RIB of the frame."""
+    scene.render.engine = "TOMALES"
+    scene.tomales.folder = os.path.join(FOLDER, name)
+    scene.render.filepath = os.path.join(FOLDER, name, "picture.exr")
+    for key, value in settings.items():
+        setattr(scene.tomales, key, value)
+    bpy.ops.render.render(write_still=True, animation=False)
+    with open(sorted(glob.glob(os.path.join(FOLDER, name, "*.rib")))[0]) as file:
+        return file.read()
+
+
+def archives(name):
+    """The archives of a frame as text."""
+    files = sorted(glob.glob(os.path.join(FOLDER, name, "archives", "*.rib")))
+    return "".join(subprocess.run([os.environ["TOMALES"], "catrib", f], capture_output=True, text=True).stdout for f in files)
+
+
+def passes():
+    scene = empty_scene()
+    add(bpy.ops.mesh.primitive_plane_add, material("m", (0.25, 0.25, 0.25), "ShaderNodeBsdfPrincipled")[0], size=10)
+    camera(scene, (0, 0, 5))
+    light(scene, "SUN", (0, 0, 5), energy=3, angle=0)
+    scene.tomales.bounces = 0
+    layer = scene.view_layers[0]
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = True
+    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    render(scene, "passes")
+    channels, _ = exr.read(scene.render.filepath)
+    middle = {name: float(values[36, 48]) for name, values in channels.items()}
+    value = lambda end: next(v for name, v in middle.items() if name.endswith(end))  # noqa: E731
+    return {"Depth": value("Depth.Z"), "NormalZ": value("Normal.Z"), "DiffCol": value("DiffCol.R")}
+
+
+def animation():
+    scene = empty_scene()
+    camera(scene, (0, -30, 20))
+    for i in range(100):
+        add(bpy.ops.mesh.primitive_cube_add if i % 2 else bpy.ops.mesh.primitive_cone_add, None, location=(i % 10, i // 10, 0))
+        obj = bpy.context.object
+        obj.keyframe_insert("location", frame=1)
+        obj.location.z += 1
+        obj.keyframe_insert("location", frame=12)
+    scene.frame_start, scene.frame_end = 1, 12
+    scene.render.engine = "TOMALES"
+    scene.tomales.folder, scene.tomales.export_only = os.path.join(FOLDER, "animation"), True
+    scene.render.filepath = os.path.join(FOLDER, "animation", "x")
+    bpy.ops.render.render(animation=True)
+    count = lambda pattern: len(glob.glob(os.path.join(FOLDER, "animation", pattern)))  # noqa: E731
+    return {"frames": count("*.rib"), "archives": count("archives/*.rib")}
+
+
+def deformation():
+    scene = empty_scene()
+    camera(scene, (0, -6, 2))
+    plane = add(bpy.ops.mesh.primitive_plane_add)
+    plane.shape_key_add(name="Basis")
+    key = plane.shape_key_add(name="up")
+    key.data[0].co.z = 1
+    for frame, value in ((0, 0), (2, 1)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    scene.render.use_motion_blur = True
+    scene.frame_set(1)
+    render(scene, "deformation", export_only=True)
+    text = archives("deformation")
+    points = [line.split('"P" ')[1] for line in text.replace("\n ", " ").splitlines() if "PointsPolygons" in line]
+    return {"keys": text.count("PointsPolygons"), "moves": len(set(points)) == 2}
+
+
+def strands():
+    scene = empty_scene()
+    camera(scene, (0, -6, 2))
+    for kind in ("HAIR", "EMITTER"):
+        plane = add(bpy.ops.mesh.primitive_plane_add)
+        settings = plane.modifiers.new(kind, "PARTICLE_SYSTEM").particle_system.settings
+        settings.type, settings.count = kind, 20
+        if kind == "EMITTER":
+            settings.frame_start, settings.frame_end, settings.render_type = -10, 0, "HALO"
+    render(scene, "strands", export_only=True)
+    return archives("strands")
+
+
+def override():
+    scene = empty_scene()
+    made, _ = material("m", (0.5, 0.5, 0.5))
+    add(bpy.ops.mesh.primitive_plane_add, made)
+    camera(scene, (0, -6, 2))
+    made.tomales.shader = "plastic"
+    parameter = made.tomales.parameters.add()
+    parameter.name, parameter.kind, parameter.number, parameter.is_set = "Kd", "float", 0.25, True
+    return render(scene, "override", export_only=True)
+
+
+def refused():
+    scene = empty_scene()
+    camera(scene, (0, -6, 2)).data.type = "PANO"
+    scene.render.engine = "TOMALES"
+    try:
+        bpy.ops.render.render()
+    except RuntimeError as problem:
+        return str(problem)
+    return ""
+
+
+def unsupported():
+    scene = empty_scene()
+    made, shader = material("m", (0.5, 0.5, 0.5))
+    made.node_tree.links.new(made.node_tree.nodes.new("ShaderNodeTexWave").outputs["Color"], shader.inputs["Color"])
+    add(bpy.ops.mesh.primitive_plane_add, made)
+    camera(scene, (0, -6, 2))
+    return render(scene, "unsupported", export_only=True)
+
+
+for feature in (passes, animation, deformation, strands, override, refused, unsupported):
+    found[feature.__name__] = feature()
+    with open(os.path.join(FOLDER, "features.json"), "w") as file:
+        json.dump(found, file)

@@ -1,0 +1,293 @@
+"""Scenes for Blender, rendered by Tomales and by Cycles: blender -b --factory-startup -P scenes.py -- FOLDER [NAME...]
+
+For each scene FOLDER/NAME.json has the mean colours of a grid of blocks of both pictures, and FOLDER has the pictures.
+"""
+import json
+import math
+import os
+import sys
+
+import bpy
+import numpy
+from mathutils import Vector
+
+root = os.environ["TOMALES_SOURCE"]
+sys.path[:0] = [os.path.join(root, "reyes/bindings/blender"), os.path.join(root, "reyes/bindings/python")]
+sys.dont_write_bytecode = True
+import tomales_blender  # noqa: E402
+
+tomales_blender.register()
+from tomales_blender import exr  # noqa: E402
+
+WIDTH, HEIGHT, BLOCKS = 96, 72, (6, 8)
+
+
+def empty_scene():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = WIDTH, HEIGHT, 100
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.exr_codec = "NONE"
+    scene.render.image_settings.color_depth = "32"
+    scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", 256, False
+    scene.cycles.use_adaptive_sampling = False
+    scene.cycles.max_bounces = 2
+    scene.tomales.bounces = 1
+    scene.tomales.light_samples = 64
+    world = bpy.data.worlds.new("World")
+    world.color = (0, 0, 0)
+    scene.world = world
+    return scene
+
+
+def camera(scene, location, target=(0, 0, 0), **settings):
+    data = bpy.data.cameras.new("Camera")
+    for name, value in settings.items():
+        setattr(data, name, value)
+    obj = bpy.data.objects.new("Camera", data)
+    scene.collection.objects.link(obj)
+    obj.location = location
+    direction = obj.location - Vector(target)
+    obj.rotation_euler = direction.to_track_quat("Z", "Y").to_euler()
+    scene.camera = obj
+    return obj
+
+
+
+
+def light(scene, kind, location, rotation=(0, 0, 0), **settings):
+    data = bpy.data.lights.new(kind, kind)
+    for name, value in settings.items():
+        setattr(data, name, value)
+    obj = bpy.data.objects.new(kind, data)
+    obj.location, obj.rotation_euler = location, rotation
+    obj.visible_camera = False
+    scene.collection.objects.link(obj)
+    return obj
+
+
+def material(name, color, kind="ShaderNodeBsdfDiffuse", **inputs):
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    nodes = made.node_tree.nodes
+    nodes.clear()
+    shader, output = nodes.new(kind), nodes.new("ShaderNodeOutputMaterial")
+    made.node_tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    shader.inputs["Base Color" if "Base Color" in shader.inputs else "Color"].default_value = (*color, 1)
+    for key, value in inputs.items():
+        shader.inputs[key.replace("_", " ")].default_value = value
+    return made, shader
+
+
+def add(make, made=None, **arguments):
+    make(**arguments)
+    obj = bpy.context.object
+    if made:
+        obj.data.materials.append(made)
+    return obj
+
+
+def floor(color=(0.6, 0.6, 0.6), size=20):
+    return add(bpy.ops.mesh.primitive_plane_add, material("floor", color)[0], size=size)
+
+
+def area():
+    """A square lamp of known power over a floor."""
+    scene = empty_scene()
+    floor()
+    camera(scene, (0, -6, 4))
+    light(scene, "AREA", (0.5, 0.5, 2), energy=100, size=1.2)
+    return scene
+
+
+def disk_lamp():
+    scene = empty_scene()
+    floor()
+    camera(scene, (0, -6, 4))
+    lamp = light(scene, "AREA", (0.5, 0.5, 2), (0.4, 0.2, 0), energy=100, shape="ELLIPSE", size=1.5, size_y=0.6)
+    lamp.scale = (1.5, 1.5, 1.5)
+    return scene
+
+
+def sun():
+    scene = empty_scene()
+    floor()
+    add(bpy.ops.mesh.primitive_cube_add, material("cube", (0.2, 0.5, 0.8))[0], size=1, location=(0.5, 0, 0.5))
+    camera(scene, (2, -6, 4))
+    light(scene, "SUN", (0, 0, 5), (0.5, 0.3, 0), energy=2, angle=0)
+    return scene
+
+
+def point():
+    scene = empty_scene()
+    floor()
+    camera(scene, (0, -6, 4))
+    light(scene, "POINT", (0.5, 0.5, 2), energy=150, shadow_soft_size=0.2, color=(1, 0.6, 0.3))
+    return scene
+
+
+def spot():
+    scene = empty_scene()
+    floor()
+    camera(scene, (0, -6, 4))
+    light(scene, "SPOT", (0.5, 0.5, 3), (0.2, 0, 0), energy=300, shadow_soft_size=0, spot_size=1.0, spot_blend=0.4)
+    return scene
+
+
+def camera_shift():
+    """Objects that glow by themselves say where the camera stands, and how it is turned, shifted and cut."""
+    scene = empty_scene()
+    for i, (place, color) in enumerate([((-1.5, 0, 0), (1, 0, 0)), ((1, 1, 0.5), (0, 1, 0)), ((0.3, -1, 1.2), (0, 0, 1)), ((0, 3, 0), (1, 1, 0))]):
+        glow, _ = material(f"glow{i}", color, "ShaderNodeEmission")
+        add(bpy.ops.mesh.primitive_uv_sphere_add, glow, radius=0.6 + 0.1 * i, location=place, segments=64, ring_count=32)
+    camera(scene, (2, -7, 3), (0, 0, 0.5), lens=40, shift_x=0.1, shift_y=-0.07).rotation_euler.rotate_axis("Z", 0.3)
+    scene.tomales.bounces = 0
+    return scene
+
+
+def orthographic():
+    scene = camera_shift()
+    scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 7
+    scene.render.resolution_x, scene.render.resolution_y = HEIGHT, WIDTH
+    return scene
+
+
+def focus():
+    scene = camera_shift()
+    scene.camera.data.dof.use_dof = True
+    scene.camera.data.dof.focus_distance, scene.camera.data.dof.aperture_fstop = 6, 0.05
+    scene.tomales.pixel_samples = 8
+    return scene
+
+
+def motion():
+    scene = camera_shift()
+    obj = scene.objects["Sphere"]
+    for frame, x in ((0, -3), (2, 0)):
+        obj.location.x = x
+        obj.keyframe_insert("location", index=0, frame=frame)
+    for curve in obj.animation_data.action.fcurves:
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.8
+    scene.tomales.pixel_samples = 8
+    scene.frame_set(1)
+    return scene
+
+
+def picture(name, width, height, color_of, is_float=False):
+    image = bpy.data.images.new(name, width, height, float_buffer=is_float)
+    v, u = numpy.mgrid[0:height, 0:width]
+    pixels = numpy.ones((height, width, 4), "f4")
+    pixels[..., :3] = color_of((u + 0.5) / width, (v + 0.5) / height)
+    image.pixels.foreach_set(pixels.ravel())
+    image.pack()
+    return image
+
+
+def texture():
+    """A picture that is no mirror image of itself, on a plane, coded as sRGB."""
+    scene = empty_scene()
+    made, shader = material("picture", (1, 1, 1), "ShaderNodeBsdfPrincipled", Roughness=1.0, Specular=0.0)
+    node = made.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = picture("uv", 64, 64, lambda u, v: numpy.stack([u, v, 0.5 * (u > 0.5)], -1))
+    node.interpolation = "Linear"
+    made.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+    add(bpy.ops.mesh.primitive_plane_add, made, size=4)
+    camera(scene, (0.5, -1, 6))
+    light(scene, "SUN", (0, 0, 5), energy=3, angle=0)
+    scene.tomales.bounces = 0
+    scene.cycles.max_bounces = 0
+    return scene
+
+
+def panorama():
+    """A sky of which every direction has its colour: seen by the camera, and lighting a white ball."""
+    scene = empty_scene()
+    world = scene.world
+    world.use_nodes = True
+    node = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+    node.image = picture("sky", 256, 128, lambda u, v: numpy.stack([u, v, 2.0 * (abs(u - 0.3) < 0.1)], -1), True)
+    world.node_tree.links.new(node.outputs["Color"], world.node_tree.nodes["Background"].inputs["Color"])
+    add(bpy.ops.mesh.primitive_uv_sphere_add, material("white", (0.8, 0.8, 0.8))[0], radius=1, segments=64, ring_count=32)
+    bpy.ops.object.shade_smooth()
+    camera(scene, (2, -4, 1), lens=24)
+    scene.tomales.light_samples = 256
+    scene.tomales.bounces = 0
+    scene.cycles.max_bounces = 1
+    return scene
+
+
+def instances():
+    """A collection that three empties show, one of them mirrored, and faces that show a cone each."""
+    scene = empty_scene()
+    collection = bpy.data.collections.new("shown")
+    glow, _ = material("glow", (1, 0.3, 0.1))
+    cone = add(bpy.ops.mesh.primitive_cone_add, glow, radius1=0.4, depth=1, rotation=(0, 0.6, 0))
+    for owner in list(cone.users_collection):
+        owner.objects.unlink(cone)
+    collection.objects.link(cone)
+    for i, scale in enumerate((1, -1, 0.5)):
+        shows = bpy.data.objects.new(f"empty{i}", None)
+        shows.instance_type, shows.instance_collection = "COLLECTION", collection
+        shows.location, shows.scale = (i * 1.5 - 1.5, 0, 0.5), (scale, abs(scale), abs(scale))
+        scene.collection.objects.link(shows)
+    floor()
+    camera(scene, (0, -6, 3))
+    light(scene, "SUN", (0, 0, 5), (0.5, 0.3, 0), energy=3, angle=0)
+    return scene
+
+
+def room():
+    """Light that bounces, and a mesh that glows."""
+    scene = empty_scene()
+    floor((0.7, 0.7, 0.7), 4)
+    add(bpy.ops.mesh.primitive_plane_add, material("wall", (0.8, 0.2, 0.1))[0], size=4, location=(-2, 0, 2), rotation=(0, math.pi / 2, 0))
+    lamp, _ = material("lamp", (1, 1, 1), "ShaderNodeEmission", Strength=20.0)
+    add(bpy.ops.mesh.primitive_plane_add, lamp, size=1, location=(0, 0, 3.5), rotation=(math.pi, 0, 0))
+    camera(scene, (3, -6, 2.5), (0, 0, 1.2))
+    return scene
+
+
+def subdivision():
+    scene = empty_scene()
+    cube = add(bpy.ops.mesh.primitive_cube_add, material("smooth", (0.5, 0.6, 0.7))[0], size=2)
+    modifier = cube.modifiers.new("s", "SUBSURF")
+    modifier.render_levels = 5
+    bpy.ops.object.shade_smooth()
+    camera(scene, (3, -5, 3))
+    light(scene, "SUN", (0, 0, 5), (0.5, 0.3, 0), energy=3, angle=0)
+    scene.tomales.bounces = 0
+    scene.cycles.max_bounces = 0
+    return scene
+
+
+SCENES = [area, disk_lamp, sun, point, spot, camera_shift, orthographic, focus, motion, texture, panorama, instances, room, subdivision]
+
+
+def blocks(path):
+    channels, _ = exr.read(path)
+    rgb = numpy.stack([channels[c] for c in "RGB"], -1)
+    rows, columns = BLOCKS if rgb.shape[0] < rgb.shape[1] else BLOCKS[::-1]
+    height, width = rgb.shape[0] // rows, rgb.shape[1] // columns
+    return rgb[: height * rows, : width * columns].reshape(rows, height, columns, width, 3).mean((1, 3))
+
+
+def main(folder, names):
+    for make in SCENES:
+        if names and make.__name__ not in names:
+            continue
+        out = {}
+        for engine in ("CYCLES", "TOMALES"):
+            scene = make()
+            scene.render.engine = engine
+            scene.tomales.folder = os.path.join(folder, make.__name__)
+            scene.render.filepath = os.path.join(folder, f"{make.__name__}_{engine.lower()}.exr")
+            bpy.ops.render.render(write_still=True)
+            out[engine.lower()] = blocks(scene.render.filepath).tolist()
+        with open(os.path.join(folder, make.__name__ + ".json"), "w") as file:
+            json.dump(out, file)
+
+
+arguments = sys.argv[sys.argv.index("--") + 1 :]
+main(arguments[0], arguments[1:])
