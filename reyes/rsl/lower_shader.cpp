@@ -36,9 +36,8 @@ void Lowering::shader(const Shader& s) {
 // alone where nothing is to be seen (RenderMan Companion, listing 16.26), and Cs must not shine there.
 void Lowering::hideUncoloured() {
   const auto assigns = [](const Block& block, int32_t reg) {
-    return std::any_of(block.begin(), block.end(), [&](const Instruction& i) {
-      return std::find(i.out.begin(), i.out.end(), reg) != i.out.end();
-    });
+    return std::any_of(block.begin(), block.end(),
+                       [&](const Instruction& i) { return std::find(i.out.begin(), i.out.end(), reg) != i.out.end(); });
   };
   const int32_t Ci = global(Global::Ci), Oi = global(Global::Oi);
   bool clears = false;

@@ -24,8 +24,8 @@ mat3 environmentDirections(const Batch& batch, const char* space);
 
 /// Points only where the space is projected.
 vec3 projectedFromCurrent(const Batch& batch, Space::Kind kind, const vec3& p);
-/// A depth of 0, which RISpec gives to the near clipping plane, is that plane: transform("NDC", "screen", point (x, y, 0))
-/// is a common way to ask for the corners of the picture, and the eye itself would lie nowhere in it.
+/// A depth of 0, which RISpec gives to the near clipping plane, is that plane: transform("NDC", "screen", point (x, y,
+/// 0)) is a common way to ask for the corners of the picture, and the eye itself would lie nowhere in it.
 vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p);
 
 }  // namespace tomales

@@ -109,7 +109,7 @@ TEST_F(ExrReader, DeepPixelsAreWhatOpenImageIOReads) {
 
 TEST_F(ExrReader, DamagedFilesAreRefusedWithAReason) {
   Image image{70, 65, {"R", "G", "B"}, std::vector<float>(70 * 65 * 3, 0.5f), 0, 0, 70, 65};
-  write(image, {"openexr", SampleType::Float});
+  write(image, {formatOfType("openexr"), SampleType::Float});
   const auto whole = fs::file_size(path_);
   for (const uintmax_t size : {whole - 5, whole / 2, uintmax_t{40}}) {
     fs::resize_file(path_, size);

@@ -167,7 +167,7 @@ const rsl::Shader travellingShader(TM_SURFACE, "travelling", "", 0, travelling, 
 
 // Ci: the right upper corner of the picture in screen space; Oi: its centre in current space.
 void cornering(const TmGrid* g) {
-  for (int32_t i = 0; i < g->n; ++i) rsl::store(g->Ci, i, {1, 0, 0}), rsl::store(g->Oi, i, {0.5f, 0.5f, 0});
+  for (int i = 0; i < g->count; ++i) rsl::set(g->Ci, i, {1, 0, 0}), rsl::set(g->Oi, i, {0.5f, 0.5f, 0});
   g->call->transform(g->host, g, TM_AS_POINT, "NDC", "screen", rsl::view(g->Ci), g->Ci);
   g->call->transform(g->host, g, TM_AS_POINT, "NDC", "current", rsl::view(g->Oi), g->Oi);
 }
@@ -220,7 +220,7 @@ TEST_F(Spaces, ProjectedSpacesKeepCameraDepth) {
 TEST_F(Spaces, AProjectedPointOfDepthZeroLiesOnTheNearPlane) {
   surface("cornering", {});
   const ShadedPoints out = shade(points({vec3(1, 2, 5)}));
-  expectColor(out.color(0), {2, 1, scene.options.nearClip}, 1e-4f);   // the screen window of 200 x 100 pixels
+  expectColor(out.color(0), {2, 1, scene.options.nearClip}, 1e-4f);  // the screen window of 200 x 100 pixels
   expectColor(out.opacity(0), {0, 0, scene.options.nearClip}, 1e-4f);
 }
 
