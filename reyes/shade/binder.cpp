@@ -29,7 +29,8 @@ void Binder::prepare() {
 
 BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
-  const TmShader* shader = registry_.find(name, kind, path_, call ? folderOf(*call) : "");
+  const std::string beside = call ? folderOf(*call) : "";
+  const TmShader* shader = registry_.find(name, kind, path_, beside);
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
   if (shader) return bindShader(*shader, call, where, user, currentFromShader, log_);
