@@ -48,7 +48,7 @@ for what, change, says in (("behind the camera", ("0 0 4", "0 0 -4"), "behind th
                            ("out of view", ("0 0 4", "9 0 4"), "outside the view"), ("hidden", ("matte", "null"), "is hidden"),
                            ("not there", ("Sphere", "#"), "no geometry")):
     t.write("empty.rib", GOOD.replace(*change))
-    t.expect_run("a scene whose geometry is " + what, ["empty.rib"], 0, "nothing is to be seen", says)
+    t.expect_run("a scene whose geometry is " + what, ["empty.rib"], 3, "nothing is to be seen", says)
 t.write("good.rib", GOOD)
 result = t.expect_run("a crop without anything in it", ["good.rib", "--crop", "0,0.1,0,0.1"], 0)
 t.expect("nothing" not in result.stderr, "is no reason for a warning")

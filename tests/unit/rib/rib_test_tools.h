@@ -34,6 +34,12 @@ struct Reading {
       if (e.code == code) return e;
     return {};
   }
+  /// Messages with that code, however often each was reported.
+  int told(const std::string& code) const {
+    int out = 0;
+    for (const LogEntry& e : log.entries()) out += e.code == code;
+    return out;
+  }
   std::string codes() const {
     std::string out;
     for (const LogEntry& e : log.entries()) out += e.code + "@" + std::to_string(e.where.line) + " ";

@@ -14,7 +14,7 @@ TEST(Ris, BxdfsBecomeStandardShaders) {
   EXPECT_EQ(r.attributes(0).color, vec3(.1f, .2f, .3f));
   EXPECT_EQ(r.attributes(2).surface->name, "disney");
   EXPECT_EQ(findParam(r.attributes(2).surface->params, "roughness")->number(0), .25f);
-  EXPECT_EQ(r.log.count("rib-substitute"), 2) << "once a name";
+  EXPECT_EQ(r.told("rib-substitute"), 2) << "once a name";
 }
 
 TEST(Ris, AreaLightsEmitAlongTheirZAndStaySwitchedOn) {
@@ -86,7 +86,7 @@ TEST(Ris, ReferencesAreFollowedToPatternsThatHaveASubstitute) {
   EXPECT_EQ(r.log.count("rib-reference"), 1);
   EXPECT_EQ(r.message("rib-reference").where.line, 9);
   // Two Bxdfs and four patterns.
-  EXPECT_EQ(r.log.count("rib-substitute"), 2 + 4) << r.codes();
+  EXPECT_EQ(r.told("rib-substitute"), 2 + 4) << r.codes();
 }
 
 TEST(Ris, MetalsMirrorAndGlassRefracts) {
@@ -131,7 +131,7 @@ TEST(Ris, MetalsHaveTheColorOfTheirIndexOrOfTheArtist) {
   EXPECT_EQ(r.attributes(2).color, vec3(.9f, .7f, .3f));
   EXPECT_NEAR(lm.x, .25f, 1e-6f);
   EXPECT_EQ(findParam(r.attributes(2).surface->params, "metallic")->number(0), 1);
-  EXPECT_EQ(r.log.count("rib-substitute"), 3) << r.codes();
+  EXPECT_EQ(r.told("rib-substitute"), 3) << r.codes();
 }
 
 TEST(Ris, LightsOfPRMan20ShineFromTheGeometryThatFollows) {
@@ -291,7 +291,7 @@ TEST(Ris, TheSunOfADateAndAPlaceStandsWhereAlmanacsSay) {
 
 TEST(Ris, NightIsDarkAndSaysSo) {
   const Reading r(inWorld("Light \"PxrEnvDayLight\" \"day\" \"vector sunDirection\" [0 -0.1 1] " + kSphere));
-  EXPECT_EQ(r.log.count("rib-substitute"), 2);
+  EXPECT_EQ(r.told("rib-substitute"), 2);
 }
 
 }  // namespace

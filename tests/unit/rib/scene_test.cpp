@@ -82,7 +82,7 @@ TEST(Attributes, AreSharedByConsecutivePrimitivesOnly) {
 
 TEST(Attributes, UnknownOnesAreNamedOnceAndKept) {
   const Reading r(inWorld("Attribute \"cull\" \"hidden\" 0\nAttribute \"cull\" \"hidden\" 0\n" + kSphere));
-  EXPECT_EQ(r.log.count("rib-ignored-attribute"), 1);
+  EXPECT_EQ(r.told("rib-ignored-attribute"), 1);
   EXPECT_EQ(r.attributes(0).user.at("cull:hidden").ints[0], 0);
 }
 

@@ -160,7 +160,7 @@ TEST_F(BatchServices, RandomgridIsOneNumberOfACallAndOfTheObjectsName) {
 TEST_F(BatchServices, ASpaceThatThereIsNotIsToldAndChangesNothing) {
   const std::vector<vec3> c = asked(2, [](sl::Surface& s) { s.Ci = transform("nowhere", s.P); });
   expectColor(c[0], {0, 0, 5});
-  ASSERT_EQ(log.count("shader-space-obedient"), 1);
+  ASSERT_EQ(log.count("shader-space"), 1);
   EXPECT_NE(log.entries()[0].message.find("\"nowhere\""), std::string::npos);
 }
 
