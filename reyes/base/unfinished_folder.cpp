@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+
 #include "reyes/base/chunk_file.h"
-#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -13,10 +14,9 @@ std::filesystem::path markOf(const std::filesystem::path& folder) { return folde
 }  // namespace
 
 UnfinishedFolder::UnfinishedFolder(const std::filesystem::path& folder) : mark_(markOf(folder)) {
-  std::string error;
-  if (!writeFile(mark_.string(), "Files of this folder are missing until the program that writes it has ended.\n",
-                 error))
-    throw WriteError(fmt::format("\"{}\" cannot be written: {}", mark_.string(), error));
+  std::ofstream mark(mark_);
+  mark << "Files of this folder are missing until the program that writes it has ended.\n";
+  if (!mark.flush()) throw WriteError(fmt::format("\"{}\" cannot be written", mark_.string()));
 }
 
 void UnfinishedFolder::finish() {

@@ -1,5 +1,6 @@
 #include "reyes/shade/shadow_map.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -154,7 +155,7 @@ const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& wher
   const std::string path = findFile(name, searchPath_);
   std::string error;
   it->second = ShadowMap::read(path.empty() ? name : path, error);
-  if (!it->second && path.empty()) {
+  if (std::error_code none; !it->second && path.empty() && !std::filesystem::exists(name, none)) {
     std::vector<std::string> folders = foldersOf(searchPath_);
     folders.push_back(".");
     error = "not found in " + listOfFolders(folders) + hintOfMissing(name, pictureEndings(), folders);

@@ -52,7 +52,7 @@ TM_SHADER_LIBRARY(shader)
 """)
 subprocess.run([os.environ["CXX"], "-std=c++17", "-shared", "-fPIC", "-I", source, t.folder / "late.cpp", "-o", t.folder / "plugins/dots.so"], check=True)
 result = t.run("scene.rib", "--plugin-path", "plugins", "-t", "1")
-t.expect(result.returncode == -11 and 'scene.rib:9: ball: surface shader "dots" crashes' in result.stderr, f"a crash while it shades names shader, object and line: {result.stderr[-300:]}")
+t.expect(result.returncode == -11 and 'scene.rib:9: "ball": surface shader "dots" crashes' in result.stderr, f"a crash while it shades names shader, object and line: {result.stderr[-300:]}")
 t.write("wild.cpp", """#include <reyes/shader_api.h>
 static const TmParamDecl params[] = {{(const char*)8, TM_FLOAT, 1, 0, 0, 0, 0}};
 static const TmShader shader = {TM_SHADER_ABI, sizeof(TmShader), TM_SURFACE, 0, 1, sizeof(TmParamDecl), params, [](const TmGrid*) {}, "dots", 0, 0, 0};
