@@ -1,7 +1,7 @@
 #include "reyes/shade/shadow_map.h"
 
-#include <filesystem>
 #include <fmt/format.h>
+#include <filesystem>
 
 #include <algorithm>
 

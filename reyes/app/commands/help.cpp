@@ -37,7 +37,6 @@ constexpr Example kExamples[] = {
      "  tomales scene.rib                          the pictures that the scene names\n"
      "  tomales scene.rib -o look.png --draft      a quick look\n"
      "  tomales scene.rib --frames 1-24 -o f.####.exr --progress"},
-    {"requests", "  tomales requests                           every request with its signature"},
     {"hide", "  tomales hide scene.rib -o shot.dfb         then: tomales shade shot.dfb -o shot.exr"},
     {"gather", "  tomales gather shot.dfb -o shot.icf        then: tomales shade shot.dfb --irradiance shot.icf"},
     {"shade", "  tomales shade shot.dfb --edit brighter.rib -o shot.exr"},
