@@ -14,7 +14,7 @@ struct Group {
 constexpr Group kGroups[] = {
     {"Picture", " -o --format --frames --crop --pixel-samples --shading-rate --draft "},
     {"Light", " --gi --samples --bounces --irradiance "},
-    {"Scene", " --edit --shaders --plugin-path --allow-plugins --allow-system --output-root "},
+    {"Scene", " --edit --shaders --plugin-path --allow-plugins --allow-system "},
     {"Run", " -t --progress --stats -q -v --resume --memory-limit --json -h --help --help-all "},
     {"Picture, in detail", " --one-picture --seed --bucket-size --preview --pixel ", false},
     {"Light, in detail",
