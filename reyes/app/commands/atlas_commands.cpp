@@ -1,5 +1,4 @@
 #include "reyes/app/commands/atlas_commands.h"
-#include "reyes/moving_surfaces.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +16,7 @@
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/base/unfinished_folder.h"
+#include "reyes/moving_surfaces.h"
 #include "reyes/rib.h"
 #include "reyes/shader_registry.h"
 

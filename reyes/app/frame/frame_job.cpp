@@ -1,5 +1,4 @@
 #include "reyes/app/frame/frame_job.h"
-#include "reyes/moving_surfaces.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -16,6 +15,7 @@
 #include "reyes/app/watch/preview.h"
 #include "reyes/app/watch/sketch.h"
 #include "reyes/base/search_path.h"
+#include "reyes/moving_surfaces.h"
 
 namespace tomales {
 namespace {
