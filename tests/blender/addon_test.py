@@ -10,9 +10,11 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 
 
-def blender(script, *arguments, **environment):
+def blender(script, *arguments):
     command = [os.environ["BLENDER"], "-b", "--factory-startup", "--python-exit-code", "9", "-P", str(HERE / script), "--", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=1500, env={**os.environ, **environment})
+    # The Python within Blender takes the modules of the first python3 on the path: that must be the one beside it.
+    path = os.pathsep.join([os.path.dirname(command[0]), os.environ["PATH"]])
+    return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=1500, env={**os.environ, "PATH": path})
 
 
 def pairs(figures):
