@@ -24,6 +24,9 @@ struct ShaderName {
   std::string beside{};  ///< The folder of the file that names it; empty: none does.
 };
 
+/// The displacement "surface:NAME" is what of the surface NAME moves points (RslFile::displacementOf).
+constexpr const char* kOfSurface = "surface:";
+
 /// Built-ins and plugins come through the same table.
 class ShaderRegistry {
  public:

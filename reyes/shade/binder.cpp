@@ -9,17 +9,13 @@
 #include "reyes/shader_registry.h"
 
 namespace tomales {
-namespace {
 
-/// Where a request stands in a file, the shader may lie beside that file.
-std::string folderOf(const ShaderCall& call) {
-  return call.where.file ? std::filesystem::path(*call.where.file).parent_path().string() : "";
+ShaderName nameOf(const ShaderCall& call, TmKind kind) {
+  return {call.name, kind, call.where.file ? std::filesystem::path(*call.where.file).parent_path().string() : ""};
 }
 
-}  // namespace
-
 void Binder::expect(const ShaderCall* call, TmKind kind) {
-  if (call && expected_.insert(call).second) names_.push_back({call->name, kind, folderOf(*call)});
+  if (call && expected_.insert(call).second) names_.push_back(nameOf(*call, kind));
 }
 
 void Binder::prepare() {
@@ -29,7 +25,7 @@ void Binder::prepare() {
 
 BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
-  const std::string beside = call ? folderOf(*call) : "";
+  const std::string beside = call ? nameOf(*call, kind).beside : "";
   const TmShader* shader = registry_.find(name, kind, path_, beside);
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);

@@ -10,6 +10,9 @@
 
 namespace tomales {
 
+/// Where a request stands in a file, the shader may lie beside that file.
+ShaderName nameOf(const ShaderCall& call, TmKind kind);
+
 /// Binds requests; groups that share a request share its shader, so that each problem is told once.
 class Binder {
  public:
