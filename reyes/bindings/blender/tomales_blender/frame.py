@@ -4,6 +4,7 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import dataclass
 from math import floor
 from pathlib import Path
 
@@ -20,6 +21,15 @@ from .snapshot import Placed, Cache, Snapshot, take
 from .textures import Textures
 
 Warn = Callable[[str], None]
+
+
+@dataclass
+class _Part:
+    """What is drawn of a shape, in one material."""
+
+    archive: str
+    look: Look
+    handle: str | int | None = None  #: Of the object that instances show.
 
 
 class Frame:
@@ -111,34 +121,31 @@ class Frame:
 
     def _write_objects(self, ri: tomales.Ri, times: list[float], snapshots: list[Snapshot]) -> None:
         first = snapshots[0]
-        pieces = {(key, i): self._archive(key, i, snapshots) for key, shape in first.shapes.items() for i in range(len(shape.pieces))}
-        looks = {(key, i): self._look(shape.materials, shape.pieces[i].slot) for key, shape in first.shapes.items() for i in range(len(shape.pieces))}
         uses = Counter(placed.shape for placed in first.placed.values())
-        objects: dict[tuple[str, int], str] = {}
-        for piece, archive in pieces.items():
-            if uses[piece[0]] > 1 and not looks[piece].emission:
-                objects[piece] = ri.ObjectBegin()
-                ri.ReadArchive(archive)
-                ri.ObjectEnd()
-        emits = {key for (key, _), look in looks.items() if look.emission}
+        parts: dict[str, list[_Part]] = {}
+        for key, shape in first.shapes.items():
+            parts[key] = [_Part(self._archive(key, i, snapshots), self._look(shape.materials, piece.slot)) for i, piece in enumerate(shape.pieces)]
+            for part in parts[key]:
+                if uses[key] > 1 and not part.look.emission:
+                    part.handle = ri.ObjectBegin()
+                    ri.ReadArchive(part.archive)
+                    ri.ObjectEnd()
+        emits = {key for key, some in parts.items() if any(part.look.emission for part in some)}
         for placed in sorted(first.placed.values(), key=lambda p: p.shape not in emits):
-            self._write_placed(ri, placed, times, snapshots, pieces, looks, objects)
+            self._write_placed(ri, placed, times, snapshots, parts[placed.shape])
 
-    def _write_placed(self, ri: tomales.Ri, placed: Placed, times: list[float], snapshots: list[Snapshot], pieces: dict, looks: dict, objects: dict) -> None:
+    def _write_placed(self, ri: tomales.Ri, placed: Placed, times: list[float], snapshots: list[Snapshot], parts: list[_Part]) -> None:
         handles = []
         ri.AttributeBegin()
         ri.Attribute("identifier", {"string name": placed.name})
         if not all(placed.visibility.values()):
             ri.Attribute("visibility", {f"int {ray}": int(seen) for ray, seen in placed.visibility.items()})
         write_motion(ri, times, [s.placed[placed.key].matrix if placed.key in s.placed else placed.matrix for s in snapshots])
-        for piece, archive in pieces.items():
-            if piece[0] != placed.shape:
-                continue
-            look = looks[piece]
-            if look.emission:
-                handles.append(ri.AreaLightSource("arealight", {"lightcolor": look.emission, "float samples": self._settings.light_samples}))
-            look.write(ri)
-            ri.ObjectInstance(objects[piece]) if piece in objects else ri.ReadArchive(archive)
+        for part in parts:
+            if part.look.emission:
+                handles.append(ri.AreaLightSource("arealight", {"lightcolor": part.look.emission, "float samples": self._settings.light_samples}))
+            ri.ArchiveRecord(ri.VERBATIM, part.look.rib)
+            ri.ReadArchive(part.archive) if part.handle is None else ri.ObjectInstance(part.handle)
         ri.AttributeEnd()
         for handle in handles:
             ri.Illuminate(handle, 1)

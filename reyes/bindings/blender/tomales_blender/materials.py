@@ -6,6 +6,7 @@ has the picture's mean. A shader named in the panel takes the place of all nodes
 from __future__ import annotations
 
 import functools
+import io
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -33,7 +34,12 @@ class Look:
     relief: dict[str, Any] | None = None  #: Parameters of the displacement shader tomales_relief.
     bound: float = 0  #: How far that moves the surface, in the object's space.
 
-    def write(self, ri: tomales.Ri) -> None:
+    @functools.cached_property
+    def rib(self) -> str:
+        """Its requests, which every object that has it repeats."""
+        out = io.BytesIO()
+        ri = tomales.Ri()
+        ri.Begin(out)
         if self.color:
             ri.Color(self.color)
         if self.opacity < 1:
@@ -43,6 +49,8 @@ class Look:
         if self.relief:
             ri.Displacement("tomales_relief", self.relief)
         ri.Surface(self.shader, self.parameters)
+        ri.End()
+        return "".join(line for line in out.getvalue().decode(errors="surrogateescape").splitlines(True) if not line.startswith(("#", "version")))
 
 
 def look_of(material: bpy.types.Material | None, textures: Textures, reflections: int, warn: Warn) -> Look:
