@@ -147,7 +147,7 @@ grey = facing("grey.glb", paint(png(8, lambda x, y: (128, 128, 128))))[60][80][0
 half = facing("half.glb", lambda scene: {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0.2159, 0.2159, 0.2159, 1]}})[60][80][0]
 t.expect(abs(grey - half) <= 1, f"base colours are made linear: {grey}, {half}")
 ways = facing("metal.glb", lambda scene: {"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": scene.image(png(8, lambda x, y: (0, 255, 255 * (x >= 4))))}}})
-t.expect(ways[60][50][0] > 2 * ways[60][110][0], "the blue channel makes the right half a metal, which scatters nothing")
+t.expect(ways[60][50][0] > 1.5 * ways[60][110][0], "the blue channel makes the right half a metal, which scatters nothing")
 cut = facing("cut.glb", paint(png(8, lambda x, y: (255, 255, 255, 255 * (y >= 4))), alphaMode="BLEND"))
 t.expect(max(cut[30][80]) == 0 and min(cut[90][80]) > 50, "alpha of a picture cuts away where the material blends")
 whole = facing("whole.glb", paint(png(8, lambda x, y: (255, 255, 255, 255 if y >= 4 else 51))))
