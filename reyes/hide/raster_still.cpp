@@ -42,6 +42,11 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
   }
 }
 
+/// A cell may be seen outside of its corners up to a line at which it ends.
+HWY_INLINE void growBounds(float* lo, float* hi, float by) {
+  for (int i = 0; i < kLanes; ++i) lo[i] -= by, hi[i] += by;
+}
+
 /// Finds which of kLanes vertices of a grid begin a cell, and its number.
 class CellNumbers {
  public:
@@ -95,6 +100,7 @@ HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& nu
   loadCorners(q.y, r.y.data() + first, row);
   setBounds(q.x, q.xMin, q.xMax);
   setBounds(q.y, q.yMin, q.yMax);
+  if (!r.lines.empty()) growBounds(q.xMin, q.xMax, kLineReach_px), growBounds(q.yMin, q.yMax, kLineReach_px);
   const Floats left = all(static_cast<float>(bucket.x0)), right = all(static_cast<float>(bucket.x1));
   const Floats top = all(static_cast<float>(bucket.y0)), bottom = all(static_cast<float>(bucket.y1));
   uint64_t touching = 0;
@@ -111,15 +117,53 @@ HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& nu
   return touching & numbers.set(q, first, end);
 }
 
+/// The lines at which a cell ends, in the order of PatchEdge. Pre: the grid has lines.
+class LinesOfCell {
+ public:
+  LinesOfCell(const RasterGrid& r, int cell) {
+    const Grid& g = *r.grid;
+    const int inPiece = g.cellInPiece(cell), i = inPiece % g.nu, j = inPiece / g.nu;
+    lines_ = &r.lines[4 * static_cast<size_t>(g.pieceOfCell(cell))];
+    const bool at[4] = {i == 0, i == g.nu - 1, j == 0, j == g.nv - 1};
+    for (int e = 0; e < 4; ++e) ends_[e] = at[e] && !lines_[e].none();
+  }
+  const BorderLine* at(int edge) const { return ends_[edge] ? lines_ + edge : nullptr; }
+  bool any() const { return ends_[0] || ends_[1] || ends_[2] || ends_[3]; }
+
+ private:
+  const BorderLine* lines_;
+  bool ends_[4];
+};
+
+bool endAtLines(const RasterGrid& r, const Corners& q, uint64_t cells) {
+  for (; cells; cells &= cells - 1)
+    if (LinesOfCell(r, q.cell[std::countr_zero(cells)]).any()) return true;
+  return false;
+}
+
+void setLines(const RasterGrid&, const Corners&, uint64_t, Triangles<LatticeEdges>&) {}
+/// Puts lines in the place of the edges of cells that end at them.
+void setLines(const RasterGrid& r, const Corners& q, uint64_t cells, Triangles<FloatEdges>& t) {
+  if (r.lines.empty()) return;
+  for (; cells; cells &= cells - 1) {
+    const int i = std::countr_zero(cells);
+    const LinesOfCell lines(r, q.cell[i]);
+    if (const BorderLine* l = lines.at(0)) t.ca.setLine(i, l->to, l->from, turnsLeft(q, i, 0, 1, 2));
+    if (const BorderLine* l = lines.at(1)) t.bd.setLine(i, l->from, l->to, turnsLeft(q, i, 1, 3, 2));
+    if (const BorderLine* l = lines.at(2)) t.ab.setLine(i, l->from, l->to, turnsLeft(q, i, 0, 1, 2));
+    if (const BorderLine* l = lines.at(3)) t.dc.setLine(i, l->to, l->from, turnsLeft(q, i, 1, 3, 2));
+  }
+}
+
 /// Are edges of some cells short enough for the lattice?
-HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer& samples) {
+HWY_INLINE bool fitLattice(const RasterGrid& r, const Corners& q, uint64_t cells, const SampleBuffer& samples) {
   uint64_t large = 0;
   for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {
     const Floats width = hn::Sub(hn::Load(kF, q.xMax + g), hn::Load(kF, q.xMin + g)),
                  height = hn::Sub(hn::Load(kF, q.yMax + g), hn::Load(kF, q.yMin + g));
     large |= bitsOf(hn::Gt(hn::Max(width, height), all(LatticeEdges::kMost_px))) << g;
   }
-  return samples.fitsLattice() && (large & cells) == 0;
+  return samples.fitsLattice() && (large & cells) == 0 && (r.lines.empty() || !endAtLines(r, q, cells));
 }
 
 /// Lists pairs of a pixel and a cell to be tested, without pixels whose samples are all nearer. It takes as many cells
@@ -168,10 +212,12 @@ HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Tria
 /// cells (docs/decisions/0102).
 template <class Edges>
 void depthTestCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+  const uint64_t all = cells;
   size_t count = listPixelTests(job.out, q, cells);
   if (count == 0 && cells == 0) return;
   Triangles<Edges> triangles;
   triangles.set(q, job.raster.facing);
+  setLines(job.raster, q, all, triangles);
   for (; count > 0 || cells; count = listPixelTests(job.out, q, cells)) runPixelTests(job, q, triangles, count);
 }
 
@@ -181,6 +227,7 @@ void layerCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   const RasterGrid& r = job.raster;
   Triangles<Edges> triangles;
   triangles.set(q, r.facing);
+  setLines(r, q, cells, triangles);
   for (uint64_t left = cells; left; left &= left - 1) {
     const int i = std::countr_zero(left);
     const Kept kept = keptOf(job, q.cell[i]);
@@ -213,7 +260,7 @@ void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
   for (int k = first; k < end; k += kLanes) {
     const uint64_t cells = keptCells(job, q, setUp(q, job.raster, numbers, k, end, job.out.rect));
     if (cells == 0) continue;
-    if (fitLattice(q, cells, job.out)) {
+    if (fitLattice(job.raster, q, cells, job.out)) {
       setLattice(q.x, job.out.origin.x, q.latticeX);
       setLattice(q.y, job.out.origin.y, q.latticeY);
       sampleCells<LatticeEdges>(job, q, cells);
