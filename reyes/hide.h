@@ -52,6 +52,13 @@ struct RasterExtent {
   }
 };
 
+/// A straight line at which a piece ends, in raster space. Its ends are those of the whole edge of a surface, so a
+/// neighbour that has them too ends at the same line, whatever its own vertices are.
+struct BorderLine {
+  vec2 from{0}, to{0};
+  bool none() const { return from == to; }
+};
+
 /// Vertices of a grid in raster space, made once for each grid by `project` and shared by the buckets.
 struct RasterGrid : RasterExtent {
   std::shared_ptr<const Grid> grid;
@@ -70,6 +77,12 @@ struct RasterGrid : RasterExtent {
   /// blocks across the end.
   PooledVector<float> x, y, d;
   std::vector<RasterExtent> ofPiece;  ///< Extent of each piece; empty: there is one piece.
+  /// PatchEdge bits of each piece: borders that were pushed out, as neighbours may have other vertices there; empty:
+  /// none.
+  std::vector<uint8_t> reaching;
+  /// Four of each piece, in the order of PatchEdge: they end its cells there instead of the cells' own edges; empty:
+  /// none does.
+  std::vector<BorderLine> lines;
   const Prim* trim = nullptr;  ///< The shape whose trim curves cut Kept::Part cells (Grid::kept); null: nothing is cut.
   float trimReach_px = 0;      ///< Trimmed surfaces reach this much farther, to meet their neighbours.
 };

@@ -28,7 +28,7 @@ class BorderCell {
     const int i = inPiece % grid_.nu, j = inPiece / grid_.nu;
     const int at =
         (i == 0) * kEdgeU0 | (i == grid_.nu - 1) * kEdgeU1 | (j == 0) * kEdgeV0 | (j == grid_.nv - 1) * kEdgeV1;
-    joined_ = at & ~grid_.pieces[static_cast<size_t>(grid_.pieceOfCell(cell))].openEdges;
+    joined_ = raster_.reaching.empty() ? 0 : at & raster_.reaching[static_cast<size_t>(grid_.pieceOfCell(cell))];
   }
 
   /// Does it lie at a border that joins a neighbour?

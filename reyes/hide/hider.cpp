@@ -23,10 +23,7 @@ std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
 
 /// TransparentLayer::object of a grid's layers.
 int joinedObject(const RasterGrid& raster) {
-  const std::vector<Grid::Piece>& pieces = raster.grid->pieces;
-  const bool ends =
-      std::all_of(pieces.begin(), pieces.end(), [](const Grid::Piece& p) { return p.openEdges == kAllEdges; });
-  return ends || raster.blur || raster.inSolid ? -1 : raster.grid->object;
+  return raster.reaching.empty() || raster.blur || raster.inSolid ? -1 : raster.grid->object;
 }
 
 /// Counts the depth conflicts whose winner is still visible.

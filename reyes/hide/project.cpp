@@ -1,134 +1,13 @@
 // Grid -> raster space. Borders that join a neighbour are pushed out (docs/decisions/0003).
 #include "reyes/base/check.h"
 #include "reyes/hide/blur_bounds.h"
-#include "reyes/hide/lattice.h"
+#include "reyes/hide/borders.h"
 #include "reyes/hide/sides.h"
 
 namespace tomales {
 namespace {
 
-constexpr float kLeastSlant = 0.05f;  // the least slant, for faces seen edge on
-// A neighbour with edges twice as long has four times the sagitta of ours.
-constexpr float kReach = 4;
-constexpr float kMinReach_px = 2 / kLattice;
-// Factor on how far displaced borders reach out, for those that turn away from the eye, and the same share of a pixel:
-// past the horizon more would show as a dark line around the body.
-constexpr float kShareAway = 0.1f;
 constexpr float kTrimReach = 2;  // The reach is tested along x and y only, and trim curves run aslant.
-
-/// One border of a piece as vertex indices: first + k * step for k in 0..count; the inner neighbour is `inward` away.
-struct Border {
-  PatchEdge edge;
-  int first, step, inward, count;
-};
-
-/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h apart on
-/// a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
-float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
-  const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
-  if (b.count > 1) {
-    const vec2 before{x[v] - x[v - b.step], y[v] - y[v - b.step]}, after{x[v + b.step] - x[v], y[v + b.step] - y[v]};
-    const float one = glm::length(before), other = glm::length(after), longer = std::max(one, other);
-    if (!(dot(before, after) > 0)) return glm::length(after - before) / 8;
-    // Only the turn counts: unevenly spaced points of a straight border, as near the tip of a paraboloid, open no
-    // crack.
-    const float turn = std::abs(before.x * after.y - before.y * after.x) / (one * other);
-    return turn * 2 / (one + other) * longer * longer / 8;
-  }
-  // A single chord does not show its curve, but the normals turn as the tangents do.
-  const int w = b.first;
-  const vec3 turn = normalizeOr(g.normal(v), vec3(0)) - normalizeOr(g.normal(w), vec3(0));
-  return glm::length(vec2(x[v] - x[w], y[v] - y[w])) * glm::length(turn) / 8;
-}
-
-float deviationAlong(const Grid& g, const float* x, const float* y, const Border& line) {
-  float most = 0;
-  for (int k = 0; k <= line.count; ++k) most = std::max(most, sagitta_px(g, x, y, line, k));
-  return most;
-}
-
-/// How far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a twisted
-/// cell.
-float deviation_px(const Grid& g, const float* x, const float* y) {
-  const int row = g.nu + 1;
-  float most = 0;
-  for (int j = 0; j <= g.nv; ++j) most = std::max(most, deviationAlong(g, x, y, {kEdgeV0, j * row, 1, row, g.nu}));
-  for (int i = 0; i <= g.nu; ++i) most = std::max(most, deviationAlong(g, x, y, {kEdgeU0, i, row, 1, g.nv}));
-  for (int j = 0; j < g.nv; ++j)
-    for (int i = 0; i < g.nu; ++i) {
-      const int a = j * row + i, b = a + 1, c = a + row, d = c + 1;
-      most = std::max(most, glm::length(vec2(x[a] - x[b] - x[c] + x[d], y[a] - y[b] - y[c] + y[d])) / 4);
-    }
-  return most;
-}
-
-/// Sine of the angle between a direction and the border at vertex k.
-float slantOf(const vec2& direction, const float* x, const float* y, const Border& b, int k) {
-  const int before = b.first + std::max(k - 1, 0) * b.step, after = b.first + std::min(k + 1, b.count) * b.step;
-  const vec2 along{x[after] - x[before], y[after] - y[before]};
-  const float length = glm::length(along);
-  return length > 0 ? std::abs(along.x * direction.y - along.y * direction.x) / length : 1.0f;
-}
-
-float longestEdge_px(const float* x, const float* y, const Border& b) {
-  float longest = 0;
-  for (int k = 0; k < b.count; ++k) {
-    const int v = b.first + k * b.step, w = v + b.step;
-    longest = std::max(longest, glm::length(vec2(x[w] - x[v], y[w] - y[v])));
-  }
-  return longest;
-}
-
-/// Sign of the raster area of the cell at vertex k of a border, u before v.
-float areaSign(const float* x, const float* y, const Border& b, int k) {
-  const int v = b.first + k * b.step, before = k < b.count ? v : v - b.step, after = before + b.step, in = v + b.inward;
-  const vec2 along{x[after] - x[before], y[after] - y[before]}, inward{x[in] - x[v], y[in] - y[v]};
-  const float turn = inward.x * along.y - inward.y * along.x;
-  return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
-}
-
-/// least_px: how far the border reaches out where it looks straight; it is more than kMinReach_px if the border is
-/// displaced.
-void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, float facing,
-                std::vector<vec2>& push) {
-  const float most_px = std::max(borderReach_px(0), least_px);
-  const float away_px = least_px > kMinReach_px ? kShareAway * std::max(1.0f, least_px) : most_px;
-  for (int k = 0; k <= b.count; ++k) {
-    const int v = b.first + k * b.step;
-    const vec2 outward{x[v] - x[v + b.inward], y[v] - y[v + b.inward]};
-    const float length = glm::length(outward);
-    if (!(length > 0)) continue;
-    const float reach = std::clamp(kReach * sagitta_px(g, x, y, b, k), least_px, most_px);
-    // Vertices move along the lattice, so that the other borders stay where they are, until the border itself has moved
-    // by `reach`.
-    const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
-    const bool faces = facing * areaSign(x, y, b, k) > 0;
-    push[static_cast<size_t>(v)] += outward * (std::min(reach / slant, faces ? most_px : away_px) / length);
-  }
-}
-
-/// A displaced border that neighbours sample at other places may be anywhere within a micropolygon of theirs:
-/// `mostOfDisplaced_px` limits the reach; 0: it is not displaced. facing: RasterGrid::facing of a one-sided surface.
-void pushBorders(const Grid& g, float mostOfDisplaced_px, float facing, float* x, float* y) {
-  const auto ends = [](const Grid::Piece& p) { return (p.openEdges & kAllEdges) == kAllEdges; };
-  if (std::all_of(g.pieces.begin(), g.pieces.end(), ends)) return;
-  const int row = g.nu + 1;
-  static thread_local std::vector<vec2> push;
-  push.assign(static_cast<size_t>(g.vertexCount()), vec2(0));
-  int first = 0;
-  for (const Grid::Piece& p : g.pieces) {
-    const Border borders[] = {{kEdgeU0, first, row, 1, g.nv},
-                              {kEdgeU1, first + g.nu, row, -1, g.nv},
-                              {kEdgeV0, first, 1, row, g.nu},
-                              {kEdgeV1, first + g.nv * row, 1, -row, g.nu}};
-    for (const Border& b : borders)
-      if (!(p.openEdges & b.edge))
-        pushBorder(g, b, x, y, std::max(kMinReach_px, std::min(mostOfDisplaced_px, longestEdge_px(x, y, b))), facing,
-                   push);
-    first += g.verticesOfPiece();
-  }
-  for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
-}
 
 /// Vertices of a grid at one key, in camera space.
 struct Vertices {
@@ -238,6 +117,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   // The tail lets blocks of micropolygons be read across the end.
   const size_t stride = static_cast<size_t>(g.stride()), size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
   for (PooledVector<float>* axis : {&r->x, &r->y, &r->d}) *axis = PooledVector<float>(size, 0.0f, pool.get());
+  planBorders(*r, object, camera);
   // Transparent surfaces would show an overlap that wide.
   const float mostOfDisplaced_px = opaque && attributes.displacement && object.displacementBound > 0
                                        ? borderReach_px(object.displacementBound)
@@ -250,8 +130,8 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     const Vertices vertices{g.P(key, 0), g.P(key, 1), g.P(key, 2), g.vertexCount()};
     const bool allSeeable = toRaster(vertices, camera, x, y, d);
     if (!r->inSolid) r->clipped |= anyClipped(vertices, camera, !scene.options.clippingPlanes.empty());
-    if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kMinReach_px + kTrimReach * deviation_px(g, x, y));
-    pushBorders(g, mostOfDisplaced_px, facing, x, y);
+    if (r->trim) r->trimReach_px = std::max(r->trimReach_px, kLeastReach_px + kTrimReach * deviation_px(g, x, y));
+    pushBorders(*r, mostOfDisplaced_px, facing, x, y);
     snap(x, y, g.vertexCount());
     for (int p = 0; p < pieces; ++p) {
       const int first = p * count;

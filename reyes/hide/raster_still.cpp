@@ -111,6 +111,66 @@ HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& nu
   return touching & numbers.set(q, first, end);
 }
 
+/// The lines at which a cell ends.
+class Lines {
+ public:
+  Lines(const RasterGrid& r, const Corners& q, int i) {
+    if (r.lines.empty()) return;
+    const Grid& g = *r.grid;
+    const int cell = q.cell[i], inPiece = g.pieceCount() > 1 ? g.cellInPiece(cell) : cell;
+    const int v = inPiece / g.nu, u = inPiece - v * g.nu;
+    const BorderLine* lines = &r.lines[g.pieceCount() > 1 ? 4 * static_cast<size_t>(g.pieceOfCell(cell)) : 0];
+    const bool left[2] = {turnsLeft(q, i, 0, 1, 2), turnsLeft(q, i, 1, 3, 2)};  // triangles abc and bdc
+    if (u == 0) add(lines[0].to, lines[0].from, 0, left[0]);
+    if (u == g.nu - 1) add(lines[1].from, lines[1].to, 1, left[1]);
+    if (v == 0) add(lines[2].from, lines[2].to, 0, left[0]);
+    if (v == g.nv - 1) add(lines[3].to, lines[3].from, 1, left[1]);
+  }
+  bool any() const { return count_ > 0; }
+  /// The samples that a line does not cut off from the triangle that it bounds; `first`: those in abc. They are
+  /// evaluated as edges are, so that surfaces on both sides share them out.
+  HWY_INLINE Mask inside(Mask first, Floats x, Floats y) const {
+    Mask in = hn::Or(inside(0, x, y), bySecond_[0] ? first : hn::Not(first));
+    for (int k = 1; k < count_; ++k) in = hn::And(in, hn::Or(inside(k, x, y), bySecond_[k] ? first : hn::Not(first)));
+    return in;
+  }
+
+ private:
+  static bool turnsLeft(const Corners& q, int i, int a, int b, int c) {
+    return (q.x[b][i] - q.x[a][i]) * (q.y[c][i] - q.y[a][i]) - (q.y[b][i] - q.y[a][i]) * (q.x[c][i] - q.x[a][i]) > 0;
+  }
+  void add(const vec2& p, const vec2& q, int triangle, bool left) {
+    if (p == q) return;
+    bySecond_[count_] = triangle == 1;
+    const bool swapped = q.x < p.x || (q.x == p.x && q.y < p.y);
+    const vec2 along = left ? q - p : p - q, origin = swapped ? q : p;
+    ox_[count_] = origin.x, oy_[count_] = origin.y, dx_[count_] = along.x, dy_[count_] = along.y;
+    least_[count_++] = swapped != left ? 0.0f : -kTiny;
+  }
+  HWY_INLINE Mask inside(int k, Floats x, Floats y) const {
+    return hn::Gt(hn::Sub(hn::Mul(all(dx_[k]), hn::Sub(y, all(oy_[k]))), hn::Mul(all(dy_[k]), hn::Sub(x, all(ox_[k])))),
+                  all(least_[k]));
+  }
+
+  int count_ = 0;
+  bool bySecond_[4];  ///< Does it bound bdc, not abc?
+  float ox_[4], oy_[4], dx_[4], dy_[4], least_[4];
+};
+
+/// A micropolygon that ends at lines.
+template <class Edges>
+struct CutQuad : Quad<Edges> {
+  const Lines& lines;
+
+  CutQuad(const Quad<Edges>& quad, const Lines& l) : Quad<Edges>(quad), lines(l) {}
+  HWY_INLINE typename Quad<Edges>::Covered covers(const SampleBuffer& samples, size_t lane) const {
+    auto in = Quad<Edges>::covers(samples, lane);
+    in.mask = hn::And(
+        in.mask, lines.inside(in.first, hn::Load(kF, samples.x.data() + lane), hn::Load(kF, samples.y.data() + lane)));
+    return in;
+  }
+};
+
 /// Are edges of some cells short enough for the lattice?
 HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer& samples) {
   uint64_t large = 0;
@@ -156,11 +216,17 @@ HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Tria
     const Kept kept = whole ? Kept::All : keptOf(job, q.cell[i]);
     const Quad<Edges> quad(q, triangles, i);
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
-    do {
-      const size_t pixel = pixelTests[k].pixel;
-      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) depthTest(job, quad, pixel * lanes + g, cell, kept);
-      out.nearer[pixel] = 1;
-    } while (++k < count && pixelTests[k].cell == i);
+    const auto test = [&](const auto& shape) {
+      do {
+        const size_t pixel = pixelTests[k].pixel;
+        for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) depthTest(job, shape, pixel * lanes + g, cell, kept);
+        out.nearer[pixel] = 1;
+      } while (++k < count && pixelTests[k].cell == i);
+    };
+    if (const Lines lines(job.raster, q, i); HWY_UNLIKELY(lines.any()))
+      test(CutQuad<Edges>(quad, lines));
+    else
+      test(quad);
   }
 }
 
@@ -187,7 +253,11 @@ void layerCells(const RasterJob& job, const Corners& q, uint64_t cells) {
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
     const PixelRect pixels{q.x0[i], q.y0[i], q.x1[i], q.y1[i]};
     const auto quad = [&] { return Quad<Edges>(q, triangles, i); };
-    sampleCell<false>(job, pixels, r.inSolid ? r.dMin : q.dMin[i], cell, kept, quad);
+    const float dMin = r.inSolid ? r.dMin : q.dMin[i];
+    if (const Lines lines(r, q, i); lines.any())
+      sampleCell<false>(job, pixels, dMin, cell, kept, [&] { return CutQuad<Edges>(quad(), lines); });
+    else
+      sampleCell<false>(job, pixels, dMin, cell, kept, quad);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <filesystem>
@@ -78,6 +79,38 @@ bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& e
   return error.empty();
 }
 
+/// Copies a tiled TIFF with its levels. Where tiles reach beyond the picture OpenImageIO leaves what was in memory, so
+/// that the same picture would make other bytes each time: the copy has zeros there.
+bool copyWithBlackEdges(const std::string& from, const std::string& to, std::string& error) {
+  const auto in = OIIO::ImageInput::open(from);
+  const auto out = OIIO::ImageOutput::create("tiff");
+  const auto failed = [&](const std::string& what) {
+    error = what.empty() ? "it cannot be written" : what;
+    return false;
+  };
+  if (!in || !out) return failed(oiioError());
+  for (int level = 0; in->seek_subimage(0, level); ++level) {
+    const OIIO::ImageSpec spec = in->spec();
+    if (!out->open(to, spec, level == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage))
+      return failed(out->geterror());
+    const size_t pixel = spec.pixel_bytes(true), row = pixel * static_cast<size_t>(spec.tile_width);
+    std::vector<char> tile(row * static_cast<size_t>(spec.tile_height));
+    for (int y = 0; y < spec.height; y += spec.tile_height)
+      for (int x = 0; x < spec.width; x += spec.tile_width) {
+        if (!in->read_tile(spec.x + x, spec.y + y, 0, spec.format, tile.data())) return failed(in->geterror());
+        const auto columns = static_cast<size_t>(std::min(spec.tile_width, spec.width - x));
+        for (int r = 0; r < spec.tile_height; ++r) {
+          const auto begin = tile.begin() + static_cast<std::ptrdiff_t>(row) * r;
+          const size_t kept = r < spec.height - y ? columns * pixel : 0;
+          std::fill(begin + static_cast<std::ptrdiff_t>(kept), begin + static_cast<std::ptrdiff_t>(row), 0);
+        }
+        // With a type that is not named, OpenImageIO would take all rows of the tile from the same place.
+        if (!out->write_tile(spec.x + x, spec.y + y, 0, spec.format, tile.data())) return failed(out->geterror());
+      }
+  }
+  return out->close() || failed(out->geterror());
+}
+
 /// `scratch`: a folder of the same file system. What a killed process has left there is removed.
 bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, const fs::path& scratch,
            bool sealed, std::string& error) {
@@ -91,9 +124,11 @@ bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std
     // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a
     // killed process would leave.
     const TemporaryFolder folder(scratch);
-    const fs::path made = folder.path() / "texture";
-    if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, made.string(), config))
+    const fs::path first = folder.path() / "first", made = exr ? first : folder.path() / "texture";
+    if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, first.string(), config))
       error = oiioError();
+    else if (!exr && !copyWithBlackEdges(first.string(), made.string(), error))
+      error = fmt::format("\"{}\" cannot be written: {}", file, error);
     else if (sealed && !seal(made.string()))
       error = fmt::format("\"{}\" cannot be written", file);
     else if (!moveFinished(made, file, error))

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "reyes/base/simd.h"
+#include "reyes/open_borders.h"
 #include "reyes/prim/curve_segments.h"
 #include "reyes/prim/facing.h"
 #include "reyes/prim/interpolation.h"
@@ -104,7 +105,7 @@ TOMALES_HOT void spread(int n, const float* u, const int* section, const Section
   }
 }
 
-class Ribbons : public Prim {
+class Ribbons : public Prim, public OpenBorders {
  public:
   explicit Ribbons(CurveSegments segments) : Prim(std::move(segments.primvars)), segments_(std::move(segments)) {
     if (const Primvar* normals = normalsOf(primvars_)) normals_ = segments_.along(*normals);
@@ -117,6 +118,7 @@ class Ribbons : public Prim {
     return turned;
   }
 
+  bool isLone() const override { return true; }
   uint32_t patchCount() const override { return segments_.count(); }
   PatchInfo info(uint32_t patch) const override {
     const CurveSegment& s = segments_[patch];

@@ -1,6 +1,7 @@
 // Bilinear and bicubic patch meshes (RISpec section 5.2). A Patch is a mesh of one patch.
 #include <fmt/format.h>
 
+#include "reyes/open_borders.h"
 #include "reyes/prim/patch_mesh.h"
 #include "reyes/prim/primvars.h"
 
@@ -45,20 +46,17 @@ std::vector<vec3> takeControls(const ParamList& params, const Layout& mesh, Prob
   return heights ? takeHeights(*heights, mesh) : takePositions(params, mesh.controls(), true, problems);
 }
 
-class BilinearMesh : public PatchMesh {
+class BilinearMesh : public PatchMesh, public OpenBorders {
  public:
   BilinearMesh(const Layout& mesh, const ParamList& params, Problems& problems)
       : PatchMesh(mesh, params, problems), points_(takeControls(params, mesh, problems)) {}
 
   PatchInfo info(uint32_t patch) const override {
-    const auto edge = [&](uint32_t p, PatchEdge bit) {
-      const std::array<vec3, 4> c = corners(p);
-      return bit == kEdgeU0   ? std::array{c[0], c[2]}
-             : bit == kEdgeU1 ? std::array{c[1], c[3]}
-             : bit == kEdgeV0 ? std::array{c[0], c[1]}
-                              : std::array{c[2], c[3]};
-    };
+    const auto edge = [&](uint32_t p, PatchEdge bit) { return endsOf(corners(p), bit); };
     return {isFlat(corners(patch)), findOpenEdges(patch, edge)};
+  }
+  std::optional<std::array<vec3, 2>> straightEdge(uint32_t patch, PatchEdge edge) const override {
+    return endsOf(corners(patch), edge);
   }
 
   Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundBilinear(corners(patch), rect); }

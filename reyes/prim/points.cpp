@@ -1,6 +1,7 @@
 // Particles as disks, squares or spheres (RISpec 3.2, Points).
 #include <fmt/format.h>
 
+#include "reyes/open_borders.h"
 #include "reyes/prim/disk_lattice.h"
 #include "reyes/prim/facing.h"
 #include "reyes/prim/interpolation.h"
@@ -75,8 +76,9 @@ class PointCloud : public Prim, public Scattered {
 
 /// Shapes with a plane: that of "N", or the one that faces the eye.
 template <class Shape>
-class FlatPoints : public PointCloud {
+class FlatPoints : public PointCloud, public OpenBorders {
  public:
+  bool isLone() const override { return true; }
   using PointCloud::PointCloud;
 
   std::shared_ptr<const Prim> facing(const vec3& eye, const vec3& forward, bool perspective) const override {

@@ -1,26 +1,32 @@
 // Polygons (RISpec section 5.1) as bilinear patches.
 #include <fmt/format.h>
 
+#include "reyes/open_borders.h"
 #include "reyes/prim/polygon_patches.h"
 #include "reyes/prim/primvars.h"
 
 namespace tomales {
 namespace {
 
-class Polygons : public Prim {
+class Polygons : public Prim, public OpenBorders {
  public:
   Polygons(Decomposition parts, std::vector<vec3> positions, std::vector<int> vertices, std::vector<Primvar> primvars)
       : Prim(std::move(primvars)),
         parts_(std::move(parts)),
         positions_(std::move(positions)),
-        given_(positions_.size()),
         vertices_(std::move(vertices)) {
+    findMiddles(static_cast<uint32_t>(vertices_.size()));
     addMadePoints();
   }
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(parts_.patches.size()); }
   PatchInfo info(uint32_t patch) const override { return parts_.patches[patch].info; }
   Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundBilinear(cornersOf(patch), rect); }
+
+  std::optional<std::array<vec3, 2>> straightEdge(uint32_t patch, PatchEdge edge) const override {
+    const auto [from, to] = endsOf(parts_.patches[patch].corners, edge);
+    return std::array{positions_[vertexNumber(endOf(from, to))], positions_[vertexNumber(endOf(to, from))]};
+  }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     evaluateBilinear(cornersOf(patch), n, u, v, out);
@@ -58,6 +64,36 @@ class Polygons : public Prim {
     return {vertexNumber(quad.corners[0]), vertexNumber(quad.corners[1]), vertexNumber(quad.corners[2]),
             vertexNumber(quad.corners[3])};
   }
+  /// A made corner in the middle of an open edge of a face, and the ends of that edge.
+  struct Middle {
+    uint32_t corner;
+    std::array<uint32_t, 2> ends;
+    bool operator<(const Middle& other) const { return corner < other.corner; }
+    bool operator==(const Middle& other) const { return corner == other.corner; }
+  };
+  /// The corner itself or, if it is a middle, the end of its edge that is not `other`.
+  uint32_t endOf(uint32_t corner, uint32_t other) const {
+    const auto at = std::lower_bound(middles_.begin(), middles_.end(), Middle{corner, {}});
+    if (at == middles_.end() || at->corner != corner) return corner;
+    return at->ends[at->ends[0] == other ? 1 : 0];
+  }
+
+  void findMiddles(uint32_t firstMade) {
+    for (size_t k = 0; k < parts_.patches.size() && parts_.made.count() > 0; ++k) {
+      const QuadPatch quad = parts_.patches[k];
+      for (const PatchEdge edge : {kEdgeU0, kEdgeU1, kEdgeV0, kEdgeV1}) {
+        if (!(quad.info.openEdges & edge)) continue;
+        for (const uint32_t corner : endsOf(quad.corners, edge)) {
+          if (corner < firstMade) continue;
+          const std::span<const uint32_t> ends = parts_.made.sources(corner - firstMade);
+          middles_.push_back({corner, {ends[0], ends[1]}});
+        }
+      }
+    }
+    std::sort(middles_.begin(), middles_.end());
+    middles_.erase(std::unique(middles_.begin(), middles_.end()), middles_.end());
+  }
+
   std::array<vec3, 4> cornersOf(uint32_t patch) const {
     const Corners c = vertexNumbers(parts_.patches[patch]);
     return {positions_[c[0]], positions_[c[1]], positions_[c[2]], positions_[c[3]]};
@@ -66,14 +102,14 @@ class Polygons : public Prim {
   /// Appends a value for every made point to the positions, and to the primvars that have one for each vertex or
   /// face-vertex.
   void addMadePoints() {
-    const size_t count = parts_.made.count();
+    const size_t count = parts_.made.count(), given = positions_.size();
     for (size_t k = 0; k < count; ++k) {
       const std::span<const uint32_t> from = parts_.made.sources(k);
       vec3 sum(0);
       for (uint32_t corner : from) sum += positions_[vertexNumber(corner)];
       positions_.push_back(sum / static_cast<float>(from.size()));
     }
-    for (size_t k = 0; k < count; ++k) vertices_.push_back(static_cast<int>(given_ + k));
+    for (size_t k = 0; k < count; ++k) vertices_.push_back(static_cast<int>(given + k));
     for (Primvar& var : primvars_)
       if (var.storage != Storage::Constant && var.storage != Storage::Uniform) addMadeValues(var);
     parts_.made = {};
@@ -92,12 +128,13 @@ class Polygons : public Prim {
   }
 
   size_t shapeBytes() const override {
-    return bytesOf(parts_.faces) + parts_.patches.bytes() + bytesOf(positions_) + bytesOf(vertices_);
+    return bytesOf(parts_.faces) + parts_.patches.bytes() + bytesOf(positions_) + bytesOf(vertices_) +
+           bytesOf(middles_);
   }
   Decomposition parts_;
   std::vector<vec3> positions_;
-  size_t given_;
   std::vector<int> vertices_;
+  std::vector<Middle> middles_;  ///< By corner.
 };
 
 void requireLoops(const std::vector<int>& loopCounts, size_t loops) {

@@ -196,6 +196,7 @@ void Lights::substitute(Batch& batch) {
 
 void Lights::tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const {
   if (!request_) return;
+  std::vector<std::string> unfit;  // one message names them all
   for (const LightMessage& m : request_->sent)
     for (size_t k = 0; k < static_cast<size_t>(light.shader->paramCount); ++k) {
       const TmParamDecl& decl = light.shader->params[k];
@@ -203,12 +204,14 @@ void Lights::tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& 
       const bool fits = floatsOf(typeOf(decl)) == floatsOf(m.type) && decl.arrayLength == 1 &&
                         (m.value.step == 0 || !isUniform(decl));
       if (!fits)
-        batch.report(Severity::Warning, "shader-sends",
-                     fmt::format("sends lights a \"{}\" of another type than \"{}\" has; it keeps its own", m.name,
-                                 light.shader->name));
+        unfit.push_back(fmt::format("\"{}\"", m.name));
       else
         params[k] = m.value, params[k].string = m.type == TM_STRING ? m.text.c_str() : nullptr;
     }
+  if (!unfit.empty())
+    batch.report(Severity::Warning, "shader-sends",
+                 fmt::format("sends lights {} of another type than \"{}\" has; it keeps its own",
+                             fmt::join(unfit, " and "), light.shader->name));
 }
 
 void Lights::evaluate(Batch& batch, const BoundLight& light) {

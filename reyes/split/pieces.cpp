@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "reyes/open_borders.h"
 #include "reyes/scattered.h"
 #include "reyes/split.h"
 #include "reyes/split/placement.h"
@@ -61,9 +62,13 @@ bool isFlat(const Object& o, uint32_t patch) {
          std::none_of(primvars.begin(), primvars.end(), [](const Primvar& p) { return p.name == "N"; });
 }
 
-/// Does a whole patch, for instance a particle, join no neighbour? Nothing is added to its borders then.
+/// Does a whole patch, for instance a particle, join no neighbour, or only along straight lines? Next to nothing is
+/// added to its borders then.
 bool isAlone(const Object& o, uint32_t patch) {
-  return o.displacementBound <= 0 && (o.shape().info(patch).openEdges & kAllEdges) == kAllEdges;
+  const PatchInfo info = o.shape().info(patch);
+  if (o.displacementBound > 0 || (info.openEdges & kAllEdges) != kAllEdges) return false;
+  const auto* known = dynamic_cast<const OpenBorders*>(&o.shape());
+  return info.planar || (known && known->isLone());
 }
 
 /// Splits the patches of one object.

@@ -4,13 +4,15 @@
 #include <functional>
 
 #include "reyes/hide.h"
+#include "reyes/open_borders.h"
 
 namespace tomales::test {
 
-/// Nothing asks it for geometry: the grids of these tests come ready made.
-class NoPrim : public Prim {
+/// Nothing asks it for geometry: the grids of these tests come ready made, and end where their vertices are.
+class NoPrim : public Prim, public OpenBorders {
  public:
   explicit NoPrim(std::vector<Primvar> primvars = {}) : Prim(std::move(primvars)) {}
+  bool isLone() const override { return true; }
   uint32_t patchCount() const override { return 1; }
   PatchInfo info(uint32_t) const override { return {}; }
   Bound3 bound(uint32_t, const UvRect&) const override { return {vec3(0), vec3(1)}; }

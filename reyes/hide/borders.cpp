@@ -1,0 +1,232 @@
+// Three kinds of borders are closed in three ways (docs/decisions/0003). One that joins a piece of the same surface
+// reaches over it. An open one that is straight ends at the line between the ends of its whole edge, which any
+// neighbour has as well. An open one that is curved reaches over its own chords.
+#include "reyes/hide/borders.h"
+
+#include "reyes/open_borders.h"
+
+namespace tomales {
+namespace {
+
+constexpr float kLeastSlant = 0.05f;  // the least slant, for faces seen edge on
+// A neighbour with edges twice as long has four times the sagitta of ours.
+constexpr float kReach = 4;
+// An open border reaches its own curve where that bulges; where it does not, a neighbour's bulges, and reaches it.
+constexpr float kReachOpen = 1.5f;
+/// Greatest share of a cell by which an open border reaches out, so that small shapes do not grow.
+constexpr float kShareOfCell = 1 / 128.0f;
+// Factor on how far displaced borders reach out, for those that turn away from the eye, and the same share of a pixel:
+// past the horizon more would show as a dark line around the body.
+constexpr float kShareAway = 0.1f;
+/// Raster coordinates up to this are on the lattice.
+constexpr float kFarthest_px = 4096;
+constexpr PatchEdge kEdges[] = {kEdgeU0, kEdgeU1, kEdgeV0, kEdgeV1};
+
+/// One border of a piece as vertex indices: first + k * step for k in 0..count; the inner neighbour is `inward` away.
+struct Border {
+  PatchEdge edge;
+  int first, step, inward, count;
+};
+
+std::array<Border, 4> bordersOf(const Grid& g, int first) {
+  const int row = g.nu + 1;
+  return {{{kEdgeU0, first, row, 1, g.nv},
+           {kEdgeU1, first + g.nu, row, -1, g.nv},
+           {kEdgeV0, first, 1, row, g.nu},
+           {kEdgeV1, first + g.nv * row, 1, -row, g.nu}}};
+}
+
+/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h apart on
+/// a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
+float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
+  const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
+  if (b.count > 1) {
+    const vec2 before{x[v] - x[v - b.step], y[v] - y[v - b.step]}, after{x[v + b.step] - x[v], y[v + b.step] - y[v]};
+    const float one = glm::length(before), other = glm::length(after), longer = std::max(one, other);
+    if (!(dot(before, after) > 0)) return glm::length(after - before) / 8;
+    // Only the turn counts: unevenly spaced points of a straight border, as near the tip of a paraboloid, open no
+    // crack.
+    const float turn = std::abs(before.x * after.y - before.y * after.x) / (one * other);
+    return turn * 2 / (one + other) * longer * longer / 8;
+  }
+  // A single chord does not show its curve, but the normals turn as the tangents do.
+  const int w = b.first;
+  const vec3 turn = normalizeOr(g.normal(v), vec3(0)) - normalizeOr(g.normal(w), vec3(0));
+  return glm::length(vec2(x[v] - x[w], y[v] - y[w])) * glm::length(turn) / 8;
+}
+
+float deviationAlong(const Grid& g, const float* x, const float* y, const Border& line) {
+  float most = 0;
+  for (int k = 0; k <= line.count; ++k) most = std::max(most, sagitta_px(g, x, y, line, k));
+  return most;
+}
+
+/// Sine of the angle between a direction and the border at vertex k.
+float slantOf(const vec2& direction, const float* x, const float* y, const Border& b, int k) {
+  const int before = b.first + std::max(k - 1, 0) * b.step, after = b.first + std::min(k + 1, b.count) * b.step;
+  const vec2 along{x[after] - x[before], y[after] - y[before]};
+  const float length = glm::length(along);
+  return length > 0 ? std::abs(along.x * direction.y - along.y * direction.x) / length : 1.0f;
+}
+
+float longestEdge_px(const float* x, const float* y, const Border& b) {
+  float longest = 0;
+  for (int k = 0; k < b.count; ++k) {
+    const int v = b.first + k * b.step, w = v + b.step;
+    longest = std::max(longest, glm::length(vec2(x[w] - x[v], y[w] - y[v])));
+  }
+  return longest;
+}
+
+/// Sign of the raster area of the cell at vertex k of a border, u before v.
+float areaSign(const float* x, const float* y, const Border& b, int k) {
+  const int v = b.first + k * b.step, before = k < b.count ? v : v - b.step, after = before + b.step, in = v + b.inward;
+  const vec2 along{x[after] - x[before], y[after] - y[before]}, inward{x[in] - x[v], y[in] - y[v]};
+  const float turn = inward.x * along.y - inward.y * along.x;
+  return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
+}
+
+/// Does the surface end at a curve that bulges out at vertex k? It is not known of a single chord.
+bool mayBulge(const float* x, const float* y, const Border& b, int k) {
+  if (b.count < 2) return true;
+  const int v = b.first + std::clamp(k, 1, b.count - 1) * b.step, before = v - b.step, after = v + b.step;
+  const vec2 bend{x[before] - 2 * x[v] + x[after], y[before] - 2 * y[v] + y[after]};
+  return dot(bend, vec2{x[v + b.inward] - x[v], y[v + b.inward] - y[v]}) > 0;
+}
+
+/// How far a border reaches out.
+struct Reach {
+  bool open;       ///< It ends the surface, and
+  bool cut;        ///< a line cuts off what is beyond.
+  float least_px;  ///< Where it looks straight; it is more than kLeastReach_px if the border is displaced.
+};
+
+float reachAt(const Grid& g, const Border& b, const float* x, const float* y, int k, const Reach& reach,
+              float cell_px) {
+  const float most_px = std::max(borderReach_px(0), reach.least_px);
+  if (!reach.open) return std::clamp(kReach * sagitta_px(g, x, y, b, k), reach.least_px, most_px);
+  const float bulge = mayBulge(x, y, b, k) ? kReachOpen * sagitta_px(g, x, y, b, k) : 0.0f;
+  return std::min(bulge + std::min(reach.least_px, kShareOfCell * cell_px), most_px);
+}
+
+void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, const Reach& reach, float facing,
+                std::vector<vec2>& push) {
+  const float most_px = std::max(borderReach_px(0), reach.least_px);
+  const float away_px = reach.least_px > kLeastReach_px ? kShareAway * std::max(1.0f, reach.least_px) : most_px;
+  for (int k = 0; k <= b.count; ++k) {
+    const int v = b.first + k * b.step;
+    const vec2 outward{x[v] - x[v + b.inward], y[v] - y[v + b.inward]};
+    const float length = glm::length(outward);
+    if (!(length > 0)) continue;
+    if (reach.cut) {
+      push[static_cast<size_t>(v)] +=
+          outward * (reach.least_px / (std::max(slantOf(outward / length, x, y, b, k), kLeastSlant) * length));
+      continue;
+    }
+    // Vertices move along the lattice, so that the other borders stay where they are, until the border itself has moved
+    // by its reach.
+    const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
+    const bool faces = facing * areaSign(x, y, b, k) > 0;
+    const float along = reachAt(g, b, x, y, k, reach, length) / slant;
+    push[static_cast<size_t>(v)] += outward * (std::min(along, faces ? most_px : away_px) / length);
+  }
+}
+
+vec2 onLattice(const vec2& at) { return {snapToLattice(at.x), snapToLattice(at.y)}; }
+
+/// The line at which a straight edge ends. Null: an end is too far away to be seen exactly.
+std::optional<BorderLine> lineOf(const std::array<vec3, 2>& ends, const mat4& cameraFromObject, const Camera& camera) {
+  vec2 at[2];
+  for (int k = 0; k < 2; ++k) {
+    const vec3 p = transformPoint(cameraFromObject, ends[static_cast<size_t>(k)]);
+    if (!camera.seeable(p)) return std::nullopt;
+    at[k] = camera.raster(p);
+    if (!(std::max(std::abs(at[k].x), std::abs(at[k].y)) <= kFarthest_px)) return std::nullopt;
+  }
+  return BorderLine{onLattice(at[0]), onLattice(at[1])};
+}
+
+/// What closes the borders of one piece.
+struct Plan {
+  uint8_t reaching = 0;  ///< PatchEdge bits.
+  std::array<BorderLine, 4> lines{};
+};
+
+Plan planOf(const Grid::Piece& piece, const Object& o, const OpenBorders* known, const Camera& camera, bool still) {
+  Plan plan;
+  plan.reaching = static_cast<uint8_t>(kAllEdges & ~piece.openEdges);
+  for (size_t e = 0; e < 4; ++e) {
+    if (!(piece.openEdges & kEdges[e])) continue;
+    const auto ends = known ? known->straightEdge(piece.patch, kEdges[e]) : std::nullopt;
+    if (ends && (*ends)[0] == (*ends)[1]) continue;
+    const auto line = ends && still ? lineOf(*ends, o.cameraFromObject.keys.front(), camera) : std::nullopt;
+    if (line)
+      plan.lines[e] = *line;
+    else
+      plan.reaching |= kEdges[e];
+  }
+  return plan;
+}
+
+/// The borders that end at lines. Their vertices are pushed beyond them: snapped to the lattice they would lie on
+/// either side, and of a narrow cell nothing might be left.
+int edgesAtLines(const RasterGrid& r, size_t piece) {
+  int edges = 0;
+  for (size_t e = 0; e < 4 && !r.lines.empty(); ++e)
+    if (!r.lines[4 * piece + e].none()) edges |= kEdges[e];
+  return edges;
+}
+
+}  // namespace
+
+void planBorders(RasterGrid& r, const Object& object, const Camera& camera) {
+  const Grid& g = *r.grid;
+  const auto* known = dynamic_cast<const OpenBorders*>(&object.shape());
+  const bool lone = known && known->isLone();
+  const bool still = g.keyCount == 1 && object.shapes.size() == 1 && !g.displaced && !camera.defocuses();
+  for (size_t p = 0; p < g.pieces.size(); ++p) {
+    const Grid::Piece& piece = g.pieces[p];
+    const auto joined = static_cast<uint8_t>(kAllEdges & ~piece.openEdges);
+    const Plan plan = lone ? Plan{joined} : planOf(piece, object, known, camera, still);
+    if (plan.reaching && r.reaching.empty()) r.reaching.resize(g.pieces.size());
+    if (plan.reaching) r.reaching[p] = plan.reaching;
+    // The edges of a lone cell that nothing moves are its lines.
+    const bool itself = g.nu == 1 && g.nv == 1 && plan.reaching == 0;
+    if (itself || std::all_of(plan.lines.begin(), plan.lines.end(), [](const BorderLine& l) { return l.none(); }))
+      continue;
+    r.lines.resize(4 * g.pieces.size());
+    std::copy(plan.lines.begin(), plan.lines.end(), r.lines.begin() + static_cast<ptrdiff_t>(4 * p));
+  }
+}
+
+void pushBorders(const RasterGrid& r, float mostOfDisplaced_px, float facing, float* x, float* y) {
+  if (r.reaching.empty() && r.lines.empty()) return;
+  const Grid& g = *r.grid;
+  static thread_local std::vector<vec2> push;
+  push.assign(static_cast<size_t>(g.vertexCount()), vec2(0));
+  for (size_t p = 0; p < g.pieces.size(); ++p) {
+    const int cut = edgesAtLines(r, p), pushed = cut | (r.reaching.empty() ? 0 : r.reaching[p]);
+    for (const Border& b : bordersOf(g, static_cast<int>(p) * g.verticesOfPiece())) {
+      if (!(pushed & b.edge)) continue;
+      const bool open = g.pieces[p].openEdges & b.edge;
+      const float displaced_px = open ? 0.0f : std::min(mostOfDisplaced_px, longestEdge_px(x, y, b));
+      pushBorder(g, b, x, y, {open, (cut & b.edge) != 0, std::max(kLeastReach_px, displaced_px)}, facing, push);
+    }
+  }
+  for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
+}
+
+float deviation_px(const Grid& g, const float* x, const float* y) {
+  const int row = g.nu + 1;
+  float most = 0;
+  for (int j = 0; j <= g.nv; ++j) most = std::max(most, deviationAlong(g, x, y, {kEdgeV0, j * row, 1, row, g.nu}));
+  for (int i = 0; i <= g.nu; ++i) most = std::max(most, deviationAlong(g, x, y, {kEdgeU0, i, row, 1, g.nv}));
+  for (int j = 0; j < g.nv; ++j)
+    for (int i = 0; i < g.nu; ++i) {
+      const int a = j * row + i, b = a + 1, c = a + row, d = c + 1;
+      most = std::max(most, glm::length(vec2(x[a] - x[b] - x[c] + x[d], y[a] - y[b] - y[c] + y[d])) / 4);
+    }
+  return most;
+}
+
+}  // namespace tomales

@@ -1,0 +1,23 @@
+// Private to the hider: how the borders of pieces are closed (docs/decisions/0003).
+#pragma once
+#include "reyes/hide.h"
+#include "reyes/hide/lattice.h"
+
+namespace tomales {
+
+constexpr float kLeastReach_px = 2 / kLattice;  ///< How far a border reaches out at least.
+
+/// Decides for each border of a still grid's pieces whether it ends at a line, reaches out, or neither, and sets
+/// RasterGrid::lines and RasterGrid::reaching. Pre: `grid` and `inSolid` are set.
+void planBorders(RasterGrid& raster, const Object& object, const Camera& camera);
+
+/// Pushes the borders that reach out, at one motion key. A displaced border that joins a neighbour, which samples it at
+/// other places, may be anywhere within a micropolygon: `mostOfDisplaced_px` limits the reach; 0: it is not displaced.
+/// facing: RasterGrid::facing of a one-sided surface.
+void pushBorders(const RasterGrid& raster, float mostOfDisplaced_px, float facing, float* x, float* y);
+
+/// How far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a twisted
+/// cell.
+float deviation_px(const Grid& grid, const float* x, const float* y);
+
+}  // namespace tomales
