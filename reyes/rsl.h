@@ -31,6 +31,9 @@ class RslFile {
 
   /// None if there are errors. A transformation shader is checked and left out: nothing runs it.
   const TmShaderLibrary* library() const;
+  /// Of a surface that assigns P: what moves the points, a displacement with the same name and parameters, which
+  /// library() leaves out. Null: it moves none.
+  const TmShader* displacementOf(const std::string& surface) const;
   /// In the order of TmShader::params.
   std::vector<RslParameter> parameters(const TmShader& shader) const;
   /// As compilers print them, with lines and carets; empty: all is well.

@@ -4,6 +4,7 @@
 
 #include "reyes/rsl.h"
 #include "reyes/rsl/hosted_shader.h"
+#include "reyes/rsl/lower.h"
 #include "reyes/rsl/parse.h"
 
 namespace tomales {
@@ -29,6 +30,12 @@ PreprocessOptions optionsOf(const RslSettings& settings) {
   return out;
 }
 
+Code loweredFrom(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages) {
+  Code out = lower(checked, shader, messages);
+  out.path = path;
+  return out;
+}
+
 }  // namespace
 
 RslFile::RslFile() : impl_(new Impl) {}
@@ -39,7 +46,8 @@ std::shared_ptr<const RslFile> RslFile::compile(const std::string& path, const R
   Impl& f = *file->impl_;
   f.checked = check(parse(preprocess(path, optionsOf(settings), f.sources, f.messages), f.messages), f.messages);
   if (!f.messages.hasErrors())
-    for (const auto& s : f.checked.file.shaders) f.shaders.emplace_back(f.checked, *s, path, f.messages);
+    for (const auto& s : f.checked.file.shaders)
+      f.shaders.emplace_back(loweredFrom(f.checked, *s, path, f.messages), f.messages);
   if (!f.messages.hasErrors())
     for (const HostedShader& p : f.shaders)
       if (const TmShader* host = p.host()) f.hosts.push_back(host);
@@ -50,6 +58,13 @@ std::shared_ptr<const RslFile> RslFile::compile(const std::string& path, const R
 
 const TmShaderLibrary* RslFile::library() const { return &impl_->library; }
 const std::string& RslFile::messages() const { return impl_->rendered; }
+
+const TmShader* RslFile::displacementOf(const std::string& surface) const {
+  for (const HostedShader& s : impl_->shaders)
+    if (s.displacement() && s.lowered().name == surface) return s.displacement()->host();
+  return nullptr;
+}
+
 int RslFile::errors() const { return impl_->messages.errorCount(); }
 
 int RslFile::missing() const { return impl_->messages.missingCount(); }
@@ -99,7 +114,7 @@ std::string RslFile::dump(const std::string& path, const RslSettings& settings, 
   std::string out;
   if (messages.hasErrors()) return out;
   for (const auto& s : checked.file.shaders) {
-    const HostedShader program(checked, *s, path, messages);
+    const HostedShader program(loweredFrom(checked, *s, path, messages), messages);
     out += compiler::dump(stage == "lowered" ? program.lowered() : program.code());
   }
   return out;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reyes/rsl/lower.h"
 #include "reyes/rsl/machine/machine.h"
 #include "reyes/rsl/passes/passes.h"
 #include "reyes/rsl/passes/walk.h"
@@ -73,12 +72,15 @@ std::unique_ptr<const Program> programOf(Code code, const std::vector<bool>& var
 
 }  // namespace
 
-HostedShader::HostedShader(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages)
-    : lowered_(lower(checked, shader, messages)) {
-  lowered_.path = path;
+HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::move(lowered)) {
   if (messages.hasErrors()) {
     uniform_ = std::make_unique<Program>(Code());
     return;
+  }
+  if (movesPoints(lowered_)) {
+    Messages told;  // what there is to say is said of the surface
+    displacement_ = std::make_unique<HostedShader>(displacementOf(lowered_), told);
+    leavePoints(lowered_);
   }
   uniform_ = programOf(lowered_, std::vector<bool>(lowered_.parameters.size(), false), messages);
   refuseHuge(code(), messages);

@@ -14,14 +14,16 @@ namespace tomales::compiler {
 
 class HostedShader {
  public:
-  /// Lowers the shader once, with all parameters uniform; errors go to `messages`.
-  HostedShader(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages);
+  /// Optimises it with all parameters uniform; errors go to `messages`, and there is nothing to run if it has some.
+  HostedShader(Code lowered, Messages& messages);
   HostedShader(const HostedShader&) = delete;
 
   /// Null: the host has no shaders of this kind.
   const TmShader* host() const { return code().kind == ShaderKind::Transformation ? nullptr : &host_.shader; }
   const Code& code() const { return uniform_->code(); }
   const Code& lowered() const { return lowered_; }
+  /// Of a surface that assigns P: what moves the points (passes/moving.cpp). Null: it moves none.
+  const HostedShader* displacement() const { return displacement_.get(); }
 
  private:
   static void shade(const TmGrid* grid);
@@ -29,6 +31,7 @@ class HostedShader {
   void declareParameters();
 
   Code lowered_;
+  std::unique_ptr<const HostedShader> displacement_;
   std::unique_ptr<const Program> uniform_;
   mutable std::mutex mutex_;
   mutable std::map<std::vector<bool>, std::unique_ptr<const Program>> others_;  ///< By the parameters that vary.

@@ -203,7 +203,8 @@ void Lowering::store(const Expr& to, int32_t from) {
   }
   const Variable& v = *to.variable;
   const GlobalInfo* global = v.global >= 0 ? &info(static_cast<Global>(v.global)) : nullptr;
-  if (global && global->readableIn(code_.kind) && !global->writableIn(code_.kind))
+  const bool moves = code_.kind == ShaderKind::Surface && v.global == static_cast<int32_t>(Global::P);
+  if (global && global->readableIn(code_.kind) && !global->writableIn(code_.kind) && !moves)
     messages_.warning(
         to.place,
         fmt::format("a {} shader that assigns \"{}\" changes it for itself alone", compiler::name(code_.kind), to.text),

@@ -57,6 +57,7 @@ struct ShaderRegistry::Impl {
   std::vector<std::shared_ptr<const RslFile>> texts{};
   std::set<const TmShader*> builtIn{};
   std::map<const TmShader*, std::string> origins{};
+  std::map<const TmShader*, const TmShader*> displacements{};  ///< displacementOf()
   std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
 
   void refuse(const std::string& origin, const std::string& problem) {
@@ -222,6 +223,7 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
     tell(found.file, (found.problem.starts_with("has no") ? "" : "does not compile:\n") + found.problem);
   if (!found.remark.empty()) tell(name, found.remark);
   if (found.shader) origins[found.shader] = found.file;
+  if (found.displacement) displacements[found.shader] = found.displacement;
   return found.shader;
 }
 
@@ -304,6 +306,12 @@ std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kin
   }
   const std::string lies = tomales::hintOfMissing(name + ".sl", {".sl"}, impl_->textFolders(searchPath, beside));
   return lies.empty() ? didYouMean(name, ofKind) : lies;
+}
+
+const TmShader* ShaderRegistry::displacementOf(const TmShader& surface) const {
+  const std::lock_guard lock(impl_->mutex);
+  const auto it = impl_->displacements.find(&surface);
+  return it == impl_->displacements.end() ? nullptr : it->second;
 }
 
 std::string ShaderRegistry::originOf(const TmShader& shader) const {

@@ -185,7 +185,8 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
     std::string others;
     for (int32_t k = 0; k < library.count; ++k) {
       const TmShader* s = library.shaders[k];
-      if (s->kind == kind && (only || s->name == shaderName)) return {s, file, {}, {}};
+      if (s->kind == kind && (only || s->name == shaderName))
+        return {s, compiled->displacementOf(s->name), file, {}, {}};
       others += fmt::format("{}{} \"{}\"", others.empty() ? "" : ", ", kindName(static_cast<TmKind>(s->kind)), s->name);
     }
     if (out.file.empty())

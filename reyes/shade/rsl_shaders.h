@@ -15,9 +15,10 @@ std::string withoutShaderEnding(const std::string& name);
 /// What became of a name.
 struct RslFound {
   const TmShader* shader = nullptr;
-  std::string file;     ///< That has, or should have, the shader; empty: there is none.
-  std::string problem;  ///< Why there is no shader; empty: there is one, or no file.
-  std::string remark;   ///< What the user is to know besides.
+  const TmShader* displacement = nullptr;  ///< RslFile::displacementOf()
+  std::string file;                        ///< That has, or should have, the shader; empty: there is none.
+  std::string problem;                     ///< Why there is no shader; empty: there is one, or no file.
+  std::string remark;                      ///< What the user is to know besides.
 };
 
 /// `name` as RIB has it: endings of compiled shaders (.slo, .sdr, .slx, ...) stand for the .sl beside them. Files are

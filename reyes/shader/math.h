@@ -72,7 +72,9 @@ RSL_INLINE float fresnel(Vec3 I, Vec3 N, float eta) {
   return 0.5f * (s * s + p * p);
 }
 
-RSL_INLINE float clamp(float x, float lo, float hi) { return std::min(std::max(x, lo), hi); }
+/// Below `lo` it is `lo` even where that is more than `hi`: shaders that march in steps of clamp(step, least, rest) end
+/// by that.
+RSL_INLINE float clamp(float x, float lo, float hi) { return x < lo ? lo : x > hi ? hi : x; }
 RSL_INLINE float mix(float a, float b, float t) { return a + (b - a) * t; }
 RSL_INLINE Vec3 mix(Vec3 a, Vec3 b, float t) { return a + (b - a) * t; }
 RSL_INLINE float smoothstep(float lo, float hi, float x) {

@@ -12,12 +12,28 @@ constexpr float kPi = 3.14159265358979f;
 
 inline float radians(float degrees) { return degrees * (kPi / 180); }
 inline float degrees(float radians) { return radians * (180 / kPi); }
-/// a - b floor(a / b): the sign of b.
-RSL_INLINE float mod(float a, float b) { return a - b * wholeBelow(a / b); }
+// Where mathematics has no value, these give the ones that Open Shading Language gives, so that no NaN reaches a
+// picture by a number that has just left its range.
+/// a - b floor(a / b): the sign of b. 0 for b = 0.
+RSL_INLINE float mod(float a, float b) { return b == 0 ? 0 : a - b * wholeBelow(a / b); }
+/// 0 for negative numbers.
+RSL_INLINE float sqrt(float x) { return x < 0 ? 0 : std::sqrt(x); }
+/// 0 for 0 and negative numbers.
+RSL_INLINE float inversesqrt(float x) { return x <= 0 ? 0 : 1 / std::sqrt(x); }
+/// Of the nearest number in [-1, 1].
+RSL_INLINE float asin(float x) { return std::asin(clamp(x, -1, 1)); }
+RSL_INLINE float acos(float x) { return std::acos(clamp(x, -1, 1)); }
+/// The least float for 0 and negative numbers.
+inline float log(float x) { return x <= 0 ? -std::numeric_limits<float>::max() : std::log(x); }
+inline float log(float x, float base) { return log(x) / log(base); }
+/// 0 for a negative number to a power that is not whole, and for 0 to a negative one; else what std::pow gives.
+inline float pow(float x, float y) {
+  const bool none =
+      (x == 0 && y < 0) || (x < 0 && std::abs(x) <= std::numeric_limits<float>::max() && y != std::floor(y));
+  return none ? 0 : std::pow(x, y);
+}
 RSL_INLINE float sign(float x) { return x < 0 ? -1.0f : x > 0 ? 1.0f : 0.0f; }
 RSL_INLINE float step(float edge, float x) { return x < edge ? 0.0f : 1.0f; }
-RSL_INLINE float inversesqrt(float x) { return 1 / std::sqrt(x); }
-inline float log(float x, float base) { return std::log(x) / std::log(base); }
 /// step() averaged over a box of `width` around x.
 RSL_INLINE float filterstep(float edge, float x, float width) {
   return width > 0 ? clamp((x + 0.5f * width - edge) / width, 0, 1) : step(edge, x);
@@ -26,7 +42,9 @@ RSL_INLINE float min(float a, float b) { return std::min(a, b); }
 RSL_INLINE float max(float a, float b) { return std::max(a, b); }
 RSL_INLINE Vec3 min(Vec3 a, Vec3 b) { return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)}; }
 RSL_INLINE Vec3 max(Vec3 a, Vec3 b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
-RSL_INLINE Vec3 clamp(Vec3 x, Vec3 lo, Vec3 hi) { return min(max(x, lo), hi); }
+RSL_INLINE Vec3 clamp(Vec3 x, Vec3 lo, Vec3 hi) {
+  return {clamp(x.x, lo.x, hi.x), clamp(x.y, lo.y, hi.y), clamp(x.z, lo.z, hi.z)};
+}
 RSL_INLINE Vec3 mix(Vec3 a, Vec3 b, Vec3 t) { return a + (b - a) * t; }
 
 // --- Geometry

@@ -108,6 +108,9 @@ class Addon(unittest.TestCase):
     def test_deformation_is_a_motion_block_of_points(self):
         self.assertEqual(self.of("deformation"), {"keys": 2, "moves": True})
 
+    def test_faults_of_the_addon_are_messages(self):
+        self.assertEqual(self.of("faults"), [True, True])
+
     def test_hair_curves_and_particles_are_drawn(self):
         strands = self.of("strands")
         self.assertIn("Curves", strands)

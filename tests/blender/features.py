@@ -2,6 +2,7 @@
 import glob
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -11,6 +12,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 import scenes  # noqa: E402
 from scenes import add, camera, empty_scene, exr, light, material  # noqa: E402
+from tomales_blender import passes as passes_module  # noqa: E402
 
 FOLDER, found = arguments[0], {}
 
@@ -43,7 +45,7 @@ def passes():
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = True
     scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
     render(scene, "passes")
-    channels, _ = exr.read(scene.render.filepath)
+    channels = exr.read(scene.render.filepath)
     middle = {name: float(values[36, 48]) for name, values in channels.items()}
     value = lambda end: next(v for name, v in middle.items() if name.endswith(end))  # noqa: E731
     return {"Depth": value("Depth.Z"), "NormalZ": value("Normal.Z"), "DiffCol": value("DiffCol.R")}
@@ -81,8 +83,25 @@ def deformation():
     scene.frame_set(1)
     render(scene, "deformation", export_only=True)
     text = archives("deformation")
-    points = [line.split('"P" ')[1] for line in text.replace("\n ", " ").splitlines() if "PointsPolygons" in line]
+    points = re.findall(r'"vertex point P" \[([^]]*)\]', text)
     return {"keys": text.count("PointsPolygons"), "moves": len(set(points)) == 2}
+
+
+def faults():
+    """Whether Blender lives on after a fault in the add-on itself, which has crashed it at the second rendering."""
+    read = passes_module.Passes.read
+    passes_module.Passes.read = lambda *_: {}["a fault of ours"]
+    scene = empty_scene()
+    camera(scene, (0, -6, 2))
+    scene.render.engine = "TOMALES"
+    messages = []
+    for _ in range(2):
+        try:
+            bpy.ops.render.render()
+        except RuntimeError as problem:
+            messages.append(str(problem))
+    passes_module.Passes.read = read
+    return ["a fault of ours" in message for message in messages]
 
 
 def strands():
@@ -129,7 +148,7 @@ def unsupported():
     return render(scene, "unsupported", export_only=True)
 
 
-for feature in (passes, animation, deformation, strands, override, refused, unsupported):
+for feature in (passes, animation, deformation, faults, strands, override, refused, unsupported):
     found[feature.__name__] = feature()
     with open(os.path.join(FOLDER, "features.json"), "w") as file:
         json.dump(found, file)

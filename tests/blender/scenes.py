@@ -266,7 +266,7 @@ SCENES = [area, disk_lamp, sun, point, spot, camera_shift, orthographic, focus, 
 
 
 def blocks(path):
-    channels, _ = exr.read(path)
+    channels = exr.read(path)
     rgb = numpy.stack([channels[c] for c in "RGB"], -1)
     rows, columns = BLOCKS if rgb.shape[0] < rgb.shape[1] else BLOCKS[::-1]
     height, width = rgb.shape[0] // rows, rgb.shape[1] // columns

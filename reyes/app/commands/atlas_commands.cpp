@@ -16,6 +16,7 @@
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/base/unfinished_folder.h"
+#include "reyes/moving_surfaces.h"
 #include "reyes/rib.h"
 #include "reyes/shader_registry.h"
 
@@ -83,9 +84,10 @@ std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
 
 void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log) {
   applyOverrides(scene, settings);
-  scene.open([](const Attributes& a) { return a.visibility.photon; });
   ShaderRegistry registry(log, pluginTrust(settings), settings.standardShaders);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  displaceByMovingSurfaces(scene, registry, log);
+  scene.open([](const Attributes& a) { return a.visibility.photon; });
   ShadingSystem shading(scene, registry, nullptr, log, stats);
   const Camera camera(scene.options);
   const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);

@@ -15,6 +15,7 @@
 #include "reyes/app/watch/preview.h"
 #include "reyes/app/watch/sketch.h"
 #include "reyes/base/search_path.h"
+#include "reyes/moving_surfaces.h"
 
 namespace tomales {
 namespace {
@@ -33,6 +34,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       meter_(settings.progress, "preparing"),
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
+  if (!settings.draft) displaceByMovingSurfaces(scene, registry_, log);
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
   shading_->setClouds(&clouds_);
   method_ = &methodOf(settings, *shading_);

@@ -8,28 +8,10 @@
 #include "reyes/app/frame/area_lights.h"
 #include "reyes/base/output_root.h"
 #include "reyes/image.h"
+#include "reyes/scene_changes.h"
 
 namespace tomales {
 namespace {
-
-/// Gives every object a changed copy of its attributes; objects that shared one keep sharing.
-template <class Change>
-void changeAttributes(Scene& scene, Change&& change) {
-  std::map<const Attributes*, std::shared_ptr<const Attributes>> changed;
-  const auto copyOf = [&](const std::shared_ptr<const Attributes>& original) {
-    std::shared_ptr<const Attributes>& copy = changed[original.get()];
-    if (copy) return;
-    auto fresh = std::make_shared<Attributes>(*original);
-    change(*fresh);
-    copy = std::move(fresh);
-  };
-  for (const Object& object : scene.objects) copyOf(object.attributes);
-  for (const ShadeGroup& group : scene.groups) copyOf(group.attributes);
-  // The originals stay alive until here, so that no copy can take the address of one.
-  for (Object& object : scene.objects) object.attributes = changed.at(object.attributes.get());
-  for (ShadeGroup& group : scene.groups) group.attributes = changed.at(group.attributes.get());
-  if (hasGeometry(scene)) scene.freeze();
-}
 
 /// The low quality of approximate-gi 5.2; what the command line asks for besides wins.
 void makeDraft(Scene& scene) {

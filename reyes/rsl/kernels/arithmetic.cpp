@@ -45,7 +45,7 @@ RSL_KERNEL_1(Floor, rsl::wholeBelow(a))
 RSL_KERNEL_1(Ceil, -rsl::wholeBelow(-a))
 RSL_KERNEL_1(Round, rsl::wholePart(a) + std::copysign(std::abs(a - rsl::wholePart(a)) < 0.5f ? 0.0f : 1.0f, a))
 RSL_KERNEL_2(Mod, rsl::mod(a, b))
-RSL_KERNEL_1(Sqrt, std::sqrt(a))
+RSL_KERNEL_1(Sqrt, rsl::sqrt(a))
 RSL_KERNEL_1(InverseSqrt, rsl::inversesqrt(a))
 
 }  // namespace tomales::compiler::kernels

@@ -1,7 +1,8 @@
 // Exponentials, angles and the error function of one number each, without a branch and without the C library, whose
 // bits differ between machines. All of them compute in double precision and round once, so a result is within 0.54 ulp
 // of the true value. The polynomials are minimax fits (Remez' algorithm, relative error), none worse than 2e-9, which
-// is 1/30 ulp. Infinities, zeros and what is not a number are as in C.
+// is 1/30 ulp. Infinities and what is not a number are as in C; where mathematics has no value they give what
+// shadeops.h gives.
 #pragma once
 #include <bit>
 #include <cmath>
@@ -47,12 +48,14 @@ RSL_INLINE double log2Of(float x) {
   return x == 0 ? -kInfinite : finite;
 }
 RSL_INLINE float expOf(float x) { return static_cast<float>(exp2Of(x * kLog2OfE)); }
-RSL_INLINE float logOf(float x) { return static_cast<float>(x < 0 ? kNone : kLogOf2 * log2Of(x)); }
+RSL_INLINE float logOf(float x) {
+  return x <= 0 ? -std::numeric_limits<float>::max() : static_cast<float>(kLogOf2 * log2Of(x));
+}
 RSL_INLINE float powOf(float x, float y) {
   const float size = std::abs(x), finite = std::numeric_limits<float>::max();
   const bool whole = rsl::wholeBelow(y) == y, odd = whole & (rsl::wholeBelow(0.5f * y) != 0.5f * y);
   const float power = rsl::chosen((size == 1) | (y == 0), 1, static_cast<float>(exp2Of(y * log2Of(size))));
-  return rsl::chosen((x < 0) & !whole & (size <= finite), static_cast<float>(kNone),
+  return rsl::chosen(((x < 0) & !whole & (size <= finite)) | ((x == 0) & (y < 0)), 0,
                      std::copysign(power, rsl::chosen(odd, x, 1)));
 }
 
@@ -124,9 +127,13 @@ RSL_INLINE Arcsine arcsineOf(double x) {
                                               0.0072238055595195183, 0.034951585269460476);
   return {steep ? kHalfPi - 2 * half : half, steep ? 2 * half : kHalfPi - half};
 }
-RSL_INLINE float asinOf(float x) { return std::copysign(static_cast<float>(arcsineOf(std::abs(x)).value), x); }
+RSL_INLINE Arcsine arcsineOfSize(float x) {
+  const double size = std::abs(x);
+  return arcsineOf(size > 1 ? 1 : size);
+}
+RSL_INLINE float asinOf(float x) { return std::copysign(static_cast<float>(arcsineOfSize(x).value), x); }
 RSL_INLINE float acosOf(float x) {
-  const double rest = arcsineOf(std::abs(x)).rest;
+  const double rest = arcsineOfSize(x).rest;
   return static_cast<float>(x < 0 ? 2 * kHalfPi - rest : rest);
 }
 

@@ -6,6 +6,13 @@
 
 namespace tomales::compiler {
 
+/// Does a surface assign P?
+bool movesPoints(const Code& lowered);
+/// What of such a surface moves the points, as a displacement with the same parameters.
+Code displacementOf(const Code& lowered);
+/// The surface for points that displacementOf() has moved: what it assigns to P is not seen.
+void leavePoints(Code& lowered);
+
 /// Says for each register whether it varies over the batch, and for each instruction whether all points are active
 /// there. `varying[k]`: parameter k is given by a primitive variable.
 void inferDetail(Code& code, const std::vector<bool>& varying);

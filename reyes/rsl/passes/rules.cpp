@@ -150,7 +150,7 @@ class Rule {
       case Op::Exp:
         return {mul(y(), d(0))};
       case Op::Log:
-        return {div(d(0), in(0))};
+        return {wherePositive(in(0), div(d(0), in(0)))};
       case Op::Sin:
         return {mul(each(Op::Cos, {in(0)}), d(0))};
       case Op::Cos:

@@ -1,5 +1,6 @@
 // Mathematics (RISpec 3.2 section 15.1), against the C library and the functions that C++ shaders use.
 #include <cmath>
+#include <limits>
 
 #include "reyes/shader/noise.h"
 #include "reyes/shader/shadeops.h"
@@ -33,6 +34,19 @@ Cases mathematicsCases() {
       {"pow", "x = pow(s + 1, 0.5);", [](float i) { return std::sqrt(i + 1); }},
       {"pow of 0 and 0", "x = pow(0, 0);", 1},
       {"pow of a negative number to a whole one", "x = pow(-2, 3);", -8},
+      {"clamp looks at its lower limit first", "x = clamp(s, 5, 3 - s);", [](float i) { return i < 5 ? 5 : 3 - i; }},
+      {"clamp of colors likewise", "c = clamp(color (1, 7, 2), color 5, color 3);", Vec3{5, 3, 5}},
+      {"smoothstep over nothing is a step", "x = smoothstep(4, 4, s);", [](float i) { return i < 4 ? 0.0f : 1.0f; }},
+      {"pow of a negative number to a broken one is 0", "x = pow(-s - 1, 0.5);", 0},
+      {"pow of 0 to a negative number is 0", "x = pow(s - s, -1);", 0},
+      {"sqrt of a negative number is 0", "x = sqrt(-s - 1);", 0},
+      {"inversesqrt of 0 and of negative numbers is 0", "x = inversesqrt(-s);", 0},
+      {"acos beyond 1 is that of 1", "x = acos(1.0001 + s);", 0},
+      {"asin below -1 is that of -1", "x = asin(-1.0001 - s);", -1.5707964f},
+      {"log of 0 is the least number", "x = log(s - s);", -std::numeric_limits<float>::max()},
+      {"mod by 0 is 0", "x = mod(s + 1, s - s);", 0},
+      {"nothing of them is NaN in constant code", "x = pow(-1, .5) + sqrt(-1) + acos(2) + mod(1, 0) + inversesqrt(0);",
+       0},
       {"pow of colors", "c = pow(color (s, 2, 3), 2);",
        [](float i) {
          return Vec3{i * i, 4, 9};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reyes/rsl/hosted_shader.h"
+#include "reyes/rsl/lower.h"
 #include "reyes/rsl/parse.h"
 #include "tests/unit/rsl_machine/fake_grid.h"
 
@@ -14,7 +15,7 @@ struct CompiledText {
   explicit CompiledText(const std::string& text)
       : checked(check(parse(preprocessText("case.sl", text, {}, sources, messages), messages), messages)) {
     if (!messages.hasErrors())
-      for (const auto& s : checked.file.shaders) shaders.emplace_back(checked, *s, "case.sl", messages);
+      for (const auto& s : checked.file.shaders) shaders.emplace_back(lower(checked, *s, messages), messages);
   }
   bool good() const { return !messages.hasErrors() && !shaders.empty(); }
   std::string said() const { return messages.rendered(sources); }

@@ -1,6 +1,8 @@
 // What every kernel should give at one point: the test compares with it, tests/bench/kernel_bench.cpp loops over it.
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernel_run.h"
 #include "reyes/shader/noise.h"
@@ -49,20 +51,34 @@ void visitArithmetic(Visit& visit) {
   visit.bits(Op::Floor, [](float a) { return std::floor(a); });
   visit.bits(Op::Ceil, [](float a) { return std::ceil(a); });
   visit.bits(Op::Round, [](float a) { return std::round(a); });
-  visit.bits(Op::Mod, [](float a, float b) { return a - b * std::floor(a / b); });
-  visit.bits(Op::Sqrt, [](float a) { return std::sqrt(a); });
-  visit.bits(Op::InverseSqrt, [](float a) { return 1 / std::sqrt(a); });
+  visit.bits(Op::Mod, [](float a, float b) { return b == 0 ? 0 : a - b * std::floor(a / b); });
+  visit.bits(Op::Sqrt, [](float a) { return a < 0 ? 0 : std::sqrt(a); });
+  visit.bits(Op::InverseSqrt, [](float a) { return a <= 0 ? 0 : 1 / std::sqrt(a); });
+}
+/// RSL's functions where the C library's have no value.
+template <class T>
+T logOrLeast(T x) {
+  return x <= 0 ? -static_cast<T>(std::numeric_limits<float>::max()) : std::log(x);
+}
+template <class T>
+T powOrZero(T x, T y) {
+  const bool none = (x == 0 && y < 0) || (x < 0 && std::isfinite(x) && y != std::floor(y));
+  return none ? 0 : std::pow(x, y);
+}
+template <class T>
+T inUnit(T x) {
+  return std::clamp(x, T{-1}, T{1});
 }
 template <class Visit>
 void visitLibrary(Visit& visit) {
   visit.library(Op::Exp, [](auto x) { return std::exp(x); });
-  visit.library(Op::Log, [](auto x) { return std::log(x); });
-  visit.library(Op::Pow, [](auto x, auto y) { return std::pow(x, y); });
+  visit.library(Op::Log, [](auto x) { return logOrLeast(x); });
+  visit.library(Op::Pow, [](auto x, auto y) { return powOrZero(x, y); });
   visit.library(Op::Sin, [](auto x) { return std::sin(x); });
   visit.library(Op::Cos, [](auto x) { return std::cos(x); });
   visit.library(Op::Tan, [](auto x) { return std::tan(x); });
-  visit.library(Op::Asin, [](auto x) { return std::asin(x); });
-  visit.library(Op::Acos, [](auto x) { return std::acos(x); });
+  visit.library(Op::Asin, [](auto x) { return std::asin(inUnit(x)); });
+  visit.library(Op::Acos, [](auto x) { return std::acos(inUnit(x)); });
   visit.library(Op::Atan, [](auto x) { return std::atan(x); });
   visit.library(Op::Atan2, [](auto y, auto x) { return std::atan2(y, x); });
   visit.library(Op::Erf, [](auto x) { return std::erf(x); });

@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import tempfile
 import threading
+import traceback
 from pathlib import Path
 
 import bpy
@@ -34,15 +35,18 @@ class TomalesEngine(bpy.types.RenderEngine):
     def render(self, depsgraph: bpy.types.Depsgraph) -> None:
         self._messages: list[str] = []
         settings = depsgraph.scene.tomales
-        # Blender 3.4 crashes in an animation of which a frame has no result, so there is one whatever happens.
-        result = self.begin_result(0, 0, *self._size(depsgraph.scene))
+        result = self.begin_result(0, 0, *self._size(depsgraph.scene), layer=depsgraph.view_layer.name)
         with tempfile.TemporaryDirectory(prefix="tomales_") as temporary:
             folder = Path(bpy.path.abspath(settings.folder)) if settings.folder else Path(temporary)
             try:
                 self._render(depsgraph, folder, result)
             except (UnsupportedCamera, OSError, tomales.RiError, tomales.RendererNotFound) as problem:
                 self._error(str(problem))
-        self.end_result(result)
+            except Exception:
+                self._error(traceback.format_exc())
+            finally:
+                # Blender 3.4 crashes when the next rendering begins before the result of this one has ended.
+                self.end_result(result)
 
     def _render(self, depsgraph: bpy.types.Depsgraph, folder: Path, result: bpy.types.RenderResult) -> None:
         scene = depsgraph.scene

@@ -44,8 +44,8 @@ def write(path: str | os.PathLike[str], pixels: numpy.ndarray) -> None:
         file.write(header + (first + row_bytes * numpy.arange(height)).astype("<u8").tobytes() + rows.tobytes())
 
 
-def read(path: str | os.PathLike[str]) -> tuple[dict[str, numpy.ndarray], tuple[int, int]]:
-    """Channels of shape (height, width), float32, the top row first, and x and y of the data window's corner.
+def read(path: str | os.PathLike[str]) -> dict[str, numpy.ndarray]:
+    """Channels of shape (height, width), float32, the top row first: those of the data window.
 
     Raises OSError for files of another kind.
     """
@@ -57,7 +57,7 @@ def read(path: str | os.PathLike[str]) -> tuple[dict[str, numpy.ndarray], tuple[
         raise OSError(f"{os.fspath(path)} is no uncompressed EXR file of one part: {problem}") from None
 
 
-def _read(data: bytes) -> tuple[dict[str, numpy.ndarray], tuple[int, int]]:
+def _read(data: bytes) -> dict[str, numpy.ndarray]:
     magic, version = struct.unpack_from("<ii", data)
     if magic != _MAGIC or version & ~0x400 != _VERSION:
         raise ValueError(f"magic {magic}, version {version}")
@@ -81,7 +81,7 @@ def _read(data: bytes) -> tuple[dict[str, numpy.ndarray], tuple[int, int]]:
         end = begin + kind.itemsize * width
         out[name] = numpy.ascontiguousarray(rows[:, begin:end]).view(kind).astype("f4")
         begin = end
-    return out, (x0, y0)
+    return out
 
 
 def _channels(data: bytes) -> list[tuple[str, numpy.dtype]]:

@@ -54,7 +54,7 @@ class Passes:
 
     def read(self, result: bpy.types.RenderResult, to_world: numpy.ndarray) -> None:
         """Into the first layer of the result, bottom row first. `to_world` turns normals of camera space. Raises OSError."""
-        channels, corner = exr.read(self._picture)
+        channels = exr.read(self._picture)
         layer = result.layers[0]
         self._fill(layer.passes["Combined"], [channels[c] for c in "RGBA"], result)
         for p in self._passes:

@@ -1,0 +1,70 @@
+"""Surface shaders that assign P displace, as they do in renderers that shade before they hide."""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "image"))
+from pictures import pixels  # noqa: E402
+from program import Suite  # noqa: E402
+
+t = Suite()
+BUMP = "float d = height * sin(20 * s) * sin(20 * t); P += d * normalize(N);"
+LOOK = "Oi = Os; Ci = Os * Cs * diffuse(faceforward(normalize(N), I));"
+t.write("bumpy.sl", "surface bumpy(float height = .1; output varying float d = 0) "
+        "{ d = height * sin(20 * s) * sin(20 * t); P += d * normalize(N); N = calculatenormal(P);" + LOOK + "}")
+t.write("bumps.sl", f"displacement bumps(float height = .1) {{ {BUMP} N = calculatenormal(P); }}")
+t.write("even.sl", f"surface even() {{ {LOOK} }}")
+t.write("turned.sl", f"surface turned() {{ N = calculatenormal(P); {LOOK} }}")
+t.write("speaking.sl", f'surface speaking(float height = .1) {{ printf("once\\n"); {BUMP} Ci = Cs; Oi = Os; }}')
+t.write("local.sl", f"surface local() {{ point Q = P + N; N = calculatenormal(Q); {LOOK} }}")
+
+
+def scene(shaders, body="Sphere 1 -1 1 360", options=""):
+    return f"""Format 96 96 1
+Projection "perspective" "fov" [40]
+Translate 0 0 4
+{options}WorldBegin
+LightSource "distantlight" 1 "from" [1 1 -1]
+Attribute "displacementbound" "sphere" [.1]
+{shaders}
+{body}
+WorldEnd
+"""
+
+
+def render(name, text, code=0, *arguments):
+    t.write(name + ".rib", text)
+    result = t.expect_run(name, [name + ".rib", "-o", name + ".exr", *arguments], code)
+    return pixels(t.folder / (name + ".exr")), result.stdout + result.stderr
+
+
+def farthest(a, b):
+    return max(abs(x - y) for key in a for x, y in zip(a[key], b[key]))
+
+
+moved, said = render("moved", scene('Surface "bumpy" "height" [.07]'))
+t.expect(not said, f"without a message ({said[:200]})")
+twice, _ = render("twice", scene('Displacement "bumps" "height" [.07] Surface "turned"'))
+t.expect(farthest(moved, twice) < 1e-5, f"as by a displacement and a surface ({farthest(moved, twice):.2g})")
+flat, _ = render("flat", scene('Surface "even"'))
+t.expect(sum(flat[p][3] > 0.5 and moved[p][3] < 0.5 or flat[p][3] < 0.5 and moved[p][3] > 0.5 for p in flat) > 20,
+         "and the outline has moved")
+t.write("inside.rib", "Sphere 1 -1 1 360\n")
+inside, _ = render("inside_procedural", scene('Surface "bumpy" "height" [.07]', 'Procedural "DelayedReadArchive" ["inside.rib"] [-1.2 1.2 -1.2 1.2 -1.2 1.2]'))
+t.expect(farthest(moved, inside) < 1e-5, f"in an archive that is read late ({farthest(moved, inside):.2g})")
+own, said = render("own", scene('Displacement "bumps" "height" [.07] Surface "bumpy" "height" [.07]'))
+t.expect("surface-moves" in said and '"bumps"' in said, f"a displacement of the object's own is told of ({said[:200]})")
+t.expect(farthest(twice, own) < 1e-5, "and is the one that moves it")
+_, said = render("once", scene('Surface "speaking"', "Polygon \"P\" [0 0 0 .3 0 0 0 .3 0]"), 0)
+t.expect(0 < said.count("once"), "what the shader prints is printed")
+printed = said.count("once")
+t.write("speaking.sl", 'surface speaking(float height = .1) { printf("once\\n"); Ci = Cs; Oi = Os; }')
+_, said = render("plain", scene('Surface "speaking"', "Polygon \"P\" [0 0 0 .3 0 0 0 .3 0]"), 0)
+t.expect(said.count("once") == printed, f"and not for the displacement again ({said.count('once')}, {printed})")
+local, said = render("local", scene('Surface "local"'))
+t.expect(all((flat[p][3] > 0) == (local[p][3] > 0) for p in flat), "a shader that moves a copy moves nothing")
+draft, _ = render("draft", scene('Surface "bumpy" "height" [.07]'), 0, "--draft")
+even, _ = render("even", scene('Surface "even"'), 0, "--draft")
+t.expect(all((even[p][3] > 0) == (draft[p][3] > 0) for p in even), "drafts displace nothing")
+t.run("render", "moved.rib", "-o", "threads.exr", "-t", "1", "--bucket-size", "8")
+t.expect(farthest(moved, pixels(t.folder / "threads.exr")) == 0, "the same bits for other buckets on one thread")
+t.finish()
