@@ -24,13 +24,11 @@ struct ShaderName {
   std::string beside{};  ///< The folder of the file that names it; empty: none does.
 };
 
-/// Whose are shaders of the names whose look RISpec fixes, such as "plastic", where a file of that name is found?
-enum class StandardShaders : uint8_t { BuiltIn, Files };
-
 /// Built-ins and plugins come through the same table.
 class ShaderRegistry {
  public:
-  explicit ShaderRegistry(Log& log, PluginTrust trust = {}, StandardShaders standard = StandardShaders::BuiltIn);
+  /// `standardFromFiles`: a file that is called as a shader whose look RISpec fixes ("plastic") comes before that.
+  explicit ShaderRegistry(Log& log, PluginTrust trust = {}, bool standardFromFiles = false);
   ~ShaderRegistry();
   /// Checks versions and sizes before anything else is touched; later libraries win over earlier names.
   bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
@@ -39,7 +37,7 @@ class ShaderRegistry {
   /// Adds the shaders of a compiled .sl file, which then come before others of their names.
   bool addText(std::shared_ptr<const RslFile> file, const std::string& path);
   /// By name and kind. Shaders that have been loaded come first, and built-in ones whose look RISpec fixes (but with
-  /// StandardShaders::Files); then NAME.so in the trusted folders; then NAME.sl along `searchPath` (the scene's;
+  /// standardFromFiles); then NAME.so in the trusted folders; then NAME.sl along `searchPath` (the scene's;
   /// folders separated by colons, empty: the working folder), in the trusted folders and in `beside`, the folder of the
   /// file that names it; then other built-in ones; then NAME.so along `searchPath`. A plugin in a folder that is not
   /// trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".." or an

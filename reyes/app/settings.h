@@ -9,7 +9,6 @@
 #include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
 #include "reyes/base/trust.h"
-#include "reyes/shader_registry.h"
 
 namespace tomales {
 
@@ -64,7 +63,7 @@ struct RenderSettings {
   bool strict = false;                     ///< A warning ends with the exit code of what is missing.
   std::string specular;                    ///< Option "shade" "specular"; empty: as the scene says. Likewise,
   std::string arealight;                   ///< Option "shade" "arealight".
-  StandardShaders standardShaders = StandardShaders::BuiltIn;
+  bool standardFromFiles = false;          ///< A file that is called as a shader of RISpec's comes before that.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };

@@ -42,7 +42,7 @@ bool isOfSpecification(std::string_view name) {
 struct ShaderRegistry::Impl {
   Log& log;
   const PluginTrust trust;
-  const StandardShaders standard;
+  const bool standardFromFiles;
   std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
   std::map<std::pair<int, std::string>, const TmShader*> shaders;
   struct Plugin {
@@ -74,7 +74,7 @@ struct ShaderRegistry::Impl {
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
                            const std::string& beside);
   bool comesBeforeTexts(const TmShader& s) const {
-    return !builtIn.count(&s) || (standard == StandardShaders::BuiltIn && isOfSpecification(s.name));
+    return !builtIn.count(&s) || (!standardFromFiles && isOfSpecification(s.name));
   }
   void tellOfStandardName(const TmShader& used, const std::string& searchPath, const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
@@ -176,8 +176,8 @@ std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& n
   return std::move(found.trusted);
 }
 
-ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust, StandardShaders standard)
-    : impl_(new Impl{log, std::move(trust), standard, {}, {}, {}, {}, false, {}, {}}) {}
+ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust, bool standardFromFiles)
+    : impl_(new Impl{log, std::move(trust), standardFromFiles, {}, {}, {}, {}, false, {}, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {

@@ -27,7 +27,7 @@ void addConventions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--standard-shaders",
          [&s](const std::string& t) {
-           s.standardShaders = t == "files" ? StandardShaders::Files : StandardShaders::BuiltIn;
+           s.standardFromFiles = t == "files";
          },
          "Shaders of RISpec's names, such as plastic, are built-in (default), or files of these names where there are "
          "such")

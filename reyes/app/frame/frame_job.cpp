@@ -30,7 +30,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       stats_(stats),
       log_(log),
       camera_(scene.options),
-      registry_(log, pluginTrust(settings), settings.standardShaders),
+      registry_(log, pluginTrust(settings), settings.standardFromFiles),
       meter_(settings.progress, "preparing"),
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
