@@ -156,7 +156,7 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) const {
   }
   g.surface = binder_->surface(a.surface, where, g.object);
   g.indirectSurface = binder_->indirectSurface(a, where, g.object);
-  g.displacement = binder_->displacement(a, g.object);
+  g.displacement = binder_->optional(a.displacement, g.object, TM_DISPLACEMENT);
   g.atmosphere = binder_->optional(a.atmosphere, g.object, TM_VOLUME);
   g.interior = binder_->optional(a.interior, g.object, TM_VOLUME);
   g.exterior = binder_->optional(a.exterior, g.object, TM_VOLUME);
