@@ -1,10 +1,10 @@
-// Where an object may be, as the camera sees it.
+// Bounds objects as the camera sees them.
 #pragma once
 #include "reyes/scene.h"
 
 namespace tomales {
 
-/// What the object may fill over its motion, in camera space; empty: it has no shapes (hasGeometry()).
+/// The space that the object may fill during its motion, in camera space. Empty if it has no shapes (hasGeometry()).
 Bound3 cameraBound(const Object& object);
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// Which renderer a scene was made for, as far as it shows.
+// Guesses which renderer a scene was made for.
 #pragma once
 #include "reyes/scene.h"
 
@@ -9,7 +9,7 @@ namespace tomales {
 /// "eyesplits")? A scene for both says nothing.
 bool isMadeForBmrt(const Scene& scene);
 
-/// The word that an option of that name has; empty: the scene, and the command line, say nothing.
+/// The word that an option of that name has. Empty if neither the scene nor the command line gives one.
 std::string wordOf(const Options& options, const std::string& key);
 
 }  // namespace tomales

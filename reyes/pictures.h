@@ -67,7 +67,7 @@ inline const std::vector<std::string>& textureEndings() {
                                                    ".hdr", ".tga",  ".tx",  ".tex", ".txr", ".tdl"};
   return endings;
 }
-/// And of other maps.
+/// Endings of names of textures and of other maps.
 inline const std::vector<std::string>& pictureEndings() {
   static const std::vector<std::string> endings = [] {
     std::vector<std::string> out = textureEndings();

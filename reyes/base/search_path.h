@@ -20,7 +20,7 @@ std::vector<std::string> filesWithin(const std::string& searchPath, const std::s
 /// not searched for.
 std::string findFile(const std::string& name, const std::string& searchPath);
 
-/// The last part of a name that has folders of Unix or Windows before it; else nothing.
+/// The last part of a name that has folders of Unix or Windows before it. Empty if it has none.
 std::string lastPartOf(const std::string& name);
 
 /// The files that a name may mean, best first: that of findFile(); those of its name but for the ending, which is one
@@ -29,8 +29,8 @@ std::string lastPartOf(const std::string& name);
 std::vector<std::string> candidateFiles(const std::string& name, const std::string& searchPath,
                                         const std::vector<std::string>& endings = {});
 
-/// NAME in the folder of a user's configuration of the program: XDG_CONFIG_HOME/tomales, else ~/.config/tomales. Empty:
-/// neither is set.
+/// `name` in the user's folder of configuration, which is XDG_CONFIG_HOME/tomales or else ~/.config/tomales. Empty if
+/// neither variable is set.
 std::string userFolder(const std::string& name);
 
 /// A kind of files that a user may keep for all scenes: folders in an environment variable, and one of the

@@ -9,9 +9,9 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kMostNamed = 3;     ///< Surfaces in one message.
-constexpr uint32_t kOneChunkOf = 8;  ///< Brightness is counted in so many.
-constexpr int64_t kFewPoints = 100;  ///< Say nothing about a picture.
+constexpr size_t kMostNamed = 3;     ///< One message names no more surfaces.
+constexpr uint32_t kOneChunkOf = 8;  ///< Brightness is counted in one chunk of so many.
+constexpr int64_t kFewPoints = 100;  ///< Fewer points say nothing about a picture.
 constexpr double kShareOfPoints = 0.5;
 constexpr int kGlare_stops = 4;  ///< No film of any time shows white paper at sixteen times its white.
 
@@ -31,7 +31,7 @@ std::string named(const std::set<std::string>& names) {
   return n > kMostNamed ? fmt::format("{} and {} more", out, n - kMostNamed) : out;
 }
 
-/// The smallest object around a point; nothing if there is none, or shapes are not at hand.
+/// The name of the smallest object around a point. Empty if there is none, or shapes are not at hand.
 std::string around(const Scene& scene, const vec3& place) {
   const Object* smallest = nullptr;
   float least = kInfinity;
@@ -70,7 +70,7 @@ void LightUse::add(const Batch& batch) {
   if (hashCombine(batch.points->key(0), batch.points->name(0).sequence, 0) % kOneChunkOf == 0) countStops(batch);
 }
 
-// Where a shadow ray has been traced there was light, and a surface that wanted to know.
+// Where a shadow ray has been traced there was light, and a surface that wanted to know of it.
 void LightUse::follow(const Batch& batch, const LightSample& sample, Lamp& lamp) {
   for (int i = 0; i < batch.points->count(); ++i) {
     const bool sent = get(sample.Cl, i) != vec3(0.0f), traced = sample.pending && !sample.pending[i];
@@ -85,7 +85,7 @@ void LightUse::follow(const Batch& batch, const LightSample& sample, Lamp& lamp)
   }
 }
 
-/// What diffuse() makes of each lamp on white paper.
+/// Counts how bright diffuse() makes white paper in the light of each lamp.
 void LightUse::countStops(const Batch& batch) {
   const std::vector<LightSample>& samples = batch.lights.evaluated();
   const int n = batch.points->count();

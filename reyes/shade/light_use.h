@@ -1,5 +1,5 @@
-// What becomes of the light of each lamp: whether it comes to anything that the camera sees, and whether it is far more
-// than a picture can show.
+// Finds out what becomes of the light of each lamp: whether it comes to anything that the camera sees, and whether it
+// is far more than a picture can show.
 #pragma once
 #include <array>
 #include <atomic>
@@ -18,12 +18,12 @@ struct BoundLight;
 struct BoundScene;
 struct LightSample;
 
-/// Threads: any; what is kept does not depend on the order.
+/// Any thread may add; the result does not depend on the order.
 class LightUse {
  public:
-  /// `lights`: how many the scene has.
+  /// `lights` is the number of lights of the scene.
   explicit LightUse(size_t lights) : lamps_(lights) {}
-  /// What a surface shader has asked of its lights.
+  /// Takes in what a surface shader has asked of its lights at the points of a batch.
   void add(const Batch& batch);
   /// Reports surfaces that ask for light where there is none, lights that come to nothing, and a light that alone makes
   /// most of the picture too bright.
@@ -32,12 +32,12 @@ class LightUse {
  private:
   static constexpr int kStops = 32;
   struct Lamp {
-    std::atomic<bool> asked{false};   ///< Some surface has.
+    std::atomic<bool> asked{false};   ///< Some surface has asked for its light.
     std::atomic<bool> bright{false};  ///< Its shader sends light to some point,
     std::atomic<bool> faces{false};   ///< which faces it,
     std::atomic<bool> comes{false};   ///< and which no shadow covers.
     std::array<std::atomic<int64_t>, kStops>
-        stops{};  ///< Points that it makes 2^k to 2^(k+1) times as bright as white.
+        stops{};  ///< Numbers of points that it makes 2^k to 2^(k+1) times as bright as white.
   };
   void follow(const Batch& batch, const LightSample& sample, Lamp& lamp);
   void countStops(const Batch& batch);
@@ -47,10 +47,10 @@ class LightUse {
   std::string whyUseless(const BoundScene& scene, const Lamp& lamp, size_t index) const;
 
   std::deque<Lamp> lamps_;
-  std::atomic<int64_t> points_{0};  ///< That stops were counted of.
-  mutable std::mutex mutex_;        ///< Over what follows.
+  std::atomic<int64_t> points_{0};  ///< The number of points whose stops were counted.
+  mutable std::mutex mutex_;        ///< It guards what follows.
   std::set<const BoundGroup*> unlit_;
-  std::map<size_t, vec3> places_;  ///< Of lights that stand somewhere, in current space.
+  std::map<size_t, vec3> places_;  ///< Positions of lights, in current space.
 };
 
 }  // namespace tomales

@@ -25,10 +25,7 @@ void addConventions(CLI::App& app, RenderSettings& s) {
       ->check(CLI::IsMember({"radiance", "bmrt"}))
       ->type_name("radiance|bmrt");
   app.add_option_function<std::string>(
-         "--standard-shaders",
-         [&s](const std::string& t) {
-           s.standardFromFiles = t == "files";
-         },
+         "--standard-shaders", [&s](const std::string& t) { s.standardFromFiles = t == "files"; },
          "Shaders of RISpec's names, such as plastic, are built-in (default), or files of these names where there are "
          "such")
       ->check(CLI::IsMember({"built-in", "files"}))

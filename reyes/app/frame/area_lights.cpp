@@ -7,9 +7,9 @@
 namespace tomales {
 namespace {
 
-constexpr int kSteps = 32;  ///< Along each edge of a patch: a sphere's area is then right to a thousandth.
+constexpr int kSteps = 32;  ///< Steps along each edge of a patch; a sphere's area is then right to a thousandth.
 
-/// Of the polygons of a lattice over the patch, in camera space.
+/// Sums the areas of the polygons of a lattice over the patch, in camera space.
 double areaOf(const Prim& shape, uint32_t patch, const mat4& cameraFromObject) {
   constexpr int kRow = kSteps + 1, kPoints = kRow * kRow;
   std::vector<float> u(kPoints), v(kPoints), points(size_t{12} * kPoints);

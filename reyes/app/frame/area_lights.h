@@ -1,4 +1,4 @@
-// What the intensity of arealight means: radiance, or what BMRT took it for.
+// Gives the intensity of arealight the meaning that BMRT gave it.
 #pragma once
 #include "reyes/scene.h"
 

@@ -110,7 +110,7 @@ bool tracesFullGeometry(const RenderSettings& settings) {
   return settings.fullGeometry.value_or(settings.gi && settings.gi->fullGeometry);
 }
 
-/// An option of the scene's, as if it had a string of that value.
+/// Sets an option as if the scene had given it that string.
 void setWord(Options& options, const std::string& key, const std::string& value) {
   if (value.empty()) return;
   Param p;

@@ -12,7 +12,7 @@ namespace tomales {
 
 class ProgressMeter {
  public:
-  /// `phase`: what is done first, as "reading". Must outlive this; likewise below.
+  /// `phase` names what is done first, such as "reading". Names of phases must outlive the meter.
   ProgressMeter(bool wanted, const char* phase);
   ~ProgressMeter();
   ProgressMeter(const ProgressMeter&) = delete;
@@ -28,13 +28,13 @@ class ProgressMeter {
   void keepMoving();
   const bool wanted_, terminal_;
   const Clock::time_point start_;
-  std::mutex mutex_;  ///< Over what follows.
+  std::mutex mutex_;  ///< It guards what follows.
   const char* phase_;
   Clock::time_point phaseStart_;
-  int percent_ = -1;  ///< That was shown last; -1: none.
+  int percent_ = -1;  ///< The one that was shown last, or -1.
   bool done_ = false;
   std::condition_variable wake_;
-  std::thread mover_;  ///< On a terminal.
+  std::thread mover_;  ///< It runs on a terminal only.
 };
 
 }  // namespace tomales
