@@ -61,10 +61,19 @@ struct TextureSettings {
       note{};  ///< Is told what was damaged in the folder and is made anew; called by any thread.
 };
 
-/// Endings of names of pictures, maps of other renderers among them.
+/// Endings of names of textures, those of other renderers among them; the best to read first.
+inline const std::vector<std::string>& textureEndings() {
+  static const std::vector<std::string> endings = {".tif", ".tiff", ".exr", ".png", ".jpg", ".jpeg",
+                                                   ".hdr", ".tga",  ".tx",  ".tex", ".txr", ".tdl"};
+  return endings;
+}
+/// Endings of names of textures and of other maps.
 inline const std::vector<std::string>& pictureEndings() {
-  static const std::vector<std::string> endings = {".tif", ".tiff", ".tx",  ".tex", ".txr", ".tdl", ".exr", ".png",
-                                                   ".jpg", ".jpeg", ".hdr", ".tga", ".shd", ".env", ".z"};
+  static const std::vector<std::string> endings = [] {
+    std::vector<std::string> out = textureEndings();
+    out.insert(out.end(), {".shd", ".env", ".z"});
+    return out;
+  }();
   return endings;
 }
 
@@ -78,8 +87,10 @@ struct TextureFigures {
 class TextureCache {
  public:
   virtual ~TextureCache() = default;
-  /// Fills out.x (and y, z for three channels) and counts lookups. False: unreadable, `error` says why.
-  virtual bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& error) = 0;
+  /// Fills out.x (and y, z for three channels) and counts lookups. Where the picture is missing or unreadable another
+  /// of candidateFiles() is taken. `remark` becomes why nothing was read (false), or which other was taken and why
+  /// (true); else it is left alone.
+  virtual bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& remark) = 0;
   /// RSL textureinfo(): exists, resolution, channels, bitsperchannel, viewingmatrix, projectionmatrix into `numbers`,
   /// type and textureformat into `text`. False: there is no such picture or no such fact.
   virtual bool info(const std::string& name, const std::string& what, std::vector<float>& numbers,

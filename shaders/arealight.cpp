@@ -1,17 +1,25 @@
 #include "reyes/shader.h"
+#include "reyes/shader/shadeops.h"
 
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale");
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance that the geometry emits from the side of its normal");
+rsl::FloatParam area(
+    "area", 0,
+    "0: intensity is a scale of radiance. Else the area of the geometry, and a point at the distance d "
+    "gets intensity / d^2, as BMRT has it, however large that is");
 rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: camera and specular rays do not see it glow", TM_ROLE_VISIBLE);
 
 void shade(const TmGrid* g) {
-  for (int i : rsl::Batch(g)) rsl::set(g->Cl, i, intensity(g, i) * lightcolor(g, i));
+  for (int i : rsl::Batch(g)) {
+    const float spread = area(g, i) > 0 ? rsl::kPi / area(g, i) : 1;
+    rsl::set(g->Cl, i, spread * intensity(g, i) * lightcolor(g, i));
+  }
 }
 }  // namespace
 
 extern const rsl::Shader arealightShader;
 const rsl::Shader arealightShader(TM_LIGHT, "arealight", "geometry that emits light; use with AreaLightSource",
                                   TM_LIGHT_AREA | TM_LIGHT_SHADOWED, shade,
-                                  {&intensity, &lightcolor, &samples, &visible});
+                                  {&intensity, &lightcolor, &area, &samples, &visible});

@@ -54,7 +54,10 @@ ExitCode exitCodeOf(Severity severity) {
   return out->code;
 }
 
-ExitCode exitCodeOf(const Log& log) { return exitCodeOf(log.worst()); }
+ExitCode exitCodeOf(const Log& log, bool strict) {
+  const Severity worst = log.worst();
+  return exitCodeOf(strict && worst == Severity::Warning ? Severity::Missing : worst);
+}
 
 std::string exitCodeHelp() {
   std::string out = "Exit codes:";

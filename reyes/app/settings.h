@@ -7,6 +7,7 @@
 
 #include "gi/services.h"
 #include "reyes/base/plugin_trust.h"
+#include "reyes/base/search_path.h"
 #include "reyes/base/trust.h"
 
 namespace tomales {
@@ -59,12 +60,17 @@ struct RenderSettings {
   std::vector<std::array<int, 2>> pixels;  ///< To explain.
   Trust trust;                             ///< Of the code that the RIB names.
   std::string outputRoot;                  ///< What the RIB names is written below it; empty: anywhere.
+  bool strict = false;                     ///< A warning ends with the exit code of what is missing.
+  std::string specular;                    ///< Option "shade" "specular"; empty: as the scene says. Likewise,
+  std::string arealight;                   ///< Option "shade" "arealight".
+  bool standardFromFiles = false;          ///< A file that is called as a shader of RISpec's comes before that.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };
 
 inline PluginTrust pluginTrust(const Trust& t) {
-  return {.folders = t.shaderFolders + ":" + t.pluginFolders(), .sceneFolders = t.allowsPluginsOfScene()};
+  return {.folders = t.shaderFolders + ":" + standardPath("shader") + ":" + t.pluginFolders(),
+          .sceneFolders = t.allowsPluginsOfScene()};
 }
 inline PluginTrust pluginTrust(const RenderSettings& settings) { return pluginTrust(settings.trust); }
 inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }

@@ -47,7 +47,7 @@ void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log) {
     } catch (const DamageError& e) {
       std::error_code problem;
       if (!std::filesystem::remove(e.path, problem)) throw;
-      log.report(Severity::Warning, "cache-damaged", {std::make_shared<const std::string>(e.path), 0},
+      log.report(Severity::Note, "cache-damaged", {std::make_shared<const std::string>(e.path), 0},
                  std::string(e.what()) + "; it is made anew");
     }
 }

@@ -1,6 +1,7 @@
 #include "reyes/base/search_path.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -37,6 +38,69 @@ std::string findFile(const std::string& name, const std::string& searchPath) {
     for (const fs::path folder : foldersOf(searchPath))
       if (const fs::path file = folder / name; fs::is_regular_file(file, none)) return file.string();
   return fs::is_regular_file(name, none) ? name : "";
+}
+
+std::string lastPartOf(const std::string& name) {
+  const size_t slash = name.find_last_of("/\\");
+  return slash == std::string::npos ? "" : name.substr(slash + 1);
+}
+
+std::vector<std::string> candidateFiles(const std::string& name, const std::string& searchPath,
+                                        const std::vector<std::string>& endings) {
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& meant) {
+    const std::string file = findFile(meant, searchPath);
+    if (!file.empty() && std::find(out.begin(), out.end(), file) == out.end()) out.push_back(file);
+  };
+  for (const std::string& place : {name, lastPartOf(name)}) {
+    if (place.empty()) continue;
+    add(place);
+    const std::string stem = std::filesystem::path(place).replace_extension().string();
+    for (const std::string& ending : endings) add(stem.ends_with(ending) ? stem : stem + ending);
+  }
+  return out;
+}
+
+// XDG Base Directory Specification: a relative XDG_CONFIG_HOME is to be ignored.
+std::string userFolder(const std::string& name) {
+  const auto folder = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return std::filesystem::path(value ? value : "");
+  };
+  const std::filesystem::path given = folder("XDG_CONFIG_HOME"), home = folder("HOME");
+  if (given.is_absolute()) return (given / "tomales" / name).string();
+  return home.is_absolute() ? (home / ".config/tomales" / name).string() : "";
+}
+
+namespace {
+
+constexpr StandardPlace kPlaces[] = {{"shader", "TOMALES_SHADERS", "shaders"},
+                                     {"texture", "TOMALES_TEXTURES", "textures"},
+                                     {"archive", "TOMALES_ARCHIVES", "archives"}};
+
+const StandardPlace* placeOf(const std::string& kind) {
+  const auto it = std::find_if(std::begin(kPlaces), std::end(kPlaces), [&](const auto& p) { return p.kind == kind; });
+  return it == std::end(kPlaces) ? nullptr : it;
+}
+
+}  // namespace
+
+std::span<const StandardPlace> standardPlaces() { return kPlaces; }
+
+std::string standardPath(const std::string& kind) {
+  const StandardPlace* place = placeOf(kind);
+  const char* variable = place ? std::getenv(place->variable) : nullptr;
+  std::string out = variable ? variable : "";
+  std::error_code none;
+  if (const std::string own = place ? userFolder(place->folder) : ""; std::filesystem::is_directory(own, none))
+    out += (out.empty() ? "" : ":") + own;
+  return out;
+}
+
+void addToStandardPath(const std::string& kind, const std::string& folders) {
+  const char* const variable = placeOf(kind)->variable;
+  const char* const before = std::getenv(variable);
+  setenv(variable, (folders + (before ? std::string(":") + before : "")).c_str(), 1);
 }
 
 }  // namespace tomales

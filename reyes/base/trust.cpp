@@ -4,30 +4,22 @@
 #include <filesystem>
 
 #include "reyes/base/process.h"
+#include "reyes/base/search_path.h"
 
 namespace tomales {
 namespace {
-
-constexpr const char* kFolder = "tomales/plugins";
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
 }
 
-/// XDG Base Directory Specification: a relative XDG_CONFIG_HOME is to be ignored.
-std::string configurationFolder() {
-  const std::filesystem::path given = environment("XDG_CONFIG_HOME"), home = environment("HOME");
-  if (given.is_absolute()) return (given / kFolder).string();
-  return home.is_absolute() ? (home / ".config" / kFolder).string() : "";
-}
-
 }  // namespace
 
 std::string Trust::pluginFolders() const {
   std::string out = pluginPath;
-  for (const std::string& more : {environment("TOMALES_PLUGIN_PATH"), configurationFolder()}) out += ":" + more;
-  for (const std::filesystem::path& installed : besideProgram(kFolder)) out += ":" + installed.string();
+  for (const std::string& more : {environment("TOMALES_PLUGIN_PATH"), userFolder("plugins")}) out += ":" + more;
+  for (const std::filesystem::path& installed : besideProgram("tomales/plugins")) out += ":" + installed.string();
   return out;
 }
 

@@ -43,7 +43,8 @@ size_t tileMark(const std::string& name, size_t& length) {
 struct Picture {
   std::map<int, Handle*> tiles;  ///< By UDIM number; 0: the one.
   bool tiled = false;
-  std::string error;  ///< Why there is none.
+  std::string error;   ///< Why there is none.
+  std::string remark;  ///< What was taken in place of a file, and why.
 };
 
 /// OpenImageIO's texture system, one for the process and never destroyed. Threads keep tiles of a system for longer
@@ -111,7 +112,7 @@ class Cache : public TextureCache {
     SharedSystem::get().enter(settings.memory_bytes);
   }
   ~Cache() override { SharedSystem::get().leave(); }
-  bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& error) override;
+  bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& remark) override;
   bool info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) override;
   TextureFigures takeFigures() override { return SharedSystem::get().takeFigures(); }
 
@@ -127,9 +128,6 @@ class Cache : public TextureCache {
     if (!slot) slot = open(std::string(name));
     return *slot;
   }
-
-  /// As it is found along the search path; empty: nowhere.
-  std::string find(const std::string& name) const { return findFile(name, settings.searchPath); }
 
   std::string notFound(const std::string& name) const {
     std::vector<std::string> folders = foldersOf(settings.searchPath);
@@ -153,16 +151,31 @@ class Cache : public TextureCache {
   }
 
   void add(const std::string& name, int tile, Picture& picture) {
-    const std::string found = find(name);
-    if (found.empty()) return;
-    std::string error, note;
-    const std::string file = tiledFile(found, cacheFolder, error, note);
+    const std::string named = findFile(name, settings.searchPath);
+    std::string problem;  // with the best candidate
+    for (const std::string& candidate : candidateFiles(name, settings.searchPath, textureEndings())) {
+      std::string error;
+      if (Handle* handle = openFile(candidate, error)) {
+        picture.tiles[tile] = handle;
+        if (candidate == named) return;
+        picture.remark = fmt::format("{}; {} is taken, which has its name",
+                                     named.empty() ? "is not there" : "cannot be read (" + problem + ")", candidate);
+        return;
+      }
+      if (problem.empty()) problem = error;
+    }
+    if (!problem.empty()) picture.error = problem;
+  }
+
+  /// Null: `error` says why.
+  Handle* openFile(const std::string& path, std::string& error) {
+    std::string note;
+    const std::string file = tiledFile(path, cacheFolder, error, note);
     if (!note.empty() && settings.note) settings.note(note);
     Handle* handle = file.empty() ? nullptr : system->get_texture_handle(OIIO::ustring(file));
-    if (handle && system->good(handle))
-      picture.tiles[tile] = handle;
-    else
-      picture.error = error.empty() ? system->geterror() : error;
+    if (handle && system->good(handle)) return handle;
+    if (error.empty()) error = system->geterror();
+    return nullptr;
   }
 
   OIIO::TextureSystem* const system = SharedSystem::get().textures;
@@ -172,7 +185,7 @@ class Cache : public TextureCache {
   std::map<std::string, std::unique_ptr<const Picture>, std::less<>> pictures;
 };
 
-bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::string& error) {
+bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::string& remark) {
   const Picture& known = picture(q.name);
   Thread* thread = system->get_perthread_info();
   OIIO::TextureOpt options = optionsOf(q);
@@ -202,7 +215,10 @@ bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::str
     }
     for (int k = 0; k < n; ++k) channels[k][i] = texel[k];
   }
-  if (!found) error = known.error.empty() ? system->geterror() : known.error;
+  if (!found)
+    remark = known.error.empty() ? system->geterror() : known.error;
+  else if (!known.remark.empty())
+    remark = known.remark;
   return found;
 }
 

@@ -240,6 +240,7 @@ void attribute(GraphicsState& s, const Request& r) {
     const bool text = p.type == ValueType::String;
     const auto& setters = text ? textSetters() : numberSetters();
     const bool empty = text ? p.strings.empty() : p.floats.empty() && p.ints.empty();
+    if (category == "render") s.scope.edit().user[key] = p;  // shows that the scene was made for BMRT
     if (empty) {
       reject(s, r, "\"" + key + "\" has no value");
     } else if (const auto it = setters.find(key); it != setters.end()) {

@@ -211,9 +211,9 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
       s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {
     return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" ||
-
-           key == "texture:width" || key == "texture:filter" || key == "limits:texturememory" ||
-           key == "limits:geocachememory" || key == "ribparse:varsubst";
+           key == "shade:arealight" || key == "render:prmanspecular" || key == "texture:width" ||
+           key == "texture:filter" || key == "limits:texturememory" || key == "limits:geocachememory" ||
+           key == "ribparse:varsubst";
   }
   return true;
 }
@@ -241,7 +241,8 @@ void warnOfIgnored(GraphicsState& s, const Request& r, const std::string& key) {
   const char* code = reason.empty() ? option ? "rib-unknown-option" : "rib-unknown-attribute"
                      : option       ? "rib-ignored-option"
                                     : "rib-ignored-attribute";
-  s.warnOnce(what, r, code, r.name + " \"" + key + "\" has no effect here" + reason);
+  const Severity severity = option && !reason.empty() ? Severity::Note : Severity::Warning;
+  s.warnOnce(what, r, code, r.name + " \"" + key + "\" has no effect here" + reason, severity);
 }
 
 const HandlerTable& optionHandlers() {

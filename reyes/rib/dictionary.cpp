@@ -51,11 +51,11 @@ constexpr Standard kStandard[] = {
     {"int[2]", "limits:bucketsize bucket:orderorigin"},
     {"int",
      "limits:gridsize limits:texturememory limits:eyesplits limits:threads limits:brickmemory "
-     "limits:geocachememory limits:maxshadinggrids statistics:endofframe trace:maxdepth"},
+     "limits:geocachememory render:prmanspecular limits:maxshadinggrids statistics:endofframe trace:maxdepth"},
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
-     "searchpath:resource searchpath:texturecache shade:specular texture:filter "
+     "searchpath:resource searchpath:texturecache shade:specular shade:arealight texture:filter "
      "searchpath:dirmap ribparse:varsubst "
      "bucket:order statistics:filename statistics:xmlfilename"},
     {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset texture:width"},

@@ -75,7 +75,11 @@ void Reader::replay(const Request& r, const std::string& name, const Requests& a
 }
 
 void Reader::readArchiveFile(const Request& r, const std::string& name) {
-  const std::string path = findFile(name, "archive");
+  std::string path = findFile(name, "archive");
+  if (const std::string last = lastPartOf(name); path.empty() && !last.empty())
+    if (path = findFile(last, "archive"); !path.empty())
+      report(Severity::Warning, "rib-elsewhere", r,
+             "\"" + name.substr(0, 200) + "\" is not there; " + path + " is read, which has its name");
   tellOfFile(r, "archive", name, path);
   const auto stream = path.empty() ? nullptr : ByteStream::open(path);
   const std::string quoted = "\"" + name.substr(0, 200) + "\" ";
@@ -131,6 +135,7 @@ std::vector<std::string> Reader::foldersFor(const char* category) const {
   std::vector<std::string> out = foldersOf(pathOf(builder_.options().searchPaths, category));
   out.push_back(open_.back().folder);
   out.insert(out.end(), settings_.archivePath.begin(), settings_.archivePath.end());
+  for (const std::string& folder : foldersOf(standardPath(category))) out.push_back(folder);
   return out;
 }
 

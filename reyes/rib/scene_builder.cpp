@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "reyes/base/search_path.h"
 #include "reyes/rib/refusals.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/ris.h"
@@ -23,6 +26,16 @@ bool allowsInfinity(std::string_view name) {
 bool usable(const std::vector<float>& numbers, bool infinityToo) {
   return std::all_of(numbers.begin(), numbers.end(),
                      [&](float f) { return std::isfinite(f) || (infinityToo && !std::isnan(f)); });
+}
+
+/// Pictures lie beside the scene, too; first in the working folder, since maps that a frame writes are there.
+void addStandardPath(Scene& scene) {
+  std::string& path = scene.options.searchPaths["texture"];
+  const std::string own = scene.where.file ? std::filesystem::path(*scene.where.file).parent_path().string() : "";
+  std::vector<std::string> folders = foldersOf(standardPath("texture"));
+  if (!own.empty() && own != ".") folders.insert(folders.begin(), own);
+  if (!folders.empty()) folders.insert(folders.begin(), ".");
+  for (const std::string& folder : folders) path += (path.empty() ? "" : ":") + folder;
 }
 
 }  // namespace
@@ -220,6 +233,7 @@ void SceneBuilder::endWorld(const SourceLoc& where) {
   state_.world.reset();
   state_.identity = Motion();
   state_.end(Block::World, where);
+  addStandardPath(scene);
   scene.freeze();
   if (settings_.onScene) settings_.onScene(std::move(scene));
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reyes/dialect.h"
 #include "reyes/rsl_host.h"
 #include "reyes/shade/binder.h"
 #include "reyes/shade/parameter_values.h"
@@ -63,13 +64,22 @@ const Param* optionOf(const Options& options, const char* key) {
 }
 
 /// docs/decisions/0004.
-float specularSharpnessOf(const Options& options, Log& log) {
-  const Param* convention = optionOf(options, "shade:specular");
-  const std::string name = convention && !convention->strings.empty() ? convention->strings[0] : "prman";
-  if (name != "prman" && name != "rispec")
+float specularSharpnessOf(const Scene& scene, Log& log) {
+  std::string convention = wordOf(scene.options, "shade:specular");
+  if (!convention.empty() && convention != "prman" && convention != "rispec")
     log.report(Severity::Warning, "option-specular", {},
-               "Option \"shade\" \"specular\" \"" + name + "\" is neither \"prman\" nor \"rispec\"; \"prman\" is used");
-  return name == "rispec" ? 1.0f : 8.0f;
+               "Option \"shade\" \"specular\" \"" + convention + "\" is neither \"prman\" nor \"rispec\"; ignored");
+  const Param* ofBmrt = optionOf(scene.options, "render:prmanspecular");
+  if (convention.empty() && ofBmrt) convention = ofBmrt->number(0) != 0 ? "prman" : "rispec";
+  if (convention.empty() && isMadeForBmrt(scene)) {
+    convention = "rispec";
+    log.report(
+        Severity::Note, "scene-bmrt", scene.where,
+        "the scene has options or attributes of BMRT's (\"render\", \"radiosity\"): the exponent of specular() is "
+        "1/roughness, and the light of arealight falls off with the square of the distance (--specular prman, "
+        "--arealight radiance)");
+  }
+  return convention == "rispec" ? 1.0f : 8.0f;
 }
 
 /// Option "limits" "texturememory" is in KB.
@@ -94,7 +104,7 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       stats(st),
       camera(s.options),
       cameraFromWorld(s.cameraFromWorldAtOpen()),
-      specularSharpness(specularSharpnessOf(s.options, l)),
+      specularSharpness(specularSharpnessOf(s, l)),
       textures({pathOf(s.options.searchPaths, "texture"), pathOf(s.options.searchPaths, "texturecache"),
                 textureMemoryOf(s.options)},
                l, st),

@@ -153,6 +153,7 @@ void radianceToSample(const TmGrid& g, const float* density) {
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 
 void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
+  ambientAsked_ = true;
   for (int i = 0; i < asking.count; ++i)
     if (asking.active[i]) set(out, i, vec3(0.0f));
   for (const BoundLight* light : batch.group.lights) {

@@ -71,6 +71,8 @@ class Lights {
   /// All samples of all lights that have a direction, in the order of Attributes::lights. Unshadowed until
   /// `shadow`.
   std::vector<LightSample>& samples(Batch& batch);
+  /// Has the shader asked what lights it?
+  bool asked() const { return evaluated_ || ambientAsked_; }
   /// Those that have been asked for so far, of all groups.
   const std::vector<LightSample>& evaluated() const { return samples_; }
   /// Traces what is pending at the points of `want`, but for those whose light passes to an accuracy that the light is
@@ -95,7 +97,7 @@ class Lights {
   void tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const;
   template <class Body>
   void forEachWithExtent(Batch& batch, const Body& body) const;
-  bool evaluated_ = false;
+  bool evaluated_ = false, ambientAsked_ = false;
   std::deque<std::vector<TmValue>> params_;
   int lobes_ = 0;  ///< That along() was given.
   std::deque<ShadowTally> tallies_;

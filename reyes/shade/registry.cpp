@@ -43,6 +43,7 @@ bool isOfSpecification(std::string_view name) {
 struct ShaderRegistry::Impl {
   Log& log;
   const PluginTrust trust;
+  const bool standardFromFiles;
   std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
   std::map<std::pair<int, std::string>, const TmShader*> shaders;
   struct Plugin {
@@ -74,7 +75,10 @@ struct ShaderRegistry::Impl {
                          const std::string& beside);
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
                            const std::string& beside);
-  bool comesBeforeTexts(const TmShader& s) const { return !builtIn.count(&s) || isOfSpecification(s.name); }
+  bool comesBeforeTexts(const TmShader& s) const {
+    return !builtIn.count(&s) || (!standardFromFiles && isOfSpecification(s.name));
+  }
+  void tellOfStandardName(const TmShader& used, const std::string& searchPath, const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
     return it == shaders.end() ? nullptr : it->second;
@@ -174,8 +178,8 @@ std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& n
   return std::move(found.trusted);
 }
 
-ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust)
-    : impl_(new Impl{log, std::move(trust), {}, {}, {}, {}, false, {}, {}}) {}
+ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust, bool standardFromFiles)
+    : impl_(new Impl{log, std::move(trust), standardFromFiles, {}, {}, {}, {}, false, {}, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
@@ -225,15 +229,34 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
   return found.shader;
 }
 
+/// A user whose folder has a "plastic" of its own is told whose it is.
+void ShaderRegistry::Impl::tellOfStandardName(const TmShader& used, const std::string& searchPath,
+                                              const std::string& beside) {
+  if (!isOfSpecification(used.name)) return;
+  std::error_code none;
+  for (const std::string& folder : textFolders(searchPath, beside)) {
+    const std::string file = (fs::path(folder) / (std::string(used.name) + ".sl")).string();
+    if (!fs::is_regular_file(file, none)) continue;
+    const bool isOurs = builtIn.count(&used) > 0;
+    return log.report(
+        Severity::Note, "shader-standard", {std::make_shared<const std::string>(file), 0},
+        fmt::format("\"{}\" is a shader of RISpec's: {} (--standard-shaders {})", used.name,
+                    isOurs ? "the built-in one is used, not this file" : "this file is used, not the built-in one",
+                    isOurs ? "files would take this one" : "built-in would take that"),
+        used.name);
+  }
+}
+
 const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kind, const std::string& searchPath,
                                              const std::string& beside) {
   const TmShader* const own = known(name, kind);
-  if (own && comesBeforeTexts(*own)) return own;
+  if (own && comesBeforeTexts(*own)) return tellOfStandardName(*own, searchPath, beside), own;
   if (!leavesFolders(name))
     for (const std::string& file : pluginFiles(name, trust.folders))
       if (load(file))
         if (const TmShader* s = known(name, kind); s && s != own) return s;
-  if (const TmShader* s = findText(name, kind, searchPath, beside)) return s;
+  if (const TmShader* s = findText(name, kind, searchPath, beside))
+    return tellOfStandardName(*s, searchPath, beside), s;
   if (own) return own;
   std::vector<std::string> others;  // plugins of that name without such a shader
   for (const std::string& file : trustedFiles(name, searchPath)) {

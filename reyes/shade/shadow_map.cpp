@@ -152,7 +152,8 @@ const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& wher
   const std::lock_guard lock(mutex_);
   const auto [it, isNew] = maps_.try_emplace(name);
   if (!isNew) return it->second.get();
-  const std::string path = findFile(name, searchPath_);
+  const std::vector<std::string> candidates = candidateFiles(name, searchPath_);
+  const std::string path = candidates.empty() ? "" : candidates.front();
   std::string error;
   it->second = ShadowMap::read(path.empty() ? name : path, error);
   if (std::error_code none; !it->second && path.empty() && !std::filesystem::exists(name, none)) {
@@ -160,6 +161,10 @@ const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& wher
     folders.push_back(".");
     error = "not found in " + listOfFolders(folders) + hintOfMissing(name, pictureEndings(), folders);
   }
+  if (it->second && path != findFile(name, searchPath_))
+    log_.report(Severity::Warning, "texture-elsewhere", where,
+                fmt::format("{}: shadow map \"{}\" is not there; {} is taken, which has its name", user, name, path),
+                name);
   if (!it->second)
     log_.report(Severity::Missing, "shadow-map", where,
                 fmt::format("{}: shadow map \"{}\" cannot be read ({}); shadows are traced instead", user, name, error),

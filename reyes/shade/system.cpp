@@ -73,11 +73,15 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
     batch.closeOutputs(variables, out, begin);
     storeVariables(variables, batch, shader, out, begin);
     impl_->lightNoise.add(batch);
+    impl_->lightUse.add(batch);
   }
   impl_->stats.shade.verticesShaded += count;
 }
 
-void ShadingSystem::warnOfLightNoise() const { impl_->lightNoise.warn(*impl_); }
+void ShadingSystem::warnOfLightNoise() const {
+  impl_->lightNoise.warn(*impl_);
+  impl_->lightUse.warn(*impl_);
+}
 
 const IndirectQuery* ShadingSystem::indirectQuery(int group) const {
   const auto& query = impl_->groups[static_cast<size_t>(group)].indirect;

@@ -4,12 +4,14 @@
 
 #include "reyes/shade/bound_scene.h"
 #include "reyes/shade/light_noise.h"
+#include "reyes/shade/light_use.h"
 
 namespace tomales {
 
 struct ShadingSystem::Impl : BoundScene {
   using BoundScene::BoundScene;
   LightNoise lightNoise{lights.size()};
+  LightUse lightUse{lights.size()};
 };
 
 /// Adds the time until its end to the figures of a shader.

@@ -25,15 +25,15 @@ struct Textures::Impl {
   TextureCache* open() {
     std::call_once(opened, [this] {
       TextureSettings told = settings;
-      told.note = [this](const std::string& note) { log.report(Severity::Warning, "texture-cache", {}, note); };
+      told.note = [this](const std::string& note) { log.report(Severity::Note, "texture-cache", {}, note); };
       if (const PictureLibrary* library = pictureLibrary(problem)) cache = library->textures(told);
     });
     return cache.get();
   }
-  bool lookup(const TextureQuery& query, TmVec3 out, std::string& error) {
-    if (!open()) return error = problem, false;
+  bool lookup(const TextureQuery& query, TmVec3 out, std::string& remark) {
+    if (!open()) return remark = problem, false;
     int64_t lookups = 0;
-    const bool found = cache->lookup(query, out, lookups, error);
+    const bool found = cache->lookup(query, out, lookups, remark);
     stats.textures.lookups += lookups;
     return found;
   }
@@ -53,16 +53,30 @@ bool Textures::info(const std::string& name, const std::string& what, std::vecto
   return impl_->open() && impl_->cache->info(name, what, numbers, text);
 }
 
-bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user, TmVec3 out) const {
-  std::string error;
-  if (impl_->lookup(q, out, error)) return true;
+namespace {
+
+void fill(const TextureQuery& q, const vec3& value, TmVec3 out) {
   float* const channels[3] = {out.x, out.y, out.z};
   for (int i = 0; i < q.count; ++i)
     if (q.active[i])
-      for (int k = 0; k < std::min(q.channels, 3); ++k) channels[k][i] = k == 1 ? 0.0f : 1.0f;
+      for (int k = 0; k < std::min(q.channels, 3); ++k) channels[k][i] = value[k];
+}
+
+}  // namespace
+
+bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user, TmVec3 out) const {
+  if (!*q.name) return fill(q, vec3(q.fill), out), true;  // shaders that are given no picture look up ""
+  std::string remark;
+  if (impl_->lookup(q, out, remark)) {
+    if (!remark.empty())
+      impl_->log.report(Severity::Warning, "texture-elsewhere", where,
+                        fmt::format("{}: texture \"{}\" {}", user, q.name, remark), q.name);
+    return true;
+  }
+  fill(q, vec3(1, 0, 1), out);
   impl_->log.report(Severity::Missing, "texture-missing", where,
                     fmt::format("{}: texture \"{}\" cannot be read ({}); magenta is used", user, q.name,
-                                error.empty() ? "not found" : error),
+                                remark.empty() ? "not found" : remark),
                     q.name);
   return false;
 }

@@ -1,9 +1,10 @@
 """How scenes of others end: exit codes, messages a scene, and silent failures.
 
-    tests/bench/public_scenes.py build/release/tomales FOLDER ... [--seconds 60] [--list] [-- --pixel-samples 1x1 ...]
+    tests/bench/public_scenes.py build/release/tomales FOLDER ... [--seconds 20] [--list] [--keep FOLDER] [-- -t 1 ...]
 
-Every RIB file in the folders that has a world is rendered at 160 x 120 in a copy of its folder, from where it lies, as one would do by hand; files of
-the same bytes count once. What follows -- goes to the renderer. A message is a line that ends with its code in brackets: one for each cause, however
+Every RIB file in the folders that has a world is rendered at 160 x 120 in a copy of its folder, from where it lies, as one would do by hand, and is
+stopped after so many CPU seconds (exit code "stopped"); files of the same bytes count once. All folders of a repository that hold shaders are on the
+path, in TOMALES_SHADERS, unless that is set. What follows -- goes to the renderer. --keep keeps the pictures, as PNG. A message is a line that ends with its code in brackets: one for each cause, however
 often it came. A failure is silent if the exit code is 0 and there is no message, though no picture was written or every pixel of the first is black or
 empty. --list prints a line for each scene.
 """
@@ -13,8 +14,11 @@ import gzip
 import hashlib
 import json
 import pathlib
+import os
 import re
+import resource
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
@@ -47,14 +51,20 @@ def is_dark(program, picture):
     return all(c["max"] <= 0 for c in channels if c["name"] in "RGB")
 
 
-def render(program, scene, arguments, seconds, scratch):
+def keep(picture, kept):
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    if picture.exists():
+        subprocess.run(["oiiotool", picture, "--ch", "R,G,B", "--colorconvert", "linear", "sRGB", "-o", kept], capture_output=True, check=False)
+
+
+def render(program, scene, arguments, seconds, scratch, environment):
     picture = scratch / "picture.exr"
     picture.unlink(missing_ok=True)
     command = [program, scene.name, "-o", picture, "--format", SIZE, *arguments]
-    try:
-        done = subprocess.run(command, cwd=scene.parent, capture_output=True, text=True, errors="replace", timeout=seconds, stdin=subprocess.DEVNULL)
-    except subprocess.TimeoutExpired:
-        return {"code": "timeout", "codes": [], "silent": False}
+    done = subprocess.run(command, cwd=scene.parent, capture_output=True, text=True, errors="replace", stdin=subprocess.DEVNULL, env=environment,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5)))
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return {"code": "stopped", "codes": [], "silent": False}
     codes = [m.group(1) for m in map(MESSAGE.search, done.stderr.splitlines()) if m]
     silent = done.returncode == 0 and not codes and (not picture.exists() or is_dark(program, picture))
     return {"code": done.returncode, "codes": codes, "silent": silent}
@@ -74,7 +84,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("folders", type=pathlib.Path, nargs="+")
-    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--seconds", type=int, default=20)
+    parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--list", action="store_true")
     given = parser.parse_args(arguments[:arguments.index("--")] if "--" in arguments else arguments)
     program = given.program.resolve()
@@ -84,8 +95,11 @@ def main():
             copy = pathlib.Path(temporary) / folder.name
             shutil.copytree(folder, copy, symlinks=True, ignore=shutil.ignore_patterns(".git"))
             results = []
+            environment = {"TOMALES_SHADERS": ":".join(sorted({str(file.parent) for file in copy.rglob("*.sl")})), **os.environ}
             for scene in scenes_of(copy):
-                results.append(render(program, scene, rest, given.seconds, pathlib.Path(temporary)))
+                results.append(render(program, scene, rest, given.seconds, pathlib.Path(temporary), environment))
+                if given.keep:
+                    keep(pathlib.Path(temporary) / "picture.exr", given.keep / ("_".join(scene.relative_to(copy.parent).parts) + ".png"))
                 kinds.update(set(results[-1]["codes"]))
                 if given.list:
                     r = results[-1]

@@ -53,4 +53,13 @@ picture("request", scene('Surfaec "matte"'), 3, 'did you mean "Surface"?')
 picture("primvar", GOOD.replace("360", '360 "wobble" [1 2 3 4]'), 3, '"wobble" is not declared')
 picture("empty", GOOD.replace("Translate 0 0 4", "Translate 0 0 -4"), 3, "behind the camera")
 
+# With --strict a warning counts; a note does not.
+picture("warned", scene('Surface "disney" "metalic" [1]'), 0, "warning:")
+t.expect_run("--strict", ["warned.rib", "--strict"], 3, "warning:")
+t.write("noted.rib", 'Option "limits" "threads" 2\n' + GOOD.replace("good.exr", "noted.exr"))
+t.expect_run("--strict and a note", ["noted.rib", "--strict"], 0, "note:")
+t.expect_run("--strict and nothing", ["plain.rib", "--strict"], 0)
+t.expect_run("--strict with -q", ["warned.rib", "--strict", "-q"], 3)
+t.expect_run("--strict and what cannot be read", ["nowhere.rib", "--strict"], 2)
+
 t.finish()

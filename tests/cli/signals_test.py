@@ -103,6 +103,35 @@ expect_soon("waiting for a scene", process, 143)
 os.close(writer)
 os.close(silent)
 
+# Single things that take long: the work after a signal is less than a second of CPU time, whatever else the machine does.
+CLOCK = os.sysconf("SC_CLK_TCK")
+
+
+def cpu_seconds(pid):
+    with open(f"/proc/{pid}/stat") as file:
+        fields = file.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / CLOCK
+
+
+def expect_at_once(what, process, after_s=1):
+    wait_for(lambda: process.poll() is not None or cpu_seconds(process.pid) > after_s)
+    before = cpu_seconds(process.pid)
+    process.send_signal(signal.SIGTERM)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    spent = usage.ru_utime + usage.ru_stime - before
+    t.expect(process.returncode == 143 and spent < 1, f"{what} ends with 143 after {spent:.2f} CPU s more")
+
+
+balls = " ".join(f"1001 {16 * n}" for n in range(4000))
+floats = " ".join(f".02 0 0 0 0 .02 0 0 0 0 .02 0 {n % 20 / 10 - 1} {n // 20 % 20 / 10 - 1} {n // 400 / 5 - 1} 1" for n in range(4000))
+blobby = f"Blobby 4000 [{balls} 0 4000 {' '.join(map(str, range(4000)))}] [{floats}] [\"\"]"
+t.write("blobby.rib", GOOD.replace("Format 24 24", "Format 8000 8000").replace("Sphere 1 -1 1 360", blobby))
+expect_at_once("a Blobby of many cells", start("blobby.rib", "-o", "blobby.exr", "-t", "1"))
+t.write("inner.rib", "AttributeBegin Color [1 0 0] AttributeEnd\n" * 100000)
+t.write("archives.rib", GOOD.replace("Sphere 1 -1 1 360", 'ReadArchive "inner.rib"\n' * 50))
+expect_at_once("the reading of archives", start("archives.rib", "-o", "archives.exr", "-t", "1"), .3)
+
 # Many frames: those that are finished stay, and no other is begun.
 for number, code in ((signal.SIGHUP, 129), (signal.SIGINT, 130), (signal.SIGTERM, 143)):
     process = start("frames.rib", "-t", "2", "--stats", "frames.json")

@@ -84,7 +84,7 @@ std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
 
 void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log) {
   applyOverrides(scene, settings);
-  ShaderRegistry registry(log, pluginTrust(settings));
+  ShaderRegistry registry(log, pluginTrust(settings), settings.standardFromFiles);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   displaceByMovingSurfaces(scene, registry, log);
   scene.open([](const Attributes& a) { return a.visibility.photon; });

@@ -20,7 +20,7 @@ constexpr Group kGroups[] = {
     {"Light, in detail",
      " --max-error --error-function --indirect-only --light-samples --light-seed --photons --atlas-direct --atlas "
      "--radiosity-texels --radiosity-maps --brick-cache --brick-maxerror --geometry-cache --ray-geometry --no-hit-list "
-     "--irradiance-append --baked ",
+     "--specular --arealight --irradiance-append --baked ",
      false},
 };
 constexpr Group kRest{"More", "", false};

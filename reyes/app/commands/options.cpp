@@ -14,6 +14,24 @@ const GiMethod* giOrUsageError(const std::string& text) {
   throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, " + giMethodNames());
 }
 
+void addConventions(CLI::App& app, RenderSettings& s) {
+  app.add_option("--specular", s.specular,
+                 "Exponent of specular(): 8/roughness as PRMan has it, or 1/roughness as RISpec and BMRT have it "
+                 "(default: as the scene says, or shows)")
+      ->check(CLI::IsMember({"prman", "rispec"}))
+      ->type_name("prman|rispec");
+  app.add_option("--arealight", s.arealight,
+                 "intensity of arealight: radiance, or what BMRT had: intensity / distance^2 (default: likewise)")
+      ->check(CLI::IsMember({"radiance", "bmrt"}))
+      ->type_name("radiance|bmrt");
+  app.add_option_function<std::string>(
+         "--standard-shaders", [&s](const std::string& t) { s.standardFromFiles = t == "files"; },
+         "Shaders of RISpec's names, such as plastic, are built-in (default), or files of these names where there are "
+         "such")
+      ->check(CLI::IsMember({"built-in", "files"}))
+      ->type_name("built-in|files");
+}
+
 }  // namespace
 
 CLI::Validator between(double least, double most) {
@@ -33,9 +51,9 @@ std::optional<std::string> parseOutput(const std::string& text) {
 
 void addOutput(CLI::App& app, RenderSettings& s) {
   addParsed(app, "-o", s.output, parseOutput, pictureNames(),
-            "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, sRGB. A "
-            "scene without Display writes "
-            "ri.exr");
+            "Write here instead of to the first Display; # stands for the frame number. PNG: rgb, "
+            "in sRGB unless the scene's Exposure has a gamma (.tif and .exr are linear, and so is the PNG of a Display "
+            "without -o, as classic renderers wrote it). A scene without Display writes ri.exr");
   app.add_flag("--one-picture", s.onePicture, "With -o: leave out the scene's other Displays, shadow maps excepted")
       ->needs("-o");
 }
@@ -126,6 +144,34 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
       "--no-hit-list", [&s] { s.hitList = false; }, "Rays leave surfaces by a bias alone");
 }
 
+/// Tells the environment, which is asked wherever files are looked for.
+void addSearchPath(CLI::App& app) {
+  std::string kinds, places;
+  for (const StandardPlace& p : standardPlaces()) {
+    kinds += (kinds.empty() ? "" : "|") + std::string(p.kind);
+    places += fmt::format("{}{} and ~/.config/tomales/{}", places.empty() ? "" : ", ", p.variable, p.folder);
+  }
+  app.add_option_function<std::vector<std::string>>(
+         "--searchpath",
+         [kinds](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             const size_t equals = std::min(text.find('='), text.size());
+             const std::string kind = text.substr(0, equals);
+             const auto known = standardPlaces();
+             if (equals == text.size() ||
+                 std::none_of(known.begin(), known.end(), [&](const StandardPlace& p) { return p.kind == kind; }))
+               throw CLI::ValidationError("--searchpath", "\"" + text + "\" is not of the form " + kinds + "=FOLDERS");
+             addToStandardPath(kind, text.substr(equals + 1));
+           }
+         },
+         "Folders, separated by colons, where files of a kind are looked for after those that the RIB names; may be "
+         "given again (also: " +
+             places + "). Plugins in folders of shaders are trusted")
+      ->expected(1)
+      ->take_all()
+      ->type_name(kinds + "=FOLDERS");
+}
+
 void addTrust(CLI::App& app, Trust& trust) {
   app.add_flag("--allow-system", trust.programs,
                "The RIB may start programs (System, Procedural \"RunProgram\"), and all that --allow-plugins allows");
@@ -137,8 +183,8 @@ void addTrust(CLI::App& app, Trust& trust) {
       ->type_name("FOLDERS");
   app.add_option("--shaders", trust.shaderFolders,
                  "Folders of shaders, separated by colons, whose plugins you trust; they come before all others")
-      ->type_name("FOLDERS")
-      ->envname("TOMALES_SHADERS");
+      ->type_name("FOLDERS");
+  addSearchPath(app);
 }
 
 void addRunOptions(CLI::App& app, RenderSettings& s) {
@@ -154,6 +200,8 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--output-root", s.outputRoot,
                  "Keep all files that the RIB writes below this folder; names that lead out of it are refused")
       ->type_name("FOLDER");
+  addConventions(app, s);
+  app.add_flag("--strict", s.strict, "Warnings end with exit code 3: the picture may not be what the scene asks for");
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(

@@ -13,6 +13,7 @@
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/render_frame.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/app/watch/progress.h"
 #include "reyes/app/watch/stats_json.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/stop.h"
@@ -44,9 +45,9 @@ class RenderRun {
       made_ = true;
       performMake(request, settings_.outputRoot, log_);
     };
-    parse_.emplace(stats_, "parse");
+    beginReading();
     const bool read = readAll(rib);
-    parse_.reset();
+    endReading();
     if (read && scenes_ == 0 && !made_ && !interrupted())
       log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.files.front()), 0},
                   "nothing to render: no WorldBegin ... WorldEnd was found");
@@ -58,7 +59,8 @@ class RenderRun {
                   "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
     writeLastStats(settings_, stats_, secondsSoFar(), log_);
     if (const int code = interruptExitCode()) return code;
-    return !read ? std::max(exitCodeOf(log_), kUnreadable) : exitCodeOf(log_);
+    const ExitCode code = exitCodeOf(log_, settings_.strict);
+    return read ? code : std::max(code, kUnreadable);
   }
 
  private:
@@ -73,7 +75,7 @@ class RenderRun {
   }
 
   void takeScene(Scene&& scene) {
-    parse_.reset();
+    endReading();
     ++scenes_;
     if (wanted(scene)) {
       const OrderlyEnd orderly;
@@ -96,7 +98,16 @@ class RenderRun {
       flush();
       throwIfStopped();
     }
+    beginReading();
+  }
+
+  void beginReading() {
     parse_.emplace(stats_, "parse");
+    meter_.emplace(settings_.progress, "reading");
+  }
+  void endReading() {
+    parse_.reset();
+    meter_.reset();
   }
 
   bool wanted(const Scene& scene) const {
@@ -137,7 +148,8 @@ class RenderRun {
   Log log_;
   Stats stats_;
   const std::chrono::steady_clock::time_point start_;
-  std::optional<StageTimer> parse_;
+  std::optional<StageTimer> parse_;     // while the scene is read
+  std::optional<ProgressMeter> meter_;  // likewise
   std::set<std::string> written_;
   int scenes_ = 0, rendered_ = 0;
   bool made_ = false;  // by a Make request

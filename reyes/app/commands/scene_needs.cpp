@@ -47,11 +47,12 @@ void SceneNeeds::addMade(const Request& request) {
 
 void SceneNeeds::addPicture(const std::string& name, const Options& options, const SourceLoc& where) {
   if (needs_.count({"texture", name})) return;
-  const std::string path = pathOf(options.searchPaths, "texture"), found = findFile(firstTile(name), path);
+  const std::string path = pathOf(options.searchPaths, "texture");
+  const std::vector<std::string> candidates = candidateFiles(firstTile(name), path, textureEndings());
   Need& need = needs_[{"texture", name}];
   const bool made = made_.count(name) > 0;
-  need.found = made || !found.empty();
-  need.from = made ? "made by the scene" : need.found ? found : where.text();
+  need.found = made || !candidates.empty();
+  need.from = made ? "made by the scene" : need.found ? candidates.front() : where.text();
   std::vector<std::string> folders = foldersOf(path);
   folders.push_back(".");
   if (!need.found) need.hint = hintOfMissing(name, pictureEndings(), folders);

@@ -19,7 +19,7 @@ int runOnShot(const RenderSettings& settings, void (ShotJob::*work)()) {
   const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
   writeLastStats(settings, stats, total.count(), log);
   const int code = interruptExitCode();
-  return code ? code : exitCodeOf(log);
+  return code ? code : exitCodeOf(log, settings.strict);
 }
 
 }  // namespace

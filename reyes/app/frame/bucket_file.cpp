@@ -16,7 +16,7 @@ BucketFile::BucketFile(const Scene& scene, const DeepFrame& layout, int world, c
   std::string error;
   file_ = DfbWriter::create(picture_ + ".dfb", shot, Unfinished::Resumed, error);
   if (!file_)
-    log.report(Severity::Warning, "resume", {}, "buckets cannot be kept for --resume: " + error);
+    log.report(Severity::Note, "resume", {}, "buckets cannot be kept for --resume: " + error);
   else
     log.report(Severity::Info, "resume", {},
                fmt::format("{} of {} buckets were finished before", file_->tilesKept(), layout_.tileCount()));
@@ -24,7 +24,7 @@ BucketFile::BucketFile(const Scene& scene, const DeepFrame& layout, int world, c
 
 void BucketFile::keepForResume(size_t index, const DeepTile& tile) {
   if (resumes_ && file_ && !file_->has(index) && !file_->write(index, tile))
-    log_.report(Severity::Warning, "resume", {}, "buckets cannot be kept for --resume: " + file_->error());
+    log_.report(Severity::Note, "resume", {}, "buckets cannot be kept for --resume: " + file_->error());
 }
 
 void BucketFile::spill(size_t index, const DeepTile& tile) {

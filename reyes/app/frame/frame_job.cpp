@@ -30,8 +30,8 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       stats_(stats),
       log_(log),
       camera_(scene.options),
-      registry_(log, pluginTrust(settings)),
-      meter_(settings.progress),
+      registry_(log, pluginTrust(settings), settings.standardFromFiles),
+      meter_(settings.progress, "preparing"),
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
   if (!settings.draft) displaceByMovingSurfaces(scene, registry_, log);
@@ -63,6 +63,7 @@ void FrameJob::warnAboutPixels() const {
 FrameJob::~FrameJob() = default;
 
 void FrameJob::open(const std::function<bool(const Attributes&)>& wanted) {
+  meter_.begin("opening procedurals");
   scene_.open(wanted);
   shading_->bindNewGroups();
 }
@@ -73,6 +74,7 @@ void FrameJob::openAll() {
 
 bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(stats_, "hide");
+  meter_.begin("hiding");
   return hideTiles(layout, scene_, *shading_, control(0, gathers() ? kHidden : kGathered), stats_, log_, sink);
 }
 
@@ -86,6 +88,7 @@ void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file)
 void FrameJob::prepareRays() {
   if (!traces()) return;
   const StageTimer timer(stats_, "raytrace");
+  meter_.begin("ray geometry");
   rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
 }
@@ -111,6 +114,7 @@ GiSettings FrameJob::giSettings() const {
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (!gathers() || interrupted()) return;
   const StageTimer timer(stats_, "gather");
+  meter_.begin("gathering");
   openPreview(layout);
   std::function<void(int)> show;
   ShadeContext context = shadeContext();
@@ -155,6 +159,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
   constexpr float begin = kGathered;
   size_t shaded = 0;
   bool complete = true;
+  meter_.begin("shading");
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     const StageTimer timer(stats_, "shade");
     const auto share = [&](size_t done) {
@@ -180,6 +185,7 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
   FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
   bool complete = true;
   std::atomic<bool> dropped{false};
+  meter_.begin("hiding and shading");
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     TurnsTimer timer(stats_, "hide", "shade");
     const TileSink sink{{},

@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 
+#include "reyes/app/frame/area_lights.h"
 #include "reyes/base/output_root.h"
 #include "reyes/image.h"
 #include "reyes/scene_changes.h"
@@ -67,7 +68,7 @@ void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
   std::set<std::string> files;
   std::erase_if(options.displays, [&](const DisplayCall& d) {
     if (someFile && isWindow(d)) {
-      log.report(Severity::Warning, "display-window", d.where,
+      log.report(Severity::Note, "display-window", d.where,
                  "Display \"" + d.name + "\" of type " + d.type + ": there are no windows; left out beside the file");
       return true;
     }
@@ -109,8 +110,19 @@ bool tracesFullGeometry(const RenderSettings& settings) {
   return settings.fullGeometry.value_or(settings.gi && settings.gi->fullGeometry);
 }
 
+/// Sets an option as if the scene had given it that string.
+void setWord(Options& options, const std::string& key, const std::string& value) {
+  if (value.empty()) return;
+  Param p;
+  p.name = key.substr(key.find(':') + 1), p.type = ValueType::String, p.strings = {value};
+  options.user[key] = p;
+}
+
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
   raiseTextureMemory(scene.options);
+  setWord(scene.options, "shade:specular", settings.specular);
+  setWord(scene.options, "shade:arealight", settings.arealight);
+  measureAreaLights(scene);
   if (settings.textureMemory) {
     Param kilobytes;
     kilobytes.name = "texturememory", kilobytes.type = ValueType::Float;

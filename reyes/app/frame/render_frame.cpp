@@ -56,7 +56,7 @@ void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Lo
              fmt::format("--memory-limit: {}; textures get {:.0f} MB at most; {:.0f} MB were used at the peak", done,
                          MB(textureShare(limit)), MB(peakResidentBytes())));
   if (peakResidentBytes() > limit)
-    log.report(Severity::Warning, "memory-exceeded", {},
+    log.report(Severity::Note, "memory-exceeded", {},
                fmt::format("--memory-limit {:.0f} MB cannot be kept, {:.0f} MB were used: besides the program itself "
                            "geometry took {:.1f} MB, grids {:.1f}, what rays "
                            "meet {:.1f}",

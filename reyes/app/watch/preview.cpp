@@ -72,7 +72,7 @@ void Preview::run() {
   const std::string plugin = suppliedDriver("tev");
   DisplayDriver driver(plugin, picture_);
   if (driver.failed())
-    log_.report(Severity::Warning, "preview", {}, "--preview: " + driver.error() + "; the picture is made without");
+    log_.report(Severity::Note, "preview", {}, "--preview: " + driver.error() + "; the picture is made without");
   {
     const std::lock_guard lock(mutex_);
     driver_ = &driver;

@@ -1,0 +1,63 @@
+#include "reyes/app/frame/area_lights.h"
+
+#include <vector>
+
+#include "reyes/dialect.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kSteps = 32;  ///< Steps along each edge of a patch; a sphere's area is then right to a thousandth.
+
+/// Sums the areas of the polygons of a lattice over the patch, in camera space.
+double areaOf(const Prim& shape, uint32_t patch, const mat4& cameraFromObject) {
+  constexpr int kRow = kSteps + 1, kPoints = kRow * kRow;
+  std::vector<float> u(kPoints), v(kPoints), points(size_t{12} * kPoints);
+  for (int k = 0; k < kPoints; ++k) {
+    u[static_cast<size_t>(k)] = static_cast<float>(k % kRow) / kSteps;
+    v[static_cast<size_t>(k)] = static_cast<float>(k / kRow) / kSteps;
+  }
+  float* const p = points.data();
+  const auto field = [p](int k) { return p + k * kPoints; };
+  const SurfacePoints out{field(0), field(1), field(2), field(3), field(4),  field(5),
+                          field(6), field(7), field(8), field(9), field(10), field(11)};
+  shape.evaluate(patch, kPoints, u.data(), v.data(), out);
+  const auto at = [&](int k) { return transformPoint(cameraFromObject, {out.px[k], out.py[k], out.pz[k]}); };
+  double sum = 0;
+  for (int row = 0; row < kSteps; ++row)
+    for (int column = 0; column < kSteps; ++column) {
+      const int k = row * kRow + column;
+      sum += 0.5 * static_cast<double>(length(cross(at(k + kRow + 1) - at(k), at(k + kRow) - at(k + 1))));
+    }
+  return sum;
+}
+
+double areaOf(const Scene& scene, int light) {
+  double sum = 0;
+  for (const Object& object : scene.objects) {
+    if (object.attributes->areaLight != light) continue;
+    const mat4 cameraFromObject = object.cameraFromObject.at(scene.options.shutterOpen);
+    for (uint32_t patch = 0; !object.shapes.empty() && patch < object.shapes.front()->patchCount(); ++patch)
+      sum += areaOf(*object.shapes.front(), patch, cameraFromObject);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void measureAreaLights(Scene& scene) {
+  const std::string convention = wordOf(scene.options, "shade:arealight");
+  if (convention != "bmrt" && !(convention.empty() && isMadeForBmrt(scene))) return;
+  for (std::shared_ptr<LightCall>& light : scene.lights) {
+    if (!light->area || light->shader.name != "arealight" || findParam(light->shader.params, "area")) continue;
+    const double area = areaOf(scene, light->index);
+    if (!(area > 0)) continue;
+    auto measured = std::make_shared<LightCall>(*light);
+    Param p;  // constant: a shader of the scene's own that is called so need not have it
+    p.name = "area", p.storage = Storage::Constant, p.floats = {static_cast<float>(area)};
+    measured->shader.params.push_back(std::move(p));
+    light = std::move(measured);
+  }
+}
+
+}  // namespace tomales

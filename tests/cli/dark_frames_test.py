@@ -1,0 +1,114 @@
+"""Frames that are dark, too bright, or lit by another renderer's rules: the program says why."""
+import json
+import pathlib
+import sys
+
+from program import Suite
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
+from pictures import pixels  # noqa: E402
+
+t = Suite()
+HEAD = """Display "{name}.exr" "file" "rgba"
+Format 32 32 1
+PixelSamples 2 2
+Projection "perspective" "fov" [40]
+{options}
+Translate 0 0 5
+WorldBegin
+{world}
+WorldEnd
+"""
+BALL = 'Attribute "identifier" "name" "ball"\nSurface "matte"\nSphere 1 -1 1 360\n'
+
+
+def told(name, world, options="", code=0, *arguments):
+    """The codes of what is said of a scene, and the statistics."""
+    t.write(name + ".rib", HEAD.format(name=name, options=options, world=world))
+    t.expect_run(name, [name + ".rib", "--stats", name + ".json", *arguments], code)
+    warnings = json.loads((t.folder / (name + ".json")).read_text())["warnings"]
+    return {w["code"]: w["message"] for w in warnings}
+
+
+def picture(name):
+    return pixels(t.folder / (name + ".exr"))
+
+
+def middle(name):
+    return picture(name)[16, 16][0]
+
+
+# No light at all.
+said = told("no_light", BALL)
+t.expect("ball" in said.get("light-none", ""), f"a world without light says which surface asks for it: {said}")
+t.expect(not told("default_surface", 'Sphere 1 -1 1 360'), "the default surface needs no light")
+t.expect(not told("constant", 'Surface "constant"\nSphere 1 -1 1 360'), "neither does constant")
+said = told("mixed", 'Attribute "identifier" "name" "glow"\nSurface "constant"\nTranslate .2 0 0 Sphere .5 -.5 .5 360\n' + BALL)
+t.expect("ball" in said["light-none"] and "glow" not in said["light-none"], "only surfaces that ask are named")
+
+# A light that shines on nothing that follows it, or is switched off.
+said = told("scoped", 'AttributeBegin\nLightSource "distantlight" 1\nAttributeEnd\n' + BALL)
+t.expect("light-off" in said and "light-none" not in said, f"a light that ends with its block: {said}")
+
+# Lights that come to nothing, and why.
+said = told("zero", 'LightSource "distantlight" 1 "intensity" 0\n' + BALL)
+t.expect("sends no light" in said.get("light-useless", ""), f"intensity 0: {said}")
+said = told("aside", 'LightSource "spotlight" 1 "from" [0 0 -5] "to" [0 0 -9] "intensity" 50\n' + BALL)
+t.expect("sends no light" in said.get("light-useless", ""), f"a spotlight that looks away: {said}")
+said = told("behind", 'LightSource "distantlight" 1 "from" [0 0 9] "to" [0 0 0]\n' + BALL)
+t.expect("faces away" in said.get("light-useless", ""), f"a light behind everything: {said}")
+for shadows in ("off", "on"):
+    said = told("inside_" + shadows, f'Attribute "light" "shadows" "{shadows}"\nLightSource "pointlight" 1 "from" [0 0 0] "intensity" 9\n' + BALL)
+    t.expect('within the bounds of "ball"' in said.get("light-useless", ""), f"a light inside a solid, shadows {shadows}: {said}")
+said = told("shadowed", 'Attribute "light" "shadows" "on"\nLightSource "pointlight" 1 "from" [0 0 -3] "intensity" 9\n' + BALL +
+            'Attribute "identifier" "name" "shield"\nAttribute "visibility" "camera" 0\nTranslate 0 0 -2 Disk 0 9 360\n')
+t.expect("lies in its shadow" in said.get("light-useless", ""), f"a light whose shadow covers all: {said}")
+t.expect(not told("useful", 'LightSource "distantlight" 1\n' + BALL), "a light that is seen is no matter")
+t.expect(not told("cropped", 'LightSource "distantlight" 1 "intensity" 0\n' + BALL, "CropWindow 0 .5 0 .5").get("light-useless"),
+         "a part of a frame says nothing of its lights")
+said = told("behind_the_camera", 'LightSource "distantlight" 1\nTranslate 0 0 -10\n' + BALL, "", 3)
+t.expect("behind the camera" in said.get("frame-empty", ""), f"everything behind the camera: {said}")
+
+# Far too bright, by one lamp.
+said = told("glare", 'LightSource "distantlight" 1\nLightSource "distantlight" 2 "intensity" 100\n' + BALL)
+t.expect('"2"' in said.get("light-glare", "") and "64 times" in said["light-glare"], f"the lamp is named, and how much: {said}")
+t.expect("light-glare" not in told("exposed", 'LightSource "distantlight" 2 "intensity" 100\n' + BALL, "Exposure .01 1"), "Exposure counts")
+
+# The two conventions of arealight: a patch of area 1 at distance 3 in front of the camera's wall.
+AREA = 'AttributeBegin\nTranslate 0 0 -3\nAttribute "visibility" "camera" 0\nAreaLightSource "arealight" 1 "intensity" 9 {given}\nPatch "bilinear" "P" [{p}]\nAttributeEnd\n'
+WALL = 'Surface "matte" "Ka" 0 "Kd" 1\nPatch "bilinear" "P" [-.1 .1 0 .1 .1 0 -.1 -.1 0 .1 -.1 0]\n'
+
+
+def lamp(size, given=""):
+    s = size / 2
+    return AREA.format(given=given, p=f"{-s} {-s} 0 {s} {-s} 0 {-s} {s} 0 {s} {s} 0")
+
+
+for size in (.2, .4):
+    told(f"bmrt{size}", lamp(size, '"samples" 64') + WALL, 'Option "shade" "arealight" "bmrt"\nPixelSamples 4 4\nScreenWindow -.01 .01 -.01 .01')
+    told(f"radiance{size}", lamp(size, '"samples" 64') + WALL, "ScreenWindow -.01 .01 -.01 .01")
+small, large = middle("bmrt0.2"), middle("bmrt0.4")
+t.expect(abs(small - 1) < .02 and abs(large - 1) < .02, f"intensity / distance^2 is 1 at 3, whatever the size: {small} {large}")
+small, large = middle("radiance0.2"), middle("radiance0.4")
+t.expect(abs(large / small - 4) < .1, f"a radiance of four times the area brings four times as much: {small} {large}")
+said = told("of_bmrt", 'Attribute "radiosity" "patchsize" [10]\n' + lamp(.2) + WALL, "ScreenWindow -.01 .01 -.01 .01")
+t.expect("scene-bmrt" in said and abs(middle("of_bmrt") - 1) < .05, f"a scene of BMRT's has BMRT's: {said}")
+told("not_of_bmrt", 'Attribute "radiosity" "patchsize" [10]\n' + lamp(.2) + WALL, 'ScreenWindow -.01 .01 -.01 .01', 0, "--arealight", "radiance")
+t.expect(middle("not_of_bmrt") < .2, "unless the command line says otherwise")
+
+# The exponent of specular().
+SHINE = 'LightSource "distantlight" 1\nSurface "metal" "Ka" 0 "roughness" .1\nSphere 1 -1 1 360\n'
+told("prman", SHINE)
+told("rispec", SHINE, 'Option "shade" "specular" "rispec"')
+told("switch", SHINE, "", 0, "--specular", "rispec")
+told("bmrt_option", SHINE, 'Option "render" "prmanspecular" 0')
+told("bmrt_shows", 'Attribute "render" "casts_shadows" "none"\n' + SHINE)
+told("both", 'Attribute "render" "casts_shadows" "none"\n' + SHINE, 'Option "limits" "gridsize" 256')
+t.expect(picture("prman") != picture("rispec"), "the two exponents differ")
+for name in ("switch", "bmrt_option", "bmrt_shows"):
+    t.expect(picture(name) == picture("rispec"), f"{name} has RISpec's")
+t.expect(picture("both") == picture("prman"), "what PRMan has as well shows nothing")
+told("back", 'Attribute "render" "casts_shadows" "none"\n' + SHINE, "", 0, "--specular", "prman")
+t.expect(picture("back") == picture("prman"), "and the command line decides")
+
+t.finish()
