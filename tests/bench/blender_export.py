@@ -29,7 +29,8 @@ for i in range(500):
 scene.frame_start, scene.frame_end = 1, 24
 scene.render.engine = "TOMALES"
 scene.tomales.folder, scene.tomales.export_only = arguments[0], True
+scene.tomales.export_frames = True
 scene.render.filepath = os.path.join(arguments[0], "x")
 begin, cpu = time.time(), time.process_time()
-bpy.ops.render.render(animation=True)
+bpy.ops.render.render()
 print(f"24 frames: {24 / (time.time() - begin):.1f} a second, {24 / (time.process_time() - cpu):.1f} a CPU second")

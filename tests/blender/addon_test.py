@@ -134,6 +134,7 @@ class Addon(unittest.TestCase):
         animation = self.of("animation")
         self.assertEqual(animation["frames"], 12)
         self.assertEqual(animation["archives"], 2)
+        self.assertEqual((animation["at_once"], animation["different"]), (12, []))
 
     def test_deformation_is_a_motion_block_of_points(self):
         self.assertEqual(self.of("deformation"), {"keys": 2, "moves": True})

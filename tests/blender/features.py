@@ -69,7 +69,17 @@ def animation():
     scene.render.filepath = os.path.join(FOLDER, "animation", "x")
     bpy.ops.render.render(animation=True)
     count = lambda pattern: len(glob.glob(os.path.join(FOLDER, "animation", pattern)))  # noqa: E731
-    return {"frames": count("*.rib"), "archives": count("archives/*.rib")}
+    before = {"frames": count("*.rib"), "archives": count("archives/*.rib")}
+    scene.tomales.folder, scene.tomales.export_frames = os.path.join(FOLDER, "at_once"), True
+    bpy.ops.render.render()
+    different = [f for f in os.listdir(os.path.join(FOLDER, "at_once")) if f.endswith(".rib") and lines(os.path.join(FOLDER, "at_once", f)) != lines(os.path.join(FOLDER, "animation", f))]
+    return {**before, "at_once": len(glob.glob(os.path.join(FOLDER, "at_once", "*.rib"))), "different": different}
+
+
+def lines(path):
+    """Of a frame, but for its folder."""
+    with open(path) as file:
+        return [line for line in file if "searchpath" not in line]
 
 
 def deformation():

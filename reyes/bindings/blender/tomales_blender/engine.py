@@ -80,20 +80,40 @@ class TomalesEngine(bpy.types.RenderEngine):
             self.end_result(result)
 
     def _render(self, depsgraph: bpy.types.Depsgraph, folder: Path, result: bpy.types.RenderResult) -> None:
-        scene, layer = depsgraph.scene, depsgraph.view_layer
+        scene = depsgraph.scene
         if not scene.camera:
             return self._error("the scene has no camera")
-        name = f"{Path(bpy.data.filepath).stem or 'untitled'}.{scene.frame_current:04d}"
-        if len(scene.view_layers) > 1:
-            name = f"{name}.{bpy.path.clean_name(layer.name)}"
-        passes = Passes(layer, folder, f"{name}.exr")
-        self.update_stats("", "Writing RIB")
-        rib = Frame(self, depsgraph, folder, _session.cache, self._warn).write(name, passes)
+        if scene.tomales.export_only and scene.tomales.export_frames:
+            return self._export_frames(depsgraph, folder)
+        passes, rib = self._write(depsgraph, folder)
         if scene.tomales.export_only:
             return
         self.update_stats("", "Rendering")
         if self._run(rib, folder, shlex.split(scene.tomales.options)):
             passes.read(result, numpy.array(scene.camera.matrix_world.normalized()) @ numpy.diag([1, 1, -1, 1]))
+
+    def _write(self, depsgraph: bpy.types.Depsgraph, folder: Path) -> tuple[Passes, Path]:
+        """The current frame."""
+        scene, layer = depsgraph.scene, depsgraph.view_layer
+        name = f"{Path(bpy.data.filepath).stem or 'untitled'}.{scene.frame_current:04d}"
+        if len(scene.view_layers) > 1:
+            name = f"{name}.{bpy.path.clean_name(layer.name)}"
+        passes = Passes(layer, folder, f"{name}.exr")
+        self.update_stats("", f"Writing RIB of frame {scene.frame_current}")
+        return passes, Frame(self, depsgraph, folder, _session.cache, self._warn).write(name, passes)
+
+    def _export_frames(self, depsgraph: bpy.types.Depsgraph, folder: Path) -> None:
+        """All of the scene, in one rendering: Blender takes longer to prepare one than a frame takes to be written."""
+        scene = depsgraph.scene
+        now, frames = scene.frame_current, range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+        for i, frame in enumerate(frames):
+            self.frame_set(frame, 0.0)
+            self._write(depsgraph, folder)
+            self._progress = (i + 1) / len(frames)
+            self._show_progress()
+            if self._is_given_up():
+                break
+        self.frame_set(now, 0.0)
 
     @staticmethod
     def _size(scene: bpy.types.Scene) -> tuple[int, int]:

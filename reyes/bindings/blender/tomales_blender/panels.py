@@ -77,7 +77,7 @@ class TOMALES_PT_render(_Panel, bpy.types.Panel):
             layout.prop(context.scene.render, "motion_blur_shutter")
             layout.prop(settings, "shutter_position")
             layout.prop(settings, "shutter_keys")
-        for name in ("export_only", "folder", "options"):
+        for name in ("export_only", *(("export_frames",) if settings.export_only else ()), "folder", "options"):
             layout.prop(settings, name)
 
 

@@ -26,6 +26,7 @@ class TomalesScene(bpy.types.PropertyGroup):
     )  # fmt: skip
     shutter_keys: IntProperty(name="Motion Keys", description="Times within the shutter at which motion is sampled", default=2, min=2, max=9)
     export_only: BoolProperty(name="Export Only", description="Write RIB files and archives, and render nothing", default=False)
+    export_frames: BoolProperty(name="All Frames", description="Render Image exports every frame of the scene, and not the current one alone", default=False)
     folder: StringProperty(name="Folder", description="Where RIB files, archives and textures go; empty: a temporary folder", subtype="DIR_PATH")
     options: StringProperty(name="Options", description="More options of tomales render, such as --gi reference")
 
