@@ -79,7 +79,7 @@ t.expect(all(light["doc"] and all(p["doc"] for p in light["parameters"]) for lig
 t.expect_run("list of what there is not", ["list", "gremlins"], 1, "shaders", "filters")
 
 # What is no scene.
-for file, says in {"rock.sl": "tomales compile", "rock.slo": ".sl", "house.obj": "geometry alone", "house.usda": "OpenUSD", "house.blend": "export the scene as RIB",
+for file, says in {"rock.sl": "tomales compile", "rock.slo": ".sl", "house.obj": "tomales import house.obj", "house.usda": "OpenUSD", "house.blend": "export the scene as RIB",
                    "x.exr": "tomales info x.exr", "shot.dfb": "tomales shade shot.dfb", "house.PY": "python3"}.items():
     t.expect_run(file + " is no scene", [file], 2, "no RIB", says)
     t.expect_run(file + " is none to hide", ["hide", file, "-o", "house.dfb"], 2, "no RIB")

@@ -10,6 +10,7 @@
 #include "reyes/app/commands/catrib.h"
 #include "reyes/app/commands/compile.h"
 #include "reyes/app/commands/help.h"
+#include "reyes/app/commands/import.h"
 #include "reyes/app/commands/info.h"
 #include "reyes/app/commands/list.h"
 #include "reyes/app/commands/options.h"
@@ -31,6 +32,7 @@ namespace {
 struct Invocation {
   RenderSettings render;
   CatribSettings catrib;
+  model::Settings import;
   ShadetestCommand shadetest;
   CompileCommand compile;
   IrradianceCommand irradiance;
@@ -194,6 +196,31 @@ void buildCatrib(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = catribCommand(in.catrib); });
 }
 
+void buildImport(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand(
+      "import",
+      "A model (.obj .ply .gltf .glb .stl .fbx .dae and other kinds that Assimp reads) as a scene with a camera and "
+      "lights (docs/import.md)");
+  c->add_option("MODEL", in.import.model, "The file of the model")->required();
+  addParsed(*c, "-o", in.import.scene, parseNamed(".rib"), "SCENE.rib",
+            "Write here, and what it names into the folder SCENE_parts beside it")
+      ->required();
+  c->add_flag("--subdivide", in.import.subdivide, "Polygons are the cages of subdivision surfaces");
+  c->add_option("--smooth", in.import.smooth_degrees,
+                "Where the model has no normals, faces that meet at less than this angle look smooth (default 45)")
+      ->check(CLI::Range(0.0, 180.0))
+      ->type_name("DEGREES");
+  c->add_option("--up", in.import.up, "Axis of the model that points up (default: z for .stl and .3mf, else y)")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->type_name("y|z");
+  c->add_option("--camera", in.import.camera, "Look through this camera of the model (default: the first)")
+      ->type_name("NAME");
+  c->add_option("--light-scale", in.import.lightScale,
+                "Multiplies the lights of the model (default: so that they neither drown nor flood the picture)")
+      ->check(between(1e-12, 1e12));
+  c->callback([&] { code = importCommand(in.import); });
+}
+
 void buildRequests(CLI::App& app) {
   app.add_subcommand("requests",
                      "Every request of RIB with its arguments, for programs that write it (reyes/rib.h:ribRequests)")
@@ -324,6 +351,7 @@ int parseAndRun(int argc, char** argv) {
   buildCompare(app, in, code);
   buildChart(app, in, code);
   buildCatrib(app, in, code);
+  buildImport(app, in, code);
   buildRequests(app);
   buildCompile(app, in, code);
   buildShadetest(app, in, code);

@@ -16,7 +16,7 @@ struct Foreign {
 };
 
 constexpr const char* kExport = "export the scene as RIB from the program that made it";
-constexpr const char* kModel = "it holds geometry alone: export it as RIB from a modeller, with a camera and lights";
+constexpr const char* kModel = "tomales import {} -o FILE.rib makes a scene of it";
 constexpr Foreign kForeign[] = {
     {" .sl ", "the text of a shader",
      "Surface \"NAME\" in a scene beside it uses it; tomales compile {} checks it, tomales shadetest {} runs it"},
@@ -30,7 +30,8 @@ constexpr Foreign kForeign[] = {
     {" .ptc .bkm ", "a point cloud or brick map", "tomales view {} -o FILE.png shows it"},
     {" .obj ", "a model in Wavefront's format", kModel},
     {" .ply .stl .off .3ds ", "a model", kModel},
-    {" .fbx .gltf .glb .dae .abc ", "a model or scene in a format for exchange", kExport},
+    {" .fbx .gltf .glb .dae ", "a model or scene in a format for exchange", kModel},
+    {" .abc ", "a scene in a format for exchange", kExport},
     {" .usd .usda .usdc .usdz ", "a stage of OpenUSD", kExport},
     {" .blend .ma .mb .max .hip .hipnc .c4d .xsi .lwo ", "a modeller's own file", kExport},
     {" .pbrt .mi .pov .ass .vrscene .nk ", "a scene for another program", "only RIB is read"},

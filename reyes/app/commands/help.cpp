@@ -50,6 +50,9 @@ constexpr Example kExamples[] = {
     {"compare", "  tomales compare new.exr reference.exr --diff difference.png"},
     {"chart", "  tomales chart scene.rib -o chart.html --budget 10m"},
     {"catrib", "  tomales catrib scene.rib --binary --gzip -o small.rib"},
+    {"import",
+     "  tomales import model.glb -o scene.rib      then: tomales scene.rib\n"
+     "  tomales import cage.obj -o smooth.rib --subdivide"},
     {"requests", "  tomales requests"},
     {"compile", "  tomales compile marble.sl                  says what is wrong with it"},
     {"shadetest", "  tomales shadetest marble.sl Kd=.5 -o marble.png"},

@@ -1,0 +1,98 @@
+#include "reyes/app/commands/import.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+
+#include "reyes/app/exit_code.h"
+#include "reyes/base/child_process.h"
+#include "reyes/base/chunk_file.h"
+#include "reyes/base/input_file.h"
+#include "reyes/base/process.h"
+#include "reyes/base/temporary_folder.h"
+#include "reyes/base/unfinished_file.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+int statusOf(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+/// Runs the program that reads models. It tells the user itself what it leaves out; the worst of that is returned.
+Severity read(const model::Settings& settings, Log& log) {
+  const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
+  const auto fail = [&](const std::string& what) {
+    log.report(Severity::Error, "import-unreadable", where, "cannot be read: " + what);
+    return Severity::Error;
+  };
+  const auto programs = besideProgram("tomales_assimp");
+  if (programs.empty())
+    return fail("the program tomales_assimp, which reads models, is neither beside this one nor in ../lib");
+  std::vector<std::string> arguments = model::argumentsOf(settings);
+  arguments.insert(arguments.begin(), programs.front().string());
+  int problem = 0, status = 0;
+  const pid_t child = startChild({programs.front(), arguments, {}}, problem);
+  if (child < 0) return fail(std::string("tomales_assimp cannot be started: ") + std::strerror(problem));
+  {
+    const ChildGuard guard(child);
+    siginfo_t ended;
+    while (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+  }
+  status = statusOf(child);
+  const int answer = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+  if (answer >= model::answerOf(Severity::Info) && answer <= model::answerOf(Severity::Output))
+    return static_cast<Severity>(answer - model::kFirstAnswer);
+  if (!WIFSIGNALED(status)) return fail("tomales_assimp ends without an answer");
+  if (WTERMSIG(status) == SIGXCPU)
+    return fail(fmt::format("Assimp has not read it within {} s of CPU time", model::kMostSeconds));
+  return fail(fmt::format("Assimp ends while it reads it ({})", strsignal(WTERMSIG(status))));
+}
+
+void move(const fs::path& from, const fs::path& to) {
+  std::string error;
+  if (!moveFinished(from, to, error)) throw WriteError(fmt::format("{} cannot be written: {}", to.string(), error));
+}
+
+/// First what the RIB names, then the RIB.
+void movePlaces(const model::Settings& made, const fs::path& scene) {
+  if (fs::exists(made.parts)) {
+    fs::create_directories(made.partsByName);
+    for (const auto& part : fs::directory_iterator(made.parts))
+      move(part.path(), fs::path(made.partsByName) / part.path().filename());
+  }
+  move(made.scene, scene);
+}
+
+}  // namespace
+
+int importCommand(model::Settings settings) {
+  Log log;
+  Severity told = Severity::Info;
+  guarded(log, [&] {
+    if (const std::string problem = inputProblem(settings.model); !problem.empty())
+      return log.report(Severity::Error, "import-unreadable", {std::make_shared<const std::string>(settings.model), 0},
+                        "cannot be read: " + problem);
+    const fs::path scene = fs::absolute(throughLinks(settings.scene));
+    if (isAmong(scene, {settings.model})) throw WriteError(scene.string() + " is the model itself");
+    const TemporaryFolder scratch(scene.parent_path());
+    settings.scene = (scratch.path() / scene.filename()).string();
+    settings.parts = (scratch.path() / "parts").string();
+    settings.partsByName = (scene.parent_path() / (scene.stem().string() + "_parts")).string();
+    told = read(settings, log);
+    if (told < Severity::Error) movePlaces(settings, scene);
+  });
+  return std::max(exitCodeOf(told), exitCodeOf(log));
+}
+
+}  // namespace tomales

@@ -1,0 +1,12 @@
+// `tomales import`: models of other programs as RIB.
+#pragma once
+#include <string>
+
+#include "reyes/bindings/assimp/settings.h"
+
+namespace tomales {
+
+/// `settings.scene` is the file to write; its parts go to a folder beside it. Returns an ExitCode.
+int importCommand(model::Settings settings);
+
+}  // namespace tomales

@@ -1,0 +1,28 @@
+// A mesh as primitives of RIB, in its own space. Threads: plain function.
+#pragma once
+#include <assimp/mesh.h>
+
+#include "reyes/bindings/assimp/look.h"
+#include "reyes/bindings/assimp/rib_calls.h"
+
+namespace tomales::model {
+
+struct GeometrySettings {
+  bool subdivide = false;
+  float smooth_degrees = 45;
+  bool keepsNormals = true;  ///< False: those of the file say nothing that its faces do not.
+};
+
+struct Geometry {
+  Requests requests;      ///< Polygons or a subdivision surface, linear curves, points. Empty: nothing can be drawn.
+  size_t values = 0;      ///< Numbers in them.
+  int unusableFaces = 0;  ///< Left out, as their coordinates are no finite numbers.
+};
+
+/// Colours of vertices multiply the look's, and their alphas its opacity.
+Geometry geometryOf(const aiMesh& mesh, const Look& look, const GeometrySettings& settings);
+
+/// Of all finite vertices.
+Bound3 boundOf(const aiMesh& mesh);
+
+}  // namespace tomales::model

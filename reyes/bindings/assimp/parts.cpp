@@ -1,0 +1,42 @@
+#include "reyes/bindings/assimp/parts.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "reyes/base/chunk_file.h"
+#include "reyes/base/unfinished_file.h"
+
+namespace tomales::model {
+namespace {
+
+/// Of what a stranger's file calls something: letters, digits, - and _.
+std::string fileName(const std::string& stem) {
+  constexpr size_t kLongest = 48;
+  std::string out;
+  for (const char c : stem) out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+  return out.substr(0, kLongest);
+}
+
+}  // namespace
+
+void writePart(const std::string& path, std::string_view bytes) {
+  std::string error;
+  if (!writeFile(path, std::string(bytes), error))
+    throw WriteError(fmt::format("{} cannot be written: {}", path, error));
+}
+
+std::string Parts::add(const std::string& stem, const std::string& ending, std::string_view bytes) {
+  if (count_ == 0) std::filesystem::create_directories(settings_.parts);
+  const std::string name = fmt::format("{:04}_{}{}", ++count_, fileName(stem), ending);
+  writePart(settings_.parts + "/" + name, bytes);
+  return settings_.partsByName + "/" + name;
+}
+
+std::string Parts::addArchive(const std::string& stem, const Requests& requests) {
+  std::string rib;
+  write(requests, *makeRibWriter({true, false, [&](std::string_view more) { rib += more; }}));
+  return add(stem, ".rib", rib);
+}
+
+}  // namespace tomales::model

@@ -1,0 +1,59 @@
+// The program that `tomales import` starts: reads a model through Assimp and writes RIB. It is a process of its own
+// because Assimp crashes, hangs or takes all memory on some damaged files.
+#include <assimp/postprocess.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <assimp/Importer.hpp>
+
+#include "reyes/base/chunk_file.h"
+#include "reyes/bindings/assimp/scene_file.h"
+
+namespace {
+
+using namespace tomales;
+
+/// The most that a child may take: CPU time, and the machine's memory, or what the user's own limits leave.
+void limitResources() {
+  const auto limit = [](auto resource, rlim_t most) {
+    rlimit now{};
+    getrlimit(resource, &now);
+    now.rlim_cur = std::min(now.rlim_cur, most);
+    setrlimit(resource, &now);
+  };
+  limit(RLIMIT_CPU, model::kMostSeconds);
+  limit(RLIMIT_CORE, 0);
+#ifndef TOMALES_SANITIZED  // whose shadow memory is larger than any machine's
+  limit(RLIMIT_AS, static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)));
+#endif
+}
+
+Severity import(const model::Settings& settings, Log& log) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  const aiScene* scene = importer.ReadFile(settings.model, aiProcess_ValidateDataStructure);
+  const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
+  if (!scene || !scene->mRootNode)
+    log.report(Severity::Error, "import-unreadable", where,
+               std::string("cannot be read: ") + importer.GetErrorString());
+  else
+    model::writeScene(*scene, settings, log);
+  return log.worst();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  limitResources();
+  Log log;
+  const model::Settings settings = model::settingsOf({argv + 1, argv + argc});
+  const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
+  try {
+    return model::answerOf(import(settings, log));
+  } catch (const WriteError& e) {
+    log.report(Severity::Output, "import-write", {}, e.what());
+  } catch (const std::exception& e) {
+    log.report(Severity::Error, "import-unreadable", where, std::string("cannot be read: ") + e.what());
+  }
+  return model::answerOf(log.worst());
+}
