@@ -1,0 +1,12 @@
+/* The print: a film curve with a soft shoulder, a touch of warmth in the lights and of blue in the shadows, and darker corners. */
+imager grade(float exposure = 1.2, contrast = 1.2, vignette = 0.28) {
+  color c = exposure * Ci;
+  /* Brighter than white runs out gently, channel by channel. */
+  c = c * (1 + c / 9) / (1 + 0.62 * c);
+  float grey = 0.2126 * comp(c, 0) + 0.7152 * comp(c, 1) + 0.0722 * comp(c, 2);
+  float tone = clamp(grey, 0, 1);
+  c = 0.18 * pow(max(c, color(0)) / 0.18, contrast);
+  c *= mix(color(0.93, 0.98, 1.10), color(1.05, 1.0, 0.92), smoothstep(0.02, 0.45, tone));
+  float x = 2 * u - 1, y = 2 * v - 1;
+  Ci = c * (1 - vignette * smoothstep(0.6, 1.9, x * x + y * y));
+}
