@@ -15,7 +15,7 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-/// XDG Base Directory Specification: a relative XDG_CONFIG_HOME is to be ignored.
+/// Ignores a relative XDG_CONFIG_HOME, as the XDG Base Directory Specification demands.
 std::string configurationFolder() {
   const std::filesystem::path given = environment("XDG_CONFIG_HOME"), home = environment("HOME");
   if (given.is_absolute()) return (given / kFolder).string();
