@@ -16,7 +16,7 @@ Bound3 cameraBound(const Object& object) {
   return bound.empty() ? bound : bound.grown(object.displacementBound);
 }
 
-/// Which plane of the view has all of `bound` on its wrong side.
+/// Says which plane of the view has all of `bound` on its wrong side.
 std::string sideOf(const Bound3& bound, const Camera& camera) {
   if (bound.hi.z < camera.nearClip())
     return bound.hi.z < 0 ? "behind the camera, which looks along +z" : "nearer than the near clipping plane";

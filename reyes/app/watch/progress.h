@@ -1,5 +1,5 @@
-// Shows how far a frame is: a bar with the time left on a terminal, else the lines "R90000  NN%" that render
-// farms read. Threads: `report` may be called from any.
+// Shows the progress of a frame: a bar with the time left on a terminal, else the lines "R90000  NN%" that render farms
+// read. Threads: any may call `report`.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -14,7 +14,7 @@ class ProgressMeter {
   ~ProgressMeter();
   ProgressMeter(const ProgressMeter&) = delete;
 
-  /// A callback for one stage, whose 0..1 is [begin, end] of the frame.
+  /// Returns a callback for one stage, whose 0..1 is [begin, end] of the frame.
   std::function<void(float)> stage(float begin, float end);
   void report(float fraction);
 
