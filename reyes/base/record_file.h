@@ -1,6 +1,6 @@
 // Files of compressed, checksummed records, such as .dfb and .icf (docs/dfb.md has the bytes).
 //   header     magic, version, schema of the contents
-// record*    32 bytes that say its name and length, then zstd; in the order of finishing
+//   record*    32 bytes that say its name and length, then zstd; in the order of finishing
 //   directory  the last record: where every other one starts
 //   trailer    where the directory starts
 // A file that is not finished may stay as NAME.part with whole records in it, also after the program is killed.

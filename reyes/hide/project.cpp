@@ -1,4 +1,4 @@
-// Grid -> raster space. Borders that join a neighbour are pushed out (docs/decisions/0003).
+// Projects a grid to raster space. Borders that join a neighbour are pushed out (docs/decisions/0003).
 #include "reyes/base/check.h"
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/lattice.h"
@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kLeastSlant = 0.05f;  // the least slant, for faces seen edge on
+constexpr float kLeastSlant = 0.05f;  // the least slant, for faces that are seen edge on
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
 constexpr float kMinReach_px = 2 / kLattice;
@@ -22,8 +22,8 @@ struct Border {
   int first, step, inward, count;
 };
 
-/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h apart on
-/// a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
+/// Returns how far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h
+/// apart on a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
@@ -47,8 +47,8 @@ float deviationAlong(const Grid& g, const float* x, const float* y, const Border
   return most;
 }
 
-/// How far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a twisted
-/// cell.
+/// Returns how far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a
+/// twisted cell.
 float deviation_px(const Grid& g, const float* x, const float* y) {
   const int row = g.nu + 1;
   float most = 0;
@@ -87,8 +87,8 @@ float areaSign(const float* x, const float* y, const Border& b, int k) {
   return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
 }
 
-/// least_px: how far the border reaches out where it looks straight; it is more than kMinReach_px if the border is
-/// displaced.
+/// least_px: how far the border reaches out where it looks straight; this is more than kMinReach_px for a displaced
+/// border.
 void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, float least_px, float facing,
                 std::vector<vec2>& push) {
   const float most_px = std::max(borderReach_px(0), least_px);
@@ -108,7 +108,7 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
 }
 
 /// A displaced border that neighbours sample at other places may be anywhere within a micropolygon of theirs:
-/// `mostOfDisplaced_px` limits the reach; 0: it is not displaced. facing: RasterGrid::facing of a one-sided surface.
+/// `mostOfDisplaced_px` limits the reach; it is 0 for others. facing: RasterGrid::facing of a one-sided surface.
 void pushBorders(const Grid& g, float mostOfDisplaced_px, float facing, float* x, float* y) {
   const auto ends = [](const Grid::Piece& p) { return (p.openEdges & kAllEdges) == kAllEdges; };
   if (std::all_of(g.pieces.begin(), g.pieces.end(), ends)) return;
