@@ -34,7 +34,7 @@ constexpr float kDot = 3.5f;
 /// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
-constexpr float kDeepest = 2;  ///< Its far end is at most so many times as far from the eye as its near end.
+constexpr float kDeepest = 2;  ///< A coarse piece's far end is at most so many times as far away as its near end.
 
 double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
 
