@@ -24,6 +24,9 @@ struct ShaderName {
   std::string beside{};  ///< The folder of the file that names it; empty: none does.
 };
 
+/// The displacement "surface:NAME" is what of the surface NAME moves points (RslFile::displacementOf).
+constexpr const char* kOfSurface = "surface:";
+
 /// Built-ins and plugins come through the same table.
 class ShaderRegistry {
  public:
@@ -43,8 +46,6 @@ class ShaderRegistry {
   /// has errors is reported with all of them.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
-  /// Of a surface that find() has found: what moves its points (RslFile::displacementOf). Null: it moves none.
-  const TmShader* displacementOf(const TmShader& surface) const;
   /// Compiles the texts of these at once, on all threads, so that find() only has to look. It says nothing: find()
   /// answers, and tells what is wrong, as it would without.
   void prepare(const std::vector<ShaderName>& names, const std::string& searchPath);
