@@ -6,7 +6,7 @@ namespace tomales::rib {
 namespace {
 
 constexpr int kPoints = 17;          ///< Number of points on an edge.
-constexpr float kTolerance = 0.01f;  ///< Of the size of the whole; 16 chords leave a circle by 0.7 % of its diameter.
+constexpr float kTolerance = 0.01f;  ///< A share of the whole; 16 chords leave a circle by 0.7 % of its diameter.
 constexpr size_t kMostEdges = 2000;
 
 struct EdgeLine {

@@ -44,7 +44,7 @@ struct Master {
     Basis uBasis, vBasis;
     bool roundCurves;
     std::shared_ptr<const TrimLoops>
-        trim;           ///< Those that it was built with; it is null unless the request is cut by them.
+        trim;           ///< As the fields above, what it was built with; the rest follows from the request.
     float reach;        ///< The result of reachOf() for the requests.
     uint64_t contents;  ///< The result of contentsOf() for them.
   };
