@@ -36,18 +36,18 @@ class Camera {
   }
   /// Is a point cut off by near or far clipping or a clipping plane? It is not tested against the window.
   bool clips(const vec3& p) const;
-  /// The same for the point that a sample at raster position `at` meets at a depth key. `lens` is the raster shift of
-  /// its lens point at a key of focusKey() + 1.
+  /// Tests the same of the point that a sample at raster position `at` meets at a depth key. `lens` is the raster shift
+  /// of its lens point at a key of focusKey() + 1.
   bool clips(const vec2& at, const vec2& lens, float key) const;
   /// A depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
-  /// Least depth key of points that are no nearer than z and not clipped, also where z lies behind the eye.
+  /// The least depth key of points that are no nearer than z and not clipped; z may lie behind the eye.
   float leastDepthKey(float z) const { return perspective_ ? -1.0f / std::max(z, near_) : z; }
   float zFromDepthKey(float key) const { return perspective_ ? -1.0f / key : key; }
 
-  /// How far, in raster x and y, the rim of the lens moves a point of this depth key; 0 on the focal plane, negative
-  /// nearer. Lens point l (unit disk) sees a point at raster + l * defocus(depthKey): exact for a thin lens, as the
-  /// line through the lens meets the focal plane there (RISpec 3.2 section 4.1.2, DepthOfField).
+  /// Returns how far, in raster x and y, the rim of the lens moves a point of this depth key: 0 on the focal plane, a
+  /// negative number nearer. Lens point l (unit disk) sees a point at raster + l * defocus(depthKey). This is exact for
+  /// a thin lens, as the line through the lens meets the focal plane there (RISpec 3.2 section 4.1.2, DepthOfField).
   vec2 defocus(float key) const { return lens_ * (key - focusKey_); }
   bool defocuses() const { return lens_ != vec2(0); }
   vec2 lens() const { return lens_; }
@@ -61,7 +61,7 @@ class Camera {
   /// nearer than `nearClip`, beyond `farClip` or a clipping plane; defocus included. It works for boxes that cross the
   /// eye plane.
   bool outside(const Bound3& b, const PixelRect& window) const;
-  /// The same without `farClip` and clipping planes: no line of sight through the window meets the box.
+  /// Tests the same without `farClip` and clipping planes: does no line of sight through the window meet the box?
   bool outsideWindow(const Bound3& b, const PixelRect& window) const;
 
   /// Width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle along
@@ -78,7 +78,7 @@ class Camera {
   float near_, far_;
   vec2 scale_, offset_;  ///< raster = offset + scale * (x, y) [/ z]
   float pixelSizeAtUnit_;
-  vec2 lens_{0};  ///< Raster shift at the lens's rim for one unit of depth key; 0: a pinhole.
+  vec2 lens_{0};  ///< Raster shift at the lens's rim for one unit of depth key; 0 for a pinhole.
   float focusKey_ = 0;
   PixelRect crop_;
   std::vector<vec4> planes_;

@@ -18,7 +18,7 @@ namespace tomales {
 struct Facet {
   int batch;  ///< Index in DeepTile::batches.
   int point[4];
-  bool matte = false;  ///< Attributes::matte: it hides what is behind it and leaves no colour and no alpha.
+  bool matte = false;  ///< As Attributes::matte: the facet hides what is behind it and leaves no colour and no alpha.
   float edge = 0;      ///< Edge length kept by DeepTile::forgetPoints(); read it by edgeOf().
 };
 
@@ -26,7 +26,7 @@ struct Facet {
 struct Fragment {
   uint32_t facet;    ///< Index in DeepTile::facets.
   float z;           ///< Camera-space depth of the nearest of its samples.
-  uint64_t samples;  ///< Bit s: sample 64 * word + s of the pixel.
+  uint64_t samples;  ///< Bit s is set if sample 64 * word + s of the pixel sees the facet.
   uint16_t word = 0;
   uint8_t u = 0, v = 0;  ///< Mean position of its samples on the facet, 0..255; used by smooth shading.
 };
@@ -59,7 +59,7 @@ struct DeepTile {
   void forgetPoints();
 };
 
-/// Limit for a frame, reached by 32768 x 32768 pixels in buckets of 8 x 8.
+/// The most tiles that a frame may have, which 32768 x 32768 pixels in buckets of 8 x 8 reach.
 constexpr int64_t kMostTiles = int64_t{1} << 24;
 
 struct DeepFrame {
@@ -67,7 +67,7 @@ struct DeepFrame {
   PixelRect padded;  ///< Pixels that have samples: crop grown by the filter's reach.
   int bucketWidth = 32, bucketHeight = 32, columns = 0, rows = 0;
   int samplesPerPixel = 1;
-  bool complete = true;  ///< False: interrupted, some tiles are empty.
+  bool complete = true;  ///< False if the frame was interrupted, so that some tiles are empty.
   std::vector<DeepTile>
       tiles;  ///< Tiles of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.
   int firstRow = 0;  ///< Row of the first of `tiles`.
@@ -85,8 +85,8 @@ struct DeepFrame {
   }
 };
 
-/// Reads the tiles of a frame, in memory or in a file. It may be called from any thread. Null: the tile has not been
-/// hidden.
+/// Reads the tiles of a frame, in memory or in a file. It may be called from any thread, and returns null for a tile
+/// that has not been hidden.
 using TileReader = std::function<std::shared_ptr<const DeepTile>(size_t tile)>;
 /// Reads from a frame that holds all tiles; it must outlive the reader.
 TileReader readerOf(const DeepFrame& frame);

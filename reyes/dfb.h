@@ -9,8 +9,8 @@
 namespace tomales {
 
 struct SourceFile {
-  std::string path;  ///< Absolute; "-": standard input.
-  uint64_t sum = 0;  ///< checksum() of its bytes.
+  std::string path;  ///< The absolute path, or "-" for standard input.
+  uint64_t sum = 0;  ///< checksum() of the file's bytes.
   bool operator==(const SourceFile&) const = default;
 };
 
@@ -26,7 +26,7 @@ struct Shot {
 
 class DfbWriter {
  public:
-  /// Resumed: only if the shot is the same. Null: `error` says why.
+  /// `Unfinished::Resumed` counts only if the shot is the same. Returns null on failure, and `error` says why.
   static std::unique_ptr<DfbWriter> create(const std::string& path, const Shot& shot, Unfinished unfinished,
                                            std::string& error);
 
@@ -54,7 +54,7 @@ class DfbFile {
   const Shot& shot() const { return shot_; }
   /// Checksum of the shot, which files made for it carry.
   uint64_t shotSum() const { return shotSum_; }
-  /// Empty: `error` says what is wrong.
+  /// Returns nothing if the tile cannot be read, and `error` says what is wrong.
   std::optional<DeepTile> tile(size_t index, std::string& error) const;
   uint64_t size() const { return records_->size(); }
 

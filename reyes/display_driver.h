@@ -8,12 +8,12 @@
 
 namespace tomales {
 
-/// The driver that comes with the program; empty: it is not there.
+/// Returns the path of a driver that comes with the program, or an empty string if there is none of this type.
 std::string suppliedDriver(const std::string& type);
 
 /// What a driver is told when it opens a picture.
 struct DriverPicture {
-  std::string name, mode;                                                  ///< Of the Display.
+  std::string name, mode;                                                  ///< As the Display gives them.
   int width = 0, height = 0, x = 0, y = 0, fullWidth = 0, fullHeight = 0;  ///< As in TmDisplayPicture.
   float pixelAspect = 1;
   std::vector<std::string> channels;
@@ -21,7 +21,7 @@ struct DriverPicture {
   View view;
 };
 
-/// Threads: one at a time, but for abandon().
+/// Threads: one at a time may use it, but any may call abandon().
 class DisplayDriver {
  public:
   /// Starts the process and opens the picture; failed() says whether that went well. The thread that calls this must

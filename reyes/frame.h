@@ -27,7 +27,7 @@ struct FrameControl {
 
 /// Receives hidden tiles, from any thread.
 struct TileSink {
-  /// Is the tile there already, so that it need not be hidden? Empty: no tile is.
+  /// Is the tile there already, so that it need not be hidden? If this function is empty, no tile is.
   std::function<bool(size_t tile)> has;
   std::function<void(size_t tile, DeepTile&&)> take;
   /// Returns the tile if an interrupted run has left it. May be empty.
@@ -36,7 +36,7 @@ struct TileSink {
 
 /// Provides the tiles for the shaders and receives them, from any thread.
 struct ShadeSteps {
-  std::function<bool(size_t index, DeepTile& tile)> load;   ///< False: the tile is skipped.
+  std::function<bool(size_t index, DeepTile& tile)> load;   ///< Returns false if the tile is to be skipped.
   std::function<void(size_t index, DeepTile&& tile)> take;  ///< The tile is shaded, and its points are still there.
 };
 
@@ -47,8 +47,8 @@ DeepFrame layOutFrame(const Scene& scene);
 class FrameHider {
  public:
   /// All arguments must outlive it. It opens the scene's procedurals as buckets come to them, and drops their geometry
-  /// after the last one. Where tiles leave before the last is hidden, a list of all groups misses those that are found
-  /// later: open all procedurals first.
+  /// after the last one. If tiles leave before the last one is hidden, open all procedurals first: a list of all groups
+  /// would miss those that are found later.
   FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats,
              Log& log);
   ~FrameHider();  ///< Warns of uncertain results.

@@ -27,9 +27,9 @@ struct Grid {
   std::vector<Piece> pieces = std::vector<Piece>(1);
   int keyCount = 1;  ///< Motion keys of P (times: Object::keyTimes).
   bool displaced = false;
-  /// Each piece is one cell and shows the ellipse that touches its four edges. The grid is still and in focus.
+  /// True if each piece is one cell, shown as the ellipse that touches its four edges. The grid is still and in focus.
   bool round = false;
-  /// The part of each cell that trim curves and the near plane keep, by cell number; empty: all of each.
+  /// The part of each cell that trim curves and the near plane keep, by cell number; empty if all of each is kept.
   std::vector<Kept> kept;
   std::vector<mat3> turns;  ///< Linear part of the motion from key 0 to each key.
 
@@ -49,7 +49,7 @@ struct Grid {
   /// Arrays of stride() floats each. P is in camera space.
   float* P(int key, int axis) { return at(key * 3 + axis); }
   const float* P(int key, int axis) const { return at(key * 3 + axis); }
-  float* N(int axis) { return at(keyCount * 3 + axis); }  ///< Shading normal, RISpec side, not normalised.
+  float* N(int axis) { return at(keyCount * 3 + axis); }  ///< Shading normal on RISpec's side, not normalised.
   const float* N(int axis) const { return at(keyCount * 3 + axis); }
   float* u() { return at(keyCount * 3 + 3); }  ///< Shader's u and v.
   const float* u() const { return at(keyCount * 3 + 3); }

@@ -19,7 +19,7 @@ class SamplePattern {
   SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture = {});
   int count() const { return count_; }
   int padded() const { return padded_; }
-  int patternCount() const { return patterns_; }  ///< Enough that no repetition is seen.
+  int patternCount() const { return patterns_; }  ///< There are so many that no repetition is seen.
   int patternOf(int x, int y) const;
   const float* x(int pattern) const { return of(x_, pattern); }  ///< In [0,1) inside the pixel; padded() floats.
   const float* y(int pattern) const { return of(y_, pattern); }
@@ -62,19 +62,19 @@ struct BorderLine {
 /// Vertices of a grid in raster space, made once for each grid by `project` and shared by the buckets.
 struct RasterGrid : RasterExtent {
   std::shared_ptr<const Grid> grid;
-  bool opaque = true;  ///< It hides what is behind it.
+  bool opaque = true;  ///< True if it hides what is behind it.
   bool matte = false;
-  /// Triangles abc and bdc (reyes/hide/raster.h) are seen if their raster area has this sign; 0: all are.
+  /// Triangles abc and bdc (reyes/hide/raster.h) are seen if their raster area has this sign; 0 if all are seen.
   float facing = 0;
   DetailShare detail;    ///< Only samples of this share see it.
   bool clipped = false;  ///< Some vertex is cut off by the near or far plane or a ClippingPlane.
-  /// Its hits are crossings for reyes/hide/solids.cpp, and hide nothing before those are resolved.
+  /// True if its hits are crossings for reyes/hide/solids.cpp, which hide nothing until they are resolved.
   bool inSolid = false;
   bool smooth = false;                     ///< ShadingInterpolation is "smooth".
   bool defocused = false;                  ///< Some vertex moves visibly with the point of the lens.
-  std::shared_ptr<const BlurBounds> blur;  ///< Null if still and in focus.
-  /// Raster x, y and depth key (Camera::depthKey), borders pushed out: keyCount * stride each, then a tail to read
-  /// blocks across the end.
+  std::shared_ptr<const BlurBounds> blur;  ///< Null if the grid is still and in focus.
+  /// Raster x, y and depth key (Camera::depthKey) with the borders pushed out: keyCount * stride floats each. A tail
+  /// follows, so that a block may be read across the end.
   PooledVector<float> x, y, d;
   std::vector<RasterExtent> ofPiece;  ///< Extent of each piece; empty: there is one piece.
   /// PatchEdge bits of each piece: borders that were pushed out, as neighbours may have other vertices there; empty:
@@ -88,7 +88,7 @@ struct RasterGrid : RasterExtent {
 };
 /// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; a grid of several pieces is still, in focus
 /// and not part of a solid. zMin: nearest camera z of the solid that the grid belongs to. pool: provides the memory.
-/// opaque: by its shaders; with the midpoint filter it hides nothing all the same.
+/// opaque: whether its shaders make it so; with the midpoint filter it hides nothing all the same.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera,
                                           bool opaque, float zMin = kInfinity,
                                           const std::shared_ptr<Pool>& pool = nullptr);
@@ -113,7 +113,7 @@ class Hider {
   ~Hider();
   /// Is every sample in the bound already hidden by something opaque nearer than zMin (camera space)?
   bool hidden(const Bound2& raster, float zMin) const;
-  /// The same for a projected grid: insert() would find nothing to do.
+  /// Asks the same of a projected grid. If it is hidden, insert() would find nothing to do.
   bool hidden(const RasterExtent& extent) const;
   void insert(const std::shared_ptr<const RasterGrid>& grid);
   /// Collects visible micropolygons into points to shade. The Hider cannot be used after it.

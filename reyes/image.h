@@ -13,7 +13,7 @@ namespace tomales {
 /// Linear float channels, interleaved, rows from the top.
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::string> channels;  ///< "R" "G" "B" "A" "Z"
+  std::vector<std::string> channels;  ///< For example "R" "G" "B" "A" "Z".
   std::vector<float> pixels;
   int originX = 0, originY = 0;  ///< Position of the data window inside the display window (crop).
   int displayWidth = 0, displayHeight = 0;
@@ -24,7 +24,7 @@ struct Image {
            (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * channels.size();
   }
   const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
-  int channelIndex(const std::string& name) const;  ///< -1: there is none.
+  int channelIndex(const std::string& name) const;  ///< Returns -1 if there is none.
 };
 
 /// A separable or radial pixel filter; names and formulas of RISpec 3.2 section 5.1.2, with the repairs that
@@ -54,7 +54,7 @@ struct View {
   mat4 cameraFromWorld{1.0f}, screenFromWorld{1.0f};
 };
 
-/// Names for Cryptomatte, by Scene::groups.
+/// Names for Cryptomatte, indexed as Scene::groups.
 struct MatteNames {
   std::vector<std::string> objects, materials;
 };
@@ -75,8 +75,8 @@ struct DeepRows {
   std::vector<float> values;
 };
 
-/// Sums over pixels: of their luminance, and of its standard error. The error is estimated from the differences of each
-/// pixel's samples as if they were independent (stratified ones are better).
+/// The sums over pixels of their luminance and of its standard error. The error is estimated from the differences of
+/// each pixel's samples as if they were independent (stratified ones are better).
 struct PixelNoise {
   double light = 0, error = 0;
 };
@@ -99,7 +99,7 @@ class FrameFilter {
   /// Returns raster rows [y0, y1) of the crop window. Calls must go from the top down. Tiles that are not resolved are
   /// taken from the frame. Data that no lower row needs are dropped afterwards.
   Image rows(int y0, int y1);
-  DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< The same for deep pixels, before exposure.
+  DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< Returns deep pixels likewise, before exposure.
 
  private:
   struct Impl;
@@ -115,9 +115,9 @@ bool checkDisplays(const Options& options, Log& log);
 /// Applies the exposure of Options, gain and gamma, to colours; alpha stays.
 void expose(Image& image, const Options& options);
 
-/// The plugin that takes a Display instead of a file (reyes/display_api.h), because its type names no format; empty:
-/// there is none. Those that come with the program are found first, then others as findPlugins() has them, along Option
-/// "searchpath" "display".
+/// Returns the plugin that takes a Display instead of a file (reyes/display_api.h), because its type names no format;
+/// empty if there is none. Plugins that come with the program are found first, then others as findPlugins() finds them
+/// along Option "searchpath" "display".
 std::string driverOf(const DisplayCall& display, const Options& options, const PluginTrust& trust);
 
 /// The file of one Display, or the display driver that takes its picture. It picks the Display's floats, encodes,
@@ -134,7 +134,7 @@ class DisplayFile {
   /// Writes the next rows from the top: 64 or a multiple, except for the last call. Returns false if it cannot be
   /// written.
   bool write(const Image& rows);
-  /// Deep Displays use these instead; empty: the Display is not deep.
+  /// A deep Display uses these instead of write(Image); deep() is empty if the Display is not deep.
   std::optional<DeepMerge> deep() const;
   bool write(const DeepRows& rows);
   bool close();
@@ -143,7 +143,7 @@ class DisplayFile {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-/// MakeShadow: a Display's file serves unchanged, so this checks and copies it.
+/// Serves MakeShadow: the file of a Display needs no change, so it is checked and copied.
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log);
 /// Writes a whole picture at once.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
@@ -151,7 +151,7 @@ bool writeDisplay(const Image& image, const DisplayCall& display, const Options&
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log);
 /// Does the name's extension say a format that can be written?
 bool namesPicture(const std::string& path);
-/// Does it say one whose readers expect colours that are encoded for a screen?
+/// Does the extension say a format whose readers expect colours that are encoded for a screen?
 bool isForScreens(const std::string& path);
 /// A format of pictures: what a Display and the name of its file may say of it.
 struct DisplayFormat {
@@ -159,8 +159,8 @@ struct DisplayFormat {
   std::vector<std::string> otherTypes, extensions, compressions, parameters;
 };
 std::vector<DisplayFormat> displayFormats();
-std::string pictureExtensions();  ///< Those of all formats, for messages: "exr, tif, png".
-std::string pictureNames();       ///< Names of pictures, for help: "FILE.exr|.tif|.png".
+std::string pictureExtensions();  ///< The extensions of all formats, for messages: "exr, tif, png".
+std::string pictureNames();       ///< The form of names of pictures, for help: "FILE.exr|.tif|.png".
 std::optional<Image> readImage(const std::string& path, std::string& error);
 
 /// Figures of `tomales compare` over colour channels of images of equal size.

@@ -1,5 +1,5 @@
-// Surface shaders that assign P: the host runs what of them moves the points as the displacement of an object that has
-// none of its own.
+// Surface shaders that assign P. The part of such a shader that moves the points is run as the displacement of an
+// object that has no displacement shader.
 #pragma once
 #include "reyes/scene.h"
 

@@ -58,7 +58,7 @@ void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
     if (it == kReductions.end())
       channel.sampling.filter = filter->strings[0];
     else
-      channel.sampling.xWidth = channel.sampling.yWidth = 1;  // only the samples of the pixel itself
+      channel.sampling.xWidth = channel.sampling.yWidth = 1;  // only the pixel's own samples count
   }
   if (channel.kind == ChannelKind::Variable && width)
     channel.sampling.xWidth = (*width)[0], channel.sampling.yWidth = (*width)[1];
@@ -219,7 +219,7 @@ namespace {
 /// Types of Displays that say what is written, and not only in which format.
 struct MapType {
   std::string_view name;
-  bool deep;   ///< A list of depths in every pixel.
+  bool deep;   ///< It has a list of depths in every pixel.
   bool shows;  ///< It has colours too.
 };
 constexpr MapType kMapTypes[] = {

@@ -49,7 +49,7 @@ struct Channel {
 
 /// The encoding of values that a Display or DisplayChannel asks for.
 struct Encoding {
-  std::optional<std::array<float, 2>> exposure;  ///< Gain and gamma; for Ci on top of the frame's Exposure.
+  std::optional<std::array<float, 2>> exposure;  ///< Gain and gamma; those for Ci come on top of the frame's Exposure.
   std::optional<Quantize> quantize;
 };
 
@@ -68,7 +68,7 @@ struct FrameOutput {
   std::vector<Selection> displays;  ///< In the order of Options::displays.
   int floatsPerPoint = 0;           ///< Floats of all variables.
   int floatsPerPixel = 5;           ///< Floats of all channels.
-  bool shades = true;               ///< False: only depth is wanted, so opaque surfaces need no shader.
+  bool shades = true;               ///< False if only depth is wanted, so that opaque surfaces need no shader.
   /// Names of the floats of a pixel of the frame's picture, in order.
   std::vector<std::string> names() const;
 };
@@ -79,11 +79,11 @@ bool shades(const Options& options);
 /// Reports channels that are not declared, and parameters that are not understood, if `log` is given.
 FrameOutput outputOf(const Options& options, Log* log = nullptr);
 
-/// Is the type of a Display one of maps for later frames, which show nothing: "shadow", "zfile", "deepshad"?
+/// Does the Display write a map for later frames and show nothing, as types "shadow", "zfile" and "deepshad" do?
 bool writesMap(const DisplayCall& display);
-/// One of those that has depth and nothing else: "shadow", "zfile"?
+/// Does it write such a map of one depth for each pixel, as types "shadow" and "zfile" do?
 bool writesShadowMap(const DisplayCall& display);
-/// One with a list of depths in every pixel: "deepshad", "deepexr"?
+/// Does it write a list of depths for every pixel, as types "deepshad" and "deepexr" do?
 bool writesDeep(const DisplayCall& display);
 
 }  // namespace tomales

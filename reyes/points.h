@@ -16,7 +16,7 @@ enum PointChannel : int {
   kPz,  ///< position
   kNx,
   kNy,
-  kNz,  ///< shading normal (RISpec side, not flipped towards the viewer), unit length
+  kNz,  ///< shading normal on RISpec's side, not flipped towards the viewer, unit length
   kNgx,
   kNgy,
   kNgz,  ///< geometric normal, unit length
@@ -28,14 +28,14 @@ enum PointChannel : int {
   kDpduZ,
   kDpdvX,
   kDpdvY,
-  kDpdvZ,  ///< by the shader's u and v
+  kDpdvZ,  ///< derivatives of P by the shader's u and v
   kU,
   kV,
   kS,
   kT,
   kDu,
   kDv,
-  kArea,  ///< of the micropolygon, or of the ray's footprint
+  kArea,  ///< area of the micropolygon, or of the ray's footprint
   /// share of the shutter, 0..1, at which the point is seen (its P is that at shutter open); negative: it is seen over
   /// the whole shutter
   kTime,
@@ -88,7 +88,7 @@ class ShadePoints {
   const float* channel(int c) const { return block_.data() + static_cast<size_t>(c) * static_cast<size_t>(capacity_); }
   float* primvar(int offset) { return channel(kFixedChannels + offset); }
   const float* primvar(int offset) const { return channel(kFixedChannels + offset); }
-  /// Pre: hasSteps(). `value`: a PointStep; `v`: along v instead of u.
+  /// Pre: hasSteps(). `value` is a PointStep; `v` asks for the change along v instead of u.
   float* step(int value, bool v) { return channel(stepChannel(value, v)); }
   const float* step(int value, bool v) const { return channel(stepChannel(value, v)); }
   uint32_t key(int i) const { return names_[static_cast<size_t>(i)].key; }
@@ -130,7 +130,7 @@ struct ShadedPoints {
   AlignedVector<float> Ci[3], Oi[3];
   std::vector<AlignedVector<float>> variables;  ///< Values of FrameOutput::variables; empty if they are not stored.
   /// The part of Ci and Oi that belongs to the air before a transparent point, seen beside its surface: where another
-  /// surface follows behind, that one's air holds it too. Empty: there is none.
+  /// surface follows behind, that one's air holds it too. Empty if there is none.
   AlignedVector<float> airCi[3], airOi[3];
   void resize(int count);
   vec3 color(int i) const {

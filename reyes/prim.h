@@ -3,8 +3,8 @@
 // from the same numbers.
 //   bound     a box that contains a rectangle of a patch
 //   evaluate  positions and derivatives at any points of a patch: for dicing a lattice and shading a ray hit alike
-//   facing    shapes that are drawn flat towards the eye, turned towards one
-//   kept      the part that trim curves keep
+//   facing    turns shapes that are drawn flat towards an eye
+//   kept      finds the part that trim curves keep
 //   never     knows a camera, an attribute or a shader
 // Space: everything is in object space. Threads: const members may be called concurrently.
 #pragma once
@@ -29,9 +29,9 @@ struct UvRect {
 enum PatchEdge : uint8_t { kEdgeU0 = 1, kEdgeU1 = 2, kEdgeV0 = 4, kEdgeV1 = 8, kAllEdges = 15 };
 
 struct PatchInfo {
-  bool planar = false;            ///< Flat, with straight edges: two triangles are exact.
+  bool planar = false;            ///< True if it is flat, with straight edges, so that two triangles are exact.
   uint8_t openEdges = kAllEdges;  ///< Edges that end the surface; the others have a neighbour to join without cracks.
-  bool disk = false;              ///< A disk, whose lattice of one cell is a square of the disk's area.
+  bool disk = false;              ///< True for a disk, whose lattice of one cell is a square of the disk's area.
 };
 
 /// The part of something that trim curves keep.
@@ -56,15 +56,15 @@ struct Primvar {
   std::vector<float> values;
 };
 
-/// Offset of a variable among the floats of a point, which has those of all variables in their order; -1: there is none
-/// of that name.
+/// Offset of a variable among the floats of a point, which has those of all variables in their order; -1 if none has
+/// that name.
 int offsetOf(const std::vector<Primvar>& primvars, std::string_view name);
 
 /// A whole sphere, or a whole flat disk.
 struct RoundShape {
   vec3 center;
   float radius;
-  vec3 axis;  ///< Axis of a disk; zero: a sphere.
+  vec3 axis;  ///< Axis of a disk; zero for a sphere.
 };
 
 class Prim {
@@ -96,8 +96,8 @@ class Prim {
   /// The shape as a whole, if it is a sphere or a disk.
   virtual std::optional<RoundShape> round() const { return std::nullopt; }
 
-  /// The same shape turned towards an eye, for points and curves that face it: `eye` is a position if `perspective`,
-  /// else only the direction `forward`, in which it looks, counts. Null: the shape looks the same to every eye.
+  /// Turns points and curves towards an eye that they face: `eye` is a position if `perspective`, else only the
+  /// direction `forward`, in which it looks, counts. Returns null if the shape looks the same to every eye.
   virtual std::shared_ptr<const Prim> facing(const vec3& /*eye*/, const vec3& /*forward*/, bool /*perspective*/) const {
     return nullptr;
   }
@@ -149,21 +149,21 @@ PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const Param
 PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees, float thetaMax_degrees,
                   const ParamList&, Problems&);
 
-/// What RIB must know of a quadric: its request, the numbers before its parameter list, and when they leave nothing of
-/// it, which while it moves is no error. One entry of quadrics() in reyes/prim/quadrics.cpp is all that RIB needs of a
-/// new one; plugins call it by reyes/ri.h.
+/// What RIB must know of a quadric: its request, the numbers before its parameter list, and the numbers that leave
+/// nothing of it (which is no error while they move). One entry of quadrics() in reyes/prim/quadrics.cpp is all that
+/// RIB needs for a new one; plugins call it by reyes/ri.h.
 struct Quadric {
   std::string_view name;
   int numberCount;
   PrimPtr (*make)(const float* numbers, const ParamList&, Problems&);
-  std::vector<int> sizes;  ///< Those of the numbers that must not be 0.
+  std::vector<int> sizes;  ///< Indices of the numbers that must not be 0.
   int from = 0, to = 0,
-      extentCount = 0;  ///< Where two places begin that must differ, and of how many numbers they are.
+      extentCount = 0;  ///< The `extentCount` numbers from index `from` on must differ from those from `to` on.
 
   bool hasNoArea(const float* numbers) const;
 };
 const std::vector<Quadric>& quadrics();
-/// Null: no quadric is called so.
+/// Returns null if no quadric has that name.
 const Quadric* findQuadric(std::string_view name);
 
 /// Faces of any size and convexity, without holes. `vertexCounts` per face, `vertices` concatenated. Polygon is the
@@ -213,7 +213,7 @@ struct TrimLoops {
   bool keepsInside = false;  ///< True keeps the inside; false cuts it away.
   bool operator==(const TrimLoops&) const = default;
 };
-/// Positions are "P", or "Pw" with weights above zero. Orders 2 to 32. u,v run from 0 to 1 over min..max.
+/// Positions are "P", or "Pw" with weights above zero. Orders are 2 to 32. u and v run from 0 to 1 over min..max.
 PrimPtr makeNuPatch(const NurbsDirection& u, const NurbsDirection& v, const TrimLoops&, const ParamList&, Problems&);
 
 /// Disks: round, as wide as "constantwidth" or "width" says (1 if absent), facing "N" or else the eye. "type" makes
@@ -225,8 +225,8 @@ PrimPtr makePoints(const ParamList&, Problems&);
 /// facing the eye. Each segment has one patch. `basis` is for cubic curves.
 PrimPtr makeCurves(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic,
                    const ParamList&, Problems&);
-/// The same curves as tubes: u runs around. Loose ends wider than 0 are closed by flat disks, patches that follow the
-/// segments.
+/// Makes the same curves as tubes: u runs around. Loose ends wider than 0 are closed by flat disks, which are patches
+/// that follow those of the segments.
 PrimPtr makeTubes(bool cubic, const Basis& basis, const std::vector<int>& vertexCounts, bool periodic, const ParamList&,
                   Problems&);
 
@@ -240,7 +240,7 @@ struct GroundPicture {
   mat4 cameraFromObject{1.0f};
   mat4 texelFromObject{1.0f};  ///< Homogeneous; texel (0, 0) is the square from (0, 0) to (1, 1).
 };
-/// Reads the picture named by a string of the request. Empty: it cannot be read, which has been reported.
+/// Reads the picture named by a string of the request. It reports one that cannot be read and returns nothing.
 using GroundReader = std::function<std::optional<GroundPicture>(int string)>;
 
 /// The surface where a field, made of leaves and operations on them, is 27/64. `code` and `floats` are as in RIB
@@ -252,7 +252,7 @@ PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vecto
 PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
                       const GroundReader&, const ParamList&, Problems&);
 
-/// Schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface. Tags are as in
+/// Makes schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface. Tags are as in
 /// HierarchicalSubdivisionMesh: per tag a name and {number of ints, number of floats, number of strings}.
 struct SubdivisionTags {
   std::vector<std::string> names;

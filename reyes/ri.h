@@ -1,14 +1,14 @@
 /* The RenderMan C binding (RISpec 3.2, appendix C) for plugins of Procedural "DynamicLoad": attributes, transformations
  * and geometry. A plugin defines, with C linkage,
  *
- *   RtPointer ConvertParameters(char* text);             text: the second string of the Procedural; makes the plugin's
- * own data of it void Subdivide(RtPointer data, RtFloat detail_px2);  describes geometry by the calls below; detail:
- * pixels that the bound covers void Free(RtPointer data);
+ *   RtPointer ConvertParameters(char* text);  makes data of its own from the second string of the Procedural
+ *   void Subdivide(RtPointer data, RtFloat detail_px2);  makes the calls below for a bound of so many pixels
+ *   void Free(RtPointer data);
  *
  * and is built as a shared library without linking anything: the renderer has the functions (docs/procedurals.md).
  * Threads: one plugin function runs at a time in the whole process. Calls are kept until Subdivide returns and then
  * read as if they stood in the RIB; they may be made by the thread that Subdivide runs in, until it returns. Pointers
- * are read before a call returns. Values of a token: as many as its declaration and the primitive ask for, as in RIB.
+ * are read before a call returns. A token has as many values as its declaration and the primitive ask for, as in RIB.
  * Strings are arrays of RtString. */
 #ifndef TOMALES_RI_H
 #define TOMALES_RI_H
@@ -24,7 +24,7 @@ typedef const char* RtToken;
 typedef const char* RtString;
 typedef void RtVoid;
 typedef void* RtPointer;
-typedef RtFloat RtColor[3]; /* as many as ColorSamples says, else 3 */
+typedef RtFloat RtColor[3]; /* has as many as ColorSamples says, else 3 */
 typedef RtFloat RtPoint[3], RtVector[3], RtNormal[3], RtHpoint[4];
 typedef RtFloat RtMatrix[4][4], RtBasis[4][4];
 typedef RtFloat RtBound[6]; /* xmin xmax ymin ymax zmin zmax */
@@ -188,9 +188,8 @@ RtVoid RiBlobbyV(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, co
 RtVoid RiGeometry(RtToken type, ...);
 RtVoid RiGeometryV(RtToken type, RI_ARRAYS);
 
-/* `free` is called when `data` is not needed any more; it may be null. subdivide: a function of the plugin or one of
- * the three below, whose data are arrays of one or two RtString: a file; a program and its data; a plugin and its text.
- */
+/* `free` is called when `data` is not needed any more; it may be null. `subdivide` is a function of the plugin or one
+ * of the three below. Their data are arrays of RtString: a file; a program and its data; a plugin and its text. */
 RtVoid RiProcedural(RtPointer data, const RtBound bound, RtProcSubdivFunc subdivide, RtProcFreeFunc free);
 RtVoid RiProcDelayedReadArchive(RtPointer data, RtFloat detail);
 RtVoid RiProcRunProgram(RtPointer data, RtFloat detail);

@@ -17,7 +17,7 @@ struct RibArg {
   enum class Kind { Number, Integer, String, Numbers, Integers, Strings } kind = Kind::Number;
   std::vector<float> numbers{};
   std::vector<std::string> strings{};
-  std::vector<int> integers{};  ///< Exact up to 2^31; what is written as no integer is rounded, NaN is INT_MIN.
+  std::vector<int> integers{};  ///< Exact up to 2^31; other numbers are rounded, and NaN becomes INT_MIN.
   float number() const { return numbers.empty() ? 0.0f : numbers[0]; }
   int integer() const { return integers.empty() ? 0 : integers[0]; }
 };
@@ -38,7 +38,7 @@ inline bool isReference(const Request& request, std::string_view name) {
                      [&](const auto& r) { return r.first == name; });
 }
 
-/// The seam behind the parser: the scene builder, a recorder, a writer.
+/// Takes the requests of the parser. The scene builder, a recorder and a writer are sinks.
 class RiSink {
  public:
   virtual ~RiSink() = default;
@@ -48,31 +48,31 @@ class RiSink {
 /// A file that a stream names.
 struct FileUse {
   const char* kind;        ///< "archive", "texture", "plugin", or "program", which is a command.
-  std::string name, path;  ///< As it is written, and where it lies; an empty path: nowhere, or it may not be used.
+  std::string name, path;  ///< The name as written, and the file's path; empty if it is missing or may not be used.
   SourceLoc where;
 };
 
 struct RibSettings {
   /// Called at every WorldEnd with the frozen scene, in stream order.
   std::function<void(Scene&&)> onScene;
-  /// MakeTexture, MakeShadow and their kin: what earlier worlds have written becomes a map for later ones. Empty: they
-  /// do nothing.
+  /// Called for MakeTexture, MakeShadow and similar requests, which make maps for later worlds of what earlier ones
+  /// have written. If it is empty, they do nothing.
   std::function<void(const Request&)> onMake;
   /// Called with every file that is read, or would be if it were there.
   std::function<void(const FileUse&)> onFile{};
   std::vector<std::string> archivePath{"."};
   int maxArchiveDepth = 64;
-  Trust trust{};  ///< Of the programs of System and Procedural "RunProgram", and the plugins of "DynamicLoad".
+  Trust trust{};  ///< Says which programs (System, Procedural "RunProgram") and plugins ("DynamicLoad") may run.
   double programPatience_s = 60;  ///< The longest that a RunProgram may keep us waiting.
 };
 
-/// Reads files as one stream ("-" is standard input). False if any of them could not be opened or held no readable RIB
-/// at all; details are in the log.
+/// Reads files as one stream ("-" is standard input). Returns false if any of them could not be opened or held no
+/// readable RIB at all; details are in the log.
 bool readRib(const std::vector<std::string>& files, const RibSettings& settings, Log& log);
-/// The same from memory; `name` stands for the file in messages.
+/// Reads the same from memory; `name` stands for the file in messages.
 bool readRibText(const std::string& text, const std::string& name, const RibSettings& settings, Log& log);
 
-/// The requests as they are written: archives, conditions and programs are not followed. Returns as readRib.
+/// Passes the requests on as they are written and follows no archives, conditions or programs. Returns as readRib.
 bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
 
@@ -82,16 +82,16 @@ bool parseRibText(const std::string& text, const std::string& name, RiSink& sink
 std::string ribRequests();
 
 /// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that
-/// the last Attribute "identifier" "name" has named (none: all), LightSource to the light of that handle, Exposure,
-/// Imager and Quantize to the frame. A shader that stays the same keeps the parameters that are not given. Other
-/// requests are ignored with a warning. False as readRib.
+/// the last Attribute "identifier" "name" has named (without one, to all), LightSource to the light of that handle,
+/// Exposure, Imager and Quantize to the frame. A shader that stays the same keeps the parameters that are not given.
+/// Other requests are ignored with a warning. Returns as readRib.
 bool editScene(const std::vector<std::string>& files, Scene& scene, Log& log);
 
 struct RibWriterSettings {
   bool binary = false, gzip = false;
   std::function<void(std::string_view)> write;  ///< Called with more of the file.
 };
-/// Writes requests, parameters with inline declarations; parsed again they are the same. Its destructor ends the file.
+/// Makes a sink that writes requests, which parse as the same again. Its destructor ends the file.
 std::unique_ptr<RiSink> makeRibWriter(const RibWriterSettings& settings);
 
 }  // namespace tomales

@@ -14,7 +14,7 @@ class Scattered {
   ~Scattered() = default;
 };
 
-/// patchOf(item): the patch that is used next.
+/// patchOf(item) returns the patch that is used next.
 template <class Shape, class Items, class PatchOf>
 void prefetch(const Shape& shape, const Items& items, const PatchOf& patchOf) {
   if (const auto* scattered = dynamic_cast<const Scattered*>(&shape))

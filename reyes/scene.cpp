@@ -45,7 +45,7 @@ class GroupHash {
 };
 
 // Key times inside the shutter, its opening first. A still object, or a closed shutter, has that one time alone.
-// shapeTimes: empty if the shape does not change.
+// shapeTimes is empty if the shape does not change.
 std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
                               const Options& options) {
   std::vector<float> times{options.shutterOpen};
@@ -202,7 +202,7 @@ int Scene::add(Object object) {
 
 void Scene::drop(int object) {
   Object& o = objects[static_cast<size_t>(object)];
-  Object rest;  // code that goes over all objects still finds its attributes, and that no ray meets it
+  Object rest;  // loops over all objects still find its attributes, and no shape
   rest.attributes = o.attributes, rest.where = o.where, rest.group = o.group;
   o = std::move(rest);
   dropped_.push_back(object);

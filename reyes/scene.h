@@ -24,13 +24,13 @@ struct Object {
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
-  int solid = -1;         ///< Index in Scene::solids of the solid that it is a part of; -1: none.
+  int solid = -1;         ///< Index in Scene::solids of the solid that it is a part of; -1 if there is none.
   int solidBlock = -1;    ///< Primitive block of that solid.
   uint64_t contents = 0;  ///< Checksum of the request that describes its shapes, wherever it is written.
 
   // Filled by Scene::freeze().
   Motion cameraFromObject;   ///< Over the shutter; one key when nothing moves.
-  Motion currentFromObject;  ///< The same with the camera fixed where it is at shutter open: the motion that rays see.
+  Motion currentFromObject;  ///< The same with the camera held at its place of shutter open: the motion that rays see.
   std::vector<float>
       keyTimes;  ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
   float displacementBound = 0;  ///< In camera space.
@@ -60,7 +60,7 @@ struct Expansion;
 
 /// Geometry that is described when it is needed (RISpec 3.2 section 5.10).
 struct Procedural {
-  Bound3 bound;  ///< Object space.
+  Bound3 bound;  ///< In object space.
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
@@ -78,7 +78,7 @@ struct Procedural {
 struct Expansion {
   std::vector<Object> objects;
   std::vector<Procedural> procedurals;
-  std::vector<Solid> solids{};  ///< The solids that Object::solid counts.
+  std::vector<Solid> solids{};  ///< Object::solid is an index in this list.
 };
 
 struct Scene {
@@ -105,11 +105,11 @@ struct Scene {
   std::vector<int> add(Expansion& expansion);
   /// Drops the shapes of an object of add() that is not needed any more.
   void drop(int object);
-  /// Replaces procedurals that are wanted by their contents, nested ones included. Call it before any object is used.
+  /// Opens all procedurals that are `wanted`, nested ones included. Call it before any object is used.
   void open(const std::function<bool(const Attributes&)>& wanted);
 
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
-  /// "current" from a named space (camera, current, world, or a CoordinateSystem). False: unknown.
+  /// Finds "current" from a named space (camera, current, world, or a CoordinateSystem). False if it is unknown.
   bool cameraFromNamed(const std::string& name, mat4& out) const;
 
  private:
@@ -120,15 +120,15 @@ struct Scene {
   ShadeGroup groupFor(const Object& object, int index) const;
   float displacementBoundOf(const Attributes& attributes, const mat4& cameraFromObject) const;
 
-  /// By a hash of all that objects of a group have in common. Requests share one Attributes until something changes, so
-  /// equal pointers tell.
+  /// The groups by a hash of all that their objects have in common. Requests share one Attributes until something
+  /// changes, so it is enough to compare the pointers.
   std::unordered_multimap<uint64_t, int> groupsByHash_;
   std::vector<int> dropped_;  ///< Indices that may be used again.
 };
 
-/// False: the scene was read from a .dfb, which leaves shapes out.
+/// False if the scene was read from a .dfb, which leaves shapes out.
 inline bool hasGeometry(const Scene& scene) { return scene.objects.empty() || !scene.objects.front().shapes.empty(); }
 
-std::string objectName(const Object& object);  ///< identifier name, or "object at FILE:LINE"
+std::string objectName(const Object& object);  ///< Its identifier name, or "object at FILE:LINE".
 
 }  // namespace tomales

@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-/// The changed copy of each, made once.
+/// The changed copy of each Attributes, which is made once.
 class ChangedAttributes {
  public:
   explicit ChangedAttributes(std::function<void(Attributes&)> change) : change_(std::move(change)) {}

@@ -33,7 +33,7 @@ class Solid {
   struct Block {
     SolidOperation operation;
     int parent;
-    bool takenAway;  ///< It is a further operand of a difference.
+    bool takenAway;  ///< True if it is a further operand of a difference, and so subtracted.
     int operands = 0;
   };
   const Block& at(int block) const { return blocks_[static_cast<size_t>(block)]; }

@@ -20,7 +20,7 @@ struct SubPatch {
   int nu, nv;
   Bound2 raster;            ///< Conservative raster bound over the shutter, displacement included.
   float zMin;               ///< Nearest camera z, over the shutter, displacement included.
-  bool crossesEye = false;  ///< A part of it lies nearer than Camera::eyePlane; micropolygons there are to be left out.
+  bool crossesEye = false;  ///< A part of it lies nearer than Camera::eyePlane, whose micropolygons must be left out.
   int depth = 0;            ///< Number of halvings of its patch.
   bool coarse = false;      ///< It is too large for a grid: splitPiece() splits it further.
   int64_t visits = 0;       ///< Budget of pieces that splitPiece() may visit.
@@ -34,8 +34,8 @@ struct Placement {
 };
 
 /// Places a box in the space of `cameraFromObject`, at `keyTimes`. Displacement may leave the box by `margin` (camera
-/// space). `window`: raster pixels that have samples. Empty: no point of it can be seen there or, if not `clipped`, no
-/// line of sight meets it there.
+/// space). `window`: raster pixels that have samples. Returns nothing if no point of it can be seen there or, if not
+/// `clipped`, no line of sight meets it there.
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
@@ -48,7 +48,7 @@ inline bool standsStillInFocus(const Object& o, const Camera& camera) {
 /// Is a patch of very many pieces split at once, or left in coarse pieces where that is safe? All of a frame's pieces
 /// at once would take memory in proportion to its area.
 enum class Splitting : uint8_t { Wholly, Lazily };
-/// Set by other threads: the work may end at once, with any result. Null: never.
+/// When another thread sets it, the work may end at once, with any result. It may be null.
 using StopFlag = const std::atomic<bool>*;
 
 /// Splits some patches of an object; pieces wholly outside the window are culled. The order is: first dots, which need
@@ -56,7 +56,7 @@ using StopFlag = const std::atomic<bool>*;
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches,
                                    const Camera& camera, const PixelRect& window, Stats& stats, Log& log,
                                    Splitting splitting = Splitting::Wholly, StopFlag stop = nullptr);
-/// The next pieces of a coarse one, lazily. In the end they are the same as those of splitting wholly.
+/// Returns the next pieces of a coarse one, split lazily. In the end they are those of splitting wholly.
 std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera,
                                  const PixelRect& window, Stats& stats, Log& log, StopFlag stop = nullptr);
 

@@ -80,11 +80,11 @@ enum class DepthFilter { Min, Max, Average, Midpoint };
 
 enum class ProjectionKind { Orthographic, Perspective, Null };
 
-/// Hider "aperture": a regular polygon inscribed in the lens. Fewer than three sides: a disk.
+/// Hider "aperture": a regular polygon inscribed in the lens, or a disk if it has fewer than three sides.
 struct Aperture {
   float sides = 0, angle_degrees = 0;  ///< Counterclockwise in the picture; at 0 a corner points right.
-  float roundness = 0;                 ///< 1: its sides are arcs of the lens's rim; -1: they are bent inwards as much.
-  float density = 0;                   ///< 1: dark in the middle, -1: dark at the rim, linearly in between.
+  float roundness = 0;                 ///< At 1 its sides are arcs of the lens's rim; at -1 they bend inwards as much.
+  float density = 0;                   ///< At 1 it is dark in the middle, at -1 at the rim, linearly in between.
 };
 
 struct Quantize {
@@ -112,7 +112,7 @@ struct Options {
   float exposureGain = 1, exposureGamma = 1;
   Quantize rgbaQuantize{}, depthQuantize{0, 0, 0, 0};
   bool quantizeGiven = false;                   ///< The RIB has a Quantize request; else the file's type decides.
-  std::vector<DisplayCall> displays;            ///< Empty: the default Display.
+  std::vector<DisplayCall> displays;            ///< If it is empty, there is the default Display.
   std::map<std::string, ChannelCall> channels;  ///< Indexed by name.
   DepthFilter depthFilter = DepthFilter::Min;
   vec3 opaqueThreshold{0.996f};  ///< Limits "othreshold": a surface of this opacity hides everything behind it.
@@ -171,11 +171,11 @@ struct Attributes {
   std::string name;                  ///< Attribute "identifier" "name"
   std::set<std::string> membership;  ///< Attribute "grouping" "membership": the sets it is in
   HitMode diffuseHitMode = HitMode::Shader, specularHitMode = HitMode::Shader, transmissionHitMode = HitMode::Shader;
-  std::shared_ptr<const ShaderCall> surface, displacement, atmosphere;  ///< null: the default surface; none; none
+  std::shared_ptr<const ShaderCall> surface, displacement, atmosphere;  ///< null for the default surface, or none
   std::shared_ptr<const ShaderCall> interior,
       exterior;  ///< Volume shaders of the space that rays cross after leaving the surface inwards and outwards.
   std::vector<int> lights;      ///< Indices in Scene::lights of lights that are switched on.
-  int areaLight = -1;           ///< Index of the light that this geometry emits for; -1: none.
+  int areaLight = -1;           ///< Index of the light that this geometry emits for; -1 if there is none.
   float displacementBound = 0;  ///< Radius in the space below.
   std::string displacementBoundSpace = "object";
   Visibility visibility;
@@ -185,7 +185,7 @@ struct Attributes {
     bool sampleMotion = false;  ///< Rays from this object see motion.
     int maxDiffuseDepth = 1,
         maxSpecularDepth = 2;  ///< Bounces that may follow one at this object; an earlier object's limit still applies.
-    std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; empty: all
+    std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; if empty, they see all
     float tessellation = 1;
     TessellationMode rate = TessellationMode::Fixed;
     bool operator==(const Trace&) const = default;
@@ -198,14 +198,14 @@ struct Attributes {
     bool operator==(const Indirect&) const = default;
   } indirect;
   struct Photon {
-    std::string globalMap;   ///< Name of the map that this geometry shares; empty: it is chosen.
-    std::string causticMap;  ///< Name of the map of photons that come by mirrors and glass; empty: none are kept.
+    std::string globalMap;   ///< Name of the map that this geometry shares; if it is empty, one is chosen.
+    std::string causticMap;  ///< Name of the map of photons that come by mirrors and glass; if empty, none are kept.
     std::string shadingModel = "matte";
     bool operator==(const Photon&) const = default;
   } photon;
-  struct Radiosity {      ///< Its radiosity map (docs/gi.md).
-    bool screen = true;   ///< True: texelSize is in pixels; false: in units of the world.
-    float texelSize = 4;  ///< 0: it has no map.
+  struct Radiosity {      ///< The radiosity map of the object (docs/gi.md).
+    bool screen = true;   ///< True if texelSize is in pixels, false if it is in units of the world.
+    float texelSize = 4;  ///< 0 if it has no map.
     bool operator==(const Radiosity&) const = default;
   } radiosity;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;

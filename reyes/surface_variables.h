@@ -1,5 +1,5 @@
 // Noun: the variables of surfaces that every picture may show by name (RISpec 3.2 table 12.1), and two for denoisers:
-// where each comes from, and how a picture takes it. Outputs of shaders and primitive variables come besides.
+// where each comes from, and how a picture takes it. Outputs of shaders and primitive variables are not listed here.
 #pragma once
 #include <string_view>
 
@@ -8,18 +8,18 @@
 
 namespace tomales {
 
-/// Objects, Materials: Cryptomatte, six ranks of id and coverage.
+/// Objects and Materials are Cryptomatte layers: six ranks of id and coverage.
 enum class ChannelKind : uint8_t { Color, Alpha, Depth, Variable, Objects, Materials };
 
 /// Where shading finds a variable of a point.
 enum class VariableSource : uint8_t {
   Nothing,     ///< Nobody writes it, or (kinds other than Variable) the hider knows it.
-  Channel,     ///< Of ShadePoints: `channel` is the first.
+  Channel,     ///< A channel of ShadePoints, of which `channel` is the first.
   Color,       ///< Cs of the shader, times its opacity.
   Opacity,     ///< Oi.
-  Normal,      ///< Unit, towards the viewer.
-  Output,      ///< Of the surface shader.
-  LightGroup,  ///< What some of the lights bring.
+  Normal,      ///< The unit normal towards the viewer.
+  Output,      ///< An output of the surface shader.
+  LightGroup,  ///< The light that some of the lights bring.
 };
 
 struct SurfaceVariable {
@@ -56,7 +56,7 @@ inline constexpr SurfaceVariable kSurfaceVariables[] = {
     {"dv", ValueType::Float, ChannelKind::Variable, VariableSource::Channel, kDv},
 };
 
-/// Null: there is none.
+/// Returns null if there is none.
 constexpr const SurfaceVariable* surfaceVariable(std::string_view name) {
   for (const SurfaceVariable& v : kSurfaceVariables)
     if (v.name == name) return &v;

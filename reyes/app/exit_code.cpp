@@ -15,7 +15,7 @@ namespace {
 
 struct Ending {
   ExitCode code;
-  std::optional<Severity> least;  ///< Of what is reported; none: no report leads here.
+  std::optional<Severity> least;  ///< The least severity that leads here; none if no report does.
   const char* meaning;
 };
 constexpr Ending kEndings[] = {{kDone, Severity::Info, "done"},
@@ -27,15 +27,15 @@ constexpr Ending kEndings[] = {{kDone, Severity::Info, "done"},
 
 constexpr const char* kOutOfMemory = "out of memory";
 
-/// Allocates nothing.
+/// It allocates nothing.
 [[noreturn]] void endWithMessage() {
-  const char* message = kOutOfMemory;  // there was none for an exception either
+  const char* message = kOutOfMemory;  // used if there was no memory for an exception either
   const std::exception_ptr thrown = std::current_exception();
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
   } catch (const std::exception& e) {
-    message = e.what();  // lives as long as `thrown`
+    message = e.what();  // the text lives as long as `thrown`
   } catch (...) {
     message = "something unknown was thrown";
   }

@@ -1,5 +1,5 @@
-// How a command ends: what went wrong, by its severity, and the exit code that this leads to. One table has them all
-// (exit_code.cpp).
+// The end of a command: the severity of what went wrong, and the exit code that this leads to. One table has all of
+// them (exit_code.cpp).
 #pragma once
 #include <exception>
 #include <string>
@@ -16,12 +16,12 @@ ExitCode exitCodeOf(const Log& log, bool strict = false);
 /// All exit codes and their meanings, for --help.
 std::string exitCodeHelp();
 
-/// Of an exception that ends what was to be done: Error if a file cannot be read; else Output, as where something
-/// cannot be written, or memory or threads do not suffice to make it.
+/// The severity of an exception that ends a command: Error if a file cannot be read; else Output, as where something
+/// cannot be written, or where memory or threads do not suffice to make it.
 Severity severityOf(const std::exception& e);
 /// The same where a substitute is rendered instead: Missing takes the place of Error.
 Severity severityOfLoss(const std::exception& e);
-/// What the user is told of it.
+/// The message of an exception for the user.
 std::string messageOf(const std::exception& e);
 
 /// From now on an exception that a thread lets out ends the program with its message and the exit code for it. (oneTBB

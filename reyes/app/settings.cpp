@@ -26,7 +26,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return out;
 }
 
-/// "15", "1-10" or "1-10x2", appended.
+/// Appends "15", "1-10" or "1-10x2".
 bool appendRange(std::string_view text, std::vector<int>& out) {
   int first = 0, last = 0, step = 1;
   const size_t cross = text.find('x');

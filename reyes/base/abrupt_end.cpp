@@ -12,7 +12,7 @@ struct Registry {
   std::list<std::function<void()>> undos;
 };
 
-/// Never destroyed, because a signal may come while the statics are.
+/// It is never destroyed, because a signal may come while static objects are destroyed.
 Registry& registry() {
   static auto* const only = new Registry;
   return *only;
@@ -31,7 +31,7 @@ AtAbruptEnd::~AtAbruptEnd() {
 }
 
 void endAbruptly(int exitCode) {
-  const std::lock_guard lock(registry().mutex);  // kept to the end, so that nothing is undone twice
+  const std::lock_guard lock(registry().mutex);  // held to the end, so that nothing is undone twice
   for (auto undo = registry().undos.rbegin(); undo != registry().undos.rend(); ++undo) (*undo)();
   ::_exit(exitCode);
 }

@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// Has `undo` called by endAbruptly() for as long as it lives. `undo` must not wait for other threads.
+/// As long as it lives, endAbruptly() calls `undo`, which must not wait for other threads.
 class AtAbruptEnd {
  public:
   explicit AtAbruptEnd(std::function<void()> undo);
@@ -18,7 +18,7 @@ class AtAbruptEnd {
   std::list<std::function<void()>>::iterator place_;
 };
 
-/// Undoes everything, the last first, and ends the process at once. Not for signal handlers: it takes a lock.
+/// Undoes everything, the last first, and ends the process at once. It takes a lock: not for signal handlers.
 [[noreturn]] void endAbruptly(int exitCode);
 
 }  // namespace tomales

@@ -25,7 +25,7 @@ void writeAll(int file, const std::string& text) {
   }
 }
 
-/// Of the child; what follows `make` is not to be run there.
+/// Runs in the child and ends it, so that nothing of the parent's code that follows is run there.
 [[noreturn]] void makeAndExit(const std::function<std::string()>& make, int result) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpgid(0, 0);
@@ -35,7 +35,7 @@ void writeAll(int file, const std::string& text) {
   _exit(0);
 }
 
-/// Until the other side is closed. False: it was still open after so many seconds.
+/// Reads until the other side is closed. Returns false if it was still open after so many seconds.
 bool readAll(int file, int mostSeconds, std::string& out) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::seconds(mostSeconds);

@@ -1,4 +1,4 @@
-// Work on foreign code that may crash or never end, in a process of its own.
+// Runs foreign code that may crash or never end in a process of its own.
 #pragma once
 #include <functional>
 #include <optional>
@@ -6,9 +6,9 @@
 
 namespace tomales {
 
-/// What `make` returns. Nothing: its process ended otherwise or took more than `mostSeconds`, as `fate` says ("crashes
-/// (Segmentation fault)"). What it prints on standard output is lost. The process is a fork of this one, so that `make`
-/// must not wait for other threads: not to be used while a frame is made.
+/// Returns what `make` returns, or nothing if its process ended otherwise or took more than `mostSeconds`, as `fate`
+/// says ("crashes (Segmentation fault)"). What it prints on standard output is lost. The process is a fork of this one,
+/// so `make` must not wait for other threads; so this must not be called while a frame is made.
 std::optional<std::string> madeApart(const std::function<std::string()>& make, int mostSeconds, std::string& fate);
 
 }  // namespace tomales

@@ -1,5 +1,5 @@
-// A sequence that grows without moving what it holds: in blocks of one size, so that there is never a copy
-// beside the old, nor more room than a block that is not used. Threads: as std::vector.
+// A sequence that grows without moving its elements, in blocks of one size: there is never a copy beside the old, and
+// at most one block of unused room. Threads: as std::vector.
 #pragma once
 #include <cstddef>
 #include <iterator>

@@ -1,4 +1,4 @@
-// Broken promises of our own code: print both operands and abort. Never for bad input (log.h).
+// Broken promises of our own code: they print both operands and abort. Bad input is reported by log.h instead.
 #pragma once
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// XXH3 of some bytes: finds damage and names contents; no defence against malice.
+// The XXH3 checksum of some bytes. It finds damage and names contents, but is no defence against malice.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -11,10 +11,10 @@
 namespace tomales {
 namespace {
 
-/// dup2() of a file to itself leaves it close-on-exec.
+/// dup2() of a file to itself would leave it close-on-exec, so that case clears the flag.
 bool give(int ours, int its) { return ours == its ? ::fcntl(its, F_SETFD, 0) == 0 : ::dup2(ours, its) >= 0; }
 
-/// What ignores or blocks a signal hands that down to what it executes.
+/// A process that ignores or blocks a signal hands that down to the program that it executes.
 void restoreSignals() {
   for (const int number : {SIGPIPE, SIGXFSZ}) ::signal(number, SIG_DFL);
   sigset_t none;

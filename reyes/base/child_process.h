@@ -13,18 +13,18 @@ namespace tomales {
 
 struct ChildProgram {
   std::string path;
-  std::vector<std::string> arguments;      ///< The first is what it is called.
-  std::vector<std::pair<int, int>> files;  ///< Ours and what the child has it as, in this order. Others that
-                                           ///< are close-on-exec it does not get.
+  std::vector<std::string> arguments;      ///< The first is the name that it is called by.
+  std::vector<std::pair<int, int>> files;  ///< Our file and its number in the child, in this order. The child gets no
+                                           ///< others that are close-on-exec.
 };
 
-/// Leads a process group of its own, with the usual reactions to signals. It gets SIGKILL when this process
-/// ends, however that ends; programs that it has started itself then only lose their pipes. -1: not started,
-/// `problem` is the errno.
+/// Starts a program as leader of a process group of its own, with the usual reactions to signals. It gets SIGKILL when
+/// this process ends in any way; programs that it has started itself then only lose their pipes. Returns -1 if it was
+/// not started; `problem` is the errno then.
 pid_t startChild(const ChildProgram& program, int& problem);
 
-/// Kills a child and all of its process group if this process ends abruptly. To be destroyed before the child
-/// is waited for: another may have its number then.
+/// Kills a child and all of its process group if this process ends abruptly. Destroy it before the child is waited for:
+/// another process may have its number afterwards.
 class ChildGuard : AtAbruptEnd {
  public:
   explicit ChildGuard(pid_t child);

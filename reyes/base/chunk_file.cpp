@@ -20,8 +20,8 @@ namespace {
 
 constexpr uint32_t kByteOrder = 0x01020304;
 constexpr char kEnd[9] = "TOMALESX";
-constexpr int kCompression = -5;            // floats have little to give, and what they have zstd's fastest finds too
-constexpr size_t kKeptBytes = 1 << 20;      ///< Of what a thread reads into and packs.
+constexpr int kCompression = -5;            // floats compress little, and the fastest level of zstd finds that as well
+constexpr size_t kKeptBytes = 1 << 20;      ///< The most that each buffer of a thread keeps.
 constexpr size_t kWrittenAtOnce = 1 << 15;  ///< A call of the system costs more than a small chunk.
 constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
 
@@ -65,11 +65,11 @@ struct ChunkWriter::Impl {
   [[noreturn]] void fail(const std::string& why) const {
     throw WriteError(fmt::format("\"{}\" cannot be written: {}", path, why));
   }
-  /// Where the bytes went.
+  /// Returns the place of the bytes in the file.
   Entry writeFrame(std::span<const std::byte> bytes) {
     if (bytes.size() > kMostChunkBytes)
       throw WriteError(fmt::format("\"{}\": a chunk of {} bytes is too large", path, bytes.size()));
-    // Of each thread and not of each file, because many may be open.
+    // Each thread has one, not each file, because many files may be open.
     thread_local std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
     thread_local Bytes packed;
     packed.resize(ZSTD_compressBound(bytes.size()));
@@ -122,7 +122,7 @@ struct ChunkReader::Impl {
   std::string path;
   int file = -1;
   uint64_t bytes = 0;
-  std::vector<Entry> entries;  ///< Without the header.
+  std::vector<Entry> entries;  ///< All chunks, without the header.
   Bytes header;
 
   ~Impl() {
@@ -145,7 +145,7 @@ struct ChunkReader::Impl {
   Bytes unpack(const Entry& e) const {
     if (e.offset > bytes || e.stored > bytes - e.offset || e.size > kMostChunkBytes)
       fail("is damaged: a chunk lies outside of it");
-    // Of each thread, because making them takes longer than a small chunk.
+    // Each thread keeps one, because making it takes longer than a small chunk.
     thread_local std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd{ZSTD_createDCtx(), &ZSTD_freeDCtx};
     thread_local Bytes stored;
     if (stored.size() < e.stored) stored.resize(e.stored);

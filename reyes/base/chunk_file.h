@@ -21,22 +21,22 @@
 
 namespace tomales {
 
-/// Says in a sentence what is wrong with which file.
+/// Its text says in a sentence what is wrong with which file.
 struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// Of a file that cannot be written.
+/// A file cannot be written.
 struct WriteError : FileError {
   using FileError::FileError;
 };
-/// Of a file that is there and makes no sense: cut off, rotten, of another kind or version.
+/// A file exists and makes no sense: it is cut off, rotten, or of another kind or version.
 struct DamageError : FileError {
   DamageError(std::string file, const std::string& problem) : FileError(problem), path(std::move(file)) {}
   std::string path;
 };
 
 /// Runs `make`, which keeps files for itself. If one of them turns out to be damaged, that is reported, the file is
-/// removed, and `make` runs once more, to make what is missing.
+/// removed, and `make` runs once more, to make the file that is missing then.
 void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log);
 
 using Bytes = std::vector<std::byte>;
@@ -44,9 +44,9 @@ using Bytes = std::vector<std::byte>;
 /// Threads: one writer is used by one thread.
 class ChunkWriter {
  public:
-  /// `kind`: eight characters. Throws WriteError, as all members do (a full disk).
+  /// `kind` has eight characters. Throws WriteError, as all members do (a full disk).
   ChunkWriter(const std::string& path, const char (&kind)[9], uint32_t version);
-  ~ChunkWriter();  ///< Removes what was not finished.
+  ~ChunkWriter();  ///< Removes a file that was not finished.
   ChunkWriter(ChunkWriter&&) noexcept;
 
   /// Returns the number of the chunk.
@@ -63,14 +63,14 @@ class ChunkWriter {
 /// Threads: const members may be called concurrently.
 class ChunkReader {
  public:
-  /// Throws FileError: missing, foreign, another version, truncated, or damaged.
+  /// Throws FileError for a file that is missing, foreign, of another version, truncated, or damaged.
   ChunkReader(const std::string& path, const char (&kind)[9], uint32_t version);
   ~ChunkReader();
   ChunkReader(ChunkReader&&) noexcept;
 
   const std::string& path() const;
-  uint32_t count() const;            ///< Of chunks, without the header.
-  Bytes takeHeader();                ///< Leaves none: it may be large, and whoever asks makes something else of it.
+  uint32_t count() const;            ///< Number of chunks, without the header.
+  Bytes takeHeader();                ///< Leaves none behind: it may be large, and the caller keeps it itself.
   Bytes read(uint32_t chunk) const;  ///< Throws FileError.
   void readAll() const;              ///< Throws FileError unless every chunk can be read.
   uint64_t fileBytes() const;
@@ -80,7 +80,7 @@ class ChunkReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Plain values and arrays, one after the other.
+/// Appends plain values and arrays to bytes.
 class ByteWriter {
  public:
   template <class T>
@@ -105,7 +105,7 @@ class ByteWriter {
   void append(const void* data, size_t size);
 };
 
-/// Reads what ByteWriter wrote; throws FileError where it ends too early.
+/// Reads what ByteWriter wrote; throws FileError if the bytes end too early.
 class ByteReader {
  public:
   /// The bytes must outlive the reader.

@@ -15,7 +15,7 @@ namespace {
 constinit thread_local const CrashNote::Text* current = nullptr;
 std::atomic<bool> reports{false};
 
-// What follows runs in a signal handler: no allocation, no streams.
+// The code below runs in a signal handler: no allocation, no streams.
 
 void put(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // nobody is left to be told
@@ -56,7 +56,7 @@ extern "C" void onCrash(int signal) {
     for (int i = 0; loadedPlugin(i); ++i) put(" "), put(loadedPlugin(i));
     put("\n");
   }
-  raise(signal);  // the default, which kills, is back: SA_RESETHAND
+  raise(signal);  // SA_RESETHAND has restored the default, which kills
 }
 
 /// Shaders may crash because they have used up their stack: the handler needs another one.
@@ -89,7 +89,7 @@ CrashNote::CrashNote(const Text& text) : text_(text), outer_(current) {
 CrashNote::~CrashNote() { current = outer_; }
 
 void reportCrashes() {
-#ifndef TOMALES_SANITIZED  // sanitizers tell more
+#ifndef TOMALES_SANITIZED  // sanitizers tell more than a note does
   struct sigaction action {};
   action.sa_handler = onCrash;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_ONSTACK);

@@ -1,12 +1,12 @@
-// Whose code is running, so that a crash in it is told by name. Shaders are native code of the user's.
-// Threads: a note is of the thread that makes it.
+// Notes of whose code is running, so that a crash in it is told by name. Shaders are native code of the user's.
+// Threads: a note belongs to the thread that makes it.
 #pragma once
 
 namespace tomales {
 
-/// While it lives, a crash of this thread is that of `kind` `name` ("surface shader", "dots"), which serves `user`
-/// (an object) and perhaps, unless null, `other` beside it; `file`, null for none, and `line` say where the scene asks
-/// for it. The texts are the caller's and live as long. Notes nest: the latest is told.
+/// While it lives, a crash of this thread is said to be that of `kind` `name` ("surface shader", "dots"), which serves
+/// `user` (an object) and, unless null, `other`; `file`, null if there is none, and `line` say where the scene asks for
+/// it. The texts belong to the caller and must outlive the note. Notes nest: the latest is told.
 class CrashNote {
  public:
   struct Text {
@@ -22,8 +22,8 @@ class CrashNote {
   const Text* const outer_;
 };
 
-/// From now on, SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread to standard error before
-/// they end the program, which they do as before. Without a note they write nothing.
+/// From now on, SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, if it has one, to standard
+/// error before they end the program as they always do.
 void reportCrashes();
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// Choices in proportion to weights. Threads: const members may be called concurrently.
+// Random choices in proportion to weights. Threads: const members may be called concurrently.
 #pragma once
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-// What tells a file from what it was before, without reading it.
+// A number that tells whether a file has changed, without reading it.
 // Threads: any.
 #pragma once
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// Of its size and the time of its last change; 0: there is no such file.
+/// A checksum of the file's size and the time of its last change; 0 if there is no such file.
 uint64_t fileStamp(const std::filesystem::path& path);
 
 }  // namespace tomales

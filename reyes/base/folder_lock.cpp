@@ -13,7 +13,7 @@
 namespace tomales {
 namespace {
 
-/// True: another process has the lock.
+/// Returns true if another process has the lock.
 bool isTaken(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Files that are read by a name that a scene or a command gives. What is no regular file is refused before it is
-// opened: a pipe without a writer would hold up its reader for ever, and most readers come back to what they have read.
-// What is meant to be a stream (the RIB of a command line) does not come here.
+// Files that are read by a name that a scene or a command gives. Anything but a regular file is refused before it is
+// opened: a pipe without a writer would hold up its reader for ever, and most readers go back in a file. Input that is
+// meant to be a stream (the RIB of a command line) is not opened here.
 // Threads: any.
 #pragma once
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace tomales {
 
-/// Why `path` is no file that can be read, to follow "cannot be read: "; empty: it is one.
+/// Says why `path` is no file that can be read, to follow "cannot be read: "; empty if it is one.
 std::string inputProblem(const std::filesystem::path& path);
 
-/// A file descriptor, the caller's to close. -1: `error` says why, as inputProblem() does.
+/// Opens a file descriptor, which the caller closes. On failure it is -1, and `error` says why as inputProblem() does.
 int openInput(const std::filesystem::path& path, std::string& error);
 
 }  // namespace tomales

@@ -1,10 +1,10 @@
-// Memory that lists take turns to use.
+// Memory that several lists use, one after the other.
 #pragma once
 #include <vector>
 
 namespace tomales {
 
-/// Lends an empty list memory, and takes it back for a copy that has no more than it needs.
+/// Lends its memory to an empty list, and takes it back in exchange for a copy that is no larger than needed.
 template <class T>
 class Lent {
  public:

@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-std::atomic<const char*> paths[kMostLoadedPlugins];  // the texts live until the end
+std::atomic<const char*> paths[kMostLoadedPlugins];  // the texts are never freed
 
 }  // namespace
 

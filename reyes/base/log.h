@@ -1,4 +1,4 @@
-// What the user is told. Errors in the *scene* go through here with file and line, once for each cause, and never
+// Messages to the user. Errors in the *scene* go through here with file and line, once for each cause, and never
 // abort; broken promises of ours abort (check.h).
 // Threads: every member may be called concurrently.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace tomales {
 
-/// A place in the user's input. line 0: the file as a whole; no file: the program itself.
+/// A place in the user's input. Line 0 is the file as a whole; no file means the program itself.
 struct SourceLoc {
   std::shared_ptr<const std::string> file;
   int line = 0;
@@ -21,7 +21,7 @@ struct SourceLoc {
 
 enum class Severity {
   Info,
-  Note,     ///< Worth a word, and nothing of the picture depends on it.
+  Note,     ///< Worth a word, but no part of the picture depends on it.
   Warning,  ///< Something was ignored or repaired; the picture is what the scene asks for as far as we know.
   Missing,  ///< A texture, shader, archive or object is missing or unusable; a substitute is rendered (exit code 3).
   Error,    ///< The scene could not be read (exit code 2).
@@ -33,8 +33,8 @@ struct LogEntry {
   std::string code;     ///< Stable short name, e.g. "rib-unknown-request".
   std::string message;  ///< What was wrong, with the object's name, and what was done instead.
   SourceLoc where;
-  int count = 1;                    ///< How often it was reported.
-  std::vector<SourceLoc> places{};  ///< The first of them, `where` among them; no more than Log::kMostPlaces.
+  int count = 1;                    ///< How often the message was reported.
+  std::vector<SourceLoc> places{};  ///< The first places of it, `where` among them; at most Log::kMostPlaces.
 };
 
 class Log {
@@ -46,12 +46,12 @@ class Log {
   explicit Log(Verbosity verbosity = Verbosity::Normal) : verbosity_(verbosity) {}
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
-  /// Prints how often and where messages were reported that came from several places.
+  /// Prints, for messages that came from several places, how often and where they were reported.
   ~Log();
 
   /// Prints to stderr the first time that (code, subject) reports, and counts after that. The subject is what the
-  /// report is about, such as a shader's name; empty: the message, together with the file where that has no line.
-  /// It is to be given where one cause has messages that differ. Of one code kMostLinesOfCode messages are printed.
+  /// report is about, such as a shader's name: give it where one cause has messages that differ. If empty, it is the
+  /// message, together with the file if there is no line. At most kMostLinesOfCode messages of a code are printed.
   void report(Severity severity, std::string_view code, const SourceLoc& where, const std::string& message,
               std::string_view subject = {});
 
@@ -66,7 +66,7 @@ class Log {
   const Verbosity verbosity_;
   mutable std::mutex mutex_;
   std::map<Key, size_t> index_;
-  std::map<std::string, int, std::less<>> lines_;  ///< Printed or withheld, of each code.
+  std::map<std::string, int, std::less<>> lines_;  ///< Number of lines printed or withheld, by code.
   std::vector<LogEntry> entries_;
 };
 

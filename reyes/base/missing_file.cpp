@@ -17,10 +17,10 @@ std::string lowered(std::string text) {
   return text;
 }
 
-/// Folders are listed until so many entries have been seen: a scene may name the root of a large disk.
+/// Lists files of folders, until so many entries have been seen: a scene may name the root of a large disk.
 class Listing {
  public:
-  /// Files of a folder, sorted, and of the folders in it down to `depth`.
+  /// Adds the files of a folder, sorted, and of the folders in it down to `depth`.
   void add(const fs::path& folder, int depth) {
     std::error_code none;
     if (!seen_.insert(fs::weakly_canonical(folder, none).string()).second) return;

@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// The lowest 21 bits of x, two apart.
+/// Spreads the lowest 21 bits of x, so that each is followed by two zeros.
 inline uint64_t spreadBits(uint64_t x) {
   x &= 0x1fffff;
   x = (x | x << 32) & 0x001f00000000ffffULL, x = (x | x << 16) & 0x001f0000ff0000ffULL;
@@ -14,12 +14,12 @@ inline uint64_t spreadBits(uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/// Of a cell; 21 bits an axis.
+/// The place of a cell, which has 21 bits for each axis.
 inline uint64_t mortonPlace(const glm::uvec3& cell) {
   return spreadBits(cell.x) | spreadBits(cell.y) << 1 | spreadBits(cell.z) << 2;
 }
 
-/// Of a point of a box that is cut into 1024 along each axis; what is not a number counts as 0.
+/// The place of a point in a box that is cut into 1024 along each axis; a coordinate that is no number counts as 0.
 inline uint32_t mortonPlace(const vec3& p, const Bound3& box) {
   const auto axis = [&](int k) {
     const float size = box.hi[k] - box.lo[k], at = size > 0 ? (p[k] - box.lo[k]) / size : 0;

@@ -1,4 +1,4 @@
-// What a misspelt name may have meant.
+// Names that a misspelt name may have meant.
 #pragma once
 #include <string>
 #include <string_view>

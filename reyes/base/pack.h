@@ -19,7 +19,7 @@
 
 namespace tomales {
 
-/// Stored as they are in memory.
+/// True for types that are stored as they are in memory.
 template <class T>
 constexpr bool kPacksRaw =
     (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T> || std::is_same_v<T, vec2> ||
@@ -89,7 +89,7 @@ void field(A& a, bool& x) {
   if constexpr (kUnpacks<A>) x = byte != 0;
 }
 
-/// The number of elements that follow, each at least one byte; 0 for a schema.
+/// Packs the number of the elements that follow, each at least one byte; 0 for a schema.
 template <class A>
 size_t countField(A& a, size_t count) {
   if constexpr (kIsSchema<A>) {
@@ -147,7 +147,7 @@ void field(A& a, std::optional<T>& x) {
   if (there) field(a, *x);
 }
 
-/// A copy: what was shared is no longer.
+/// Packs a copy, so that pointers that shared an object do not share it any more.
 template <class A, class T>
 void field(A& a, std::shared_ptr<T>& x) {
   std::optional<std::remove_const_t<T>> value;
@@ -199,7 +199,7 @@ Bytes pack(const T& x) {
   return std::move(packer.bytes);
 }
 
-/// False: the bytes are not those of a T.
+/// Returns false if the bytes are not those of a T.
 template <class T>
 bool unpack(BytesView bytes, T& out) {
   Unpacker unpacker{bytes};
@@ -207,7 +207,7 @@ bool unpack(BytesView bytes, T& out) {
   return !unpacker.damaged && unpacker.bytes.empty();
 }
 
-/// Of all values, in their order.
+/// The ContentSum of all values, in their order.
 template <class... T>
 uint64_t contentSum(const T&... x) {
   ContentSum sum;

@@ -1,4 +1,4 @@
-// Unit normals in 32 bits, as files have them.
+// Unit normals in 32 bits, for files.
 #pragma once
 #include <cfloat>
 
@@ -6,8 +6,8 @@
 
 namespace tomales {
 
-/// The octahedron folded onto a square of 65535 x 65535 (Meyer et al. 2010): off by less than 0.004 degrees. 0 is no
-/// normal, which what is zero or not finite becomes.
+/// Folds the octahedron onto a square of 65535 x 65535 (Meyer et al. 2010): off by less than 0.004 degrees. A vector
+/// that is zero or not finite becomes 0, which is no normal.
 inline uint32_t packNormal(const vec3& n) {
   const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
   if (!(sum > 0 && sum <= FLT_MAX)) return 0;

@@ -1,4 +1,4 @@
-// Threads. oneTBB lives behind these functions, in parallel.cpp alone; Embree shares its pool.
+// Threads and parallel loops. oneTBB is used in parallel.cpp alone; Embree shares its pool.
 // A loop body must be a function of its index, never of the thread that runs it.
 #pragma once
 #include <cstddef>
@@ -7,15 +7,15 @@
 
 namespace tomales {
 
-/// Calls body(begin, end) over [0, count) in chunks of at most `grain`, on all threads of the pool.
-/// The chunks are [k*grain, (k+1)*grain): they never depend on the number of threads. While it waits, the caller takes
-/// up chunks of this loop alone, so that it may hold a lock that other loops ask for.
+/// Calls body(begin, end) over [0, count) in chunks of at most `grain`, on all threads of the pool. The chunks are
+/// [k*grain, (k+1)*grain): they never depend on the number of threads. While it waits, the caller works on chunks of
+/// this loop alone, so that it may hold a lock that other loops ask for.
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body);
 
 /// Calls body(i) for every i of [0, count) on all threads; no call starts before those of smaller i have started.
 void parallelInOrder(size_t count, const std::function<void(size_t i)>& body);
 
-/// Limits the pool for as long as it lives. 0: as many as the machine has.
+/// Limits the pool for as long as it lives; 0 stands for as many threads as the machine has.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -26,7 +26,7 @@ class ThreadLimit {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Threads that parallelFor uses now.
+/// The number of threads that parallelFor uses now.
 int threadCount();
 
 }  // namespace tomales

@@ -27,7 +27,7 @@ Heard hear(int socket) {
 
 }  // namespace
 
-// A program of its own, not a fork: other threads may hold locks that the child would wait for.
+// The child is a program of its own and not a fork, because other threads may hold locks that a fork would wait for.
 void PluginTrial::start() {
   end();
   const auto programs = besideProgram("tomales_plugin_trial");
@@ -36,7 +36,7 @@ void PluginTrial::start() {
   const std::string program = programs.front();
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   const std::pair<int, int> silent[] = {
-      {nothing, STDIN_FILENO}, {nothing, STDOUT_FILENO}, {nothing, STDERR_FILENO}};  // nothing is to be said twice
+      {nothing, STDIN_FILENO}, {nothing, STDOUT_FILENO}, {nothing, STDERR_FILENO}};  // its prints are lost
   int problem = 0;
   child_ = startChild({program, {program}, {silent[0], silent[1], silent[2], {ends[1], trial::kSocket}}}, problem);
   if (child_ > 0) guard_.emplace(child_);
@@ -46,7 +46,7 @@ void PluginTrial::start() {
   socket_ = child_ > 0 ? ends[0] : -1;
 }
 
-/// Returns the status of the child, which ends as soon as nobody speaks to it.
+/// Returns the status of the child, which ends as soon as its socket is closed.
 int PluginTrial::end() {
   if (child_ < 0) return 0;
   close(socket_);
@@ -58,7 +58,7 @@ int PluginTrial::end() {
   return status;
 }
 
-/// False: there is no child, or it has ended because nothing was asked.
+/// Returns false if there is no child, or it has ended because it was asked nothing.
 bool PluginTrial::begin(const std::string& path) {
   return child_ > 0 && send(socket_, path.c_str(), path.size(), MSG_NOSIGNAL) > 0 && hear(socket_) == Heard::Word;
 }

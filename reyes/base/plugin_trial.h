@@ -1,5 +1,5 @@
 // Plugins are tried in a child process before they are loaded, because their constructors run before anything about
-// them can be checked (docs/decisions/0043). Threads: one at a time.
+// them can be checked (docs/decisions/0043). Threads: one at a time may use it.
 #pragma once
 #include <sys/types.h>
 
@@ -18,9 +18,9 @@ class PluginTrial {
   ~PluginTrial() { end(); }
   PluginTrial(const PluginTrial&) = delete;
 
-  /// What becomes of a process that loads this plugin; empty: it lives, or there is no such child.
+  /// Says what becomes of a process that loads this plugin; empty if it lives, or if there is no such child.
   std::string fateOf(const std::string& path);
-  /// False: the child could not be started, so that the last plugin is untried.
+  /// False if the child could not be started, so that the last plugin is untried.
   bool works() const { return works_; }
 
  private:

@@ -1,5 +1,5 @@
-// What PluginTrial and the program that it starts say to each other: paths one way, a word before and a word after each
-// the other way, over a socket of packets.
+// The protocol between PluginTrial and the program that it starts, over a socket of packets: paths go one way, and a
+// word before and after each comes back.
 #pragma once
 #include <poll.h>
 #include <sys/socket.h>
@@ -9,7 +9,7 @@
 
 namespace tomales::trial {
 
-constexpr int kSocket = STDERR_FILENO + 1;  ///< Of the program.
+constexpr int kSocket = STDERR_FILENO + 1;  ///< The socket's descriptor in the child.
 constexpr char kBegins = 'b', kLives = 'l';
 
 inline bool arrives(int socket, int milliseconds) {

@@ -1,5 +1,5 @@
-// Which plugins may be loaded. A plugin is native code, while a scene, which names plugins and search paths, may come
-// from a stranger.
+// Tells which plugins may be loaded. A plugin is native code, while a scene, which names plugins and search paths, may
+// come from a stranger.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,21 +8,21 @@ namespace tomales {
 
 struct PluginTrust {
   std::string folders{};      ///< Folders that the user named, separated by colons: searched before those of the scene.
-  bool sceneFolders = false;  ///< Folders that the scene names, and the working folder, are trusted too.
+  bool sceneFolders = false;  ///< If true, folders that the scene names, and the working folder, are trusted too.
 };
 
 struct PluginFiles {
   std::vector<std::string> trusted;
-  std::vector<std::string> refused;  ///< Those of folders that are not trusted, if none is trusted.
+  std::vector<std::string> refused;  ///< Plugins in folders that are not trusted, if a trusted one has none.
 };
 
-/// NAME.so in the folders of a search path.
+/// The paths of NAME.so in the folders of a search path.
 std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath);
-/// NAME.so in the trusted folders, then along the scene's search path (empty: the working folder). A name with ".." and
-/// an absolute one lead out of the trusted folders, so those are not searched for it.
+/// Finds NAME.so in the trusted folders, then along the scene's search path (if empty, in the working folder). A name
+/// with ".." or an absolute one leads out of the trusted folders, so they are not searched for it.
 PluginFiles findPlugins(const std::string& name, const std::string& searchPath, const PluginTrust& trust);
 
-/// Does the name of a plugin lead out of the folders that it is looked for in?
+/// Does the name of a plugin lead out of the folders that are searched for it?
 bool leavesFolders(const std::string& name);
 
 }  // namespace tomales

@@ -1,5 +1,5 @@
-// Memory of small things that end at about the same time: handed out in order from a few blocks, and freed with the
-// last of them. Threads: one at a time takes; anybody may give back.
+// Memory for small things that are freed at about the same time: it is handed out in order from a few blocks, and freed
+// with the last of them. Threads: one at a time takes; any may give back.
 #pragma once
 #include <algorithm>
 #include <memory>
@@ -11,11 +11,11 @@ namespace tomales {
 
 class Pool {
  public:
-  /// block_bytes: about as much as will be taken.
+  /// block_bytes: the size of a block, which should be about as much as will be taken.
   explicit Pool(size_t block_bytes) : block_bytes_(block_bytes) {}
   Pool(const Pool&) = delete;
 
-  /// On a cache line.
+  /// Returns memory that starts on a cache line.
   void* take(size_t size) {
     constexpr size_t kLine = CacheAligned<std::byte>::kLine;
     const size_t need = (size + kLine - 1) / kLine * kLine;
@@ -41,7 +41,7 @@ class Pool {
   size_t left_ = 0, bytes_ = 0;
 };
 
-/// For containers: takes from a pool, if there is one, which must outlive them.
+/// An allocator for containers, which takes from a pool, if there is one. The pool must outlive them.
 template <class T>
 struct FromPool {
   using value_type = T;
@@ -54,13 +54,13 @@ struct FromPool {
   }
   bool operator==(const FromPool&) const = default;
   using propagate_on_container_move_assignment = std::true_type;
-  FromPool select_on_container_copy_construction() const { return {}; }  ///< Copies stand on their own.
+  FromPool select_on_container_copy_construction() const { return {}; }  ///< Copies do not use the pool.
   Pool* pool;
 };
 template <class T>
 using PooledVector = std::vector<T, FromPool<T>>;
 
-/// For std::allocate_shared: what it makes keeps the pool.
+/// An allocator for std::allocate_shared: the object that it makes keeps the pool alive.
 template <class T>
 struct KeepingPool {
   using value_type = T;

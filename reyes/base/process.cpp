@@ -14,8 +14,8 @@ int64_t residentBytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-// getrusage() would count what the process that started this one had in memory then: the high-water mark of the image
-// before exec stays in it.
+// getrusage() would also count what the process that started this one had in memory then: the peak of the image before
+// exec stays in it.
 int64_t peakResidentBytes() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;)

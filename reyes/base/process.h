@@ -1,4 +1,4 @@
-// What this process takes of the machine.
+// The memory of this process, and the files beside its program.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -7,15 +7,15 @@
 
 namespace tomales {
 
-/// Memory in bytes: now, and the most that there ever was.
+/// Memory in bytes: the present amount, and the greatest that there ever was.
 int64_t residentBytes();
 int64_t peakResidentBytes();
 
-/// What has been freed goes back to the machine; else the allocator keeps most of it. Takes milliseconds.
+/// Gives freed memory back to the system; else the allocator keeps most of it. It takes milliseconds.
 void returnFreeMemory();
 
-/// Where a file of this name is that belongs to the program: beside it, as built, or in lib, as installed. Those that
-/// exist.
+/// Returns the paths where a file of this name that belongs to the program exists: beside the program, as it is built,
+/// or in lib, as it is installed.
 std::vector<std::filesystem::path> besideProgram(const std::string& name);
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// What random numbers are for, by name: each use mixes its name into the hash that names its numbers (rng.h), so that
+// The uses of random numbers, by name: each use mixes its name into the hash that names its numbers (rng.h), so that
 // uses that share all other names are independent. Two names with the same bits do not compile.
 #pragma once
 #include <cstdint>
@@ -11,7 +11,7 @@ struct RandomStream {
   const char* what;
   uint32_t bits = ofLetters(name);
 
-  /// Four letters, the first in the highest byte.
+  /// Packs four letters, the first into the highest byte.
   static constexpr uint32_t ofLetters(std::string_view letters) {
     uint32_t out = 0;
     for (const char c : letters) out = out << 8 | static_cast<unsigned char>(c);

@@ -29,7 +29,7 @@ struct Header {
 };
 struct RecordHeader {
   uint32_t kind, index;
-  uint64_t stored, size;  ///< Bytes in the file, and of the contents.
+  uint64_t stored, size;  ///< Sizes in bytes: in the file, and unpacked.
   uint32_t contentSum, sum;
 };
 struct Trailer {
@@ -45,7 +45,7 @@ static_assert(sizeof(Header) == 32 && sizeof(RecordHeader) == 32 && sizeof(Trail
 
 uint64_t sumOf(const void* data, size_t size) { return checksum({static_cast<const std::byte*>(data), size}); }
 
-/// The sum of a record whose last member is its sum.
+/// Computes the sum of a record whose last member is its sum.
 template <class Block>
 auto sealOf(const Block& r) {
   return static_cast<decltype(r.sum)>(sumOf(&r, sizeof(Block) - sizeof(r.sum)));
@@ -79,7 +79,7 @@ uint64_t sizeOf(int file) {
   return ::fstat(file, &s) == 0 && S_ISREG(s.st_mode) ? static_cast<uint64_t>(s.st_size) : 0;
 }
 
-/// Empty: the header is that of this kind of file.
+/// Says what is wrong with the header; empty if it is that of this kind of file.
 std::string problemOf(int file, const RecordFileKind& kind) {
   Header h{};
   const bool sound = readBlock(file, 0, h);
@@ -91,7 +91,7 @@ std::string problemOf(int file, const RecordFileKind& kind) {
   return {};
 }
 
-/// Contents of the record at `at`; `next` is where it ends. Nothing: damaged or cut off.
+/// Reads the record at `at`, which ends at `next`. Returns nothing if it is damaged or cut off.
 std::optional<Bytes> readRecord(int file, uint64_t fileSize, uint64_t at, RecordHeader& h, uint64_t& next) {
   if (!readBlock(file, at, h)) return std::nullopt;
   const uint64_t begin = at + sizeof(h);

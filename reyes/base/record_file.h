@@ -1,9 +1,9 @@
-// Files of compressed, checksummed records: what .dfb and .icf are made of (docs/dfb.md has the bytes).
+// Files of compressed, checksummed records, such as .dfb and .icf (docs/dfb.md has the bytes).
 //   header     magic, version, schema of the contents
-//   record*     32 bytes that say what and how long, then zstd; in the order of finishing
+//   record*    32 bytes that say its name and length, then zstd; in the order of finishing
 //   directory  the last record: where every other one starts
 //   trailer    where the directory starts
-// What is not finished may stay as NAME.part with whole records in it, also after the program is killed.
+// A file that is not finished may stay as NAME.part with whole records in it, also after the program is killed.
 // Every byte is under a checksum. Numbers are little-endian.
 // Threads: write() and read() may be called concurrently; records are compressed by the caller's thread.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace tomales {
 
-/// What kind of file this is, and which description of its contents the writer had.
+/// The kind of a file, and the description of its contents that the writer had.
 struct RecordFileKind {
   char magic[9];  ///< Eight characters.
   uint32_t version;
@@ -30,27 +30,27 @@ struct RecordName {
   auto operator<=>(const RecordName&) const = default;
 };
 
-/// What becomes of records if their file is not finished.
+/// What to do with records whose file is not finished.
 enum class Unfinished {
   Removed,
-  Kept,     ///< In NAME.part, for a later run to resume.
-  Resumed,  ///< The same, and whole records of an earlier NAME.part are taken over, if it is of this kind.
+  Kept,     ///< They stay in NAME.part, for a later run to resume.
+  Resumed,  ///< As Kept, and whole records of an earlier NAME.part are taken over, if it is of this kind.
 };
 
 class RecordWriter {
  public:
-  /// Null: cannot be written, `error` says why.
+  /// Returns null if the file cannot be written, and `error` says why.
   static std::unique_ptr<RecordWriter> create(const std::string& path, const RecordFileKind& kind,
                                               Unfinished unfinished, std::string& error);
 
   bool has(RecordName name) const;
-  /// A record kept or written before; nothing if there is none.
+  /// Returns a record kept or written before, or nothing if there is none.
   std::optional<Bytes> read(RecordName name) const;
-  /// False once writing has failed (a full disk): error() says why, and what was written stays.
+  /// Returns false once writing has failed (a full disk): error() says why, and what was written stays.
   bool write(RecordName name, BytesView content);
-  /// Writes the directory and gives the file its name. False: error() says why.
+  /// Writes the directory and gives the file its name. Returns false on failure, and error() says why.
   bool finish();
-  /// Forgets and removes what is in the file.
+  /// Removes all records from the file.
   bool restart();
   /// Takes the name of the unfinished file away; records can still be written and read.
   void discard() { file_->discard(); }
@@ -75,13 +75,13 @@ class RecordWriter {
 
 class RecordFile {
  public:
-  /// Null: `error` says what is wrong (missing, truncated, damaged, another kind or version).
+  /// Returns null on failure, and `error` says what is wrong (missing, truncated, damaged, another kind or version).
   static std::unique_ptr<RecordFile> open(const std::string& path, const RecordFileKind& kind, std::string& error);
   ~RecordFile();
 
   bool has(RecordName name) const { return offsets_.contains(name); }
   std::vector<RecordName> names() const;
-  /// The contents of a record. Nothing: there is none, or it is damaged, as `error` says.
+  /// Returns the contents of a record, or nothing if there is none or it is damaged, as `error` says.
   std::optional<Bytes> read(RecordName name, std::string& error) const;
   uint64_t size() const { return size_; }
 

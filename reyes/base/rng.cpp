@@ -32,7 +32,7 @@ inline uint32_t sobolSecondReversed(uint32_t x) {
 
 inline uint32_t scramble(uint32_t x, uint32_t seed) { return reverseBits(laineKarras(reverseBits(x), seed)); }
 
-// Owen scrambling of a number that is known reversed: laineKarras works on reversed bits anyway.
+// Computes the first number by Owen scrambling of a reversed number: laineKarras works on reversed bits anyway.
 inline float firstOf(uint32_t shuffled, uint32_t seed) {
   return unitFloat(reverseBits(laineKarras(shuffled, hash32(seed ^ 0x9c8f2d35U))));
 }

@@ -1,6 +1,6 @@
-// Counter-based random numbers: every number is a pure function of what it is for (pixel, point, sample,
-// dimension, seed), so results never depend on the schedule of threads or buckets.
-// Threads: everything here is pure.
+// Counter-based random numbers: every number is a pure function of its
+// purpose (pixel, point, sample, dimension, seed), so results never depend
+// on the schedule of threads or buckets. Threads: everything here is pure.
 #pragma once
 #include <span>
 #include <vector>
@@ -22,7 +22,7 @@ uint32_t hashCombine(uint32_t a, uint32_t b, Rest... rest) {
   return hashCombine(hashCombine(a, b), rest...);
 }
 
-/// [0, 1): 24 bits, exactly representable.
+/// Converts the upper 24 bits to a number in [0, 1), which is exactly representable.
 inline float unitFloat(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
 
 inline uint32_t reverseBits(uint32_t x) {
@@ -43,11 +43,11 @@ vec2 sobol2(uint32_t index, uint32_t seed);
 /// The one-dimensional companion: van der Corput, Owen-scrambled and shuffled.
 float sobol1(uint32_t index, uint32_t seed);
 
-/// The same numbers, many at once: of index[i] and seed[i].
+/// Computes the same numbers, many at once: those of index[i] and seed[i].
 void sobol2(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<vec2> out);
 void sobol1(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<float> out);
 
-/// A random order of 0 .. count-1.
+/// Returns a random order of 0 .. count-1.
 std::vector<int> permutation(int count, uint32_t seed);
 
 /// Direction of the hemisphere around +z with density cos(theta)/pi (Malley's method, concentric disk).

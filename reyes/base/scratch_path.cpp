@@ -17,13 +17,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSuffix = ".part";
 constexpr size_t kRandomDigits = 16;
-constexpr size_t kMostOfStem = 200;  ///< Names of more than 255 bytes cannot be made.
+constexpr size_t kMostOfStem = 200;  ///< Longer names could exceed the 255 bytes that file systems allow.
 
 std::string prefixOf(const std::string& stem) { return "." + stem.substr(0, kMostOfStem) + "."; }
 
 std::string randomDigits() {
   uint64_t random = 0;
-  while (::getrandom(&random, sizeof random, 0) != sizeof random) {  // fails only when a signal comes
+  while (::getrandom(&random, sizeof random, 0) != sizeof random) {  // it fails only when a signal comes
   }
   return fmt::format("{:016x}", random);
 }
@@ -73,7 +73,7 @@ ScratchPath::ScratchPath(const fs::path& folder, const std::string& stem, Kind k
   });
 }
 
-/// False: the name is taken, or another process took this for stale before it was locked.
+/// Returns false if the name is taken, or if another process took this for stale before it was locked.
 bool ScratchPath::create(Kind kind) {
   if (kind == Kind::File)
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -82,7 +82,7 @@ bool ScratchPath::create(Kind kind) {
   if (descriptor_ < 0 && errno != EEXIST)
     throw fs::filesystem_error("cannot be made", path_, {errno, std::generic_category()});
   if (descriptor_ < 0) return false;
-  ::flock(descriptor_, LOCK_EX);  // waits only for who finds out whether it is stale
+  ::flock(descriptor_, LOCK_EX);  // waits only for a process that tests whether the folder is stale
   struct stat s {};
   if (::fstat(descriptor_, &s) == 0 && s.st_nlink > 0) return true;
   ::close(descriptor_);

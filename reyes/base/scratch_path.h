@@ -1,10 +1,10 @@
 // A new file or folder that is for this process alone and does not outlive it.
 //
-// Its name, `.STEM.RANDOM.part`, cannot be guessed, and what has the name already is never opened: neither
-// another process of the same number, as containers have, nor a link that somebody has put there can come
-// between. It is locked (flock) while its owner lives. What a killed process has left is therefore told from
-// what is in use, and the next ScratchPath of the same stem in the same folder removes it. Where there are no
-// locks, nothing is removed. Threads: plain object.
+// Its name, `.STEM.RANDOM.part`, cannot be guessed, and an existing file of that name is never opened: neither another
+// process of the same number, as containers have, nor a link that somebody has put there can interfere. It is locked
+// (flock) while its owner lives, so that a file that a killed process has left can be told from one in use: the next
+// ScratchPath of the same stem in the same folder removes it. Where there are no locks, nothing is removed. Threads:
+// plain object.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -19,17 +19,17 @@ class ScratchPath {
  public:
   enum class Kind { File, Folder };
 
-  /// In `folder`. Throws std::filesystem::filesystem_error.
+  /// Makes it in `folder`. Throws std::filesystem::filesystem_error.
   ScratchPath(const std::filesystem::path& folder, const std::string& stem, Kind kind);
   ~ScratchPath();  ///< Removes it with all that is in it, unless released.
   ScratchPath(const ScratchPath&) = delete;
   ScratchPath& operator=(const ScratchPath&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Of the file, open for reading and writing, and of the lock: the caller closes it. Pre: was not called
-  /// before.
+  /// Gives the caller the descriptor, to be closed: of the file, open for reading and writing, and of the lock. Pre: it
+  /// was not called before.
   int takeDescriptor() { return std::exchange(descriptor_, -1); }
-  /// It has another name by now, or none.
+  /// Gives the path up: it has another name by now, or none.
   void release();
 
  private:

@@ -1,4 +1,4 @@
-// Lists of folders, as Option "searchpath" has them after expansion.
+// Lists of folders, in the form of Option "searchpath" after expansion.
 #pragma once
 #include <map>
 #include <span>
@@ -7,17 +7,17 @@
 
 namespace tomales {
 
-/// Between the colons; what is empty is left out.
+/// Returns the folders between the colons; empty names are left out.
 std::vector<std::string> foldersOf(const std::string& searchPath);
 
-/// That of `kind`; empty: there is none.
+/// Returns the search path of `kind`, empty if there is none.
 std::string pathOf(const std::map<std::string, std::string>& searchPaths, const std::string& kind);
 
-/// `file` in each of the folders that has it. None if its name leads out of them, as "../a.so" and "/a.so" do.
+/// Returns `file` in each folder that has it, or nothing if its name leads out of them, as "../a.so" and "/a.so" do.
 std::vector<std::string> filesWithin(const std::string& searchPath, const std::string& file);
 
-/// `name` in the first folder that has such a file, else `name` itself if it is one, else nothing. Absolute names are
-/// not searched for.
+/// Returns `name` in the first folder that has such a file, else `name` itself if it is a file, else nothing. Absolute
+/// names are not searched for.
 std::string findFile(const std::string& name, const std::string& searchPath);
 
 /// The last part of a name that has folders of Unix or Windows before it. Empty if it has none.

@@ -19,14 +19,14 @@ namespace tomales {
 constexpr int kLanes = 16;  ///< Arrays that shaders and kernels see are padded to this many floats.
 inline int padded(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
-/// std::vector memory that starts on a cache line.
+/// Allocates memory of a std::vector that starts on a cache line.
 template <class T>
 struct CacheAligned {
   using value_type = T;
   CacheAligned() = default;
   template <class U>
   CacheAligned(const CacheAligned<U>&) {}
-  // Aligned by hand: glibc's aligned allocation takes no part in its caches of freed blocks, and grids come and go by
+  // It aligns by hand: glibc's aligned allocation takes no part in its caches of freed blocks, and grids come and go by
   // millions.
   T* allocate(size_t n) {
     void* block = ::operator new(n * sizeof(T) + kLine);
@@ -41,7 +41,7 @@ struct CacheAligned {
 template <class T>
 using AlignedVector = std::vector<T, CacheAligned<T>>;
 
-/// The same, where elements without a value are not set to zero: for what is written before it is read.
+/// Like CacheAligned, but elements without a value are not set to zero: for memory that is written before it is read.
 template <class T>
 struct Unset : CacheAligned<T> {
   using value_type = T;

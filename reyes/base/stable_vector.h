@@ -1,5 +1,5 @@
 // A sequence that grows while others read it: elements never move. Threads: one may append while others use elements
-// that they know of; iterating and size() belong to whoever appends.
+// that they know of; only that one may iterate or call size().
 #pragma once
 #include <array>
 #include <bit>

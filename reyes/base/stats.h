@@ -66,12 +66,12 @@ struct Stats {
   std::map<std::string, StageFigures> stages_;
 };
 
-/// CPU seconds that this process has used, all threads; and those of the calling thread.
+/// CPU seconds that all threads of this process have used, and those of the calling thread.
 double processCpuSeconds();
 double threadCpuSeconds();
 
-/// Times one stage from construction to destruction, on one thread; `cpuSeconds`: of the process, or where other stages
-/// run meanwhile, of the thread.
+/// Times one stage from construction to destruction, on one thread. `cpuSeconds` measures the process, or the thread
+/// where other stages run meanwhile.
 class StageTimer {
  public:
   StageTimer(Stats& stats, std::string name, double (*cpuSeconds)() = processCpuSeconds);

@@ -1,5 +1,5 @@
-// The wish that the process ends soon, as SIGTERM brings it (reyes/app/watch/interrupt.h). Work that takes long asks
-// for it about every tenth of a second. Threads: any.
+// The wish that the process ends soon, which SIGTERM makes (reyes/app/watch/interrupt.h). Work that takes long asks for
+// it about every tenth of a second. Threads: any.
 #pragma once
 #include <atomic>
 
@@ -7,11 +7,11 @@ namespace tomales {
 
 const std::atomic<bool>& stopFlag();
 inline bool stopRequested() { return stopFlag().load(std::memory_order_relaxed); }
-/// `wanted` false takes the wish back, which tests do.
+/// With `wanted` false it takes the wish back, as tests do.
 void requestStop(bool wanted = true);
 
-/// Thrown by work that leaves nothing of use when it is not finished. It is no std::exception, so that nobody reports
-/// it as an error.
+/// Thrown by work that leaves nothing of use when it is not finished. It is no std::exception, so that no handler
+/// reports it as an error.
 struct Stopped {};
 inline void throwIfStopped() {
   if (stopRequested()) throw Stopped();

@@ -1,14 +1,14 @@
-// A folder of one's own for files that somebody needs for a while.
+// A folder of the process's own for files that it needs for a while.
 // Threads: plain object.
 #pragma once
 #include "reyes/base/scratch_path.h"
 
 namespace tomales {
 
-/// Gone with everything in it at the end. What still has a file open can go on reading it.
+/// The folder is removed with everything in it at the end. Whoever still has a file open can go on reading it.
 class TemporaryFolder {
  public:
-  /// In `parent`. Throws std::filesystem::filesystem_error.
+  /// Makes it in `parent`. Throws std::filesystem::filesystem_error.
   explicit TemporaryFolder(const std::filesystem::path& parent)
       : place_(parent, "tomales", ScratchPath::Kind::Folder) {}
 

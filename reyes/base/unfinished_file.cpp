@@ -15,14 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kIsStream = "it is a pipe or a device, and no file that can be replaced";
-constexpr int kMostLinks = 40;  ///< As Linux has it.
+constexpr int kMostLinks = 40;  ///< The same limit as Linux has.
 
 bool failedWith(int number, std::string& error) {
   error = std::strerror(number);
   return false;
 }
 
-/// Links there lead to open files, and cannot be followed by name.
+/// Links in these folders lead to open files, and cannot be followed by name.
 bool isOfProcesses(const fs::path& path) {
   std::error_code none;
   const fs::path folder = fs::canonical(path.parent_path().empty() ? "." : path.parent_path(), none);
@@ -35,7 +35,7 @@ bool isStream(const fs::path& target) {
   return isOfProcesses(throughLinks(target)) || (fs::exists(status) && !fs::is_regular_file(status));
 }
 
-/// EINVAL: pipes and devices have nothing to write back.
+/// EINVAL is no failure: pipes and devices have nothing to write back.
 bool writtenBack(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 /// Is this still the file of that name?
@@ -95,8 +95,8 @@ bool UnfinishedFile::openStream(std::string& error) {
   return descriptor_ >= 0 || failedWith(errno, error);
 }
 
-/// Another process may give the file its name, or discard it, between the two calls here: what is locked then
-/// must not be written to.
+/// Another process may give the file its name, or discard it, between the two calls here: a file that is locked too
+/// late must not be written to.
 bool UnfinishedFile::openResumable(std::string& error) {
   path_ = target_.string() + ".part";
   do {

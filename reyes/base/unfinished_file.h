@@ -1,5 +1,5 @@
-// A file on its way to its name. Every file that this program leaves is made here, so that what has its name
-// is whole.
+// A file that is written before it gets its name. Every file that this program leaves is made here, so that a file with
+// its name is whole.
 //
 // It is written under another name in the same folder and renamed when it is complete. Of two processes that
 // write the same file, the last one to finish wins as a whole. A target that is a link stays one: what it
@@ -19,30 +19,30 @@
 namespace tomales {
 
 enum class UnfinishedKind {
-  Scratch,    ///< Its name is a ScratchPath, and it is gone unless finished. The target must be a regular file,
-              ///< or not be there.
-  Stream,     ///< The same; but devices, pipes and what /dev/stdout and /dev/fd lead to are written directly.
-  Resumable,  ///< It is called NAME.part, is locked, and stays until it is finished or discarded. Contents
-              ///< are those of an earlier one.
+  Scratch,    ///< Its name is a ScratchPath, and it is removed unless it is finished. The target must be a regular file
+              ///< or not exist.
+  Stream,     ///< As Scratch; but devices, pipes and what /dev/stdout and /dev/fd lead to are written directly.
+  Resumable,  ///< It is called NAME.part, is locked, and stays until it is finished or discarded. It begins with the
+              ///< contents of an earlier one.
 };
 
 class UnfinishedFile {
  public:
-  /// Null: `error` says why, without naming the file.
+  /// Returns null on failure, and `error` says why, without naming the file.
   static std::unique_ptr<UnfinishedFile> create(const std::string& target, UnfinishedKind kind, std::string& error);
   ~UnfinishedFile();
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
-  /// For libraries that open files by name: it is there already, and must be written over, not replaced.
+  /// The path for libraries that open files by name: the file exists already, and must be written over, not replaced.
   const std::string& path() const { return path_; }
-  /// Open for reading and writing.
+  /// It is open for reading and writing.
   int descriptor() const { return descriptor_; }
-  /// The same for stdio. Pre: not used together with descriptor().
+  /// The same file for stdio. Pre: descriptor() is not used as well.
   std::FILE* stream();
-  /// Gives it its name. False: `error` says why, and it is gone, or kept if it is resumable.
+  /// Gives the file its name. Returns false on failure: `error` says why, and the file is removed unless resumable.
   bool finish(std::string& error);
-  /// Takes its name away: it can still be written and read, and nothing is left at the end.
+  /// Takes its name away: the file can still be written and read, and nothing is left at the end.
   void discard();
 
  private:
@@ -52,25 +52,25 @@ class UnfinishedFile {
   bool openResumable(std::string& error);
 
   std::filesystem::path target_;
-  std::string path_;  ///< Empty: it has no name.
+  std::string path_;  ///< Empty if it has no name.
   std::unique_ptr<ScratchPath> scratch_;
   int descriptor_ = -1;
   std::FILE* stream_ = nullptr;
 };
 
-/// All of a small file at once. False: `error` says why.
+/// Writes all of a small file at once. Returns false on failure, and `error` says why.
 bool writeFile(const std::string& target, const std::string& content, std::string& error);
 
-/// For what a library or another program has written into a TemporaryFolder beside `target`: what
-/// UnfinishedFile::finish() does.
+/// Does what UnfinishedFile::finish() does, for a file that a library or another program has written into a
+/// TemporaryFolder beside `target`.
 bool moveFinished(const std::filesystem::path& from, const std::filesystem::path& target, std::string& error);
 
-/// Where `target` leads by links; not necessarily there. A TemporaryFolder for moveFinished() belongs beside
-/// it.
+/// Follows the links of `target`; the result need not exist.
+/// A TemporaryFolder for moveFinished() belongs beside it.
 std::filesystem::path throughLinks(const std::filesystem::path& target);
 
-/// Is `target`, by whatever name, one of these? A command says so before it replaces what it was given to
-/// read.
+/// Is `target`, by whatever name, one of these? A command
+/// that would replace one of its own inputs says so before.
 bool isAmong(const std::filesystem::path& target, const std::vector<std::string>& files);
 
 }  // namespace tomales

@@ -1,5 +1,5 @@
-// A folder on its way to be whole: several files that make sense together alone. Each of them is whole by itself
-// (UnfinishedFile); who is ended between two of them leaves a mark.
+// A folder of several files that make sense together alone, until all of them are there. Each file is whole by itself
+// (UnfinishedFile); a process that is ended between two of them leaves a mark in the folder.
 // Threads: plain object.
 #pragma once
 #include <filesystem>
@@ -8,16 +8,16 @@ namespace tomales {
 
 class UnfinishedFolder {
  public:
-  /// Marks a folder that is there. Throws WriteError.
+  /// Marks a folder, which must exist. Throws WriteError.
   explicit UnfinishedFolder(const std::filesystem::path& folder);
-  /// Takes the mark away; without, it stays.
+  /// Takes the mark away; if it is not called, the mark stays.
   void finish();
 
  private:
   const std::filesystem::path mark_;
 };
 
-/// Throws FileError for a folder with a mark.
+/// Throws FileError if the folder has a mark.
 void requireFinished(const std::filesystem::path& folder);
 
 }  // namespace tomales

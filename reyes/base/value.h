@@ -10,7 +10,7 @@ namespace tomales {
 enum class Storage : uint8_t { Constant, Uniform, Varying, Vertex, FaceVarying };
 enum class ValueType : uint8_t { Float, Integer, String, Color, Point, Vector, Normal, HPoint, Matrix };
 
-/// Floats in one value of a type; strings count 1.
+/// Number of floats in one value of a type; a string counts as 1.
 inline int floatsPerValue(ValueType type) {
   switch (type) {
     case ValueType::Color:
@@ -32,13 +32,13 @@ struct Param {
   std::string name;
   Storage storage = Storage::Uniform;
   ValueType type = ValueType::Float;
-  int arrayLength = 1;  ///< Of the declaration: "float[2] st" has 2.
+  int arrayLength = 1;  ///< The length of the declared array: "float[2] st" has 2.
   std::vector<float> floats;
   std::vector<int> ints;
   std::vector<std::string> strings;
 
   bool operator==(const Param&) const = default;
-  int width() const { return floatsPerValue(type) * arrayLength; }  ///< Floats in one element.
+  int width() const { return floatsPerValue(type) * arrayLength; }  ///< Number of floats in one element.
   float number(float fallback) const {
     return !floats.empty() ? floats[0] : !ints.empty() ? static_cast<float>(ints[0]) : fallback;
   }

@@ -12,7 +12,7 @@
 
 #include "reyes/base/simd.h"
 
-// Once for each target, by Highway's convention.
+// Highway includes this part once for each target.
 #if defined(TOMALES_BASE_VECTOR_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TOMALES_BASE_VECTOR_H
 #undef TOMALES_BASE_VECTOR_H
@@ -33,7 +33,7 @@ using Mask = hn::Mask<decltype(kF)>;
 HWY_INLINE Floats all(float x) { return hn::Set(kF, x); }
 HWY_INLINE Floats load(const float* from) { return hn::LoadU(kF, from); }
 
-/// Bit s: lane s.
+/// Bit s of the result is lane s.
 HWY_INLINE uint64_t bitsOf(Mask mask) {
   uint64_t bits = 0;
   hn::StoreMaskBits(kF, mask, reinterpret_cast<uint8_t*>(&bits));

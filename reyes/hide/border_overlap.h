@@ -12,9 +12,9 @@ float depthRangeOfCell(const TransparentLayers& layers, const GridTable& grids, 
 struct BorderOverlap {
   uint64_t first = 0, second = 0;
 };
-/// The result depends on what the samples see of the two, not on how cells came to share layers. Pre:
-/// TransparentLayer::object of both is the same. Layers that move or are out of focus have no such samples, nor have
-/// those of solids, which count a crossing once.
+/// The result depends on what the samples see of the two, not on how cells came to share layers. Pre: both have the
+/// same TransparentLayer::object. Layers that move or are out of focus have no such samples, nor have those of solids,
+/// which count a crossing once.
 BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids, const Camera& camera, size_t layer,
                             size_t other);
 

@@ -1,5 +1,5 @@
-// Finds the samples of each cell in a list of lanes: repeatedly all lanes that see the same cell as the first lane that
-// is left.
+// Finds the samples of each cell in a list of lanes: it repeatedly takes all lanes that see the same cell as the first
+// lane that is left.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/cell_coverage.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.

@@ -10,14 +10,14 @@ namespace tomales {
 /// Appends the opaque cells that the samples of a pixel see.
 void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<CellCoverage>& coverages);
 
-/// A coverage whose samples see no other one, among the first 64 of a word.
+/// A coverage among the first 64 samples of a pixel, none of which is seen by another one.
 struct RankedCoverage {
   uint64_t samples;
   uint32_t cell;
   float d;
 };
 constexpr int kMostRanked = kLanes;
-/// Nearest first. count: less than 0 if the samples see more than kMostRanked cells, or some at equal depths.
+/// Coverages, nearest first. `count` is negative if samples see more than kMostRanked cells, or some at equal depths.
 struct RankedCoverages {
   int count;
   RankedCoverage coverages[kMostRanked];
@@ -25,7 +25,7 @@ struct RankedCoverages {
 constexpr size_t kRankedTogether = 32;
 /// Finds the opaque cells that the samples of some pixels see. Pre: no more than kRankedTogether pixels.
 void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, RankedCoverages* out);
-/// The same for a transparent layer.
+/// Does the same for a transparent layer.
 void rankLayer(const TransparentLayers& layers, size_t layer, RankedCoverages& out);
 
 /// The depth keys between which a transparent layer lies.

@@ -48,12 +48,12 @@ class FacetTable {
   const SampleBuffer& samples_;
   DeepTile& tile_;
   std::vector<uint8_t> seen_;            ///< Indexed by cell.
-  std::vector<uint32_t> facetOf_;        ///< Indexed by cell; kNotMade: none yet; kFolded: look it up in folded_.
-  std::vector<int> batchOf_;             ///< Indexed by group; -1: none yet.
+  std::vector<uint32_t> facetOf_;        ///< Indexed by cell; kNotMade before it is made; kFolded if it is in folded_.
+  std::vector<int> batchOf_;             ///< Indexed by group; -1 before it is made.
   std::vector<PointRequests> requests_;  ///< Indexed by batch.
   std::vector<int32_t> turning_;         ///< Indexed by vertex of a grid.
   std::vector<int32_t> sides_;           ///< The result of findSides().
-  std::vector<int> corners_;             ///< Points of a grid's vertices, Front before Back; -1: none yet.
+  std::vector<int> corners_;             ///< Points of a grid's vertices, Front before Back; -1 before they are made.
   std::map<std::pair<uint32_t, Side>, uint32_t> folded_;  ///< Facets of cells that may be seen from both sides.
 };
 

@@ -50,7 +50,7 @@ struct alignas(64) Gathered {
   using Array = float[2 * kLanes];
   Array P[3], N[3];
   Array uEdge[3], vEdge[3];  ///< Edges of P along u and v, one micropolygon long.
-  Array side;                ///< -1: the side that uEdge x vEdge points to is seen; 1: the other one.
+  Array side;                ///< -1 if the side that uEdge x vEdge points to is seen; 1 if the other one is.
   Array u, v, du, dv;
 
   void readVertex(const Grid& g, int vertex, int i) {
@@ -76,7 +76,7 @@ struct alignas(64) Gathered {
   }
 
  private:
-  static constexpr int kRun = 4;  ///< A vector pays for at least so many cells.
+  static constexpr int kRun = 4;  ///< A vector is worth its cost for at least so many cells.
   struct Sources {
     const float *P[3], *N[3], *u, *v;
   };

@@ -73,7 +73,7 @@ Hider::Hider(const Scene& scene, const Camera& camera, const SamplePattern& patt
 Hider::~Hider() = default;
 
 bool Hider::hidden(const Bound2& raster, float zMin) const {
-  // The lattice moves vertices by up to this.
+  // The lattice moves vertices by at most this.
   const vec2 reach(1 / kLattice);
   const SampleBuffer& s = impl_->samples;
   return s.hides(Bound2{raster.lo - reach, raster.hi + reach}, impl_->camera.leastDepthKey(zMin));

@@ -10,18 +10,18 @@
 namespace tomales {
 namespace {
 
-/// So many patterns are not seen to repeat. With very many samples a pixel has little error that could repeat, and
-/// patterns would fill the memory.
+/// The number of patterns, of which no repetition is seen. With very many samples a pixel has little error that could
+/// repeat, and many patterns would fill the memory.
 constexpr int kMostPatterns = 256, kLeastPatterns = 16, kSamplesOfPatterns = 1 << 20;
 
-/// Position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
+/// Returns the position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
 float placed(int i, int n, float inside) {
   const float width = kLattice / static_cast<float>(n);
   const float lo = std::ceil(static_cast<float>(i) * width), hi = std::ceil(static_cast<float>(i + 1) * width) - 1;
   return std::clamp(std::round((static_cast<float>(i) + inside) * width), lo, std::max(lo, hi)) / kLattice;
 }
 
-/// A number in stratum `i` of n: rounding must not carry it into the next.
+/// Returns a number in stratum `i` of n: rounding must not carry it into the next.
 float within(int i, int n, float inside) {
   const float count = static_cast<float>(n);
   return std::min((static_cast<float>(i) + inside) / count, std::nextafter(static_cast<float>(i + 1) / count, 0.0f));

@@ -32,7 +32,7 @@ class PixelLayers {
   };
   /// The remaining layers of each sample that has any, nearest first: layers[next .. end). Padded to kLanes.
   struct Queues {
-    AlignedVector<float> d;            ///< Depth key of the layer in front; infinity: none is left.
+    AlignedVector<float> d;            ///< Depth key of the layer in front; infinity if none is left.
     AlignedVector<uint32_t> coverage;  ///< Index of its coverage.
     std::vector<uint32_t> next, end;
     std::vector<uint32_t> sample;  ///< 64 * word + bit
@@ -49,7 +49,7 @@ class PixelLayers {
   static constexpr uint32_t kNone = ~0U;
 
  private:
-  /// The first coverages that overlap in depth. Those that lie behind all of them can be sorted without them.
+  /// Returns the first coverages that overlap in depth. Those that lie behind all of them can be sorted without them.
   std::span<const CellCoverage> nextRun(std::span<const CellCoverage> coverages);
   bool overlap(std::span<const CellCoverage> coverages);
   bool inOrder(std::span<const CellCoverage> coverages);

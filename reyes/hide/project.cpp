@@ -1,4 +1,4 @@
-// Grid -> raster space. Borders that join a neighbour are pushed out (docs/decisions/0003).
+// Projects a grid to raster space. Borders that join a neighbour are pushed out (docs/decisions/0003).
 #include "reyes/base/check.h"
 #include "reyes/hide/blur_bounds.h"
 #include "reyes/hide/borders.h"

@@ -38,7 +38,7 @@ struct alignas(64) Corners {
 // The edges of kLanes micropolygons, in two kinds. Edge::inside answers with the sign of a lane, negative if the sample
 // is inside: the processor has more units for operations on vectors than on masks.
 
-/// Inside where dx * (y - oy) - dy * (x - ox) > limit.
+/// A sample is inside where dx * (y - oy) - dy * (x - ox) > limit.
 struct FloatEdges {
   float ox[kLanes], oy[kLanes], dx[kLanes], dy[kLanes], limit[kLanes];
 
@@ -77,8 +77,8 @@ struct FloatEdges {
   }
 };
 
-/// The same on the lattice, exact: one multiplication of pairs tests a vector of samples. Inside where dx * y - dy * x
-/// > limit.
+/// The same edges on the lattice, where they are exact: one multiplication of pairs tests a vector of samples. A sample
+/// is inside where dx * y - dy * x > limit.
 struct LatticeEdges {
   int32_t pair[kLanes], limit[kLanes];
 
@@ -109,8 +109,8 @@ struct LatticeEdges {
     hn::Store(hn::IfThenElse(hn::RebindMask(kI, closed), hn::Set(kI, 1 << 30), hn::Load(kI, limit + g)), kI, limit + g);
   }
 
-  /// Greatest length of an edge. Within it floats are exact too, up to a pixel beyond the cell, so that the choice of
-  /// the kind changes no bit.
+  /// Greatest length of an edge. Up to it floats are exact too, as far as a pixel beyond the cell, so that the choice
+  /// of the kind changes no bit.
   static constexpr float kMost_px = 3.5f;
 };
 
@@ -118,7 +118,7 @@ struct LatticeEdges {
 template <class Edges>
 struct alignas(64) Triangles {
   Edges ab, bc, ca, bd, dc;
-  int32_t flipped[kLanes];  ///< -1: the inside of bc for abc is the outside for bdc; 0: the quad is folded along bc.
+  int32_t flipped[kLanes];  ///< -1 if the inside of bc for abc is the outside for bdc; 0 if the quad is folded there.
   float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc and bdc.
   float depthError[kLanes];                                  ///< The error of depth keys, depthErrorBound().
 

@@ -11,8 +11,8 @@
 
 namespace tomales {
 
-/// Far below the distance of two values of an edge function: `value > -kTiny` means `value >= 0`, as a number that a
-/// vector can select, and survives threads that flush denormals.
+/// A number far below the difference of two values of an edge function: `value > -kTiny` means `value >= 0`, but as a
+/// number that a vector can select, and that survives threads that flush denormals.
 constexpr float kTiny = 1e-30f;
 
 /// The arguments of the loops over a grid.
@@ -37,22 +37,22 @@ void rasterizeBlurred(const RasterJob& job);
 inline bool keepsAll(const RasterJob& job) {
   return job.raster.grid->kept.empty() && !job.raster.clipped && job.raster.detail.whole();
 }
-/// The part of a cell that they keep.
+/// The part of a cell that trim curves, clipping and levels of detail keep.
 inline Kept keptOf(const RasterJob& job, int cell) {
   const std::vector<Kept>& given = job.raster.grid->kept;
   const Kept kept = given.empty() ? Kept::All : given[static_cast<size_t>(cell)];
   return kept == Kept::All && (job.raster.clipped || !job.raster.detail.whole()) ? Kept::Part : kept;
 }
-/// Do they keep the point of a cell that a sample meets? Pre: the cell covers it.
+/// Do these keep the point of a cell that a sample meets? Pre: the cell covers it.
 bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane);
-/// The same for the lanes of a mask that counts from `firstLane`.
+/// Tests the same for the lanes of a mask that counts from `firstLane`.
 uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64_t lanes);
 
 /// Gives samples of a mask with equal depths to the cell whose name comes first.
 void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t cell);
 
-/// Error bound of a depth key because vertices lie on the lattice and numbers are floats. `slope`: change of the depth
-/// key in a pixel. Above 0.
+/// Error bound of a depth key, which is above 0, because vertices lie on the lattice and numbers are floats. `slope` is
+/// the change of the depth key in a pixel.
 inline float depthErrorBound(float slope, float depth) { return slope / kLattice + 4e-7f * std::abs(depth) + kTiny; }
 /// Notes a depth conflict where the cell comes so close to the earlier depth of samples of a mask that depth errors
 /// decide, if that is of another object.

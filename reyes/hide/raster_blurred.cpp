@@ -232,7 +232,7 @@ class Descent {
     out.nearer[pixel] = 1;
   }
 
-  /// The same for most samples, with pointers that need not be read again after every flag, which may alias everything.
+  /// Does the same for most samples, with pointers that need not be read again after every flag, which may alias all.
   HWY_INLINE void giveOpaque(const uint32_t* lanes, const float* depths, uint64_t samples, uint32_t cell) {
     float* depth = job_.out.depth.data();
     uint32_t* cells = job_.out.cell.data();
@@ -259,7 +259,7 @@ void rasterize(const RasterJob& job) {
   const bool moves = job.raster.grid->keyCount > 1;
   for (int key = 0; key + 1 < std::max(2, job.raster.grid->keyCount); ++key) {
     const size_t k = static_cast<size_t>(key);
-    job.out.layersOf(job.raster).beginGrid();  // The layers of a cell belong to one interval, whatever hides it.
+    job.out.layersOf(job.raster).beginGrid();  // the layers of a cell belong to one interval, whatever hides it
     const Interval when = moves ? Interval{job.keyTimes[k], job.keyTimes[k + 1]} : Interval{0, 1};
     if (!moves)
       Descent<Blur<false, true>>(job, key).run(when);

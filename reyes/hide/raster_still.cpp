@@ -261,7 +261,7 @@ void layerCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   }
 }
 
-/// Returns the cells without those that are trimmed away.
+/// Removes the cells that are trimmed away.
 HWY_INLINE uint64_t keptCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   if (keepsAll(job)) return cells;
   for (uint64_t left = cells; left; left &= left - 1)
@@ -315,7 +315,7 @@ void rasterize(const RasterJob& job) {
   }
 }
 
-/// Is one of eight flags set?
+/// Tests whether one of eight flags is set.
 HWY_INLINE bool anyOfEight(const uint8_t* flags) {
   uint64_t eight;
   std::memcpy(&eight, flags, sizeof eight);

@@ -12,7 +12,7 @@
 namespace tomales {
 namespace {
 
-/// The part of a transparent layer in front of opaque surfaces; or the opaque surfaces of a pixel.
+/// The part of a transparent layer in front of opaque surfaces, or the opaque surfaces of a pixel.
 struct LayerInOrder {
   LayerExtent extent;
   uint32_t layer;
@@ -62,7 +62,7 @@ class TileBuilder {
   }
 
  private:
-  /// Counting sort by pixel.
+  /// Sorts by pixel, by counting.
   void sortLayers(size_t pixels) {
     const TransparentLayers& layers = samples_.layers;
     const auto words = static_cast<uint32_t>(layers.wordsOfPixel());
@@ -126,7 +126,7 @@ class TileBuilder {
     if (grids_.anySmooth() && grids_.of(cell).raster->smooth) setPosition(f, cell, pixel);
   }
 
-  /// Layers that lie behind all before them are sorted without them.
+  /// Adds the layers of a pixel. Layers that lie behind all before them are sorted without them.
   void addLayers(size_t pixel) {
     findLayers(pixel);
     const std::vector<LayerInOrder>& ordered = scratch_.ordered;
@@ -215,9 +215,9 @@ class TileBuilder {
       if (current.twice) layers.drop(current.layer, current.twice);
   }
 
-  /// overlapping: a sample may see several of them.
+  /// Adds the coverages; `overlapping` means that a sample may see several of them.
   void addCoverages(size_t pixel, bool overlapping) {
-    // Nearest first; equal depths have an order that does not depend on the schedule.
+    // They are in order of depth; equal depths have an order that does not depend on the schedule.
     const auto nearer = [this](const CellCoverage& a, const CellCoverage& b) {
       if (a.d != b.d) return a.d < b.d;
       if (a.cell != b.cell) return grids_.precedes(a.cell, b.cell);

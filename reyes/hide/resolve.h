@@ -1,10 +1,10 @@
-// Private to the hider: samples -> DeepTile.
+// Private to the hider: turns samples into a DeepTile.
 #pragma once
 #include "reyes/hide/samples.h"
 
 namespace tomales {
 
-/// diagnostics: gains HideDiagnostics::turns; may be null.
+/// diagnostics: HideDiagnostics::turns is added to; may be null.
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
                      HideDiagnostics* diagnostics = nullptr);
 

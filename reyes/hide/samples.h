@@ -16,7 +16,7 @@ class GridTable {
  public:
   struct Entry {
     uint32_t firstCell;
-    std::shared_ptr<const RasterGrid> raster;  ///< Null: it has been freed.
+    std::shared_ptr<const RasterGrid> raster;  ///< Null once the grid has been freed.
     std::vector<float> keyTimes;               ///< Fractions of the shutter; empty for a still grid.
     const Grid& grid() const { return *raster->grid; }
   };
@@ -30,7 +30,7 @@ class GridTable {
   /// Frees every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }          ///< Number of grids that are not freed.
-  bool anySmooth() const { return anySmooth_; }  ///< Has one RasterGrid::smooth?
+  bool anySmooth() const { return anySmooth_; }  ///< Is any grid RasterGrid::smooth?
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
 

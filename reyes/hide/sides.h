@@ -1,5 +1,5 @@
-// Private to the hider: the side of a micropolygon that samples see, on which it is lit. Its mean normal does not tell,
-// because at an outline one of its triangles may face the eye and the other turn away.
+// Private to the hider: the side of a micropolygon that samples see, on which it is lit. Its mean normal does not show
+// it, because at an outline one of its triangles may face the eye and the other turn away.
 #pragma once
 #include "reyes/hide/resolve.h"
 
@@ -14,10 +14,10 @@ enum class Side : uint8_t {
   Front = 1,  ///< The side that dP/du x dP/dv of the lattice points to.
   Back = 2,
 };
-/// Finds the sides that may be seen of cells, by their first vertices: bits of Side. Both are set where it depends on
-/// the sample. Moving cells are judged at shutter open, where they are shaded.
+/// Finds the sides of cells that may be seen, by the cells' first vertices: bits of Side. Both are set where the side
+/// depends on the sample. Moving cells are judged at shutter open, where they are shaded.
 void findSides(const RasterGrid& raster, float facingSign, std::vector<int32_t>& sides);
-/// The side that a sample sees which the cell covers.
+/// The side that a sample sees of a cell that covers it.
 Side sideAt(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
 }  // namespace tomales

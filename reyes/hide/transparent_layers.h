@@ -14,8 +14,8 @@ namespace tomales {
 struct TransparentLayer {
   uint32_t word;  ///< Bit s of `samples` is lane 64 * (word % TransparentLayers::wordsOfPixel()) + s of pixel word /
                   ///< wordsOfPixel().
-  int object;  ///< The object whose neighbouring pieces may overlap at a border (reyes/hide/border_overlap.h); -1: none
-               ///< does.
+  int object;     ///< The object whose neighbouring pieces may overlap at a border (reyes/hide/border_overlap.h); -1 if
+                  ///< there is none.
   uint64_t samples;
 };
 
@@ -121,7 +121,7 @@ class TransparentLayers {
   UnsetVector<TransparentLayer> list_;
   UnsetVector<float> depths_;
   UnsetVector<uint32_t> cells_;
-  std::vector<uint32_t> last_;  ///< The last layer of each word; kNone: there is none yet.
+  std::vector<uint32_t> last_;  ///< The last layer of each word; kNone before there is one.
   uint32_t count_ = 0, firstOfGrid_ = 0;
   int object_ = -1;
   uint64_t open_ = 0;

@@ -17,8 +17,8 @@ void textureCoordinates(GraphicsState& s, const Request& r) {
   for (size_t i = 0; i < 4; ++i) s.scope.edit().textureCoordinates[i] = {a[2 * i], a[2 * i + 1]};
 }
 
-// A thousand micropolygons a pixel are as many as any sampling can tell apart, and what a scene of one layer can be
-// waited for.
+// A thousand micropolygons a pixel are as many as sampling can tell apart, and take as long as one can wait for a scene
+// of one layer.
 void setShadingRate(GraphicsState& s, const Request& r) {
   s.scope.edit().shadingRate = clamped(s, r, s.scope.shadingRate * s.scope.relativeShadingRate, 1e-3f, 1e8f);
 }
@@ -30,14 +30,14 @@ void shadingRate(GraphicsState& s, const Request& r) {
   setShadingRate(s, r);
 }
 
-// PRMan: factors of ShadingRate that multiply down the blocks, until one is reset.
+// PRMan has factors of ShadingRate, which multiply down the blocks until one is reset.
 void relativeShadingRate(GraphicsState& s, const Request& r, float factor, bool resets) {
   if (!(factor > 0)) return reject(s, r, fmt::format("{} is no factor", factor));
   s.scope.relativeShadingRate = std::clamp(resets ? factor : factor * s.scope.relativeShadingRate, 1e-4f, 1e4f);
   setShadingRate(s, r);
 }
 
-// RISpec 3.2 section 4.2.9 knows "flatness", which no polygonal renderer after it asks for; the factors are PRMan's.
+// RISpec 3.2 section 4.2.9 has "flatness", which no later renderer of polygons uses; the factors are PRMan's.
 void geometricApproximation(GraphicsState& s, const Request& r) {
   const std::string& kind = r.args[0].strings[0];
   const float value = r.args[1].number();
@@ -86,7 +86,7 @@ void basis(GraphicsState& s, const Request& r) {
                                                                              {"power", powerBasis}};
     Basis b = out;
     if (matrix.kind == RibArg::Kind::Numbers) {
-      b.matrix = asMatrix(matrix.numbers);  // Basis::matrix[k] is row k, too.
+      b.matrix = asMatrix(matrix.numbers);  // Basis::matrix[k] is row k, too
     } else if (const auto it = kNamed.find(matrix.strings[0]); it != kNamed.end()) {
       b = it->second();
     } else {
@@ -100,7 +100,7 @@ void basis(GraphicsState& s, const Request& r) {
   read(r.args[2], r.args[3], s.scope.vBasis);
 }
 
-// It names the side that is cut away.
+// `sense` names the side that is cut away.
 void trimSense(GraphicsState& s, const Request& r, const std::string& sense) {
   if (sense != "inside" && sense != "outside")
     return reject(s, r, "the sense of trim curves is \"inside\" or \"outside\"");
@@ -109,7 +109,7 @@ void trimSense(GraphicsState& s, const Request& r, const std::string& sense) {
 
 vec3 color(const Param& p) { return p.floats.size() == 3 ? vec3(p.floats[0], p.floats[1], p.floats[2]) : vec3(1); }
 
-// "a,b" replaces the sets, "+a,b" joins and "-a,b" leaves them.
+// "a,b" replaces the sets, "+a,b" joins sets and "-a,b" leaves them.
 void editMembership(std::set<std::string>& sets, std::string_view text) {
   const bool joins = text.starts_with('+'), leaves = text.starts_with('-');
   if (joins || leaves)
@@ -124,19 +124,19 @@ void editMembership(std::set<std::string>& sets, std::string_view text) {
   }
 }
 
-// Until PRMan 12: what shadow rays see, and how they find its opacity.
+// The attribute of PRMan up to version 12: what shadow rays see, and how they find its opacity.
 void transmission(Attributes& a, const Param& p) {
   a.visibility.transmission = p.strings[0] != "transparent";
   a.transmissionHitMode = p.strings[0] == "shader" ? HitMode::Shader : HitMode::Primitive;
 }
 
-// BMRT: "none", "opaque", "Os" and "shade" (BMRT User Guide, attribute "render" "casts_shadows").
+// The attribute of BMRT: "none", "opaque", "Os" and "shade" (its User Guide, attribute "render" "casts_shadows").
 void castsShadows(Attributes& a, const Param& p) {
   a.visibility.transmission = p.strings[0] != "none";
   a.transmissionHitMode = p.strings[0] == "shade" ? HitMode::Shader : HitMode::Primitive;
 }
 
-// "cache" looks into files that the scene may not have; its shader knows as much.
+// "cache" reads files that may be missing; the object's shader gives the same result.
 HitMode hitMode(const Param& p) { return p.strings[0] == "primitive" ? HitMode::Primitive : HitMode::Shader; }
 
 TessellationMode tessellationMode(const Param& p) {
@@ -216,7 +216,7 @@ const std::unordered_map<std::string_view, Setter>& textSetters() {
   return table;
 }
 
-/// What some attributes may say; "cache" is taken as "shader".
+/// Checks the word that some attributes have; "cache" counts as "shader".
 void checkWord(GraphicsState& s, const Request& r, const std::string& key, const std::string& word) {
   using Words = std::vector<std::string_view>;
   static const std::unordered_map<std::string_view, Words> table = {
@@ -256,13 +256,13 @@ void attribute(GraphicsState& s, const Request& r) {
       s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
     } else {
       s.scope.edit().user[key] = p;
-      // Cryptomatte reads the second (reyes/frame/write_frame.cpp).
+      // "identifier:shadinggroup" is for Cryptomatte (reyes/frame/write_frame.cpp)
       if (category != "user" && key != "identifier:shadinggroup") warnOfIgnored(s, r, key);
     }
   }
 }
 
-// Hints for renderers that cannot work without; ours bounds primitives itself.
+// Ignores hints that other renderers cannot work without; this one bounds primitives itself.
 void acceptHint(GraphicsState&, const Request&) {}
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Blobby requests, and Points of type "blobby" -> Prims.
+// Builds Prims of Blobby requests, and of Points of type "blobby".
 #include <fmt/format.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -46,8 +46,8 @@ GroundPicture readGround(const std::string& path, const mat4& worldFromObject) {
   return out;
 }
 
-// A lone ellipsoid shows at half its radius, so each is as large as its point is wide. Where a point has no width there
-// is nothing.
+// A lone ellipsoid shows at half its radius, so each is as large as its point is wide. A point of no width makes
+// nothing.
 std::optional<Request> blobbyOfPoints(const Request& r) {
   const Param* type = r.name == "Points" ? findParam(r.params, "type") : nullptr;
   if (!type || type->strings.empty() || type->strings[0] != "blobby") return std::nullopt;

@@ -1,5 +1,5 @@
-// Geometry "brickmap" -> Points: a disk for every finest voxel, as wide as the voxel is across its corners, in the
-// plane of what it holds.
+// Turns Geometry "brickmap" into Points: a disk for every finest voxel, as wide as the voxel is across its corners, in
+// the plane of the surface in it.
 #include "gi/brick_file.h"
 #include "reyes/rib/geometry_builders.h"
 
@@ -40,7 +40,7 @@ ParamList paramsOf(const PointCloud& voxels) {
     out.push_back(channelOf(voxels, channel, offset));
     offset += static_cast<size_t>(channel.width);
   }
-  // Standard shaders know no other name for a colour.
+  // Standard shaders know a colour by this name alone.
   const auto color = std::find_if(out.begin(), out.end(), [](const Param& p) { return p.type == ValueType::Color; });
   if (color != out.end() && !findParam(out, "Cs")) {
     out.push_back(*color);

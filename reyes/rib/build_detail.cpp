@@ -1,4 +1,4 @@
-// Level of detail (RISpec 3.2 section 4.2.8): the size of a box in the picture decides which representations are there.
+// Level of detail (RISpec 3.2 section 4.2.8): the size of a box in the picture decides which representations are drawn.
 #include <fmt/format.h>
 
 #include "reyes/rib/handlers.h"

@@ -9,7 +9,7 @@
 namespace tomales::rib {
 namespace {
 
-constexpr float kMostTracedSamples = 64;  // of a pixel: a path tracer asks for more than a Reyes hider needs
+constexpr float kMostTracedSamples = 64;  // samples of a pixel: a path tracer asks for more than a Reyes hider needs
 
 Param floats(const char* name, std::vector<float> values) {
   Param p;
@@ -36,14 +36,14 @@ const Dictionary& standardNames() {
   return dictionary;
 }
 
-// A type that a picture holds: nothing otherwise.
+// Returns the type if a picture can hold it, and nothing otherwise.
 std::optional<ValueType> channelType(const Declaration& d) {
   const ValueType type = d.type == ValueType::Integer ? ValueType::Float : d.type;
   const bool fits = d.arrayLength == 1 && floatsPerValue(type) <= 3 && type != ValueType::String;
   return fits ? std::optional(type) : std::nullopt;
 }
 
-// BMRT and Aqsis: a mode "float name" declares the variable that it shows.
+// In BMRT and Aqsis, a mode "float name" declares the variable that it shows.
 void declareChannel(GraphicsState& s, DisplayCall& call) {
   std::string name;
   const auto declaration = standardNames().find(call.mode, "", name);
@@ -53,7 +53,7 @@ void declareChannel(GraphicsState& s, DisplayCall& call) {
   call.mode = name;
 }
 
-// RISpec 3.2: a leading '+' adds a display, any other replaces them all.
+// By RISpec 3.2 a leading '+' adds a display, and any other replaces them all.
 void display(GraphicsState& s, const Request& r) {
   DisplayCall call{r.args[0].strings[0], r.args[1].strings[0], r.args[2].strings[0], r.params, r.where};
   const bool adds = !call.name.empty() && call.name[0] == '+';
@@ -61,7 +61,7 @@ void display(GraphicsState& s, const Request& r) {
     call.name.erase(0, 1);
   else
     s.globals.options.displays.clear();
-  if (call.name.find_last_not_of("./") == std::string::npos) {  // "", ".", "..": the extension would be all of the name
+  if (call.name.find_last_not_of("./") == std::string::npos) {  // such a name is all extension
     s.warn(r, "rib-display", "\"" + call.name + "\" names no file; ri.pic, the default of RenderMan, is used");
     call.name = DisplayCall().name;
   }
@@ -72,7 +72,7 @@ void display(GraphicsState& s, const Request& r) {
   s.globals.options.displays.push_back(std::move(call));
 }
 
-// "class type name": the type is that of the variable, the class tells nothing.
+// "class type name" gives the type of the variable; the class does not matter.
 void displayChannel(GraphicsState& s, const Request& r) {
   ChannelCall call{"", ValueType::Color, r.params, r.where};
   const std::string& token = r.args[0].strings[0];

@@ -1,4 +1,4 @@
-// Geometry requests -> Prims (RISpec 3.2 section 5).
+// Builds Prims of geometry requests (RISpec 3.2 section 5).
 #include <fmt/format.h>
 
 #include "reyes/rib/geometry_builders.h"
@@ -13,7 +13,7 @@ bool allFinite(const std::vector<float>& v) {
   return std::all_of(v.begin(), v.end(), [](float f) { return std::isfinite(f); });
 }
 
-/// The number of points that P (or Pw, Pz) brings.
+/// Returns the number of points that P (or Pw, Pz) has.
 int pointCount(const Request& r) {
   for (const Param& p : r.params)
     if (p.name == "P" || p.name == "Pw" || p.name == "Pz") return static_cast<int>(p.floats.size()) / p.width();
@@ -26,7 +26,7 @@ std::vector<int> countUp(int n) {
   return out;
 }
 
-/// Where the points of a shape that moves are at each key; none where it stands still.
+/// Returns the points of a moving shape at each key; nothing if it stands still.
 PointKeys pointKeys(const MotionKeys& motion) {
   PointKeys out;
   if (motion.requests.size() < 2) return out;
@@ -79,7 +79,7 @@ PrimPtr patchMesh(const Request& r, const Scope& s, Problems& problems) {
   return makeBilinearPatchMesh(nu, uPeriodic, nv, vPeriodic, r.params, problems);
 }
 
-/// Three argument counts a tag where SubdivisionMesh gives two.
+/// Makes two argument counts per tag, as SubdivisionMesh has, of three.
 std::vector<int> withoutStrings(const std::vector<int>& pairs) {
   std::vector<int> out;
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -112,7 +112,7 @@ PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
   return makeSubdivisionMesh(r.args[0].strings[0], r.args[1].integers, r.args[2].integers, tags, r.params, problems);
 }
 
-// PRMan 19 and 20: the shapes of PxrStdAreaLight, of side or diameter one.
+// The shapes of PxrStdAreaLight of PRMan 19 and 20, with side or diameter one.
 PrimPtr lightShape(const std::string& name, const Request& r, Problems& problems) {
   if (name == "spherelight") return makeSphere(.5f, -.5f, .5f, 360, r.params, problems);
   if (name == "disklight") return makeDisk(0, .5f, 360, r.params, problems);
@@ -146,7 +146,7 @@ const std::unordered_map<std::string_view, Builder>& builders() {
   return table;
 }
 
-/// Shapes that are taken apart alike at all keys of their motion.
+/// Builders of shapes that must be cut alike at all keys of their motion.
 using KeyBuilder = PrimPtr (*)(const Request&, const MotionKeys&, Problems&);
 const std::unordered_map<std::string_view, KeyBuilder>& keyBuilders() {
   static const std::unordered_map<std::string_view, KeyBuilder> table = {
@@ -154,12 +154,12 @@ const std::unordered_map<std::string_view, KeyBuilder>& keyBuilders() {
       {"GeneralPolygon", generalPolygon},
       {"PointsPolygons", pointsPolygons},
       {"PointsGeneralPolygons", pointsGeneralPolygons},
-      {"Blobby", nullptr},  // it must know its ground, too
+      {"Blobby", nullptr},  // handled elsewhere, because it needs its ground
   };
   return table;
 }
 
-/// The request without primitive variables that hold NaN or infinity. Throws if those are the shape itself.
+/// Returns the request without primitive variables that hold NaN or infinity. Throws if those are the shape itself.
 ParamList finiteParams(const ParamList& params, Problems& problems) {
   ParamList out;
   for (const Param& p : params) {

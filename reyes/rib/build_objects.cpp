@@ -12,14 +12,14 @@
 namespace tomales::rib {
 namespace {
 
-// Deeper nesting and longer replays than any scene needs: masters that name each other must not run forever.
+// Limits that no scene needs to exceed: masters that name each other must not run forever.
 constexpr int kDeepestInstance = 16;
 constexpr size_t kLongestInstance = 1'000'000;
 
 // Squares of distances, and their products with areas, must fit floats.
 constexpr float kFarthest = 1e12f;
 
-/// How far from the camera a point of the object may be that lies within `reach` of its own origin.
+/// Returns how far from the camera a point of the object may be that lies within `reach` of its own origin.
 float farthest(const Motion& cameraFromObject, float reach) {
   float out = 0;
   for (const mat4& m : cameraFromObject.keys)
@@ -42,7 +42,7 @@ bool sameTopology(const Prim& a, const Prim& b) {
          std::equal(a.primvars().begin(), a.primvars().end(), b.primvars().begin(), b.primvars().end(), alike);
 }
 
-/// Collapsed to a point or a line all the time, so that none of it has an area.
+/// Is it collapsed to a point or a line all the time, so that none of it has an area?
 bool vanishes(const Motion& m) {
   return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
     const glm::dmat3 a(k);
@@ -70,7 +70,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
                       description(r) + ": its transformation is singular or not finite; the object is dropped");
     return;
   }
-  if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
+  if (state_.scope.attributes->detail.empty()) return;  // another level of detail is drawn
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
   if (const float reach = farthest(cameraFromObject, shapes.reach); !(reach < kFarthest)) {
@@ -157,7 +157,7 @@ PrimPtr SceneBuilder::buildShape(const Request& r, const MotionKeys& motion) {
   return prim;
 }
 
-/// Where the object is when the shutter opens.
+/// Reads the ground where the object is when the shutter opens.
 std::optional<GroundPicture> SceneBuilder::groundOf(const Request& r, int string) const {
   const std::vector<std::string>& names = r.args[3].strings;
   if (string < 0 || static_cast<size_t>(string) >= names.size())
@@ -183,7 +183,7 @@ bool SceneBuilder::takesProcedurals() const {
 }
 
 void SceneBuilder::addProcedural(const std::vector<float>& b, std::function<Expansion()> open, const SourceLoc& where) {
-  if (state_.scope.attributes->detail.empty()) return;  // another level of detail is there
+  if (state_.scope.attributes->detail.empty()) return;  // another level of detail is drawn
   Procedural p;
   p.bound = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
   p.worldFromObject = state_.scope.ctm;
@@ -250,8 +250,8 @@ void SceneBuilder::endObject() {
   state_.globals.masters[done.begin.args[0].strings[0]] = done.master;
 }
 
-// The instance's attributes apply, unless the master sets its own; what the master sets ends with the
-// instance.
+// The instance's attributes apply, unless the master sets
+// its own; changes by the master end with the instance.
 void SceneBuilder::instance(const Request& r) {
   const auto it = state_.globals.masters.find(r.args[0].strings[0]);
   if (it == state_.globals.masters.end()) {

@@ -10,14 +10,14 @@
 namespace tomales::rib {
 namespace {
 
-constexpr float kLargestImage = 32768;  // A side, in pixels; OpenEXR and TIFF readers stop about there.
-constexpr float kMostSamples = 256;     // A side of the sample lattice of a pixel.
+constexpr float kLargestImage = 32768;  // pixels of a side; readers of OpenEXR and TIFF stop about there
+constexpr float kMostSamples = 256;     // samples along a side of a pixel's lattice
 
 void reject(GraphicsState& s, const Request& r, const std::string& why) {
   s.warn(r, "rib-option", why + "; the option is left as it was");
 }
 
-// RISpec: a resolution or aspect ratio of zero or less keeps the default.
+// By RISpec a resolution or aspect ratio of zero or less keeps the default.
 void format(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
   Options& o = s.globals.options;
@@ -52,7 +52,7 @@ void cropWindow(GraphicsState& s, const Request& r) {
   s.globals.options.cropWindow = w;
 }
 
-// RenderMan 21 and later: the lens of PxrCamera, in the units of DepthOfField. Out of range it is a pinhole.
+// The lens of PxrCamera (RenderMan 21 and later), in the units of DepthOfField. Out of range it is a pinhole.
 void pxrLens(Options& o, const ParamList& params) {
   const auto positive = [&](const char* name) {
     const Param* p = findParam(params, name);
@@ -97,8 +97,8 @@ void clipping(GraphicsState& s, const Request& r) {
   s.globals.options.farClip = std::min(a[1], 1e30f);
 }
 
-// RISpec 3.2 section 4.1.2: what lies on the side that the normal points to is clipped. Given in the space of the
-// request.
+// RISpec 3.2 section 4.1.2: the side that the normal points
+// to is clipped. The plane is in the space of the request.
 void clippingPlane(GraphicsState& s, const Request& r) {
   const RibArg& a = r.args[0];
   const mat4 m = s.cameraFromObject().at(s.globals.options.shutterOpen);
@@ -156,7 +156,7 @@ void exposure(GraphicsState& s, const Request& r) {
   s.globals.options.exposureGamma = a[1];
 }
 
-/// Sets what a category stands for, before and after the map of folders.
+/// Sets the search path of a category, before and after the map of folders.
 void setSearchPath(GraphicsState& s, const Request& r, const std::string& category, const std::string& path) {
   Globals& g = s.globals;
   const std::string inPlace = mappedPath(path, g.dirMap);
@@ -181,7 +181,7 @@ void searchPath(GraphicsState& s, const Request& r, const Param& p) {
     s.warn(r, "rib-variable", "the environment has no " + unset + "; it stands for nothing in the search path");
 }
 
-// True if Tomales knows the option.
+// Returns true if Tomales knows the option.
 bool knownOption(GraphicsState& s, const Request& r, const std::string& key, const Param& p) {
   Options& o = s.globals.options;
   const bool bucket = key == "limits:bucketsize";
@@ -205,7 +205,7 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
                                                  "spacefill",  "spiral",   "random"};
     if (orders.contains(p.strings[0]))
       o.bucketOrder = p.strings[0];
-    else if (p.strings[0] == "circle")  // RenderMan for Maya
+    else if (p.strings[0] == "circle")  // the word of RenderMan for Maya
       o.bucketOrder = "spiral";
     else
       s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");

@@ -4,7 +4,7 @@
 namespace tomales::rib {
 namespace {
 
-// "shadowfile" is what listings of the 1990s call the map of the lights that PRMan has named shadow...
+// "shadowfile" is what listings of the 1990s call the map of those lights of PRMan whose names begin with "shadow".
 void nameShadowMap(ShaderCall& light) {
   if (!light.name.starts_with("shadow") || findParam(light.params, "shadowname")) return;
   for (Param& p : light.params)
@@ -31,7 +31,7 @@ void areaLightSource(GraphicsState& s, const Request& r) {
   s.scope.edit().areaLight = index;
 }
 
-// The latest light of that handle: RIB writers number anew in every frame.
+// Finds the latest light of that handle: RIB writers number anew in every frame.
 void illuminate(GraphicsState& s, const Request& r) {
   const auto& lights = s.globals.lights;
   const auto it = std::find_if(lights.rbegin(), lights.rend(),

@@ -7,7 +7,7 @@
 namespace tomales::rib {
 namespace {
 
-// Every sample walks up the blocks that it enters and leaves.
+// A limit, because every sample walks up the blocks that it enters and leaves.
 constexpr int kDeepestSolid = 100;
 
 std::optional<SolidOperation> operationOf(const std::string& name) {

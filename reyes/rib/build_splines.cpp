@@ -1,4 +1,4 @@
-// NuPatch, Points and Curves requests -> Prims (RISpec 3.2 section 5).
+// Builds Prims of NuPatch, Points and Curves requests (RISpec 3.2 section 5).
 #include "reyes/rib/geometry_builders.h"
 
 namespace tomales::rib {

@@ -15,7 +15,7 @@ std::optional<mat4> rotation(const RibArg& a) {
   return glm::rotate(mat4(1), glm::radians(a.numbers[0]), axis);
 }
 
-// The eye at the origin looks along +z, and x = z tan(fov/2) becomes 1; z = 1..infinity becomes 0..1.
+// The eye at the origin looks along +z: x = z tan(fov/2) becomes 1, and z = 1..infinity becomes 0..1.
 std::optional<mat4> perspective(float fov_degrees) {
   if (!(fov_degrees > 0 && fov_degrees < 180)) return std::nullopt;
   const float t = std::tan(glm::radians(fov_degrees) / 2);
@@ -47,7 +47,7 @@ std::optional<mat4> matrixOf(const Request& r) {
   return asMatrix(a.numbers);
 }
 
-// Rotate about one axis turns by its angles, whole turns too, which the matrices at the keys cannot tell.
+// Makes the keys of Rotate about one axis, which turns by its angles: matrices cannot tell whole turns.
 Motion spun(const std::vector<const Request*>& keys, Motion motion) {
   constexpr float kMostPieces = 64;
   const auto axis = [&](size_t k) { return normalizeOr(asVec3(keys[k]->args[0], 1), vec3(0)); };

@@ -1,4 +1,4 @@
-// TrimCurve (RISpec 3.2 section 5.2): nine flat arrays -> loops of curves.
+// Reads TrimCurve (RISpec 3.2 section 5.2): nine flat arrays become loops of curves.
 #include <fmt/format.h>
 
 #include "reyes/rib/handlers.h"
@@ -11,7 +11,7 @@ class Arrays {
  public:
   explicit Arrays(const Request& r) : request_(r) {}
 
-  /// The next `n` values of array k.
+  /// Returns the next `n` values of array k.
   std::vector<float> take(size_t k, size_t n) { return take(request_.args[k].numbers, k, n); }
   size_t takeCount(size_t k) {
     const int n = take(request_.args[k].integers, k, 1)[0];
@@ -38,7 +38,7 @@ class Arrays {
   size_t used_[9] = {};
 };
 
-// The arrays: curves of each loop; order, knots, min, max, controls of each curve; u w, v w, w of each control.
+// The arrays are: curves of each loop; order, knots, min, max, controls of each curve; u w, v w, w of each control.
 TrimCurve takeCurve(Arrays& arrays) {
   const size_t order = arrays.takeCount(1), controls = arrays.takeCount(5);
   TrimCurve curve;

@@ -5,8 +5,8 @@
 namespace tomales::rib {
 namespace {
 
-constexpr int kPoints = 17;          ///< On an edge.
-constexpr float kTolerance = 0.01f;  ///< Of the size of the whole; 16 chords leave a circle by 0.7 % of its diameter.
+constexpr int kPoints = 17;          ///< Number of points on an edge.
+constexpr float kTolerance = 0.01f;  ///< A share of the whole; 16 chords leave a circle by 0.7 % of its diameter.
 constexpr size_t kMostEdges = 2000;
 
 struct EdgeLine {
@@ -51,7 +51,7 @@ bool passes(const EdgeLine& line, const vec3& p, float tolerance) {
 }
 
 bool joined(const EdgeLine& line, const std::vector<EdgeLine>& all, float tolerance) {
-  if (glm::length(line.bound.size()) <= tolerance) return true;  // a pole
+  if (glm::length(line.bound.size()) <= tolerance) return true;  // the edge is a pole
   return std::all_of(line.at.begin(), line.at.end(), [&](const vec3& p) {
     return std::any_of(all.begin(), all.end(),
                        [&](const EdgeLine& o) { return &o != &line && passes(o, p, tolerance); });

@@ -1,4 +1,4 @@
-// Do several objects together bound a volume?
+// Tests whether several objects together bound a volume.
 #pragma once
 #include <span>
 
@@ -6,9 +6,9 @@
 
 namespace tomales::rib {
 
-/// An object with an open edge that no edge of the others, or of itself elsewhere, runs along; null if there is none.
-/// Judged by points on the edges at the first motion key, to a hundredth of the size of the whole. Meshes of so many
-/// edges that this would take long count as closed.
+/// Returns an object with an open edge that no edge of the others, or of itself elsewhere, runs along; null if there is
+/// none. It judges by points on the edges at the first motion key, to a hundredth of the size of the whole. Meshes of
+/// so many edges that this would take long count as closed.
 const Object* findOpenEdge(std::span<const Object> objects);
 
 }  // namespace tomales::rib

@@ -5,7 +5,7 @@
 namespace tomales::rib {
 namespace {
 
-/// A place, or a scale, at which nothing has a volume.
+/// Is it a position or a scale at which nothing has a volume?
 bool flattens(const Request& r) {
   if (r.name == "Scale") return asVec3(r.args[0]).x * asVec3(r.args[0]).y * asVec3(r.args[0]).z == 0;
   const bool matrix = r.name == "Transform" || r.name == "ConcatTransform";
@@ -14,7 +14,7 @@ bool flattens(const Request& r) {
 
 bool isCollapsed(const Request& r) { return hasNoArea(r) || flattens(r); }
 
-/// Where arguments of the same request stand between two keys.
+/// Interpolates the arguments of the same request at two keys.
 Request between(Request a, const Request& b, float t) {
   for (size_t i = 0; i < a.args.size(); ++i)
     for (size_t k = 0; k < a.args[i].numbers.size(); ++k)

@@ -1,17 +1,17 @@
-// Requests that draw nothing because what they describe has no extent.
+// Requests that draw nothing because they describe something without extent.
 #pragma once
 #include "reyes/rib.h"
 
 namespace tomales::rib {
 
-/// Writers leave these where an object has vanished: nothing is missing from the picture.
-/// What it has none of ("faces"); null: it has some.
+/// Returns what the request has none of ("faces"), or null if it is not empty. Writers leave such requests where an
+/// object has vanished: nothing is missing from the picture.
 const char* emptyOf(const Request& r);
-/// A quadric whose radius, height or sweep is 0.
+/// Is it a quadric whose radius, height or sweep is 0?
 bool hasNoArea(const Request& r);
 
-/// The keys of a motion block. Those at which an object has no extent, while it has at others, lie a
-/// millionth of the way towards the nearest of these: it grows from nothing, and has no normals there.
+/// Changes the keys of a motion block at which an object has no extent, while it has at others: they move a millionth
+/// of the way towards the nearest of these, as the object grows from nothing, and has no normals there.
 std::vector<Request> grown(std::vector<Request> keys);
 
 }  // namespace tomales::rib

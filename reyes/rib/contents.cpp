@@ -49,7 +49,7 @@ uint64_t contentsOf(const std::vector<const Request*>& keys, const std::vector<f
   uint64_t sum = contentSum(times, scope.uBasis, scope.vBasis, scope.roundCurves, *scope.trim);
   for (const Request* key : keys) {
     sum = contentSum(sum, *key);
-    // A brick map is what is in its file.
+    // The contents of a brick map are in its file.
     const Param* file = key->name == "Geometry" ? findParam(key->params, "filename") : nullptr;
     if (file && !file->strings.empty()) sum = contentSum(sum, fileStamp(file->strings[0]));
     if (key->name == "Blobby" && key->args.size() > 3)

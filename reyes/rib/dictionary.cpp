@@ -43,11 +43,11 @@ constexpr Standard kStandard[] = {
      "operation subset compression filter depthfilter type source exrpixeltype exrcompression transfer lightgroup "
      "__group __category"},
     {"float", "fill mergedepth mergeopacity"},
-    {"float", "maxerror radiusscale"},  // of MakeBrickMap
+    {"float", "maxerror radiusscale"},  // parameters of MakeBrickMap
     {"int", "maxdepth ignorenormals"},
     {"float[8]", "chromaticities"},
     {"int", "tiled multipart"},
-    // Category names go by "category:name"
+    // Names with a category are "category:name".
     {"int[2]", "limits:bucketsize bucket:orderorigin"},
     {"int",
      "limits:gridsize limits:texturememory limits:eyesplits limits:threads limits:brickmemory "
@@ -106,7 +106,7 @@ std::vector<std::string_view> words(std::string_view text) {
   return out;
 }
 
-// Takes "[n]", with blanks anywhere, out of `text`.
+// Removes "[n]", with blanks anywhere, from `text`.
 bool takeArrayLength(std::string& text, int& length) {
   const size_t open = text.find('['), close = text.find(']');
   if (open == std::string::npos && close == std::string::npos) return true;
@@ -124,7 +124,7 @@ bool takeArrayLength(std::string& text, int& length) {
   return good;
 }
 
-// Reads class and type off the front; what is left over is the name.
+// Takes class and type off the front; the rest is the name.
 bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool& typed) {
   const auto take = [&list](const auto& table, auto& value) {
     const bool found = !list.empty() && lookUp(table, list[0], value);
@@ -191,7 +191,7 @@ std::optional<Declaration> Dictionary::find(const std::string& token, const std:
   Declaration d;
   if (!takeArrayLength(text, d.arrayLength)) return std::nullopt;
   auto list = words(text);
-  // A lone word is a name, even if a type is called the same.
+  // A lone word is a name, even if it is also the name of a type.
   bool typed = false;
   if (list.size() < 2 || !takeClassAndType(list, d, typed) || list.size() != 1) return std::nullopt;
   name = list[0];

@@ -1,4 +1,4 @@
-// Declarations of parameter names: the standard ones, those of Declare, and inline ones.
+// Declarations of parameter names: standard ones, those of Declare, and inline ones.
 #pragma once
 #include <memory>
 #include <optional>
@@ -14,8 +14,8 @@ struct Declaration {
   Storage storage = Storage::Uniform;
   ValueType type = ValueType::Float;
   int arrayLength = 1;
-  bool standard = false;   ///< Neither inline nor by Declare: the type that such a name has as a rule.
-  bool reference = false;  ///< "reference color c": a string that stands in for a value of the type.
+  bool standard = false;   ///< True if the type is the usual one of such a name, neither inline nor by Declare.
+  bool reference = false;  ///< True for "reference color c": a string that stands in for a value of the type.
 };
 
 class Dictionary {
@@ -25,27 +25,27 @@ class Dictionary {
   /// Holds the standard names of RISpec 3.2 and of the options and attributes that Tomales knows.
   Dictionary();
 
-  /// `declaration`: "class type[n]", where class and type may each be missing, and n: then it is 1. False: not
-  /// understood.
+  /// `declaration` is "class type[n]", where class and type may each be missing, and also [n], which is then 1. Returns
+  /// false if it is not understood.
   bool declare(const std::string& name, const std::string& declaration);
 
-  /// Of the token of a parameter list: a declared name, or an inline declaration "class type[n] name". On
-  /// success `name` is the bare name. `category` is that of Option and Attribute ("visibility"), whose own
+  /// Finds the declaration for the token of a parameter list: a declared name, or an inline declaration "class type[n]
+  /// name". On success `name` is the bare name. `category` is that of Option and Attribute ("visibility"), whose own
   /// names come first.
   std::optional<Declaration> find(const std::string& token, const std::string& category, std::string& name) const;
 
-  /// ColorSamples (RISpec 3.2 section 4.1.6): a row of red, green and blue for each number of a color; empty: they are
-  /// those three. False: the matrix is none.
+  /// Sets ColorSamples (RISpec 3.2 section 4.1.6): a row of red, green and blue for each number of a color; if it is
+  /// empty, a color has those three. Returns false if the matrix is not of this form.
   bool setColorSamples(std::vector<float> rgbOfSamples);
   int colorSamples() const { return rgbOfSamples_.empty() ? 3 : static_cast<int>(rgbOfSamples_.size() / 3); }
-  /// The colors of the stream as red, green and blue. Pre: a multiple of colorSamples().
+  /// Converts colors of the stream to red, green and blue. Pre: their number is a multiple of colorSamples().
   std::vector<float> rgb(const std::vector<float>& colors) const;
   bool hasColorSamples() const { return !rgbOfSamples_.empty(); }
 
  private:
   std::vector<float> rgbOfSamples_;
   using Names = std::unordered_map<std::string, Declaration>;
-  /// Every procedural keeps a copy of the dictionary; few of them declare anything.
+  /// It is shared, because every procedural keeps a copy of the dictionary, and few of them declare anything.
   std::shared_ptr<Names> names_ = std::make_shared<Names>();
 };
 

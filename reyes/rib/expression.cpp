@@ -11,9 +11,9 @@ namespace tomales::rib {
 namespace {
 
 constexpr int kDeepest = 200;
-constexpr size_t kMostSteps = 1 << 26;       ///< Of a comparison with a pattern, which may look at each character
-                                             ///< of the text for each of its own.
-constexpr size_t kMostToldOfUnknown = 1000;  ///< Bytes of names.
+constexpr size_t kMostSteps = 1 << 26;       ///< Of a comparison with a pattern, each of whose characters may be
+                                             ///< compared with each of the text.
+constexpr size_t kMostToldOfUnknown = 1000;  ///< Bytes of unknown names in a message.
 
 void checkLength(size_t bytes) {
   if (bytes > kLongestText) throw ExpressionError(fmt::format("its text would be longer than {} bytes", kLongestText));
@@ -184,7 +184,7 @@ class Evaluator {
     rest_.remove_prefix(n + 1);
     return out;
   }
-  // A name, with colons, or a number.
+  // Takes a name, with colons, or a number.
   std::string word() {
     skipBlanks();
     size_t n = 0;
@@ -220,7 +220,7 @@ bool holds(const std::string& expression, const Variables& variables) {
   return isTrue(Evaluator(expression, variables).all());
 }
 
-// No name holds a brace, or longer and longer ones would be sought in "${${${...".
+// No name holds a brace: else "${${${..." would be searched for longer and longer names.
 std::string substitute(const std::string& text, char mark, const Variables& variables, std::string& unknown) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {

@@ -1,4 +1,4 @@
-// The conditions of IfBegin and ElseIf, and ${name} in strings.
+// Evaluates the conditions of IfBegin and ElseIf, and replaces ${name} in strings.
 #pragma once
 #include <functional>
 #include <optional>
@@ -7,10 +7,10 @@
 
 namespace tomales::rib {
 
-/// The value of a variable; nothing if there is none of that name.
+/// Returns the value of a variable, or nothing if there is none of that name.
 using Variables = std::function<std::optional<std::string>(const std::string& name)>;
 
-/// Bytes of the strings that variables and concat() may make in one request: 1 to 2 KB of RIB could else
+/// The most bytes of the strings that variables and concat() may make in one request: 1 to 2 KB of RIB could else
 /// double themselves to any length.
 constexpr size_t kLongestText = 1 << 20;
 
@@ -18,15 +18,15 @@ struct ExpressionError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Every value is a string; one that reads as a number is compared, added and tested as that number. From the
-/// loosest:
+/// Evaluates a condition. Every value is a string; one that reads as a number is compared, added and tested as that
+/// number. The operators, from the loosest, are:
 ///   ||   &&   == != < <= > >= =~ (a pattern with * and ?)   + -   * /   ! -   and then
 ///   1.5   'text'   word   $name   ${name}   $(expression)   (expression)   defined(name)   concat(a, b, ...)
 /// Throws ExpressionError.
 bool holds(const std::string& expression, const Variables& variables);
 
-/// Replaces MARK{name}. What has no value stays as it is, and is appended to `unknown`. Throws
-/// ExpressionError if the result were longer than kLongestText.
+/// Replaces MARK{name}. A name that has no value stays as it is, and is appended to `unknown`. Throws ExpressionError
+/// if the result were longer than kLongestText.
 std::string substitute(const std::string& text, char mark, const Variables& variables, std::string& unknown);
 
 }  // namespace tomales::rib

@@ -1,17 +1,17 @@
-// Builders of single requests that build_geometry.cpp names. Private to it.
+// Private to build_geometry.cpp: builders of single requests that it names.
 #pragma once
 #include "reyes/rib/graphics_state.h"
 
 namespace tomales::rib {
 
-/// Of "periodic" and "nonperiodic"; anything else is taken for the second, which is a problem.
+/// Tells "periodic" from "nonperiodic"; anything else counts as nonperiodic, which is a problem.
 bool isPeriodic(const std::string& wrap, Problems& problems);
 PrimPtr nuPatch(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr points(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr curves(const Request& request, const Scope& scope, Problems& problems);
-/// `first`: the shape at the first key of motion, if it is not that itself.
+/// `first` is the shape at the first key of motion, unless this is that shape.
 PrimPtr blobby(const Request& request, const Prim* first, const GroundReader& grounds, Problems& problems);
-/// Points of type "blobby" as the Blobby that they are; others are none. Throws PrimError.
+/// Turns Points of type "blobby" into a Blobby; returns nothing for others. Throws PrimError.
 std::optional<Request> blobbyOfPoints(const Request& request);
 PrimPtr brickMap(const Request& request, const Scope& scope, Problems& problems);
 

@@ -121,8 +121,8 @@ bool isFinite(const Motion& m) {
   });
 }
 
-// In double precision: the determinant of a scene in millimetres of a landscape overflows nothing, that of a
-// scaled-down one must not underflow.
+// It computes in double precision: the determinant of a landscape in millimetres must not overflow, nor that of a scene
+// scaled far down underflow.
 bool isInvertible(const Motion& m) {
   return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
     const double d = glm::determinant(glm::dmat4(k));

@@ -15,24 +15,24 @@ namespace tomales::rib {
 struct DetailState {
   float ruler_px2 = kInfinity;                ///< Size of the Detail box in the picture.
   std::optional<std::array<float, 4>> range;  ///< DetailRange since the innermost block began.
-  DetailShare divided;  ///< What ranges divide among them: what was left when the block of the ruler began,
-  DetailShare left;     ///< and when the innermost block did.
+  DetailShare divided;  ///< The share that ranges divide among them, from the beginning of the ruler's block,
+  DetailShare left;     ///< and what was left of it at the beginning of the innermost block.
 };
 
-/// What AttributeBegin saves.
+/// The state that AttributeBegin saves.
 struct Scope {
   std::shared_ptr<Attributes> attributes = std::make_shared<Attributes>();
   Motion ctm;
   Basis uBasis = bezierBasis(), vBasis = bezierBasis();
   std::shared_ptr<const TrimLoops> trim = std::make_shared<TrimLoops>();  ///< Attribute "trimcurve" is part of it.
-  float shadingRate = 1, relativeShadingRate = 1;                         ///< Their product is in the attributes.
+  float shadingRate = 1, relativeShadingRate = 1;                         ///< The attributes have their product.
   bool roundCurves = false;                                               ///< Attribute "dice" "roundcurve"
   bool lightsCastShadows = false;                   ///< Attribute "light" "shadows": for lights that are made here.
   std::map<std::string, Motion> coordinateSystems;  ///< ScopedCoordinateSystem
   DetailState detail;
-  int solid = -1, solidBlock = -1;  ///< In World::solids: the SolidBegin around, if any.
+  int solid = -1, solidBlock = -1;  ///< Indices in World::solids of the SolidBegin around, if there is one.
 
-  /// The attributes, no longer shared with anybody.
+  /// Returns the attributes, after making a copy if they were shared.
   Attributes& edit();
 };
 
@@ -44,16 +44,16 @@ struct Master {
     Basis uBasis, vBasis;
     bool roundCurves;
     std::shared_ptr<const TrimLoops>
-        trim;           ///< Those that it was built with; the others see the values of the request only.
-    float reach;        ///< reachOf() the requests.
-    uint64_t contents;  ///< contentsOf() them.
+        trim;           ///< As the fields above, what it was built with; the rest follows from the request.
+    float reach;        ///< The result of reachOf() for the requests.
+    uint64_t contents;  ///< The result of contentsOf() for them.
   };
   std::vector<Request> requests;
   std::map<size_t, Shapes> shapes;  ///< By index of the request.
-  std::mutex mutex;                 ///< Of the shapes: procedurals are opened by several threads.
+  std::mutex mutex;                 ///< Protects the shapes: procedurals are opened by several threads.
 };
 
-/// What FrameBegin and WorldBegin save besides.
+/// The state that FrameBegin and WorldBegin save besides.
 struct Globals {
   Options options;
   std::vector<std::shared_ptr<LightCall>> lights;
@@ -62,15 +62,15 @@ struct Globals {
   std::vector<std::map<std::string, Scope>> resources{1};  ///< Outermost ResourceBegin first.
   DirMap dirMap;
   std::map<std::string, std::string>
-      unmappedPaths;  ///< Options::searchPaths before dirMap: headers of frames say both again.
+      unmappedPaths;  ///< Options::searchPaths before dirMap: headers of frames set both again.
   Patterns patterns;
-  std::map<std::string, ParamList> quantized;  ///< Quantize of a variable: parameters of the Displays that show it.
+  std::map<std::string, ParamList> quantized;  ///< Parameters of Quantize by variable, for Displays that show it.
 };
 
 enum class Block { Frame, World, Attribute, Transform, Solid, Instance };
 const char* blockName(Block block);
 
-/// Between WorldBegin and WorldEnd.
+/// The state between WorldBegin and WorldEnd.
 struct World {
   Motion cameraFromWorld;
   std::vector<Object> objects;
@@ -91,22 +91,22 @@ class GraphicsState {
   std::optional<World> world;
   Interner<const ShaderCall> shaders;
   Interner<Attributes> attributes;
-  Motion identity;  ///< What Identity sets: the CTM of the instance while an object is replayed.
+  Motion identity;  ///< The matrix that Identity sets: the CTM of the instance while an object is replayed.
 
   void begin(Block block, const SourceLoc& where);
-  /// Restores what `begin` saved, closing forgotten blocks within. False: there is no such block here;
-  /// nothing changed.
+  /// Restores what `begin` saved, and closes forgotten blocks within. Returns false, and changes nothing, if there is
+  /// no such block here.
   bool end(Block block, const SourceLoc& where);
   bool isOpen(Block block) const;
 
-  /// Here, and when the blocks around have ended: lights of the RIS era.
+  /// Switches the light on here and after the blocks around have ended, as lights of the RIS era are.
   void switchOnEverywhere(int light);
-  /// From camera-relative to world-relative: CTM becomes the camera.
+  /// Turns the CTM into the camera: what was relative to the camera is now relative to the world.
   void enterWorld(const SourceLoc& where);
   Motion cameraFromObject() const { return world ? world->cameraFromWorld * scope.ctm : scope.ctm; }
 
   void warn(const Request& request, const char* code, const std::string& message) const;
-  /// One message for all sites that share the key.
+  /// Gives one message for all places that share the key.
   void warnOnce(const std::string& key, const SourceLoc& where, const char* code, const std::string& message,
                 Severity severity = Severity::Warning);
   void warnOnce(const std::string& key, const Request& request, const char* code, const std::string& message,
@@ -126,7 +126,7 @@ class GraphicsState {
 };
 
 bool isFinite(const Motion& m);
-/// False if some key cannot be inverted.
+/// Returns false if some key cannot be inverted.
 bool isInvertible(const Motion& m);
 /// Pre: isInvertible(m).
 Motion inverse(const Motion& m);

@@ -1,5 +1,5 @@
-// What each request does to the graphics state; one table for each chapter of RISpec 3.2. The requests that
-// the scene builder itself must know (blocks, motion, retained objects) are not here.
+// The handlers of requests, which change the graphics state; one table for each chapter of RISpec 3.2. The requests
+// that the scene builder itself must know (blocks, motion, retained objects) are not here.
 #pragma once
 #include <string_view>
 #include <unordered_map>
@@ -18,44 +18,44 @@ const HandlerTable& attributeHandlers();
 const HandlerTable& shaderHandlers();
 const HandlerTable& resourceHandlers();
 const HandlerTable& detailHandlers();
-const HandlerTable& transformHandlers();  ///< CoordinateSystem and its relatives.
+const HandlerTable& transformHandlers();  ///< Handlers of CoordinateSystem and its relatives.
 
-/// Transform, Translate, ...: one request for each time, all with the same name.
+/// Transform, Translate, ... The keys are one request for each time, all with the same name.
 bool isTransformation(std::string_view name);
 void applyTransformation(GraphicsState& state, const std::vector<const Request*>& keys,
                          const std::vector<float>& times);
 
-/// Sphere, Polygon, ...: throws PrimError if there is nothing to draw.
+/// Sphere, Polygon, ... The builder throws PrimError if there is nothing to draw.
 bool isGeometry(std::string_view name);
-/// What a request is a key of.
+/// The motion that a request is a key of.
 struct MotionKeys {
-  const std::vector<const Request*>& requests;  ///< By time; the request alone if it does not move.
-  const Prim* first;                            ///< The shape at the first key, if it is not that itself.
+  const std::vector<const Request*>& requests;  ///< Sorted by time; the request alone if it does not move.
+  const Prim* first;                            ///< The shape at the first key; null if this is the first key.
 };
 PrimPtr buildPrim(const Request& request, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds,
                   Problems& problems);
-/// Of a file that a Display of depth has left. Throws PrimError.
+/// Reads a file that a Display of depth has written. Throws PrimError.
 GroundPicture readGround(const std::string& path, const mat4& worldFromObject);
 
-/// No point of the shape is farther from its origin, by any coordinate; perhaps none is as far.
+/// Returns a bound of the coordinates of the shape's points, which may be larger than needed.
 float reachOf(const Request& request);
 
-/// TrimCurve: the loops that cut the NuPatches after it, none if it is empty.
+/// TrimCurve: sets the loops that cut the NuPatches after it, none if it is empty.
 void trimCurve(GraphicsState& state, const Request& request);
-// Solids: what SolidBegin and SolidEnd do besides saving the attributes. Begin is called inside the new block, end
-// while it still stands.
+// Solids: what SolidBegin and SolidEnd do besides saving the attributes. Call beginSolid() inside the new block, and
+// endSolid() before it ends.
 void beginSolid(GraphicsState& state, const Request& request);
 void endSolid(GraphicsState& state, const Request& request);
 /// Makes an object part of the solid that is open, if any.
 void placeInSolid(GraphicsState& state, Object& object);
 
-// Shared by the handlers.
+// Functions that handlers share.
 inline vec3 asVec3(const RibArg& a, size_t at = 0) { return {a.numbers[at], a.numbers[at + 1], a.numbers[at + 2]}; }
 mat4 asMatrix(const std::vector<float>& sixteen);
-/// Says so where it changes the value.
+/// Returns the value within the limits, and reports a change.
 float clamped(GraphicsState& state, const Request& request, float value, float least, float most);
-/// Once for each "category:name" of an Option or Attribute. Where something else does what it asks for, that is said,
-/// and nothing is wrong with the picture.
+/// Warns once for each "category:name" of an Option or Attribute. If something else does what it asks for, the message
+/// says that, and nothing is wrong with the picture.
 void warnOfIgnored(GraphicsState& state, const Request& request, const std::string& key);
 ShaderCall makeShaderCall(const GraphicsState& state, const Request& request);
 

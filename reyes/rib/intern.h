@@ -1,4 +1,4 @@
-// Makes one of equal values: shading works on objects that share their attributes, and RIB repeats itself.
+// Makes equal values one: shading works on objects that share their attributes, and RIB repeats itself.
 #pragma once
 #include <array>
 #include <memory>
@@ -9,7 +9,7 @@ namespace tomales::rib {
 template <class T>
 class Interner {
  public:
-  /// An equal value that is known, or this one.
+  /// Returns an equal value that is known, or else this one.
   std::shared_ptr<T> operator()(std::shared_ptr<T> value) {
     for (const std::shared_ptr<T>& known : recent_)
       if (known && (known == value || *known == *value)) return known;

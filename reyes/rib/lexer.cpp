@@ -105,7 +105,7 @@ void Lexer::takeNumbers(std::vector<T>& out) {
 template void Lexer::takeNumbers(std::vector<float>& out);
 template void Lexer::takeNumbers(std::vector<int>& out);
 
-// The everyday numbers that are whole in the buffer, without making tokens of them.
+// Reads the everyday numbers that lie in the buffer as a whole, without making tokens of them.
 template <class T>
 void Lexer::takeWrittenNumbers(std::vector<T>& out) {
   const char *p = stream_.begin(), *const last = stream_.end();
@@ -165,7 +165,7 @@ void Lexer::readString() {
   }
 }
 
-// The escapes of C strings that RISpec names: \n \r \t \b \f \\ \" \ooo, and a line end that is skipped.
+// Reads the escapes of C strings that RISpec names: \n \r \t \b \f \\ \" \ooo, and a line end, which is skipped.
 void Lexer::readEscape() {
   const int c = stream_.get();
   static constexpr std::string_view kLetters = "nrtbf", kMeanings = "\n\r\t\b\f";
@@ -201,7 +201,7 @@ void Lexer::readWord() {
     junk("\"" + token_.text.substr(0, 40) + "\", which is neither a number nor a name");
 }
 
-// A whole run at once: one token, one message.
+// Reads a whole run at once: one token, one message.
 void Lexer::readJunk() {
   int c = stream_.peek();
   junk(fmt::format("byte 0x{:02x}, which begins nothing in RIB", c));

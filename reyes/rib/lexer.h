@@ -1,5 +1,5 @@
-// Bytes -> tokens of RIB, ASCII and binary mixed at will (RISpec 3.2 appendix C). Never fails: bytes that
-// belong to no token come out as Junk.
+// Turns bytes into tokens of RIB, ASCII and binary mixed at will (RISpec 3.2 appendix C). It never fails: bytes that
+// belong to no token become Junk.
 #pragma once
 #include <array>
 #include <memory>
@@ -16,15 +16,15 @@ struct Token {
   enum class Kind { End, Number, Floats, String, Name, Open, Close, Junk };
   Kind kind = Kind::End;
   ScannedNumber number{};     ///< May be infinite or NaN: writers print "inf" and "nan" when their input was broken.
-  std::vector<float> floats;  ///< Floats: an encoded array, brackets included.
-  std::string text;           ///< Of a String without quotes and escapes, of a Name; for Junk, what it is.
-  int line = 1;               ///< Of Lexer::file().
+  std::vector<float> floats;  ///< The numbers of an encoded array, brackets included.
+  std::string text;           ///< A String without quotes and escapes, or a Name; for Junk, a description of it.
+  int line = 1;               ///< Line in Lexer::file().
 };
 
-/// For messages: "the number 3", "a string \"...\"", "the end of the file".
+/// Describes it in a message: "the number 3", "a string \"...\"", "the end of the file".
 std::string describe(const Token& token);
 
-/// Rounded and clamped; INT_MIN for NaN.
+/// Rounds and clamps; NaN becomes INT_MIN.
 int toInt(double d);
 
 class Lexer {
@@ -38,21 +38,21 @@ class Lexer {
   }
 
   const Token& peek() const { return token_; }
-  /// Where the token is: in the stream, or in the program that wrote it, if that said so by a comment of the form
+  /// The place of the token: in the stream, or in the program that wrote it, if that said so by a comment of the form
   /// #line 12 "scene.py". The line after such a comment has the number that it gives, as in C.
   const std::shared_ptr<const std::string>& file() const { return file_; }
   void advance();
 
   bool atNumbers() const { return token_.kind == Token::Kind::Number || token_.kind == Token::Kind::Floats; }
-  /// Appends the number or encoded array here and goes on. Pre: atNumbers().
+  /// Appends the number or encoded array that is next, and moves past it. Pre: atNumbers().
   template <class T>
   void takeNumber(std::vector<T>& out);
-  /// Appends all numbers from here on, up to the next token that is none.
+  /// Appends all numbers from here up to the next other token.
   template <class T>
   void takeNumbers(std::vector<T>& out);
 
  private:
-  /// False: it was a definition, the token is still to come.
+  /// Returns false after a definition: the token is still to come.
   bool readToken();
   void skipBlanks();
   void skipComment();
@@ -66,13 +66,13 @@ class Lexer {
   template <class T>
   void takeWrittenNumbers(std::vector<T>& out);
 
-  // Binary (lexer_binary.cpp)
+  // Binary tokens are read in lexer_binary.cpp.
   bool readBinary();
-  /// Most significant byte first. False, and Junk: the stream ended.
+  /// Reads the most significant byte first. Returns false, with Junk, if the stream has ended.
   bool readBytes(int count, uint64_t& out);
   void readInteger(int bytes, int fraction);
   bool readStringOf(uint64_t length);
-  /// A string in any encoding.
+  /// Reads a string in any encoding.
   bool readDefinition();
   void readFloats(uint64_t count);
 
@@ -84,7 +84,7 @@ class Lexer {
   std::unordered_map<uint64_t, std::string> strings_;
 };
 
-/// Bytes that begin an encoded token; the rest above 0177 is reserved.
+/// Is it a byte that begins an encoded token? The rest above 0177 is reserved.
 inline bool isBinary(int c) { return (c >= 0200 && c <= 0246) || (c >= 0310 && c <= 0320); }
 
 }  // namespace tomales::rib

@@ -1,4 +1,4 @@
-// The encoded tokens: bytes from 0200 on.
+// Reads the encoded tokens, which begin with bytes from 0200 on.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ bool Lexer::readBytes(int count, uint64_t& out) {
   return true;
 }
 
-// Two's complement of `bytes` bytes, of which `fraction` are after the radix point.
+// Reads a two's complement of `bytes` bytes, of which `fraction` are after the radix point.
 void Lexer::readInteger(int bytes, int fraction) {
   uint64_t n = 0;
   if (!readBytes(bytes, n)) return;
@@ -109,7 +109,7 @@ bool Lexer::readDefinition() {
   return token_.kind == Token::Kind::String;
 }
 
-// As many as there are: the count alone must not allocate anything.
+// Reads as many as there are: the count alone must not allocate anything.
 void Lexer::readFloats(uint64_t count) {
   token_.kind = Token::Kind::Floats;
   token_.floats.clear();
@@ -117,7 +117,7 @@ void Lexer::readFloats(uint64_t count) {
     if (stream_.peek() == ByteStream::kEnd) return junk("an encoded array that is cut off");
     const size_t whole = static_cast<size_t>(stream_.end() - stream_.begin()) / 4;
     const auto n = std::min<uint64_t>(count - token_.floats.size(), whole);
-    if (n == 0) {  // it straddles two buffers
+    if (n == 0) {  // a number straddles two buffers
       uint64_t bits = 0;
       if (!readBytes(4, bits)) return;
       token_.floats.push_back(std::bit_cast<float>(static_cast<uint32_t>(bits)));

@@ -27,7 +27,7 @@ const char* takeDigits(const char* p, const char* last, Decimal& d) {
   return p;
 }
 
-// Null: not an exponent of at most three digits.
+// Returns null if it is not an exponent of at most three digits.
 const char* takeExponent(const char* p, const char* last, Decimal& d) {
   const bool negative = p < last && *p == '-';
   if (p < last && (*p == '-' || *p == '+')) ++p;

@@ -1,4 +1,4 @@
-// Text -> numbers, to the last bit as strtof and strtod (rounded to nearest), but several times faster for
+// Converts text to numbers, to the last bit as strtof and strtod do (rounded to nearest), but several times faster for
 // the short decimals that RIB is made of.
 #pragma once
 
@@ -10,11 +10,11 @@ struct ScannedNumber {
   float narrow;
 };
 
-/// Reads a number off [first, last), "inf" and "nan" included, beyond the largest as infinity. Returns where
-/// it ends; `first`, if there is no number.
+/// Reads a number off [first, last), "inf" and "nan" included; one beyond the largest becomes infinity. Returns the end
+/// of the number, or `first` if there is none.
 const char* scanNumber(const char* first, const char* last, ScannedNumber& out);
 
-/// The quick part of scanNumber: null, if the number is not of the everyday kind or there is none.
+/// The quick part of scanNumber. It returns null if there is no number, or one that is not of the everyday kind.
 const char* scanEverydayNumber(const char* first, const char* last, ScannedNumber& out);
 
 }  // namespace tomales::rib

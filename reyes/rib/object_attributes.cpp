@@ -5,11 +5,11 @@
 namespace tomales::rib {
 namespace {
 
-/// Strings that a primitive has of its own, which surfaces cannot interpolate: those of one value, which are that of
-/// all of it.
+/// Returns the strings of a primitive that surfaces need not interpolate: those with one value, which holds for all of
+/// it.
 ParamList stringsOf(const Request& r) {
   ParamList out;
-  const bool has = r.name != "Points" && r.name != "Geometry";  // theirs say what they are
+  const bool has = r.name != "Points" && r.name != "Geometry";  // their strings say what they are
   for (const Param& p : r.params)
     if (has && p.type == ValueType::String && p.strings.size() == 1 &&
         (p.storage == Storage::Constant || p.storage == Storage::Uniform)) {
@@ -19,7 +19,7 @@ ParamList stringsOf(const Request& r) {
   return out;
 }
 
-/// The call as a primitive has it whose values take the place of the shader's own (RISpec 3.2 section 5, primitive
+/// Returns the call for a primitive whose values take the place of the shader's own (RISpec 3.2 section 5, primitive
 /// variables).
 std::shared_ptr<const ShaderCall> overridden(const ShaderCall& given, const ParamList& values) {
   auto call = std::make_shared<ShaderCall>(given);

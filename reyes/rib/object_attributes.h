@@ -1,12 +1,12 @@
-// What an object has of its own beside the attributes that are set when it is drawn. Private to reading RIB.
+// Private to reading RIB: attributes that an object has beside those that are set when it is drawn.
 #pragma once
 #include "reyes/rib/graphics_state.h"
 
 namespace tomales::rib {
 
-/// Of the primitive that a request draws now. Surface "null": nobody sees it, but it may emit; in passes for depth
-/// alone that means, by custom, that no shader need run. Strings of the primitive take the place of those of its
-/// shaders.
+/// Returns those of the primitive that a request draws now. With Surface "null" nobody sees it, but it may emit; in
+/// passes for depth alone that means, by custom, that no shader need run. Strings of the primitive take the place of
+/// those of its shaders.
 std::shared_ptr<Attributes> attributesOf(const Request& r, GraphicsState& s);
 
 }  // namespace tomales::rib

@@ -1,5 +1,5 @@
-// Tokens -> Requests. What comes out has the arguments that its signature says, and parameters that fit their
-// declarations; everything else has been reported with file and line, and skipped.
+// Turns tokens into Requests. A request that is returned has the arguments that its signature says, and parameters that
+// fit their declarations; everything else has been reported with file and line, and skipped.
 #pragma once
 #include <optional>
 
@@ -12,16 +12,16 @@ namespace tomales::rib {
 
 class Parser {
  public:
-  /// What has more errors than that is no RIB, and may have no end.
+  /// A file with more errors than this is no RIB, and may have no end.
   static constexpr int kMostSenseless = 100'000;
 
-  /// The dictionary outlives the parser: it belongs to the whole stream, archives included.
+  /// The dictionary must outlive the parser: it belongs to the whole stream, archives included.
   Parser(ByteStream& stream, std::string file, Dictionary& dictionary, Log& log);
 
-  /// The next good request; nothing at the end of the stream, or where so much made no sense that the rest is given up.
+  /// Returns the next good request, or nothing at the end of the stream, or if so much made no sense that it gives up.
   std::optional<Request> next();
-  /// In a branch of a condition that is not read, other renderers may be spoken to: nothing is wrong with what they
-  /// understand.
+  /// Mutes messages in a branch of a condition that is not
+  /// read: it may be for other renderers, and right for them.
   void mute(bool muted) { muted_ = muted; }
 
  private:
@@ -30,7 +30,7 @@ class Parser {
   SourceLoc here() const { return {lexer_.file(), lexer_.peek().line}; }
   void warn(const char* code, const SourceLoc& where, const std::string& message,
             Severity severity = Severity::Warning) const;
-  /// Reports what is wrong with the request; always false.
+  /// Reports what is wrong with the request, and always returns false.
   bool fail(const std::string& expected);
   void skipToKnownRequest(bool reportUnknown);
   void unknownRequest(const std::string& name) const;
@@ -46,11 +46,11 @@ class Parser {
   /// Is the token a name whose type the values show, if it is declared nowhere?
   bool valuesTellTypeOf(const std::string& token) const;
   static Param typedByValues(const std::string& name, Param values);
-  /// Numbers into `ints` or `floats`, by the parameter's type.
+  /// Reads numbers into `ints` or `floats`, by the parameter's type.
   bool readValues(Param& param);
-  size_t widthOf(const Param& param) const;  ///< Numbers in one element, as they are written.
+  size_t widthOf(const Param& param) const;  ///< Number of numbers in one written element.
   bool valuesFit(const Param& param) const;
-  /// The same, with a message if they do not.
+  /// Returns the same, with a message if they do not.
   bool fitsDeclaration(const std::string& token, const Param& param) const;
 
   Lexer lexer_;
@@ -58,7 +58,7 @@ class Parser {
   Log& log_;
   Request request_;
   bool muted_ = false;
-  int senseless_ = 0;  ///< Places that were skipped.
+  int senseless_ = 0;  ///< Number of places that were skipped.
 };
 
 }  // namespace tomales::rib

@@ -14,11 +14,11 @@ struct Plugin {
   RtPointer (*convertParameters)(char*) = nullptr;
   void (*subdivide)(RtPointer, RtFloat) = nullptr;
   void (*free)(RtPointer) = nullptr;
-  std::string trouble;  ///< Why it cannot be used; empty: it can.
+  std::string trouble;  ///< Why it cannot be used; empty if it can.
 };
 
 /// Libraries are tried in a process of their own, then loaded, and stay in memory: procedurals keep pointers to their
-/// functions. Threads: concurrent.
+/// functions. Threads: calls may be concurrent.
 class PluginPool {
  public:
   const Plugin& load(const std::string& path);

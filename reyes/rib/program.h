@@ -1,5 +1,5 @@
-// A program of the user's, run by the shell: it is asked by lines of text, its output is read as it comes. Whatever
-// becomes of it, it ends with this object: its whole process group is killed.
+// A program of the user's, run by the shell: it is asked by lines of text, and its output is read as it comes. It ends
+// at the latest with this object, which kills its whole process group.
 #pragma once
 #include <sys/types.h>
 
@@ -22,11 +22,11 @@ class Program {
 
   /// `patience_s`: the longest total time that read() waits for the answer.
   void ask(std::string text, double patience_s);
-  /// There will be no more questions: the end of its input.
+  /// Closes its input, which tells it that there will be no more questions.
   void closeInput();
-  /// 0: it has closed its output, or patience is over.
+  /// Returns 0 if it has closed its output, or if the patience is over.
   size_t read(char* buffer, size_t size);
-  /// Pre: read() gave 0. Waits for its end with the patience that is left. Empty, or what went wrong with it.
+  /// Waits for its end with the patience that is left, and returns what went wrong, or nothing. Pre: read() gave 0.
   std::string finish();
 
  private:
@@ -42,7 +42,7 @@ class Program {
 };
 
 /// Programs that have answered wait here for the next question, so that each is started once, or once for each thread
-/// that needs it at the same time. Threads: concurrent.
+/// that needs it at the same time. Threads: calls may be concurrent.
 class ProgramPool {
  public:
   std::unique_ptr<Program> take(const std::string& command);

@@ -13,7 +13,7 @@ namespace {
 
 SourceLoc wholeFile(const std::string& name) { return {std::make_shared<const std::string>(name), 0}; }
 
-/// More than what AttributeBegin saves.
+/// Does the request change more than the state that AttributeBegin saves?
 bool changesSurroundings(std::string_view name) {
   static constexpr std::string_view kNames[] = {"Declare",       "ObjectEnd",       "Option",     "CoordinateSystem",
                                                 "LightSource",   "AreaLightSource", "Light",      "Resource",
@@ -128,7 +128,7 @@ Request Reader::withRgb(Request r) const {
   return r;
 }
 
-// Strings that are values; names of parameters stay.
+// Replaces variables in strings that are values; names of parameters stay.
 Request Reader::substituted(const Request& r) const {
   Request out = r;
   std::string unknown;

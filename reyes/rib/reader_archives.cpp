@@ -1,4 +1,4 @@
-// Archives: files that are read in place, and inline ones that are taken down and replayed.
+// Archives: files are read in place, and inline archives are recorded and replayed.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// More than any scene needs: archives that double each other must end in a minute, not in a year.
+// Limits beyond what any scene needs: archives that double each other must end in a minute, not in a year.
 constexpr size_t kBudget = 10'000'000, kFileCost = 10;
-constexpr size_t kReplayCost = 10;  ///< Of a request: most are objects, which take half a kilobyte each.
+constexpr size_t kReplayCost = 10;  ///< Cost of a request: most are objects, which take half a kilobyte each.
 
 std::string canonical(const std::string& path) {
   std::error_code error;
@@ -23,7 +23,7 @@ std::string canonical(const std::string& path) {
   return error ? path : out.string();
 }
 
-/// Of a member of a zip file, that of the zip file.
+/// The folder of a zip file's member is that of the zip file.
 std::string folderOf(const std::string& path) {
   const std::string zip = zipOf(path);
   return fs::path(zip.empty() ? path : zip).parent_path().string();
@@ -39,8 +39,8 @@ void Reader::record(const Request& r) {
     recording = Recording{r, {}};
     return;
   }
-  // Names that parameters had when the archive was taken down are resolved already; later ones need Declare
-  // too.
+  // Names that parameters had when the archive was recorded
+  // are resolved already; later ones need Declare too.
   declare(r, dictionary_, log_);
   recording->depth += (r.name == "ArchiveBegin") - (r.name == "ArchiveEnd");
   if (recording->depth == 0)
@@ -59,7 +59,7 @@ void Reader::endRecording() {
 void Reader::readArchiveNamed(const Request& r, const std::string& name) {
   const auto it = inlineArchives_.find(name);
   if (it == inlineArchives_.end()) return readArchiveFile(r, name);
-  const std::shared_ptr<const Requests> archive = it->second;  // it may be redefined by itself
+  const std::shared_ptr<const Requests> archive = it->second;  // keeps it if it redefines itself
   replay(r, name, *archive);
 }
 
@@ -108,7 +108,7 @@ bool Reader::mayEnter(const Request& r, const std::string& key, size_t cost) {
   return true;
 }
 
-// Several threads may spend it: never below nothing.
+// Several threads may spend the budget, which must never fall below 0.
 bool Reader::spend(size_t cost) {
   size_t left = *budget_;
   while (left >= cost && !budget_->compare_exchange_weak(left, left - cost)) {
@@ -116,7 +116,7 @@ bool Reader::spend(size_t cost) {
   return left >= cost;
 }
 
-/// Names of files become what the search path finds.
+/// Replaces names of files by the paths that the search path finds.
 void Reader::geometry(const Request& r) {
   Request found = r;
   const auto find = [&](std::string& file) {
@@ -139,7 +139,7 @@ std::vector<std::string> Reader::foldersFor(const char* category) const {
   return out;
 }
 
-// The search path first, then beside the file that reads, then where the caller says.
+// Looks along the search path first, then beside the file that reads, then where the caller says.
 std::string Reader::findFile(const std::string& written, const char* category) const {
   const std::string name = mapped(written, builder_.dirMap());
   std::error_code ignored;

@@ -1,5 +1,5 @@
-// Procedural "DynamicLoad". What a plugin calls is taken down first and read after it has returned: its code runs
-// alone, ours need not be ready to be entered again, and what it says before it fails is kept.
+// Procedural "DynamicLoad". Calls of a plugin are recorded first and read after it has returned: so its code runs
+// alone, ours need not be reentrant, and the calls that it makes before it fails are kept.
 #include <fmt/format.h>
 
 #include "reyes/base/crash_note.h"

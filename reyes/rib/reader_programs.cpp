@@ -1,5 +1,5 @@
 // Procedural, Procedural2 and System. A procedural is read when its bound is needed, by a Reader of its own that has
-// the state of the place where it stands.
+// the state of the procedural's place.
 #include <fmt/format.h>
 
 #include "reyes/rib/program.h"
@@ -8,10 +8,10 @@
 namespace tomales::rib {
 namespace {
 
-// Of a procedural within another, or within an archive: it keeps its surroundings in memory until it is opened.
+// Cost of a procedural within another, or within an archive: it keeps its surroundings in memory until it is opened.
 constexpr size_t kProceduralCost = 20;
 constexpr size_t kProgramCost = 1000;
-constexpr size_t kAnswerCost = 10;  // a request of a program: what it draws takes a kilobyte
+constexpr size_t kAnswerCost = 10;  // cost of a request of a program: what it draws takes a kilobyte
 constexpr double kSystemPatience_s = 3600;
 constexpr size_t kLongestAnswer = size_t{1} << 30;  // bytes
 
@@ -20,7 +20,7 @@ std::string text(const ParamList& params, const char* name) {
   return p && !p->strings.empty() ? p->strings[0] : "";
 }
 
-// Infinite is "now"; what is no box at all is worth a word.
+// An infinite box is one, and means "now"; anything that is no box is reported.
 bool isBox(const std::vector<float>& b) { return b.size() == 6 && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5]; }
 
 }  // namespace
@@ -60,12 +60,12 @@ void Reader::procedural(const Request& r) {
   later(r, [r, read](Reader& reader) { (reader.*read)(r); });
 }
 
-// The subdivide function and the function that bounds it, then parameters: the data of the first under other names.
+// The arguments are the subdivide function and the function that bounds it, then parameters: the data of the first.
 void Reader::procedural2(const Request& r) {
   const std::string &kind = r.args[0].strings[0], &bounding = r.args[1].strings[0];
   const bool program = kind == "RunProgram2", plugin = kind == "DynamicLoad2";
   const Param* bound = findParam(r.params, "bound");
-  if (!bound) bound = findParam(r.params, "__bound");  // so PRMan spells it
+  if (!bound) bound = findParam(r.params, "__bound");  // PRMan's spelling
   Request plain{r.name, {}, {}, r.where};
   const auto strings = [](std::vector<std::string> s) { return RibArg{RibArg::Kind::Strings, {}, std::move(s)}; };
   plain.args.push_back({RibArg::Kind::String, {}, {kind.ends_with('2') ? kind.substr(0, kind.size() - 1) : kind}});
@@ -132,8 +132,8 @@ bool Reader::allowed(const Request& r, const std::string& command) const {
   return false;
 }
 
-// RISpec 3.2 section 5.10: one line of detail and data in, RIB out, closed by 0377; then the program waits for the next
-// line.
+// RISpec 3.2 section 5.10: one line of detail and data goes in, RIB comes out, closed by 0377; then the program waits
+// for the next line.
 void Reader::runProgram(const Request& r) {
   const std::vector<std::string>& call = r.args[1].strings;
   tellOfFile(r, "program", call[0], call[0]);

@@ -117,7 +117,7 @@ const std::unordered_map<std::string_view, const char*>& reasons() {
   return table;
 }
 
-// Of all names of a category.
+// Reasons for all names of a category.
 constexpr std::pair<std::string_view, const char*> kCategories[] = {
     {"Option statistics:", kStatistics},
     {"Option rib:", kWriter},

@@ -1,12 +1,12 @@
-// What scenes ask for and Tomales does not do: why, and what does it instead.
+// Explains requests of scenes that Tomales ignores: the reason, and what it does instead.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace tomales::rib {
 
-/// `what`: a request ("PixelVariance"), or "Option category:name", "Attribute category:name", "Hider name",
-/// "Hider:parameter". Begins with a colon and a blank; empty if there is nothing to add.
+/// `what` is a request ("PixelVariance"), or "Option category:name", "Attribute category:name", "Hider name",
+/// "Hider:parameter". The result begins with a colon and a blank, or is empty if there is nothing to add.
 std::string reasonFor(std::string_view what);
 
 }  // namespace tomales::rib

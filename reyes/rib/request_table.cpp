@@ -157,7 +157,7 @@ constexpr Signature kTable[] = {
     {"MakeTexture3D", "ss", kParams, kNotYet},
 };
 
-/// Quadrics are known by what makes them.
+/// Makes the signature of a quadric, of which prim.h has the list.
 Signature signatureOf(const Quadric& quadric) {
   static constexpr std::string_view kCounts = "0123456789";
   return {quadric.name, kCounts.substr(static_cast<size_t>(quadric.numberCount), 1), kParams, kDraws};

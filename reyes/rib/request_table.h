@@ -9,9 +9,9 @@ namespace tomales::rib {
 
 enum class Support {
   Works,
-  Draws,           ///< The same; without it something is missing from the picture.
-  NotYet,          ///< Named once, then ignored.
-  NotYetGeometry,  ///< The same, but something is missing from the picture.
+  Draws,           ///< As Works; without it something would be missing from the picture.
+  NotYet,          ///< It is reported once, then ignored.
+  NotYetGeometry,  ///< As NotYet, and something is missing from the picture.
 };
 
 /// `arguments` is a list of letters, one for each positional argument:
@@ -26,9 +26,9 @@ struct Signature {
   Support support;
 };
 
-/// Null: no such request.
+/// Returns null if there is no such request.
 const Signature* findSignature(std::string_view name);
-/// Of all that findSignature() finds.
+/// Returns the names of all that findSignature() finds.
 const std::vector<std::string>& requestNames();
 
 }  // namespace tomales::rib

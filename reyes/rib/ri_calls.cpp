@@ -1,4 +1,4 @@
-// The functions of reyes/ri.h. All in one file with recordRiCalls(): who needs that links them, and plugins find them.
+// The functions of reyes/ri.h. They are in one file with recordRiCalls(), so that its users link them for plugins.
 #include "reyes/rib/ri_calls.h"
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ struct Arrays {
 
 thread_local Recorder* recorder = nullptr;
 
-/// Null, and said once: nobody listens.
+/// Returns null, and says so once, if nothing records in this thread.
 Recorder* listening() {
   static std::once_flag said;
   if (!recorder)
@@ -125,7 +125,7 @@ void recordRiCalls(RiContext context, Log& log, const std::function<void()>& pro
 
 using namespace tomales::rib;
 
-// The variadic form of a function, by its V form. What comes before the tokens: `last`, and all of it.
+// Defines the variadic form of a function by its V form. `last` precedes the tokens; the rest is all that does.
 #define VARIADIC(last, call, ...) \
   std::va_list list;              \
   va_start(list, last);           \
@@ -133,7 +133,7 @@ using namespace tomales::rib;
   va_end(list);                   \
   return call(__VA_ARGS__, a.n(), a.tokens.data(), a.values.data())
 
-// Requests of one name and parameters: Ri<Request>(name, ...) and Ri<Request>V.
+// Defines requests of one name and parameters: Ri<Request>(name, ...) and Ri<Request>V.
 #define NAMED(request)                                                            \
   RtVoid Ri##request(RtToken name, ...) { VARIADIC(name, Ri##request##V, name); } \
   RtVoid Ri##request##V(RtToken name, RI_ARRAYS) { say(#request, {text(name)}, n, tokens, values); }

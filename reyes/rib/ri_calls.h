@@ -1,4 +1,4 @@
-// Calls of the C binding (reyes/ri.h) -> Requests.
+// Turns calls of the C binding (reyes/ri.h) into Requests.
 #pragma once
 #include <functional>
 #include <mutex>
@@ -10,7 +10,7 @@
 
 namespace tomales::rib {
 
-/// RiProcedural with a function of the caller's own.
+/// An RiProcedural with a function of the caller's own.
 struct OwnProcedural {
   std::shared_ptr<void> data;  ///< Freed by the caller's function with the last copy.
   RtProcSubdivFunc subdivide;
@@ -21,18 +21,18 @@ struct RiCall {
   std::optional<OwnProcedural> procedural;
 };
 
-/// How calls are understood.
+/// The state in which calls are understood.
 struct RiContext {
   Dictionary dictionary;
-  int uStep = 3, vStep = 3;  ///< Of the bases.
-  SourceLoc where;           ///< What the requests say of their place.
+  int uStep = 3, vStep = 3;  ///< Steps of the bases.
+  SourceLoc where;           ///< The place that the requests are given.
 };
 
-/// Runs `program` and takes down the calls that it makes in this thread. What it throws goes on; `calls` holds what
-/// came before.
+/// Runs `program` and records the calls that it makes in this thread. Exceptions of `program` are not caught; `calls`
+/// then has those that came before.
 void recordRiCalls(RiContext context, Log& log, const std::function<void()>& program, std::vector<RiCall>& calls);
 
-/// Plugins were not written for threads: what runs their code holds this.
+/// Plugins were not written for threads: hold this while their code runs.
 std::recursive_mutex& pluginMutex();
 
 }  // namespace tomales::rib

@@ -1,4 +1,4 @@
-// Calls of the C binding, taken down as Requests. Private to ri_calls.cpp.
+// Private to ri_calls.cpp: records calls of the C binding as Requests.
 #pragma once
 #include <array>
 
@@ -6,7 +6,7 @@
 
 namespace tomales::rib {
 
-/// How many values of each storage class a primitive takes (RISpec 3.2 section 5).
+/// The number of values of each storage class that a primitive takes (RISpec 3.2 section 5).
 struct ValueCounts {
   size_t uniform = 1, varying = 1, vertex = 1, faceVarying = 1;
   size_t of(Storage s) const {
@@ -27,7 +27,7 @@ struct ValueCounts {
 };
 inline constexpr ValueCounts kQuadric{1, 4, 4, 4};
 
-// Arguments.
+// Conversions of arguments.
 inline RibArg number(RtFloat f) { return {RibArg::Kind::Number, {f}}; }
 inline RibArg integer(RtInt i) { return {RibArg::Kind::Integer, {}, {}, {i}}; }
 inline RibArg text(RtToken s) { return {RibArg::Kind::String, {}, {s ? s : ""}}; }
@@ -61,7 +61,7 @@ class Recorder {
   RiContext context_;
   Log& log_;
   std::vector<RiCall>& calls_;
-  std::vector<std::array<int, 2>> steps_;  ///< Of the bases along u and v, as RiAttributeBegin saves them.
+  std::vector<std::array<int, 2>> steps_;  ///< Steps of the bases along u and v, as RiAttributeBegin saves them.
 };
 
 }  // namespace tomales::rib

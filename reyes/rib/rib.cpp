@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-/// Streams that share one dictionary.
+/// Parses streams that share one dictionary.
 class PlainParse {
  public:
   PlainParse(RiSink& sink, Log& log) : sink_(sink), log_(log) {}

@@ -12,7 +12,7 @@ namespace {
 
 using Translator = Translation (*)(const Request&, Patterns&);
 
-// A path of length 1 is direct light alone (PRMan 19 to 22: maxPathLength).
+// A path of length 1 is direct light alone (maxPathLength of PRMan 19 to 22).
 Translation integrator(const Request& r, Patterns&) {
   const std::string& name = r.args[0].strings[0];
   if (name == "PxrDirectLighting") return {{}, {standsIn(r, "direct light of the scene's own lights")}};
@@ -31,7 +31,7 @@ Translation ignored(const Request& r, Patterns&) { return {{}, {note(r, "is not 
 
 Translation pattern(const Request& r, Patterns& patterns) {
   patterns[r.args[1].strings[0]] = r;
-  return {};  // what refers to it says what becomes of it
+  return {};  // the requests that refer to it report its fate
 }
 
 Translation camera(const Request& r, Patterns&) {
@@ -41,7 +41,7 @@ Translation camera(const Request& r, Patterns&) {
         r.where}}};
 }
 
-// What lies behind the picture; other filters change it.
+// A PxrBackground lies behind the picture; other filters change the picture.
 Translation displayFilter(const Request& r, Patterns& patterns) {
   if (!r.args[0].strings[0].starts_with("PxrBackground")) return ignored(r, patterns);
   return {
@@ -80,7 +80,7 @@ Note standsIn(const Request& r, const std::string& substitute, Severity severity
   return note(r, "is not available: " + substitute + " stands in for it", severity);
 }
 
-// Of requests that are older than RIS, those that name something of it.
+// Of requests that are older than RIS, those belong here that name something of RIS.
 bool isRis(const Request& r) {
   if (r.name == "Option" || r.name == "Attribute") return r.args[0].strings[0] == "Ri";
   if (r.name == "AreaLightSource") return r.args[0].strings[0].find("PxrStd") != std::string::npos;

@@ -1,10 +1,10 @@
-// Requests of the RIS era of PRMan -> requests that say nearly the same with what Tomales has.
+// Translates requests of the RIS era of PRMan to requests that say nearly the same in terms of Tomales.
 #pragma once
 #include "reyes/rib.h"
 
 namespace tomales::rib {
 
-/// What stands in for what; said once for each key.
+/// Tells what was replaced by what; it is reported once for each key.
 struct Note {
   std::string key, text;
   SourceLoc where;
@@ -24,8 +24,8 @@ bool isRis(const Request& request);
 /// Pre: isRis(request).
 Translation translateRis(const Request& request, Patterns& patterns);
 
-/// What Tomales calls the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its type; unknown ones
-/// stay.
+/// Returns the name that Tomales has for the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its
+/// type; unknown sources stay as they are.
 std::string risSource(const std::string& source);
 
 }  // namespace tomales::rib

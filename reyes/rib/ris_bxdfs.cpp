@@ -9,13 +9,13 @@
 namespace tomales::rib {
 namespace {
 
-/// Where a plug-in keeps what ours know. Null: it has no such parameter.
+/// The parameters of a plug-in that stand for those of our shaders; null if it has no such parameter.
 struct Bxdf {
   const char* color;
   float grey;  ///< The default of that colour.
   const char *roughness, *diffuseGain, *metallic;
   bool shiny, emits;
-  bool metal = false;  ///< Always.
+  bool metal = false;  ///< True if it is always a metal.
 };
 constexpr Bxdf kMatte{"diffuseColor", 0.5f, nullptr, nullptr, nullptr, false, false};
 constexpr Bxdf kBlack{"no color", 0, nullptr, nullptr, nullptr, false, true};
@@ -33,17 +33,17 @@ const std::unordered_map<std::string_view, Bxdf>& bxdfs() {
       {"PxrLMMetal", {"specularColor", 1, "roughness", nullptr, nullptr, true, false, true}},
       {"PxrMarschnerHair", kMatte},
       {"PxrBlack", kBlack},
-      {"PxrLightEmission", kBlack},  // its light does the rest
+      {"PxrLightEmission", kBlack},  // the light does the rest
       {"LamaDiffuse", kMatte},
       {"LamaConductor", {"reflectivity", 1, "roughness", nullptr, nullptr, true, false, true}}};
   return table;
 }
 
-/// What a reference to a pattern is worth.
+/// The value that a reference to a pattern stands for.
 struct Source {
-  std::vector<float> color;  ///< Empty: none.
+  std::vector<float> color;  ///< Empty if it has none.
   std::string texture;
-  bool own = false;  ///< Cs of the primitive.
+  bool own = false;  ///< True for Cs of the primitive.
   std::vector<Note> notes;
 };
 
@@ -51,7 +51,7 @@ std::vector<float> mean(const std::vector<float>& a, const std::vector<float>& b
   return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
 }
 
-/// "handle:output"
+/// Follows a reference "handle:output".
 Source follow(const Request& r, const char* name, const Patterns& patterns) {
   const std::string reference = text(r, name);
   const auto it = patterns.find(reference.substr(0, reference.find(':')));
@@ -86,7 +86,7 @@ Source baseColor(const Request& r, const Bxdf& b, const Patterns& patterns) {
   return {color(r, name, b.grey), "", false, {}};
 }
 
-/// References to numbers keep the default; those of colours have been followed.
+/// References to numbers keep the default, which is noted; those to colours have been followed.
 void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, std::vector<Note>& notes) {
   for (const auto& [name, type] : r.references)
     if (name != b.color && name != "diffuseColor")
@@ -94,7 +94,7 @@ void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, s
         if (n.text.find("stands in") == std::string::npos) notes.push_back(std::move(n));
 }
 
-/// The parameter that holds the index of refraction of what one sees through; null: it is opaque.
+/// Returns the parameter with the index of refraction of a material that one sees through; null if it is opaque.
 const char* indexOf(const Request& r) {
   static const std::unordered_map<std::string_view, const char*> table = {{"PxrGlass", "ior"},
                                                                           {"PxrLMGlass", "eta"},
@@ -115,8 +115,8 @@ Translation glass(const Request& r, const char* index) {
   return {Script(r).say("Surface", {string("glass")}, std::move(params)).list(), {standsIn(r, "glass")}};
 }
 
-/// What a metal mirrors straight back: Fresnel's equations for the index n and the absorption k, or an artist's
-/// colours.
+/// Returns the colour that a metal mirrors straight back: by Fresnel's equations for the index n and the absorption k,
+/// or as an artist's colours say.
 std::vector<float> metalColor(const Request& r, const Bxdf& b) {
   const auto fresnel = [](float n, float k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); };
   const auto physical = [&](const char* index, const char* absorption) {
@@ -133,11 +133,11 @@ std::vector<float> metalColor(const Request& r, const Bxdf& b) {
   return out;
 }
 
-/// Rays of a point that mirror the scene.
+/// The number of rays by which a point mirrors the scene.
 constexpr float kReflections = 4;
 
-/// What `disney` takes over from its namesake. PxrSurface tells of its specular lobe by the colour at normal incidence,
-/// of which disney's 1 is 0.08. RIS mirrors the scene in metals and coats.
+/// Adds the parameters that `disney` takes over from its namesake. PxrSurface gives its specular lobe by the colour at
+/// normal incidence, of which disney's 1 is 0.08. RIS mirrors the scene in metals and coats.
 void addDisney(const Request& r, bool metal, ParamList& params) {
   const auto add = [&](const char* name, float value) { params.push_back(param(name, ValueType::Float, {value})); };
   static constexpr std::pair<const char*, const char*> same[] = {

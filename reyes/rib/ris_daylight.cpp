@@ -1,4 +1,4 @@
-// PxrEnvDayLight: where the sun is, and the two lights that sun and sky become.
+// PxrEnvDayLight: computes the position of the sun, and makes a light each of sun and sky.
 #include <cmath>
 
 #include "reyes/rib/ris_parts.h"
@@ -6,13 +6,13 @@
 namespace tomales::rib {
 namespace {
 
-/// Days before a month of a year without leap day; the sun moves by a quarter of a degree meanwhile at most.
+/// Days before a month of a year without a leap day, which changes the sun's place by a quarter of a degree at most.
 float dayOfYear(float month, float day) {
   static constexpr int kBefore[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
   return static_cast<float>(kBefore[static_cast<int>(std::clamp(month, 1.0f, 12.0f)) - 1]) + day;
 }
 
-/// Unit, x towards the east, y up, z towards the north (Preetham, Shirley and Smits 1999, appendix 6).
+/// Returns a unit vector, x east, y up, z north (Preetham, Shirley and Smits 1999, appendix 6).
 vec3 sunAt(float day, float hour, float zone, float latitude_degrees, float longitude_degrees) {
   const float equationOfTime_h =
       0.170f * std::sin(4 * kPi * (day - 80) / 373) - 0.129f * std::sin(2 * kPi * (day - 8) / 355);
@@ -24,10 +24,10 @@ vec3 sunAt(float day, float hour, float zone, float latitude_degrees, float long
           std::cos(latitude) * std::sin(declination) - std::sin(latitude) * std::cos(declination) * std::cos(turn)};
 }
 
-/// Towards the sun, in the light's space: y up, x east, z north.
+/// Returns the direction to the sun in the light's space: y up, x east, z north.
 vec3 sunDirection(const Request& r) {
   const float month = number(r, "month", 0);
-  if (month >= 1)  // defaults: PRMan's, a November afternoon in Seattle
+  if (month >= 1)  // the defaults are PRMan's, a November afternoon in Seattle
     return sunAt(dayOfYear(month, number(r, "day", 20)), number(r, "hour", 14.633333f), number(r, "zone", -8),
                  number(r, "latitude", 47.602f), number(r, "longitude", -122.332f));
   for (const char* name : {"sunDirection", "direction"})

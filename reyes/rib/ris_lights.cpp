@@ -15,14 +15,14 @@ ParamList emission(const Request& r) {
 
 namespace {
 
-// From here on geometry emits, is black but for that, and casts no shadow.
+// Lets geometry from here on emit, be black otherwise, and cast no shadow.
 void sayEmitter(Script& script, const Request& r) {
   script.say("AreaLightSource", {string("arealight"), string(r.args[1].strings[0])}, emission(r));
   script.say("Surface", {string("constant")}).say("Color", {numbers({0, 0, 0})});
   script.say("Attribute", {string("visibility")}, {param("transmission", ValueType::Float, {0})});
 }
 
-// An emitter in a scope of its own; turned about y.
+// Makes an emitter in a scope of its own, turned about y.
 Translation areaLight(const Request& r, const char* shape, std::vector<RibArg> args, float turn_degrees = 0) {
   Script script(r);
   script.say("AttributeBegin");
@@ -53,20 +53,20 @@ Translation domeLight(const Request& r) {
                      map.empty() ? ParamList{} : ParamList{param("map", map), param("mapspace", "shader")});
 }
 
-// The geometry is what follows in its block.
+// The geometry of this light follows in its block.
 Translation meshLight(const Request& r) {
   Script script(r);
   sayEmitter(script, r);
   return {script.list(), {standsIn(r, "arealight")}};
 }
 
-// Where PRMan 19 and 20 keep the light that has no shape yet; no Pattern can have this handle.
+// The handle for the light of PRMan 19 and 20 that has no shape yet; no Pattern can have this handle.
 const std::string kStdLight = "AreaLightSource\n";
 
 }  // namespace
 
-// RenderMan for Maya 19 and 20 name the shader after the light that they wrote it for:
-// "shaders/PxrStdAreaLightShape1_rfm".
+// Tells lights apart by a part of the name: RenderMan for Maya 19 and 20 name the shader after the light that they
+// wrote it for, as "shaders/PxrStdAreaLightShape1_rfm".
 Translation stdLight(const Request& r, Patterns& patterns) {
   const auto is = [&](const char* kind) { return r.args[0].strings[0].find(kind) != std::string::npos; };
   patterns[kStdLight] = r;
@@ -76,7 +76,7 @@ Translation stdLight(const Request& r, Patterns& patterns) {
   return {{}, {note(r, "is not available and has no substitute: it is dark", Severity::Missing)}};
 }
 
-// Skies are not drawn. Those of the two other kinds shine already.
+// Skies are not drawn. Those of the two other kinds are lights already.
 Translation envSphere(const Request& r, Patterns& patterns) {
   const auto light = patterns.find(kStdLight);
   if (light == patterns.end() || light->second.args[0].strings[0].find("PxrStdAreaLight") == std::string::npos)

@@ -1,4 +1,4 @@
-// What the translations of RIS requests share. Private to them.
+// Private to the translations of RIS requests: what they share.
 #pragma once
 #include "reyes/rib/ris.h"
 
@@ -31,7 +31,7 @@ inline std::string text(const Request& r, const char* name) {
   return p && !p->strings.empty() ? p->strings[0] : "";
 }
 
-/// Requests at the place of `from`.
+/// Collects requests that have the place of `from`.
 class Script {
  public:
   explicit Script(const Request& from) : from_(from) {}
@@ -46,7 +46,7 @@ class Script {
   std::vector<Request> list_;
 };
 
-/// About a plug-in: `what` ends the sentence that its request and name begin.
+/// Makes a note about a plug-in: `what` ends the sentence that begins with its request and name.
 Note note(const Request& request, const std::string& what, Severity severity = Severity::Warning);
 Note standsIn(const Request& request, const std::string& substitute, Severity severity = Severity::Warning);
 
@@ -55,11 +55,11 @@ Translation risLight(const Request& request);
 /// AreaLightSource of PRMan 19 and 20, and Geometry "envsphere", the sky that one may be.
 Translation stdLight(const Request& request, Patterns& patterns);
 Translation envSphere(const Request& request, Patterns& patterns);
-/// Option and Attribute "Ri"
+/// Translates Option and Attribute "Ri".
 Translation riValues(const Request& request);
-/// PxrEnvDayLight
+/// Translates PxrEnvDayLight.
 Translation dayLight(const Request& request);
-/// "intensity" and "lightcolor" of any light.
+/// Returns "intensity" and "lightcolor" of any light.
 ParamList emission(const Request& request);
 
 }  // namespace tomales::rib

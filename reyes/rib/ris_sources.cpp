@@ -6,8 +6,8 @@
 namespace tomales::rib {
 namespace {
 
-// Of RenderMan's own presets, those that a standard output answers. What precedes the last semicolon says how to
-// sample, not what.
+// The standard outputs that correspond to some of RenderMan's own presets. The part of a preset before its last
+// semicolon says how to sample, not what.
 std::string_view outputOfPaths(std::string_view expression) {
   static const std::unordered_map<std::string_view, std::string_view> table = {
       {"C<RD>[<L.>O]", "diffuse"},  {"C<RD>[DS]+[<L.>O]", "indirectdiffuse"},

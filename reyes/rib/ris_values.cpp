@@ -14,7 +14,7 @@ std::vector<float> values(const Param& p) {
 
 RibArg integer(int i) { return {RibArg::Kind::Integer, {static_cast<float>(i)}, {}, {i}}; }
 
-// Each basis walks its control points by its own step (RISpec 3.2 section 5.3).
+// Each basis moves along its control points by its own step (RISpec 3.2 section 5.3).
 bool sayBasis(Script& script, const std::string& name) {
   static const std::unordered_map<std::string_view, int> steps = {
       {"bezier", 3}, {"b-spline", 1}, {"catmull-rom", 1}, {"hermite", 2}, {"power", 4}};
@@ -34,7 +34,7 @@ bool sayNumbers(Script& script, const Param& p, const std::vector<float>& v) {
   return true;
 }
 
-// A Format of zero or less keeps what there is (RISpec 3.2 section 4.1.1).
+// A Format of zero or less keeps the value that is set (RISpec 3.2 section 4.1.1).
 bool say(Script& script, const Request& r, const Param& p) {
   const std::vector<float> v = values(p);
   const std::string word = p.strings.empty() ? "" : p.strings[0];

@@ -84,7 +84,7 @@ void SceneBuilder::record(const Request& r) {
   step(r);
 }
 
-// Takes the requests of motion blocks aside.
+// Performs a request, or sets it aside if it belongs to a motion block.
 void SceneBuilder::step(const Request& r) {
   if (motion_ && r.name == "MotionEnd") return endMotion();
   const bool leaves = isBlockRequest(r.name) || (motion_ && !motion_->keys.empty() && motion_->keys[0].name != r.name);
@@ -109,7 +109,7 @@ void SceneBuilder::perform(const Request& r) {
                   geometry ? Severity::Missing : Severity::Warning);
 }
 
-// Whoever else is lit by a light must know it before the first bucket.
+// Lights are refused, because other objects that they light must know them before the first bucket.
 bool SceneBuilder::refuse(const Request& r) {
   static constexpr std::string_view kFrame[] = {"FrameBegin", "FrameEnd", "WorldBegin", "WorldEnd"};
   static constexpr std::string_view kLights[] = {"LightSource", "AreaLightSource", "Light"};
@@ -145,7 +145,7 @@ float SceneBuilder::rasterArea(const std::vector<float>& b) const {
 
 bool SceneBuilder::performBlock(const Request& r) {
   if (r.name == "version" || r.name == "Declare" || r.name == "ColorSamples" || r.name == "ReadArchive")
-    return true;  // the reader's
+    return true;  // the reader performs it
   if (r.name == "ErrorHandler") {
     if (r.args[0].strings[0] != "print")
       state_.warnOnce(r.name, r, "rib-unsupported", "ErrorHandler: problems are always reported, and never abort");

@@ -1,5 +1,5 @@
-// The RiSink that builds Scenes: blocks, motion, retained objects and the world are kept here; what single
-// requests do to the state is in handlers.h.
+// The RiSink that builds Scenes: it keeps blocks, motion, retained objects and the world; single requests and what they
+// do to the state are in handlers.h.
 #pragma once
 #include "reyes/rib/handlers.h"
 
@@ -12,7 +12,7 @@ class SceneBuilder : public RiSink {
  public:
   SceneBuilder(const RibSettings& settings, Log& log) : settings_(settings), state_(log) {}
 
-  /// What all that is inside a world has in common; what is being drawn where, besides.
+  /// The state that is the same for all that is inside a world. A Place is the state that changes there.
   struct Surroundings {
     Globals globals;
     World world;
@@ -21,27 +21,27 @@ class SceneBuilder : public RiSink {
     Scope scope;
     Motion identity;
   };
-  /// For what a procedural stands for: a world of its own, with the state of another.
+  /// Builds the contents of a procedural: a world of its own, with the state of another.
   SceneBuilder(const RibSettings& settings, Log& log, const Surroundings& around, const Place& place);
 
   void request(const Request& request) override;
-  /// The stream is over: renders a world whose WorldEnd is missing.
+  /// Tells that the stream is over: it renders a world whose WorldEnd is missing.
   void finish(const SourceLoc& where);
 
-  /// Here geometry may be left for later.
+  /// True where geometry may be left for later.
   bool takesProcedurals() const;
   /// Pre: takesProcedurals(), and the bound is a box.
   void addProcedural(const std::vector<float>& bound, std::function<Expansion()> open, const SourceLoc& where);
   /// Pre: inside a world.
   Surroundings surroundings() const;
   Place place() const { return {state_.scope, state_.identity}; }
-  /// What a procedural stands for. The builder is spent.
+  /// Returns the contents of the procedural. The builder must not be used after it.
   Expansion takeExpansion();
 
   const Options& options() const { return state_.globals.options; }
   const Attributes& attributes() const { return *state_.scope.attributes; }
   const DirMap& dirMap() const { return state_.globals.dirMap; }
-  /// Pixels that a box in object space (xmin xmax ymin ymax zmin zmax) may cover; the frame, if it is no finite one.
+  /// Pixels that a box in object space (xmin xmax ymin ymax zmin zmax) may cover; all, if the box is not finite.
   float rasterArea(const std::vector<float>& bound) const;
 
  private:
@@ -57,12 +57,12 @@ class SceneBuilder : public RiSink {
     std::shared_ptr<Master> master = std::make_shared<Master>();
   };
 
-  /// True, and once reported: it belongs to the edits of re-rendering.
+  /// Returns true, and reports it once, if it belongs to the edits of re-rendering.
   bool isEdit(const Request& request);
   void record(const Request& request);
   void step(const Request& request);
   void perform(const Request& request);
-  /// True, and reported: it has no place in a procedural.
+  /// Returns true, and reports it, if it has no place in a procedural.
   bool refuse(const Request& request);
   bool performBlock(const Request& request);
   bool performHandler(const Request& request);
@@ -81,7 +81,7 @@ class SceneBuilder : public RiSink {
   void instance(const Request& request);
 
   void addGeometry(const Keys& keys, const std::vector<float>& times);
-  /// From the master if it has them.
+  /// Takes the shapes from the master if it has them.
   Master::Shapes shapesOf(const Keys& keys, const std::vector<float>& times);
   Master::Shapes buildShapes(const Keys& keys, const std::vector<float>& times);
   PrimPtr buildShape(const Request& request, const MotionKeys& motion);
@@ -92,8 +92,8 @@ class SceneBuilder : public RiSink {
   GraphicsState state_;
   std::optional<MotionBlock> motion_;
   std::optional<Recording> recording_;
-  Master* master_ = nullptr;  ///< Of the instance that is being replayed,
-  size_t masterRequest_ = 0;  ///< and where in it.
+  Master* master_ = nullptr;  ///< Master of the instance that is being replayed,
+  size_t masterRequest_ = 0;  ///< and the index of its current request.
   int instanceDepth_ = 0;
   const bool inProcedural_ = false;
   int openEdits_ = 0;

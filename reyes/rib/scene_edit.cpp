@@ -47,7 +47,7 @@ class SceneEditor : public RiSink {
     scene_.options = state_.globals.options;
   }
 
-  /// What the request leaves of the old call: the same shader keeps parameters that are not given, and its space.
+  /// Returns the new call: the same shader keeps the parameters that the request does not give, and its space.
   static ShaderCall merged(const ShaderCall& old, const Request& r, const GraphicsState& state) {
     ShaderCall call = makeShaderCall(state, r);
     call.worldFromShader = old.worldFromShader;
@@ -57,7 +57,7 @@ class SceneEditor : public RiSink {
     return call;
   }
 
-  /// Unless the request or the old attributes have no shader.
+  /// Merges the old call into the new one, if both the request and the old attributes have a shader.
   void keep(const Request& r, std::shared_ptr<const ShaderCall> Attributes::*which, const Attributes& old) {
     auto& shader = state_.scope.edit().*which;
     if (shader && old.*which) shader = std::make_shared<const ShaderCall>(merged(*(old.*which), r, state_));
@@ -99,7 +99,7 @@ class SceneEditor : public RiSink {
 
   Scene& scene_;
   GraphicsState state_;
-  std::optional<std::string> selected_;  ///< None: all objects.
+  std::optional<std::string> selected_;  ///< If not given, all objects.
   std::vector<std::optional<std::string>> outer_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 bool inName(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-/// The value of the variable whose '$' is at text[at]; moves `at` to its last character.
+/// Returns the value of the variable whose '$' is at text[at], and moves `at` to its last character.
 std::string environmentAt(const std::string& text, size_t& at, std::string& unset) {
   const bool braces = at + 1 < text.size() && text[at + 1] == '{';
   const size_t first = at + (braces ? 2 : 1);

@@ -21,7 +21,7 @@ struct ByteStream::Inflater {
   size_t in = 0, out = 0;  ///< Bytes so far.
   std::unique_ptr<char[]> buffer = std::make_unique<char[]>(kBufferSize);
 
-  Inflater() { ready = inflateInit2(&z, 15 + 16) == Z_OK; }  // +16: the gzip wrapping only
+  Inflater() { ready = inflateInit2(&z, 15 + 16) == Z_OK; }  // +16 accepts the gzip wrapping only
   ~Inflater() {
     if (ready) inflateEnd(&z);
   }

@@ -1,5 +1,5 @@
-// Bytes of one RIB stream: a file, standard input, memory or a program. Gzip is detected by its magic bytes
-// (1f 8b) and unpacked on the way. Threads: one reader.
+// The bytes of one RIB stream: a file, standard input, memory or a program. Gzip is detected by its magic bytes (1f 8b)
+// and unpacked on the way. Threads: one reader.
 #pragma once
 #include <cstdio>
 #include <functional>
@@ -11,24 +11,24 @@ namespace tomales::rib {
 
 class ByteStream {
  public:
-  using Source = std::function<size_t(char* buffer, size_t size)>;  ///< 0: the end
+  using Source = std::function<size_t(char* buffer, size_t size)>;  ///< Returns 0 at the end.
   static constexpr int kEnd = -1;
-  /// Compressed data that unpacks to more than the first, and to more than the second times its own size, is a
-  /// bomb.
+  /// Compressed data is a bomb if it unpacks to more than the first number, and to more than the second number times
+  /// its own size.
   static constexpr size_t kHarmless_bytes = size_t{64} << 20, kLargestRatio = 200;
 
-  /// Null if `path` cannot be opened or is a folder; "-" is standard input. "a.zip!b.rib" is a member of a zip file.
+  /// Null if `path` cannot be opened or is a folder. "-" is standard input, "a.zip!b.rib" a member of a zip file.
   static std::unique_ptr<ByteStream> open(const std::string& path);
   /// `text` must outlive the stream.
   static std::unique_ptr<ByteStream> fromMemory(const std::string& text);
-  /// The answer of a program: the byte 0377 in place of a token closes it (RISpec 3.2 appendix C).
+  /// Reads the answer of a program: the byte 0377 in place of a token closes it (RISpec 3.2 appendix C).
   static std::unique_ptr<ByteStream> fromProgram(Source source);
   ~ByteStream();
 
-  /// The next byte, or kEnd.
+  /// Returns the next byte, or kEnd.
   int get() { return next_ < end_ || fill() ? static_cast<unsigned char>(*next_++) : kEnd; }
   int peek() { return next_ < end_ || fill() ? static_cast<unsigned char>(*next_) : kEnd; }
-  /// What is buffered: at least one byte, if peek() gave one.
+  /// The buffered bytes: at least one, if peek() gave one.
   const char* begin() const { return next_; }
   const char* end() const { return end_; }
   /// Pre: begin() <= position <= end().
@@ -37,9 +37,9 @@ class ByteStream {
   bool isProgram() const { return isProgram_; }
   void close() { next_ = end_, closed_ = true; }
   bool closed() const { return closed_; }
-  /// The compressed data broke off, made no sense or was a bomb; what came before it has been read.
+  /// True if the compressed data broke off, made no sense or was a bomb; the bytes before that have been read.
   bool damaged() const { return damaged_; }
-  /// Which of these. Pre: damaged().
+  /// Says which of these it was. Pre: damaged().
   std::string damage() const;
 
  private:
@@ -55,7 +55,7 @@ class ByteStream {
   bool started_ = false, damaged_ = false, isProgram_ = false, closed_ = false;
 };
 
-/// The text as one gzip member; members may be concatenated.
+/// Returns the text as one gzip member; members may be concatenated.
 std::string gzip(std::string_view text);
 
 }  // namespace tomales::rib

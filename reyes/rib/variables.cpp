@@ -19,7 +19,7 @@ Found option(const Options& o, const std::string& key) {
   return text(o.user, key);
 }
 
-// The attributes with a place of their own that scenes ask about.
+// Returns the attributes with a place of their own that scenes ask about.
 Found attribute(const Attributes& a, const std::string& key) {
   const auto flag = [](bool b) { return b ? "1" : "0"; };
   if (key == "identifier:name") return a.name;

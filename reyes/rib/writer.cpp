@@ -1,4 +1,4 @@
-// Requests -> RIB text, ASCII or binary (RISpec 3.2 appendix C).
+// Writes requests as RIB text, ASCII or binary (RISpec 3.2 appendix C).
 #include <fmt/format.h>
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace {
 
 using rib::gzip;
 
-/// How numbers, strings and names look; appends to a text.
+/// The form of numbers, strings and names; it appends to a text.
 class Encoding {
  public:
   virtual ~Encoding() = default;
@@ -21,7 +21,7 @@ class Encoding {
   virtual void number(std::string& out, float f) = 0;
   virtual void integer(std::string& out, int i) = 0;
   virtual void string(std::string& out, const std::string& s) = 0;
-  virtual void token(std::string& out, const std::string& s) = 0;  ///< The name of a parameter.
+  virtual void token(std::string& out, const std::string& s) = 0;  ///< Writes the name of a parameter.
   virtual void floats(std::string& out, const std::vector<float>& list) = 0;
   virtual void endOfRequest(std::string& out) = 0;
 };
@@ -170,8 +170,8 @@ class Writer : public RiSink {
     }
   }
 
-  // What was written bare stays bare. A name with blanks or brackets cannot be declared inline: its Declare is among
-  // the requests.
+  // A parameter that was written bare stays bare. A name with blanks or brackets cannot be declared inline: its Declare
+  // is among the requests.
   void parameter(const Param& p, const Request& r) {
     const bool inlined = p.arrayLength > 0 && p.name.find_first_of(" \t\r\n[]") == std::string::npos;
     const auto reference =

@@ -6,15 +6,15 @@
 
 namespace tomales::rib {
 
-/// The part before the '!' if that is a file; else empty.
+/// Returns the part before the '!' if that is a file, else an empty name.
 std::string zipOf(const std::string& path);
 
-/// Bytes of a member, in order; 0: its end. kBrokenZip: what follows cannot be unpacked, or is not what was packed.
+/// Reads bytes of a member; 0 at its end. kBrokenZip if the rest cannot be unpacked, or is not what was packed.
 using ZipSource = std::function<size_t(char* buffer, size_t size)>;
 constexpr size_t kBrokenZip = static_cast<size_t>(-1);
 
-/// Empty if there is no such zip file or member, or if it unpacks to more than both `harmless_bytes` and `largestRatio`
-/// times its size. Threads: each source is its reader's.
+/// Returns an empty source if there is no such zip file or member, or if it unpacks to more than both `harmless_bytes`
+/// and `largestRatio` times its size. Threads: each source belongs to its reader.
 ZipSource openZipMember(const std::string& path, size_t harmless_bytes, size_t largestRatio);
 
 }  // namespace tomales::rib

@@ -47,7 +47,7 @@ float turnOf(const LineSize& line) {
   return 16 * bend * (1 + 2.3f * bend * bend);
 }
 
-/// Least number of cells at any rate: so that the shape does not collapse where blur lets edges grow, and chords are
+/// Least number of cells at any rate, so that the shape does not collapse where blur lets edges grow, and chords are
 /// flat.
 int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   constexpr float kLeastOfCoarse = 4;

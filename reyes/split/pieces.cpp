@@ -28,14 +28,14 @@ constexpr float kLeastReach_px = 0.05f;  ///< Vertices are snapped by this, and 
 /// The cost of a blurred piece beyond its visit, if it may be seen all over the window: each sample there is tested
 /// against it, and all buckets wait for its vertices at every key.
 constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
-constexpr int kRound_cells = 6;  ///< A disk of so many cells is shaded as one cell: only P varies over it.
+constexpr int kRound_cells = 6;  ///< A disk of at most so many cells is shaded as one cell: only P varies over it.
 /// In edges of a micropolygon. A disk whose bound, 1.5 times as wide as the disk, is no wider than this takes few cells
 /// however it is measured.
 constexpr float kDot = 3.5f;
-/// Lazy splitting halves a patch so often, and leaves a coarse piece if it then has so many grids or more.
+/// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
-constexpr float kDeepest = 2;  ///< Its far end is at most so many times as far from the eye as its near end.
+constexpr float kDeepest = 2;  ///< A coarse piece's far end is at most so many times as far away as its near end.
 
 double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
 
@@ -48,7 +48,7 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-/// May it be halved? Else there is no float between its ends.
+/// May an interval be halved? If not, there is no float between its ends.
 bool hasMiddle(float from, float to) {
   const float middle = 0.5f * (from + to);
   return from < middle && middle < to;
@@ -116,7 +116,7 @@ class Splitter {
   /// Known facts about a whole patch before it is split.
   struct Known {
     PatchSize size;                ///< The result of measureWhole().
-    const Bound3* bare = nullptr;  ///< The result of cameraBound(); null: it has not been computed.
+    const Bound3* bare = nullptr;  ///< The result of cameraBound(); null if it has not been computed.
   };
   void splitPatch(uint32_t patch, const Known& known, std::vector<SubPatch>& out) {
     const double patches = object_.shape().patchCount();
@@ -146,7 +146,7 @@ class Splitter {
         p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
   }
 
-  /// known: may be null.
+  /// `known` may be null.
   void split(uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
     if (stopped()) return;
     if (budget_ <= 0) {
@@ -268,7 +268,7 @@ class Splitter {
     }
   }
 
-  /// Is all of it seen at about the same scale? Else what its near end takes says nothing about most of it.
+  /// Is all of it seen at about the same scale? If not, the cost of its near end says nothing about most of it.
   bool isOfOneScale(const Bound3& bare) const { return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z; }
 
   int64_t visitsOfBlur(const Bound2& raster) const {
@@ -286,9 +286,9 @@ class Splitter {
     const glm::dvec2 size = sizeInView_px(raster);
     return size.x * size.y;
   }
-  /// Of a coarse piece: its share of grids by area, those that the window's border may cut, and the halvings
-  /// that lead from all of it to them. Towards a horizon many grids lie over each other; beside the eye next
-  /// to nothing of a huge piece is seen.
+  /// Visits of a coarse piece: its share of grids by area, those that the window's border may cut, and the halvings
+  /// that lead from all of it to them. Towards a horizon many grids lie over each other; beside the eye next to nothing
+  /// of a huge piece is seen.
   double expectedVisits(const SubPatch& p) const {
     const int64_t grids = gridsOf(p.nu, p.nv);
     const glm::dvec2 size = p.raster.hi - p.raster.lo, seen = sizeInView_px(p.raster);

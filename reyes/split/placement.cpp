@@ -5,7 +5,7 @@ namespace {
 
 constexpr float kRounding_px = 0.01f;  ///< Rounding of the projection of a box or its points.
 
-/// The same as transformBound(), to the bit, by extremes of products instead of eight corners: rounding is monotonic.
+/// Does the same as transformBound(), to the bit, by extremes of products, not eight corners: rounding is monotonic.
 Bound3 boundThrough(const mat4& m, const Bound3& b) {
   if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return transformBound(m, b);
   const vec3 x0 = vec3(m[0]) * b.lo.x, x1 = vec3(m[0]) * b.hi.x, y0 = vec3(m[1]) * b.lo.y, y1 = vec3(m[1]) * b.hi.y;
@@ -57,7 +57,7 @@ std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObj
   for (const float t : keyTimes) bound.extend(transformBound(cameraFromObject.at(t), box));
   bound = bound.grown(margin);
   const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
-  if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not take its neighbours along
+  if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not spoil its neighbours
   if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
   return Placement{rasterOf(bound, borderReach_px(margin), camera, anywhere.raster), bound.lo.z};
 }

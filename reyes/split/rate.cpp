@@ -192,7 +192,7 @@ void measureHot(Lattice<kProbes, 1>& at, const mat4& m, const Camera& camera, bo
   measureLattice(at, m, camera, asSeen, out);
 }
 
-/// An object at a time: its shape, interpolated between `before` and `after` unless that is null, and its
+/// An object at a time: its shape, interpolated between `before` and `after` unless `after` is null, and its
 /// transformation.
 struct Pose {
   const Prim *before, *after;
@@ -208,7 +208,7 @@ Pose poseAt(const Object& o, float time) {
           o.cameraFromObject.at(time)};
 }
 
-/// patchAt(i): one of up to kPatches patches. put(i, size): receives its size.
+/// patchAt(i) returns one of up to kPatches patches; put(i, size) receives its size.
 template <int kProbes, int kPatches, class PatchAt, class Put>
 void measureSome(const Object& o, const Pose& pose, const Camera& camera, int count, const PatchAt& patchAt,
                  const UvRect& r, const Put& put) {

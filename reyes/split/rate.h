@@ -15,7 +15,7 @@ struct LineSize {
 };
 struct PatchSize {
   LineSize u, v;
-  /// u.px * v.px or less, if the lines cross at a slant: computed for the largest part and applied to all.
+  /// At most u.px * v.px, less if lines cross at a slant: computed for the largest part and applied to all.
   float area_px2 = 0;
   Bound3 probes;  ///< Bound of the points that were measured, in camera space.
   /// Keeps the larger of both in every member.
@@ -28,10 +28,10 @@ std::vector<PatchSize> measureWhole(const Object& object, const Camera& camera, 
 struct Cells {
   int nu, nv;
 };
-/// Cells of a piece: as few as have the area edge_px^2 in raster space, with edges up to half as long again where lines
-/// cross at a slant or counts are rounded. There are fewer where blur lets edges grow by `coarsening`, but never fewer
-/// than `least`, so that the shape does not collapse, and enough that chords are flat (docs/decisions/0034, 0050).
-/// binary: powers of two. joins: its edges meet others.
+/// Chooses the cells of a piece: as few as have the area edge_px^2 in raster space, with edges up to half as long again
+/// where lines cross at a slant or counts are rounded. There are fewer where blur lets edges grow by `coarsening`, but
+/// never fewer than `least`, so that the shape does not collapse, and enough that chords are flat (docs/decisions/0034,
+/// 0050). `binary` makes them powers of two; `joins` means that its edges meet others.
 Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins);
 
 }  // namespace tomales

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
 constexpr int kPictureSize = 200;
-constexpr double kBatchShare = 0.05;  ///< Of the budget, of one batch of the reference.
-constexpr int kFirstBatches = 4;      ///< Before the points.
+constexpr double kBatchShare = 0.05;  ///< Share of the budget for one batch of the reference.
+constexpr int kFirstBatches = 4;      ///< Batches of the reference that are rendered before the points.
 constexpr double kQuiet = 0.25;       ///< A reference with this share of the least error needs no further batches.
 constexpr double kSilent = 1e-4;      ///< A noise floor below which there is nothing to gain.
 constexpr int kTrialPaths = 64;
@@ -33,13 +33,13 @@ Arguments operator+(Arguments a, const Arguments& b) {
   return a;
 }
 
-/// Of a prelude, its requests; nothing of other arguments.
+/// Returns the requests of a prelude, and nothing for other arguments.
 std::string preludeIn(const std::string& argument) {
   const std::string mark = kPrelude;
   return argument.starts_with(mark) ? argument.substr(mark.size()) : "";
 }
 
-/// Names of options without their dashes, requests as they are, and no word about what the name of a curve says.
+/// Shows options without dashes and requests as they are, and leaves out what the name of the curve says.
 std::string inShort(const Arguments& arguments) {
   std::string out;
   const auto add = [&](const std::string& piece) { out += (out.empty() ? "" : ", ") + piece; };
@@ -57,7 +57,7 @@ std::string inShort(const Arguments& arguments) {
   return out;
 }
 
-/// The number that the last argument ends with: of 4x4 it is 4, of 300K 300,000.
+/// Returns the number that the last argument ends with: 4 for 4x4, 300,000 for 300K.
 double lastNumber(const Arguments& arguments) {
   const std::string& last = arguments.back();
   const std::string word = last.substr(last.rfind(' ') + 1);
@@ -80,8 +80,8 @@ class Chart {
     for (const ChartCurve& curve : sweep.curves) report_.curves.push_back(curve.name);
   }
 
-  /// A few batches of the reference, all points, and what is left of the budget for more batches: a chart whose
-  /// reference is noisy says so, and grows quieter when it is asked for again; points that are missing say nothing.
+  /// Measures some batches of the reference, then all points, then more batches while the budget lasts: a chart whose
+  /// reference is noisy says so, and grows quieter when it is made again, while missing points say nothing.
   int run() {
     if (const std::string problem = placesProblem(settings_.output, labSettings_.folder); !problem.empty())
       return fail(Severity::Output, problem);
@@ -112,7 +112,7 @@ class Chart {
     return exitCode();
   }
 
-  /// As bash takes it: requests before the scene are a file of their own.
+  /// Writes the command as bash takes it: requests before the scene become a file of their own.
   std::string commandLine(const Arguments& arguments) const {
     std::string out = "tomales render";
     Arguments options;
@@ -124,7 +124,7 @@ class Chart {
     return out + ' ' + joined(settings_.files + labSettings_.arguments + options);
   }
 
-  /// A prelude becomes a file of its own before the scene.
+  /// Renders the scene; a prelude becomes a file of its own before it.
   std::optional<Run> render(const Arguments& arguments) {
     Arguments out;
     for (const std::string& a : arguments) {
@@ -136,13 +136,13 @@ class Chart {
       const std::string file =
           (fs::path(labSettings_.folder) / fmt::format("{:016x}.rib", std::hash<std::string>{}(text))).string();
       std::string why;
-      writeFile(file, text + '\n', why);  // the renderer says that it is missing
+      writeFile(file, text + '\n', why);  // if this fails, the renderer says that the file is missing
       out.push_back(file);
     }
     return lab_.run(out);
   }
 
-  /// As many paths as fit a small share of the budget.
+  /// Chooses as many paths as fit a small share of the budget.
   void chooseReference() {
     referenceArguments_ = sweep_.reference;
     if (!sweep_.tracedReference) return;
@@ -174,8 +174,8 @@ class Chart {
     return reference_.noiseFloor() < std::max(kQuiet * least, kSilent);
   }
 
-  /// The cheapest setting of every method first, and of methods the one that was cheapest last time, so that a small
-  /// budget leaves as little out as it can.
+  /// Measures the cheapest setting of every method first, and among methods the one that was cheapest last time, so
+  /// that a small budget leaves out as little as possible.
   void measure() {
     size_t steps = 0;
     for (const ChartCurve& curve : sweep_.curves) steps = std::max(steps, curve.settings.size());
@@ -191,7 +191,7 @@ class Chart {
                      [](const ChartPoint& a, const ChartPoint& b) { return a.curve < b.curve; });
   }
 
-  /// CPU seconds; infinite if it could not be measured.
+  /// Returns CPU seconds; infinite if it could not be measured.
   double measure(size_t curve, const Arguments& arguments) {
     const auto run = render(arguments);
     std::string error;
@@ -219,7 +219,7 @@ class Chart {
 
   void takeWarnings(const Run& run) { report_.warnings.insert(run.warnings.begin(), run.warnings.end()); }
 
-  /// Once the reference is complete.
+  /// Computes the errors, once the reference is complete.
   void judge() {
     for (ChartPoint& p : report_.points) {
       std::string error;
@@ -254,8 +254,8 @@ class Chart {
   mutable Log log_;
   Arguments referenceArguments_;
   ChartReference reference_;
-  std::string badBatch_;     ///< Why the last one cannot be used; empty: it can, or was not rendered.
-  double batchSeconds_ = 0;  ///< Of the last that was rendered.
+  std::string badBatch_;     ///< Why the last batch cannot be used; empty if it can, or was not rendered.
+  double batchSeconds_ = 0;  ///< CPU seconds of the last batch that was rendered.
   ChartReport report_;
 };
 

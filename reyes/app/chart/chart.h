@@ -1,5 +1,5 @@
-// tomales chart: what error a second and a megabyte buy, on the user's own scene, for every method and over its
-// settings.
+// tomales chart: how small an error each second and megabyte buys, on the user's own scene, for every method and over
+// its settings.
 #pragma once
 #include <array>
 #include <optional>
@@ -11,25 +11,25 @@
 namespace tomales {
 
 struct ChartSettings {
-  std::vector<std::string> files;  ///< One RIB stream.
+  std::vector<std::string> files;  ///< The files of one RIB stream.
   std::string output;              ///< FILE.html; figures go to FILE.json beside it.
   std::string sweep = "gi";        ///< One of chartSweepNames().
-  std::string folder;              ///< Of what has been measured; empty: the user's cache.
+  std::string folder;              ///< Folder of what has been measured; if empty, it is in the user's cache.
   double budget_s = 600;           ///< Wall time after which no further rendering starts, and a running one ends.
   std::optional<std::array<int, 2>> format;
-  int batches = 32;  ///< Most independent pictures of the reference, at least 2.
-  int bounces = 0;   ///< 0: as the scene's indirect light asks.
-  int threads = 0;   ///< Of each rendering. 0: as many as the machine has.
-  Trust trust;       ///< Of the code that the RIB names.
+  int batches = 32;  ///< The most independent pictures of the reference, at least 2.
+  int bounces = 0;   ///< If 0, as the scene's indirect light asks.
+  int threads = 0;   ///< Threads of each rendering; if 0, as many as the machine has.
+  Trust trust;       ///< Says which code that the RIB names may run.
 };
 
-/// What every rendering is told beside the scene: --format, --bounces, -t, whose code may run.
+/// The arguments that every rendering has beside the scene: --format, --bounces, -t, and those of trust.
 std::vector<std::string> sharedArguments(const ChartSettings& settings);
 
-/// As a shell would take them.
+/// Joins arguments to a command as a shell would take it.
 std::string joined(const std::vector<std::string>& arguments);
 
-/// The user's, for what has been measured.
+/// The user's folder for measurements.
 std::string chartCacheFolder();
 
 int chartCommand(const ChartSettings& settings);

@@ -35,8 +35,8 @@ void set(Image& image, int x, int y, const vec3& color) {
   p[0] = color.x, p[1] = color.y, p[2] = color.z;
 }
 
-/// Calls visit(test, reference) for each colour of each pixel that `lit` has any light in. How many pixels are not
-/// finite (ErrorFigures::notFinite).
+/// Calls visit(test, reference) for each colour of each pixel where `lit` has any light. Returns the number of pixels
+/// that are not finite (ErrorFigures::notFinite).
 template <class Visit>
 int64_t eachValue(const Image& test, const Image& reference, const Image& lit, Visit&& visit) {
   const auto t = colors(test), r = colors(reference), l = colors(lit);
@@ -52,7 +52,7 @@ int64_t eachValue(const Image& test, const Image& reference, const Image& lit, V
   return notFinite;
 }
 
-/// a * A + b * B, of colours.
+/// Computes a * A + b * B of the colours.
 Image blend(float a, const Image& A, float b, const Image& B) {
   Image out = blank(A);
   const auto ca = colors(A), cb = colors(B);
@@ -92,8 +92,8 @@ Image ChartReference::meanWithout(size_t batch) const {
 double ChartReference::noiseFloor() const {
   const double n = batches();
   if (n < 2) return kInfinity;
-  // A batch is off the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the mean of
-  // all.
+  // A batch differs from the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the
+  // mean of all.
   double sum = 0;
   for (size_t b = 0; b < batches_.size(); ++b) sum += meanError(batches_[b], meanWithout(b), mean_);
   return sum / n / std::sqrt(n + n / (n - 1));

@@ -35,7 +35,7 @@ std::string readAll(const std::string& path) {
 
 uint64_t sumOf(const std::string& text) { return checksum(std::as_bytes(std::span(text))); }
 
-/// What stands between quotation marks.
+/// Returns the texts between quotation marks.
 std::vector<std::string> stringsIn(const std::string& text) {
   std::vector<std::string> out;
   for (size_t begin = text.find('"'); begin != std::string::npos;) {
@@ -47,7 +47,7 @@ std::vector<std::string> stringsIn(const std::string& text) {
   return out;
 }
 
-/// Each file once, with those that it names.
+/// Adds each file once, and the files that it names.
 void addContents(const fs::path& path, std::set<fs::path>& seen, std::string& sums) {
   std::error_code error;
   if (!fs::is_regular_file(path, error) || !seen.insert(fs::weakly_canonical(path, error)).second) return;
@@ -61,7 +61,7 @@ void addContents(const fs::path& path, std::set<fs::path>& seen, std::string& su
   }
 }
 
-/// Of what the renderer said: its first error, or else the first line.
+/// Returns the first error of the renderer's messages, or else their first line.
 std::string complaint(const std::string& messages) {
   const size_t error = std::min(messages.find(": error: "), messages.find(": output error: ")),
                before = error == std::string::npos ? error : messages.rfind('\n', error);
@@ -133,7 +133,7 @@ Lab::Lab(LabSettings settings)
       contents_(contentsOf(settings_.scene) ^ sumOf(readAll(kSelf))),
       start_(Clock::now()) {
   std::error_code error;
-  fs::create_directories(settings_.folder, error);  // placesProblem() says if that fails
+  fs::create_directories(settings_.folder, error);  // placesProblem() reports a failure
 }
 
 double Lab::secondsUsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

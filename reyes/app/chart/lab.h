@@ -1,5 +1,5 @@
-// Runs this program as child processes, so that CPU time and memory are those of one rendering, and remembers what it
-// has measured.
+// Runs this program as child processes, so that CPU time and memory are those of one rendering, and keeps the
+// measurements.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -9,21 +9,21 @@
 
 namespace tomales {
 
-/// What one rendering cost, and its picture.
+/// The cost of one rendering, and its picture.
 struct Run {
-  std::vector<std::string> arguments;  ///< After those of the laboratory.
-  std::string picture;                 ///< Linear EXR, in the laboratory's folder.
-  double cpu_s = 0, wall_s = 0;        ///< User and system; of the whole process.
-  double peakBytes = 0;                ///< Resident, as the renderer itself says at its end.
-  int64_t records = 0;                 ///< Of the irradiance cache.
-  std::vector<std::string> warnings;   ///< Codes of what it said.
-  bool recalled = false;               ///< Measured by an earlier process.
+  std::vector<std::string> arguments;  ///< They follow those of the laboratory.
+  std::string picture;                 ///< Path of a linear EXR in the laboratory's folder.
+  double cpu_s = 0, wall_s = 0;        ///< CPU time is user and system time; both are those of the whole process.
+  double peakBytes = 0;                ///< Resident memory, as the renderer itself reports at its end.
+  int64_t records = 0;                 ///< Records of the irradiance cache.
+  std::vector<std::string> warnings;   ///< Codes of the warnings that it gave.
+  bool recalled = false;               ///< True if an earlier process measured it.
 };
 
 struct LabSettings {
-  std::string folder;                  ///< Of pictures and figures; made if missing.
+  std::string folder;                  ///< Folder of pictures and figures; made if missing.
   std::vector<std::string> scene;      ///< RIB files of every run.
-  std::vector<std::string> arguments;  ///< Of every run.
+  std::vector<std::string> arguments;  ///< Arguments of every run.
   double budget_s = 600;
 };
 
@@ -32,8 +32,8 @@ struct LabSettings {
 class Lab {
  public:
   explicit Lab(LabSettings settings);
-  /// From memory, or from a child. Nothing if the child fails, is interrupted or would outlive the budget; why() then
-  /// says so.
+  /// Returns the run from memory or from a child, or nothing if the child fails, is interrupted or would outlive the
+  /// budget; why() then says so.
   std::optional<Run> run(const std::vector<std::string>& arguments);
   const std::string& why() const { return why_; }
   double secondsLeft() const;
@@ -49,11 +49,11 @@ class Lab {
   std::string why_;
 };
 
-/// Why a page cannot be written there or measurements kept in that folder, which is made if it is missing; empty: they
-/// can.
+/// Says why a page cannot be written there or measurements kept in that folder, which is made if it is missing; empty
+/// if they can.
 std::string placesProblem(const std::string& page, const std::string& folder);
 
-/// Sum over the contents of these files and of all files that they name in strings, archives included.
+/// Returns the sum over the contents of these files and of all files that they name in strings, archives included.
 uint64_t contentsOf(const std::vector<std::string>& files);
 
 }  // namespace tomales

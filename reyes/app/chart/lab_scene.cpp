@@ -24,7 +24,7 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? std::string() : text.substr(begin, end - begin + 1);
 }
 
-/// What stands before and after the last colon.
+/// Returns the texts before and after the last colon.
 std::pair<std::string, std::string> named(const std::string& text) {
   const size_t colon = text.rfind(": ");
   return colon == std::string::npos ? std::pair{text, std::string()}
@@ -41,7 +41,7 @@ bool isNumber(const std::string& word) {
   }
 }
 
-/// False: no such word, or not what belongs after it.
+/// Returns false if there is no such word, or if `rest` does not suit it.
 bool take(LabScene& scene, const std::string& word, const std::string& rest) {
   if (word == "title")
     scene.title = rest;

@@ -11,8 +11,8 @@
 //   ##lab limit pixel-noise: 0.05                                      (optional: from this value on the renderer
 //   itself warns, under this code)
 //
-// `$truth` is 1 while the truth is rendered and 0 else: IfBegin "$truth == 1" can give the truth what methods are
-// spared.
+// `$truth` is 1 while the truth is rendered and 0 else: by IfBegin "$truth == 1" the truth can have things that methods
+// do not.
 #pragma once
 #include <optional>
 #include <string>
@@ -25,26 +25,26 @@ struct LabMethod {
   std::vector<std::string> arguments;
 };
 
-/// Of a method's use, as documented.
+/// The documented limit of a method's use.
 struct LabLimit {
-  std::string warning;  ///< Code of what the renderer says beyond it.
-  std::string value;    ///< Of the knob, the first that is beyond.
+  std::string warning;  ///< Code of the renderer's warning beyond the limit.
+  std::string value;    ///< The first value of the knob that is beyond it.
 };
 
 struct LabScene {
   std::string file, title, knob;
-  std::vector<std::string> values;  ///< As written; harmless first.
+  std::vector<std::string> values;  ///< The values as written, harmless first.
   std::vector<std::string> common, truth;
   std::vector<LabMethod> methods;
   std::optional<LabLimit> limit;
-  std::string note;  ///< What the manual says about it.
-  std::string text;  ///< Of the whole file.
+  std::string note;  ///< What the manual says about the scene.
+  std::string text;  ///< The text of the whole file.
 };
 
-/// Nothing, and why, if the file cannot be read or lacks a title, a knob, a truth or a method, or its limit is none of
-/// the knob's values after the first.
+/// Returns nothing, and says why, if the file cannot be read or lacks a title, a knob, a truth or a method, or if its
+/// limit is none of the knob's values after the first.
 std::optional<LabScene> readLabScene(const std::string& file, std::string& error);
-/// The text with every `name`, a word that begins with $, replaced.
+/// Replaces every `name`, a word that begins with $, in the text.
 std::string replaced(std::string text, const std::string& name, const std::string& value);
 
 }  // namespace tomales

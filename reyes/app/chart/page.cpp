@@ -48,7 +48,7 @@ class Page : Markup {
                        escapeXml(r_.curves[curve]));
   }
 
-  /// The value of what varies, where there is room for it: along a single curve.
+  /// Returns the value that varies, where there is room for it: along a single curve.
   std::string nameOf(const ChartPoint& p) const {
     if (r_.curves.size() > 1) return "";
     return p.setting.substr(p.setting.rfind(' ') + 1);

@@ -100,7 +100,7 @@ class Drawing : Markup {
         height_ - kBottom - 6, leftHalf ? "start" : "end", escapeXml(plot_.limitName));
   }
 
-  /// A band under the points that nothing beats.
+  /// Draws a band under the points that no other point beats.
   void front() {
     std::vector<const PlotPoint*> best;
     for (const PlotCurve& curve : plot_.curves)
@@ -127,7 +127,7 @@ class Drawing : Markup {
     }
   }
 
-  /// To the right, or where the drawing ends to the left.
+  /// Writes the name to the right or, where the drawing ends, to the left.
   void name(const PlotPoint& p) {
     const bool left = x_.at(p.x) > width_ - kRight - 10 - 7 * static_cast<double>(p.name.size());
     put("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x_.at(p.x) + (left ? -8 : 8),

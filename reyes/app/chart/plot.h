@@ -22,16 +22,16 @@ struct PlotCurve {
 struct Plot {
   std::string title, xLabel, yLabel;
   std::vector<PlotCurve> curves;
-  double floor = 0;  ///< Drawn as a line; 0: none.
-  double limit = 0;  ///< An upright line at this x, with its name; 0: none.
+  double floor = 0;  ///< Drawn as a line; 0 if there is none.
+  double limit = 0;  ///< An upright line at this x, with its name; 0 if there is none.
   std::string limitName{};
 };
 
-/// `width`, `height`: in the pixels of the text, which is 12 of them high.
+/// `width` and `height` are in pixels of the text, which is 12 pixels high.
 std::string drawPlot(const Plot& plot, int width, int height);
-/// Of the curve at this place.
+/// The colour of a curve, by its index.
 const char* plotColor(size_t curve);
-/// Three digits, without an exponent where possible.
+/// Writes three digits, without an exponent where possible.
 std::string shortNumber(double value);
 std::string escapeXml(const std::string& text);
 

@@ -1,4 +1,4 @@
-// What a chart has found, and the two files that say it.
+// The results of a chart, and the two files that hold them.
 #pragma once
 #include <set>
 
@@ -10,8 +10,8 @@ namespace tomales {
 /// One setting of one method.
 struct ChartPoint {
   size_t curve;
-  std::string setting;  ///< In short.
-  double value;         ///< Of what varies along the curve; 0: not one number.
+  std::string setting;  ///< The setting in few words.
+  double value;         ///< Value of the number that varies along the curve; 0 if it is not one number.
   std::string commandLine;
   Run run;
   ErrorFigures error;
@@ -20,27 +20,27 @@ struct ChartPoint {
 };
 
 struct ChartReport {
-  bool oneKnob = false;  ///< Curves vary one number: ChartPoint::value.
+  bool oneKnob = false;  ///< True if curves vary one number: ChartPoint::value.
   std::string scene, title, commandLine, referenceCommandLine;
   std::vector<std::string> curves;
-  std::vector<ChartPoint> points;    ///< Curve by curve, as the sweep has them.
-  std::vector<std::string> missing;  ///< What the budget or a failure left out, and why.
-  std::set<std::string> warnings;    ///< Codes of what any of the renderings warned of.
+  std::vector<ChartPoint> points;    ///< Curve by curve, in the order of the sweep.
+  std::vector<std::string> missing;  ///< The points that the budget or a failure left out, and why.
+  std::set<std::string> warnings;    ///< Codes of the warnings of any rendering.
   int referenceBatches = 0;
   double noiseFloor = 0, referenceSeconds = 0, budget_s = 0;
   std::string referencePicture;
-  float mapRange = 0.1f;  ///< Relative error of full colour.
+  float mapRange = 0.1f;  ///< Relative error that has the full colour.
 };
 
 void markBest(ChartReport& report);
-/// Seconds at which a curve reaches an error, on straight lines between its points in logarithmic axes; nothing if it
-/// does not.
+/// Returns the seconds at which a curve reaches an error, on straight lines between its points in logarithmic axes, or
+/// nothing if it does not.
 std::optional<double> secondsToReach(const ChartReport& report, size_t curve, double error);
 
-/// All its points have the same error: what its settings change is the cost, if they reach this scene at all.
+/// Do all its points have the same error? Its settings then change the cost alone, if they affect this scene at all.
 bool isFlat(const ChartReport& report, size_t curve);
 
-// False: they could not be written.
+// Both return false if the file could not be written.
 bool writeChartPage(const std::string& path, const ChartReport& report);
 bool writeChartJson(const std::string& path, const ChartReport& report);
 

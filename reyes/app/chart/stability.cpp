@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
 constexpr int kPictureSize = 128;
-constexpr float kMapRange = 0.3f;  ///< Relative error of full colour.
+constexpr float kMapRange = 0.3f;  ///< Relative error that has the full colour.
 
 std::vector<std::string> scenesOf(const std::vector<std::string>& given) {
   std::vector<std::string> out;
@@ -36,7 +36,7 @@ std::vector<std::string> scenesOf(const std::vector<std::string>& given) {
   return out;
 }
 
-/// The first @ of each argument becomes a number.
+/// Replaces the first @ of each argument by a number.
 Arguments numbered(Arguments arguments, int number) {
   for (std::string& a : arguments)
     if (const size_t at = a.find('@'); at != std::string::npos) a.replace(at, 1, std::to_string(number));
@@ -76,7 +76,7 @@ class Laboratory {
     const LabScene& scene = out.scene;
     out.truths.emplace_back();
     const uint64_t place =
-        std::hash<std::string>{}(fs::weakly_canonical(scene.file).string());  // others may have this name too
+        std::hash<std::string>{}(fs::weakly_canonical(scene.file).string());  // other scenes may have this name too
     const std::string stem =
         (fs::path(settings_.folder) /
          fmt::format("{}_{:08x}_{}", fs::path(scene.file).stem().string(), place & 0xffffffff, value))

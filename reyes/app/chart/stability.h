@@ -15,21 +15,21 @@ struct StabilityPoint {
   Run run;
   std::string commandLine;
   std::string errorMap;  ///< PNG file of a thumbnail.
-  bool warned;           ///< The renderer said what the scene's limit names.
+  bool warned;           ///< True if the renderer gave the warning that the scene's limit names.
 };
 
 struct StabilityCurve {
   LabScene scene;
   std::vector<StabilityPoint> points;  ///< Method by method, harmless first.
-  std::vector<std::string> truths;     ///< Thumbnails, one for each value of the knob; empty: not measured.
-  double noiseFloor = 0;               ///< The worst of all truths.
-  std::vector<std::string> missing;    ///< What the budget or a failure left out, and why.
+  std::vector<std::string> truths;     ///< Thumbnails, one for each value of the knob; empty if not measured.
+  double noiseFloor = 0;               ///< The worst noise floor of all truths.
+  std::vector<std::string> missing;    ///< The points that the budget or a failure left out, and why.
 };
 
-/// ChartSettings::files are the scenes; folders stand for all that is in them.
+/// ChartSettings::files are the scenes; a folder stands for all scenes in it.
 int stabilityCommand(const ChartSettings& settings);
 
-// False: they could not be written.
+// Returns false if the page could not be written.
 bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurve>& curves,
                         const std::string& commandLine);
 bool writeStabilityJson(const std::string& path, const std::vector<StabilityCurve>& curves,

@@ -95,7 +95,7 @@ class Page : Markup {
     return nullptr;
   }
 
-  /// The truths above; under them, method by method, where pictures are wrong.
+  /// Shows the truths, and under them, method by method, where pictures are wrong.
   void pictures(const StabilityCurve& c, size_t scene) {
     put("<div class=\"strip\" style=\"grid-template-columns:8em repeat({},96px)\"><span>truth</span>",
         c.scene.values.size());

@@ -10,7 +10,7 @@ using Arguments = std::vector<std::string>;
 const Arguments kGather{"--gi", "gather"}, kAtlas{"--gi", "atlas"}, kTraced{"--gi", "reference"};
 constexpr const char* kAtlasName = "atlas";
 
-/// Rays of a record against how far it is used: neither alone brings the error down for long.
+/// Rays of a record and the allowed error of its use: neither alone brings the error down for long.
 struct GatherStep {
   const char *samples, *maxError, *photons;
 };
@@ -22,7 +22,7 @@ constexpr GatherStep kGatherSteps[] = {{"32", "4", "30000"},
 
 void add(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-/// coarser: times the error allowed.
+/// `coarser` multiplies the error allowed.
 ChartCurve gatherCurve(const std::string& name, const Arguments& method, double coarser = 1) {
   ChartCurve out{name, {}};
   for (const GatherStep& s : kGatherSteps) {
@@ -33,14 +33,14 @@ ChartCurve gatherCurve(const std::string& name, const Arguments& method, double 
   return out;
 }
 
-/// `ward` makes as many records as `screen` at maxerror 1 at this (docs/measured/irradiance_cache.md); `hessian` at the
-/// same.
+/// With this allowed error, `ward` makes as many records as `screen` at maxerror 1 (docs/measured/irradiance_cache.md),
+/// and so does `hessian`.
 constexpr double kWard = 1.4;
 ChartCurve errorFunctionCurve(const std::string& name, double coarser) {
   return gatherCurve("gather, " + name, {"--gi", "gather", "--error-function", name}, coarser);
 }
 
-/// One curve, along which one option takes these values.
+/// Makes one curve, along which one option takes these values.
 ChartCurve varied(const std::string& name, const Arguments& fixed, const std::string& option, const Arguments& values) {
   ChartCurve out{name, {}};
   for (const std::string& value : values) {

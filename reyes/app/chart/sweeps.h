@@ -1,4 +1,4 @@
-// What a chart varies: the settings of each curve, cheapest first, and the reference that they are held against.
+// The settings of each curve of a chart, cheapest first, and the reference that they are compared with.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,12 +13,12 @@ struct ChartCurve {
 
 struct ChartSweep {
   std::string name, title;
-  std::string needs;                             ///< Of the scene, lest all pictures are black.
-  std::vector<std::string> common;               ///< Arguments of every run, the reference's included.
-  std::vector<std::string> reference;            ///< Of a batch; batches differ in `seed`.
+  std::string needs;                             ///< What the scene must have, or all pictures would be black.
+  std::vector<std::string> common;               ///< Arguments of every run, those of the reference too.
+  std::vector<std::string> reference;            ///< Arguments of a batch; batches differ in `seed`.
   std::string seed;                              ///< The option that makes batches independent.
-  bool tracedReference = false;                  ///< Its batches take --samples, by what the budget allows.
-  bool oneKnob() const { return name != "gi"; }  ///< The last word of a setting is what varies.
+  bool tracedReference = false;                  ///< Its batches take --samples, as many as the budget allows.
+  bool oneKnob() const { return name != "gi"; }  ///< The last word of a setting varies.
   std::vector<ChartCurve> curves;
 };
 
@@ -26,6 +26,6 @@ struct ChartSweep {
 constexpr const char* kPrelude = "prelude:";
 
 std::optional<ChartSweep> chartSweep(const std::string& name);
-std::string chartSweepNames();  ///< Comma-separated.
+std::string chartSweepNames();  ///< Separated by commas.
 
 }  // namespace tomales

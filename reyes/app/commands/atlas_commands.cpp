@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders stand for the point clouds in them.
+/// Replaces folders by the point clouds in them.
 std::vector<fs::path> pointFiles(const std::vector<std::string>& inputs) {
   std::vector<fs::path> out;
   for (const std::string& input : inputs) {
@@ -44,13 +44,13 @@ std::vector<fs::path> pointFiles(const std::vector<std::string>& inputs) {
   return out;
 }
 
-/// A command does not replace what it reads.
+/// Refuses to replace a file that the command reads.
 void refuseInput(const fs::path& output, const std::vector<std::string>& inputs) {
   if (isAmong(output, inputs))
     throw WriteError(fmt::format("\"{}\" would replace what it is made of", output.string()));
 }
 
-/// One cloud of several, chunk by chunk.
+/// Joins several clouds, chunk by chunk.
 void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
   const PointFile first(files.front().string());
   PointFileWriter writer(out.string(), first.channels());
@@ -68,7 +68,7 @@ void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
   writer.finish(first.madeFrom());
 }
 
-/// The first frame of RIB files, ready to be traced.
+/// Reads the first frame of RIB files, ready to be traced.
 std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
   std::optional<Scene> scene;
   RibSettings rib;
@@ -93,14 +93,14 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
   const StageTimer timer(stats, "photons");
   AtlasSettings atlas = atlasSettings(settings, scene, shading);
-  atlas.photons.direct = true;  // whoever looks into the maps finds all light
+  atlas.photons.direct = true;  // so that the maps, which somebody may look into, have all light
   const PhotonFigures figures =
       writePhotons(settings.output, scene, rays, shading, mapNames(scene, shading, atlas), atlas, {}, stats, log);
   if (settings.verbosity != Log::Verbosity::Quiet)
     fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
 }
 
-/// Of a .ptc, or the records of an .icf.
+/// Reads the points of a .ptc, or the records of an .icf.
 PointCloud cloudOf(const std::string& path) {
   if (fs::path(path).extension() != ".icf") return PointFile(path).readAll();
   std::string error;

@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// settings.files -> photon maps in settings.output, one file a group.
+/// Traces settings.files to photon maps in settings.output, one file for each group.
 int photonsCommand(const RenderSettings& settings);
 
 struct IrradianceCommand {
@@ -18,17 +18,17 @@ int irradianceCommand(const IrradianceCommand& command);
 
 struct BrickmakeCommand {
   std::vector<std::string> inputs;  ///< Point clouds, or folders of them.
-  std::string output;               ///< FILE.bkm for all, or a folder for one each.
+  std::string output;               ///< FILE.bkm for all inputs, or a folder of one for each.
   BrickSettings settings;
   bool relative = false;  ///< maxError is a share of the mean of the data.
-  bool oneFile = false;   ///< `output` is a file, whatever it ends in.
+  bool oneFile = false;   ///< True if `output` is a file, whatever its ending is.
 };
-/// `made` hears of each. Throws FileError, or std::filesystem::filesystem_error.
+/// Calls `made` with each map. Throws FileError, or std::filesystem::filesystem_error.
 void makeBrickMaps(const BrickmakeCommand& command, const std::function<void(const std::string&)>& made = {});
 int brickmakeCommand(const BrickmakeCommand& command);
 
 struct ViewCommand {
-  std::string input, output, channel, camera;  ///< camera: a RIB file whose camera looks; empty: an overview.
+  std::string input, output, channel, camera;  ///< camera: a RIB file with the camera to use; if empty, an overview.
   int level = -1;
   float gain = 0;
   std::array<int, 2> size{640, 480};
@@ -36,8 +36,8 @@ struct ViewCommand {
 int viewCommand(const ViewCommand& command);
 
 struct ConvertCommand {
-  std::string input, output;  ///< One .ptc, the other .ply.
-  float radius = 0;           ///< Of points that name none.
+  std::string input, output;  ///< One is a .ptc, the other a .ply.
+  float radius = 0;           ///< Radius of points that have none.
 };
 int convertCommand(const ConvertCommand& command);
 

@@ -13,7 +13,7 @@
 namespace tomales {
 namespace {
 
-/// False: not all of it could be written, as `error` says.
+/// Returns false if not all of it could be written, as `error` says.
 bool copyTo(std::FILE* out, const CatribSettings& settings, std::string& error, Log& log) {
   const auto write = [&](std::string_view text) {
     if (error.empty() && std::fwrite(text.data(), 1, text.size(), out) != text.size()) error = std::strerror(errno);
@@ -24,13 +24,13 @@ bool copyTo(std::FILE* out, const CatribSettings& settings, std::string& error, 
 }
 
 bool toStandardOutput(const CatribSettings& settings, std::string& error, Log& log) {
-  ::signal(SIGPIPE, SIG_DFL);  // there is nothing to lose, and nobody reads the rest
+  ::signal(SIGPIPE, SIG_DFL);  // ends this program quietly when nobody reads the rest
   const bool written = copyTo(stdout, settings, error, log);
-  std::clearerr(stdout);  // it is told with its reason
+  std::clearerr(stdout);  // the failure is reported with its reason
   return written;
 }
 
-/// The file may be one of those that are read.
+/// The output may be one of the files that are read.
 bool toFile(const CatribSettings& settings, std::string& error, Log& log) {
   const auto file = UnfinishedFile::create(settings.output, UnfinishedKind::Stream, error);
   if (!file || !copyTo(file->stream(), settings, error, log)) return false;
@@ -39,7 +39,7 @@ bool toFile(const CatribSettings& settings, std::string& error, Log& log) {
     return false;
   }
   const bool isUnread = log.worst() >= Severity::Error;
-  if (isUnread && std::filesystem::is_regular_file(settings.output)) return true;  // the log tells; the old file stays
+  if (isUnread && std::filesystem::is_regular_file(settings.output)) return true;  // the log says why; that file stays
   return file->finish(error);
 }
 

@@ -1,4 +1,4 @@
-// tomales catrib: RIB in, RIB out, in another encoding.
+// tomales catrib: copies RIB in another encoding.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 namespace tomales {
 
 struct CatribSettings {
-  std::vector<std::string> files;  ///< One stream; "-" is standard input.
-  std::string output;              ///< Empty: standard output.
+  std::vector<std::string> files;  ///< The files of one stream; "-" is standard input.
+  std::string output;              ///< If empty, it is standard output.
   bool binary = false, gzip = false;
 };
 

@@ -327,7 +327,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
   });
 }
 
-/// Else the arguments are those of render.
+/// Does the text name a command? If not, the arguments are those of render.
 bool namesCommand(const CLI::App& app, const std::string& text) {
   for (const char* name : {"-h", "--help", "--help-all", "--version"})
     if (text == name) return true;
@@ -387,7 +387,7 @@ int run(int argc, char** argv) {
   openStandardFiles();
   endWithMessages();
   reportCrashes();
-  watchSignals();  // before other threads start, as they must not get the signals
+  watchSignals();  // before other threads start, which must not get the signals
   int code = kDone;
   runOnDeepStack([&] { code = runGuarded(argc, argv); });
   return code;

@@ -11,14 +11,14 @@ struct CompileCommand {
   std::vector<std::string> files;
   std::vector<std::string> folders;      ///< -I
   std::vector<std::string> definitions;  ///< -D NAME or NAME=VALUE
-  std::string dump;                      ///< A stage of RslFile::dump(); empty: none.
-  bool quiet = false;                    ///< No warnings.
+  std::string dump;                      ///< A stage of RslFile::dump(); empty for none.
+  bool quiet = false;                    ///< If true, no warnings are printed.
 };
 
 RslSettings rslSettings(const std::vector<std::string>& folders, const std::vector<std::string>& definitions);
 
-/// Messages go to standard error. The exit code is kUnreadable if a file has errors, kIncomplete if one calls functions
-/// that nobody has.
+/// Messages go to standard error. Returns exit code kUnreadable if a file has errors, and kIncomplete if one calls
+/// functions that do not exist.
 int compileCommand(const CompileCommand& command);
 
 }  // namespace tomales

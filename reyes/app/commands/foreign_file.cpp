@@ -10,7 +10,7 @@ namespace tomales {
 namespace {
 
 struct Foreign {
-  std::string_view endings;  ///< With blanks around each.
+  std::string_view endings;  ///< Each has a blank before and after it.
   const char* what;
   const char* remedy;  ///< {} stands for the file.
 };

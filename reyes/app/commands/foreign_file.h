@@ -1,4 +1,4 @@
-// Files that are given where a RIB file is wanted.
+// Files of other formats that are given where a RIB file is wanted.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Is the file, by the ending of its name, of a kind that holds no RIB? Then this is reported, with what it is and what
+/// Is the file, by the ending of its name, of a kind that holds no RIB? If so, it is reported, with its kind and what
 /// can be done with it.
 bool isForeign(const std::string& file, Log& log);
 bool isAnyForeign(const std::vector<std::string>& files, Log& log);

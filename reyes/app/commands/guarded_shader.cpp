@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-/// The shader that is watched, as a library of one.
+/// The shader that is watched, as the one shader of a library.
 struct Watched {
   const TmShader* real = nullptr;
   TmShader guarded{};
@@ -34,7 +34,7 @@ class GuardedArray {
   float* data() { return memory_.data() + begin_; }
   const std::string& name() const { return name_; }
 
-  /// Does anything but the active points differ from what it was?
+  /// Has anything but the active points changed?
   bool wroteOutside() const {
     const auto same = [&](size_t k) { return std::memcmp(&memory_[k], &before_[k], sizeof(float)) == 0; };
     for (size_t k = 0; k < memory_.size(); ++k)
@@ -67,7 +67,7 @@ class GuardedArray {
   std::vector<float> before_;
 };
 
-/// A batch as another one, with guarded arrays and every third point switched off.
+/// A copy of a batch with guarded arrays, in which every third point is switched off.
 class GuardedBatch {
  public:
   explicit GuardedBatch(const TmGrid* g)
@@ -98,7 +98,7 @@ class GuardedBatch {
     if (array) array = arrays_.emplace_back(name, array, grid.padded).data();
   }
   void guard(const std::string& name, TmVec3& v) { guard(name, v.x), guard(name, v.y), guard(name, v.z); }
-  /// An output is written where a Display wants it: here.
+  /// Sets the array of an output that a Display wants, so that the shader writes to it.
   void guardOutput(const TmParamDecl& decl, TmValue& value) {
     if (!(decl.type & TM_OUTPUT)) return;
     const int width = TM_TYPE_OF(decl.type) == TM_FLOAT ? 1 : 3;

@@ -8,11 +8,11 @@
 
 namespace tomales {
 
-/// A library with the shader under its own name. Each run is done twice: on a batch with guarded arrays some of whose
-/// points are not active, whose faults are noted, and as it is asked for. Replaces the one of an earlier call.
+/// Returns a library with the shader under its own name, and replaces that of an earlier call. Each run is done twice:
+/// on a batch with guarded arrays and some inactive points, where faults are noted, and then as it is asked for.
 const TmShaderLibrary* guardedLibrary(const TmShader& shader);
 
-/// What the shader of the last guardedLibrary() has done that it must not, each in words that follow its name.
+/// The faults of the shader of the last guardedLibrary(), each in words that follow its name.
 const std::set<std::string>& guardedFaults();
 void noteFault(const std::string& fault);
 

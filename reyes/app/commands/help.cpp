@@ -8,8 +8,8 @@ namespace {
 
 struct Group {
   const char* name;
-  const char* options;  ///< With blanks around each.
-  bool common = true;   ///< Shown by --help; others by --help-all alone.
+  const char* options;  ///< Each has a blank before and after it.
+  bool common = true;   ///< True if --help shows it; --help-all shows all.
 };
 constexpr Group kGroups[] = {
     {"Picture", " -o --format --frames --crop --pixel-samples --shading-rate --draft "},
@@ -25,7 +25,7 @@ constexpr Group kGroups[] = {
 };
 constexpr Group kRest{"More", "", false};
 
-/// Commands with at least so many options show the common ones alone.
+/// Commands with at least this many options show only the common ones.
 constexpr size_t kMany = 20;
 
 struct Example {
@@ -78,7 +78,7 @@ const Group& groupOf(const CLI::Option& option) {
   return kRest;
 }
 
-/// The text in lines that end before `width`, all but the first indented.
+/// Wraps the text to lines that end before `width`, and indents all but the first.
 std::string wrapped(const std::string& text, size_t indent, size_t width) {
   std::istringstream words(text);
   std::string out;

@@ -1,4 +1,4 @@
-// How --help looks: options in groups, those that are wanted every day on one screen, an example for each command.
+// The layout of --help: options in groups, everyday ones on one screen, an example for each command.
 #pragma once
 #include <CLI/CLI.hpp>
 
@@ -6,7 +6,7 @@ namespace tomales {
 
 /// Puts --help and --help-all into this form, for the commands that are added afterwards too.
 void setHelp(CLI::App& program);
-/// Sorts the options of all commands into their groups, and adds the examples. After all commands have been added.
+/// Sorts the options of all commands into their groups, and adds the examples. Call it after all commands are added.
 void finishHelp(CLI::App& program);
 
 }  // namespace tomales

@@ -28,7 +28,7 @@ int statusOf(pid_t child) {
   return status;
 }
 
-/// Runs the program that reads models. It tells the user itself what it leaves out; the worst of that is returned.
+/// Runs the program that reads models. It reports itself what it leaves out; the worst severity of that is returned.
 Severity read(const model::Settings& settings, Log& log) {
   const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
   const auto fail = [&](const std::string& what) {
@@ -64,7 +64,7 @@ void move(const fs::path& from, const fs::path& to) {
   if (!moveFinished(from, to, error)) throw WriteError(fmt::format("{} cannot be written: {}", to.string(), error));
 }
 
-/// First what the RIB names, then the RIB.
+/// Moves the files that the RIB names first, then the RIB.
 void movePlaces(const model::Settings& made, const fs::path& scene) {
   if (fs::exists(made.parts)) {
     fs::create_directories(made.partsByName);

@@ -1,4 +1,4 @@
-// `tomales import`: models of other programs as RIB.
+// `tomales import`: turns models of other programs into RIB.
 #pragma once
 #include <string>
 

@@ -122,7 +122,7 @@ Json icfInfo(const std::string& file, Log& log) {
           {"caches", caches}};
 }
 
-/// One "name: value" a line, indented by depth.
+/// Prints a line "name: value" for each, indented by depth.
 void printText(const Json& j, int depth) {
   for (const auto& [key, value] : j.items()) {
     const std::string indent(static_cast<size_t>(2 * depth), ' ');
@@ -165,7 +165,7 @@ Json bricksInfo(const std::string& file) {
           {"bytes", map.fileBytes()}};
 }
 
-/// Files of our own that say themselves what is wrong with them.
+/// Describes files of our own formats, whose readers say themselves what is wrong with them.
 Json ownInfo(const std::string& file, Json (*infoOfKind)(const std::string&), Log& log) {
   try {
     return infoOfKind(file);

@@ -1,4 +1,4 @@
-// `tomales info` and `tomales compare`: what is in a file, and how far apart two pictures are.
+// `tomales info` and `tomales compare`: the contents of a file, and the difference of two pictures.
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@
 namespace tomales {
 
 struct InfoCommand {
-  std::string file;  ///< Or the name of a shader.
+  std::string file;  ///< A file, or the name of a shader.
   bool json = false;
   Trust trust;
 };

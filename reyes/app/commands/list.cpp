@@ -13,7 +13,7 @@
 namespace tomales {
 namespace {
 
-/// Built-in shaders by name, those of one kind or of all.
+/// Lists built-in shaders by name, those of one kind or all.
 Json shaders(std::optional<TmKind> kind) {
   Log log;
   ShaderRegistry registry(log);
@@ -58,7 +58,7 @@ const Listed kListed[] = {{"shaders", [] { return shaders(std::nullopt); }},
                           {"displays", displays},
                           {"filters", filters}};
 
-/// A line for what it is, and one for each parameter.
+/// Prints a line for each thing, and one for each of its parameters.
 void printText(const Json& listed) {
   for (const Json& one : listed) {
     const std::string kind = one.contains("kind") ? one.at("kind").get<std::string>() + " " : "";

@@ -23,7 +23,7 @@ void warnAboutParams(const Request& r, std::span<const std::string_view> known, 
                  fmt::format("{}: there is no \"{}\"; ignored", r.name, p.name));
 }
 
-/// RenderMan's names of filters, as OpenImageIO has them.
+/// Translates RenderMan's names of filters to those of OpenImageIO.
 std::string filterOf(const Request& r, const std::string& name, Log& log) {
   static const std::set<std::string> known = {
       "box", "triangle", "gaussian", "catmull-rom", "mitchell", "blackman-harris", "sinc", "disk", "lanczos3"};
@@ -94,13 +94,13 @@ BrickmakeCommand brickmakeOf(const Request& r, Log& log) {
 void makeBrickMap(const Request& r, Log& log) {
   try {
     makeBrickMaps(brickmakeOf(r, log));
-  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+  } catch (const std::runtime_error& e) {  // FileError, or an error of the file system
     log.report(severityOfLoss(e), "make-brickmap", r.where,
                fmt::format("{}: \"{}\" cannot be made ({})", r.name, r.args[1].strings[0], e.what()));
   }
 }
 
-/// The same with the names of its files as they are below the root. Throws WriteError.
+/// Returns the request with its files' names below the root. Throws WriteError.
 Request placed(const Request& request, const std::string& root) {
   Request out = request;
   const size_t target = request.name == "MakeCubeFaceEnvironment" ? 6 : 1;

@@ -65,7 +65,7 @@ void addCrop(CLI::App& app, RenderSettings& s) {
 
 void addPictureOptions(CLI::App& app, RenderSettings& s) {
   const auto format = [](const std::string& t) { return parsePair(t, 1, 65536); };
-  const Options unasked;  // what a scene has that says nothing
+  const Options unasked;  // the options of a scene that sets none
   const auto pixelSamples = [](const std::string& t) { return parsePair(t, 1, 64); };
   addParsed(
       app, "--format", s.format, format, "WxH",

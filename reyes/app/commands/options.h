@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// An option whose text must parse: stores the value or makes the usage error.
+/// Adds an option whose text must parse: it stores the value or makes the usage error.
 template <class T, class Parse>
 CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse parse, const std::string& form,
                        const std::string& help) {
@@ -18,25 +18,25 @@ CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse 
   return app.add_option_function<std::string>(name, take, help)->type_name(form);
 }
 
-/// A number with a place on the line: CLI::Range lets NaN pass.
+/// Accepts a number between two others: CLI::Range lets NaN pass.
 CLI::Validator between(double least, double most);
 
-/// Files of our own, by extension.
+/// Accepts a file of our own formats, by its extension.
 inline auto parseNamed(const char* extension) {
   return [extension](const std::string& text) {
     return text.ends_with(extension) && text != extension ? std::optional(text) : std::nullopt;
   };
 }
 
-/// The name of a picture, if it is one.
+/// Returns the text if it is the name of a picture.
 std::optional<std::string> parseOutput(const std::string& text);
 
 void addOutput(CLI::App& app, RenderSettings& s);
 void addCrop(CLI::App& app, RenderSettings& s);
-void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Of the frame; --crop among them.
+void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Options of the frame, --crop among them.
 void addLightOptions(CLI::App& app, RenderSettings& s);
-void addTrust(CLI::App& app, Trust& trust);            ///< Whose code may run.
-void addRunOptions(CLI::App& app, RenderSettings& s);  ///< Threads, statistics, memory of textures, how much is said.
+void addTrust(CLI::App& app, Trust& trust);            ///< Options that say whose code may run.
+void addRunOptions(CLI::App& app, RenderSettings& s);  ///< Threads, statistics, memory of textures, verbosity.
 void addWatching(CLI::App& app, RenderSettings& s);    ///< --preview, --pixel
 
 }  // namespace tomales

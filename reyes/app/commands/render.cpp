@@ -25,7 +25,7 @@ namespace {
 
 class RenderRun {
  public:
-  /// `job` takes a frame and the number of its scene in the stream.
+  /// A job takes a frame and the number of its scene in the stream.
   using Job = std::function<void(Scene&, int world, const RenderSettings&, Stats&, Log&,
                                  const std::function<void()>& afterStage)>;
 
@@ -64,7 +64,7 @@ class RenderRun {
   }
 
  private:
-  /// Interrupted frames are the last: what follows them is not read.
+  /// Reads the frames. After one that is interrupted it reads no further.
   bool readAll(const RibSettings& rib) {
     if (isAnyForeign(settings_.files, log_)) return false;
     try {
@@ -89,11 +89,11 @@ class RenderRun {
       const int errorsBefore = errors();
       try {
         job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
-      } catch (const std::exception& e) {  // later frames may be smaller, and what is finished keeps its statistics
+      } catch (const std::exception& e) {  // later frames may be smaller, and finished ones keep their statistics
         log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
       }
       if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
-          errors() == errorsBefore)  // else it may have been refused
+          errors() == errorsBefore)  // else the file may have been refused
         explainEmptyFrame(scene, log_);
       flush();
       throwIfStopped();
@@ -152,7 +152,7 @@ class RenderRun {
   std::optional<ProgressMeter> meter_;  // likewise
   std::set<std::string> written_;
   int scenes_ = 0, rendered_ = 0;
-  bool made_ = false;  // by a Make request
+  bool made_ = false;  // True if a Make request was performed.
   bool outputUsed_ = false;
 };
 

@@ -1,4 +1,4 @@
-// `tomales render`: every frame of a RIB stream through the stages, to files.
+// `tomales render`: renders every frame of a RIB stream to files.
 #pragma once
 #include "reyes/app/exit_code.h"
 #include "reyes/app/settings.h"
@@ -6,7 +6,7 @@
 namespace tomales {
 
 int renderCommand(const RenderSettings& settings);
-/// The same stream, to a .dfb for each frame.
+/// Hides the frames of the same stream, to a .dfb each.
 int hideCommand(const RenderSettings& settings);
 
 }  // namespace tomales

@@ -22,7 +22,7 @@ bool namesMap(const std::string& text) {
   return std::find(endings.begin(), endings.end(), endingOf(text)) != endings.end();
 }
 
-/// The first tile of several.
+/// Returns the name of the first tile, if the name stands for several.
 std::string firstTile(std::string name) {
   for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
     if (const size_t at = name.find(mark); at != std::string::npos) name.replace(at, mark.size(), "1001");
@@ -102,7 +102,7 @@ void SceneNeeds::add(const Scene& scene, const std::vector<Procedural>& procedur
 }
 
 void SceneNeeds::add(const Scene& scene) {
-  seen_.clear(), attributes_.clear();  // those of earlier frames are gone
+  seen_.clear(), attributes_.clear();  // the pointers of earlier frames are dangling
   for (const auto& light : scene.lights) addShader(light->shader, TM_LIGHT, scene.options);
   if (scene.options.imager) addShader(*scene.options.imager, TM_IMAGER, scene.options);
   for (const Object& o : scene.objects) add(*o.attributes, scene);

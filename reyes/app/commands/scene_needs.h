@@ -13,17 +13,17 @@ class SceneNeeds {
   SceneNeeds(const PluginTrust& trust, Log& log);
 
   void add(const FileUse& file);
-  /// What a Make request writes is there when a later frame asks for it.
+  /// Adds the file that a Make request writes, which is found when a later frame asks for it.
   void addMade(const Request& request);
-  /// Shaders of the scene and the pictures that their parameters name. Procedurals are opened one after the other.
+  /// Adds shaders of the scene and the pictures that their parameters name. Procedurals are opened one after the other.
   void add(const Scene& scene);
-  /// An array of kind, name, found, and where it is; of what is missing, where it is named and what helps.
+  /// Returns an array of kind, name, found, and path; for what is missing, the place that names it and a hint.
   Json json() const;
 
  private:
   struct Need {
     bool found = false;
-    std::string from;  ///< Where it is, or where it is named.
+    std::string from;  ///< The path or, if it is missing, the place that names it.
     std::string hint;
   };
   void add(const Attributes& attributes, const Scene& scene);
@@ -32,9 +32,9 @@ class SceneNeeds {
   void addPictures(const ShaderCall& call, const TmShader* shader, const Options& options);
   void addPicture(const std::string& name, const Options& options, const SourceLoc& where);
 
-  static constexpr int kMostProcedurals = 10000;  ///< That are opened: a scene may have millions.
+  static constexpr int kMostProcedurals = 10000;  ///< The most that are opened: a scene may have millions.
   ShaderRegistry registry_;
-  std::map<std::pair<std::string, std::string>, Need> needs_;  ///< By kind and name.
+  std::map<std::pair<std::string, std::string>, Need> needs_;  ///< Indexed by kind and name.
   std::set<std::string> made_;                                 ///< Files that the scene itself writes.
   std::set<const ShaderCall*> seen_;
   std::set<const Attributes*> attributes_;

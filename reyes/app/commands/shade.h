@@ -1,4 +1,4 @@
-// `tomales shade` and `tomales gather`: a shot's .dfb -> its picture, or its irradiance cache.
+// `tomales shade` and `tomales gather`: make a picture, or an irradiance cache, from the .dfb of a shot.
 #pragma once
 #include "reyes/app/settings.h"
 

@@ -21,9 +21,9 @@
 namespace tomales {
 namespace {
 
-constexpr std::array<int, 2> kGrid{13, 7};  // the last lanes of such arrays are no point's
+constexpr std::array<int, 2> kGrid{13, 7};  // so that the last lanes of arrays are no points
 
-/// What a function in a child process returns, and the signal that has ended it, or 0.
+/// The text that a function in a child process returns, and the signal that has ended it, or 0.
 struct Outcome {
   std::string text;
   int signal = 0;
@@ -58,13 +58,13 @@ bool isBuiltIn(const TmShader& shader) {
   return std::find(library->shaders, library->shaders + library->count, &shader) != library->shaders + library->count;
 }
 
-/// The shader in its scene, whose colour and opacity are uneven.
+/// Checks the shader in its scene, whose colour and opacity are uneven.
 class Check {
  public:
   Check(const TmShader& shader, const Scene& scene, const ShadingSystem& shading, const Log& log)
       : shader_(shader), scene_(scene), shading_(shading), log_(log) {}
 
-  /// As faultsOf().
+  /// Returns what faultsOf() does.
   std::vector<std::string> faults() const {
     const Outcome whole = inChild([&] { return runAll(); });
     std::vector<std::string> out;
@@ -72,19 +72,19 @@ class Check {
       out.push_back(whole.text.substr(begin, end - begin));
     if (whole.signal != 0)
       out.push_back(fmt::format("shader \"{}\" crashes ({})", shader_.name, strsignal(whole.signal)));
-    else if (shader_.unlist && !isBuiltIn(shader_))  // the lights of the scene have parameters of the same library
+    else if (shader_.unlist && !isBuiltIn(shader_))  // the lights of the scene would add parameters of the same library
       addUnlisted(out);
     return out;
   }
 
  private:
-  /// A line for each fault.
+  /// Returns a line for each fault.
   std::string runAll() const {
     run({});
     if (shader_.kind == TM_SURFACE) checkEmission(), checkEvenness();
     std::string out;
     for (const std::string& fault : guardedFaults()) out += fmt::format("shader \"{}\" {}\n", shader_.name, fault);
-    for (const LogEntry& e : log_.entries())  // what the renderer says of it, not what it says itself
+    for (const LogEntry& e : log_.entries())  // adds the messages of the renderer, not those of the shader
       if (e.code.starts_with("shader-") && !e.code.starts_with("shader-says")) out += e.message + "\n";
     return out;
   }

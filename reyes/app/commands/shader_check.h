@@ -1,4 +1,4 @@
-// `tomales shadetest --check`: does a shader what it declares?
+// `tomales shadetest --check`: tests whether a shader does what it declares.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace tomales {
 
-/// What a shader does otherwise than it declares or than reyes/shader_api.h asks, each a part of a sentence that begins
-/// with the shader; empty: nothing that a grid can tell. The shader is run in a child process, since it may crash.
-/// Threads: one check at a time.
+/// Returns what a shader does otherwise than it declares or than reyes/shader_api.h asks, each as part of a sentence
+/// that begins with the shader; empty if a grid shows nothing of the kind. The shader runs in a child process, since it
+/// may crash. Threads: one check at a time.
 std::vector<std::string> faultsOf(const TmShader& shader);
 
 }  // namespace tomales

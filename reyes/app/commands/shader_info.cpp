@@ -32,7 +32,7 @@ Json paramInfo(const TmParamDecl& p) {
   return out;
 }
 
-/// What a scene may give to an output, which is a parameter of its own. Null: nothing.
+/// Returns the parameter by which a scene gives a value to an output, or null if there is none.
 const TmParamDecl* inputOf(const TmShader& s, const TmParamDecl& output) {
   for (int i = 0; i < s.paramCount; ++i)
     if (!(s.params[i].type & TM_OUTPUT) && std::string_view(s.params[i].name) == output.name) return &s.params[i];
@@ -95,7 +95,7 @@ Json textInfo(const std::string& path, Log& log) {
   return {{"file", path}, {"kind", "shaders"}, {"shaders", shaders}};
 }
 
-// Its code runs, and may crash, in a process of its own.
+// The plugin's code is run, and may crash, in a process of its own.
 Json pluginInfo(const std::string& file, Log& log) {
   constexpr int kMostSeconds = 20;
   const auto describe = [&] {

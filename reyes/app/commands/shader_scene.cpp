@@ -10,7 +10,7 @@ namespace tomales {
 namespace {
 
 constexpr const char* kSquare = "Patch \"bilinear\" \"P\" [-.5 .5 0  .5 .5 0  -.5 -.5 0  .5 -.5 0]\n";
-constexpr float kLampDistance = 2;  // from the eye, before the square and beside the way to it
+constexpr float kLampDistance = 2;  // its distance from the eye, in front of the square and beside the way to it
 
 std::string requestFor(const TmShader& shader, const std::string& parameters) {
   static constexpr const char* kRequests[] = {"Surface \"{}\" {}\n", "Displacement \"{}\" {}\n",
@@ -39,7 +39,7 @@ class EmptySpace final : public ShadeServices {
       if (result.leaves) result.leaves[i] = 1;
     }
   }
-  /// On the square of requestFor(), which sends its light away from the eye.
+  /// Samples the square of requestFor(), which sends its light away from the eye.
   bool sampleEmitter(int, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                      const EmitterPoints& out) const override {
     for (int i = 0; i < count; ++i) {

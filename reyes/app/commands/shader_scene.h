@@ -10,14 +10,14 @@
 
 namespace tomales {
 
-/// `parameters`: what follows the shader's name in its request.
+/// `parameters` follow the shader's name in its request.
 std::string shaderSceneRib(const TmShader& shader, const std::string& parameters = {});
 
-/// Points along u and v, as the eye sees the square.
+/// Returns points along u and v, as the eye sees the square.
 ShadePoints shaderScenePoints(const Scene& scene, const ShadingSystem& shading, const std::array<int, 2>& size);
 
-/// Rays that meet nothing, and a lamp for shaders that are sampled on one. Null for a shader that needs neither: if it
-/// asks for rays nevertheless, it is told to declare so.
+/// Provides rays that meet nothing, and a lamp for shaders that are sampled on one. Returns null for a shader that
+/// declares neither: if it asks for rays all the same, it is told to declare so.
 std::unique_ptr<ShadeServices> emptySpaceFor(const TmShader& shader);
 
 }  // namespace tomales

@@ -25,13 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is tried: shaders, and the files that they come from, if those are text.
+/// The shaders to try, and the files that they come from, if those are text.
 struct Tried {
-  std::vector<const TmShader*> shaders;  ///< None: there is none, which is reported.
+  std::vector<const TmShader*> shaders;  ///< If it is empty, there is none, which is reported.
   std::vector<std::string> files;
 };
 
-/// A shader of that name, or all of a plugin or .sl file.
+/// Finds the shader of that name, or all of a plugin or .sl file.
 Tried findShaders(const ShadetestCommand& command, ShaderRegistry& registry, Log& log) {
   const std::string& name = command.shader;
   if (fs::path(name).extension() == ".so") {
@@ -59,7 +59,7 @@ Tried findShaders(const ShadetestCommand& command, ShaderRegistry& registry, Log
   return {};
 }
 
-/// The parameters of the command line as a request has them.
+/// Writes the parameters of the command line as a request has them.
 std::string writtenParameters(const ShadetestCommand& command, const TmShader& shader, Log& log) {
   static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
   std::string out;
@@ -83,12 +83,12 @@ std::string writtenParameters(const ShadetestCommand& command, const TmShader& s
   return out;
 }
 
-/// What is timed, and what has to be done anew before each call, which is not.
+/// The call that is timed, and what has to be done before each call, which is not timed.
 struct Trial {
   std::function<void()> prepare, call;
 };
 
-/// Nanoseconds of one call, from as many as a fifth of a second holds.
+/// Returns nanoseconds of one call, the mean of as many as a fifth of a second holds.
 double timeOf(const Trial& trial) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -119,7 +119,7 @@ void testDisplacement(const Scene& scene, const ShadingSystem& shading, const st
           .c_str());
 }
 
-/// Times a trial, and says what is in the picture that it has left, three colours first.
+/// Times a trial, and describes the picture that it has left, three colours first.
 void testColors(const ShadetestCommand& command, const Trial& trial, const std::function<Image()>& picture, Log& log) {
   const double time_ns = timeOf(trial);
   const Image image = picture();
@@ -142,7 +142,7 @@ Image blankImage(const std::array<int, 2>& size, std::vector<std::string> channe
   return image;
 }
 
-/// Surfaces and lights by what the surface looks like, volumes by what the air leaves of it.
+/// Tests surfaces and lights by the look of the surface, and volumes by what the air leaves of it.
 void testPoints(const ShadetestCommand& command, const Scene& scene, const ShadingSystem& shading, bool volume,
                 Log& log) {
   const ShadePoints points = shaderScenePoints(scene, shading, command.grid);
@@ -168,7 +168,7 @@ void testPoints(const ShadetestCommand& command, const Scene& scene, const Shadi
   testColors(command, {prepare, shade}, picture, log);
 }
 
-/// A picture whose grey is half of its alpha, which rises from the left, 0, to the right, 1.
+/// Tests on a picture whose grey is half of its alpha, which rises from 0 at the left to 1 at the right.
 void testImager(const ShadetestCommand& command, const ShadingSystem& shading, Log& log) {
   const auto [width, height] = command.grid;
   Image wedge = blankImage(command.grid, {"R", "G", "B", "A"}), image;
@@ -212,12 +212,12 @@ std::vector<fs::file_time_type> timesOf(const std::vector<std::string>& files) {
 
 struct Outcome {
   int code = 0;
-  std::vector<std::string> files;  ///< Whose change would change the result.
+  std::vector<std::string> files;  ///< The files that the result depends on.
 };
 
 Outcome tryOnce(const ShadetestCommand& command) {
   Log log;
-  ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, no scene does
+  ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, not a scene
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const Tried tried = findShaders(command, registry, log);
   if (tried.shaders.empty()) return {std::max<int>(exitCodeOf(log), kUnreadable), tried.files};

@@ -1,4 +1,4 @@
-// `tomales shadetest`: one shader over a grid, without a scene.
+// `tomales shadetest`: runs one shader over a grid, without a scene.
 #pragma once
 #include <array>
 #include <string>
@@ -7,17 +7,17 @@
 namespace tomales {
 
 struct ShadetestCommand {
-  std::string shader;                   ///< A name, or a plugin or .sl file, whose first shader is meant.
-  std::vector<std::string> parameters;  ///< NAME=VALUE: numbers between commas, or a text.
-  std::vector<std::string> folders;     ///< Of #include.
-  bool watch = false;                   ///< Again whenever the .sl, or what it includes, has changed.
+  std::string shader;                   ///< A name, or a plugin or .sl file, whose first shader is used.
+  std::vector<std::string> parameters;  ///< NAME=VALUE, where a value is numbers between commas, or a text.
+  std::vector<std::string> folders;     ///< Folders of #include.
+  bool watch = false;                   ///< Run again whenever the .sl file, or one that it includes, has changed.
   std::array<int, 2> grid{64, 64};      ///< Points along u and v.
-  std::string output;                   ///< Picture of Ci; empty: none.
-  bool check = false;                   ///< Instead: does the shader, or do all of the file, what they declare?
+  std::string output;                   ///< Picture of Ci; empty for none.
+  bool check = false;                   ///< Check instead whether the shader, or all of the file, do what they declare.
 };
 
-/// Says how long a point takes and what comes out, or (check) what a shader does otherwise than it declares: exit code
-/// 3.
+/// Says how long a point takes and what the result is, or (check) what a shader does otherwise than it declares, which
+/// gives exit code 3.
 int shadetestCommand(const ShadetestCommand& command);
 
 }  // namespace tomales

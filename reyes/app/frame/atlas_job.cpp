@@ -23,7 +23,7 @@ bool asksPoints(const RenderSettings& settings, const ShadingSystem& shading) {
   return methodOf(settings, shading).byPointClouds;
 }
 
-/// Brick maps, so that a ray finds the mean over its footprint, of those point clouds that are there.
+/// Makes brick maps of those point clouds that exist, so that a ray finds the mean over its footprint.
 void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNames& names,
                     const BrickSettings& settings, Log& log) {
   for (const std::string& name : names.ofReflectors()) {
@@ -109,7 +109,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     return maps;
   } catch (const Stopped&) {
     return nullptr;
-  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+  } catch (const std::runtime_error& e) {  // FileError, or an error of the file system
     log.report(severityOfLoss(e), "atlas", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;
   }
@@ -128,7 +128,7 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Shadi
         settings.bakedFolder, scene, mapNames(scene, shading, atlas).ofSurfaces(), brickCacheBytes(settings), log);
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
-  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+  } catch (const std::runtime_error& e) {  // FileError, or an error of the file system
     log.report(severityOfLoss(e), "baked", {}, std::string(e.what()) + ": rendered without indirect light");
     return nullptr;
   }
@@ -140,7 +140,7 @@ void bakeGathered(const GiServices& services, const DeepFrame& layout, const Til
     const AtlasSettings atlas = atlasSettings(settings, scene, shading);
     const MapNames names = mapNames(scene, shading, atlas).ofSurfaces();
     makeAnewWhatIsDamaged([&] { services.bake(layout, tiles, settings.bakedFolder, names, atlas.world); }, log);
-  } catch (const Stopped&) {  // what was gathered before stays
+  } catch (const Stopped&) {  // the records that were gathered before stay
   } catch (const std::runtime_error& e) {
     log.report(Severity::Output, "baked-write", {}, std::string(e.what()) + ": the gathered light is not kept");
   }

@@ -1,5 +1,5 @@
-// Hidden buckets in a file beside the picture: with --resume all of them, those of an interrupted run among them; else
-// those that memory does not hold, in a file that is gone when the program is. Threads: any.
+// Hidden buckets in a file beside the picture. With --resume it has all of them, with those of an interrupted run; else
+// those that do not fit in memory, in a file that is removed when the program ends. Threads: any.
 #pragma once
 #include <atomic>
 #include <mutex>
@@ -14,11 +14,11 @@ class BucketFile {
   BucketFile(const Scene& scene, const DeepFrame& layout, int world, const RenderSettings& settings, Log& log);
 
   std::optional<DeepTile> tile(size_t index) const { return file_ ? file_->tile(index) : std::nullopt; }
-  /// Without --resume, nothing.
+  /// Does nothing without --resume.
   void keepForResume(size_t index, const DeepTile& tile);
   void spill(size_t index, const DeepTile& tile);
   int64_t spilled() const { return spilled_; }
-  /// The picture is written: nothing is left to resume.
+  /// Tells that the picture is written, so that nothing is left to resume.
   void forget();
 
  private:

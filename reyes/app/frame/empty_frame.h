@@ -1,12 +1,12 @@
-// Why a frame shows nothing: the first question of whoever looks at a black picture.
+// Explains why a frame shows nothing: the first question about a black picture.
 #pragma once
 #include "reyes/base/log.h"
 #include "reyes/scene.h"
 
 namespace tomales {
 
-/// For a frame in which no micropolygon was seen: reports where everything is, or who hides it. A frame that crops may
-/// well be empty: silent.
+/// Reports, for a frame in which no micropolygon was seen, where the objects are, or what hides them. It says nothing
+/// of a frame that crops, which may well be empty.
 void explainEmptyFrame(const Scene& scene, Log& log);
 
 }  // namespace tomales

@@ -150,7 +150,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
   ShadeContext context = shadeContext();
   const bool cut = interrupted();
   if (cut) {
-    // What is hidden is worth its light; a second signal ends this too.
+    // The buckets that are hidden are worth lighting; a second signal ends this too.
     log_.report(Severity::Warning, "interrupted", {},
                 "interrupted: finished buckets are shaded with direct light and written");
     context.indirect = false;
@@ -242,7 +242,7 @@ int FrameJob::referenceLightSamples() const {
 
 void makeFolderOf(const std::string& file) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  std::error_code failed;  // then the folder is missing still
+  std::error_code failed;  // if this fails, the folder is missing still
   if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
 }
 

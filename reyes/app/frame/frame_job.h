@@ -1,5 +1,5 @@
-// One frame through the stages, in the order of its members; rays and global illumination are built if the scene asks
-// for them.
+// Takes one frame through the stages, in the order of its members. Rays and global illumination are built if the scene
+// asks for them.
 #pragma once
 #include "gi/clouds.h"
 #include "reyes/app/settings.h"
@@ -18,27 +18,27 @@ class FrameJob {
   FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log);
   ~FrameJob();
 
-  /// Reads all procedurals that are still closed. Before `hide` where tiles leave it one by one, in a file or shaded:
-  /// it then finds no shade groups on its way.
+  /// Reads all procedurals that are still closed. Call it before `hide` if tiles leave that one by one, to a file or
+  /// shaded: it then finds no new shade groups on its way.
   void openAll();
-  /// All buckets; opens what it needs. False: interrupted.
+  /// Hides all buckets and opens what it needs. Returns false if it was interrupted.
   bool hide(const DeepFrame& layout, const TileSink& sink);
-  /// Rays against the scene itself.
+  /// Prepares rays against the scene itself.
   void prepareRays();
-  /// Rays against what `rays` brings when the first is wanted: for scenes without geometry.
+  /// Prepares rays against what `rays` provides when the first ray is wanted: for scenes without geometry.
   void prepareRays(RaySource rays);
   void gather(const DeepFrame& layout, const TileReader& tiles);
-  /// Some tiles. False: interrupted.
+  /// Shades some tiles. Returns false if it was interrupted.
   bool shade(std::span<const uint32_t> tiles, const ShadeSteps& steps);
-  /// The picture, of tiles that are shaded as its rows need them. They must not be interrupted any more if hiding was.
+  /// Writes the picture, from tiles that are shaded as its rows need them. If hiding was interrupted, it is not again.
   void write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load);
-  /// The picture, of tiles that are hidden and shaded as its rows need them. `find`: what an interrupted run has left;
-  /// `keep`: what this one leaves.
+  /// Writes the picture, from tiles that are hidden and shaded as its rows need them. `find` returns the tiles of an
+  /// interrupted run; `keep` keeps those of this one.
   void hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
                     const std::function<void(size_t tile, const DeepTile&)>& keep);
 
   bool gathers() const { return gathers_; }
-  /// Warns if records that stand in for a gather pass were made without one. file: where they come from.
+  /// Warns if records that stand in for a gather pass were made without one. `file` is where they come from.
   void checkRecords(const GiSettings& gathered, const std::string& file) const;
   const GiMethod& method() const { return *method_; }
   const Camera& camera() const { return camera_; }
@@ -46,7 +46,7 @@ class FrameJob {
   GiServices* services() { return services_.get(); }
   ShadingSystem& shading() { return *shading_; }
   FrameControl control(float begin, float end);
-  /// Is told how far the maps are that indirect light is made of before anything is gathered.
+  /// Returns a callback for the progress of the maps that indirect light needs before anything is gathered.
   std::function<void(float)> lightProgress() { return meter_.stage(kHidden, kLightMade); }
 
  private:
@@ -56,11 +56,11 @@ class FrameJob {
   void warnAboutPixels() const;
   GiMode mode() const { return method_->mode; }
   bool traces() const { return mode() != GiMode::None || shading_->needsRays(); }
-  /// A ray may go anywhere, so what rays may meet is read before the first of them, on screen or not, and kept.
+  /// Reads what rays may meet, on screen or not, before the first ray, which may go anywhere, and keeps it.
   void open(const std::function<bool(const Attributes&)>& wanted);
   int referenceLightSamples() const;
   ShadeContext shadeContext() const;
-  /// A shaded tile, for the rows of the picture.
+  /// Puts a shaded tile where the rows of the picture find it.
   void place(size_t index, DeepTile&& tile, const TilePlace& put) const;
   void finish(DeepFrame& frame, const TileFill& fill);
   /// Opens a viewer's picture if there is to be one.
@@ -76,19 +76,19 @@ class FrameJob {
   ProgressMeter meter_;
   CloudFiles clouds_;
   std::unique_ptr<ShadingSystem> shading_;
-  const GiMethod* method_ = nullptr;  ///< As the lights ask, once they are bound.
+  const GiMethod* method_ = nullptr;  ///< The method that the lights ask for, once they are bound.
   std::unique_ptr<RayScene> rays_;
   RaySource raySource_;
   std::unique_ptr<GiServices> services_;
   std::unique_ptr<Preview> preview_;
 };
 
-/// Hours of rendering must not end at a folder that never existed. False: reported.
+/// Hours of rendering must not end at a folder that never existed. Returns false, and reports it, if it does not exist.
 bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
-/// Only if it is relative: scenes of modellers name folders of their project. One that cannot be made is found out when
-/// the file is written.
+/// Makes the folder only if it is relative: scenes of modellers name folders of their project. A failure shows when the
+/// file is written.
 void makeFolderOf(const std::string& file);
-/// Makes those that are relative. What goes to display drivers needs none.
+/// Makes the relative folders of Displays. Display drivers need none.
 bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log);
 
 }  // namespace tomales

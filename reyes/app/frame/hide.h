@@ -1,4 +1,4 @@
-// `tomales hide`: geometry -> deep frame buffer, in a file.
+// `tomales hide`: hides geometry to a deep frame buffer in a file.
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"
@@ -6,10 +6,10 @@
 
 namespace tomales {
 
-/// To settings.output, bucket by bucket; with settings.resume, only those that an interrupted run has left out.
+/// Writes to settings.output, bucket by bucket; with settings.resume, it hides those that an interrupted run left out.
 void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log);
 
-/// Paths made absolute, and checksums. Standard input has none.
+/// Makes paths absolute and computes checksums. Standard input has no checksum.
 std::vector<SourceFile> sourcesOf(const std::vector<std::string>& files);
 
 }  // namespace tomales

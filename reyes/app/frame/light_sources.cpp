@@ -23,7 +23,7 @@ void setRadiosity(GiServices& services, const FrameOfLight& frame) {
   });
 }
 
-/// Points are looked up and never gathered, so that there is no first time to wait for.
+/// Opens the maps now: points are looked up and never gathered, so no later moment comes to open them.
 void openMapsOfBaked(GiServices& services, const FrameOfLight& frame) {
   if (!hasGeometry(frame.scene))
     return frame.log.report(Severity::Missing, "baked-folder", {},

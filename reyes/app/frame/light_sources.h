@@ -1,21 +1,21 @@
-// What methods of indirect light need beside rays: maps that are there, or that are made. A row for each.
+// What methods of indirect light need beside rays: maps that exist, or that are made. The table has a row for each.
 #pragma once
 #include "gi/services.h"
 #include "reyes/app/settings.h"
 
 namespace tomales {
 
-/// The method of the command line or, where that leaves it to the scene, of its indirect lights.
+/// Returns the method of the command line or, if that leaves it to the scene, of its indirect lights.
 const GiMethod& methodOf(const RenderSettings& settings, const ShadingSystem& shading);
 
-/// All that it refers to outlives the services.
+/// All that it refers to must outlive the services.
 struct FrameOfLight {
   const RaySource& rays;
-  const Scene& scene;  ///< That is shaded; of a shot it has no geometry.
+  const Scene& scene;  ///< The scene that is shaded; that of a shot has no geometry.
   const ShadingSystem& shading;
   const Camera& camera;
   const RenderSettings& settings;
-  std::function<void(float)> progress;  ///< Is told how far the maps are, by any thread.
+  std::function<void(float)> progress;  ///< Called by any thread with the progress of the maps.
   Stats& stats;
   Log& log;
 };

@@ -17,14 +17,14 @@ constexpr float kUncertain = 0.1f, kDark = 0.1f;
 constexpr float kShareOfRecords = 0.5f;
 constexpr double kUncertainLight = 0.25;
 constexpr double kShareOfStarts = 0.42;
-constexpr int64_t kFewStarts = 10'000;  // rays of a few points
-constexpr size_t kFewRecords = 32;      // say nothing about the whole
+constexpr int64_t kFewStarts = 10'000;  // rays of a few points, and
+constexpr size_t kFewRecords = 32;      // a few records, say nothing about the whole
 
 }  // namespace
 
 void warnOfFloatRange(const Scene& scene, Log& log) {
-  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this. What depth
-  // loses moves nothing in the picture.
+  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this. The error
+  // along the depth moves nothing in the picture.
   const float away = glm::length(vec2(scene.cameraFromWorldAtOpen()[3]));
   const float lost = away * std::numeric_limits<float>::epsilon();
   const Camera camera(scene.options);
@@ -57,7 +57,7 @@ void warnOfCoarseDicing(const Scene& scene, Log& log) {
 
 void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
   for (const PreparedCache& c : caches) {
-    if (c.plan.gather.occlusion) continue;  // asks for its rays itself, and is told how far it may be off
+    if (c.plan.gather.occlusion) continue;  // it asks for its rays itself, and knows its allowed error
     const IrradianceRecords& records = c.cache.records();
     if (records.size() < kFewRecords) continue;
     double sum = 0, noise = 0;
@@ -89,7 +89,7 @@ void warnOfThinWalls(const RayScene& rays, Log& log) {
     int others;
   };
   const Scene& scene = rays.scene();
-  std::map<std::string, Thin> thin;  // by name: a house is many attribute states
+  std::map<std::string, Thin> thin;  // by name, because a house has many attribute states
   for (const auto& [group, starts] : rays.starts()) {
     const int example = scene.groups[static_cast<size_t>(group)].exampleObject;
     if (example < 0 || starts.rays < kFewStarts) continue;

@@ -1,5 +1,5 @@
-// Where methods come to their limits on the scene at hand, as warnings; the laboratory of docs/chart.md shows what
-// happens beyond.
+// Warnings where methods reach their limits on the scene at hand; the laboratory of docs/chart.md shows what happens
+// beyond.
 #pragma once
 #include <span>
 
@@ -9,20 +9,20 @@
 
 namespace tomales {
 
-/// The camera is so far from the origin that floats place points by a good part of a pixel. Once, with the first object
-/// that is.
+/// Warns once, with the first such object, if the camera is so far from the origin that floats move points by a good
+/// part of a pixel.
 void warnOfFloatRange(const Scene& scene, Log& log);
 
-/// Micropolygons of something that is not flat are so large that outlines have corners. Once, with the first object
-/// that is.
+/// Warns once, with the first such object, if micropolygons of a surface that is not flat are so large that outlines
+/// have corners.
 void warnOfCoarseDicing(const Scene& scene, Log& log);
 
-/// More than half of the irradiance records are uncertain by a tenth or more (standard errors of their luminance;
-/// darker ones than a tenth of the mean are measured against that); or their light is, by a quarter, because few rays
+/// Warns if more than half of the irradiance records are uncertain by a tenth or more (standard errors of their
+/// luminance, against a tenth of the mean where they are darker); or if their light is, by a quarter, because few rays
 /// bring it.
 void warnOfNoise(std::span<const PreparedCache> caches, Log& log);
 
-/// Rays leave a group by guesses (RayScene::starts): its walls are thinner than rays know where they are. Once a group.
+/// Warns once for each group that rays leave by guesses (RayScene::starts): its walls are thinner than rays can tell.
 void warnOfThinWalls(const RayScene& rays, Log& log);
 
 }  // namespace tomales

@@ -13,7 +13,7 @@
 namespace tomales {
 namespace {
 
-/// The low quality of approximate-gi 5.2; what the command line asks for besides wins.
+/// Sets the low quality of approximate-gi 5.2; other options of the command line override it.
 void makeDraft(Scene& scene) {
   constexpr float kCoarser = 16;
   constexpr int kSamples = 2, kRays = 50;
@@ -24,9 +24,9 @@ void makeDraft(Scene& scene) {
   o.indirectSamples = kRays;
 }
 
-/// What the scene writes, but not what the user has named, and where it is read again.
+/// Keeps files that the scene writes below `root`, and where they are read again, but not those that the user named.
 void keepBelow(const std::string& root, const std::string& output, Options& options) {
-  const bool writesDisplays = output.empty() || namesPicture(output);  // else a .dfb or .icf
+  const bool writesDisplays = output.empty() || namesPicture(output);  // else it is a .dfb or .icf
   const std::string ours = withFrameNumber(output, options.frame);
   for (DisplayCall& d : options.displays)
     if (writesDisplays && d.name != ours) d.name = placeBelow(root, d.name);
@@ -36,8 +36,8 @@ void keepBelow(const std::string& root, const std::string& output, Options& opti
   if (!converted.empty()) converted = placeBelow(root, converted);
 }
 
-/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. What is
-/// for looking at has no alpha, and is sRGB unless the scene's Exposure encodes already.
+/// -o replaces the first Display that is no map for later frames; a frame of such maps alone keeps them all. A picture
+/// to be looked at has no alpha, and is sRGB unless the scene's Exposure encodes already.
 void overrideOutput(Options& options, const std::string& output, bool onePicture) {
   const auto first = std::find_if_not(options.displays.begin(), options.displays.end(), writesMap);
   if (first == options.displays.end()) return;
@@ -81,14 +81,14 @@ void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
   });
 }
 
-/// What renderers of old made do with is no use to anybody: 64 MB are the least that a scene may ask for.
+/// Raises the limit that a scene may set to 64 MB: the limits of old renderers are too small to be of use.
 void raiseTextureMemory(Options& options) {
   constexpr float kLeast_KB = 1 << 16;
   const auto it = options.user.find("limits:texturememory");
   if (it != options.user.end()) it->second.floats = {std::max(kLeast_KB, it->second.number(0))};
 }
 
-/// If the scene does not ask for less.
+/// Sets the limit unless the scene asks for less.
 void limitTextures(Options& options, int64_t limit_bytes) {
   Param& p = options.user["limits:texturememory"];
   const float most_KB = static_cast<float>(textureShare(limit_bytes)) / 1024;

@@ -1,4 +1,4 @@
-// The command line's say over a scene that the reader has frozen.
+// Changes that the command line makes to a scene that the reader has frozen.
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/scene.h"
@@ -11,7 +11,7 @@ void applyOverrides(Scene& scene, const RenderSettings& settings);
 /// Leaves out, with a message, Displays that would write over an earlier one's file, and windows beside files.
 void dropDisplays(Options& options, const PluginTrust& trust, Log& log);
 
-/// With the memory for geometry that Option "limits" "geocachememory" and --geometry-cache allow.
+/// Returns settings with the memory for geometry that Option "limits" "geocachememory" and --geometry-cache allow.
 RaySettings raySettings(const RenderSettings& settings, const Options& options);
 
 }  // namespace tomales

@@ -18,7 +18,7 @@
 namespace tomales {
 namespace {
 
-/// Without what file systems take amiss, and without dots, which set suffixes off; no two alike.
+/// Returns a name without characters that file systems refuse, or dots, which begin suffixes. No two names are equal.
 std::string fileName(const Object& object, int index, std::set<std::string>& used) {
   std::string name = object.attributes->name.empty() ? fmt::format("object_{}", index) : object.attributes->name;
   for (char& c : name)
@@ -55,7 +55,7 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
                                             Stats& stats, Log& log) {
   try {
     AtlasSettings atlas = atlasSettings(settings, tools.rays->scene(), *tools.shading);
-    atlas.world = worldSum(tools.rays->scene(), false);  // gather rays meet what photons do not
+    atlas.world = worldSum(tools.rays->scene(), false);  // `false`, because gather rays meet what photons do not
     if (!settings.radiosityFolder.empty())
       log.report(Severity::Warning, "radiosity-maps", {},
                  "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
@@ -71,7 +71,7 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
     return out;
   } catch (const Stopped&) {
     return nullptr;
-  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+  } catch (const std::runtime_error& e) {  // FileError, or an error of the file system
     log.report(severityOfLoss(e), "radiosity-bricks", {},
                std::string(e.what()) + ": hits of gather rays are shaded instead");
     return nullptr;
@@ -94,8 +94,8 @@ std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const
   try {
     maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
     if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, scene, settings.radiosityFolder, log);
-  } catch (const Stopped&) {               // what there is may be used
-  } catch (const std::runtime_error& e) {  // FileError, or of the file system
+  } catch (const Stopped&) {               // the maps that exist may be used
+  } catch (const std::runtime_error& e) {  // FileError, or an error of the file system
     log.report(severityOfLoss(e), "radiosity-maps", {},
                fmt::format("radiosity maps cannot be written: {}; they are used all the same", e.what()));
   }

@@ -25,7 +25,7 @@ struct RayWorld::Built {
 
 namespace {
 
-/// Points of a group are shaded as another object's if the groups of the two scenes are not the same.
+/// Tests whether the groups of two scenes are the same: else points of a group would be shaded as another object's.
 bool sameGroups(const Scene& a, const Scene& b) {
   const auto alike = [](const ShadeGroup& x, const ShadeGroup& y) {
     return x.cameraFromObject == y.cameraFromObject && x.primvars.size() == y.primvars.size() &&
@@ -56,7 +56,7 @@ bool RayWorld::sourcesAreUnchanged() const {
   return sourcesOf(files) == shot_.sources;
 }
 
-// The shot has been edited since; its geometry has not.
+// Gives the geometry the shot's attributes: the shot may have been edited, but its geometry has not.
 void RayWorld::dress(Scene& scene) const {
   for (Object& object : scene.objects)
     object.attributes = shot_.scene.groups[static_cast<size_t>(object.group)].attributes;

@@ -1,5 +1,5 @@
-// The geometry behind a shot, for rays: read again from its RIB when a ray is first wanted, which for most re-shading
-// is never.
+// The geometry behind a shot, for rays: it is read again from the RIB when a ray is first wanted, which for most
+// re-shading is never.
 #pragma once
 #include <mutex>
 
@@ -11,14 +11,14 @@ namespace tomales {
 
 class RayWorld {
  public:
-  /// `shot` as it is to be shaded: its attributes, lights and options are those that rays meet.
+  /// `shot` has the attributes, lights and options that are shaded, also where rays meet them.
   RayWorld(const Shot& shot, const RenderSettings& settings, Stats& stats, Log& log);
   ~RayWorld();
 
-  /// Null: the RIB is gone or has changed, which is reported. Threads: any; all wait for the first.
+  /// Returns null if the RIB is gone or has changed, which is reported. Threads: any; all wait for the first.
   const RayTools* tools();
-  void report() const;  ///< After the last ray: to the Stats.
-  /// What hits ask for light and shadows.
+  void report() const;  ///< Adds to the Stats; call it after the last ray.
+  /// Sets the services that ray hits ask for light and shadows.
   void setServices(const ShadeServices* services) { services_ = services; }
 
  private:

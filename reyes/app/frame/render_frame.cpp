@@ -13,10 +13,10 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kBytesOfTilePixel = 64;  ///< Of a shaded tile without its points and variables,
-constexpr int64_t kBytesOfPoints = 192;    ///< and of its points; all for shading rate 1.
-constexpr int64_t kBytesOfBucket = 96;     ///< Of lists of what is where.
-constexpr int64_t kRowsInMemory = 128;     ///< Of pixels, while a picture is made row by row.
+constexpr int64_t kBytesOfTilePixel = 64;  ///< For a pixel of a shaded tile without its points and variables,
+constexpr int64_t kBytesOfPoints = 192;    ///< and for its points, both at shading rate 1.
+constexpr int64_t kBytesOfBucket = 96;     ///< For each bucket's place in lists.
+constexpr int64_t kRowsInMemory = 128;     ///< Rows of pixels, while a picture is made row by row.
 constexpr int64_t kUsualLimit = int64_t{1} << 30;
 
 int64_t pixelsOf(const Scene& scene) {
@@ -28,7 +28,7 @@ int64_t bytesOfTilePixel(const Scene& scene) {
   return kBytesOfTilePixel + outputOf(scene.options).floatsPerPoint * static_cast<int64_t>(sizeof(float));
 }
 
-/// A frame that cannot fit must not take the machine down with it.
+/// Refuses a frame that cannot fit, which could stop the whole machine.
 bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
   const int64_t needed = layout.padded.width() * kRowsInMemory * bytesOfTilePixel(scene) +
                          static_cast<int64_t>(layout.tileCount()) * kBytesOfBucket;
@@ -42,8 +42,8 @@ bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
   return false;
 }
 
-/// For hidden buckets: what --memory-limit leaves beside what is in memory now, `held` bytes of buckets not counted,
-/// and what caches may grow to.
+/// The memory for hidden buckets: what --memory-limit leaves beside what is in memory now, not counting `held` bytes of
+/// buckets, and beside the size that caches may grow to.
 int64_t tileBudget(const RenderSettings& settings, int64_t held) {
   if (!settings.memoryLimit) return kUsualLimit;
   const int64_t caches = textureShare(*settings.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings));
@@ -64,11 +64,11 @@ void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Lo
                            MB(stats.memoryBytes.grids), MB(stats.raytrace.bytes)));
 }
 
-/// What is hidden is shaded and filtered while it is in the cache, row by row, unless that would take more geometry
-/// into memory or the scene asks for another order.
+/// May buckets be shaded and filtered right after hiding, while they are in the cache, row by row? Not if that would
+/// take more geometry into memory, or if the scene asks for another order.
 bool mayStream(const Scene& scene) { return scene.procedurals.empty() && scene.options.bucketOrder == "horizontal"; }
 
-/// False: the file cannot be read, which is reported.
+/// Returns false if the file cannot be read, which is reported.
 bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob& job, Log& log) {
   std::string error;
   const auto file = IcfFile::open(settings.irradiance, error);
@@ -109,7 +109,7 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
   if (streams) {
     job.hideAndWrite(layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
   } else {
-    // What rays will meet needs room too, nobody knows yet how much.
+    // The geometry that rays will meet needs room too, and nobody knows yet how much.
     TileStore store(layout.tileCount(), settings.memoryLimit && gathers && !given ? budget_bytes / 2 : budget_bytes,
                     find);
     const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
@@ -120,10 +120,10 @@ void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats&
                         },
                         settings.resume ? find : nullptr};
     job.hide(layout, sink);
-    returnFreeMemory();  // the grids
+    returnFreeMemory();  // frees the grids
     afterStage();
     if (settings.memoryLimit && job.method().makesMaps)
-      store.shrinkTo(0, spill);  // photons need the room; buckets come back as they are read
+      store.shrinkTo(0, spill);  // photons need the room; buckets are loaded again when they are read
     if (!given) job.prepareRays();
     if (settings.memoryLimit) {
       store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);

@@ -1,4 +1,4 @@
-// `tomales render`, one frame of it: the stages in one process, in as much memory as it may take.
+// `tomales render` for one frame: the stages in one process, within the memory that it may take.
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"

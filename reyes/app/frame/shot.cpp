@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kTilesInMemory_bytes = int64_t{1} << 31;  ///< Others are read anew by every pass.
+constexpr int64_t kTilesInMemory_bytes = int64_t{1} << 31;  ///< Other tiles are read anew by every pass.
 
 SourceLoc wholeFile(const std::string& path) { return {std::make_shared<std::string>(path), 0}; }
 
@@ -147,7 +147,7 @@ void ShotJob::gatherIrradiance() {
   const std::vector<uint32_t> asked = tilesOf(shot_.frame, shot_.scene.options);
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
   TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, [this](size_t index) { return load(index); });
-  // What has lost records outside the crop, because those of inside reached there, is served too.
+  // Points outside the crop that have lost records, because those of the crop reached there, are gathered too.
   job_->gather(shot_.frame, [&](size_t index) {
     return irradiance_ || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr;
   });
@@ -162,7 +162,7 @@ void ShotJob::gatherIrradiance() {
   if (!written || !out->finish(shot)) unwritten(out->error());
 }
 
-// Shades the picture once, for the rays that this takes.
+// Shades the picture once, for the answers of its rays.
 bool ShotJob::recordAnswers(TileStore& tiles, IcfWriter& out) {
   const StageTimer timer(stats_, "answers");
   std::atomic<bool> good{true};

@@ -1,4 +1,4 @@
-// A .dfb opened for a command: edited as the command line asks, its tiles handed out, its light prepared.
+// A .dfb opened for a command: it edits the shot as the command line asks, provides its tiles and prepares its light.
 #pragma once
 #include <set>
 
@@ -11,12 +11,12 @@ namespace tomales {
 
 class ShotJob {
  public:
-  /// Null: the file cannot be read, which is reported.
+  /// Returns null if the file cannot be read, which is reported.
   static std::unique_ptr<ShotJob> open(const RenderSettings& settings, Stats& stats, Log& log);
 
-  /// `tomales shade`
+  /// Runs `tomales shade`.
   void shadePicture();
-  /// `tomales gather`
+  /// Runs `tomales gather`.
   void gatherIrradiance();
 
  private:
@@ -24,11 +24,11 @@ class ShotJob {
   bool edit();
   bool openIrradiance();
   void prepareLight();
-  /// Nothing: its bucket is damaged, which is reported.
+  /// Returns nothing if the bucket is damaged, which is reported.
   std::optional<DeepTile> load(size_t index);
-  /// What was gathered before goes, where --crop asks for it anew.
+  /// Drops the records gathered before where --crop asks for new ones.
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
-  /// Those of buckets that --crop leaves as they were.
+  /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);
   bool recordAnswers(TileStore& tiles, IcfWriter& out);
 
@@ -38,7 +38,7 @@ class ShotJob {
   Log& log_;
   Shot shot_;
   std::unique_ptr<IcfFile> irradiance_;
-  bool gathersAnew_ = false;  ///< What --crop shows, with records of elsewhere given.
+  bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
   std::unique_ptr<RayWorld> world_;
   std::unique_ptr<FrameJob> job_;
 };

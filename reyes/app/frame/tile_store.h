@@ -1,5 +1,5 @@
-// The hidden buckets of a frame between the passes that read them: in memory as far as a budget goes, the others in a
-// file. Threads: any, but a bucket's own by one at a time.
+// The hidden buckets of a frame between the passes that read them: in memory up to a budget, the others in a file.
+// Threads: any, but one at a time for each bucket.
 #pragma once
 #include <atomic>
 #include <optional>
@@ -10,14 +10,14 @@ namespace tomales {
 
 class TileStore {
  public:
-  /// Where tiles rest that are not in memory. `load` gives nothing for those that are not there.
+  /// Loads a tile that is not in memory, or returns nothing if it does not exist.
   using Load = std::function<std::optional<DeepTile>(size_t tile)>;
   /// Puts a tile where `load` finds it.
   using Spill = std::function<void(size_t index, const DeepTile& tile)>;
   TileStore(size_t tiles, int64_t budget_bytes, Load load)
       : load_(std::move(load)), budget_bytes_(budget_bytes), kept_(tiles) {}
 
-  /// False: it would not fit, and has to be where `load` finds it.
+  /// Returns false if the tile does not fit; the caller then has to put it where `load` finds it.
   bool keep(size_t index, DeepTile& tile) {
     const auto bytes = static_cast<int64_t>(tile.bytes());
     if ((held_bytes_ += bytes) > budget_bytes_) {
@@ -30,7 +30,7 @@ class TileStore {
 
   int64_t held_bytes() const { return held_bytes_; }
 
-  /// No more than that from now on: what exceeds it goes to where `load` finds it. Not while tiles are read.
+  /// Lowers the budget and puts tiles that exceed it where `load` finds them. Do not call it while tiles are read.
   void shrinkTo(int64_t budget_bytes, const Spill& spill) {
     budget_bytes_ = budget_bytes;
     for (size_t i = 0; i < kept_.size() && held_bytes_ > budget_bytes_; ++i) {
@@ -41,7 +41,7 @@ class TileStore {
     }
   }
 
-  /// To look at; null: it is nowhere.
+  /// Returns a tile to look at; null if it is nowhere.
   std::shared_ptr<const DeepTile> read(size_t index) {
     if (kept_[index]) return kept_[index];
     std::optional<DeepTile> tile = load_(index);
@@ -53,7 +53,7 @@ class TileStore {
     return [this](size_t index) { return read(index); };
   }
 
-  /// For good: it is forgotten here.
+  /// Returns a tile and forgets it here.
   std::optional<DeepTile> take(size_t index) {
     if (!kept_[index]) return load_(index);
     DeepTile tile = std::move(*kept_[index]);

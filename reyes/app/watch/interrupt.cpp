@@ -20,7 +20,7 @@ bool isIgnored(int number) {
   return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-/// A thread and no handler, because what an abrupt end does cannot be done in a handler.
+/// Signals are handled by a thread, because the steps of an abrupt end are not allowed in a handler.
 [[noreturn]] void waitForSignals(sigset_t set) {
   for (int number = 0;;) {
     if (::sigwait(&set, &number) != 0) continue;

@@ -1,20 +1,20 @@
-// What the program does when it is told to end: by SIGINT, SIGTERM, or SIGHUP (unless that is ignored, as
-// nohup has it). Work that can keep what is finished asks for an orderly end: the first signal then sets a
-// flag that its stages watch. A second signal, or the first one during other work, as while RIB is read, ends
-// the process at once, without leaving unfinished files or programs behind (reyes/base/abrupt_end.h).
+// The end of the program by SIGINT, SIGTERM, or SIGHUP (unless that is ignored, as nohup has it). Work that can keep
+// what is finished asks for an orderly end: the first signal then sets a flag that its stages watch. A second signal,
+// or the first one during other work, as while RIB is read, ends the process at once, without leaving unfinished files
+// or programs behind (reyes/base/abrupt_end.h).
 #pragma once
 #include <atomic>
 
 namespace tomales {
 
-/// Standard files that are closed are opened, or what the program opens next would take their place and its
-/// messages would go there: such that using them fails as it would have. Once, before anything else is
-/// opened.
+/// Opens standard files that are closed, in a way that their use fails as it
+/// would have. Else the next file that the program opens would take their
+/// place and get its messages. Call it once, before anything else is opened.
 void openStandardFiles();
-/// Once, before other threads start: they must not get the signals. A pipe that nobody reads any more
-/// (SIGPIPE) and a file that is too large (SIGXFSZ, ulimit -f) are then errors of write().
+/// Call it once, before other threads start: they must not get the signals. A pipe that nobody reads any more (SIGPIPE)
+/// and a file that is too large (SIGXFSZ, ulimit -f) are then errors of write().
 void watchSignals();
-/// While one lives, the first signal sets interrupted(). Not nested.
+/// While one exists, the first signal sets interrupted(). They do not nest.
 class OrderlyEnd {
  public:
   OrderlyEnd();
@@ -22,7 +22,7 @@ class OrderlyEnd {
   OrderlyEnd(const OrderlyEnd&) = delete;
 };
 const std::atomic<bool>& interrupted();
-/// 129 for SIGHUP, 130 for SIGINT, 143 for SIGTERM, 0 if none came.
+/// Returns 129 for SIGHUP, 130 for SIGINT, 143 for SIGTERM, 0 if none came.
 int interruptExitCode();
 
 }  // namespace tomales

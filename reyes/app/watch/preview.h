@@ -13,13 +13,13 @@ namespace tomales {
 
 class Preview {
  public:
-  /// `address`: "host:port". Nobody there: reported once, and the picture is made without.
+  /// `address` is "host:port". If nobody listens there, that is reported once, and the picture is made all the same.
   Preview(std::string address, const std::string& name, const DeepFrame& layout, Log& log);
-  /// Waits a second at most for a viewer that lags behind.
+  /// Waits at most a second for a viewer that is slow.
   ~Preview();
   Preview(const Preview&) = delete;
 
-  /// Some rows, as they go to the Displays. Never waits: what a slow viewer leaves too much of is not shown.
+  /// Takes some rows, as they go to the Displays. It never waits: rows that a slow viewer cannot take are not shown.
   void show(const Image& rows);
 
  private:
@@ -34,7 +34,7 @@ class Preview {
   std::deque<Image> waiting_;
   size_t waiting_bytes_ = 0;
   bool done_ = false, closed_ = false;
-  DisplayDriver* driver_ = nullptr;  ///< That of the thread, while it lives.
+  DisplayDriver* driver_ = nullptr;  ///< The driver of the thread, while that runs.
   std::thread thread_;
 };
 

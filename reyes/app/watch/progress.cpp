@@ -63,7 +63,7 @@ void ProgressMeter::report(float fraction) {
   if (terminal_) return showBar();
   std::fputs(fmt::format("R90000  {:2d}%\n", percent).c_str(), stdout);
   std::fflush(stdout);
-  std::clearerr(stdout);  // that nobody reads it, as behind `| head -1`, is no fault of the frame
+  std::clearerr(stdout);  // a reader that has gone, as in `| head -1`, is no fault of the frame
 }
 
 void ProgressMeter::showBar() const {

@@ -132,7 +132,7 @@ void printShaderProfile(const Stats& stats) {
 
 void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {
   if (settings.statsFile.empty()) return;
-  // User input may hold bytes that are no UTF-8; they must not stop the report.
+  // Text of the user may hold bytes that are no UTF-8; they must not stop the report.
   const std::string text = statsJson(settings, stats, total_s, log).dump(2, ' ', false, Json::error_handler_t::replace);
   std::string why = "it would replace what is read";
   if (isAmong(settings.statsFile, settings.files) || !writeFile(settings.statsFile, text + '\n', why))

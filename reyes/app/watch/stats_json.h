@@ -7,12 +7,12 @@
 
 namespace tomales {
 
-/// Writes settings.statsFile. `total_s`: wall time so far. Failure is reported to
-/// the log.
+/// Writes settings.statsFile. `total_s` is the wall time
+/// so far. A failure is reported to the log.
 void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log);
 
-/// At the end of a run: the same and, for --profile-shaders, a table of what each shader has cost, the most expensive
-/// first, to standard output. Times include lights and rays that it asked for, and are summed over threads.
+/// Writes the same at the end of a run and, for --profile-shaders, prints a table of the cost of each shader, the most
+/// expensive first, to standard output. Times include lights and rays that it asked for, and are summed over threads.
 void writeLastStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log);
 
 }  // namespace tomales
