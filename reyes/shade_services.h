@@ -77,10 +77,9 @@ struct RayQuery {
   int number = 0, count = 1;    ///< These are rays `number` of `count` from each point.
   bool lampsGlow = true;        ///< The rays see area lights.
   float importance = 1;         ///< The weight of what these rays bring.
-  const float
-      /// The radius of each ray's footprint at its start, and its growth for each unit of length. Null: none.
-      *radius = nullptr,
-      *spread = nullptr;
+  /// The radius of each ray's footprint at its start, and its growth for each unit of length. Null if rays have no
+  /// width.
+  const float *radius = nullptr, *spread = nullptr;
 };
 
 /// Arrays for count() points; null pointers for what is not wanted.
