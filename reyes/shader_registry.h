@@ -24,6 +24,9 @@ struct ShaderName {
   std::string beside{};  ///< The folder of the file that names the shader; empty if no file does.
 };
 
+/// The displacement "surface:NAME" is the part of the surface NAME that moves points (RslFile::displacementOf).
+constexpr const char* kOfSurface = "surface:";
+
 /// The known shaders. Built-in ones and plugins share one table.
 class ShaderRegistry {
  public:
@@ -43,8 +46,6 @@ class ShaderRegistry {
   /// has errors is reported with all of them.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
-  /// What moves the points of a surface that find() has found (RslFile::displacementOf). Null if nothing does.
-  const TmShader* displacementOf(const TmShader& surface) const;
   /// Compiles the texts of these shaders at once, on all threads, so that find() only has to look. It reports nothing:
   /// find() reports what is wrong, as it would without this call.
   void prepare(const std::vector<ShaderName>& names, const std::string& searchPath);

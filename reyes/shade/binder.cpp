@@ -23,25 +23,13 @@ void Binder::prepare() {
   names_.clear();
 }
 
-BoundShaderPtr Binder::displacement(const Attributes& a, const std::string& user) {
-  const TmShader* moving = nullptr;
-  if (a.displacement && a.surface && *a.displacement == *a.surface) {
-    const ShaderName name = nameOf(*a.surface, TM_SURFACE);
-    const TmShader* surface = registry_.find(name.name, name.kind, path_, name.beside);
-    moving = surface ? registry_.displacementOf(*surface) : nullptr;
-  }
-  if (!moving) return optional(a.displacement, user, TM_DISPLACEMENT);
-  BoundShaderPtr& bound = moving_[a.surface.get()];
-  if (!bound) bound = bindShader(*moving, a.surface.get(), a.surface->where, user, currentFromShader(*a.surface), log_);
-  return bound;
-}
-
 BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
   const std::string name = call ? call->name : "defaultsurface";
   const std::string beside = call ? nameOf(*call, kind).beside : "";
   const TmShader* shader = registry_.find(name, kind, path_, beside);
-  const mat4 space = call ? currentFromShader(*call) : mat4(1.0f);
-  if (shader) return bindShader(*shader, call, where, user, space, log_);
+  const float open = scene_.options.shutterOpen;
+  const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
+  if (shader) return bindShader(*shader, call, where, user, currentFromShader, log_);
   static constexpr const char* kConsequences[] = {"a magenta checker is rendered", "nothing is displaced",
                                                   "it casts no light", "the air is clear",
                                                   "the picture stays as it is"};
@@ -54,7 +42,7 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
                           "--shaders FOLDER names another folder",
                           listOfFolders(registry_.textFolders(path_, beside))));
   if (kind != TM_SURFACE) return nullptr;
-  return bindShader(substituteSurface(), nullptr, where, user, space, log_);
+  return bindShader(substituteSurface(), nullptr, where, user, currentFromShader, log_);
 }
 
 }  // namespace tomales

@@ -29,8 +29,6 @@ class Binder {
                          const std::string& user) {
     return cached(call, object, user, TM_SURFACE);
   }
-  /// Binds a displacement. A surface that moves its points is its own displacement (moving_surfaces.h).
-  BoundShaderPtr displacement(const Attributes& a, const std::string& user);
   BoundShaderPtr optional(const std::shared_ptr<const ShaderCall>& call, const std::string& user, TmKind kind) {
     return call ? cached(call, call->where, user, kind) : nullptr;
   }
@@ -62,9 +60,6 @@ class Binder {
     return it->second;
   }
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind);
-  mat4 currentFromShader(const ShaderCall& call) const {
-    return cameraFromWorld_ * call.worldFromShader.at(scene_.options.shutterOpen);
-  }
   /// The sky of a light with TM_LIGHT_SKY.
   std::shared_ptr<const Sky> sky(const BoundShader& light);
 
@@ -76,7 +71,6 @@ class Binder {
   const std::string path_;
   const mat4 cameraFromWorld_;
   std::map<const ShaderCall*, BoundShaderPtr> bound_;
-  std::map<const ShaderCall*, BoundShaderPtr> moving_;  ///< The results of displacement() by the surface's request.
   std::set<const ShaderCall*> expected_;
   std::vector<ShaderName> names_;  ///< The shaders that are expected since the last prepare().
 };

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "reyes/rsl_host.h"
 #include "reyes/shade/binder.h"
+#include "reyes/shade/parameter_values.h"
 #include "reyes/shader/params.h"
 #include "reyes/shader_registry.h"
 
@@ -15,10 +17,11 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
   for (int i = 0; i < bound.shader->paramCount; ++i) {
     const TmParamDecl& decl = bound.shader->params[i];
     if (isOutput(decl)) continue;
-    const int width = typeOf(decl) == TM_FLOAT ? 1 : typeOf(decl) <= TM_NORMAL ? 3 : 0;
+    const int length = std::max(1, decl.arrayLength), width = length * floatsOf(typeOf(decl));
+    const bool overridable = typeOf(decl) <= TM_NORMAL && (length == 1 || (decl.type & kArrayVaries) != 0);
     int offset = 0;
     for (const Primvar& p : primvars) {
-      const bool same = p.name == decl.name && p.width == width && decl.arrayLength == 1;
+      const bool same = overridable && p.name == decl.name && p.width == width;
       if (same && isUniform(decl))
         log.report(Severity::Warning, "shader-parameter-uniform", bound.where,
                    fmt::format(
@@ -146,7 +149,7 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) const {
   }
   g.surface = binder_->surface(a.surface, where, g.object);
   g.indirectSurface = binder_->indirectSurface(a, where, g.object);
-  g.displacement = binder_->displacement(a, g.object);
+  g.displacement = binder_->optional(a.displacement, g.object, TM_DISPLACEMENT);
   g.atmosphere = binder_->optional(a.atmosphere, g.object, TM_VOLUME);
   g.interior = binder_->optional(a.interior, g.object, TM_VOLUME);
   g.exterior = binder_->optional(a.exterior, g.object, TM_VOLUME);

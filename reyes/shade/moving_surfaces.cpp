@@ -1,6 +1,6 @@
 #include "reyes/moving_surfaces.h"
 
-#include <algorithm>
+#include <mutex>
 
 #include "reyes/base/search_path.h"
 #include "reyes/scene_changes.h"
@@ -10,36 +10,60 @@
 namespace tomales {
 namespace {
 
-bool moves(const ShaderName& name, const std::string& path, ShaderRegistry& registry) {
-  const TmShader* surface = registry.find(name.name, name.kind, path, name.beside);
-  return surface && registry.displacementOf(*surface);
-}
+/// Threads: any.
+class MovingSurfaces {
+ public:
+  MovingSurfaces(std::string searchPath, ShaderRegistry& registry, Log& log)
+      : path_(std::move(searchPath)), registry_(registry), log_(log) {}
 
-void displace(Attributes& a, ShaderRegistry& registry, const std::string& path, Log& log) {
-  if (!a.surface) return;
-  const ShaderName name = nameOf(*a.surface, TM_SURFACE);
-  if (!moves(name, path, registry)) return;
-  if (a.displacement)
-    log.report(Severity::Warning, "surface-moves", a.surface->where,
-               "surface shader \"" + name.name + "\" assigns P, and displacement shader \"" + a.displacement->name +
-                   "\" does so too: the displacement alone moves the surface",
-               name.name);
-  else
-    a.displacement = a.surface;
-}
+  void displace(Attributes& a) {
+    if (!a.surface || (a.displacement && a.displacement->name.starts_with(kOfSurface)))
+      return;  // a shot has it already
+    const std::shared_ptr<const ShaderCall> moving = displacementOf(a.surface);
+    if (!moving) return;
+    if (!a.displacement)
+      a.displacement = moving;
+    else
+      log_.report(Severity::Warning, "surface-moves", a.surface->where,
+                  "surface shader \"" + a.surface->name + "\" assigns P, and displacement shader \"" +
+                      a.displacement->name + "\" moves points too: the displacement alone moves the surface",
+                  a.surface->name);
+  }
+
+  /// Null if the surface leaves points where they are.
+  std::shared_ptr<const ShaderCall> displacementOf(const std::shared_ptr<const ShaderCall>& surface) {
+    const std::lock_guard lock(mutex_);
+    const auto [it, isNew] = known_.try_emplace(surface);
+    if (!isNew) return it->second;
+    ShaderCall call = *surface;
+    call.name = kOfSurface + call.name;
+    const ShaderName name = nameOf(call, TM_DISPLACEMENT);
+    if (registry_.find(name.name, name.kind, path_, name.beside))
+      it->second = std::make_shared<const ShaderCall>(std::move(call));
+    return it->second;
+  }
+
+ private:
+  const std::string path_;
+  ShaderRegistry& registry_;
+  Log& log_;
+  std::mutex mutex_;
+  std::map<std::shared_ptr<const ShaderCall>, std::shared_ptr<const ShaderCall>> known_;
+};
 
 }  // namespace
 
 void displaceByMovingSurfaces(Scene& scene, ShaderRegistry& registry, Log& log) {
   const std::string path = pathOf(scene.options.searchPaths, "shader");
+  const auto surfaces = std::make_shared<MovingSurfaces>(path, registry, log);
   std::vector<ShaderName> names;
   for (size_t g = 0; g < scene.groups.size(); ++g)
     if (const auto& call = scene.groups[g].attributes->surface) names.push_back(nameOf(*call, TM_SURFACE));
   registry.prepare(names, path);
-  const bool any =
-      std::any_of(names.begin(), names.end(), [&](const ShaderName& n) { return moves(n, path, registry); });
-  if (any || !scene.procedurals.empty())
-    changeAttributes(scene, [&registry, &log, path](Attributes& a) { displace(a, registry, path, log); });
+  bool any = !scene.procedurals.empty();
+  for (size_t g = 0; g < scene.groups.size(); ++g)
+    if (const auto& call = scene.groups[g].attributes->surface) any |= surfaces->displacementOf(call) != nullptr;
+  if (any) changeAttributes(scene, [surfaces](Attributes& a) { surfaces->displace(a); });
 }
 
 }  // namespace tomales

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <set>
 
@@ -56,7 +57,7 @@ struct ShaderRegistry::Impl {
   std::vector<std::shared_ptr<const RslFile>> texts{};
   std::set<const TmShader*> builtIn{};
   std::map<const TmShader*, std::string> origins{};
-  std::map<const TmShader*, const TmShader*> displacements{};  ///< the results of displacementOf()
+  std::map<const TmShader*, const TmShader*> displacements{};  ///< by the surfaces that move their points
   std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
 
   void refuse(const std::string& origin, const std::string& problem) {
@@ -68,6 +69,7 @@ struct ShaderRegistry::Impl {
   std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
   std::string heldBy(const std::string& path) const;
   std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
+  const TmShader* found(const std::string& name, TmKind kind, const std::string& searchPath, const std::string& beside);
   const TmShader* search(const std::string& name, TmKind kind, const std::string& searchPath,
                          const std::string& beside);
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
@@ -244,12 +246,21 @@ const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kin
   return nullptr;
 }
 
+const TmShader* ShaderRegistry::Impl::found(const std::string& name, TmKind kind, const std::string& searchPath,
+                                            const std::string& beside) {
+  if (kind == TM_DISPLACEMENT && name.starts_with(kOfSurface)) {
+    const auto moving = displacements.find(found(name.substr(std::strlen(kOfSurface)), TM_SURFACE, searchPath, beside));
+    return moving == displacements.end() ? nullptr : moving->second;
+  }
+  const auto [answer, isNew] = answers.try_emplace({name, kind, searchPath, beside}, nullptr);
+  if (isNew) answer->second = search(name, kind, searchPath, beside);
+  return answer->second;
+}
+
 const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const std::string& searchPath,
                                      const std::string& beside) {
   const std::lock_guard lock(impl_->mutex);
-  const auto [answer, isNew] = impl_->answers.try_emplace({name, kind, searchPath, beside}, nullptr);
-  if (isNew) answer->second = impl_->search(name, kind, searchPath, beside);
-  return answer->second;
+  return impl_->found(name, kind, searchPath, beside);
 }
 
 void ShaderRegistry::prepare(const std::vector<ShaderName>& names, const std::string& searchPath) {
@@ -283,12 +294,6 @@ std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kin
   }
   const std::string lies = tomales::hintOfMissing(name + ".sl", {".sl"}, impl_->textFolders(searchPath, beside));
   return lies.empty() ? didYouMean(name, ofKind) : lies;
-}
-
-const TmShader* ShaderRegistry::displacementOf(const TmShader& surface) const {
-  const std::lock_guard lock(impl_->mutex);
-  const auto it = impl_->displacements.find(&surface);
-  return it == impl_->displacements.end() ? nullptr : it->second;
 }
 
 std::string ShaderRegistry::originOf(const TmShader& shader) const {

@@ -137,12 +137,12 @@ TEST(ParameterValues, WhatNothingDeclaresIsWhatTheShaderSays) {
       {TM_FLOAT, bare(ValueType::Float, {1, 2}), {1}, true},
   };
   for (const Case& c : cases) {
-    const ParameterValue value = parameterValue({"x", c.type, 1, nullptr, nullptr, ""}, &c.from);
+    const ParameterValue value = parameterValue({"x", c.type, 1, nullptr, nullptr, "", TM_ROLE_NONE}, &c.from);
     EXPECT_EQ(value.floats, c.to) << c.type;
     EXPECT_EQ(!value.remark.empty(), c.remarked) << value.remark;
   }
   Param number = bare(ValueType::Float, {1});
-  EXPECT_FALSE(parameterValue({"x", TM_STRING, 1, nullptr, nullptr, ""}, &number).remark.empty());
+  EXPECT_FALSE(parameterValue({"x", TM_STRING, 1, nullptr, nullptr, "", TM_ROLE_NONE}, &number).remark.empty());
 }
 
 TEST(ParameterValues, NumbersAreConvertedWhereTheSpecificationAllows) {
@@ -179,7 +179,7 @@ TEST(ParameterValues, NumbersAreConvertedWhereTheSpecificationAllows) {
       {TM_COLOR, 1, given(ValueType::Matrix, V(16, 1.0f)), {0.5f, 0.5f, 0.5f}, true},
   };
   for (const Case& c : cases) {
-    const ParameterValue value = parameterValue({"x", c.type, c.length, half, nullptr, ""}, &c.from);
+    const ParameterValue value = parameterValue({"x", c.type, c.length, half, nullptr, "", TM_ROLE_NONE}, &c.from);
     const std::string what = std::to_string(c.type) + " from " + std::to_string(static_cast<int>(c.from.type));
     EXPECT_EQ(value.floats, c.to) << what;
     EXPECT_EQ(!value.remark.empty(), c.remarked) << what << ": " << value.remark;
@@ -244,10 +244,10 @@ TEST_F(Shapes, AUniformParameterIsNotOverriddenByPrimitiveVariablesAndThisIsSaid
 TEST(ParameterValues, StringsStayStrings) {
   const char* defaults[] = {"a", "b"};
   Param p = given(ValueType::Float, {1});
-  EXPECT_EQ(parameterValue({"x", TM_STRING, 2, nullptr, defaults, ""}, &p).strings,
+  EXPECT_EQ(parameterValue({"x", TM_STRING, 2, nullptr, defaults, "", TM_ROLE_NONE}, &p).strings,
             (std::vector<std::string>{"a", "b"}));
   p = Param{}, p.type = ValueType::String, p.strings = {"c"};
-  const ParameterValue value = parameterValue({"x", TM_STRING, 2, nullptr, defaults, ""}, &p);
+  const ParameterValue value = parameterValue({"x", TM_STRING, 2, nullptr, defaults, "", TM_ROLE_NONE}, &p);
   EXPECT_EQ(value.strings, (std::vector<std::string>{"c", "b"}));
   EXPECT_FALSE(value.remark.empty());
 }
