@@ -10,7 +10,7 @@
 namespace tomales {
 namespace {
 
-/// As kArrayVaries (reyes/rsl_host.h) wants it.
+/// Lays out an array that varies, as kArrayVaries (reyes/rsl_host.h) says.
 TmValue arrayOf(const Override& o, int32_t length, const std::function<const float*(int)>& primvar, const TmGrid& g,
                 Arena& arena) {
   TmValue out{{}, 1, length, nullptr};
