@@ -62,7 +62,7 @@ void writeIrradiance(const std::filesystem::path& photons, const std::filesystem
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                                   BrickSettings settings);
 
-/// False: they were made of these points and settings already, and are kept. Throws FileError.
+/// Returns false if they were made of these points and settings already, and are kept. Throws FileError.
 bool renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                            const BrickSettings& settings, Stats& stats);
 /// Reads the MadeFrom of a point cloud; zeros for a file that is missing or damaged.
@@ -75,10 +75,10 @@ void writeAtlas(const std::filesystem::path& folder, const Scene& scene, const R
                 const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
                 const AtlasProgress& progress, Stats& stats, Log& log);
 
-/// Are there brick maps without the photons that they came from? Somebody put them there, and they are used as they
-/// are.
+/// Tells whether there are brick maps without the photons that they came from. Somebody put them there, and they are
+/// used unchanged.
 bool isMadeByHand(const std::filesystem::path& folder);
-/// Do the brick maps of a folder hold light that came straight from lights (PhotonSettings::direct)?
+/// Tells whether the brick maps of a folder hold light that came straight from lights (PhotonSettings::direct).
 bool holdsDirect(const std::filesystem::path& folder);
 
 /// The brick maps of a folder. Threads: lookups are concurrent.

@@ -1,5 +1,5 @@
 // The functions that say how far an irradiance record may be used, as indirect lights ("errorfunction") and the command
-// line (--error-function) name them. What a function reckons with is in gi/irradiance_cache.h.
+// line (--error-function) name them. gi/irradiance_cache.h has the values that a function works with.
 #pragma once
 #include <limits>
 #include <optional>
@@ -21,10 +21,10 @@ enum class ErrorFunction {
 struct ErrorFunctionInfo {
   ErrorFunction function;
   const char* name;
-  bool splitSphere = false;  ///< Of Ward: a record's size is the harmonic mean of its rays' lengths.
-  bool published = false;    ///< Without what this renderer adds.
+  bool splitSphere = false;  ///< As Ward's: a record's size is the harmonic mean of its rays' lengths.
+  bool published = false;    ///< The function works as published, without what this renderer adds.
   bool curvature = false;    ///< Records need second derivatives.
-  /// Of records for `maxerror` 1, as in CacheSettings. Ward's split sphere needs a = 1/4 for the error that the paper's
+  /// The CacheSettings of records for `maxerror` 1. Ward's split sphere needs a = 1/4 for the error that the paper's
   /// function has at kappa = 1 (docs/measured/irradiance_cache.md), so that `maxerror` means the same for both. The
   /// Hessian, which knows where light is even, has about as many records as that.
   float kappa = 1, maxPixels = 10, minPixels = 1.5f, enough = 0.05f;
@@ -65,7 +65,7 @@ constexpr std::optional<ErrorFunction> errorFunctionNamed(std::string_view name)
   return std::nullopt;
 }
 
-/// For help: "screen|ward".
+/// The names for help texts: "screen|ward".
 inline std::string errorFunctionNames() {
   std::string out;
   for (const ErrorFunctionInfo& info : kErrorFunctions) out += (out.empty() ? "" : "|") + std::string(info.name);

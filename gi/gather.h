@@ -19,7 +19,7 @@ struct GatherSettings {
   int depth = 1;                              ///< Diffuse bounces between the eye and the hits.
   bool indirect = false;                      ///< The shaders of the hits ask for indirect light in turn.
   bool mirrored = true;                       ///< The same as ShadeContext::mirrored.
-  std::string subset{};  ///< Sets of objects that the rays see; empty: those that trace:subset of the object names.
+  std::string subset{};  ///< The sets of objects that the rays see; empty for those of the object's trace:subset.
   /// Occlusion instead of light: E/pi is the uncovered share of the hemisphere, and no hit is shaded.
   std::optional<OcclusionQuery> occlusion{};
   bool operator==(const GatherSettings&) const = default;
@@ -37,17 +37,17 @@ struct GatherPoint {
 };
 class HitRadiance;
 
-/// Light that is known before it is gathered. Null: nothing is known.
+/// Light that is known before it is gathered. Null pointers where none is.
 struct KnownLight {
   const BrightSpots* spots = nullptr;  ///< Some further rays are aimed at these.
-  const HitRadiance* hits = nullptr;   ///< Radiance of what the rays hit.
+  const HitRadiance* hits = nullptr;   ///< The radiance at the hits of rays.
 };
 /// Gathers one record. `find`, if not null, gets the bright light that the rays of the hemisphere alone have met.
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point,
                         const GatherSettings& settings, const KnownLight& known, Stats& stats,
                         BrightFind* find = nullptr);
 
-/// The shade groups that rays from a group may hit; null: all.
+/// The shade groups that rays from a group may hit; null if it is all.
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings);
 /// Radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
 inline float spreadOfRays(int samples) { return 1 / std::sqrt(static_cast<float>(samples)); }

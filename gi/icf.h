@@ -14,7 +14,7 @@ struct IrradianceShot {
   GiSettings settings;
   mat4 cameraFromWorld{1.0f};
   std::vector<PreparedCache> caches;  ///< In camera space.
-  /// Empty where an emitter is curved or cut by trim curves, which needs its geometry.
+  /// Empty if an emitter is curved or cut by trim curves: sampling it needs its geometry.
   std::optional<EmitterTable> emitters;
 };
 

@@ -19,7 +19,7 @@ using IrradianceRecords = BlockVector<IrradianceRecord>;
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
   float kappa =
-      infoOf(ErrorFunction::Screen).kappa;  ///< Eq. 2: radii are divided by it. Infinite: no record is reused.
+      infoOf(ErrorFunction::Screen).kappa;  ///< The divisor of radii in eq. 2. If it is infinite, no record is reused.
   /// R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist"), and R- in the same
   /// unit.
   float maxPixels = infoOf(ErrorFunction::Screen).maxPixels, minPixels = infoOf(ErrorFunction::Screen).minPixels;

@@ -1,5 +1,5 @@
-// The methods of indirect light, as the command line (--gi) and indirect lights ("radiance") name them. What a method
-// needs beside rays is made by its row in reyes/app/frame/light_sources.cpp.
+// The methods of indirect light, as the command line (--gi) and indirect lights ("radiance") name them. Their rows in
+// reyes/app/frame/light_sources.cpp make what a method needs beside rays.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,13 +16,13 @@ enum class GiMode {
 };
 
 struct GiMethod {
-  const char* name;                ///< For --gi.
+  const char* name;                ///< The name for --gi.
   GiMode mode;                     ///< How it is carried out.
   const char* radiance = nullptr;  ///< The "radiance" of an indirect light that asks for it; null: no light can.
   bool caches = false;             ///< Light is gathered in irradiance records before the frame is shaded.
-  bool hitsHoldAll = false;        ///< What gather rays meet holds the light of all bounces.
+  bool hitsHoldAll = false;        ///< The surfaces that gather rays meet hold the light of all bounces.
   bool makesMaps = false;          ///< It makes maps of all objects first, which takes memory,
-  bool byPointClouds = false;      ///< of the point clouds of --atlas.
+  bool byPointClouds = false;      ///< from the point clouds of --atlas.
   bool usesBaked = false;          ///< Light comes from the maps of --baked.
   bool fullGeometry = false;       ///< Rays see micropolygons unless --ray-geometry says otherwise.
   bool isReference = false;        ///< Direct light has as many samples as there are paths.
@@ -49,7 +49,7 @@ inline constexpr GiMethod kGiMethods[] = {
     {.name = "reference", .mode = GiMode::Reference, .fullGeometry = true, .isReference = true},
 };
 
-/// Null: there is none.
+/// Returns null if there is no such method.
 constexpr const GiMethod* giMethodNamed(std::string_view name) {
   for (const GiMethod& m : kGiMethods)
     if (name == m.name) return &m;
@@ -60,14 +60,14 @@ constexpr const GiMethod* giMethodOfRadiance(std::string_view radiance) {
     if (m.radiance && radiance == m.radiance) return &m;
   return nullptr;
 }
-/// The first that is carried out so.
+/// The first method of this mode.
 constexpr const GiMethod& giMethodOf(GiMode mode) {
   const GiMethod* m = kGiMethods;
   while (m->mode != mode) ++m;
   return *m;
 }
 
-/// For help: "none, gather".
+/// The names for help texts: "none, gather".
 inline std::string giMethodNames() {
   std::string out;
   for (const GiMethod& m : kGiMethods) out += (out.empty() ? "" : ", ") + std::string(m.name);

@@ -50,7 +50,7 @@ enum class PhotonModel {
   Water,        ///< Reflects and refracts by Fresnel's law (index 1.5, 1.33).
   Transparent,  ///< Passes straight on, tinted.
 };
-/// Empty: there is no model of this name.
+/// Empty if there is no model of this name.
 std::optional<PhotonModel> photonModel(const std::string& name);
 
 }  // namespace tomales

@@ -84,7 +84,7 @@ struct PointCloud {
 /// Offset of a channel's first float among those of a point; -1: there is none of this width (0: any width).
 int offsetOf(const std::vector<CloudChannel>& channels, const std::string& name, int width = 0);
 
-/// May a file hold this point? All values have to be finite, and the radius not negative.
+/// Tells whether a file may hold this point: all values have to be finite, and the radius not negative.
 bool isValidPoint(const vec3& P, const vec3& N, float radius, std::span<const float> values);
 
 }  // namespace tomales

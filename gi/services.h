@@ -17,7 +17,7 @@ namespace tomales {
 struct GiSettings {
   GiMode mode = GiMode::Gather;
   int samples = 0;      ///< Rays per record, or paths per point of the reference; 0: the indirect light decides.
-  int bounces = 0;      ///< 0: the indirect light decides (1 by default).
+  int bounces = 0;      ///< 0 if the indirect light decides (1 by default).
   float maxError = -1;  ///< The `maxerror` of indirectlight; < 0: the light decides.
   uint32_t seed = 0;
   std::optional<ErrorFunction> errorFunction{};  ///< Empty: the light decides.
@@ -51,7 +51,7 @@ using RaySource = std::function<const RayTools*()>;
 using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
 using HitRadianceSource = std::function<std::unique_ptr<const HitRadiance>()>;
 
-/// Does the cache keep answers of occlusion() where a group asks for it (ShadingSystem::asksOcclusion)?
+/// Tells whether the cache keeps answers of occlusion() where a group asks for it (ShadingSystem::asksOcclusion).
 bool keepsOcclusion(const GiSettings&);
 
 class GiServices final : public ShadeServices {

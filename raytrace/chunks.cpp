@@ -41,7 +41,7 @@ void reportNotFinite(const Object& o, Log& log) {
 
 }  // namespace
 
-/// A tile to be, with its rate at each level.
+/// A tile that is being planned, with its rate at each level.
 struct Chunks::Piece {
   UvRect rect;
   std::array<CoarseRate, kLevelsInChunks> rate;

@@ -1,5 +1,5 @@
-// Surfaces that rays see at several levels of detail, at all but the coarse one. Patches are cut into tiles; near tiles
-// of one level form a chunk, which is diced when a ray first comes there (docs/decisions/0036-geometry-cache.md). The
+// Surfaces that rays see at several levels of detail, at all but the coarse level. Patches are cut into tiles; near
+// tiles of one level form a chunk, diced when a ray first comes there (docs/decisions/0036-geometry-cache.md). The
 // coarse polygons are those of raytrace/tessellate.h. Patches belong here where Attribute "trace" "tessellationmode"
 // asks for it, if they do not move, emit or belong to a solid and are not trimmed; flat patches without displacement
 // are exact as they are and stay out. Space: current. Threads: const members may be called concurrently.
@@ -38,7 +38,7 @@ struct ChunkMesh {
   }
 };
 
-/// Does this patch of the object belong into chunks?
+/// Tells whether this patch of the object belongs into chunks.
 bool hasLevels(const Object& object, uint32_t patch, bool moves);
 
 class Chunks {
@@ -73,8 +73,8 @@ class Chunks {
   const Scene& scene_;
   const ShadingSystem& shading_;
   Log& log_;
-  std::vector<bool> full_;     ///< Indexed by group: do rays of all levels see the finest?
-  std::vector<bool> present_;  ///< Indexed by group: does some chunk belong to it?
+  std::vector<bool> full_;     ///< Indexed by group: true if rays of all levels see the finest.
+  std::vector<bool> present_;  ///< Indexed by group: true if some chunk belongs to it.
   std::vector<Chunk> chunks_;
   std::vector<std::array<float, kLevelsInChunks>> deviations_;
   int64_t finePolygons_ = 0;

@@ -17,7 +17,7 @@ constexpr float kMostTurn = 100 * kPi / 180;
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not sampled at its zeros.
 constexpr double kRounding = 1e-3;  ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
-/// Share of its distance from the eye below which a chord's direction has no digits left.
+/// The share of its distance from the eye below which a chord's direction is all rounding error.
 constexpr float kLeastChord = 1e-4f;
 /// Limits for one patch; levels are diced only where rays come.
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
@@ -76,7 +76,7 @@ CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Lo
   return {static_cast<int>(nu), static_cast<int>(nv)};
 }
 
-/// How fine polygons are to be.
+/// The fineness that polygons should have.
 struct Fineness {
   float edge_px, turn;  ///< Upper limits of an edge's length and of the normal's turn along it in radians.
   float least_px;       ///< On shorter edges the normal may turn farther.

@@ -18,7 +18,7 @@ std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Cam
                                                    Log& log);
 
 bool displacesForRays(const Object& object);
-/// Is the patch one exact quadrilateral?
+/// Tells whether the patch is exactly one quadrilateral.
 inline bool isExactQuad(const Object& o, uint32_t patch) {
   return o.shape().info(patch).planar && !displacesForRays(o);
 }

@@ -5,7 +5,7 @@
 
 namespace tomales {
 
-bool isFinite(const Grid& grid);  ///< Are its positions finite at all motion keys?
+bool isFinite(const Grid& grid);  ///< Tells whether its positions are finite at all motion keys.
 
 /// Deviation of the polygon with corner (i, j) at a motion key: the greatest distance of the surface's centre and edge
 /// middles from the polygon, across its plane. Along the plane a point may slide without leaving the surface.

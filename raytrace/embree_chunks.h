@@ -30,7 +30,7 @@ class EmbreeChunks {
   /// Unit normal at a hit, on the RISpec side.
   vec3 normal(const PolygonHit& hit) const;
   ResidentFigures figures() const { return cache_.figures(); }
-  /// A ray has passed through a chunk for which there was no memory: Embree lets no exception through.
+  /// True once a ray has passed through a chunk for which there was no memory: Embree lets no exception through.
   bool failed() const { return failed_.load(std::memory_order_relaxed); }
 
  private:
@@ -59,7 +59,7 @@ class EmbreeChunks {
     std::atomic<bool> known{false};
   };
 
-  /// Null: the ray passes by.
+  /// Null if the ray passes by.
   std::shared_ptr<const Resident> met(uint32_t chunk, const RTCRay& r) const;
   std::shared_ptr<const Resident> resident(uint32_t chunk) const;
   std::shared_ptr<const Resident> build(uint32_t chunk) const;

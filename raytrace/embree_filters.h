@@ -78,7 +78,7 @@ struct Traversal {
 };
 static_assert(std::is_standard_layout_v<Traversal>);
 
-/// Does a ray that meets a polygon with this normal, along d/du x d/dv, go to the side of the RISpec normal?
+/// Tells whether a ray that meets a polygon with this normal, along d/du x d/dv, goes to the side of the RISpec normal.
 inline bool leaves(const vec3& direction, const vec3& normal, bool flips) {
   return (dot(direction, normal) > 0) != flips;
 }

@@ -31,7 +31,7 @@ RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   return r;
 }
 
-/// Throws std::bad_alloc where memory does not suffice, which Embree says of itself by giving none.
+/// Throws std::bad_alloc where memory does not suffice, which Embree tells by returning no device.
 RTCDevice newDevice() {
   if (const RTCDevice device = rtcNewDevice(nullptr)) return device;
   const RTCError error = rtcGetDeviceError(nullptr);
@@ -131,7 +131,7 @@ struct EmbreeScene::Impl {
     return out;
   }
 
-  /// Those that are parts of solids, or all others.
+  /// Attaches the groups that are parts of solids, or all others.
   void attachGroups(const RayGroups& all, bool solids) {
     std::map<std::tuple<uint32_t, bool, bool, bool, size_t, float, float, uint32_t>, std::vector<Geometry::Run>> alike;
     for (uint32_t i = 0; i < groups.size(); ++i) {

@@ -116,7 +116,7 @@ class EllipticalCone {
     return 1 / ((1 + k) * (1 + std::sqrt(k / (1 + k))));
   }
   double weight(size_t step) const { return 0.5 * (width_[step] + width_[step + 1]); }
-  /// phi: 0 to a quarter turn
+  /// phi is in 0 to a quarter turn.
   double densityAt(double phi) const {
     const double x = phi / kStep;
     const size_t step = std::min(static_cast<size_t>(x), kSteps - 1);
@@ -129,7 +129,7 @@ class EllipticalCone {
   std::array<double, kSteps + 1> width_{};  ///< versineAt() between the steps.
 };
 
-/// One less the cosine of the angle from the centre of a sphere to its rim; 0: seen from inside.
+/// One less the cosine of the angle from the centre of a sphere to its rim; 0 for a point inside.
 double coneOf(const EmitterShape& sphere, const dvec3& toCenter) {
   const double sine2 = dot(dvec3(sphere.u), dvec3(sphere.u)) / dot(toCenter, toCenter);
   return sine2 < 1 ? sine2 / (1 + std::sqrt(1 - sine2)) : 0;

@@ -24,7 +24,7 @@ void bilinear(const Corners& q, float u, float v, vec3& P, vec3& normal) {
   normal = cross(glm::mix(b - a, c - d, v), glm::mix(d - a, c - b, u));
 }
 
-/// Do the polygons stand for a curved surface? Where rays see displacement, the polygons are the surface.
+/// Tells whether the polygons stand for a curved surface. Where rays see displacement, the polygons are the surface.
 bool isCurved(const Scene& scene, const Lattice& lattice) {
   const Object& o = scene.objects[static_cast<size_t>(lattice.object)];
   return !displacesForRays(o) && !o.shape().info(lattice.patch).planar;

@@ -40,7 +40,7 @@ class Emitters {
 
   float reach(int light) const;
 
-  /// Has some emitter of this light an area?
+  /// Tells whether some emitter of this light has an area.
   bool shines(int light) const { return known(light) && sources(light).areas.count() > 0; }
 
   /// Implements ShadeServices::sampleEmitter. xi0 chooses the emitter.

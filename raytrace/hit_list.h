@@ -49,8 +49,8 @@ struct RayStart {
   int group = -1;      ///< Shade group that the ray leaves; -1: unknown.
 };
 
-/// Does the other side of a wall lie within the offset, besides the origin (-1: none)? It has to be of the same group
-/// and turned away, because blades and leaves side by side are no walls.
+/// Tells whether the other side of a wall lies within the offset, besides the origin (-1: none). It has to be of the
+/// same group and turned away, because blades and leaves side by side are no walls.
 bool isCrowded(const HitList& sorted, int origin, const RayStart& start);
 
 /// The hit that becomes the effective origin: the one closest to t = 0 within the offset; -1: the origin stays. On the

@@ -153,7 +153,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
                          const ShadeContext& context, HitAnswers& answers) const {
   const Scene& scene = impl_->scene;
   ShadeContext hitContext = context;
-  hitContext.answers = nullptr, hitContext.variables = false;  // they belong to the points that the rays leave
+  hitContext.answers = nullptr, hitContext.variables = false;  // these belong to the points that the rays leave
   hitContext.told = answers.outputs.empty() ? nullptr : &answers.outputs;
   answers.color.assign(hits.size(), vec3(0)), answers.opacity.assign(hits.size(), vec3(0));
   std::vector<int> groupOf;
@@ -190,7 +190,7 @@ void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>
                             const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                             const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const {
   ShadeContext crossing = context;
-  crossing.answers = nullptr;  // they belong to the points that the rays leave first
+  crossing.answers = nullptr;  // these belong to the points that the rays leave first
   std::vector<int> groupOf;
   const std::vector<uint32_t> order = byGroup(impl_->scene, left, groupOf);
   ShadedPoints colors;

@@ -20,7 +20,7 @@ struct RayScene::Impl {
 
   void resolve(const Ray& ray, const PolygonHit& hit, Hit& out) const;
   Hit resolveChunk(const Ray& ray, const PolygonHit& hit) const;
-  /// Is the opacity of all points of the group that of its attributes?
+  /// Tells whether the opacity of all points of the group is that of its attributes.
   bool knowsOpacity(uint32_t group) const { return opacityIsConstant[group]; }
   /// Adds the surfaces of solids to the hits of a traversal of everything else: those up to `window` to the list, and
   /// the nearest after that to `beyond`, if it is nearer. `found`: there was a `beyond`. Returns whether there is one

@@ -4,7 +4,7 @@
 
 namespace tomales {
 
-/// Do rays with a time exist? Only then is motion worth its memory.
+/// Tells whether rays with a time exist: only then is motion worth its memory.
 bool raysHaveTimes(const Scene& scene);
 
 /// The times of the motion keys of each of scene.groups, shutter open first: equally spaced, and as few as meet every

@@ -17,7 +17,7 @@ struct CoarseInstance {
 struct SharedShapes {
   std::vector<CoarseGroup> masters;  ///< In object space.
   std::vector<CoarseInstance> instances;
-  std::vector<bool> shared;  ///< Indexed by object: is it one of `instances`?
+  std::vector<bool> shared;  ///< Indexed by object: true if it is one of `instances`.
 };
 
 SharedShapes shareShapes(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log);

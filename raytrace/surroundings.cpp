@@ -38,7 +38,7 @@ void Surroundings::meet(const vec3& direction, float window, HitList& list) cons
     alignas(32) float side[8];
     for (size_t k = 0; k < 8; ++k) side[k] = p.x[k] * direction.x + p.y[k] * direction.y + p.z[k] * direction.z;
     const auto [ab, bd, da, bc, cd, unused0, unused1, unused2] = side;
-    // u, v: the weights of the corners that they lead to.
+    // u and v are the weights of the corners that they lead to.
     const auto meetTriangle = [&](size_t k, float x, float u, float v) {
       if (!((x >= 0 && u >= 0 && v >= 0) || (x <= 0 && u <= 0 && v <= 0))) return;
       const float whole = x + u + v;

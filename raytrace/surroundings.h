@@ -26,7 +26,7 @@ class Surroundings {
            const std::array<vec3, 4>& ofMaster);
 
   bool gaveUp() const { return !known_; }
-  /// Are all polygons known that a ray from here meets at |t| <= window?
+  /// Tells whether all polygons are known that a ray from here meets at |t| <= window.
   bool know(const vec3& origin, float window) const { return known_ && window <= reach_ && origin == origin_; }
 
   /// Adds the hits at |t| <= window of a ray from the origin to `list`, unsorted. A ray that meets an edge meets both

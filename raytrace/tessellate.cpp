@@ -75,7 +75,7 @@ class Tessellator {
       }
   }
 
-  /// Does a part of the polygon whose first cell is (i, j) remain after trimming?
+  /// Tells whether a part of the polygon whose first cell is (i, j) remains after trimming.
   static bool leavesQuad(const Grid& g, int i, int j) {
     const auto gone = [&](int du, int dv) {
       return g.kept[static_cast<size_t>((j + dv) * g.nu + i + du)] == Kept::None;

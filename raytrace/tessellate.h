@@ -40,8 +40,8 @@ struct CoarseGroup {
   DetailShare detail;        ///< Rays of other shares pass through.
   bool solid = false;        ///< The group is part of a solid: solid_hits.h decides which surfaces rays meet.
   bool flipsNormal = false;  ///< The RISpec side is opposite to dP/du x dP/dv.
-  size_t onlyCoarse =
-      0;  ///< So many quads at the end have finer levels (raytrace/chunks.h): only rays of the coarse level see them.
+  /// The number of quads at the end that have finer levels (raytrace/chunks.h): only coarse rays see them.
+  size_t onlyCoarse = 0;
   float deviation =
       0;  ///< Largest distance between a polygon and the surface that it stands for, without `onlyCoarse`.
   float coarseDeviation = 0;  ///< The same for `onlyCoarse`.
@@ -56,7 +56,7 @@ struct CoarseGroup {
                float v) const;  ///< A point of the two triangles that rays meet, cut from corner 1 to 3.
   const Lattice& latticeOf(uint32_t quad) const { return lattices[latticeOfQuad[quad]]; }
   vec2 patchParameters(uint32_t quad, float u, float v) const;
-  /// Does this point of a quad remain after trimming?
+  /// Tells whether this point of a quad remains after trimming.
   bool keeps(uint32_t quad, float u, float v) const {
     const Lattice& l = latticeOf(quad);
     const vec2 at = l.trim ? patchParameters(quad, u, v) : vec2(0);
@@ -76,6 +76,6 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
 CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object,
                              Log& log);
 
-bool raysNeed(const Attributes& attributes);  ///< May some ray meet the object, or is a light made of it?
+bool raysNeed(const Attributes& attributes);  ///< True if some ray may meet the object, or if a light is made of it.
 
 }  // namespace tomales

@@ -37,8 +37,8 @@ struct Ray {
   float radius = 0;        ///< The same radius at its origin.
   /// Shade group that the ray leaves; -1: unknown. It decides which of two walls that meet the ray leaves.
   int group = -1;
-  float time = 0;  ///< Share of the shutter, 0..1.
-  /// Level of surfaces that have several. A ray sees one level, so that it does not slip between two.
+  float time = 0;  ///< The share of the shutter that has passed, 0..1.
+  /// The level that it sees of surfaces that have several. It is one level, so that the ray does not slip between two.
   Level level = Level::Fine;
   const RayFilter* filter = nullptr;           ///< Null: all hits pass.
   const Surroundings* surroundings = nullptr;  ///< The surroundings of its origin (RayScene::lookAround), or null.
@@ -118,7 +118,7 @@ class RayScene {
   /// them.
   void lookAround(const Ray& one, float largestOffset, RayMask mask, Surroundings& out) const;
 
-  /// May rays from points of this group meet anything that moves?
+  /// Tells whether rays from points of this group may meet anything that moves.
   bool samplesTime(int group) const;
   /// Position of a point of this group at a time of the shutter, from its position at shutter open and its drift
   /// (kDriftX).

@@ -12,42 +12,42 @@
 namespace tomales {
 
 struct RslSettings {
-  std::vector<std::string> includeFolders{};  ///< Of #include, besides that of the file.
+  std::vector<std::string> includeFolders{};  ///< The folders of #include, besides that of the file.
   std::vector<std::pair<std::string, std::string>> definitions{};
 };
 
-/// What a TmParamDecl does not say of a parameter.
+/// What RSL says of a parameter beyond its TmParamDecl.
 struct RslParameter {
-  std::string detail;     ///< "uniform", "varying", or empty: its file does not say.
-  bool computed = false;  ///< Its default is no constant: the shader computes it.
+  std::string detail;     ///< "uniform", "varying", or empty if the file does not say.
+  bool computed = false;  ///< True if the default is not constant, so that the shader computes it.
 };
 
-/// A file, compiled. Lives at least as long as its shaders are used.
+/// A compiled file. It must live as long as its shaders are used.
 class RslFile {
  public:
-  /// Never null: what is wrong is in messages().
+  /// Never returns null: messages() tells what is wrong.
   static std::shared_ptr<const RslFile> compile(const std::string& path, const RslSettings& settings);
   ~RslFile();
 
-  /// None if there are errors. A transformation shader is checked and left out: nothing runs it.
+  /// Null if there are errors. A transformation shader is checked and left out: nothing runs it.
   const TmShaderLibrary* library() const;
-  /// Of a surface that assigns P: what moves the points, a displacement with the same name and parameters, which
-  /// library() leaves out. Null: it moves none.
+  /// For a surface that assigns P: the displacement that moves its points, with the same name and parameters, which
+  /// library() leaves out. Null if the surface does not move them.
   const TmShader* displacementOf(const std::string& surface) const;
-  /// In the order of TmShader::params.
+  /// Returns the parameters in the order of TmShader::params.
   std::vector<RslParameter> parameters(const TmShader& shader) const;
-  /// As compilers print them, with lines and carets; empty: all is well.
+  /// The errors and warnings as compilers print them, with lines and carets. Empty if all is well.
   const std::string& messages() const;
   int errors() const;
   int warnings() const;
-  /// Functions that a shader calls and nobody has: it runs, with substitutes.
+  /// The number of functions that a shader calls and nobody has. It runs nevertheless, with substitutes.
   int missing() const;
-  /// The first error, in one line: "file:line:column: text"; empty: none.
+  /// The first error, in one line: "file:line:column: text". Empty if there is none.
   std::string firstError() const;
   /// The file itself, and all that it includes.
   std::vector<std::string> files() const;
 
-  /// What a stage has made of it: tokens, tree, types, lowered or code.
+  /// Prints what a stage makes of the file: tokens, tree, types, lowered or code.
   static std::string dump(const std::string& path, const RslSettings& settings, const std::string& stage);
 
  private:

@@ -1,5 +1,5 @@
-// What compiled shaders of the shading language and their host agree upon, besides what every shader may declare
-// (reyes/shader_api.h): no plugin needs it.
+// The agreements between compiled RSL shaders and their host beyond those that every shader may declare
+// (reyes/shader_api.h): no plugin needs them.
 #pragma once
 #include <cstdint>
 

@@ -1,6 +1,6 @@
-// Verb: runs shaders over batches of points. Owns the bound shaders of a scene (parameters resolved, spaces
-// transformed) and the lights; asks ShadeServices for everything that needs rays or global illumination. Irradiance:
-// all light is in the RSL convention, E/pi. Threads: after construction, every const member may be called concurrently.
+// A verb that runs shaders over batches of points. It owns the bound shaders of a scene (parameters resolved, spaces
+// transformed) and the lights, and asks ShadeServices for all that needs rays or global illumination. All light is in
+// the RSL convention, E/pi. Threads: after construction, every const member may be called concurrently.
 #pragma once
 #include <span>
 
@@ -12,29 +12,29 @@ namespace tomales {
 
 class ShaderRegistry;
 
-/// Where a light is, as far as one can tell without asking it.
+/// The kind of a light, as far as the renderer can tell without running its shader.
 enum class LightKind { None, Ambient, Point, Distant, Sky, Area, Indirect };
 
-/// An opening through which a sky lights a room. Current space.
+/// An opening through which a sky lights a room, in current space.
 struct Portal {
-  vec3 corner, u, v;  ///< u, v: edges.
-  vec3 normal;        ///< As long as the area.
+  vec3 corner, u, v;  ///< u and v are edges.
+  vec3 normal;        ///< Its length is the portal's area.
 };
 
-/// A light shader alone, at points that nothing shades: how photons learn what it sends where. Current space.
+/// Runs a light shader alone, at points that nothing shades: photons learn so what a light sends where. Current space.
 struct LightProbe {
   std::vector<vec3> P, N;  ///< In: points to be lit, with their normals.
-  std::vector<vec3> Pl,
-      Nl;  ///< In, for LightKind::Area: points on the emitter; for Sky: towards it, and unit directions there.
-  std::vector<vec2> xi;  ///< In, for lights that are sampled: where one of one sample lies; none: in the middle.
-  std::vector<vec3> L;   ///< Out: from P to the light.
+  /// In: points on the emitter for LightKind::Area; for Sky directions towards it, and unit directions there.
+  std::vector<vec3> Pl, Nl;
+  std::vector<vec2> xi;  ///< In, for sampled lights: where the one sample lies; empty for the middle.
+  std::vector<vec3> L;   ///< Out: vectors from P to the light.
   std::vector<vec3> Cl;  ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
-  bool finite = true;    ///< Out: what was not is dark.
+  bool finite = true;    ///< Out: false if a value was not finite and was made dark.
 };
 
 /// Consecutive pixels of one row after filtering and exposure, for the imager. Arrays are padded.
 struct ShadedPixels {
-  float x = 0, y = 0;  ///< Raster position of the centre of the first.
+  float x = 0, y = 0;  ///< The raster position of the first pixel's centre.
   ShadedPoints colors;
   AlignedVector<float> alpha;
 };
@@ -49,63 +49,63 @@ class ShadingSystem {
   void setServices(const ShadeServices* services);
   void setClouds(CloudServices* clouds);
 
-  /// After Scene::add(). One thread at a time; others may use the groups that they know of meanwhile.
+  /// Binds the groups that Scene::add() has added. One thread at a time; others may use the older groups meanwhile.
   void bindNewGroups();
 
-  /// Does a group hide what is behind it (Os = 1 everywhere and a shader that keeps opacity)?
+  /// Tells whether a group hides what is behind it (Os = 1 everywhere and a shader that keeps opacity).
   bool opaque(int group) const;
-  /// Does a shader of the group ask how values change over the surface (ShadePoints::hasSteps)?
+  /// Tells whether a shader of the group asks how values change over the surface (ShadePoints::hasSteps).
   bool wantsSteps(int group) const;
-  /// Does its shader leave Oi = Os?
+  /// Tells whether its shader leaves Oi = Os.
   bool keepsOpacity(int group) const;
-  /// Runs the displacement shader of the grid's object, in place; recomputes N. No-op without one. Pre: one piece, if
-  /// there is one.
+  /// Runs the displacement shader of the grid's object, if it has one, in place, and recomputes N. The grid must then
+  /// be a single piece.
   void displace(Grid& grid) const;
-  /// Surface shader and lights over a batch of one group. `out` is resized.
+  /// Runs the surface shader and the lights over a batch of one group. `out` is resized.
   void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
 
-  /// Of all that the camera has been shown: most of it is lit by too few samples of a light.
+  /// Warns if a light takes too few samples for most of the points that the camera has been shown.
   void warnOfLightNoise() const;
 
-  /// Atmosphere between the eye and points that the camera sees, over their colours in place, and ShadedPoints::airCi.
-  /// No-op without one.
+  /// Runs the atmosphere, if there is one, between the eye and points that the camera sees. It changes their colours in
+  /// place, and ShadedPoints::airCi.
   void atmosphere(const ShadePoints& points, ShadedPoints& out) const;
-  /// Does a volume shader stand inside (Interior) or outside (Exterior) of the group's surfaces?
+  /// Tells whether a volume shader stands inside (Interior) or outside (Exterior) of the group's surfaces.
   bool hasVolume(int group, bool inside) const;
   /// Runs it over what rays bring through the volume to the surface that they leave, in place. The points are those of
-  /// the surface, but for kP, which is where each ray ends, and kI, the way there. False, and `out` is left alone:
-  /// there is none, or it failed.
+  /// the surface, but for kP, which is where each ray ends, and kI, the way there. Returns false and leaves `out` alone
+  /// if there is no volume shader or it has failed.
   bool crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const;
   bool hasImager() const;
-  /// Imager shader, in place. No-op without one.
+  /// Runs the imager shader, if there is one, in place.
   void image(ShadedPixels& pixels) const;
 
-  /// Radiance that each point of a batch adds for camera and specular rays if its object is an emitter: what the area
-  /// light's shader sends from there to where kI begins, on the front. Empty: nothing shines.
+  /// Gives the radiance that each point of a batch adds for camera and specular rays if its object is an emitter: what
+  /// the area light's shader sends from there to where kI begins, on the front. Empty if nothing shines.
   void emission(const ShadePoints& points, std::vector<vec3>& radiance) const;
   /// The indirect light switched on for a group, if any: what the gather pass must prepare.
   const IndirectQuery* indirectQuery(int group) const;
-  /// Of all indirect lights but filters, what the first says that says it; none: there are no such lights.
+  /// The first request among those of all indirect lights but filters; empty if there are no such lights.
   std::optional<IndirectRequest> indirectRequest() const;
-  /// The largest number of samples that an area light asks for; 0: there is none.
+  /// The largest number of samples that an area light asks for; 0 if there is none.
   int mostAreaSamples() const;
-  bool needsRays() const;  ///< Some light or shader will trace.
-  bool tracesRays(
-      int group) const;  ///< Does its surface shader ask for rays, and not for occlusion() or highlights alone?
-  bool asksOcclusion(
-      int group) const;  ///< May a shader of the group call occlusion() so that answers may be interpolated?
+  bool needsRays() const;  ///< True if a light or shader will trace rays.
+  /// Tells whether its surface shader asks for rays, for more than occlusion() or highlights.
+  bool tracesRays(int group) const;
+  /// Tells whether a shader of the group may call occlusion() so that answers may be interpolated.
+  bool asksOcclusion(int group) const;
 
-  LightKind lightKind(
-      int light) const;  ///< None: its shader is missing, or it lights nothing diffuse that gather rays see.
+  /// LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.
+  LightKind lightKind(int light) const;
   void probe(int light, LightProbe& probe) const;
-  /// Of a light of LightKind::Sky, those that it names and that have a place and an area.
+  /// The portals that a light of LightKind::Sky names and that have a place and an area.
   std::span<const Portal> portals(int light) const;
-  /// What photons meet inside or outside of a group's surfaces: of its Interior or Exterior.
+  /// The medium that photons meet inside or outside of a group's surfaces, as its Interior or Exterior says.
   MediumColors medium(int group, bool inside) const;
-  /// Does the surface of a group add radiance of its own?
+  /// Tells whether the surface of a group adds radiance of its own.
   bool emits(int group) const;
-  /// Does it reflect the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable says
-  /// otherwise)?
+  /// Tells whether it reflects the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable
+  /// makes it differ).
   bool reflectsEvenly(int group) const;
 
  private:

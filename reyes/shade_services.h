@@ -1,6 +1,6 @@
-// The seams of shading: what a batch of points is told of how it is shaded, and what it may ask of those who know more
-// than the points (ray tracing, global illumination, point clouds). Irradiance: all light is in the RSL convention,
-// E/pi.
+// The interfaces of shading: how a batch of points is to be shaded, and what
+// it may ask of units that know more than the points (ray tracing, global
+// illumination, point clouds). All light is in the RSL convention, E/pi.
 #pragma once
 #include <optional>
 
@@ -13,24 +13,24 @@
 namespace tomales {
 
 enum class RayKind : uint8_t {
-  Camera,        ///< Visible micropolygons: the whole shader.
-  Diffuse,       ///< Hits of gather rays: direct light, diffuse component only, no emission of area lights
-                 ///< (approximate-gi 4.1, 4.2).
-  Specular,      ///< Hits of reflected and refracted rays: the whole shader, and the emission of area lights.
-  Transmission,  ///< What shadow rays pass through: opacity alone, no light.
+  Camera,        ///< Visible micropolygons run the whole shader.
+  Diffuse,       ///< Hits of gather rays get direct light and the diffuse component only, and no emission of area
+                 ///< lights (approximate-gi 4.1, 4.2).
+  Specular,      ///< Hits of reflected and refracted rays run the whole shader, and get the emission of area lights.
+  Transmission,  ///< Surfaces that shadow rays pass through give opacity alone, without light.
 };
 
-/// What a batch is lit by.
+/// The light in which a batch is shaded.
 enum class Illumination : uint8_t {
-  Lights,           ///< Those of the scene.
+  Lights,           ///< The lights of the scene.
   Stored,           ///< ShadeServices::storedIrradiance alone, as one light along the normal.
-  Unit,             ///< E/pi = 1 everywhere, likewise: what comes back is the diffuse reflectance.
-  None,             ///< Nothing: what comes back is emitted.
-  LightsAndStored,  ///< Both of the first two: what is stored leaves out what comes straight from lights.
+  Unit,             ///< E/pi = 1 everywhere, as one light along the normal: the result is the diffuse reflectance.
+  None,             ///< No light: the result is what the surface emits.
+  LightsAndStored,  ///< Both of the first two. What is stored must then leave out light straight from lights.
 };
 enum class HitSides : uint8_t { Both, Front, Back };
 
-/// A value of what a ray met, by its RSL gather() name, into `floats` (1 or 3) arrays of the caller.
+/// A value at the hit of a ray, by its RSL gather() name, for `floats` (1 or 3) arrays of the caller.
 struct RayOutput {
   std::string name;
   int floats = 1;
@@ -42,56 +42,56 @@ struct ShadeContext {
   RayKind kind = RayKind::Camera;
   int depth = 0;  ///< Diffuse bounces between the eye and these points.
   uint32_t seed = 0;
-  int lightSamples = 0;    ///< Samples of each area light and of the sky; 0: as many as the light asks for.
-  bool indirect = true;    ///< Run indirect lights.
-  bool direct = true;      ///< Run the others where the eye looks.
-  bool variables = false;  ///< Store what outputOf(options) lists.
-  const std::vector<RayOutput>* told =
-      nullptr;  ///< Store these instead, of "surface:NAME" the outputs of the shader; NaN: it has none of this name.
+  int lightSamples = 0;    ///< Samples of each area light and of the sky; 0 for the number that the light asks for.
+  bool indirect = true;    ///< Indirect lights run.
+  bool direct = true;      ///< The other lights run where the eye looks.
+  bool variables = false;  ///< The variables that outputOf(options) lists are stored.
+  /// Store these instead: for "surface:NAME" the outputs of the shader, or NaN if it has none of this name.
+  const std::vector<RayOutput>* told = nullptr;
   Illumination light = Illumination::Lights;
   int specularDepth = 0;  ///< Specular bounces between the eye and these points.
   int diffuseLimit = 1 << 20,
-      specularLimit = 1 << 20;  ///< Depths at which no ray follows, set by the objects on the way.
-  std::string label{};          ///< Of the ray that came here.
-  bool lampsGlow = true;        ///< For that ray.
-  bool mirrored =
-      true;  ///< Specular rays bring lamps and skies: not where photons have brought what comes from them by mirrors.
-  bool highlights = false;  ///< Diffuse rays bring highlights too: those of the reference path tracer.
+      specularLimit = 1 << 20;  ///< Depths beyond which no ray follows, set by the objects on the way.
+  std::string label{};          ///< The label of the ray that came here.
+  bool lampsGlow = true;        ///< That ray sees area lights.
+  /// Specular rays bring lamps and skies. False where photons have brought that light by mirrors.
+  bool mirrored = true;
+  bool highlights = false;  ///< Diffuse rays bring highlights too, as those of the reference path tracer do.
   RayAnswers* answers =
-      nullptr;             ///< Of this batch: asked before shadow and gather rays are traced. Null: all are traced.
-  bool sketch = false;     ///< Shaders run for a look in between: nothing is baked or printed.
+      nullptr;             ///< For this batch, asked before shadow and gather rays are traced. Null: all are traced.
+  bool sketch = false;     ///< Shaders run for a preview: nothing is baked or printed.
   bool rehearsal = false;  ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
-  float importance = 1;    ///< Of what is seen here, for the eye.
-  int chunk = 0;           ///< Set by ShadingSystem: which part of the batch is being shaded.
+  float importance = 1;    ///< The weight of what is seen here in the eye's picture.
+  int chunk = 0;           ///< The part of the batch that is being shaded, set by ShadingSystem.
 };
 
-/// What one set of rays of a shader's call asks.
+/// The options of one set of rays of a shader's call.
 struct RayQuery {
   RayKind kind = RayKind::Specular;
   float maxDistance = 1e30f;
-  float bias = -1;  ///< < 0: as the object's attributes say.
+  float bias = -1;  ///< Negative if the object's attributes say it.
   std::string label, subset, excludeSubset;
   HitSides sides = HitSides::Both;
-  std::optional<HitMode> mode;  ///< Empty: as the attributes of what is met say.
-  float opacityThreshold = 1;   ///< A ray goes on behind what is transparent until this much is covered.
+  std::optional<HitMode> mode;  ///< Empty if the attributes of the object that is met say it.
+  float opacityThreshold = 1;   ///< A ray goes on behind transparent things until this much is covered.
   int number = 0, count = 1;    ///< These are rays `number` of `count` from each point.
-  bool lampsGlow = true;        ///< Area lights are seen.
-  float importance = 1;         ///< Of what these rays bring.
-  const float
-      *radius = nullptr,
-      *spread = nullptr;  ///< Of the footprint of each ray, at its start and added for each unit of length. Null: none.
+  bool lampsGlow = true;        ///< The rays see area lights.
+  float importance = 1;         ///< The weight of what these rays bring.
+  /// The radius of each ray's footprint at its start, and its growth for each unit of length. Null if rays have no
+  /// width.
+  const float *radius = nullptr, *spread = nullptr;
 };
 
-/// Arrays for count() points; null pointers: not wanted.
+/// Arrays for count() points; null pointers for what is not wanted.
 struct RayResult {
-  float* distance = nullptr;   ///< kInfinity: nothing was met, and no output set.
-  TmVec3 color{}, opacity{};   ///< Of all that the ray went through,
-  float* effective = nullptr;  ///< and with them the mean distance of what covers it; kInfinity: nothing does.
-  uint8_t* leaves = nullptr;   ///< 1: the ray was traced and ends nowhere, whatever it has passed that is transparent.
+  float* distance = nullptr;       ///< kInfinity if nothing was met; no output is set then.
+  TmVec3 color{}, opacity{};       ///< The sum of all that the ray went through,
+  float* effective = nullptr;      ///< and the mean distance of what covers it; kInfinity if nothing does.
+  uint8_t* leaves = nullptr;       ///< 1 if the ray was traced and leaves the scene, even through transparent things.
   std::vector<RayOutput> outputs;  ///< Of the first hit.
 };
 
-/// What an indirect light asks for where it lights (docs/gi.md).
+/// The parameters of an indirect light where it lights (docs/gi.md).
 struct IndirectQuery {
   int samples = 600;
   float maxError = 1, maxDistance = 1e30f;
@@ -100,30 +100,30 @@ struct IndirectQuery {
   int bounces = 1;
 };
 
-/// What indirect lights ask of a frame as a whole.
+/// The parameters of indirect lights that concern a frame as a whole.
 struct IndirectRequest {
   const GiMethod* method = giMethodOfRadiance("shader");
-  std::string atlas;           ///< Folder of the maps that gather rays look up; empty: none is named.
-  std::optional<int> bounces;  ///< Of photons, if the scene says it.
+  std::string atlas;           ///< The folder of the maps that gather rays look up; empty if none is named.
+  std::optional<int> bounces;  ///< The diffuse bounces of photons, if the scene gives them.
 };
 
-/// What a volume shader says of the air to photons: for each unit of length of the world, by colour.
+/// The air of a volume shader as photons meet it: for each unit of length of the world, by colour.
 struct MediumColors {
   vec3 scattering{0.0f}, absorption{0.0f};
 };
 
-/// occlusion() of the hemisphere, weighted by the cosine, where its answers may be interpolated.
+/// A question of occlusion() for the hemisphere, weighted by the cosine, whose answers may be interpolated.
 struct OcclusionQuery {
   int samples = 1;
   float maxDistance = 1e30f, bias = -1;
   float falloff = 0;
   int falloffMode = 0;
-  float maxVariation = 0;  ///< How far they may be off.
+  float maxVariation = 0;  ///< How far the answers may be off.
   std::string subset, excludeSubset;
   HitSides sides = HitSides::Both;
   bool operator==(const OcclusionQuery&) const = default;
 
-  /// How much of a ray is covered by what it meets at a distance.
+  /// How much of a ray is covered by a hit at that distance.
   float coveredAt(float distance) const {
     if (!(distance < 1e30f)) return 0;
     if (falloff <= 0) return 1;
@@ -135,69 +135,69 @@ struct OcclusionQuery {
 /// Arrays for count() points. E is E/pi.
 struct IndirectResult {
   TmVec3 E;
-  TmVec3 dominant[3];  ///< Unit; for red, green, blue. Null pointers: not wanted.
+  TmVec3 dominant[3];  ///< Unit vectors for red, green and blue. Null pointers if they are not wanted.
 };
 
 /// Points of area lights, as others see them. Arrays of one length.
 struct EmitterPoints {
-  TmVec3 P, N;         ///< N: unit, RISpec side.
-  float* density;      ///< With which samples fall there, over solid angle; 0: nothing shines from there.
-  float* meetDensity;  ///< The same where meetEmitter() finds them too; else 0.
+  TmVec3 P, N;         ///< N has unit length, on the RISpec side.
+  float* density;      ///< The density of samples there, over solid angle; 0 if nothing shines from there.
+  float* meetDensity;  ///< The same, but 0 where meetEmitter() does not find the point.
 };
 
-/// Which shadow rays of a light: sample `sample` of `samples`, towards a point or (solar) to infinity.
+/// The shadow rays of a light: sample `sample` of `samples`, towards a point or (solar) to infinity.
 struct ShadowRays {
   bool solar = false;
   int sample = 0, samples = 1;
-  const RayQuery* query = nullptr;  ///< Of transmission() in a shader.
+  const RayQuery* query = nullptr;  ///< The query of transmission() in a shader; null for lights.
 };
 
-/// The seam to ray tracing and GI (implemented in gi/services, injected by reyes/app). Batched; obeys `active`.
+/// The interface to ray tracing and GI (implemented in gi/services, injected by reyes/app). Batched; obeys `active`.
 class ShadeServices {
  public:
   virtual ~ShadeServices() = default;
 
-  /// Multiplies `light` by the fraction that arrives at each point from P + toward (solar: from infinity along it).
-  /// Where things move, it is the mean over the times at which the points are seen.
+  /// Multiplies `light` by the share that arrives at each point from P + toward (solar: from infinity along it). Where
+  /// things move, it is the mean over the times at which the points are seen.
   virtual void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
                             const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const = 0;
 
-  /// One ray from P along the unit `direction` for each active point. Where the depth of rays is exhausted, none is
-  /// traced.
+  /// Traces one ray from P along the unit `direction` for each active point, unless the limit of the depth of rays is
+  /// reached.
   virtual void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
                      const RayQuery& query, const ShadeContext& context, const RayResult& result) const = 0;
 
-  /// A point on area light `light` for each xi in [0,1)^2, as seen from `from`. Returns false if the light has no
+  /// Takes a point on area light `light` for each xi in [0,1)^2, as seen from `from`. Returns false if the light has no
   /// geometry.
   virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                              const EmitterPoints& out) const = 0;
-  /// The nearest point that shines along each unit direction, of those emitters of the light whose shape is simple.
+  /// Finds the nearest point that shines along each unit direction, on the light's emitters of simple shapes.
   virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
                            const EmitterPoints& out) const = 0;
 
-  /// Share of the hemisphere around N that is covered, interpolated. False: nothing is known, `covered` is left alone
-  /// and rays must tell.
+  /// Interpolates the share of the hemisphere around N that is covered. Returns false, and leaves `covered` alone, if
+  /// nothing is known and rays must tell.
   virtual bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                      const OcclusionQuery& query, const ShadeContext& context, float* covered) const;
 
-  /// E/pi that an earlier pass stored around each point; kArea of the points is what to average over. Zero where there
-  /// is none.
+  /// Gives the E/pi that an earlier pass stored around each point, or zero where there is none. kArea of the points is
+  /// the area to average over.
   virtual void storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const;
-  /// How far in front of the samples of an area light something that stands for it in rays may be: shadow rays end
+  /// How far in front of an area light's samples the polygons may lie that rays meet in its place: shadow rays end
   /// before that.
   virtual float emitterReach(int light) const = 0;
 
-  /// Indirect diffuse light on the side of N.
+  /// Gives the indirect diffuse light on the side of N.
   virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const = 0;
 };
 
-/// Data in space that shaders keep and look up: bake3d(), texture3d(). Arrays of one length, in the space of the file.
+/// A lookup of bake3d() or texture3d() in data that shaders keep. Arrays have one length, in the space of the file.
 struct CloudQuery {
   std::string file;
   int count = 0;
   const uint8_t* active = nullptr;
-  TmConstVec3 P{}, N{};  ///< N: unit or zero.
+  TmConstVec3 P{}, N{};  ///< N has unit length or is zero.
   const float* radius = nullptr;
 };
 struct CloudValue {
@@ -206,29 +206,29 @@ struct CloudValue {
   float* c[3] = {nullptr, nullptr, nullptr};
 };
 
-/// What of a point cloud is in the way of a hemisphere.
+/// The disks of a point cloud that cover a hemisphere.
 struct DisksQuery {
-  std::string channel;          ///< What the disks send.
-  float maxSolidAngle = 0.01f;  ///< Disks that together are seen under less count as one.
-  bool clamp = true;            ///< Those behind others do not count.
-  float coneAngle = kPi / 2;    ///< Half angle of what is looked at.
+  std::string channel;          ///< The channel that the disks send.
+  float maxSolidAngle = 0.01f;  ///< Disks that are seen together under less count as one.
+  bool clamp = true;            ///< Disks behind others do not count.
+  float coneAngle = kPi / 2;    ///< The half angle of the cone that is looked at.
   OcclusionQuery falloff;
 };
 
-/// The seam to point clouds and brick maps (implemented in gi/clouds, injected by reyes/app). `problem` says why false
-/// is returned.
+/// The interface to point clouds and brick maps (implemented in gi/clouds, injected by reyes/app). `problem` says why
+/// false is returned.
 class CloudServices {
  public:
   virtual ~CloudServices() = default;
   virtual bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) = 0;
   virtual bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) = 0;
-  /// E/pi of a photon map.
+  /// Gives E/pi from a photon map.
   virtual bool photons(const CloudQuery&, const TmPhotonOptions&, TmVec3 E, std::string& problem) = 0;
-  /// Share of the hemisphere around N, weighted by the cosine, and (unless x is null) the mean radiance that arrives
-  /// from it.
+  /// Gives the share of the hemisphere around N that is covered, weighted by the cosine, and (unless x is null) the
+  /// mean radiance that arrives from it.
   virtual bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance,
                          std::string& problem) = 0;
-  /// Baked light that leaves after diffusion, E/pi.
+  /// Gives baked light that leaves after diffusion, as E/pi.
   virtual bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) = 0;
 };
 

@@ -79,7 +79,7 @@ class Batch {
   Vec3 I(int i) const { return get(g->I, i); }
   Color Cs(int i) const { return get(g->Cs, i); }
   Color Os(int i) const { return get(g->Os, i); }
-  /// RSL faceforward(normalize(N), I).
+  /// What RSL's faceforward(normalize(N), I) gives.
   Vec3 facingNormal(int i) const { return faceforward(normalize(N(i)), I(i), Ng(i)); }
   Vec3Array facingNormals() const {
     return forAll([this](int i) { return facingNormal(i); });
@@ -104,7 +104,7 @@ class Batch {
     for (int i : *this) r[i] = roughness(g, i);
     return filled([&](TmVec3 out) { g->call->specular(g->host, g, N, V, r.data(), out); });
   }
-  /// Three channels of a texture at the surface's s, t. False: missing, reported, `out` is loud.
+  /// Three channels of a texture at s, t. False if it is missing: that is reported, and `out` is a loud substitute.
   bool texture(const char* name, Vec3Array& out, const TmTextureOptions& options = tmTextureDefaults()) const {
     return g->call->texture(g->host, g, name, &options, g->s, g->t, out) != 0;
   }
@@ -113,42 +113,42 @@ class Batch {
                    const TmTextureOptions& options = tmTextureDefaults()) const {
     return g->call->environment(g->host, g, name, &options, direction, out) != 0;
   }
-  /// Colour along rays from P; see TmServices::trace.
+  /// Returns the colour along rays from P; see TmServices::trace.
   Vec3Array trace(TmConstVec3 direction, const TmRayOptions& options = tmRayDefaults()) const {
     return filled([&](TmVec3 out) { g->call->trace(g->host, g, &options, view(g->P), direction, out, nullptr); });
   }
-  /// How far rays from P go; 1e30 where they meet nothing.
+  /// Returns how far rays from P go, 1e30 where they meet nothing.
   Array traceDistance(TmConstVec3 direction, const TmRayOptions& options = tmRayDefaults()) const {
     Array out(g);
     g->call->trace(g->host, g, &options, view(g->P), direction, TmVec3{}, out.data());
     return out;
   }
-  /// Light that passes from P to P + toward.
+  /// Returns the share of light that passes from P to P + toward.
   Vec3Array transmission(TmConstVec3 toward, const TmRayOptions& options = tmRayDefaults()) const {
     return filled([&](TmVec3 out) { g->call->transmission(g->host, g, &options, view(g->P), toward, out); });
   }
-  /// Share of the hemisphere (or cone) around N that is covered.
+  /// Returns the share of the hemisphere (or cone) around N that is covered.
   Array occlusion(TmConstVec3 N, const TmRayOptions& rays, TmOcclusion options = tmOcclusionDefaults()) const {
     Array out(g);
     options.covered = out.data();
     g->call->occlusion(g->host, g, &rays, view(g->P), N, &options);
     return out;
   }
-  /// Mean radiance that arrives from the hemisphere (or cone) around N: rays for every point, nothing interpolated.
+  /// Returns the mean radiance that arrives from the hemisphere (or cone) around N: every point traces its own rays.
   Vec3Array incoming(TmConstVec3 N, const TmRayOptions& rays, TmOcclusion options = tmOcclusionDefaults()) const {
     Vec3Array out(g);
     options.radiance = out;
     g->call->occlusion(g->host, g, &rays, view(g->P), N, &options);
     return out;
   }
-  /// Ray `ray` of options.samples around an axis; false when there are no more.
+  /// Traces ray number `ray` of options.samples around an axis. Returns false when there are no more rays.
   bool gather(TmConstVec3 axis, const TmRayOptions& options, int ray, std::vector<uint8_t>& hit,
               std::initializer_list<TmChannel> outputs) const {
     hit.assign(static_cast<size_t>(g->padded), 0);
     return g->call->gather(g->host, g, &options, view(g->P), axis, ray, hit.data(), outputs.begin(),
                            static_cast<int32_t>(outputs.size())) != 0;
   }
-  /// rayInfo() of the ray that came to these points: the same for all.
+  /// What rayInfo() says of the ray that came to these points: one number for all of them.
   int rayNumber(const char* name) const {
     Vec3Array value(g);
     g->call->rayInfo(g->host, g, name, value);
@@ -160,17 +160,17 @@ class Batch {
   int rayDepth() const { return rayNumber("depth"); }
   bool wantsHighlights() const { return rayNumber("highlights") != 0; }
 
-  /// P in a named space (current space where the name is unknown).
+  /// P in a named space, or in current space where the name is unknown.
   Vec3Array positionsIn(const char* space) const {
     return filled([&](TmVec3 out) { g->call->transform(g->host, g, TM_AS_POINT, "current", space, view(g->P), out); });
   }
 
-  /// A surface's result: radiance before opacity, and opacity.
+  /// Sets a surface's result: its radiance, not yet multiplied by its opacity, and the opacity.
   void output(int i, Color color, Color opacity) const {
     set(g->Oi, i, opacity);
     set(g->Ci, i, opacity * color);
   }
-  /// A light's result: vector from the point to the light, and the light that arrives.
+  /// Sets a light's result: the vector from the point to the light, and the light that arrives.
   void illuminate(int i, Vec3 L, Color Cl) const {
     set(g->L, i, L);
     set(g->Cl, i, Cl);
@@ -191,7 +191,7 @@ class Batch {
   const TmGrid* const g;
 
  private:
-  /// Of inactive points as well: a loop without branches can be vectorised.
+  /// Works on inactive points as well, since a loop without branches can be vectorised.
   template <class Body>
   Vec3Array forAll(const Body& body) const {
     Vec3Array out(g);

@@ -27,26 +27,26 @@ extern "C" {
 typedef struct TmShader {
   uint32_t abi, structBytes; /* TM_SHADER_ABI and sizeof(TmShader) of the plugin's header: checked before all else */
   int32_t kind;              /* TmKind */
-  uint32_t capabilities;     /* of TmCapability */
+  uint32_t capabilities;     /* an or of TmCapability */
   int32_t paramCount;
   uint32_t paramBytes; /* sizeof(TmParamDecl) of the plugin's header */
   const TmParamDecl* params;
   void (*shade)(const TmGrid* grid);
   const char* name;
   const char* doc;
-  /* What the author has to mend, such as a parameter that is listed at two places: told, and the shader is left out.
-   * NULL: nothing. */
+  /* A mistake that the author has to mend, such as a parameter that is listed at two places. It is reported, and the
+   * shader is left out. NULL if there is none. */
   const char* fault;
-  /* For `tomales shadetest --check`; NULL where a plugin has no such function. Makes the k-th parameter of the plugin's
-   * code that this shader does not list lie behind its last one, every other where it belongs, and returns its name.
-   * NULL: there are not so many, and all lie where they belong. */
+  /* For `tomales shadetest --check`; NULL where a plugin has no such function. Moves the k-th parameter of the plugin's
+   * code that this shader does not list behind its last one, puts every other back in its place, and returns its name.
+   * Returns NULL where there are not so many; all parameters are then in their places. */
   const char* (*unlist)(const struct TmShader*, int32_t k);
 } TmShader;
 
 typedef struct TmShaderLibrary {
   uint32_t abi, structBytes;
   const TmShader* const* shaders;
-  const char* fault; /* as TmShader::fault, of the whole plugin */
+  const char* fault; /* a mistake that concerns the whole plugin, as TmShader::fault */
   int32_t count;
 } TmShaderLibrary;
 

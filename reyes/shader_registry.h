@@ -10,32 +10,32 @@
 
 namespace tomales {
 
-/// "surface" ... "imager".
+/// Returns "surface" ... "imager".
 const char* kindName(TmKind kind);
-/// Of a TmRole; null: there is none of this number.
+/// The name of a TmRole; null if no role has this number.
 const char* roleName(int32_t role);
 /// Parameters that every shader of a kind understands, whether or not it declares them.
 std::span<const TmParamDecl> standardParams(TmKind kind);
 
-/// What a request names.
+/// The name of a shader that a scene asks for.
 struct ShaderName {
   std::string name;
   TmKind kind;
-  std::string beside{};  ///< The folder of the file that names it; empty: none does.
+  std::string beside{};  ///< The folder of the file that names the shader; empty if no file does.
 };
 
-/// The displacement "surface:NAME" is what of the surface NAME moves points (RslFile::displacementOf).
+/// The displacement "surface:NAME" is the part of the surface NAME that moves points (RslFile::displacementOf).
 constexpr const char* kOfSurface = "surface:";
 
-/// Built-ins and plugins come through the same table.
+/// The known shaders. Built-in ones and plugins share one table.
 class ShaderRegistry {
  public:
   /// `standardFromFiles`: a file that is called as a shader whose look RISpec fixes ("plastic") comes before that.
   explicit ShaderRegistry(Log& log, PluginTrust trust = {}, bool standardFromFiles = false);
   ~ShaderRegistry();
-  /// Checks versions and sizes before anything else is touched; later libraries win over earlier names.
+  /// Checks versions and sizes before it touches anything else. Later libraries win over earlier ones.
   bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
-  /// Opens a .so and adds it. False and a message if it is not a shader plugin of this ABI.
+  /// Opens a .so and adds it. Returns false, with a message, if it is not a shader plugin of this ABI.
   bool loadPlugin(const std::string& path);
   /// Adds the shaders of a compiled .sl file, which then come before others of their names.
   bool addText(std::shared_ptr<const RslFile> file, const std::string& path);
@@ -48,16 +48,16 @@ class ShaderRegistry {
   /// has, too, it is said whose shader is used.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
-  /// Compiles the texts of these at once, on all threads, so that find() only has to look. It says nothing: find()
-  /// answers, and tells what is wrong, as it would without.
+  /// Compiles the texts of these shaders at once, on all threads, so that find() only has to look. It reports nothing:
+  /// find() reports what is wrong, as it would without this call.
   void prepare(const std::vector<ShaderName>& names, const std::string& searchPath);
   /// The folders where find() looks for the text of a shader.
   std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
-  /// Of a shader that find() has not found: what there is of that name or a similar one, as the end of a message.
+  /// For a shader that find() has not found: the end of a message that tells what else has that name or a similar one.
   std::string hintOfMissing(const std::string& name, TmKind kind, const std::string& searchPath,
                             const std::string& beside) const;
   std::vector<const TmShader*> all() const;
-  /// What addLibrary() was told of a shader, or the file that it is from.
+  /// The origin that addLibrary() was given for a shader, or the file that it is from.
   std::string originOf(const TmShader& shader) const;
 
  private:

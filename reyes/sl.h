@@ -54,15 +54,15 @@ struct Globals {
   }
 };
 
-/// Shaders that ask what light arrives.
+/// Shaders that ask which light arrives.
 struct Lit : Globals {
-  Vector L;  ///< From P to the light, in illuminance() alone, as Cl.
+  Vector L;  ///< The vector from P to the light. L and Cl count in illuminance() alone.
   Color Cl;
-  int lightNumber = -1;  ///< Its number, for ask(TM_OF_LIGHT, ...).
+  int lightNumber = -1;  ///< The light's number, for ask(TM_OF_LIGHT, ...).
 
-  /// RSL illuminance(): `body` once for each sample of each light, for the points that it reaches at p and that see it
-  /// in the cone of half angle `angle` around the axis (a number, or one for each point); without axis from all sides.
-  /// Lists are made by lights().
+  /// RSL illuminance(): runs `body` once for each sample of each light, for the points that it reaches at p and whose
+  /// cone of half angle `angle` around the axis holds it (the angle is a number, or one for each point). Without an
+  /// axis light counts from all sides. lights() makes lists.
   template <class Angle, class Body>
   void illuminance(const char* category, const Point& p, const Vector& axis, const Angle& angle, const LightList& list,
                    const Body& body) {
@@ -115,7 +115,7 @@ struct Lit : Globals {
   }
   template <class Body>
   void forEachSample(TmIlluminance query, const Point& p, const LightList& list, const Body& body) {
-    const Point where = p;  // what the body does to p is none of the lights' business
+    const Point where = p;  // a copy, since the body may change p
     const std::vector<TmMessage> sent = list.messages();
     query.P = where;
     query.sent = sent.data(), query.sentCount = int32_t(sent.size()), query.refresh = list.refresh;
@@ -127,7 +127,7 @@ struct Lit : Globals {
       });
   }
 };
-/// Of illuminance(): lights("lightcache", "refresh", "send:light:NAME", value, "light:NAME", &out, ...).
+/// Makes the list of illuminance(): lights("lightcache", "refresh", "send:light:NAME", value, "light:NAME", &out, ...).
 template <class... List>
 LightList lights(const List&... list) {
   return listed(LightList(), list...);
@@ -147,17 +147,17 @@ struct Displacement : Globals {
   void store() const { Globals::store(P, grid()->P), Globals::store(N, grid()->N); }
 };
 
-/// P and N are those of the point being lit; of area lights, those of the point on the light.
+/// P and N are those of the point being lit, or for area lights those of the point on the light.
 struct Light : Globals {
   Light() {
     if (ofArea()) P = Point(grid()->Pl), N = Normal(grid()->Nl);
   }
   Point Ps{rsl::view(grid()->P)};
-  Vector L{-Vector(rsl::view(grid()->L))};  ///< From the light to Ps, in illuminate() and solar(); of area lights and
-                                            ///< skies, whose it is, always.
+  Vector L{-Vector(rsl::view(grid()->L))};  ///< The vector from the light to Ps. It counts in illuminate() and solar();
+                                            ///< for area lights and skies, where the renderer sets it, everywhere.
   Color Cl;
 
-  /// RSL illuminate(): `body` for the points in the cone (half angle); the others get no light.
+  /// RSL illuminate(): runs `body` for the points in the cone (half angle). The others get no light.
   template <class Body>
   void illuminate(const Point& from, const Vector& axis, const Float& angle, const Body& body) {
     L = Ps - from;
@@ -174,14 +174,14 @@ struct Light : Globals {
     L = axis;
     body();
   }
-  /// From a cone of directions (half angle): evenly over it with TM_LIGHT_SAMPLED, else along the axis.
+  /// Light from a cone of directions (half angle): evenly over it with TM_LIGHT_SAMPLED, else along the axis.
   template <class Body>
   void solar(const Vector& axis, double angle, const Body& body) {
     L = axis;
     if (grid()->xi0) L = inCone(axis, float(angle));
     body();
   }
-  /// From all around; with TM_LIGHT_SKY, whose L the renderer chooses.
+  /// Light from all around, for shaders with TM_LIGHT_SKY: the renderer chooses L.
   template <class Body>
   void solar(const Body& body) {
     body();
@@ -206,7 +206,7 @@ struct Light : Globals {
   }
 };
 
-/// P is the place in the picture.
+/// P is the position in the picture.
 struct Imager : Globals {
   Color Ci{rsl::view(grid()->Ci)}, Oi{rsl::view(grid()->Oi)};
   Float alpha{grid()->alpha};
@@ -216,7 +216,7 @@ struct Imager : Globals {
   }
 };
 
-/// The function of an rsl::Shader.
+/// The function that an rsl::Shader takes.
 template <class Shader>
 void shade(const TmGrid* g) {
   if (g->count == 0) return;

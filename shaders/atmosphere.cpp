@@ -1,5 +1,5 @@
-// fog and depthcue (RISpec 3.2, appendix A). Both end in full opacity, so that a surface that fades does not show those
-// behind it.
+// The volume shaders fog and depthcue (RISpec 3.2, appendix A). Both end in full opacity, so that a surface that fades
+// does not show those behind it.
 #include "reyes/shader.h"
 
 namespace {

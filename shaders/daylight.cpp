@@ -24,7 +24,7 @@ constexpr float kDegrees = 57.29578f;
 
 struct Heaven {
   rsl::Vec3 up, sun;
-  float T, sunAngle;  // turbidity; angle of the sun from the zenith in radians
+  float T, sunAngle;  // turbidity; the sun's angle from the zenith in radians
 
   Heaven(const TmGrid* g, int i)
       : up(rsl::normalize(zenith(g, i))),
@@ -45,7 +45,7 @@ struct Perez {
 
 struct SkyColor {
   Perez perez[3];   // of Y, x and y
-  float zenith[3];  // over perez(1, sunAngle)
+  float zenith[3];  // divided by perez(1, sunAngle)
 
   explicit SkyColor(const Heaven& h) {
     const float T = h.T, t = h.sunAngle, t2 = t * t, t3 = t2 * t;
@@ -66,7 +66,7 @@ struct SkyColor {
     for (int k = 0; k < 3; ++k) zenith[k] /= perez[k](1, t);
   }
 
-  /// Linear Rec. 709, kcd/m2 (eq. 4).
+  /// Linear Rec. 709 in kcd/m2 (eq. 4).
   rsl::Color operator()(float cosTheta, float gamma) const {
     const float Y = zenith[0] * perez[0](cosTheta, gamma), x = zenith[1] * perez[1](cosTheta, gamma),
                 y = zenith[2] * perez[2](cosTheta, gamma);

@@ -36,7 +36,7 @@ float fresnelWeight(float cosine) {
   const float m = rsl::clamp(1 - cosine, 0, 1);
   return m * m * m * m * m;
 }
-/// Generalised Trowbridge-Reitz, gamma 2 and 1.
+/// Generalised Trowbridge-Reitz distributions, with gamma 2 and 1.
 float gtr2(float nh, float alpha) {
   const float a2 = alpha * alpha, t = 1 + (a2 - 1) * nh * nh;
   return a2 / (rsl::kPi * t * t);
@@ -102,7 +102,7 @@ struct Material {
 struct Lobes {
   Vec3 N, V, tangent, bitangent;
   Material material;
-  float nv, coatShare;  ///< coatShare: share of the directions that are drawn from the coat.
+  float nv, coatShare;  ///< coatShare is the share of the directions that are drawn from the coat.
 
   Lobes(Vec3 n, Vec3 v, const Material& m) : N(n), V(v), material(m), nv(std::max(1e-4f, rsl::dot(n, v))) {
     rsl::orthonormalBasis(N, tangent, bitangent);
@@ -228,7 +228,7 @@ void shadeWith(const rsl::Batch& b, const Opacity& Oi) {
     glossy.addLobeSamples(highlight);
     const int rays = static_cast<int>(rsl::clamp(reflections(g), 0, 1 << 14));
     glossy.addReflections(b.rayDepth() > 0 ? std::min(rays, 1) : rays,
-                          mirrored);  // in repeated reflections rays would multiply
+                          mirrored);  // rays would multiply in repeated reflections
   }
   for (int i : b) {
     const Material& m = glossy[i].material;

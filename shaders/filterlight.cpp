@@ -18,7 +18,7 @@ rsl::FloatParam hue("hue", 0, "turns colours around the grey axis; 1 is a full t
 
 constexpr float kPi = 3.14159265f, kMiddleGrey = 0.18f;
 
-/// 1 inside, 0 outside, smooth over `delta` before `end`.
+/// Is 1 inside, 0 outside, and smooth over `delta` before `end`.
 float inside(float x, float end, float delta) { return 1 - rsl::smoothstep(end - delta, end, x); }
 
 float falloff(const rsl::Batch& b, int i, rsl::Vec3 N) {
@@ -33,7 +33,7 @@ float falloff(const rsl::Batch& b, int i, rsl::Vec3 N) {
          std::pow(cosine2, 0.5f * directionality(g, i));
 }
 
-/// Rodrigues' rotation around (1, 1, 1): keeps r + g + b.
+/// Rodrigues' rotation around (1, 1, 1), which keeps r + g + b.
 rsl::Color turnHue(rsl::Color c, float turns) {
   if (turns == 0) return c;
   const float angle = 2 * kPi * turns, cosine = std::cos(angle), sine = std::sin(angle) / std::sqrt(3.0f);

@@ -1,4 +1,4 @@
-// background and clamptoalpha (RISpec 3.2, appendix A; PRMan).
+// The imagers background and clamptoalpha (RISpec 3.2, appendix A; PRMan).
 #include "reyes/shader.h"
 
 namespace {

@@ -9,7 +9,7 @@ struct Indirect {
     TmVec3 dominant[3] = {red, green, blue};
     b.g->call->indirectDiffuse(b.g->host, b.g, Nf, E, dominant);
   }
-  /// Emits the channel of `light` (E/pi) of the current sample; diffuse(Nf) of all three gives `light` back (eq. 6).
+  /// Emits the current sample's channel of `light` (E/pi); diffuse(Nf) of all three gives `light` back (eq. 6).
   void emit(const rsl::Batch& b, int i, rsl::Color light) const {
     const int c = b.g->sample;
     const rsl::Vec3 N = Nf[i], w = c == 0 ? red[i] : c == 1 ? green[i] : blue[i];

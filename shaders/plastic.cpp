@@ -1,5 +1,5 @@
-// plastic and paintedplastic: one shader, the second with a texture that multiplies Cs (RISpec 3.2, appendix
-// A).
+// The surfaces plastic and paintedplastic are one shader, the second with a texture that multiplies Cs (RISpec 3.2,
+// appendix A).
 #include "shaders/parts.h"
 
 namespace {

@@ -10,7 +10,7 @@ rsl::FloatParam conedeltaangle("conedeltaangle", 0.0872664626f, "width of the so
 rsl::FloatParam beamdistribution("beamdistribution", 2, "exponent of the falloff from the axis");
 ShadowParams shadow;
 
-// RISpec 3.2 appendix A: illuminate(from, axis, coneangle) with a soft edge.
+// This is RISpec 3.2 appendix A: illuminate(from, axis, coneangle) with a soft edge.
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   for (int i : b) {

@@ -39,7 +39,7 @@ std::vector<double> boxAreas(const Scene& scene) {
   return areas;
 }
 
-/// To be increased when the same inputs begin to make other files.
+/// Has to be increased when the same inputs begin to make other files.
 constexpr uint32_t kMethod = 9;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {

@@ -10,7 +10,7 @@ constexpr double kLeastOfPhotons = 0.01;
 constexpr double kMost = 0.5;  // share of estimates that may be unreliable
 constexpr double kClumped = 1.1;
 
-/// The first object whose light a map holds; null: none.
+/// The first object whose light a map holds; null if there is none.
 const Object* objectOf(const Scene& scene, const MapNames& names, const std::string& map) {
   for (size_t g = 0; g < scene.groups.size(); ++g)
     if (const int example = scene.groups[g].exampleObject;
@@ -24,7 +24,7 @@ const Object* objectOf(const Scene& scene, const MapNames& names, const std::str
 void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vector<MapFigures>& maps, Log& log) {
   uint64_t photons = 0;
   for (const MapFigures& m : maps) photons += m.photons;
-  // `weight`: of all estimates of a map; its mean should not exceed `most`.
+  // `weight` is that of all estimates of a map; its mean should not exceed `most`.
   const auto report = [&](const char* code, const auto& weight, double most, const char* why) {
     const MapFigures* worst = nullptr;
     double worstMean = 0;

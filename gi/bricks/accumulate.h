@@ -39,8 +39,8 @@ class BrickAccumulator {
  private:
   static constexpr float kTinyProduct = 1e-15f;  ///< The square of a smaller product underflows.
 
-  /// Is the surface the same, and the angle between the normals (of any length) less than 45 degrees? Squares are
-  /// compared, without a root. Normals of tiny weights underflow: false.
+  /// Tells whether the surface is the same, and the angle between the normals (of any length) less than 45 degrees. It
+  /// compares squares, without a root. Normals of tiny weights underflow: false.
   static bool continues(const LayerSum& layer, const vec3& normal, uint8_t surface) {
     const float along = dot(layer.normal, normal);
     return layer.surface == surface && along > kTinyProduct &&

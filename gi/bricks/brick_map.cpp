@@ -13,7 +13,7 @@ struct BrickMap::Sum {
   int surface = 0;  ///< The surface that is asked for.
   // Most voxels of a lookup lie in one brick, so the last one found is kept.
   int level = -1;                         ///< Level of the last brick that was searched.
-  glm::ivec3 place{0};                    ///< Its place, in bricks of that level.
+  glm::ivec3 place{0};                    ///< Its position, in bricks of that level.
   int foundLevel = -1;                    ///< Level at which a brick was found.
   std::array<int32_t, kMostLevels> path;  ///< Nodes from the root to that brick.
   BrickPtr brick;

@@ -17,7 +17,7 @@ struct BrickSettings {
   float maxError = 0.002f;
   int maxDepth = 15;  ///< Levels below the root.
   float radiusScale = 1;
-  bool ignoreNormals = false;  ///< Volume data: every point is a sphere.
+  bool ignoreNormals = false;  ///< The points are volume data: each is a sphere.
   float coarseness = 1;        ///< Factor on the width of the finest voxels that the radii require (3.2).
 };
 

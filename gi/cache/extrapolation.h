@@ -4,8 +4,8 @@
 
 namespace tomales {
 
-/// Change of E/pi that the record's gradients predict. step: from the record's place. turn: cross(record's normal,
-/// other normal).
+/// The change of E/pi that the record's gradients predict, for a step from the record's position and a turn, the cross
+/// product of the record's normal and the other one.
 inline vec3 changeBy(const IrradianceRecord& r, const vec3& step, const vec3& turn) {
   vec3 change;
   for (int c = 0; c < 3; ++c) change[c] = dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]);

@@ -6,7 +6,7 @@
 namespace tomales {
 
 struct IrradianceRecord {
-  vec3 position, normal;        ///< normal: unit, not bumped (approximate-gi section 4.5)
+  vec3 position, normal;        ///< normal is a unit vector without bumps (approximate-gi section 4.5)
   vec3 E;                       ///< E/pi per channel
   vec3 rotationGradient[3];     ///< per channel; E(n) ~ E + dot(cross(ni, n), gradient) (Ward and Heckbert 1992)
   vec3 translationGradient[3];  ///< per channel; E(x) ~ E + dot(x - xi, gradient)

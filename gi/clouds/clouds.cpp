@@ -54,7 +54,7 @@ PointCloud sorted(const PointCloud& cloud) {
   return out;
 }
 
-/// Empty: there is no material of this name.
+/// Empty if there is no material of this name.
 std::optional<Translucency> materialOf(const TmSubsurfaceOptions& s) {
   const auto triple = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
   if (s.material) return translucencyOf(s.material);
@@ -62,7 +62,7 @@ std::optional<Translucency> materialOf(const TmSubsurfaceOptions& s) {
   return Translucency{triple(s.scattering), triple(s.absorption), s.ior};
 }
 
-/// Returns why subsurface() cannot use these values; empty: it can.
+/// Returns why subsurface() cannot use these values; empty if it can.
 std::string problemOf(const TmSubsurfaceOptions& given, const std::optional<Translucency>& material) {
   if (!material) return fmt::format("subsurface material \"{}\" is not known", given.material);
   if (!(material->ior >= 1 && material->ior <= kMostIor))

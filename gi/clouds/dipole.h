@@ -15,7 +15,7 @@ struct Translucency {
   float ior;
 };
 
-/// Measured coefficients by name (Jensen et al. 2001, figure 5); empty: there is no such material.
+/// Measured coefficients by name (Jensen et al. 2001, figure 5); empty if there is no such material.
 std::optional<Translucency> translucencyOf(std::string_view material);
 /// The material that reflects `albedo` of diffuse light, with a mean free path of `meanFreePath` mm.
 Translucency translucencyOf(const vec3& albedo, const vec3& meanFreePath, float ior);
@@ -29,7 +29,7 @@ class Dipole {
   vec3 reflectance() const;
 
  private:
-  /// Albedo of single scattering; sigma_tr in 1/mm; depth and height of the real and the virtual source in mm.
+  /// The albedo of single scattering; sigma_tr in 1/mm; depth and height of the real and the virtual source in mm.
   vec3 albedo_, decay_, real_, virtual_;
 };
 

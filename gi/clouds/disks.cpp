@@ -16,7 +16,7 @@ constexpr float kOwnPlane = 0.3f;
 }  // namespace
 
 void Disks::Sum::add(const Sum& o) {
-  P += o.area * o.P;  // divided by the area when all disks are added
+  P += o.area * o.P;  // o.P is divided by the area when all disks are added
   area += o.area;
   facing += o.facing;
   front += o.front;
@@ -139,7 +139,7 @@ class Disks::LineOfSight {
     add(t, std::min(1.0f, disk.area / (kPi * r2)), front, 1 - front, front * disk.light);
   }
 
-  /// share: of the disk that counts; disks overlap.
+  /// `share` is that of the disk that counts, since disks overlap.
   void add(float t, float share, float front, float back, const vec3& sends) {
     const HitSides sides = query_.falloff.sides;
     const float shown = sides == HitSides::Both ? 1.0f : sides == HitSides::Front ? front : back;

@@ -240,7 +240,7 @@ class GatherPass {
   }
 
   bool sharesRays(size_t cache) const { return state_.caches[cache].plan.gather.samples >= kManyRays; }
-  /// Is the record that was made while bright spots were searched to be replaced? It could not aim at them.
+  /// Tells whether the record is from the search for bright spots. It could not aim at them, and is to be replaced.
   bool isPilotRecord(size_t cache) const {
     return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.spots.spots().empty()));
   }
@@ -259,7 +259,7 @@ class GatherPass {
           if (!isCancelled() && (isFirst || isPilotRecord(sites[i].cache)))
             records[i] = gatherAt(sites[i], finds.empty() || !isLight(sites[i].cache) ? nullptr : &finds[i]);
       });
-      if (isCancelled()) break;  // of this slice some are missing
+      if (isCancelled()) break;  // some records of this slice are missing
     }
     return done;
   }

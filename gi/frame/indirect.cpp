@@ -19,7 +19,7 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
 
-/// E/pi that came by mirrors and glass, which gather rays do not find.
+/// E/pi of light that came by mirrors and glass, which gather rays do not find.
 vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, float pixelSize) {
   if (state.settings.mode != GiMode::Atlas ||
       state.scene.groups[static_cast<size_t>(group)].attributes->photon.causticMap.empty())

@@ -38,13 +38,13 @@ GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
 
 GatherPlan planFor(const GiState&, int group, const OcclusionQuery&);
 
-/// Does indirect light come from an irradiance cache?
+/// Tells whether indirect light comes from an irradiance cache.
 bool interpolatesIndirect(const GiState&);
 
 /// Runs the shaders of each group that asksOcclusion() at one of its visible points, to learn what they ask.
 void learnOcclusionQueries(GiState&, const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
 
-/// Number of diffuse bounces of a light.
+/// The number of diffuse bounces of a light.
 int bouncesFor(const GiState&, const IndirectQuery&);
 
 /// Root of the area that a pixel projects onto the plane through P with unit normal n (approximate-gi

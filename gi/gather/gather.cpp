@@ -27,7 +27,7 @@ constexpr float kHidden = 0.25f;
 
 const BrightSpots kNoSpots;
 
-/// Kept by each thread from one record to the next.
+/// Memory that each thread keeps from one record to the next.
 struct Scratch {
   FirstHits firstHits;
   std::vector<vec3> directions, radiance;    ///< One ray of each cell.

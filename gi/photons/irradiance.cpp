@@ -33,8 +33,8 @@ constexpr float kMuchBent = 0.95f;  ///< Length of the mean normal: a hemisphere
 
 struct Estimate {
   vec3 irradiance{0.0f};
-  float radius = 0;                ///< 0: none was made.
-  bool few = false, bent = false;  ///< EstimateFigures
+  float radius = 0;                ///< 0 if no estimate was made.
+  bool few = false, bent = false;  ///< As in EstimateFigures.
   float clump = 1;
 };
 
@@ -87,7 +87,7 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
           glm::length(normal) < kMuchBent * count, clumpOf(heap, area, inside)};
 }
 
-/// The same as estimate(), for a ball in a medium.
+/// Does the same as estimate(), for a ball in a medium.
 Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
                           std::vector<NearPhoton>& heap) {
   const vec3 P = tree.position(at);

@@ -8,7 +8,7 @@
 
 namespace tomales {
 
-/// Is a light switched on for the objects of a group?
+/// Tells whether a light is switched on for the objects of a group.
 bool isOnFor(const ShadeGroup& group, int light);
 
 class PhotonTracer {

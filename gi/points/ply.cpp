@@ -15,10 +15,10 @@
 namespace tomales {
 namespace {
 
-/// No length is larger: its square would be infinite.
+/// The limit of lengths: the square of a larger one would be infinite.
 constexpr float kLargest = 1e18f;
 
-/// Of the header and all vertices, in the order of the file. Chained, so that it can be taken while they are streamed.
+/// The checksum of the header and all vertices, in the order of the file. It can be taken while they are streamed.
 class VertexSum {
  public:
   explicit VertexSum(std::string_view header) : sum_(checksum(std::as_bytes(std::span(header)))) {}

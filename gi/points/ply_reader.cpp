@@ -55,7 +55,7 @@ double PlyReader::number(const PlyScalar& type) {
     std::string word;
     in_ >> word;
     char* end = nullptr;
-    const double v = std::strtod(word.c_str(), &end);  // takes "nan" and "inf", unlike streams
+    const double v = std::strtod(word.c_str(), &end);  // reads "nan" and "inf" too, unlike streams
     if (word.empty()) failPly(path_, "ends too early");
     if (*end != 0) failPly(path_, "holds what is no number: " + word.substr(0, 40));
     return v;

@@ -1,4 +1,4 @@
-// The numbers of a PLY file, one after the other. What is in them knows gi/ply.h.
+// Reads the numbers of a PLY file, one after the other. gi/ply.h tells what they mean.
 // Threads: none.
 #pragma once
 #include <fmt/format.h>
@@ -42,14 +42,14 @@ class PlyReader {
   explicit PlyReader(const std::string& path);
 
   const std::vector<PlyElement>& elements() const { return elements_; }
-  /// Its lines, without that of the sum,
+  /// The lines of the header, without that of the sum.
   const std::string& header() const { return header_; }
-  /// which only our own files have.
+  /// The sum, which only our own files have.
   const std::optional<std::string>& sum() const { return sum_; }
 
   double number(const PlyScalar& type);
   void skip(const PlyElement& element);
-  /// What follows the last element is none of this file.
+  /// Fails unless the file ends behind the last element.
   void requireEnd();
 
  private:

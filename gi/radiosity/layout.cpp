@@ -71,7 +71,7 @@ void halveUntilFew(std::vector<SurfaceCharts>& surfaces, const RadiositySettings
     forEachChart([&](const RadiosityChart& c) { sum += static_cast<int64_t>(c.texelCount()); });
     return sum;
   };
-  int64_t most = 0;  // at least one of each chart
+  int64_t most = 0;  // every chart keeps at least one texel
   forEachChart([&](const RadiosityChart&) { ++most; });
   most = std::max(most, settings.mostTexels);
   int halvings = 0;

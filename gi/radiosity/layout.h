@@ -9,7 +9,7 @@ namespace tomales {
 
 constexpr size_t kChartsPerTask = 16;  ///< Charts that one thread works on at a time.
 
-/// Charts by patch; empty: the object has none on this side.
+/// The charts of one side by patch; empty if the object has none there.
 struct SurfaceCharts {
   std::vector<RadiosityChart> front, back;
   std::vector<RadiosityChart>& side(bool isBack) { return isBack ? back : front; }

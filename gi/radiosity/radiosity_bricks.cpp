@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr float kOverlap = 0.8f;      ///< Radius of a point's disk over the edge of its texel: neighbours meet.
 constexpr size_t kRunsPerWave = 256;  ///< Runs that are baked before they are written.
-constexpr uint32_t kMethod = 1;       ///< To be increased when the same inputs begin to make other files.
+constexpr uint32_t kMethod = 1;       ///< Has to be increased when the same inputs begin to make other files.
 
 uint64_t inputsOf(const MapNames& names, const RadiositySettings& s) {
   return contentSum(kMethod, names.world, names.global, names.surface, s.texels, s.seed, s.mostTexels);

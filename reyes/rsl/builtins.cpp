@@ -9,8 +9,8 @@ namespace tomales::compiler {
 namespace {
 
 struct Row {
-  /// As RSL would declare it: "result name(types)". T is each of float, color, point, vector and normal in turn; V is
-  /// each of the four triples; any: whatever type; `out`: is assigned; ...: Builtin::more.
+  /// As RSL declares it: "result name(types)". T stands for each of float, color, point, vector and normal in turn, V
+  /// for each of the four triples, `any` for every type; `out` is assigned; ... stands for Builtin::more.
   const char* signature;
   Op op = Op::Copy;
   Emit emit = Emit::Instruction;
@@ -133,7 +133,7 @@ Base baseOf(std::string_view word) {
   return static_cast<Base>(at - std::begin(kNames));
 }
 
-/// One of the readings of a row: `letter` stands for T or V.
+/// Makes one of the functions that a row declares: `letter` stands for T or V.
 Builtin readingOf(const Row& row, Base letter) {
   Builtin out;
   out.op = row.op, out.emit = row.emit, out.number = row.number;

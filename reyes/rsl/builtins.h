@@ -1,6 +1,6 @@
-// RSL's built-in functions: one table of what they are called, take and give, and of what they become. The checker
-// chooses among its rows, the lowering reads what to emit, and docs/rsl.md is held against it by a test. Functions that
-// are best said in RSL itself are in the prelude (prelude.h).
+// RSL's built-in functions: one table of their names and types, and of the instructions that they become. The checker
+// chooses among its rows, the lowering reads what to emit, and a test compares docs/rsl.md with it. Functions that are
+// simpler to write in RSL itself are in the prelude (prelude.cpp).
 #pragma once
 #include <span>
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace tomales::compiler {
 
-/// How a call becomes code. Instruction: `op` on the arguments in order. The others: calls.cpp.
+/// How a call becomes code. Instruction is `op` on the arguments in order; calls.cpp does the others.
 enum class Emit : uint8_t {
   Instruction,
-  Fold,          ///< op again and again: min(a, b, c)
+  Fold,          ///< `op` applied repeatedly: min(a, b, c).
   Component,     ///< `number` is the component: xcomp()
-  SetComponent,  ///< likewise; the first argument is assigned
-  Derivative,    ///< op over du or dv
+  SetComponent,  ///< `number` is the component; the first argument is assigned.
+  Derivative,    ///< `op` over du or dv.
   Normal,        ///< calculatenormal()
   Spline,
   Transform,  ///< transform(), vtransform(), ntransform(); `number`: TmTransformKind
@@ -25,8 +25,8 @@ enum class Emit : uint8_t {
   Texture,
   Environment,
   Shadow,
-  List,    ///< op on the arguments, with an optional list
-  Traced,  ///< op on the arguments, with a list; numbers of samples may be left out
+  List,    ///< `op` on the arguments, with an optional list.
+  Traced,  ///< `op` on the arguments, with a list; numbers of samples may be left out.
   Ask,     ///< `number`: TmWhom; the last argument is filled in
   ShaderName,
   Print,
@@ -34,11 +34,11 @@ enum class Emit : uint8_t {
   Number,  ///< The constant `number`.
 };
 
-/// What a parameter takes.
+/// The arguments that a parameter takes.
 struct Slot {
   Base base = Base::Float;
-  bool any = false;     ///< Whatever type.
-  bool output = false;  ///< Must be a variable or an element of an array.
+  bool any = false;     ///< True if it takes any type.
+  bool output = false;  ///< True if the argument must be a variable or an element of an array.
   bool array = false;
 };
 
@@ -52,9 +52,9 @@ struct Builtin {
   float number = 0;
 };
 
-/// All rows, those of one name together.
+/// All rows. Those of one name are together.
 std::span<const Builtin> builtins();
-/// The rows of a name: [first, first + count) of builtins(); count 0: there is none.
+/// The rows of a name: [first, first + count) of builtins(). The count is 0 if there is none.
 std::pair<int32_t, int32_t> rowsOf(std::string_view name);
 
 }  // namespace tomales::compiler

@@ -106,7 +106,7 @@ void Checker::shader(Shader& s) {
   for (const auto& p : s.parameters) parameter(*p);
   statement(*s.body);
   for (const auto& p : s.parameters)
-    if (!p->used && !p->output && p->name.substr(0, 2) != "__")  // those with underscores are for the renderer
+    if (!p->used && !p->output && p->name.substr(0, 2) != "__")  // parameters with underscores are for the renderer
       messages_.warning(p->place, fmt::format("the parameter \"{}\" is never read", p->name),
                         static_cast<int32_t>(p->name.size()));
   scopes_.pop_back();

@@ -1,5 +1,5 @@
-// The third stage: what names mean and what types expressions have. It fills in Expr::type, variable, function and
-// builtin, chooses among functions of one name, and tells what is wrong and what is suspicious.
+// The third stage finds what names mean and what types expressions have. It fills in Expr::type, variable, function and
+// builtin, chooses among functions of one name, and reports what is wrong or suspicious.
 #pragma once
 #include <deque>
 
@@ -14,13 +14,13 @@ struct Checked {
   std::deque<Variable> globals;  ///< In the order of the table (globals.h).
 };
 
-/// Functions that are written in RSL and known to all shaders, checked once. Threads: any.
+/// Functions that are written in RSL and known to all shaders. They are checked once. Any thread may call this.
 const Checked& prelude();
 
 /// Errors and warnings go to `messages`; where there are errors the result is not to be lowered.
 Checked check(File file, Messages& messages);
 
-/// Which of the names of an optional list is filled in: gather(..., "surface:Ci", C). `function`: "gather", ...
+/// Tells whether that name of an optional list has a variable to fill in, as gather(..., "surface:Ci", C) has.
 bool isFilled(std::string_view function, std::string_view name);
 
 }  // namespace tomales::compiler

@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// Does the argument suit the slot of a built-in? < 0: no; else how far it is.
+/// How far an argument's type is from the slot of a built-in function. Negative if it does not suit the slot.
 int suits(const Slot& slot, const Expr& e, int far) {
   if (e.type == kUnknown) return 0;
   if (slot.any) return !slot.array || e.type.isArray() ? 0 : -1;
@@ -183,7 +183,7 @@ bool isFilled(std::string_view function, std::string_view name) {
   return false;
 }
 
-// It may be one of a library that other renderers load (DSO shadeops): the shader runs, and says that it lacks it.
+// The function may be one of a library that other renderers load (DSO shadeops), so the shader runs and reports it.
 void Checker::unknownFunction(Expr& e) {
   e.missing = true;
   if (!told_.insert({1, e.text}).second) return;

@@ -74,7 +74,7 @@ Type Checker::typeOfIndex(Expr& e) {
   expect(*e.args[1], {Base::Float}, "as an index");
   if (of.is(Base::String)) return of;  // a channel of a picture, which only the functions of pictures take
   if (of == kUnknown) return of;
-  if (of.isTriple()) return {Base::Float};  // not of RISpec, but later shaders write a component so
+  if (of.isTriple()) return {Base::Float};  // RISpec has no such components, but later shaders write them
   if (!of.isArray()) {
     messages_.error(e.place, fmt::format("\"{}\" is a {}, not an array", e.args[0]->text, name(of)), e.length);
     return kUnknown;
@@ -108,7 +108,7 @@ Type Checker::typeOfUnary(Expr& e) {
 Type Checker::typeOfBinary(Expr& e) {
   Expr &a = *e.args[0], &b = *e.args[1];
   type(a), type(b);
-  // A bare (x, y, z) is what stands on the other side.
+  // A bare (x, y, z) takes the type of the other side.
   if (isTriplet(a) && !isTriplet(b) && b.type.isTriple()) a.type = b.type;
   if (isTriplet(b) && !isTriplet(a) && a.type.isTriple()) b.type = a.type;
   const std::optional<Operation> operation = binaryOperation(e.text, a.type, b.type);
@@ -172,8 +172,8 @@ Type Checker::typeOfCast(Expr& e) {
   return e.written;
 }
 
-// The context's type goes down through arithmetic to the functions that have results of several types: in
-// `point Q = P + .1 * noise(P)` noise gives a point (RISpec 15: the function is chosen by what is wanted).
+// The wanted type goes down through arithmetic to the functions that have results of several types: in `point Q = P +
+// .1 * noise(P)` noise gives a point (RISpec 15 chooses the function by the wanted type).
 void Checker::retarget(Expr& e, const Type& wanted) {
   if (e.type == kUnknown || wanted == kUnknown) return;
   switch (e.kind) {
@@ -229,7 +229,7 @@ void Checker::retarget(Expr& e, const Type& wanted) {
   }
 }
 
-// N * noise(P) moves points along N: beside a triple a number is meant. A picture's colour is not.
+// N * noise(P) moves points along N: beside a triple, noise is meant as a number. The colour of a picture is not.
 void Checker::retargetFactor(Expr& e, const Type& wanted) {
   if (e.kind == ExprKind::Tuple || e.type.isTriple()) return retarget(e, wanted);
   if (e.kind != ExprKind::Call || e.builtin < 0 || !wanted.is(Base::Color)) return;

@@ -11,7 +11,7 @@ namespace tomales::compiler {
 
 class Checker {
  public:
-  /// `prelude` null: the prelude itself is being checked.
+  /// `prelude` is null while the prelude itself is checked.
   Checker(std::deque<Variable>& globals, const File* prelude, Messages& messages);
   void file(File& file);
 
@@ -34,12 +34,12 @@ class Checker {
   void refuseRecursion();
 
   // --- check_expressions.cpp
-  /// The type that an expression has of itself.
+  /// The type that the expression has on its own.
   Type type(Expr& e);
-  /// Likewise, where a value of `wanted` is needed: picks the overload of the wanted result, and reports what does not
-  /// convert.
+  /// The same where a value of the type `wanted` is needed: picks the overload with that result, and reports what does
+  /// not convert.
   void expect(Expr& e, const Type& wanted, const char* where);
-  /// As far as the expression can be of another type, it becomes `wanted`.
+  /// Gives the expression the type `wanted`, as far as it can be of another type.
   void retarget(Expr& e, const Type& wanted);
   void retargetFactor(Expr& e, const Type& wanted);
   Type typeOfName(Expr& e);
@@ -50,9 +50,9 @@ class Checker {
   Type typeOfConditional(Expr& e);
   Type typeOfAssign(Expr& e);
   Type typeOfCast(Expr& e);
-  /// The variable that an assignment to the expression changes is marked as assigned; it is reported if there is none.
+  /// Marks the variable that an assignment to the expression changes. Reports it if there is none.
   void assigned(Expr& e, const char* where);
-  int distance(const Expr& e, const Type& to) const;  ///< < 0: it does not convert.
+  int distance(const Expr& e, const Type& to) const;  ///< Negative if it does not convert.
 
   // --- check_calls.cpp
   Type typeOfCall(Expr& e);
@@ -68,7 +68,7 @@ class Checker {
   struct Scope {
     std::map<std::string, Variable*, std::less<>> variables;
     std::multimap<std::string, const Function*, std::less<>> functions;
-    bool isFunction = false;  ///< `extern` looks in the scopes outside of it.
+    bool isFunction = false;  ///< True for a function's scope: `extern` looks in the scopes outside of it.
   };
   Variable* find(std::string_view name, bool outside = false) const;
   std::vector<std::string> visibleNames() const;
@@ -78,10 +78,10 @@ class Checker {
   const File* const prelude_;
   Messages& messages_;
   std::vector<Scope> scopes_;
-  const Function* current_ = nullptr;  ///< Null: a shader's body.
+  const Function* current_ = nullptr;  ///< Null in the body of a shader.
   int loops_ = 0, lights_ = 0;
   std::map<const Function*, std::set<const Function*>> calls_;
-  std::set<std::pair<int32_t, std::string>> told_;  ///< Unknown names, each once a file.
+  std::set<std::pair<int32_t, std::string>> told_;  ///< Unknown names that have been reported, once for each file.
 };
 
 }  // namespace tomales::compiler

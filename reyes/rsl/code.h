@@ -1,6 +1,6 @@
-// What a shader is compiled to: structured three-address code over registers, one for the whole batch of points.
-// An instruction works on all points at once; conditions become masks (machine/). Immutable once compiled, shared by
-// threads.
+// The compiled form of a shader: structured three-address code over registers, the same for the whole batch of points.
+// An instruction works on all points at once; conditions become masks (machine/). Code is constant once it is compiled,
+// and threads share it.
 #pragma once
 #include <string>
 #include <vector>
@@ -17,34 +17,34 @@ constexpr int floatsOf(Shape s) {
 
 enum class Origin : uint8_t {
   Temporary,  ///< Written by one instruction, before all that read it.
-  Variable,   ///< Written by any.
-  Constant,   ///< floats or texts.
-  Global,     ///< `name` is one of the shader's kind (globals.h); holds the batch's value at first.
-  Parameter,  ///< `index` of Code::parameters; holds its value at first.
+  Variable,   ///< Written by any number of instructions.
+  Constant,   ///< Its value is in `floats` or `texts`.
+  Global,     ///< `name` is a global of the shader's kind (globals.h); the register holds the batch's value at first.
+  Parameter,  ///< `index` is that in Code::parameters; the register holds the parameter's value at first.
 };
 
 struct Register {
   Shape shape = Shape::Number;
   Origin origin = Origin::Temporary;
-  bool varying = true;  ///< False: one value for the batch. Texts never vary.
-  int32_t length = 0;   ///< Elements of an array; 0: no array.
-  std::string name{};   ///< Of what is written in the source; empty: a temporary.
+  bool varying = true;  ///< False if the batch has one value. Texts never vary.
+  int32_t length = 0;   ///< The number of elements of an array; 0 if it is none.
+  std::string name{};   ///< The name in the source; empty for a temporary.
   int32_t index = -1;
-  std::vector<float> floats{};  ///< Of a constant: element by element, component by component.
+  std::vector<float> floats{};  ///< The value of a constant, element by element, component by component.
   std::vector<std::string> texts{};
-  int32_t depth = 0;  ///< How many control structures are around its declaration.
+  int32_t depth = 0;  ///< The number of control structures around its declaration.
   Detail declared = Detail::Unstated;
-  Place place{};  ///< Of the declaration.
+  Place place{};  ///< Where it is declared.
   int32_t slot =
       -1;  ///< Where the machine keeps it, in floats for each point (varying) or value (uniform): passes/allocate.h.
 };
 
 /// An entry of an optional list: trace(P, R, "samples", 16).
 struct Setting {
-  int32_t name = -1;  ///< A register of text.
+  int32_t name = -1;  ///< A register that holds a text.
   int32_t value = -1;
-  bool fills = false;       ///< `value` is an output.
-  Base base = Base::Float;  ///< What the value is in the source: a color is not a point to gather().
+  bool fills = false;       ///< True if `value` is an output.
+  Base base = Base::Float;  ///< The type in the source: gather() tells a color from a point.
 };
 
 struct Instruction;
@@ -52,22 +52,22 @@ using Block = std::vector<Instruction>;
 
 struct Instruction {
   Op op;
-  std::vector<int32_t> out, in;  ///< Registers, in the order of the signature; -1: left out.
+  std::vector<int32_t> out, in;  ///< Registers in the order of the signature; -1 for an argument that is left out.
   int32_t extra = 0;
   std::vector<Setting> settings{};
   std::vector<Block> blocks{};
   Place place{};
-  bool masked = true;  ///< False: all points of the batch are active here, whatever the shader does.
+  bool masked = true;  ///< False if all points of the batch are active here, whatever the shader does.
 };
 
 struct Parameter {
   std::string name;
   Type type;
   Detail detail = Detail::Unstated;
-  bool output = false;        ///< The host takes what becomes of it, a number or triple, and gives nothing.
-  std::vector<float> floats;  ///< The default, where it is a constant; in shader space.
+  bool output = false;        ///< True if the host only takes its value, a number or triple, and gives none.
+  std::vector<float> floats;  ///< The default in shader space, if it is constant.
   std::vector<std::string> texts;
-  /// The default is computed when the shader runs and nothing is given: `floats` is kNotGiven then.
+  /// True if the shader computes the default when it is given no value: `floats` then is kNotGiven.
   bool computed = false;
   Place place{};
 };
@@ -80,10 +80,10 @@ struct Code {
   Block body;
   int32_t labels = 0;
   uint32_t capabilities = 0;                     ///< TmCapability, found by analysis (passes/capabilities.h).
-  int32_t varyingFloats = 0, uniformFloats = 0;  ///< What the machine needs: slots of both kinds.
+  int32_t varyingFloats = 0, uniformFloats = 0;  ///< The slots of both kinds that the machine needs.
 };
 
-/// One instruction a line, indented, registers by number and name.
+/// Prints one instruction a line, indented, with registers by number and name.
 std::string dump(const Code& code);
 
 }  // namespace tomales::compiler

@@ -9,8 +9,8 @@
 namespace tomales::compiler {
 
 // clang-format off
-// name, base, uniform, kinds that may read it, kinds that may assign it; S L D V I: as ShaderKind. (Transformation
-// shaders are displacements of what is not there yet: docs/rsl.md.)
+// The columns are name, base, uniform, the kinds that may read it, the kinds that may assign it. S L D V I are the
+// kinds of ShaderKind. (Transformation shaders count as displacements: docs/rsl.md.)
 #define RSL_GLOBALS(G)                                                                                    \
   G(P, Point, false, "SLDVI", "D")    G(N, Normal, false, "SLDV", "SD")  G(Ng, Normal, false, "SLDV", "") \
   G(I, Vector, false, "SDVL", "")     G(E, Point, true, "SLDVI", "")     G(Cs, Color, false, "SLDV", "")  \
@@ -41,7 +41,7 @@ struct GlobalInfo {
   bool writableIn(ShaderKind kind) const;
 };
 const GlobalInfo& info(Global global);
-/// Null: there is none of this name.
+/// Returns null if there is no global of this name.
 const GlobalInfo* findGlobal(std::string_view name);
 constexpr int kGlobals = static_cast<int>(Global::__far) + 1;
 

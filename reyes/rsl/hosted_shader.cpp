@@ -37,7 +37,7 @@ int32_t typeOf(const Parameter& p) {
   return type;
 }
 
-/// A light's shadow maps, which the host wants to know of: the parameters that its shadow() reads.
+/// The parameters that a light's shadow() reads as shadow maps: the host wants to know them.
 std::vector<bool> shadowMaps(const Code& code) {
   std::vector<bool> out(code.parameters.size(), false);
   if (code.kind != ShaderKind::Light) return out;
@@ -49,7 +49,7 @@ std::vector<bool> shadowMaps(const Code& code) {
   return out;
 }
 
-/// Memory is for a batch of points in each thread.
+/// Refuses code whose registers need too much memory for a batch of points in each thread.
 void refuseHuge(const Code& code, Messages& messages) {
   constexpr int32_t kMostFloats = 1 << 17;
   constexpr double kBatch = 256, kMegabyte = 1 << 20;
@@ -79,7 +79,7 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
     return;
   }
   if (movesPoints(lowered_)) {
-    Messages told;  // what there is to say is said of the surface
+    Messages told;  // dropped, since the messages are those of the surface
     displacement_ = std::make_unique<HostedShader>(displacementOf(lowered_), told);
     leavePoints(lowered_);
   }
@@ -117,7 +117,7 @@ const Program& HostedShader::programFor(const TmGrid& grid) const {
   if (varying.empty()) return *uniform_;
   const std::lock_guard lock(mutex_);
   std::unique_ptr<const Program>& program = others_[varying];
-  Messages told;  // what there is to say has been said of the first code
+  Messages told;  // dropped, since the first code has given the same messages
   if (!program) program = programOf(lowered_, varying, told);
   return *program;
 }

@@ -1,6 +1,6 @@
-// A shader of a .sl file as the host sees it, and its code, which is made for each set of parameters that primitive
-// variables give: what does not vary is computed once for a batch.
-// Threads: shade() is called by many.
+// A shader of a .sl file as the host sees it. Its code is made once for each set of parameters that primitive variables
+// give, so that what does not vary is computed once for a batch.
+// Threads: any number may call shade().
 #pragma once
 #include <map>
 #include <memory>
@@ -14,15 +14,15 @@ namespace tomales::compiler {
 
 class HostedShader {
  public:
-  /// Optimises it with all parameters uniform; errors go to `messages`, and there is nothing to run if it has some.
+  /// Optimises the code with all parameters uniform. Errors go to `messages`; if there are any, it cannot be run.
   HostedShader(Code lowered, Messages& messages);
   HostedShader(const HostedShader&) = delete;
 
-  /// Null: the host has no shaders of this kind.
+  /// Null if the host has no shaders of this kind.
   const TmShader* host() const { return code().kind == ShaderKind::Transformation ? nullptr : &host_.shader; }
   const Code& code() const { return uniform_->code(); }
   const Code& lowered() const { return lowered_; }
-  /// Of a surface that assigns P: what moves the points (passes/moving.cpp). Null: it moves none.
+  /// For a surface that assigns P: what moves its points (passes/moving.cpp). Null if nothing does.
   const HostedShader* displacement() const { return displacement_.get(); }
 
  private:
@@ -40,7 +40,7 @@ class HostedShader {
   struct Hosted {
     TmShader shader{};
     const HostedShader* program = nullptr;
-  } host_;  ///< The host knows its beginning, and gives it back to shade().
+  } host_;  ///< The host knows its first member, by whose address shade() finds the rest.
 };
 
 }  // namespace tomales::compiler

@@ -32,7 +32,7 @@ int32_t Lowering::temporary(Shape shape) { return add({.shape = shape}); }
 
 int32_t Lowering::number(float value) {
   const auto [it, isNew] = numbers_.try_emplace(value, -1);
-  // Zero has two signs and one place in a map, and NaN none.
+  // Zero has two signs but one place in a map, and NaN has none.
   if (!isNew && std::bit_cast<uint32_t>(it->first) == std::bit_cast<uint32_t>(value)) return it->second;
   const int32_t reg = constant(Shape::Number, {value});
   if (isNew) it->second = reg;

@@ -50,7 +50,7 @@ int32_t Lowering::inlined(const Expr& e, const Function& f) {
     }
   }
   const auto nothing = [&] { return shapeOf(f.result) == Shape::Text ? text("") : number(0); };
-  if (!hasRoom()) return nothing();  // functions that call two of the next one double with each
+  if (!hasRoom()) return nothing();  // functions that call two of the next one double the code with each
   // Only a return at the very end needs no label.
   const Stmt* last = f.body->body.empty() ? nullptr : f.body->body.back().get();
   const int returns = returnsIn(*f.body);
@@ -158,12 +158,12 @@ int32_t Lowering::setComponent(const Expr& e, const Builtin& b) {
   return number(0);
 }
 
-// In surfaces by steps, which the passes derive; a displacement's points are differenced along their grid by the host.
+// A surface's normal follows from steps, which the passes derive; for a displacement the host differences its grid.
 int32_t Lowering::normalOf(int32_t position) {
   if (code_.kind == ShaderKind::Displacement) return compute(Op::CalculateNormal, {position});
   const int32_t across = compute(
       Op::Cross, {compute(Op::StepU, {position}, Shape::Triple), compute(Op::StepV, {position}, Shape::Triple)});
-  // Which way dPdu ^ dPdv points is not for shaders to know: the normal is on the side of the geometric one.
+  // A shader cannot know which way dPdu ^ dPdv points, so the normal is put on the side of the geometric one.
   const int32_t natural = compute(Op::Cross, {global(Global::dPdu), global(Global::dPdv)});
   const int32_t against = compute(Op::Less, {compute(Op::Dot, {natural, global(Global::Ng)}), number(0)});
   const int32_t turned =
@@ -224,9 +224,9 @@ int32_t Lowering::withList(const Expr& e, const Builtin& b) {
       }
     in.insert(in.begin(), file);
   } else if (b.slots[0].base == Base::String && b.op == Op::Occlusion) {
-    in.erase(in.begin());  // a map of other renderers, in whose place rays tell
+    in.erase(in.begin());  // a map made by another renderer, in whose place rays are traced
   } else if (b.emit == Emit::Traced && in.size() == 2) {
-    constexpr float kRays = 64;  // where neither an argument nor the list says how many
+    constexpr float kRays = 64;  // used where neither an argument nor the list says how many
     in.push_back(number(kRays));
   }
   const int32_t out = compute(b.op, in);

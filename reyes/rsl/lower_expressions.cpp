@@ -10,7 +10,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// May evaluating it change a variable?
+/// Tells whether evaluating the expression may change a variable.
 bool changesVariables(const Expr& e) {
   if (e.kind == ExprKind::Assign) return true;
   if (e.kind == ExprKind::Call && e.function) return true;
@@ -20,7 +20,7 @@ bool changesVariables(const Expr& e) {
   return std::any_of(e.args.begin(), e.args.end(), [](const ExprPtr& a) { return changesVariables(*a); });
 }
 
-/// Nothing is lost if it is computed where its value is not wanted.
+/// Tells whether it costs nothing to compute the expression where its value is not wanted.
 bool isCheap(const Expr& e) {
   if (e.kind == ExprKind::Assign) return false;
   if (e.kind == ExprKind::Call) {
@@ -120,8 +120,8 @@ int32_t Lowering::name(const Expr& e) {
   return it != registers_.end() ? it->second : variable(v);
 }
 
-// In a light shader P is where the light is and N where it looks: the origin and the z axis of its space. (RISpec has
-// points of an area light there, which the host only gives to built-in ones.)
+// In a light shader P is where the light is and N where it looks: the origin and the z axis of its space. (RISpec gives
+// the points of an area light there, but the host gives those to built-in shaders only.)
 int32_t Lowering::ofLamp(Global g) {
   if (g != Global::P && g != Global::N && g != Global::Ng) return global(g);
   const auto [it, isNew] = lamp_.try_emplace(g, -1);

@@ -1,4 +1,4 @@
-// Light: illuminance and gather, which are loops, and what light shaders say of where they shine.
+// Light: illuminance and gather, which are loops, and the statements by which light shaders tell where they shine.
 #include <iterator>
 
 #include "reyes/rsl/lowering.h"

@@ -10,8 +10,8 @@ std::pair<int32_t, int32_t> Lowering::picture(const Expr& e) {
   return {file, value(*e.args[1])};
 }
 
-// Over what the micropolygon covers: the host knows it where s and t are the surface's own; where a surface has
-// computed them, their steps say. With four corners it is the parallelogram that has their middle and mean sides.
+// The region is what the micropolygon covers: the host knows it if s and t are the surface's own, and where a surface
+// has computed them, their steps tell. Four corners become the parallelogram with their middle and their mean sides.
 int32_t Lowering::texture(const Expr& e, const Builtin& b) {
   const auto [file, channel] = picture(*e.args[0]);
   std::vector<int32_t> at;
@@ -49,7 +49,7 @@ int32_t Lowering::texture(const Expr& e, const Builtin& b) {
   return out;
 }
 
-// Of four directions: around their middle, over the cone that holds them.
+// Four directions become their middle, and the cone around it that holds them.
 int32_t Lowering::environment(const Expr& e, const Builtin& b) {
   const auto [file, channel] = picture(*e.args[0]);
   std::vector<int32_t> directions;
@@ -66,7 +66,7 @@ int32_t Lowering::environment(const Expr& e, const Builtin& b) {
     int32_t least = number(1);
     for (const int32_t d : directions)
       least = compute(Op::Min, {least, compute(Op::Dot, {d, direction})}, Shape::Number);
-    constexpr float kSquareOfCircle = 1.41421356f;  // the sides of the square whose corners the cone reaches
+    constexpr float kSquareOfCircle = 1.41421356f;  // the side of a square over the radius of the circle around it
     angle = compute(Op::Mul, {number(2 / kSquareOfCircle), compute(Op::Acos, {least}, Shape::Number)}, Shape::Number);
   }
   std::vector<std::pair<const Expr*, int32_t>> after;
@@ -76,7 +76,7 @@ int32_t Lowering::environment(const Expr& e, const Builtin& b) {
   return out;
 }
 
-// Of four corners: the mean of the quarters of their quadrilateral.
+// Four corners give the mean of the quarters of their quadrilateral.
 int32_t Lowering::shadow(const Expr& e, const Builtin& b) {
   const auto [file, channel] = picture(*e.args[0]);
   std::vector<int32_t> at;

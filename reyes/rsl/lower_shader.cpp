@@ -9,7 +9,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// The default without the cast that says what is meant anyway.
+/// The default without a cast to shader space, which is meant anyway.
 const Expr& inShaderSpace(const Expr& e) {
   const bool spatial = e.written.isTriple() && e.written.base != Base::Color;
   return e.kind == ExprKind::Cast && e.text == "shader" && spatial ? *e.args[0] : e;
@@ -56,8 +56,8 @@ void Lowering::hideUncoloured() {
   copy(Ci, compute(Op::Select, {hidden, black, Ci}, Shape::Triple));
 }
 
-// What the host writes it cannot give too (TM_OUTPUT): an output is two parameters of one name, and starts as the one
-// that is given.
+// The host cannot give a value to a parameter that it writes (TM_OUTPUT). So an output becomes two parameters of one
+// name, and starts as the one that is given.
 void Lowering::parameter(const Variable& v) {
   const bool stored = v.output && !v.type.isArray() && !v.type.is(Base::Matrix) && !v.type.is(Base::String);
   const int32_t output = stored ? outputParameter(v) : -1;
@@ -91,8 +91,8 @@ void Lowering::givenParameter(const Variable& v) {
   if (!constantValue) computedDefault(v, reg);
 }
 
-// The default is lowered as a shader of its own and folded: what is one constant then is the default that the host
-// may know.
+// The default is lowered and folded like a shader of its own. If the result is one constant, that is the default that
+// the host is told.
 bool Lowering::constantDefault(const Variable& v, Parameter& p) {
   const auto width = static_cast<size_t>(std::max(1, p.type.length));
   const Shape of = shapeOf(v.type);
@@ -112,7 +112,7 @@ bool Lowering::constantDefault(const Variable& v, Parameter& p) {
   for (size_t k = 0; k < std::min(width, elements.size()); ++k) {
     Code scratch;
     scratch.kind = code_.kind;
-    Messages later;  // the same is told when the shader itself is lowered
+    Messages later;  // dropped: the same messages come when the shader itself is lowered
     Lowering alone(scratch, later);
     const Expr& e = inShaderSpace(*elements[k]);
     const int32_t folded = foldConstants(scratch, alone.value(e, {v.type.base}));
@@ -178,7 +178,7 @@ void Lowering::declaration(const Variable& v) {
     if (v.initial) initialiseArray(v, reg);
     return;
   }
-  // The value first: `float x = x` reads the outer one.
+  // The value is lowered first: in `float x = x` it means the outer x.
   const Shape of = shapeOf(v.type);
   const int32_t from = v.initial ? value(*v.initial, v.type) : of == Shape::Text ? text("") : number(0);
   const int32_t reg = variable(v);
@@ -257,7 +257,7 @@ void Lowering::loop(const Expr* until, const Stmt& body, const Expr* step) {
   int32_t reg = -1;
   Block test = block([&] {
     reg = until ? condition(*until) : number(1);
-    // The loop looks at a register that its own block has written.
+    // The loop reads a register that its own block must have written.
     if (code_.registers[static_cast<size_t>(reg)].origin != Origin::Temporary)
       reg = compute(Op::NotEqual, {reg, number(0)});
   });

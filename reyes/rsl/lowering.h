@@ -10,7 +10,7 @@ namespace tomales::compiler {
 
 Shape shapeOf(const Type& type);
 
-/// The default of a text that is computed when the shader runs: no shader gives this one.
+/// The value of a text whose default is computed when the shader runs: no user gives this one.
 constexpr const char* kTextNotGiven = "\x1bnot given";
 
 class Lowering {
@@ -26,15 +26,15 @@ class Lowering {
   int32_t text(const std::string& value);
   int32_t constant(Shape shape, std::vector<float> floats);
   int32_t global(Global g);
-  int32_t variable(const Variable& v);  ///< A register of its own for it, which it stands for from now on.
-  /// Counts an instruction or an inlined function. False, and reported once: there are too many.
+  int32_t variable(const Variable& v);  ///< Makes a register that stands for the variable from now on.
+  /// Counts an instruction or an inlined function. Returns false, after one report, if there are too many.
   bool hasRoom();
   Instruction& emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in);
-  /// An instruction with one result, of its signature's shape (of `shape` if that is `*`).
+  /// Emits an instruction with one result, of its signature's shape (of `shape` if that is `*`).
   int32_t compute(Op op, std::vector<int32_t> in, Shape shape = Shape::Number);
-  void copy(int32_t to, int32_t from);        ///< For the points that are active.
-  void initialise(int32_t to, int32_t from);  ///< For all: nothing else has a value there yet.
-  /// `body` emits into a block of its own.
+  void copy(int32_t to, int32_t from);        ///< At the active points.
+  void initialise(int32_t to, int32_t from);  ///< At all points: no other value is there yet.
+  /// Emits into a block of its own what `body` emits.
   template <class Body>
   Block block(const Body& body);
   Shape shape(int32_t reg) const { return code_.registers[static_cast<size_t>(reg)].shape; }
@@ -54,7 +54,7 @@ class Lowering {
   void loop(const Expr* condition, const Stmt& body, const Expr* step);
   void jump(const Stmt& s);
   // --- lower_light.cpp
-  /// `body` within labels that `break` and `continue` of it may leave.
+  /// Runs `body` within labels to which its `break` and `continue` may go.
   template <class Body>
   void breakable(const Stmt& within, const Body& body);
   int32_t condition(const Expr& e);
@@ -66,12 +66,12 @@ class Lowering {
 
   // --- lower_expressions.cpp
   int32_t value(const Expr& e);
-  /// Likewise, as a type that may be another: a number stays one where a triple is wanted, since it counts for all
-  /// components; where a matrix is, it becomes one.
+  /// The same, as a type that may be another. A number stays a number where a triple is wanted, since it counts for all
+  /// components; where a matrix is wanted, it becomes one.
   int32_t value(const Expr& e, const Type& wanted);
-  /// A number that stands for a triple, as one: for what looks at each component by itself.
+  /// A number that stands for a triple, as a triple: for what reads each component by itself.
   int32_t widened(int32_t reg, const Type& type);
-  /// In order; values that a later expression may change are copied.
+  /// Evaluates the list in order. Values that a later expression may change are copied.
   std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
   int32_t name(const Expr& e);
   int32_t ofLamp(Global g);
@@ -82,7 +82,7 @@ class Lowering {
   int32_t assign(const Expr& e);
   int32_t cast(const Expr& e);
   void store(const Expr& to, int32_t from);
-  /// The register that a call may write for `to`; `after` stores it where `to` is no plain variable.
+  /// The register that a call may write for `to`. `after` lists what must be stored if `to` is not a plain variable.
   int32_t target(const Expr& to, std::vector<std::pair<const Expr*, int32_t>>& after);
 
   // --- lower_calls.cpp
@@ -102,13 +102,13 @@ class Lowering {
   int32_t texture(const Expr& e, const Builtin& b);
   int32_t environment(const Expr& e, const Builtin& b);
   int32_t shadow(const Expr& e, const Builtin& b);
-  /// The file, and the channel that stands in brackets behind it.
+  /// Lowers the file name, and the channel that stands in brackets behind it.
   std::pair<int32_t, int32_t> picture(const Expr& e);
 
   Code& code_;
   Messages& messages_;
   Block* block_;
-  int32_t depth_ = 0;  ///< Control structures around.
+  int32_t depth_ = 0;  ///< The number of control structures around.
   int instructions_ = 0;
   std::map<const Variable*, int32_t> registers_;
   std::map<float, int32_t> numbers_;

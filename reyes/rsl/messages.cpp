@@ -7,8 +7,8 @@
 namespace tomales::compiler {
 namespace {
 
-constexpr size_t kMostShown = 200;  ///< Characters of a line; of longer ones the part around the place.
-constexpr int kMostNotes = 8;       ///< Of macros within macros, and of files; the outermost is always shown.
+constexpr size_t kMostShown = 200;  ///< The shown characters of a line, around the place if it is longer.
+constexpr int kMostNotes = 8;       ///< The shown notes on macros within macros, and on files; the outermost always is.
 
 const char* name(Severity severity) {
   switch (severity) {
@@ -45,7 +45,7 @@ std::string pointedAt(std::string_view line, size_t column, size_t length) {
 }
 
 std::string oneMessage(const Sources& sources, Severity severity, Place place, size_t length, std::string_view text) {
-  const bool nowhere = place.file < 0 && severity == Severity::Note;  // about what is part of the renderer
+  const bool nowhere = place.file < 0 && severity == Severity::Note;  // the note is about what is part of the renderer
   std::string out = nowhere ? fmt::format("{}: {}\n", name(severity), text)
                             : fmt::format("{}: {}: {}\n", sources.text(place), name(severity), text);
   const std::string_view line = sources.line(place.file, place.line);

@@ -1,12 +1,12 @@
 // The instructions of a compiled shader: one table, from which the checker's constants, the dumps, the passes and the
-// machine read what an instruction takes and gives.
+// machine read the operands and results of an instruction.
 #pragma once
 #include <cstdint>
 #include <string_view>
 
 namespace tomales::compiler {
 
-// name, signature, traits.
+// The columns are name, signature, traits.
 // Signature: what it gives, '=', what it takes. f: number, t: triple, m: matrix, s: text, a: array, *: a number, triple
 // or
 //   matrix, componentwise (all stars of one instruction have the shape of its result, or are numbers that count for

@@ -6,10 +6,10 @@
 
 namespace tomales::compiler {
 
-/// Deeper nesting of brackets, statements or functions is an error, so that no input exhausts the stack.
+/// More levels of brackets, statements or functions are an error, so that no input exhausts the stack.
 constexpr int kMostNesting = 400;
 
-/// After an error it goes on at the next statement, so that one run finds several.
+/// After an error the parser goes on at the next statement, so that one run finds several.
 File parse(const std::vector<Token>& tokens, Messages& messages);
 
 }  // namespace tomales::compiler

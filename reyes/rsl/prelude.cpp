@@ -1,5 +1,5 @@
-// Built-in functions that are best said in RSL: what they do is what stands here. They are inlined as all functions
-// are, so they cost what their text costs. Names that begin with two underscores are known here alone by intention.
+// Built-in functions whose definitions are simplest in RSL. They are inlined as all functions are, so they cost what
+// their text costs. Names that begin with two underscores are not meant for users.
 #include "reyes/rsl/checker.h"
 #include "reyes/rsl/parse.h"
 

@@ -13,7 +13,7 @@ namespace tomales::compiler {
 enum class TokenKind : uint8_t {
   Name,
   Number,
-  String,      ///< Its text without quotes, with escapes resolved.
+  String,      ///< The text without quotes, with escapes resolved.
   Punctuator,  ///< One of RSL's operators or brackets, the longest that fits: "+=", "&&", "?", ...
   End
 };
@@ -23,39 +23,39 @@ struct Token {
   std::string text{};
   float number = 0;
   Place place{};
-  std::shared_ptr<const std::string> comment{};  ///< Directly before a word that may begin a shader; null: none.
+  std::shared_ptr<const std::string> comment{};  ///< Directly before a word that may begin a shader; null if none is.
   bool is(std::string_view punctuator) const { return kind == TokenKind::Punctuator && text == punctuator; }
   bool isName(std::string_view name) const { return kind == TokenKind::Name && text == name; }
 };
 
 struct PreprocessOptions {
-  /// Where #include looks: "NAME" beside the including file first, then here; <NAME> here alone. A file outside of
-  /// these folders and of the shader's own is not read, whatever "../" a name has.
+  /// The folders of #include: "NAME" is looked for beside the including file first, then here; <NAME> only here. A file
+  /// outside of these folders and of the shader's own is not read, even if a name has "../".
   std::vector<std::string> includeFolders;
   struct Definition {
-    std::string name, value;  ///< As `-D NAME=VALUE`.
+    std::string name, value;  ///< Given by `-D NAME=VALUE`.
   };
   std::vector<Definition> definitions;
-  /// Headers that come with the renderer, for names that are found nowhere else (standard_headers.h).
+  /// True if headers of the renderer serve names that are found nowhere else (standard_headers.h).
   bool standardHeaders = true;
 };
 
-/// Bounds on what a stranger's file can ask for; more is an error.
+/// Bounds for files of strangers; more is an error.
 constexpr int kMostIncludeDepth = 64;
-constexpr size_t kMostTokens = 500'000;       ///< After expansion, and of what macros make on the way to it.
+constexpr size_t kMostTokens = 500'000;       ///< After expansion, with those that macros make on the way.
 constexpr int kMostExpansions = 50'000;       ///< Uses of macros.
-constexpr int kMostIncludes = 2'000;          ///< Files, each as often as it is included.
-constexpr size_t kMostFileBytes = 16u << 20;  ///< Of one file.
+constexpr int kMostIncludes = 2'000;          ///< A file counts each time it is included.
+constexpr size_t kMostFileBytes = 16u << 20;  ///< The greatest size of one file.
 
-/// Tokens of a file and of all that it includes, ended by one of kind End. Errors are in `messages`, and tokens go on
-/// after them as well as they can; beyond a bound there are none.
+/// Returns the tokens of a file and of all that it includes; the last is of kind End. Errors go to `messages`, and
+/// tokens go on after them as well as they can; there are none if a bound is exceeded.
 std::vector<Token> preprocess(const std::string& path, const PreprocessOptions& options, Sources& sources,
                               Messages& messages);
-/// The same of a text, which messages call `name`; it includes from the folders of `options` alone.
+/// The same for a text, which messages call `name`. It includes files from the folders of `options` alone.
 std::vector<Token> preprocessText(const std::string& name, const std::string& text, const PreprocessOptions& options,
                                   Sources& sources, Messages& messages);
 
-/// A line for each token: place, kind, text.
+/// Prints a line for each token: place, kind, text.
 std::string dump(const std::vector<Token>& tokens, const Sources& sources);
 
 }  // namespace tomales::compiler

@@ -1,4 +1,4 @@
-// Strangers' words in messages.
+// Shows words of strangers' files in messages.
 #pragma once
 #include <string>
 #include <string_view>

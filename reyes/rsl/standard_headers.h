@@ -1,12 +1,12 @@
-// The headers that come with the renderer (shaders/include), for shaders that include what nobody has beside them. They
-// are part of the program, so that nothing else need be installed.
+// The headers that come with the renderer (shaders/include), for shaders whose own headers are missing. They are part
+// of the program, so that nothing else need be installed.
 #pragma once
 #include <string_view>
 #include <vector>
 
 namespace tomales::compiler {
 
-/// Its text; empty: there is none of this name.
+/// The header's text; empty if there is none of this name.
 std::string_view standardHeader(std::string_view name);
 std::vector<std::string_view> standardHeaderNames();
 

@@ -1,5 +1,5 @@
-// What the parser makes of a file: functions and shaders as trees. check.h fills in types and what names mean.
-// RISpec 3.2 sections 11 to 14.
+// The trees of functions and shaders that the parser makes of a file (RISpec 3.2 sections 11 to 14). check.h fills in
+// types and what names mean.
 #pragma once
 #include <initializer_list>
 #include <memory>
@@ -19,7 +19,7 @@ enum class Detail : uint8_t { Unstated, Uniform, Varying };
 /// A type without its detail.
 struct Type {
   Base base = Base::Void;
-  int32_t length = 0;  ///< Elements of an array; 0: no array; kOpenArray: "float a[]", of the argument's length.
+  int32_t length = 0;  ///< The length of an array; 0 if none; kOpenArray for "float a[]", as long as the argument.
   bool operator==(const Type&) const = default;
   bool isArray() const { return length != 0; }
   bool isTriple() const { return length == 0 && base >= Base::Color && base <= Base::Normal; }
@@ -41,12 +41,12 @@ struct Variable {
   Place place{};
   Type type;
   Detail detail = Detail::Unstated;
-  bool output = false;    ///< A parameter that its function or shader may assign.
-  bool isExtern = false;  ///< Declared by `extern`: stands for the variable of an outer scope, `outer`.
-  ExprPtr initial;        ///< Null: none. Of a parameter its default.
-  /// Set by the checker.
+  bool output = false;    ///< True for a parameter that its function or shader may assign.
+  bool isExtern = false;  ///< True if declared by `extern`: it stands for `outer`, a variable of an outer scope.
+  ExprPtr initial;        ///< The initial value, or the default of a parameter. Null if there is none.
+  /// The checker sets these.
   Variable* outer = nullptr;
-  int32_t global = -1;  ///< A Global (globals.h); -1: none.
+  int32_t global = -1;  ///< A Global (globals.h), or -1.
   bool used = false, assigned = false;
 };
 
@@ -55,7 +55,7 @@ enum class ExprKind : uint8_t {
   String,       ///< text
   Name,         ///< text -> variable
   Index,        ///< args[0] [ args[1] ]
-  Tuple,        ///< (a, b, c), or 16 of a matrix; of other lengths only as the value of an array: { a, b, ... }
+  Tuple,        ///< (a, b, c), or a matrix of 16; of other lengths only as the value of an array: { a, b, ... }
   Unary,        ///< text: "-", "!", "+"
   Binary,       ///< text: + - * / . ^ < <= > >= == != && ||
   Conditional,  ///< args[0] ? args[1] : args[2]
@@ -65,27 +65,27 @@ enum class ExprKind : uint8_t {
   Comma,        ///< args in order; the value is that of the last
 };
 
-/// More levels in one expression are an error of the parser, so that whoever walks a tree may do so by recursion.
-/// (Nesting is bounded by kMostNesting; this counts a chain "a + b + c + ..." too.)
+/// More levels in one expression are an error of the parser, so that trees may be walked by recursion. (Nesting is
+/// bounded by kMostNesting; this counts a chain "a + b + c + ..." too.)
 constexpr int32_t kMostHeight = 1000;
 
 struct Expr {
   ExprKind kind = ExprKind::Number;
   Place place{};
-  int32_t length = 1;  ///< Characters, for the caret.
+  int32_t length = 1;  ///< The number of characters that the caret underlines.
   std::string text;
   float number = 0;
-  Type written{};  ///< Of a Cast.
+  Type written{};  ///< The type that a Cast writes.
   bool hasSpace = false;
   std::vector<ExprPtr> args;
-  int32_t height = 1;  ///< Levels of the tree from here down, at most kMostHeight.
-  /// Set by the checker.
+  int32_t height = 1;  ///< The number of levels of the tree from here down, at most kMostHeight.
+  /// The checker sets these.
   bool checked = false;
   Type type{};
-  Variable* variable = nullptr;        ///< Of a Name.
-  const Function* function = nullptr;  ///< Of a Call to a function of the file.
-  int32_t builtin = -1;                ///< Of a Call to a built-in: its row of the table (builtins.h).
-  bool missing = false;                ///< Of a Call to a function that nobody has.
+  Variable* variable = nullptr;        ///< For a Name.
+  const Function* function = nullptr;  ///< For a Call to a function of the file.
+  int32_t builtin = -1;                ///< For a Call to a built-in function: its row of the table (builtins.h).
+  bool missing = false;                ///< True for a Call to a function that nobody has.
 };
 
 enum class StmtKind : uint8_t {
@@ -99,10 +99,10 @@ enum class StmtKind : uint8_t {
   Break,        ///< count levels
   Continue,     ///< count levels
   Return,       ///< exprs[0], which may be null
-  Illuminance,  ///< exprs: what stands in the brackets; body[0]
-  Illuminate,   ///< likewise
-  Solar,        ///< likewise
-  Gather,       ///< likewise; body[0] and, where there is one, body[1] (else)
+  Illuminance,  ///< exprs: those in the brackets; body[0]
+  Illuminate,   ///< the same as Illuminance
+  Solar,        ///< the same as Illuminance
+  Gather,       ///< the same as Illuminance, and body[1] (else) if there is one
   Define,       ///< a function within a function
 };
 
@@ -116,13 +116,13 @@ struct Stmt {
   std::unique_ptr<Function> function;
 };
 
-/// Is there a statement of one of these kinds in it? Functions that it defines do not count.
+/// Tells whether a statement of one of these kinds is in it. Functions that it defines do not count.
 bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds);
 
 struct Function {
   std::string name;
   Place place{};
-  Type result{};  ///< Void: none.
+  Type result{};  ///< Void if it returns nothing.
   std::vector<std::unique_ptr<Variable>> parameters;
   StmtPtr body;  ///< A Block.
 };
@@ -135,7 +135,7 @@ struct Shader {
   ShaderKind kind = ShaderKind::Surface;
   std::string name;
   Place place{};
-  std::string doc;  ///< The comment before it: its first sentence; empty: none.
+  std::string doc;  ///< The first sentence of the comment before it; empty if there is none.
   std::vector<std::unique_ptr<Variable>> parameters;
   StmtPtr body;  ///< A Block.
 };
@@ -146,7 +146,7 @@ struct File {
   std::vector<std::unique_ptr<Shader>> shaders;
 };
 
-/// Indented, one node a line; with types where the checker has set them.
+/// Prints one node a line, indented, with types where the checker has set them.
 std::string dump(const File& file);
 
 }  // namespace tomales::compiler

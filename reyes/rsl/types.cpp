@@ -32,7 +32,7 @@ std::optional<Operation> arithmetic(std::string_view text, const Type& a, const 
   if (a.is(Base::Matrix) || b.is(Base::Matrix)) {
     if (!(a.is(Base::Matrix) || a.is(Base::Float)) || !(b.is(Base::Matrix) || b.is(Base::Float))) return {};
     const bool product = op == Op::Mul || op == Op::Div;
-    const bool scaled = product && b.is(Base::Float);  // each element, as a sum is
+    const bool scaled = product && b.is(Base::Float);  // a sum converts each element, and so does this
     return Operation{
         product && !scaled ? Op::MatrixProduct : op, {Base::Matrix}, scaled ? kUnknown : Type{Base::Matrix}};
   }

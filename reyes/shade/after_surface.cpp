@@ -11,7 +11,7 @@ void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out) con
   const ShadeContext context;
   const ShadedPoints before = out;
   ShadePoints seen = points;
-  // Air is crossed from the eye to the point, also where rays are parallel and kI has no length of its own.
+  // The air is crossed from the eye to the point, also where rays are parallel and kI has no length of its own.
   for (int i = 0; i < seen.count() && !impl_->camera.perspective(); ++i)
     seen.set3(kIx, i, vec3(0, 0, seen.channel(kPz)[i]));
   const auto run = [&](ShadedPoints& colors) {

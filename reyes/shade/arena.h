@@ -11,7 +11,7 @@ namespace tomales {
 
 class Arena {
  public:
-  /// n floats, zero, on a 64-byte boundary.
+  /// Returns n floats, all zero, on a 64-byte boundary.
   float* floats(int n) {
     const size_t need = static_cast<size_t>(padded(n));
     if (block_ == blocks_.size() || used_ + need > blocks_[block_].size()) nextBlock(need);
@@ -28,7 +28,7 @@ class Arena {
   uint8_t* bytes(int n) { return reinterpret_cast<uint8_t*>(floats((n + 3) / 4)); }
   void clear() { block_ = used_ = 0; }
 
-  /// What has been handed out so far; restore() takes back all that came after.
+  /// A height of the arena; restore() takes back all memory that was handed out after it.
   struct Mark {
     size_t block, used;
   };

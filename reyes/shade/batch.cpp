@@ -10,7 +10,7 @@
 namespace tomales {
 namespace {
 
-/// As kArrayVaries (reyes/rsl_host.h) wants it.
+/// Lays out an array that varies, as kArrayVaries (reyes/rsl_host.h) says.
 TmValue arrayOf(const Override& o, int32_t length, const std::function<const float*(int)>& primvar, const TmGrid& g,
                 Arena& arena) {
   TmValue out{{}, 1, length, nullptr};
@@ -180,7 +180,7 @@ void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
   for (int i = 0; i < n; ++i) set(tm.P, i, {p.x + static_cast<float>(i), p.y, 0});
   tm.Ng = tm.I = tm.dPdu = tm.dPdv = tm.dPdtime = zero;
   tm.du = tm.dv = zero.x;
-  // Over the picture, from its top left corner.
+  // For an imager u and v run over the picture, from its top left corner.
   float *u = arena.floats(n), *v = arena.floats(n);
   for (int i = 0; i < n; ++i)
     u[i] = tm.P.x[i] / static_cast<float>(scene.scene.options.xResolution),

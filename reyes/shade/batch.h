@@ -1,5 +1,5 @@
-// One chunk of points (or one grid to displace) while its shader runs: what TmGrid::host points to.
-// Threads: used by one; its BoundScene is shared and constant.
+// One chunk of points (or one grid to displace) while its shader runs; TmGrid::host points to it. Threads: one uses it;
+// its BoundScene is shared and constant.
 #pragma once
 #include "reyes/base/crash_note.h"
 #include "reyes/grid.h"
@@ -20,36 +20,36 @@ class Batch {
   ~Batch();
   Batch(const Batch&) = delete;
 
-  /// Inputs of a surface or volume shader from points, outputs of `count` floats from element `begin`. Adds neighbours
-  /// where the shader wants them and the points have steps.
+  /// Sets the inputs of a surface or volume shader from points, and its outputs to elements of `out` from `begin` on.
+  /// Adds neighbours where the shader wants them and the points have steps.
   void setPoints(ShadePoints& points, const BoundShader& shader, const std::vector<Override>& overrides,
                  ShadedPoints& out, int begin);
-  /// After setPoints: the shader's outputs are stored in `out` from `begin`.
+  /// Lets the shader's outputs be stored in `out` from `begin` on. To be called after setPoints().
   void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin);
-  /// After the shader has run: what it has left for the points, without neighbours, is in `out`.
+  /// Copies the outputs for the points, without neighbours, to `out`. To be called when the shader has run.
   void closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin);
-  /// Inputs and outputs of a displacement shader: motion key 0 of a grid.
+  /// Sets the inputs and outputs of a displacement shader to motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
 
-  /// As a batch whose shader asks for light at `moved`, of its own points: what lights see of the surface and its
-  /// shader. `g` has the mask.
+  /// Makes it a copy of a batch whose shader asks for light at `moved`, its own points at other positions: lights then
+  /// see that surface and its shader. `g` has the mask.
   void setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved);
-  /// Inputs of a light shader: points that nothing shades.
+  /// Sets the inputs of a light shader to points that nothing shades.
   void setLit(const LightProbe& probe, const BoundShader& shader);
-  /// Inputs and outputs of an imager shader.
+  /// Sets the inputs and outputs of an imager shader.
   void setPixels(ShadedPixels& pixels, const BoundShader& shader);
 
-  /// How a value changes over each micropolygon, along u or v: by the neighbours, or because the host knows the value.
-  /// False: it does not, and `out` is left alone. Inactive points hold anything.
+  /// Gives the change of a value over each micropolygon, along u or v, by its neighbours or because the host knows the
+  /// value. Returns false and leaves `out` alone if neither does. Inactive points get any value.
   bool stepsOf(const TmGrid* g, bool alongV, const float* value, float* out) const;
 
-  /// Calls the shader. False: it threw, which has been reported.
+  /// Calls the shader. Returns false, after a report, if it has thrown.
   bool run(const BoundShader& shader, const TmGrid& tmGrid);
-  /// Points where the shader returned NaN or infinity become opaque and black, with a warning.
+  /// Makes points where the shader returned NaN or infinity opaque and black, with a warning.
   void blackOutNonFinite(const BoundShader& shader);
-  /// Fills in a value that lives as long as the batch: `type` is what the numbers (or the text) are.
+  /// Fills in `typeOut` and `out` with numbers (or a text) of that type, which live as long as the batch.
   void answer(const std::vector<float>& numbers, const std::string& text, TmType type, int32_t& typeOut, TmValue& out);
-  /// Once per shader and place of request.
+  /// Reports once for each shader and place of request.
   void report(Severity severity, const char* code, const std::string& problem, const std::string& subject = {}) const;
 
   const BoundScene& scene;
@@ -57,18 +57,18 @@ class Batch {
   const ShadeContext& context;
   Arena& arena;
   TmGrid tm{};
-  const ShadePoints* points =
-      nullptr;                 ///< Null while displacing. Those that are shaded: tm may hold their neighbours as well.
-  Stencil stencil;             ///< Unset: no neighbours.
+  /// The points that are shaded (tm may hold their neighbours as well); null while displacing.
+  const ShadePoints* points = nullptr;
+  Stencil stencil;             ///< Unset if there are no neighbours.
   const Grid* grid = nullptr;  ///< Null while shading.
   const BoundShader* running = nullptr;
-  const BoundShader* own =
-      nullptr;  ///< What the batch has been set for; `running` is another while lights are evaluated.
+  /// The shader that the batch has been set for. `running` is another while lights are evaluated.
+  const BoundShader* own = nullptr;
   Lights lights;
   std::vector<std::unique_ptr<Elsewhere>> elsewhere;  ///< The latest first (elsewhere.h).
-  int placesAsked = 0;                                ///< Of them.
+  int placesAsked = 0;                                ///< How many such places there were so far.
 
-  /// The last indirect gather: an indirect light runs once a colour channel and asks for the same three
+  /// The last indirect gather. An indirect light runs once for each colour channel, and asks for the same gather three
   /// times.
   struct Gathered {
     const BoundShader* who = nullptr;
@@ -76,7 +76,7 @@ class Batch {
     TmVec3 N, E, dominant[3];
   } gathered;
 
-  /// For as long as it lives, memory of the arena is borrowed: for what one of many rays needs.
+  /// Borrows memory of the arena for as long as it lives, for example for one of many rays.
   class Scratch {
    public:
     explicit Scratch(Batch& batch) : batch_(batch), mark_(batch.arena.mark()), gathered_(batch.gathered) {}
@@ -101,8 +101,8 @@ class Batch {
   std::deque<std::string> answers_;
 };
 
-/// The defaults, but for what a caller gives of an options struct that begins with structBytes: as many fields as its
-/// release knows of. Null: none.
+/// The default options, with the fields that a caller gives. The caller's struct begins with structBytes, which tells
+/// how many fields its release has. It may be null.
 template <class Options>
 Options givenOptions(const Batch& batch, Options options, const Options* given) {
   if (given && given->structBytes < sizeof given->structBytes)

@@ -1,5 +1,5 @@
-// What the renderer knows of a light, made once when it is bound: of its shader's capabilities and of what its
-// parameters with a role say. Nobody else reads a light's parameters.
+// Finds, once for each light that is bound, what the renderer knows of it: from the capabilities of its shader and from
+// its parameters with a role. Nothing else reads a light's parameters.
 #include <fmt/format.h>
 
 #include <sstream>
@@ -12,11 +12,11 @@
 namespace tomales {
 namespace {
 
-constexpr int kLightSamples = 16;   ///< Of a light that does not say how many.
-constexpr int kColours = 3;         ///< Samples of an indirect light.
-constexpr int kMostRays = 1 << 16;  ///< Of one irradiance sample.
+constexpr int kLightSamples = 16;   ///< The number for a light that gives none.
+constexpr int kColours = 3;         ///< An indirect light has a sample for each.
+constexpr int kMostRays = 1 << 16;  ///< The limit for one irradiance sample.
 
-/// A count among the parameters of a light.
+/// The value of a light's parameter that is a count.
 int countOf(const BoundShader& light, TmRole role, int fallback, int least, int most, Log& log) {
   const float asked = light.number(role, static_cast<float>(fallback));
   const auto used = static_cast<int>(std::clamp(asked, static_cast<float>(least), static_cast<float>(most)));
@@ -66,7 +66,7 @@ IndirectRequest requestOf(const BoundShader& light, const IndirectQuery& query, 
   return out;
 }
 
-/// By "lighting": does it light what the camera sees, and what gather rays see?
+/// Finds by "lighting" whether it lights what the camera sees, and what gather rays see.
 void setLighting(BoundLight& light, Log& log) {
   const std::string lighting = light.bound->text(TM_ROLE_LIGHTING, "both");
   light.direct = lighting != "indirect", light.indirect = lighting != "direct";
@@ -76,7 +76,7 @@ void setLighting(BoundLight& light, Log& log) {
                            lighting));
 }
 
-/// A shadow map makes rays needless if the shader reads it and it can be read.
+/// Turns shadow rays off if the shader reads a shadow map that can be read.
 void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
   const BoundShader& bound = *light.bound;
   light.shadowVariance = std::max(0.0f, bound.number(TM_ROLE_SHADOW_VARIANCE, 0));
@@ -92,7 +92,7 @@ void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
   }
 }
 
-/// For all points. A shader with an output of that role says it for each point, as it runs.
+/// True if the role is set for all points. (A shader with an output of that role sets it point by point.)
 bool isSaid(const BoundShader& light, TmRole role) { return light.output(role) < 0 && light.number(role, 0) != 0; }
 
 bool hasGeometry(const LightCall& call, const Scene& scene) {
@@ -100,7 +100,7 @@ bool hasGeometry(const LightCall& call, const Scene& scene) {
                      [&](const ShadeGroup& g) { return g.attributes->areaLight == call.index; });
 }
 
-/// What AreaLightSource and TM_LIGHT_AREA say of each other.
+/// Warns if only one of AreaLightSource and TM_LIGHT_AREA says that the light has an area.
 void warnOfArea(const BoundLight& light, const LightCall& call, const Scene& scene, Log& log) {
   const auto warn = [&](const char* code, Severity severity, const std::string& problem) {
     log.report(severity, code, call.shader.where, light.bound->user + ": " + problem);
@@ -177,7 +177,7 @@ std::unique_ptr<const BoundLight> Binder::addedIndirectLight(int index) {
 
 namespace {
 
-/// A light that filters an indirect light asks for the same light as its source. False: there is none.
+/// Lets a light that filters an indirect light ask for the same light as its source. Returns false if there is none.
 bool connectFilter(BoundLight& filter, const BoundScene& scene) {
   const std::string source = filter.bound->text(TM_ROLE_INDIRECT_SOURCE, "");
   for (size_t i = scene.lights.size(); i-- > 0;) {

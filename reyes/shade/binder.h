@@ -1,5 +1,5 @@
-// What binds requests to shaders while a scene is bound. Private to bound_scene.
-// Threads: one at a time.
+// Binds requests to shaders while a scene is bound.
+// Private to bound_scene. Threads: one at a time.
 #pragma once
 #include <map>
 #include <set>
@@ -10,10 +10,10 @@
 
 namespace tomales {
 
-/// Where a request stands in a file, the shader may lie beside that file.
+/// The name of a request, with the folder of the file where it stands: the shader may lie beside that file.
 ShaderName nameOf(const ShaderCall& call, TmKind kind);
 
-/// Binds requests; groups that share a request share its shader, so that each problem is told once.
+/// Binds requests. Groups that share a request share its shader, so that each problem is reported once.
 class Binder {
  public:
   Binder(const Scene& scene, ShaderRegistry& registry, const Textures& textures, const ShadowMaps& shadowMaps, Log& log)
@@ -36,19 +36,19 @@ class Binder {
     const bool none = !call || call->name.empty() || call->name == "null";
     return none ? nullptr : bind(&*call, call->where, user, TM_IMAGER);
   }
-  /// Another surface by its bare name, in the space of the visible one.
+  /// Binds another surface by its bare name, in the space of the visible one.
   BoundShaderPtr indirectSurface(const Attributes& a, const SourceLoc& object, const std::string& user) {
     if (a.indirect.surface.empty()) return nullptr;
     ShaderCall call{a.indirect.surface, {}, {}, object};
     if (a.surface) call.worldFromShader = a.surface->worldFromShader, call.where = a.surface->where;
     return bind(&call, call.where, user, TM_SURFACE);
   }
-  /// Shaders that are about to be bound: their texts are compiled side by side when prepare() is called, and binding,
-  /// one after the other, finds them done.
+  /// Notes a shader that is about to be bound. prepare() compiles the texts of all of them side by side, so that
+  /// binding, one after the other, finds them done.
   void expect(const ShaderCall* call, TmKind kind);
   void prepare();
   std::unique_ptr<const BoundLight> light(const LightCall& call, int index);
-  /// Options::wantsIndirect
+  /// Makes the light that Options::wantsIndirect asks for.
   std::unique_ptr<const BoundLight> addedIndirectLight(int index);
 
  private:
@@ -60,7 +60,7 @@ class Binder {
     return it->second;
   }
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind);
-  /// Of a light that can TM_LIGHT_SKY.
+  /// The sky of a light with TM_LIGHT_SKY.
   std::shared_ptr<const Sky> sky(const BoundShader& light);
 
   const Scene& scene_;
@@ -72,10 +72,10 @@ class Binder {
   const mat4 cameraFromWorld_;
   std::map<const ShaderCall*, BoundShaderPtr> bound_;
   std::set<const ShaderCall*> expected_;
-  std::vector<ShaderName> names_;  ///< Of what is expected, since the last prepare().
+  std::vector<ShaderName> names_;  ///< The shaders that are expected since the last prepare().
 };
 
-/// Connects lights that filter an indirect light to their sources; those without one cast no light.
+/// Connects lights that filter an indirect light to their sources. Those without a source cast no light.
 void connectFilters(BoundScene& scene);
 
 }  // namespace tomales

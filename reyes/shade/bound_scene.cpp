@@ -12,7 +12,7 @@
 namespace tomales {
 namespace {
 
-/// Told once of each shader: parameters that primitive variables of their name cannot override.
+/// Reports, once for each shader, the parameters that primitive variables of their name cannot override.
 std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Primvar>& primvars, Log& log) {
   std::vector<Override> out;
   for (int i = 0; i < bound.shader->paramCount; ++i) {
@@ -88,7 +88,7 @@ int64_t textureMemoryOf(const Options& options) {
   return limit ? static_cast<int64_t>(std::max(1.0f, limit->number(0))) << 10 : TextureSettings{}.memory_bytes;
 }
 
-/// Its shader never runs.
+/// A light whose shader never runs.
 BoundShaderPtr storedLight() {
   static const rsl::Shader shader(TM_LIGHT, "stored irradiance", "", 0, nullptr, {});
   auto bound = std::make_shared<BoundShader>();

@@ -1,4 +1,4 @@
-// What the constructor of ShadingSystem leaves: every shader of a scene, bound. Immutable while shading.
+// Every bound shader of a scene: the result of ShadingSystem's constructor. Constant while shading.
 #pragma once
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
@@ -9,47 +9,47 @@
 
 namespace tomales {
 
-constexpr int kMostLightSamples = 1 << 12;  ///< Of one light from one point.
+constexpr int kMostLightSamples = 1 << 12;  ///< The limit for one light and one point.
 
-/// All that is known of a light: made when it is bound (bind_lights.cpp), of its shader's capabilities and roles.
+/// All that is known of a light, from its shader's capabilities and roles (bind_lights.cpp).
 struct BoundLight {
   BoundShaderPtr bound;
-  int index = -1;  ///< In Scene::lights; one that was added stands behind those.
+  int index = -1;  ///< Its index in Scene::lights, or behind those for one that was added.
   int samples = 1;
   bool shadows = false;
-  bool direct = true;        ///< Lights what the camera sees.
-  bool indirect = true;      ///< Lights what gather rays see.
-  float shadowVariance = 0;  ///< Of the share of light that passes: what its shadow rays may leave; 0: all are traced.
-  bool visible = true;       ///< Glows for the camera (area lights) and for specular rays.
-  bool nondiffuse = false, nonspecular = false;  ///< Left out by diffuse(), by specular().
-  IndirectQuery query;                           ///< TM_LIGHT_INDIRECT alone,
-  IndirectRequest request;                       ///< and what it asks of the whole frame.
-  bool filters = false;                          ///< It brings what another indirect light brings.
-  float maxVariation = 0;                        ///< TM_OCCLUDED alone: TmOcclusion::maxVariation.
-  std::string group;                             ///< As it names it; else the handle.
-  std::string category;                          ///< Names by commas.
-  std::shared_ptr<const Sky> sky;                ///< TM_LIGHT_SKY alone.
-  vec3 sourceTint{1.0f};                         ///< Of the indirect light that this one filters.
+  bool direct = true;        ///< It lights what the camera sees.
+  bool indirect = true;      ///< It lights what gather rays see.
+  float shadowVariance = 0;  ///< The variance of the share of light that shadow rays may leave; 0: all rays are traced.
+  bool visible = true;       ///< Area lights glow for the camera, and all for specular rays.
+  bool nondiffuse = false, nonspecular = false;  ///< diffuse() leaves it out; specular() does.
+  IndirectQuery query;                           ///< For TM_LIGHT_INDIRECT alone.
+  IndirectRequest request;                       ///< The light's request to the whole frame.
+  bool filters = false;                          ///< It brings the light of another indirect light.
+  float maxVariation = 0;                        ///< For TM_OCCLUDED alone: TmOcclusion::maxVariation.
+  std::string group;                             ///< The name of its group, or its handle if it names none.
+  std::string category;                          ///< Names that commas separate.
+  std::shared_ptr<const Sky> sky;                ///< For TM_LIGHT_SKY alone.
+  vec3 sourceTint{1.0f};                         ///< The tint of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
 
-/// A primitive variable that takes the place of a shader parameter; whoever filled the points brought it to
-/// current space.
+/// A primitive variable that takes the place of a shader
+/// parameter. The points hold it in current space already.
 struct Override {
   int param, primvarOffset, width;
 };
 
 struct BoundGroup {
   const ShadeGroup* group = nullptr;
-  std::string object;  ///< For messages.
+  std::string object;  ///< The object's name in messages.
   BoundShaderPtr surface,
-      indirectSurface;  ///< The second: for rays that hit it (Attribute "indirect" "surface").
-  BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< May be null.
+      indirectSurface;  ///< indirectSurface is for rays that hit it (Attribute "indirect" "surface").
+  BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< Each may be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
   std::optional<IndirectQuery> indirect;
-  std::vector<BoundVariable> variables;  ///< As FrameOutput::variables.
-  /// Of rays that gather diffuse light.
+  std::vector<BoundVariable> variables;  ///< In the order of FrameOutput::variables.
+  /// The surface for rays that gather diffuse light.
   const BoundShader& forDiffuseRays() const { return indirectSurface ? *indirectSurface : *surface; }
   int CsOffset = -1, OsOffset = -1, sOffset = -1, tOffset = -1, primvarFloats = 0;
 };
@@ -59,7 +59,7 @@ class Binder;
 struct BoundScene {
   BoundScene(const Scene& scene, ShaderRegistry& registry, Log& log, Stats& stats);
   ~BoundScene();
-  /// Groups of the scene that are not bound yet.
+  /// Binds the groups of the scene that are not bound yet.
   void bindNewGroups();
 
   const Scene& scene;
@@ -69,14 +69,14 @@ struct BoundScene {
   CloudServices* clouds = nullptr;
   Camera camera;
   mat4 cameraFromWorld;
-  float specularSharpness;  ///< Over roughness, the exponent of specular().
+  float specularSharpness;  ///< Divided by the roughness, it is the exponent of specular().
   Textures textures;
   ShadowMaps shadowMaps;
   Skies skies;
-  std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null: unknown shader.
-  const BoundLight* added = nullptr;  ///< The last of them, if Options::wantsIndirect has added it for all objects.
+  std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null for an unknown shader.
+  const BoundLight* added = nullptr;  ///< The light that Options::wantsIndirect has added for all objects; else null.
   BoundLight stored;                  ///< Stands for all lights where Illumination is not Lights.
-  StableVector<BoundGroup> groups;    ///< As Scene::groups.
+  StableVector<BoundGroup> groups;    ///< In the order of Scene::groups.
   BoundShaderPtr imager;              ///< May be null.
   ShadeGroup picture{std::make_shared<const Attributes>(), mat4(1.0f), {}, -1};
   BoundGroup pixels;  ///< Stands for the picture while the imager runs.
@@ -86,7 +86,7 @@ struct BoundScene {
   void addIndirectLight();
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
-  bool grows_ = false;  ///< What procedurals bring is known in the end.
+  bool grows_ = false;  ///< True if procedurals may add groups while the frame is rendered.
 };
 
 }  // namespace tomales

@@ -90,7 +90,7 @@ bool hasInput(const TmShader& shader, std::string_view name) {
                      [&](const TmParamDecl& d) { return !isOutput(d) && d.name == name; });
 }
 
-/// Binds one shader; `warn` reports what is wrong with a parameter.
+/// Binds one shader; `warn` reports problems of a parameter.
 class Binding {
  public:
   Binding(BoundShader& bound, const ShaderCall* call, Log& log) : bound_(bound), call_(call), log_(log) {}
@@ -99,7 +99,7 @@ class Binding {
     const TmShader& shader = *bound_.shader;
     const size_t n = paramCount();
     bound_.floats.resize(n), bound_.strings.resize(n), bound_.values.resize(n + 1);
-    bound_.values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // to read it is to crash
+    bound_.values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // null, so that a shader that reads it crashes
     for (size_t i = 0; i < n; ++i) bindDeclared(shader.params[i], i);
     if (!call_) return;
     const std::span<const TmParamDecl> standard = standardParams(static_cast<TmKind>(shader.kind));

@@ -25,10 +25,10 @@ bool refuse(const Batch& batch, const char* file, const std::string& problem) {
   return false;
 }
 
-/// Of lengths.
+/// The mean factor by which it scales lengths.
 float scaleOf(const mat4& m) { return std::cbrt(std::abs(glm::determinant(mat3(m)))); }
 
-/// Points and their radii in the space of the file. False: there is none of that name, which has been reported.
+/// Converts points and their radii to the space of the file. Returns false, after a report, if the space is unknown.
 bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N,
             const TmCloudOptions& options, CloudQuery& query) {
   const char* name = options.coordSystem ? options.coordSystem : "world";
@@ -51,8 +51,8 @@ bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmCo
   return true;
 }
 
-// Each point once: not for the neighbours that serve derivatives, for what rays meet, or where a shader runs again for
-// a light group.
+// Bakes each point once: not for the neighbours that serve derivatives, nor for hits of rays, nor where a shader runs
+// again for a light group.
 int32_t bake3d(void* host, const TmGrid* all, const char* file, const TmCloudOptions* given, TmConstVec3 P,
                TmConstVec3 N, const TmChannel* values, int32_t valueCount) {
   Batch& batch = batchOf(host);

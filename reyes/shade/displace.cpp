@@ -8,9 +8,9 @@
 namespace tomales {
 namespace {
 
-/// Differences along the lattice: a displacement shader sees no better derivatives than its grid has. `d` is the change
-/// of the parameter `of` over a micropolygon; 1 where it does not change along this direction, as at points that are
-/// shaded. Stencil::step, written for vectors.
+/// Takes differences along the lattice: a displacement shader sees no better derivatives than its grid has. `d` is the
+/// change of the parameter `of` over a micropolygon, or 1 where that is 0 along this direction, as at points that are
+/// shaded. This is Stencil::step, written for vectors.
 TOMALES_HOT void derivatives(int n, const Stencil& stencil, int direction, const float* of, TmConstVec3 P,
                              float* __restrict d, TmVec3 dP) {
   const int32_t *lo = stencil.lo[direction], *hi = stencil.hi[direction];
@@ -27,7 +27,7 @@ TOMALES_HOT void derivatives(int n, const Stencil& stencil, int direction, const
   }
 }
 
-/// Attributes::textureAt of all vertices.
+/// Applies Attributes::textureAt to all vertices.
 TOMALES_HOT void textureCoordinates(int n, const std::array<vec2, 4>& corners, const float* u, const float* v,
                                     float* __restrict s, float* __restrict t) {
   const auto mix = [](float a, float b, float at) { return a * (1.0f - at) + b * at; };
@@ -39,7 +39,7 @@ TOMALES_HOT void textureCoordinates(int n, const std::array<vec2, 4>& corners, c
   }
 }
 
-/// The longest way from one place to another.
+/// The longest distance that a vertex has moved.
 TOMALES_HOT float longestWay(int n, TmConstVec3 from, TmConstVec3 to) {
   float longest2[kLanes] = {};
   for (int first = 0; first < n; first += kLanes)  // arrays are padded
@@ -76,7 +76,7 @@ void checkBound(const BoundScene& scene, const Object& object, float longest) {
                    object.where.text());
 }
 
-/// Undoes what is not finite, so that one bad vertex does not tear the mesh to infinity.
+/// Undoes displacements that are not finite, so that one bad vertex does not tear the mesh to infinity.
 void repair(Batch& batch, Grid& g, TmConstVec3 P, TmConstVec3 N, bool all) {
   const int n = g.vertexCount();
   if (!all && allFinite(n, {g.P(0, 0), g.P(0, 1), g.P(0, 2)}) && allFinite(n, {g.N(0), g.N(1), g.N(2)})) return;
@@ -105,7 +105,7 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   derivatives(n, stencil, 0, g.u(), P, du, dPdu);
   derivatives(n, stencil, 1, g.v(), P, dv, dPdv);
   textureCoordinates(n, group.group->attributes->textureCoordinates, g.u(), g.v(), s, t);
-  // Camera::incident, an array at a time.
+  // This is Camera::incident, an array at a time.
   const bool perspective = scene.camera.perspective();
   for (const auto& [to, from, parallel] :
        {std::tuple(I.x, P.x, 0.0f), std::tuple(I.y, P.y, 0.0f), std::tuple(I.z, P.z, 1.0f)}) {

@@ -9,9 +9,9 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kRemembered = 4;  ///< As TmServices::illuminance promises.
-constexpr int kSamples = 1 << 20;  ///< Numbers of the samples of one place.
-constexpr int kNumbers = 1 << 10;  ///< Of places, before they begin anew.
+constexpr size_t kRemembered = 4;  ///< The number that TmServices::illuminance promises.
+constexpr int kSamples = 1 << 20;  ///< The numbers of samples that one place may have.
+constexpr int kNumbers = 1 << 10;  ///< The numbers of places, after which they begin anew.
 
 bool sameBits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
@@ -27,8 +27,8 @@ bool atOwnPoints(const Batch& batch, const TmGrid* g, const TmIlluminance& query
   return true;
 }
 
-/// Another number for each position, so that what is averaged along a march does not draw the same samples at every
-/// step.
+/// Moves the points, and gives each position another number, so that an average along a march does not draw the same
+/// samples at every step.
 void moveTo(TmConstVec3 P, const uint8_t* active, bool inAir, ShadePoints& points) {
   points.setInAir(inAir);
   for (int i = 0; i < points.count(); ++i) {
@@ -41,7 +41,7 @@ void moveTo(TmConstVec3 P, const uint8_t* active, bool inAir, ShadePoints& point
   }
 }
 
-/// Arrays of a message, and their length.
+/// The number of arrays of a message, and their length.
 int arraysOf(const TmMessage& m) { return m.type == TM_STRING ? 0 : m.type == TM_MATRIX ? 1 : floatsOf(m.type); }
 int lengthOf(const TmMessage& m, const TmGrid* g) {
   return m.type == TM_MATRIX ? floatsOf(TM_MATRIX) : m.value.step ? g->count : 1;
@@ -72,7 +72,7 @@ LightMessage copied(const TmMessage& sent, const TmGrid* g, Arena& arena) {
 
 Elsewhere::Elsewhere(const Batch& asking, const TmGrid* g, const TmIlluminance& query, bool inAir, int n)
     : number(n), context(asking.context), points(*asking.points), batch(asking.scene, asking.group, context, *arena) {
-  context.answers = nullptr;  // they are named by the light alone, not by where it arrives
+  context.answers = nullptr;  // answers are named by the light alone, not by where it arrives
   moveTo(query.P, g->active, inAir, points);
   request.category = query.category ? query.category : "";
   for (int i = 0; i < query.sentCount; ++i) request.sent.push_back(copied(query.sent[i], g, *arena));
@@ -93,7 +93,7 @@ bool Elsewhere::isFor(const TmGrid* g, const TmIlluminance& query, bool inAir) c
 }
 
 Batch& placeOf(Batch& batch, const TmGrid* g, TmIlluminance query) {
-  if (!batch.points || batch.running != batch.own) return batch;  // a light that asks hears of those that have run
+  if (!batch.points || batch.running != batch.own) return batch;  // a light that asks gets the lights that have run
   const bool inAir = query.P.x && batch.own->shader->kind == TM_VOLUME, isTold = query.sentCount > 0 || query.refresh;
   if (!query.P.x) query.P = batch.points->vec(kPx);
   if (!isTold && !inAir && atOwnPoints(batch, g, query)) return batch;

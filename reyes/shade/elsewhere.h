@@ -1,8 +1,8 @@
-// Where light arrives that a shader asks for: at the points of its batch or, as volumes ask that march along a ray,
-// elsewhere. Behind TmServices::illuminance. What a point gets does not depend on the others of its batch: of a
-// surface's points those that have not moved keep their samples, and a volume that names positions is in the air at all
-// of them. (Lights with "shadowvariance" are the exception: whether their samples are settled is known at the batch's
-// own points alone.)
+// The places where light arrives that a shader asks for: the points of its batch, or other positions, for example of a
+// volume that marches along a ray. Behind TmServices::illuminance. The light at a point does not depend on the others
+// of its batch: points of a surface that have not moved keep their samples, and a volume that names positions is in the
+// air at all of them. (Lights with "shadowvariance" are the exception: it is known only at the batch's own points
+// whether their samples are settled.)
 #pragma once
 #include "reyes/shade/batch.h"
 
@@ -10,12 +10,12 @@ namespace tomales {
 
 /// A batch at other positions, with lights of its own.
 struct Elsewhere {
-  /// Copies what the query says. Pre: asking.points, query.P.
+  /// Copies what the query says. `asking` must have points, and the query a P.
   Elsewhere(const Batch& asking, const TmGrid* g, const TmIlluminance& query, bool inAir, int number);
-  /// Was it made for this?
+  /// Tells whether it was made for this query.
   bool isFor(const TmGrid* g, const TmIlluminance& query, bool inAir) const;
 
-  const int number;  ///< Among those of the asking batch, from 1.
+  const int number;  ///< Its number among those of the asking batch, from 1.
   ArenaLease arena;
   ShadeContext context;
   ShadePoints points;
@@ -26,9 +26,9 @@ struct Elsewhere {
 /// The batch whose lights answer a query: `batch` itself, or one of the latest that it has asked elsewhere.
 Batch& placeOf(Batch& batch, const TmGrid* g, TmIlluminance query);
 
-/// What TmIlluminance::light says of a sample.
+/// The number that TmIlluminance::light gives to a sample.
 int32_t lightNumber(const Batch& batch, const Batch& place, size_t sample);
-/// Null: there is none of this number, or not any more.
+/// The sample of that number; null if there is none, or none any more.
 LightSample* lightNumbered(Batch& batch, int32_t number);
 
 }  // namespace tomales

@@ -4,7 +4,7 @@
 
 namespace tomales {
 
-/// TmServices::gather where its options name an environment. Directions are drawn from all around, half of them by the
+/// TmServices::gather for options that name an environment. Directions are drawn from all around, half of them by the
 /// brightness of the picture and half evenly; the sum of "environment:color" times "environment:solidangle" over all is
 /// the light of the whole picture. No ray is traced.
 int32_t gatherEnvironment(Batch& batch, const TmGrid* all, TmConstVec3 P, const TmRayOptions& options, int32_t ray,

@@ -5,8 +5,8 @@
 namespace tomales {
 namespace {
 
-/// Angle that the micropolygon of a point subtends for what it mirrors: twice that from the eye (a flat mirror keeps
-/// it; the factor covers what curvature adds where its normals are not known).
+/// The angle that a point's micropolygon subtends in what it mirrors: twice the angle from the eye. (A flat mirror
+/// keeps the angle; the factor allows for curvature, whose normals are not known.)
 float angleSeen(const TmGrid* g, int i) {
   const float edge =
       std::max(glm::length(get(g->dPdu, i)) * std::abs(g->du[i]), glm::length(get(g->dPdv, i)) * std::abs(g->dv[i]));

@@ -11,20 +11,20 @@ namespace {
 
 #define TOMALES_INLINE inline __attribute__((always_inline))  // clones vectorise only what is part of them
 
-/// Or 0, whatever x is: not a branch, into which the compiler would move what x takes, and then not vectorise.
+/// x where it holds, else 0. It is no branch, as the compiler would move computations into one and not vectorise.
 TOMALES_INLINE float where(bool holds, float x) {
   return std::bit_cast<float>(std::bit_cast<uint32_t>(x) & (0U - static_cast<uint32_t>(holds)));
 }
 
-/// 1 over a length, or 0.
+/// 1 over the length, or 0 for a length of 0.
 TOMALES_INLINE float inverseLength(float x, float y, float z) {
   const float square = x * x + y * y + z * z;
   const float inverse = 1.0f / std::sqrt(square);
   return where((square > 0.0f) & (square < kInfinity), inverse);
 }
 
-/// x^e for normal x up to 1 and e > 0. The logarithm is a series about 1, so that it is relatively exact there, where
-/// large exponents ask for it.
+/// x^e for normal x up to 1 and e > 0. The logarithm is a series about 1, so its relative error is small there, which
+/// large exponents need.
 TOMALES_INLINE float power(float x, float e) {
   constexpr uint32_t kSqrtHalf = 0x3f3504f3U, kMantissa = 23;
   const uint32_t bits = std::bit_cast<uint32_t>(x) - kSqrtHalf;

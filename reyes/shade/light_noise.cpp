@@ -9,14 +9,14 @@ namespace {
 
 constexpr float kUncertain = 0.2f;
 constexpr double kShareOfPoints = 0.5;
-constexpr int64_t kFewPoints = 100;  ///< Say nothing about a picture.
+constexpr int64_t kFewPoints = 100;  ///< Fewer points than this say nothing about a picture.
 
-/// Luminance that each of two halves of a light's samples brings to matte points of reflectance 1: those before and
-/// after the middle, each of which is as well spread as all (an initial part of a Sobol sequence, and its
+/// The luminance that each half of a light's samples brings to matte points of reflectance 1. The halves are the
+/// samples before and after the middle; each is as well spread as all (an initial part of a Sobol sequence, and its
 /// continuation).
 struct Halves {
   const BoundLight* light;
-  bool chance;  ///< Its samples are drawn: those of an indirect light are its colours.
+  bool chance;  ///< True if its samples are drawn; those of an indirect light are its colours.
   float *first, *second;
 };
 
@@ -27,12 +27,12 @@ bool isDrawn(const BoundLight& light) {
 void addSample(const Batch& batch, const LightSample& sample, float* sum) {
   for (int i = 0; i < batch.points->count(); ++i) {
     const float cosine = dot(batch.points->facingNormal(i), get(sample.L, i));
-    const bool counts = cosine > 0 && !(sample.pending && sample.pending[i]);  // nobody wanted to know what is pending
+    const bool counts = cosine > 0 && !(sample.pending && sample.pending[i]);  // a pending sample was not asked for
     if (counts) sum[i] += cosine * luminance(get(sample.Cl, i));
   }
 }
 
-/// Samples of a light stand together.
+/// Sums up each light's samples, which follow each other.
 std::vector<Halves> halvesOf(Batch& batch, const std::vector<LightSample>& samples) {
   std::vector<Halves> out;
   const int n = batch.points->count();

@@ -1,5 +1,5 @@
-// How uncertain the samples of lights with an extent leave what the camera sees, counted while they are summed up
-// anyway.
+// Estimates how uncertain the samples of lights with an extent
+// leave the picture, from sums that shading makes anyway.
 #pragma once
 #include <atomic>
 #include <deque>
@@ -11,19 +11,19 @@ namespace tomales {
 class Batch;
 struct BoundScene;
 
-/// Threads: any; counts are whole numbers, so that the order leaves no trace.
+/// Threads: any. Counts are whole numbers, so the order of calls does not matter.
 class LightNoise {
  public:
-  /// `lights`: how many the scene has.
+  /// `lights` is the number of lights of the scene.
   explicit LightNoise(size_t lights) : uncertain_(lights) {}
-  /// What a surface shader has asked of its lights.
+  /// Counts the light samples that a surface shader has asked for.
   void add(Batch& batch);
   /// Reports the light that leaves most points uncertain, if those are most.
   void warn(const BoundScene& scene) const;
 
  private:
-  std::atomic<int64_t> lit_{0};                 ///< Points that some light comes to.
-  std::deque<std::atomic<int64_t>> uncertain_;  ///< Of them, by this light.
+  std::atomic<int64_t> lit_{0};                 ///< The number of points that some light reaches.
+  std::deque<std::atomic<int64_t>> uncertain_;  ///< How many of them each light leaves uncertain.
 };
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// Lights and surfaces as photons see them, and lamps as the eye does: asked alone, outside the shading of any object.
+// Lights and surfaces as photons see them, and lamps as the eye does: they run alone, not for the shading of an object.
 #include <fmt/format.h>
 
 #include "reyes/shade/batch.h"

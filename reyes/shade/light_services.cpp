@@ -1,4 +1,4 @@
-// The calls behind TmServices that are about light.
+// Implements the calls of TmServices that are about light.
 #include "reyes/shade/light_services.h"
 
 #include <cstring>
@@ -16,8 +16,8 @@ void fill(const TmGrid* g, TmVec3 out, const vec3& v) {
   forActive(g, [&](int i) { set(out, i, v); });
 }
 
-/// Of a lookup that leaves it open: Option "shadow" "bias", or a random one between "bias0" and "bias1"; negative: as
-/// needed.
+/// The bias of a lookup that gives none: Option "shadow" "bias", or a random one between "bias0" and "bias1". Negative
+/// if the map is to choose it.
 float shadowBias(const Options& options, uint32_t name) {
   const auto number = [&](const char* key) -> const Param* {
     const auto it = options.user.find(key);
@@ -28,7 +28,7 @@ float shadowBias(const Options& options, uint32_t name) {
   return low && high ? lerp(low->number(0), high->number(0), unitFloat(name)) : -1.0f;
 }
 
-/// Null: no light is running, or not of this group.
+/// Null if no light is running, or none of this group.
 const BoundLight* runningLight(const Batch& batch) {
   for (const BoundLight* light : batch.group.lights)
     if (light->bound.get() == batch.running) return light;
@@ -78,7 +78,7 @@ bool matchesTerm(std::string_view categories, std::string_view term) {
   return has != excludes;
 }
 
-/// Points that see a sample within the cone of an illuminance statement.
+/// The points that see a sample within the cone of an illuminance statement.
 const uint8_t* litPoints(Batch& place, const TmGrid* g, const TmIlluminance& cone, const LightSample& sample) {
   uint8_t* lit = place.arena.bytes(place.tm.count);
   const float least = std::cos(cone.angle);
@@ -89,7 +89,7 @@ const uint8_t* litPoints(Batch& place, const TmGrid* g, const TmIlluminance& con
   return lit;
 }
 
-/// RISpec 15.6: illuminance(P, N, PI/2).
+/// Is illuminance(P, N, PI/2) of RISpec 15.6.
 void diffuse(void* host, const TmGrid* all, int32_t which, TmConstVec3 N, TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);

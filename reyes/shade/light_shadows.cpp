@@ -1,4 +1,4 @@
-// Shadow rays of light samples: traced, remembered, or found not to be worth tracing.
+// Shadow rays of light samples: they are traced, or answered from earlier ones, or not worth tracing.
 #include "reyes/base/checksum.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/lights.h"
@@ -6,8 +6,8 @@
 namespace tomales {
 namespace {
 
-// Visibility estimated from shadow rays is never quite certain: half a ray of each outcome is added, so that a few
-// equal answers do not pass for no variance at all.
+// The variance of visibility, estimated from shadow rays, is never quite 0: half a ray of each outcome is added, so
+// that a few equal answers do not seem certain.
 bool settled(const ShadowTally& tally, int i, float maxVariance) {
   const float n = tally.traced[i];
   if (n < 4) return false;
@@ -83,8 +83,8 @@ void Lights::transmit(Batch& batch, const LightSample& sample, const uint8_t* wa
   batch.scene.services->transmission(*batch.points, want, view(sample.toward), sample.rays, batch.context, passed);
 }
 
-// What no answer is known of is traced. When answers are being recorded that is every point, wherever the shader looks
-// and however bright the light: intensities, cones and surfaces may then change without a ray.
+// Traces the points for which no answer is known. While answers are recorded that is every point, wherever the shader
+// looks and however bright the light: intensities, cones and surfaces may then change without a ray.
 void Lights::transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const {
   RayAnswers& answers = *batch.context.answers;
   const int n = batch.points->count();

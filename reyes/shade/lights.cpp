@@ -19,7 +19,7 @@ bool bringsStored(Illumination light) {
   return light == Illumination::Stored || light == Illumination::LightsAndStored;
 }
 
-/// For what the batch is.
+/// Tells whether the light counts for rays of the batch's kind.
 bool isOn(const BoundLight& light, const Batch& batch) {
   if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
   if (!light.can(TM_LIGHT_INDIRECT)) return batch.context.direct || batch.context.kind != RayKind::Camera;
@@ -32,7 +32,7 @@ bool applies(const BoundLight& light, const Batch& batch) {
   return bringsLights(batch.context.light) && batch.context.kind != RayKind::Transmission && isOn(light, batch);
 }
 
-/// Of the points, without neighbours; what the light brings has room for those.
+/// The grid of the points for a light shader, without neighbours; its results have room for those.
 TmGrid lightGrid(Batch& batch, const BoundLight& light) {
   TmGrid g = *Primary(batch, &batch.tm).grid();
   g.params = light.bound->values.data();
@@ -40,7 +40,7 @@ TmGrid lightGrid(Batch& batch, const BoundLight& light) {
   return g;
 }
 
-/// Gives the outputs of a light room, so that lightsource() can read them.
+/// Makes room for the outputs of a light, so that lightsource() can read them.
 void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) {
   for (size_t i = 0; i < static_cast<size_t>(light.shader->paramCount); ++i) {
     if (!isOutput(light.shader->params[i])) continue;
@@ -50,7 +50,7 @@ void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& p
   }
 }
 
-/// What is not finite is dark: the fault is the light's, not that of the surface that asks.
+/// Makes light that is not finite dark: the fault is the light's, not that of the surface that asks.
 void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
   if (allFinite(g.count, view(g.Cl)) && allFinite(g.count, view(g.L))) return;
   for (int i = 0; i < g.count; ++i)
@@ -60,7 +60,7 @@ void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
   batch.running = caller;
 }
 
-/// Random numbers of sample number g.sample, by what the points are and never by their place in the batch.
+/// Draws random numbers of sample number g.sample, from the points' names and never from their place in the batch.
 void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
   float* xi0 = batch.arena.floats(g.count);
   float* xi1 = batch.arena.floats(g.count);
@@ -87,7 +87,7 @@ EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
   return points;
 }
 
-/// Points on the emitter. False: the light has no geometry.
+/// Takes points on the emitter. Returns false if the light has no geometry.
 bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
   if (!batch.scene.services) return false;
   if (!batch.scene.services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points)) return false;
@@ -102,7 +102,7 @@ void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPo
   }
 }
 
-/// Whatever a sky's shader makes of L, its light is that of the directions it was asked for.
+/// Runs a light with an extent. A sky lights along the directions that it was given, whatever its shader makes of L.
 bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g) {
   const TmVec3 asked = g.L;
   if (light.can(TM_LIGHT_SKY)) {
@@ -114,8 +114,8 @@ bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g) {
   return ran;
 }
 
-/// Where directions from the points meet the light, and how likely its own samples are there. False: nothing can be
-/// met.
+/// Finds where directions from the points meet the light, and the density of the light's own samples there. Returns
+/// false if nothing can be met.
 bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe,
                const EmitterPoints& points) {
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(lobe.L, i));
@@ -131,7 +131,7 @@ bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirec
   return true;
 }
 
-/// To points in front of those on the emitter, where nothing of its own is in the way.
+/// The vectors to just before the points on the emitter, so that its own geometry is not in the way.
 TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach) {
   if (reach == 0) return g.L;
   const TmVec3 toward = batch.arena.vec3(g.count);
@@ -139,8 +139,8 @@ TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach) {
   return toward;
 }
 
-/// Radiance -> what one of its samples adds to E/pi at normal incidence. density: over solid angle, of all samples
-/// together.
+/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `density` is that of all samples
+/// together, over solid angle.
 void radianceToSample(const TmGrid& g, const float* density) {
   for (int i = 0; i < g.count; ++i) {
     const float weight = density[i] > 0 ? 1 / (kPi * density[i]) : 0.0f;
@@ -175,16 +175,16 @@ std::vector<LightSample>& Lights::samples(Batch& batch) {
         evaluate(batch, *light);
   }
   if (!group_) return samples_;
-  // Copies share the arrays: what has been traced for one is traced for all.
+  // Copies share their arrays, so rays that are traced for one are traced for all.
   chosen_.clear();
   for (const LightSample& s : samples_)
     if (s.light->group == *group_) chosen_.push_back(s);
   return chosen_;
 }
 
-/// One light along the normal in place of all, or beside them.
+/// Adds stored or unit light, as one light along the normal, in place of all lights or beside them.
 void Lights::substitute(Batch& batch) {
-  if (batch.context.light == Illumination::None || batch.points->inAir()) return;  // stored light is of surfaces
+  if (batch.context.light == Illumination::None || batch.points->inAir()) return;  // stored light is that of surfaces
   const TmVec3 L = batch.arena.vec3(batch.tm.count), Cl = batch.arena.vec3(batch.tm.count);
   for (int i = 0; i < batch.points->count(); ++i) {
     set(L, i, batch.points->facingNormal(i));
@@ -219,7 +219,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
   const bool area = light.can(TM_LIGHT_AREA), sky = light.can(TM_LIGHT_SKY);
   const int n = samplesOf(light, batch);
   ShadowTally* tally = nullptr;
-  if (light.shadowVariance > 0 && n > 1 && !request_)  // elsewhere it would know what other points have asked for
+  if (light.shadowVariance > 0 && n > 1 && !request_)  // else it would depend on other points' rays
     tally = &tallies_.emplace_back(
         ShadowTally{batch.arena.floats(batch.points->count()), batch.arena.vec3(batch.points->count())});
   for (int s = 0; s < n; ++s) {
@@ -312,10 +312,10 @@ void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirection
   for (int i = 0; i < g.count; ++i) {
     if (!met[i]) continue;
     const float a = own * points.density[i], b = drawn * lobe.density[i];
-    points.density[i] = (a * a + b * b) / b;  // the power heuristic's weight of b, over b
+    points.density[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
   }
   radianceToSample(g, points.density);
-  // Questions of own samples are below the limit of their number.
+  // The light's own samples have question numbers below the limit of their number.
   LightSample sample{&light,
                      g.L,
                      g.Cl,

@@ -1,6 +1,6 @@
-// The lights of one chunk of points: evaluated when a shader first asks, then kept for its other questions.
-// Shadow rays are traced later still, sample by sample, for the points on whose side of the surface the
-// sample turns out to be.
+// The lights of one chunk of points. They are evaluated when a shader first asks, then kept for its other questions.
+// Shadow rays are traced later, sample by sample, for the points on whose side of the surface the sample turns out to
+// be.
 #pragma once
 #include <deque>
 #include <string>
@@ -14,44 +14,44 @@ class Batch;
 struct BoundLight;
 struct BoundShader;
 
-/// A parameter that the asking shader sends to lights; the arrays are others'.
+/// A parameter that the asking shader sends to lights. It does not own the arrays.
 struct LightMessage {
   std::string name;
   int32_t type;
   TmValue value;
-  std::string text;  ///< Of TM_STRING.
+  std::string text;  ///< The value if the type is TM_STRING.
 };
 
-/// Which lights are asked for, and what they are told.
+/// The lights that a shader asks for, and the parameters that it sends them.
 struct LightRequest {
-  std::string category;  ///< As inCategory().
+  std::string category;  ///< An expression of inCategory().
   std::vector<LightMessage> sent;
 };
 
-/// What the shadow rays of one light have brought so far, at each point.
+/// The sums of the shadow rays of one light so far, at each point.
 struct ShadowTally {
-  float* traced;  ///< Number of them
-  TmVec3 passed;  ///< Their sum
+  float* traced;  ///< How many rays were traced.
+  TmVec3 passed;  ///< The sum of the light that they let pass.
 };
 
 struct LightSample {
   const BoundLight* light;
-  TmVec3 L;          ///< Unit, from P to the light.
+  TmVec3 L;          ///< Unit vectors from P to the light.
   TmVec3 Cl;         ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
-  TmVec3 toward;     ///< L at full length: what a shadow ray travels.
-  ShadowRays rays;   ///< Which they are.
-  uint8_t* pending;  ///< 1: a shadow ray is still to be traced. Null: the light casts no shadows.
-  int question = 0;  ///< Name of its shadow rays among those of the light (ray_answers.h).
-  const float* density = nullptr;   ///< Over solid angle, of all samples of the light together, where along() finds it
-                                    ///< too; else 0, null: nowhere.
-  ShadowTally* tally = nullptr;     ///< Null: every shadow ray is traced.
+  TmVec3 toward;     ///< L at full length, the way of a shadow ray.
+  ShadowRays rays;   ///< The sample's shadow rays.
+  uint8_t* pending;  ///< 1 where a shadow ray is still to be traced. Null if the light casts no shadows.
+  int question = 0;  ///< The number of its shadow rays among those of the light (ray_answers.h).
+  const float* density = nullptr;   ///< The density over solid angle of all samples of the light together, where
+                                    ///< along() finds it too; else 0. Null if it is 0 everywhere.
+  ShadowTally* tally = nullptr;     ///< Null if every shadow ray is traced.
   TmVec3 far{};                     ///< L at full length, for points and their neighbours.
-  const TmValue* params = nullptr;  ///< Of this run of its shader, outputs included.
-  const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< Its outputs of that name.
+  const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.
+  const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
 };
 
-/// Unit directions that a surface has drawn itself: one of `samples` for each point. density: over solid angle; 0:
-/// none.
+/// Unit directions that a surface has drawn itself, one of `samples` for each point. `density` is over solid angle; 0
+/// where there is no direction.
 struct LobeDirections {
   TmConstVec3 L;
   const float* density;
@@ -60,32 +60,32 @@ struct LobeDirections {
 
 class Lights {
  public:
-  /// From now on only lights of this group count; null: all.
+  /// Lets only lights of this group count from now on; null for all.
   void restrictTo(const std::string* group);
   bool restricted() const { return group_ != nullptr; }
   const std::string* group() const { return group_; }
-  /// Before the first question. `request` outlives this.
+  /// Sets the request, before the first question. `request` must outlive this.
   void ask(const LightRequest& request) { request_ = &request; }
-  /// Sum of the ambient lights at the active points of `asking`.
+  /// The sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
-  /// All samples of all lights that have a direction, in the order of Attributes::lights. Unshadowed until
-  /// `shadow`.
+  /// All samples of all lights that have a direction, in the order of Attributes::lights. They are unshadowed until
+  /// shadow() has been called.
   std::vector<LightSample>& samples(Batch& batch);
   /// Has the shader asked what lights it?
   bool asked() const { return evaluated_ || ambientAsked_; }
   /// Those that have been asked for so far, of all groups.
   const std::vector<LightSample>& evaluated() const { return samples_; }
-  /// Traces what is pending at the points of `want`, but for those whose light passes to an accuracy that the light is
-  /// content with.
+  /// Traces the pending shadow rays at the points of `want`, except those where the tally of a light with a shadow
+  /// variance is already exact enough.
   void shadow(Batch& batch, LightSample& sample, const uint8_t* want) const;
 
-  /// Adds what lights with an extent send along the given directions, shadowed, as samples by the power heuristic: with
-  /// a the density of the light's own samples there and b that of those given, radiance / pi * b / (a^2 + b^2).
+  /// Adds what lights with an extent send along the given directions, shadowed, weighted by the power heuristic: with a
+  /// the density of the light's own samples there and b that of those given, radiance / pi * b / (a^2 + b^2).
   void along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl);
-  /// Adds the radiance of lights that are all around, at infinity, to rays that have left the scene along unit
-  /// directions, through what is opaque by `opacity`.
+  /// Adds the radiance of skies to rays that have left the scene along unit directions, less what the opacity of the
+  /// things on the way blocks.
   void addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const;
-  /// Of the lights that along() may find, the largest number of samples; 0: there are none.
+  /// The largest number of samples of the lights that along() may find; 0 if there are none.
   int mostSamples(Batch& batch) const;
 
  private:
@@ -99,9 +99,9 @@ class Lights {
   void forEachWithExtent(Batch& batch, const Body& body) const;
   bool evaluated_ = false, ambientAsked_ = false;
   std::deque<std::vector<TmValue>> params_;
-  int lobes_ = 0;  ///< That along() was given.
+  int lobes_ = 0;  ///< How many lobes along() has been given.
   std::deque<ShadowTally> tallies_;
-  std::vector<LightSample> samples_, chosen_;  ///< All; those of group_.
+  std::vector<LightSample> samples_, chosen_;  ///< All samples; the samples of group_.
   const std::string* group_ = nullptr;
   const LightRequest* request_ = nullptr;
 };

@@ -13,8 +13,8 @@ namespace {
 
 constexpr uint32_t kLobeStream = randomStream("lobe");
 
-/// What is displaced goes by its place on the object, so that grids which meet there agree; light probes and pixels
-/// have one name for all.
+/// The name of a point's samples. Displaced points are named by their place on the object, so that grids which meet
+/// there agree; light probes and pixels have one name for all.
 SampleName nameOf(const Batch& batch, const TmGrid* g, int i) {
   if (batch.points) return batch.points->name(i % batch.points->count());
   if (!batch.grid) return {};
@@ -40,8 +40,8 @@ void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, fl
   });
 }
 
-// Half as many as of the light: twice as many win little where the lobe is narrow, and cost something where it is wide
-// (docs/measured/rays.md).
+// Half as many as the light's samples: twice as many win little where the lobe is narrow, and cost time where it is
+// wide (docs/measured/rays.md).
 int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
 
 /// The lobe of RISpec 15.6, (N.H)^e, with the exponent of docs/decisions/0004. Directions are drawn by H with density
@@ -57,7 +57,7 @@ struct BlinnLobe {
     const vec3 H = sine * std::cos(2 * kPi * xi.y) * tangent + sine * std::sin(2 * kPi * xi.y) * bitangent + cosine * N;
     return 2 * dot(V, H) * H - V;
   }
-  /// Over solid angle; 0: never drawn.
+  /// The density over solid angle; 0 if the direction is never drawn.
   float density(const vec3& L) const {
     const vec3 H = normalizeOr(L + V, vec3(0.0f));
     const float cosine = dot(N, H), along = dot(V, H);
@@ -113,7 +113,7 @@ class Highlight {
   BlinnLobe lobeAt(int i) const { return {get(N_, i), get(V_, i), exponent_[i]}; }
   /// Light counts on the side of N alone: illuminance(P, N, PI/2).
   void chooseSide(TmConstVec3 L) { markFacing(g_->count, g_->active, view(N_), L, side_); }
-  /// What the lobe's own samples find too (multiple importance sampling, the power heuristic).
+  /// Weights a light's sample against the lobe's own, which may find the light too (multiple importance sampling).
   void weighAgainstLobe(const LightSample& sample) {
     forActive(g_, [&](int i) {
       if (!side_[i] || !(sample.density[i] > 0)) return;
@@ -125,7 +125,7 @@ class Highlight {
   Batch& batch_;
   const TmGrid* g_;
   TmVec3 out_;
-  TmVec3 N_, V_;  ///< Unit
+  TmVec3 N_, V_;  ///< Unit vectors.
   float *exponent_, *share_;
   uint8_t* side_;
   const int drawn_;

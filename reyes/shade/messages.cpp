@@ -1,4 +1,4 @@
-// RSL's message passing: what shaders may know of each other, of attributes, options and the renderer.
+// RSL's message passing: values of other shaders, of attributes, of options and of the renderer.
 #include <string_view>
 
 #include "reyes/shade/elsewhere.h"
@@ -39,7 +39,7 @@ int32_t tell(Batch& batch, std::vector<float> numbers, TmType as, int32_t* type,
   return 1;
 }
 
-/// A parameter of a shader, as the values of one run have it. Outputs that nobody stores have no value.
+/// Finds a parameter of a shader among the values of one run. Outputs that are not stored have no value.
 int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view name, int32_t* type, TmValue* out) {
   if (!shader) return 0;
   if (name == "__shadername") {
@@ -128,8 +128,8 @@ int32_t tellRenderer(Batch& batch, std::string_view name, int32_t* type, TmValue
   return tell(batch, version, TM_FLOAT, type, out);
 }
 
-/// Incident and opposite volumes change from point to point with the side that is seen: strings and arrays are those of
-/// the first.
+/// Finds a parameter of the incident or opposite volume. Which volume that is depends on the side that is seen, point
+/// by point; strings and arrays are those of the first point.
 int32_t tellVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
   TmValue side[2];
   int32_t types[2] = {-1, -1};

@@ -1,4 +1,4 @@
-// occlusion() and indirectdiffuse(): by rays, by earlier records, by the disks of a point cloud.
+// occlusion() and indirectdiffuse(): answered by rays, by earlier records or by the disks of a point cloud.
 #include <fmt/format.h>
 
 #include "reyes/shade/cloud_services.h"
@@ -11,10 +11,10 @@
 namespace tomales {
 namespace {
 
-constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Shaders say pi/2 with few digits.
-constexpr float kVariationOfError = 0.05f;      ///< That maxerror 1 allows.
+constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Slightly less than pi/2, which shaders give with few digits.
+constexpr float kVariationOfError = 0.05f;      ///< The variation for a maxerror of 1.
 
-/// What occlusion() asks.
+/// The question of a call of occlusion().
 OcclusionQuery occlusionOf(const TmRayOptions& o, const TmOcclusion& asked, const RayQuery& rays, const Attributes& a) {
   OcclusionQuery q{.samples = o.samples,
                    .maxDistance = o.maxDistance,
@@ -29,7 +29,7 @@ OcclusionQuery occlusionOf(const TmRayOptions& o, const TmOcclusion& asked, cons
   return q;
 }
 
-/// Answers what earlier records know, and returns the points that rays must tell of. Records lie at the points that the
+/// Answers from earlier records where it can, and returns the points that need rays. Records lie at the points that the
 /// eye sees, and hold whole hemispheres.
 const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o,
                            const OcclusionQuery& q, float* covered) {
@@ -45,11 +45,11 @@ const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConst
                                                                                                        : g->active;
 }
 
-/// What rays that meet nothing see of a picture, as environment() sees it.
+/// The picture that rays see where they meet nothing, looked up as environment() does.
 struct OpenSky {
   const char* picture;
   mat3 toMap;
-  float* angle;  ///< Radians
+  float* angle;  ///< In radians.
   TmVec3 direction, color;
 
   OpenSky(Batch& batch, const TmGrid* g, const TmRayOptions& o)
@@ -110,7 +110,7 @@ void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
               [&](int i) { set(out.environmentDirection, i, normalizeOr(get(out.environmentDirection, i), vec3(0))); });
 }
 
-/// The same of a point cloud.
+/// Does the same with a point cloud.
 bool hemisphereOfDisks(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o,
                        const TmOcclusion& out) {
   if (o.environment || out.environmentColor.x || out.environmentDirection.x || o.uniform || o.sampleBase > 0)

@@ -24,7 +24,7 @@ std::vector<float> numbersOf(const Param& p) {
   return points;
 }
 
-/// A single float, made into one value of `width` floats.
+/// Makes a single float one value of `width` floats.
 std::vector<float> promoted(float x, size_t width) {
   if (width != 16) return std::vector<float>(width, x);
   std::vector<float> out(16, 0.0f);
@@ -46,12 +46,12 @@ void takeStrings(const TmParamDecl& declared, const Param* given, ParameterValue
     out.remark = fmt::format("has {} strings and was given {}", length, given->strings.size());
 }
 
-/// Is it the type as it stands? What nothing declares is what the shader says, as far as it is numbers or strings.
+/// Tells whether the value needs no conversion. One without a declaration has the shader's, if it is numbers or texts.
 bool agrees(int32_t type, const Param& given) {
   return accepts(type, given.type) || (given.arrayLength == 0 && given.strings.empty() == (type != TM_STRING));
 }
 
-/// May numbers of this type stand where values of `width` floats are wanted?
+/// Tells whether numbers of this type may stand where values of `width` floats are wanted.
 bool converts(const Param& given, size_t numbers, size_t width, size_t wanted) {
   const auto own = given.type == ValueType::HPoint ? 3 : static_cast<size_t>(floatsPerValue(given.type));
   return own == width || own == 1 || numbers == wanted;

@@ -1,4 +1,4 @@
-// What RIB gives, as a shader's declaration wants it.
+// Converts the values of RIB to the types that a shader declares.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,23 +8,23 @@
 
 namespace tomales {
 
-/// One value of a parameter, in shader space still.
+/// The value of a parameter, still in shader space.
 struct ParameterValue {
   std::vector<float> floats;         ///< arrayLength values; empty for strings.
-  std::vector<std::string> strings;  ///< arrayLength of them; empty for numbers.
-  std::string remark;                ///< What had to be done to what was given; empty: nothing.
+  std::vector<std::string> strings;  ///< arrayLength strings; empty for numbers.
+  std::string remark;                ///< How the given value had to be changed; empty if it was not.
 };
 
-/// `given` null: the default. Conversions are those of RISpec 3.2 section 11 (a float becomes any other number: the
-/// same in each component, or the diagonal of a matrix) and between triples, whose numbers are taken as they stand; an
-/// hpoint is divided by its w, an integer is a float. What is too long is cut, what is too short is filled up by the
-/// default.
+/// The value for a parameter, or its default if `given` is null. Conversions are those of RISpec 3.2 section 11 (a
+/// float becomes any other number: the same in each component, or the diagonal of a matrix) and between triples, whose
+/// numbers are taken as they stand; an hpoint is divided by its w, an integer is a float. A value that is too long is
+/// cut; one that is too short is filled up from the default.
 ParameterValue parameterValue(const TmParamDecl& declared, const Param* given);
 
-/// Floats in one value of a TmType; strings have none.
+/// The floats in one value of a TmType; 0 for strings.
 int floatsOf(int32_t type);
-/// Is `given` this type, without conversion? Integers are floats; points, vectors and normals are told apart by the
-/// declaration.
+/// Tells whether `given` is this type, without conversion. Integers are floats; points, vectors and normals differ by
+/// the declaration.
 bool accepts(int32_t type, ValueType given);
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// The calls behind TmServices that look pictures up.
+// Implements the calls of TmServices that look pictures up.
 #include "reyes/shade/picture_services.h"
 
 #include <string_view>
@@ -12,7 +12,7 @@
 namespace tomales {
 namespace {
 
-/// Option "texture" "width" scales all filters, and "filter" is that of lookups which name none.
+/// The lookup of a picture. Option "texture" "width" scales all filters; "filter" is that of lookups that name none.
 TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, const TmTextureOptions& o, TmVec3 out) {
   const auto& options = batch.scene.scene.options.user;
   const auto width = options.find("texture:width"), filter = options.find("texture:filter");
@@ -32,8 +32,8 @@ int32_t lookUp(const Batch& batch, const TextureQuery& query, TmVec3 out) {
   return batch.scene.textures.lookup(query, batch.running->where, batch.running->user, out);
 }
 
-/// The mean of the texels of a region that are not greater than `most`, channel by channel; `fill` where all are.
-/// Levels of the picture have averaged what is to be left out: points of the finest are asked instead.
+/// Takes the mean of the texels of a region that are not greater than `most`, channel by channel, or `fill` where all
+/// are greater. Coarse levels have averaged such texels already, so points of the finest level are looked up.
 int32_t lookUpBelow(Batch& batch, const TextureQuery& query, float most, TmVec3 out) {
   constexpr uint32_t kPoints = 64;
   const int n = query.count;
@@ -91,7 +91,7 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
   return lookUp(batch, query, options, out);
 }
 
-/// The parallelogram that the micropolygon covers in (s, t). A shader that has not said that it looks up there is told.
+/// Sets the region to the parallelogram of the micropolygon in (s, t). A shader that lacks TM_DERIVATIVES is warned.
 void setMicropolygon(Batch& batch, const TmGrid* g, const float* s, const float* t, TextureQuery& query) {
   float* steps[4];
   for (float*& step : steps) step = batch.arena.floats(g->count);
@@ -120,7 +120,7 @@ int32_t texture(void* host, const TmGrid* g, const char* name, const TmTextureOp
   return lookUp(batch, query, options, out);
 }
 
-/// environment() of "raytrace".
+/// Does environment() for "raytrace".
 void traceEnvironment(const TmGrid* g, const TmTextureOptions& options, TmConstVec3 direction, TmVec3 out,
                       TmVec3 color) {
   TmRayOptions rays = tmRayDefaults();

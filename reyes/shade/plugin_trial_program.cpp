@@ -1,4 +1,4 @@
-// The program that PluginTrial starts: loads plugins and says that it lives.
+// The program that PluginTrial starts: it loads plugins and tells that it still runs.
 #include <dlfcn.h>
 
 #include <climits>
@@ -11,7 +11,7 @@ using namespace tomales::trial;
 
 namespace {
 
-volatile size_t read_bytes = 0;  // so that no reading is left out
+volatile size_t read_bytes = 0;  // volatile, so that no read is left out
 
 void read(const char* text) {
   if (text) read_bytes = read_bytes + std::strlen(text);
@@ -24,7 +24,7 @@ void read(const TmParamDecl& p) {
   for (int32_t i = 0; !texts && p.floats && i < p.arrayLength; ++i) read_bytes = read_bytes + (p.floats[i] != 0);
 }
 
-/// Whatever the renderer will read of a plugin of its version: a pointer that leads nowhere is to end this process.
+/// Reads all that the renderer reads of a plugin of its version, so that a wild pointer ends this process.
 void read(const TmShaderLibrary* library) {
   if (!library || library->abi != TM_SHADER_ABI || library->structBytes < sizeof(TmShaderLibrary)) return;
   read(library->fault);
@@ -41,7 +41,7 @@ void read(const TmShaderLibrary* library) {
 int main() {
   constexpr int kIdleMilliseconds = 200;
   const auto say = [](char word) { return send(kSocket, &word, 1, MSG_NOSIGNAL) == 1; };
-  close_range(kSocket + 1, ~0u, 0);  // what the parent has open is not to stay open here
+  close_range(kSocket + 1, ~0u, 0);  // close the files of the parent
   char path[PATH_MAX + 1];
   while (arrives(kSocket, kIdleMilliseconds)) {
     const ssize_t length = recv(kSocket, path, PATH_MAX, 0);

@@ -3,10 +3,10 @@
 namespace tomales {
 namespace {
 
-/// The rest goes by the sky itself: as small as keeps what one such sample brings within four times its share.
+/// The rest of the samples go by the sky: just so many that none of them brings more than four times its share.
 constexpr float kShare = 0.75f;
 
-/// Its solid angle as if all of it were at its middle, at most half of all directions; 0 behind the horizon.
+/// The portal's solid angle, taken at its middle, and at most half of all directions. 0 behind the horizon.
 float weightOf(const Portal& portal, const vec3& P, const vec3& N) {
   const auto& [corner, u, v, normal] = portal;
   const vec3 corners[] = {corner, corner + u, corner + v, corner + u + v};
@@ -18,7 +18,7 @@ float weightOf(const Portal& portal, const vec3& P, const vec3& N) {
   return seen < 2 * kPi * distance * distance * distance ? seen / (distance * distance * distance) : 2 * kPi;
 }
 
-/// Over solid angle, of places that are even on the portal.
+/// The density over solid angle of positions that are even on the portal.
 float densityOf(const Portal& portal, const vec3& P, const vec3& L) {
   const auto& [corner, u, v, normal] = portal;
   const vec3 to = corner - P;

@@ -1,6 +1,6 @@
 // Openings through which a sky lights a room: rectangles towards which most of its samples go. They decide where
-// samples fall, never what light arrives: directions past every portal are drawn too, so an opening that none is named
-// for is dim with noise, not dark. Space: current. Threads: const members may be called concurrently.
+// samples fall, never what light arrives: directions past every portal are drawn too, so an opening without a portal
+// gives noise, not darkness. Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include <vector>
 
@@ -10,16 +10,16 @@ namespace tomales {
 
 class Portals {
  public:
-  /// The square of -0.5 .. 0.5 in x and y of a space. False, and not added: it has no area.
+  /// Adds the square of -0.5 .. 0.5 in x and y of a space. Returns false, and adds nothing, if it has no area.
   bool add(const mat4& currentFromSpace);
   const std::vector<Portal>& all() const { return portals_; }
 
-  /// Of the samples of a point P with normal N that are to go to portals; 0: it lies behind all of them. N of 0: in the
-  /// air.
+  /// The share of the samples of a point P with normal N that go to portals; 0 if P lies behind all of them. N is 0 in
+  /// the air.
   float share(const vec3& P, const vec3& N) const;
-  /// The unit direction to a place on one of them. Pre: share(P, N) > 0.
+  /// A unit direction to a position on one of them. share(P, N) must be greater than 0.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi) const;
-  /// Of sample(), over solid angle; 0: past every portal.
+  /// The density of sample() over solid angle; 0 for directions past every portal.
   float density(const vec3& P, const vec3& N, const vec3& L) const;
 
  private:

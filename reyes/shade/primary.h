@@ -1,5 +1,5 @@
-// Light and rays are asked for the points of a batch alone: their neighbours, which serve derivatives, share the
-// answers.
+// Light and rays are asked for at the points of a batch alone; their neighbours, which serve derivatives, get copies of
+// the answers.
 #pragma once
 #include "reyes/shade/batch.h"
 
@@ -13,7 +13,7 @@ class Primary {
   }
   const TmGrid* grid() const { return &grid_; }
 
-  /// Copies what was answered to the active neighbours. Null arrays are left alone.
+  /// Copies the answers to the active neighbours. Null arrays are left alone.
   template <class T>
   void spread(T* out) const {
     if (!out) return;
@@ -33,8 +33,8 @@ void forActive(const TmGrid* g, const Body& body) {
     if (g->active[i]) body(i);
 }
 
-/// How much of a light counts at each point: where it is lit, what one of its outputs __nondiffuse and __nonspecular
-/// leaves. Null: all.
+/// Sets how much of a light counts at each point: where it is lit, one less its output __nondiffuse or __nonspecular. A
+/// null `without` is 0.
 inline void setShares(int n, const uint8_t* lit, const float* without, float* share) {
   for (int i = 0; i < n; ++i) share[i] = lit[i] ? (without ? 1 - without[i] : 1.0f) : 0.0f;
 }

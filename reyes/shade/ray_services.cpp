@@ -1,4 +1,4 @@
-// The ray-traced calls behind TmServices: sums here, cones in ray_shots.h, rays behind ShadeServices.
+// Implements the calls of TmServices that trace rays. ray_shots.h has the cones, ShadeServices the rays.
 #include "reyes/shade/ray_services.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
   RayResult result;
   result.distance = batch.arena.floats(g->count);
   if (color.x) result.color = batch.arena.vec3(g->count), result.opacity = batch.arena.vec3(g->count);
-  // As of area lights, diffuse rays bring nothing: diffuse() has asked for the light itself.
+  // Diffuse rays bring no sky, as they bring no area lights: diffuse() has asked for that light.
   if (color.x && query.kind == RayKind::Specular && query.lampsGlow && batch.context.mirrored &&
       query.maxDistance >= kFarAway)
     result.leaves = batch.arena.bytes(g->count);

@@ -1,4 +1,4 @@
-// What a ray of gather() tells. Behind TmServices::gather.
+// The values that a ray of gather() gives. Behind TmServices::gather.
 #pragma once
 #include <initializer_list>
 #include <string_view>
@@ -7,12 +7,12 @@
 
 namespace tomales {
 
-/// What is known of the rays of a call of gather() under a name; of numbers x alone.
+/// A value of the rays of a call of gather(), by its name. A number is in x alone.
 struct RayValue {
   std::string_view name;
   TmConstVec3 value;
 };
-/// Fills in the outputs of these names, and lets neighbours have all outputs.
+/// Sets the outputs that have these names, and copies all outputs to the neighbours.
 void setRayOutputs(const Primary& primary, const TmChannel* outputs, int32_t outputCount,
                    std::initializer_list<RayValue> known);
 

@@ -9,7 +9,7 @@ namespace tomales {
 namespace {
 
 constexpr float kSpecularCone =
-    10 * kPi / 180;  ///< trace:specularthreshold of rispec-table 3.2: wider rays are diffuse.
+    10 * kPi / 180;  ///< trace:specularthreshold of rispec-table 3.2: wider cones are diffuse.
 constexpr uint32_t kConeStream = randomStream("cone"), kBaseStream = randomStream("base");
 
 }  // namespace

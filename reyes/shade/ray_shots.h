@@ -1,4 +1,4 @@
-// How the rays of a shader's call are shot: options checked, directions stratified over a cone, footprints.
+// Shoots the rays of a shader's call: checks options, stratifies directions over a cone, sets footprints.
 #pragma once
 #include "reyes/shade/batch.h"
 
@@ -6,18 +6,18 @@ namespace tomales {
 
 constexpr float kFarAway = 1e30f;  ///< RI_INFINITY: the distance to nothing.
 
-/// Of trace(), whose directions the caller may draw itself, and of the other services.
+/// The options of trace(), whose directions the caller may draw itself, and of the other services.
 TmRayOptions drawnRayOptions(const Batch& batch, const TmRayOptions* given);
 TmRayOptions rayOptions(const Batch& batch, const TmRayOptions* given);
 
 RayQuery rayQuery(const TmRayOptions&, RayKind);
-/// Narrow cones are specular, wide ones diffuse.
+/// Rays of narrow cones are specular, of wide ones diffuse.
 RayQuery rayQuery(const TmRayOptions&);
 
-/// Can this batch trace? Reports a shader that cannot because it did not say that it would.
+/// Tells whether this batch may trace. Reports a shader that does not declare TM_TRACES.
 bool traces(const Batch& batch);
 
-/// Ray `ray` of all points: a cone around each axis, and the places that they start from.
+/// Ray `ray` of all points: a direction in a cone around each axis, and where it starts.
 class Cone {
  public:
   Cone(Batch& batch, const TmGrid* g, const TmRayOptions& options);
@@ -36,8 +36,8 @@ class Cone {
   TmVec3 origin_, direction_;
 };
 
-/// Differentials: a ray starts as wide as its micropolygon, and widens by how the axis turns over that and by its share
-/// of the cone.
+/// Sets ray differentials: a ray starts as wide as its micropolygon, and widens by the turn of the axis over that and
+/// by its share of the cone.
 void setFootprints(Batch& batch, const TmGrid* g, TmConstVec3 axis, const TmRayOptions& options, RayQuery& query);
 
 }  // namespace tomales

@@ -30,7 +30,7 @@ const char* kindName(TmKind kind) {
 
 namespace {
 
-/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which is held against it.
+/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which tests hold against it.
 bool isOfSpecification(std::string_view name) {
   static constexpr std::string_view kNames[] = {
       "constant",     "matte",      "metal",     "shinymetal", "plastic", "paintedplastic", "ambientlight",
@@ -53,12 +53,12 @@ struct ShaderRegistry::Impl {
   std::map<std::string, Plugin> plugins;  // by path
   PluginTrial trial;
   bool untriedSaid = false;
-  std::set<std::string> distrusted;  // plugins that were reported as such
-  std::set<std::string> toldOf;      // what was wrong with shaders' texts
+  std::set<std::string> distrusted;  // plugins that have been reported as such
+  std::set<std::string> toldOf;      // problems of shaders' texts that have been reported
   std::vector<std::shared_ptr<const RslFile>> texts{};
   std::set<const TmShader*> builtIn{};
   std::map<const TmShader*, std::string> origins{};
-  std::map<const TmShader*, const TmShader*> displacements{};  ///< By the surfaces that move their points.
+  std::map<const TmShader*, const TmShader*> displacements{};  ///< by the surfaces that move their points
   std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
 
   void refuse(const std::string& origin, const std::string& problem) {
@@ -87,7 +87,7 @@ struct ShaderRegistry::Impl {
 
 namespace {
 
-/// What is wrong with the version of a struct of a plugin; empty: nothing. A later release only appends fields
+/// Tells what is wrong with the version of a plugin's struct; empty if nothing is. A later release only appends fields
 /// (shader_api.h), so a larger struct of the same ABI starts with ours.
 template <class Versioned>
 std::string otherVersion(const Versioned* v) {
@@ -100,7 +100,7 @@ std::string otherVersion(const Versioned* v) {
       v->abi, v->structBytes, TM_SHADER_ABI, sizeof(Versioned));
 }
 
-/// What a shader of our ABI lacks; empty: nothing.
+/// Tells what a shader of our ABI lacks; empty if it lacks nothing.
 std::string lackOf(const TmShader& s) {
   if (!s.name || !*s.name) return "a name";
   if (!s.shade) return "a function";
@@ -210,7 +210,7 @@ std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& se
   std::vector<std::string> out = foldersOf(searchPath);
   std::error_code none;
   for (const std::string& folder : foldersOf(trust.folders))
-    if (fs::is_directory(folder, none)) out.push_back(folder);  // those of a user and an installation may not be there
+    if (fs::is_directory(folder, none)) out.push_back(folder);  // folders of a user or an installation may be missing
   out.push_back(beside.empty() ? "." : beside);
   return out;
 }

@@ -39,7 +39,7 @@ constexpr TmParamDecl standard(const char* name, TmRole role, TmType type, const
   return {name, type, 1, nullptr, nullptr, doc, role};
 }
 
-/// Of two names with one role the first that says something counts.
+/// If two names have one role, the first that is given counts.
 constexpr TmParamDecl kOfLights[] = {
     standard("lighting", TM_ROLE_LIGHTING, TM_STRING, "both, direct (what the camera sees) or indirect (gather rays)"),
     standard("__nondiffuse", TM_ROLE_NONDIFFUSE, TM_FLOAT, "1: diffuse() leaves it out"),

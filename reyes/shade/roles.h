@@ -8,12 +8,12 @@ struct RoleInfo {
   TmRole role;
   const char* name;
   TmType type;
-  TmKind kind;  ///< Of the shaders that may declare it.
+  TmKind kind;  ///< The kind of shaders that may declare it.
 };
 
-/// Null: there is no such role.
+/// Null if there is no such role.
 const RoleInfo* roleInfo(int32_t role);
-/// The role that a parameter declares; else that of the standard parameter of its name and type.
+/// The role that a parameter declares, or that of the standard parameter of its name and type.
 TmRole roleOf(const TmShader& shader, const TmParamDecl& decl);
 
 }  // namespace tomales

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// Endings of shaders that other renderers have compiled.
 constexpr const char* kCompiled[] = {".slo", ".sdr", ".slx", ".slc", ".sdl", ".dll", ".sl"};
 
-/// When a file was written, and how large it is; zeros: there is none.
+/// The time when a file was written, and its size; zeros if there is no file.
 using FileState = std::pair<fs::file_time_type, uintmax_t>;
 FileState stateOf(const std::string& path) {
   std::error_code none;
@@ -33,7 +33,7 @@ FileState stateOf(const std::string& path) {
   return none ? FileState{} : FileState{time, size};
 }
 
-/// One compiled file. It is never given back, since what is bound may outlive whoever asked.
+/// One compiled file. It is never freed, since bound shaders may outlive everything else.
 struct Compiled {
   std::shared_ptr<const RslFile> file;
   std::vector<std::pair<std::string, FileState>> read;
@@ -68,7 +68,7 @@ Files& files() {
   return all;
 }
 
-/// Names behind the words that begin a shader in a file's text. The compiler tells in the end.
+/// Finds the names behind the words that begin a shader in a file's text. Only the compiler knows them for certain.
 std::set<std::string> namesIn(const std::string& path) {
   std::set<std::string> out;
   if (!inputProblem(path).empty()) return out;
@@ -94,7 +94,7 @@ std::set<std::string> namesIn(const std::string& path) {
   return out;
 }
 
-/// namesIn() files that were looked at before, as long as they stay as they were.
+/// Keeps the results of namesIn() for files that have not changed since.
 class Names {
  public:
   bool has(const std::string& path, const std::string& name) {
@@ -127,7 +127,7 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
     if (const fs::path file = fs::path(folder) / (name + ".sl"); fs::is_regular_file(file, none))
       out.push_back(file.string());
   if (!out.empty() || name.find('/') != std::string::npos) return out;
-  constexpr int kMostFiles = 5000;  // a folder that holds much else is not searched to its end
+  constexpr int kMostFiles = 5000;  // a folder with more files is not searched to its end
   int looked = 0;
   for (const std::string& folder : folders) {
     std::vector<fs::path> here;
@@ -136,22 +136,22 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
     std::sort(here.begin(), here.end());
     for (const fs::path& file : here)
       if (names().has(file.string(), name)) out.push_back(file.string());
-    // Scenes from systems that do not tell capitals in names of files.
+    // Some systems do not distinguish capitals in file names, and scenes come from there.
     for (const fs::path& file : here)
       if (lowered(file.stem().string()) == lowered(name)) out.push_back(file.string());
   }
   return out;
 }
 
-/// A request's name as files have it.
+/// The form in which files have a request's name.
 std::string nameInFolders(const std::string& written) {
   const std::string name = withoutShaderEnding(written);
   const fs::path path(name);
-  // A scene from elsewhere: its shader may lie in the folders.
+  // A scene may come from another machine: its shader may lie in the folders.
   return path.is_absolute() || name.find("..") != std::string::npos ? path.filename().string() : name;
 }
 
-/// A shader for another renderer, where there is no .sl.
+/// The file of a shader that another renderer has compiled, where there is no .sl.
 std::string compiledElsewhere(const std::string& name, const std::vector<std::string>& folders) {
   std::error_code none;
   for (const std::string& folder : folders)
@@ -180,7 +180,7 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
       continue;
     }
     const TmShaderLibrary& library = *compiled->library();
-    // A file with one shader of another name than its own is meant where the file is named.
+    // A file with one shader of another name is meant if a request names the file.
     const bool only = library.count == 1 && lowered(fs::path(file).stem().string()) == lowered(shaderName);
     std::string others;
     for (int32_t k = 0; k < library.count; ++k) {

@@ -1,4 +1,4 @@
-// Shaders that a scene names and whose .sl lies where it looks for shaders: found, compiled and kept.
+// Finds, compiles and keeps shaders that a scene names and whose .sl lies where it looks for shaders.
 // Threads: any.
 #pragma once
 #include <functional>
@@ -9,30 +9,30 @@
 
 namespace tomales {
 
-/// The name without the ending that shaders have which other renderers have compiled, or texts (.slo, .sl).
+/// The name without an ending of texts (.sl) or of shaders that other renderers have compiled (.slo).
 std::string withoutShaderEnding(const std::string& name);
 
-/// What became of a name.
+/// The result of looking for a name.
 struct RslFound {
   const TmShader* shader = nullptr;
   const TmShader* displacement = nullptr;  ///< RslFile::displacementOf()
-  std::string file;                        ///< That has, or should have, the shader; empty: there is none.
-  std::string problem;                     ///< Why there is no shader; empty: there is one, or no file.
-  std::string remark;                      ///< What the user is to know besides.
+  std::string file;                        ///< The file that has, or should have, the shader; empty if there is none.
+  std::string problem;                     ///< Why there is no shader; empty if there is one, or no file.
+  std::string remark;                      ///< A further note for the user.
 };
 
-/// `name` as RIB has it: endings of compiled shaders (.slo, .sdr, .slx, ...) stand for the .sl beside them. Files are
-/// NAME.sl in the folders, in their order; else a .sl file there in which a shader of that name is. The folders are
-/// those of #include too. A file is compiled once for the process, and again when it or what it includes has changed.
+/// `name` is as in RIB: endings of compiled shaders (.slo, .sdr, .slx, ...) stand for the .sl beside them. The file is
+/// NAME.sl in the folders, in their order, or else a .sl file there that holds that shader. #include looks there too. A
+/// file is compiled once for the process, and again when it or a file that it includes has changed.
 RslFound findRslShader(const std::string& name, TmKind kind, const std::vector<std::string>& folders);
 
-/// A name, and where it is looked for.
+/// A name, and the folders where it is looked for.
 struct RslRequest {
   std::string name;
   std::vector<std::string> folders;
 };
-/// Compiles, on all threads, the files that findRslShader() will take first for these names, which then only has to
-/// look. It says nothing: findRslShader() tells what is wrong, in the order in which it is asked.
+/// Compiles, on all threads, the files that findRslShader() will take first for these names, so that it only has to
+/// look. It reports nothing: findRslShader() reports problems, in the order of its calls.
 void compileRslShaders(const std::vector<RslRequest>& requests);
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// The calls behind TmServices: their table, and those that are about the surface itself.
+// The table of TmServices, and its calls that are about the surface itself.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -13,7 +13,7 @@
 namespace tomales {
 namespace {
 
-/// m * in + origin of those that are active, in the order of glm's product with a point. In place, perhaps.
+/// Sets `out` to m * in + origin at active points, with the bits of glm's product with a point. `out` may be `in`.
 TOMALES_HOT void transformActive(const TmGrid* g, const mat3& m, const vec3& origin, TmConstVec3 in, TmVec3 out) {
   const uint8_t* active = g->active;
 #pragma GCC ivdep
@@ -89,7 +89,7 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
       const Stencil& s = batch.stencil;
       return vec3(s.difference(d, P.x, i), s.difference(d, P.y, i), s.difference(d, P.z, i));
     };
-    // The side of the surface is that of its geometric normal: which way dPdu ^ dPdv points is not for shaders to know.
+    // The normal is on the side of the geometric one, since a shader cannot know which way dPdu ^ dPdv points.
     const vec3 across = cross(get(g->dPdu, i), get(g->dPdv, i));
     const float side = dot(across, get(g->Ng, i)) < 0 ? -1.0f : 1.0f;
     set(out, i, normalizeOr(side * cross(along(0), along(1)), get(g->N, i)));
@@ -98,8 +98,8 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
 
 void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   const Batch& batch = batchOf(host);
-  // Messages are told apart by how they begin, since a value may follow, and into so many subjects: what a shader makes
-  // up is not to fill the log.
+  // Messages with the same beginning count as alike, since a value may follow; and their number is limited, so that a
+  // shader cannot fill the log.
   constexpr size_t kAlike = 24, kSubjects = 4096;
   const std::string text = message;
   const uint64_t site = checksum(std::as_bytes(std::span(text).first(std::min(kAlike, text.size())))) % kSubjects;

@@ -1,5 +1,5 @@
 // The table of TmServices, in parts: each function fills in, by name, the calls that its file implements, so that a new
-// call is written down in shader_api.h and in that file alone.
+// call is written in shader_api.h and in that file alone.
 #pragma once
 #include "reyes/shade/batch.h"
 

@@ -84,13 +84,13 @@ vec3 ShadowMap::blocked(int x, int y, float z) const {
 
 /// A receiver as the map's camera sees it.
 struct ShadowMap::View {
-  vec3 P, N;           ///< Camera space.
-  vec2 at, u, v;       ///< Texels: its place, its edges.
-  float texel;         ///< Size of a texel at its depth.
+  vec3 P, N;           ///< In camera space.
+  vec2 at, u, v;       ///< In texels: its position, its edges.
+  float texel;         ///< The size of a texel at its depth.
   vec2 center, scale;  ///< texel = center + scale (x, y) [/ z]
   bool perspective;
 
-  /// Depth of the receiver's plane where the ray of a texel position meets it, or of P where that leaves `reach`.
+  /// The depth of the receiver's plane where the ray of a texel position meets it, or that of P if this leaves `reach`.
   float depth(const vec2& texelAt, float reach) const {
     const vec2 xy = (texelAt - center) / scale;
     float z = P.z;
@@ -124,7 +124,7 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
   view.center = texelOfCamera({0, 0, 1}), view.scale = texelOfCamera({1, 1, 1}) - view.center;
   view.texel = (perspective_ ? view.P.z : 1) / std::min(std::abs(view.scale.x), std::abs(view.scale.y));
 
-  // Never less than a texel: nobody wants to see them.
+  // At least a texel, so that texels do not show.
   const vec2 square = vec2(1.0f) + lookup.blur * vec2(width_, height_);
   const float steepest = 8;  // beyond that slope the plane says nothing about its surroundings
   const float extent = 1 + 0.5f * (glm::length(view.u) + glm::length(view.v) + glm::length(square));
@@ -138,8 +138,8 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
     const float z = view.depth(middle, reach);
     float bias = lookup.bias;
     if (bias < 0) {
-      // The map holds the nearest depth within a texel; a deep one all depths that its filter reaches. Half a texel
-      // more for what is bent.
+      // A texel holds the nearest depth in it (a deep one all depths that its filter reaches), so the bias allows for
+      // the plane's slope over that region, and for half a texel more on curved surfaces.
       const vec2 rise(view.depth(middle + vec2(0.5f, 0), reach) - z, view.depth(middle + vec2(0, 0.5f), reach) - z);
       bias = dot(spread_ + 0.5f, glm::abs(rise)) + 0.05f * view.texel + 1e-5f * view.P.z;
     }

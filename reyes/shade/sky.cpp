@@ -7,10 +7,10 @@ namespace {
 
 constexpr int kRows = 512, kColumns = 1024;  ///< A cell is a third of a degree high: the sun is half a degree wide.
 constexpr float kPictureShare = 0.5f;
-constexpr float kLeastCosine = 1e-3f;  ///< Keeps what one sample brings finite.
+constexpr float kLeastCosine = 1e-3f;  ///< Limits what one sample brings.
 
 float center(int i, int count) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(count); }
-/// Solid angle for each unit of (s, t).
+/// The solid angle of a unit of (s, t).
 float solidAngleAt(float t) { return 2 * kPi * kPi * std::sin(kPi * t); }
 
 bool inAir(const vec3& N) { return N == vec3(0.0f); }
@@ -43,7 +43,7 @@ vec3 latLongDirection(const vec2& st) {
 Sky::Sky(const Textures& textures, const std::string& picture, const SourceLoc& where, const std::string& user,
          const mat3& worldFromCurrent)
     : worldFromCurrent_(worldFromCurrent) {
-  // Twice as wide as a cell: what a direction in the cell sees of its neighbours counts too.
+  // Twice as wide as a cell, since a direction in the cell sees its neighbours too.
   const AlignedVector<float> width(kColumns, 2.0f / kColumns), height(kColumns, 2.0f / kRows);
   AlignedVector<float> s(kColumns), t(kColumns), rgb[3];
   for (auto& c : rgb) c.resize(kColumns);

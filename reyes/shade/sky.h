@@ -1,7 +1,7 @@
-// Where a light that is all around, at infinity, is sampled: half by the brightness of its picture, half by the cosine
-// with the normal; without a picture by the cosine alone. A bright sun of a few texels is found by as many samples as
-// it is worth. Before that, most go through portals if there are any. Space: current. Threads: const members may be
-// called concurrently.
+// Samples a light that is all around, at infinity: half by the brightness of its picture, half by the cosine with the
+// normal; without a picture by the cosine alone. A bright sun of a few texels gets as many samples as its light is
+// worth. If there are portals, most samples go through them first. Space: current. Threads: const members may be called
+// concurrently.
 #pragma once
 #include <map>
 #include <memory>
@@ -16,26 +16,26 @@
 
 namespace tomales {
 
-/// Latitude-longitude pictures (RISpec 3.2, MakeLatLongEnvironment): +z of the world at the top, +x at the left edge,
-/// +y a quarter to the right. s and t in 0..1, t downwards.
+/// The picture coordinates of a direction in a latitude-longitude picture (RISpec 3.2, MakeLatLongEnvironment): +z of
+/// the world at the top, +x at the left edge, +y a quarter to the right. s and t in 0..1, t downwards.
 vec2 latLong(const vec3& worldDirection);
 vec3 latLongDirection(const vec2& st);
 
-constexpr float kSkyCell = 2 * kPi / 1024;  ///< Radians: brightness is known by cells of this size.
+constexpr float kSkyCell = 2 * kPi / 1024;  ///< The size in radians of the cells of brightness.
 
 class Sky {
  public:
-  /// The same from everywhere.
+  /// A sky that is equally bright everywhere.
   Sky() = default;
-  /// `picture` in world space; what cannot be read is reported, and even.
+  /// `picture` stands in world space. One that cannot be read is reported, and the sky is even.
   Sky(const Textures& textures, const std::string& picture, const SourceLoc& where, const std::string& user,
       const mat3& worldFromCurrent);
 
   void setPortals(Portals portals) { portals_ = std::move(portals); }
   const Portals& portals() const { return portals_; }
 
-  /// A unit direction to light a point P with unit normal N by; density over solid angle. N of 0: in the air, lit
-  /// evenly from all sides.
+  /// A unit direction from which to light a point P with unit normal N, and its density over solid angle. For an N of
+  /// 0, in the air, directions are even.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& density) const;
   float density(const vec3& P, const vec3& N, const vec3& L) const;
 
@@ -45,15 +45,15 @@ class Sky {
   float pictureDensity(const vec3& L) const;
 
   Distribution rows_;
-  std::vector<Distribution> row_;  ///< Cells of each; none: no picture.
+  std::vector<Distribution> row_;  ///< The cells of each row; empty without a picture.
   mat3 worldFromCurrent_{1.0f};
   Portals portals_;
 };
 
-/// The orientation of a sky that stands in a space, whatever the scale of that.
+/// The orientation of a sky that stands in a space, without the scale of that space.
 mat3 skyFromCurrent(const mat4& currentFromSpace);
 
-/// Those that shaders name, which stand in the world. Threads: concurrent calls are safe.
+/// The skies of pictures that shaders name, which stand in the world. Threads: concurrent calls are safe.
 class Skies {
  public:
   Skies(const Textures& textures, const mat3& worldFromCurrent)

@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// Raster units of one unit of the space, and of its origin.
+/// The raster units of one unit of the space, and the raster position of its origin.
 void rasterScale(const Batch& batch, Space::Kind kind, vec2& scale, vec2& origin) {
   const Camera& camera = batch.scene.camera;
   scale = vec2(1.0f), origin = vec2(0.0f);

@@ -8,24 +8,24 @@
 
 namespace tomales {
 
-/// A space and its way to current. In the three projected spaces z stays camera-space depth: with RenderMan's
-/// default clipping planes (1e-6, 1e30) a projective depth would have no precision left.
+/// A space and its transformation to current. In the three projected spaces z stays camera-space depth: with
+/// RenderMan's default clipping planes (1e-6, 1e30) a projective depth would have no precision left.
 struct Space {
   enum Kind { Linear, Raster, Ndc, Screen } kind = Linear;
   mat4 currentFromSpace{1.0f};
 };
 
-/// Empty: no such space.
+/// Empty if there is no such space.
 std::optional<Space> findSpace(const Batch& batch, const std::string& name);
 
-/// From current space to the directions by which environment() finds what a picture shows that stands in the named
-/// space (null: "world"). Another name is told, and the world is used.
+/// Transforms from current space to the directions by which environment() looks up a picture that stands in the named
+/// space (null: "world"). An unknown name is reported, and the world is used.
 mat3 environmentDirections(const Batch& batch, const char* space);
 
-/// Points only where the space is projected.
+/// For spaces that are projected; it transforms points only.
 vec3 projectedFromCurrent(const Batch& batch, Space::Kind kind, const vec3& p);
-/// A depth of 0, which RISpec gives to the near clipping plane, is that plane: transform("NDC", "screen", point (x, y,
-/// 0)) is a common way to ask for the corners of the picture, and the eye itself would lie nowhere in it.
+/// A depth of 0 means the near clipping plane, as in RISpec: transform("NDC", "screen", point (x, y, 0)) is a common
+/// way to ask for the corners of the picture, and no position in the picture has the depth of the eye.
 vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p);
 
 }  // namespace tomales

@@ -1,7 +1,7 @@
-// The shader that stands in for one that is missing: nobody should ship a frame with it.
+// The shader in place of one that is missing, so loud that nobody ships a frame with it.
 #pragma once
 #include "reyes/shader_api.h"
 
 namespace tomales {
-const TmShader& substituteSurface();  ///< Magenta and black checks in u, v; no light.
+const TmShader& substituteSurface();  ///< A magenta and black checker in u, v that needs no light.
 }  // namespace tomales

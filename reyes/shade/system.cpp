@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kChunk = 256;  // points: a few hundred kB of light samples, so a chunk stays in the second-level cache
 
-/// A shader that threw leaves nothing worth showing; one that divides by zero leaves points to black out.
+/// Replaces bad results: by the substitute if the shader has thrown; else points that are not finite become black.
 void repair(Batch& batch, const BoundShader& shader, bool finished) {
   if (finished) return batch.blackOutNonFinite(shader);
   for (int i = 0; i < batch.tm.count; ++i) set(batch.tm.Ci, i, vec3(0.0f)), set(batch.tm.Oi, i, vec3(0.0f));
@@ -113,7 +113,7 @@ bool ShadingSystem::tracesRays(int group) const {
   return g.surface->can(TM_TRACES) && !g.surface->can(TM_OCCLUDED) && !g.surface->can(TM_TRACES_HIGHLIGHTS);
 }
 
-// Of a light that says how far answers may be off it is known before it runs.
+// A light with TmOcclusion::maxVariation in a parameter tells it before it runs.
 bool ShadingSystem::asksOcclusion(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
   const bool allowed = g.group->attributes->irradianceMaxError.value_or(0.0f) > 0;

@@ -1,4 +1,4 @@
-// What the parts of ShadingSystem share.
+// Shared by the parts of ShadingSystem.
 #pragma once
 #include <chrono>
 
@@ -14,7 +14,7 @@ struct ShadingSystem::Impl : BoundScene {
   LightUse lightUse{lights.size()};
 };
 
-/// Adds the time until its end to the figures of a shader.
+/// Adds the time of its life to the figures of a shader.
 class ShaderTimer {
  public:
   ShaderTimer(Stats& stats, const BoundShader& shader, int vertices)

@@ -19,7 +19,7 @@ struct Textures::Impl {
   Log& log;
   Stats& stats;
   std::once_flag opened{};
-  std::unique_ptr<TextureCache> cache{};  ///< Null: `problem` says why.
+  std::unique_ptr<TextureCache> cache{};  ///< Null if it could not be made; `problem` says why.
   std::string problem{};
 
   TextureCache* open() {

@@ -29,7 +29,7 @@ void find(const Variable& wanted, const BoundGroup& group, BoundVariable& out) {
   }
 }
 
-/// Pre: three floats wide.
+/// Where the triple goes; the variable must be three floats wide.
 TmVec3 destination(const BoundVariable& v, ShadedPoints& out, int begin) {
   const auto array = [&](int k) { return out.variables[static_cast<size_t>(v.first + k)].data() + begin; };
   return {array(0), array(1), array(2)};
@@ -41,7 +41,7 @@ void copyChannel(const BoundVariable& v, const Batch& batch, ShadedPoints& out, 
                 out.variables[static_cast<size_t>(v.first + k)].begin() + begin);
 }
 
-/// Runs of the shader under some of the lights.
+/// Runs the shader under some of the lights alone.
 class LightGroups {
  public:
   LightGroups(Batch& batch, const BoundShader& shader) : batch_(batch), shader_(shader) {}
@@ -123,7 +123,7 @@ void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, c
       for (int i = 0; i < n; ++i) set(to, i, value(i));
     };
     if (v.from == From::Channel) copyChannel(v, batch, out, begin);
-    // Premultiplied, as every colour that is composited.
+    // Colours that are composited are premultiplied.
     if (v.from == From::Channel && v.composited)
       each([&](int i) { return get(destination(v, out, begin), i) * get(batch.tm.Oi, i); });
     if (v.from == From::Color) each([&](int i) { return get(batch.tm.Cs, i) * get(batch.tm.Oi, i); });

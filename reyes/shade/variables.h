@@ -1,4 +1,4 @@
-// What Displays ask of a surface beside its colour and opacity: outputs of the shader, geometry, light groups.
+// What Displays want of a surface beside its colour and opacity: outputs of the shader, geometry, light groups.
 #pragma once
 #include "reyes/output.h"
 #include "reyes/points.h"
@@ -13,25 +13,25 @@ struct BoundGroup;
 /// Where a group finds one of FrameOutput::variables.
 struct BoundVariable {
   VariableSource from = VariableSource::Nothing;
-  int index = 0;             ///< Channel: of ShadePoints. Output: of TmShader::params.
-  bool composited = false;   ///< Channel: a colour, which arrives premultiplied.
-  std::string lights;        ///< LightGroup: its name; empty: what no light brings.
-  int first = 0, width = 1;  ///< In ShadedPoints::variables.
+  int index = 0;             ///< Of a channel in ShadePoints, or of an output in TmShader::params.
+  bool composited = false;   ///< True for a channel that is a colour and becomes premultiplied.
+  std::string lights;        ///< The name of a LightGroup; empty for the light of no group.
+  int first = 0, width = 1;  ///< Its place in ShadedPoints::variables.
   float fill = 0;
 };
 
-/// An output of the surface shader goes before all else of that name.
+/// An output of the surface shader comes before everything else of that name.
 std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundGroup& group);
 
-/// The same of what a ray's caller asks: outputs of the shader that runs at its hit, in this order. Of "surface:NAME"
-/// alone.
+/// The same for "surface:NAME" of what a ray's caller asks:
+/// outputs of the shader that runs at its hit, in this order.
 std::vector<BoundVariable> bindOutputs(const std::vector<RayOutput>& told, const BoundShader& shader);
 
-/// Makes room, filled with what stands where nobody writes.
+/// Makes room, filled with the values of variables that nothing writes.
 void allocateVariables(const std::vector<BoundVariable>& variables, int count, ShadedPoints& out);
-/// After it has run: everything else. Runs it again for light groups, on the same light samples: a group's share is
-/// what the shader makes of its lights alone, less what it makes of none, so that all groups and "" add up to Ci
-/// wherever Ci is linear in light.
+/// Stores everything else once the shader has run. It runs the shader again for light groups, on the same light
+/// samples: a group's share is the result with its lights alone, less the result with no lights, so that all groups and
+/// "" add up to Ci wherever Ci is linear in light.
 void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, const BoundShader& shader,
                     ShadedPoints& out, int begin);
 

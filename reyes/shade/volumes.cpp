@@ -12,7 +12,7 @@ const BoundShader* volumeOf(const BoundGroup& group, bool inside) {
   return (inside ? group.interior : group.exterior).get();
 }
 
-/// One volume shader over the colours and opacities at the ends of rays. False: it threw.
+/// Runs a volume shader over the colours and opacities at the ends of rays. Returns false if it has thrown.
 bool run(const BoundScene& scene, const BoundGroup& group, const BoundShader& volume, const ShadeContext& context,
          ShadePoints& ends, ShadedPoints& out) {
   const ShaderTimer timer(scene.stats, volume, ends.count());
@@ -24,7 +24,7 @@ bool run(const BoundScene& scene, const BoundGroup& group, const BoundShader& vo
   return true;
 }
 
-/// Over the rays of `which`.
+/// Lets the rays of `which` cross a volume.
 void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& which, TmConstVec3 origin,
            TmConstVec3 direction, const float* distance, TmVec3 color, TmVec3 opacity) {
   const ShadePoints& from = *asking.points;
@@ -40,7 +40,7 @@ void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& whi
     out.set(k, get(color, i), opacity.x ? get(opacity, i) : vec3(1));
   }
   ShadeContext context = asking.context;
-  context.answers = nullptr;  // they are those of the points that the rays leave
+  context.answers = nullptr;  // answers belong to the points that the rays leave
   if (!run(asking.scene, asking.group, volume, context, ends, out)) return;
   for (int k = 0; k < ends.count(); ++k) set(color, which[static_cast<size_t>(k)], out.color(k));
 }

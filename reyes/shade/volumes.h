@@ -1,4 +1,4 @@
-// Volume shaders of Interior and Exterior over what rays bring back to a surface (RISpec 3.2 section 4.2.5).
+// Runs the volume shaders of Interior and Exterior over what rays bring back to a surface (RISpec 3.2 section 4.2.5).
 #pragma once
 #include "reyes/shade/batch.h"
 

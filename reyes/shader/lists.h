@@ -13,39 +13,39 @@
 
 namespace rsl {
 
-/// A value of a list. What reads it may look afterwards whether it was what was wanted.
+/// A value in a parameter list. It notes whether its reader wanted another type or a single number.
 class Setting {
  public:
   Setting() = default;
   explicit Setting(float v) : number_(v) {}
   explicit Setting(const char* v) : type(TM_STRING), text_(v) {}
   explicit Setting(Color v, TmType t = TM_COLOR) : type(t), color_(v) {}
-  /// A value for each point; where one is wanted for all, `first` is it: that of a point that is shaded.
+  /// A value for each point. Readers that want one value for all get `first`, the value of a shaded point.
   Setting(TmConstVec3 all, TmType t, Color first)
       : type(t), varying{all.x, all.y, all.z}, number_(first.x), color_(first) {}
 
   float number() const { return wanted(TM_FLOAT), number_; }
-  /// 0 where the number is none that has one.
+  /// Returns 0 for a number that does not fit an int.
   int whole() const {
     const float x = number();
     return x > -1e9f && x < 1e9f ? static_cast<int>(x) : 0;
   }
   const char* text() const { return wanted(TM_STRING), text_; }
-  /// A number counts for all components.
+  /// A number stands for all three components.
   Color color() const { return isNumber() ? Color{number(), number(), number()} : (wanted(type), color_); }
 
   bool isNumber() const { return type == TM_FLOAT; }
   bool isText() const { return type == TM_STRING; }
   bool isFilled() const { return fills.x || target >= 0; }
-  /// For each point; null: the same for all.
+  /// The values of the points; null if they all have the same.
   const float* each() const { return varying[0]; }
 
   TmType type = TM_FLOAT;
   const float* varying[3] = {nullptr, nullptr, nullptr};
-  TmVec3 fills{};                  ///< To be filled in: x alone a number, else a triple. x null: nothing is.
-  int32_t target = -1;             ///< The asker's own name for what is to be filled in.
-  mutable bool fits = true;        ///< False: something of another type was wanted.
-  mutable bool tookFirst = false;  ///< One value was wanted, and points differ.
+  TmVec3 fills{};                  ///< The arrays to fill: x alone for a number, else all; null x if there are none.
+  int32_t target = -1;             ///< The caller's own number for the variable that the service fills, or -1.
+  mutable bool fits = true;        ///< False once a reader has wanted another type.
+  mutable bool tookFirst = false;  ///< True once a reader has wanted one value although the points' values differ.
 
  private:
   void wanted(TmType as) const { fits = fits && as == type, tookFirst = tookFirst || varying[0]; }
@@ -54,10 +54,10 @@ class Setting {
   Color color_{};
 };
 
-/// What becomes of an entry of a list.
+/// What set() found out about an entry of a list.
 struct Entry {
   bool known = true;
-  const char* idle = nullptr;  ///< Other renderers know it and it changes nothing here, because of this.
+  const char* idle = nullptr;  ///< Why the entry, which other renderers know, changes nothing here. Null otherwise.
 };
 inline Entry idleOr(std::string_view name, std::initializer_list<std::string_view> idle, const char* why) {
   const bool known = std::find(idle.begin(), idle.end(), name) != idle.end();
@@ -101,7 +101,7 @@ inline Entry set(TmRayOptions& o, std::string_view name, const Setting& v) {
   return {};
 }
 
-/// Of occlusion() and indirectdiffuse(): as rays, and a point cloud, an environment and what else is to be filled in.
+/// The list of occlusion() and indirectdiffuse(): options of rays, a point cloud, an environment and variables to fill.
 struct HemisphereList {
   TmRayOptions rays = tmRayDefaults();
   TmOcclusion options = tmOcclusionDefaults();
@@ -141,10 +141,10 @@ inline Entry set(HemisphereList& o, std::string_view name, const Setting& v) {
   return {};
 }
 
-/// Of photonmap().
+/// The list of photonmap().
 struct PhotonList {
   TmPhotonOptions photons = tmPhotonDefaults();
-  bool radiance = false;  ///< Of baked "_radiosity", instead of irradiance.
+  bool radiance = false;  ///< True if radiance is wanted, from baked "_radiosity", instead of irradiance.
 };
 inline Entry set(PhotonList& o, std::string_view name, const Setting& v) {
   if (name == "estimator")
@@ -158,11 +158,11 @@ inline Entry set(PhotonList& o, std::string_view name, const Setting& v) {
   return {};
 }
 
-/// Of bake3d() and texture3d(). A radius is in current space.
+/// The list of bake3d() and texture3d(). Radii are in current space.
 struct CloudList {
   TmCloudOptions cloud = tmCloudDefaults();
   float radius = 0;
-  bool hasRadius = false;  ///< The same for all; who asks makes an array of it. (For each point: cloud.radius.)
+  bool hasRadius = false;  ///< True if one radius was given for all points, of which the caller makes cloud.radius.
 };
 inline Entry set(CloudList& o, std::string_view name, const Setting& v) {
   if (name == "coordsystem")
@@ -250,11 +250,11 @@ inline Entry set(TmSubsurfaceOptions& o, std::string_view name, const Setting& v
   return {};
 }
 
-/// Of illuminance(). Names are "lightcache" ("refresh": lights run again), "send:light:NAME" (the value of a parameter,
-/// for lights that have one of that name) and "light:NAME" (to be filled in with what lights have, parameters and
-/// outputs, at each sample).
+/// The list of illuminance(). Its names are "lightcache" (the value "refresh" makes lights run again),
+/// "send:light:NAME" (sets a parameter of the lights that have one of that name) and "light:NAME" (a variable that each
+/// sample fills with a parameter or output of its light).
 struct LightList {
-  /// Its own copy: the caller's variables may change before the last light has run.
+  /// A value to send. It is a copy, since the caller's variables may change before the last light has run.
   struct Sent {
     Sent(std::string_view parameter, const Setting& v, int padded)
         : name(parameter), text(v.isText() ? v.text() : ""), type(v.type), step(v.each() ? 1 : 0) {
@@ -274,12 +274,12 @@ struct LightList {
     std::string name;
     Setting into;
   };
-  int padded = 0;  ///< Of the batch: floats of arrays.
+  int padded = 0;  ///< The length of the batch's arrays, in floats.
   bool refresh = false;
   std::vector<Sent> sent;
   std::vector<Wanted> wanted;
 
-  /// As TmServices wants them; they point into this list.
+  /// Returns the messages in the form that TmServices takes. They point into this list.
   std::vector<TmMessage> messages() const {
     std::vector<TmMessage> out;
     for (const Sent& s : sent)

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
-/// Before functions with variables that outlive them: each plugin, and the renderer, has its own. Else all that are
-/// loaded would share the first one's, whatever release it is of.
+/// Belongs before functions with static variables, so that each plugin and the renderer has its own. Otherwise all that
+/// are loaded would share the variables of the first one, whatever release it is of.
 #define TM_OF_THIS_PLUGIN __attribute__((visibility("hidden")))
 
-/// Before a function of plain loops without branches: built for SSE2, AVX2 and AVX-512 and picked by CPU, with the same
-/// bits. A build that wants one kind alone defines it as nothing.
+/// Belongs before a function of plain loops without branches. It is built for SSE2, AVX2 and AVX-512, of which the CPU
+/// picks one, and gives the same bits with each. A build that wants one kind alone defines it as nothing.
 #if defined(RSL_HOT)
 #elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
@@ -19,8 +19,8 @@
 #endif
 #ifdef __GNUC__
 #define RSL_INLINE \
-  inline __attribute__((always_inline))  ///< Called in such loops: clones vectorise only what is part of them.
-#define RSL_INLINED __attribute__((always_inline))  ///< The same of a lambda, after its parameters.
+  inline __attribute__((always_inline))  ///< Inlined, since the clones of RSL_HOT vectorise only their own code.
+#define RSL_INLINED __attribute__((always_inline))  ///< The same for a lambda; it stands after the parameters.
 #else
 #define RSL_INLINE inline
 #define RSL_INLINED
@@ -43,28 +43,28 @@ RSL_INLINE Vec3 operator/(Vec3 a, float s) { return a * (1 / s); }
 RSL_INLINE float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 RSL_INLINE Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 RSL_INLINE float length(Vec3 a) { return std::sqrt(dot(a, a)); }
-/// Zero stays zero, as in RSL.
+/// Leaves a zero vector zero, as RSL does.
 RSL_INLINE Vec3 normalize(Vec3 a) {
   const float l = length(a);
   return l > 0 ? a / l : Vec3{};
 }
-/// Two unit vectors across the unit vector n and each other (Duff et al. 2017, "Building an Orthonormal Basis,
-/// Revisited").
+/// Gives two unit vectors that are perpendicular to the unit vector n and to each other (Duff et al. 2017, "Building an
+/// Orthonormal Basis, Revisited").
 RSL_INLINE void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
   const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
   tangent = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
   bitangent = {b, sign + n.y * n.y * a, -n.y};
 }
-/// RISpec faceforward with Nref = Ng: N on the side of the surface that I arrives at.
+/// RISpec faceforward with Nref = Ng: returns N on the side of the surface from which I arrives.
 RSL_INLINE Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
 RSL_INLINE Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
-/// I and N of unit length, N against I; eta: index of refraction before over behind. Total reflection: zero
-/// (RISpec 15.3).
+/// I and N have unit length, and N points against I. eta is the index of refraction before the surface over that behind
+/// it. Returns zero for total reflection (RISpec 15.3).
 RSL_INLINE Vec3 refract(Vec3 I, Vec3 N, float eta) {
   const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);
   return k < 0 ? Vec3{} : eta * I + (eta * c - std::sqrt(k)) * N;
 }
-/// Share of unpolarised light that is reflected where refract() would refract.
+/// The share of unpolarised light that is reflected where refract() would refract.
 RSL_INLINE float fresnel(Vec3 I, Vec3 N, float eta) {
   const float c = std::min(1.0f, std::abs(dot(I, N))), k = 1 - eta * eta * (1 - c * c);
   if (k <= 0) return 1;
@@ -72,8 +72,8 @@ RSL_INLINE float fresnel(Vec3 I, Vec3 N, float eta) {
   return 0.5f * (s * s + p * p);
 }
 
-/// Below `lo` it is `lo` even where that is more than `hi`: shaders that march in steps of clamp(step, least, rest) end
-/// by that.
+/// Returns `lo` for x below it even where `lo` is more than `hi`: shaders that march in steps of clamp(step, least,
+/// rest) rely on that to come to an end.
 RSL_INLINE float clamp(float x, float lo, float hi) { return x < lo ? lo : x > hi ? hi : x; }
 RSL_INLINE float mix(float a, float b, float t) { return a + (b - a) * t; }
 RSL_INLINE Vec3 mix(Vec3 a, Vec3 b, float t) { return a + (b - a) * t; }
@@ -83,19 +83,19 @@ RSL_INLINE float smoothstep(float lo, float hi, float x) {
   return t * t * (3 - 2 * t);
 }
 
-/// a where the condition holds, else b. Unlike a conditional expression it is never a branch, which GCC keeps where a
-/// call depends on it, or what it takes for one, such as a conversion to int and back.
+/// Returns a where the condition holds, else b. GCC may turn a conditional expression into a branch, for instance
+/// around a call or a conversion to int and back; it never turns this into one.
 RSL_INLINE float chosen(bool condition, float a, float b) {
   const uint32_t mask = condition ? 0xffffffffU : 0;
   return __builtin_bit_cast(float,
                             (__builtin_bit_cast(uint32_t, a) & mask) | (__builtin_bit_cast(uint32_t, b) & ~mask));
 }
-// Rounded towards zero and down, as std::trunc and std::floor do, in arithmetic that every processor has for many
-// numbers at once: SSE2 has neither.
+// These round towards zero and down, as std::trunc and std::floor do, but in arithmetic that every processor can apply
+// to many numbers at once: SSE2 has no instruction for either.
 RSL_INLINE float wholePart(float x) {
   const bool broken = std::abs(x) < 0x1p23f;  // beyond, all numbers are whole
   const float part = static_cast<float>(static_cast<int32_t>(chosen(broken, x, 0)));
-  const uint32_t sign = __builtin_bit_cast(uint32_t, x) & 0x80000000U;  // of -0
+  const uint32_t sign = __builtin_bit_cast(uint32_t, x) & 0x80000000U;  // keeps the sign of -0
   return chosen(broken, __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, part) | sign), x);
 }
 RSL_INLINE float wholeBelow(float x) {

@@ -9,7 +9,7 @@
 
 namespace rsl {
 
-/// A 32-bit mix of a lattice point ("lowbias32", C. Wellons, once an axis).
+/// Hashes a lattice point to 32 bits, by the mix "lowbias32" (C. Wellons) once for each axis.
 RSL_INLINE uint32_t latticeHash(int32_t x, int32_t y, int32_t z) {
   const auto mixIn = [](uint32_t h, int32_t c) {
     h = (h ^ static_cast<uint32_t>(c)) * 0x9e3779b9U;
@@ -19,11 +19,11 @@ RSL_INLINE uint32_t latticeHash(int32_t x, int32_t y, int32_t z) {
   return mixIn(mixIn(mixIn(0, x), y), z);
 }
 
-/// x, or -x where the lowest bit of `bits` is set: arithmetic without a choice.
+/// Returns x, or -x where the lowest bit of `bits` is set, without a branch.
 RSL_INLINE float withSign(float x, uint32_t bits) {
   return __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, x) ^ (bits << 31));
 }
-/// One of the twelve gradients to the edges of a cube (Perlin 2002, "Improving noise"), by p.
+/// Dot product of p with one of the twelve gradients to the edges of a cube (Perlin 2002, "Improving noise").
 RSL_INLINE float gradient(uint32_t hash, Vec3 p) {
   const uint32_t h = hash & 15;
   const float a = h < 8 ? p.x : p.y, b = h < 4 ? p.y : (h & 13) == 12 ? p.x : p.z;
@@ -31,14 +31,14 @@ RSL_INLINE float gradient(uint32_t hash, Vec3 p) {
 }
 
 RSL_INLINE float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
-/// A whole number as an integer. Far out it wraps instead of overflowing: fmod(c, 2^20), exactly, without a call. What
-/// is not a number or infinite becomes 0.
+/// Converts a whole number to an integer. Large numbers wrap instead of overflowing: the result is fmod(c, 2^20),
+/// exactly, without a call. NaN and infinities become 0.
 RSL_INLINE int32_t latticeCoordinate(float c) {
   const float rest = c - wholePart(c * 0x1p-20f) * 0x1p20f;
   return static_cast<int32_t>(chosen(std::abs(rest) < 0x1p20f, rest, 0));
 }
 
-/// A cell of the lattice, and a place in it.
+/// A cell of the lattice, and a position in it.
 struct LatticePlace {
   int32_t x, y, z;
   Vec3 f;
@@ -47,7 +47,7 @@ RSL_INLINE LatticePlace latticePlace(Vec3 p) {
   const Vec3 cell{wholeBelow(p.x), wholeBelow(p.y), wholeBelow(p.z)};
   return {latticeCoordinate(cell.x), latticeCoordinate(cell.y), latticeCoordinate(cell.z), p - cell};
 }
-/// The same, but for the sign of a zero, of a place within kNearLattice of the origin, for a quarter of the work.
+/// Within kNearLattice of the origin, this is latticePlace() for a quarter of the work, but for the sign of a zero.
 constexpr float kNearLattice = 0x1p19f;
 RSL_INLINE bool isNearLattice(Vec3 p) {
   return (std::abs(p.x) < kNearLattice) & (std::abs(p.y) < kNearLattice) & (std::abs(p.z) < kNearLattice);
@@ -75,14 +75,14 @@ RSL_INLINE float signedNoise(Vec3 p) { return signedNoiseAt(latticePlace(p)); }
 
 namespace noise_detail {
 
-/// As latticeHash, with a fourth coordinate.
+/// latticeHash() with a fourth coordinate.
 RSL_INLINE uint32_t hash4(int32_t x, int32_t y, int32_t z, int32_t w) {
   uint32_t h = (latticeHash(x, y, z) ^ static_cast<uint32_t>(w)) * 0x9e3779b9U;
   h ^= h >> 16, h *= 0x7feb352dU, h ^= h >> 15, h *= 0x846ca68bU, h ^= h >> 16;
   return h;
 }
 
-/// A coordinate as a cell and the place in it; a period (0: none) joins the ends of the lattice.
+/// A coordinate as a cell and the position in it. A period other than 0 joins the ends of the lattice.
 struct Axis {
   int32_t lo, hi;
   float f;
@@ -96,7 +96,7 @@ struct Axis {
   RSL_INLINE float from(int end) const { return f - static_cast<float>(end); }
 };
 
-/// One of 32 gradients, to the edges of a hypercube (Perlin), by p: three of its coordinates, with signs.
+/// Dot product with one of 32 gradients, to the edges of a hypercube (Perlin): three coordinates of p, with signs.
 RSL_INLINE float gradient4(uint32_t hash, float x, float y, float z, float w) {
   const uint32_t skipped = hash >> 3 & 3;
   const auto add = [&](float sum, uint32_t k, float p) RSL_INLINED {
@@ -109,8 +109,8 @@ RSL_INLINE float gradient4(uint32_t hash, float x, float y, float z, float w) {
 
 }  // namespace noise_detail
 
-/// Gradient noise in [-1, 1] of four dimensions; of fewer where the rest is left out. Zero on the integer lattice,
-/// twice differentiable.
+/// Gradient noise in [-1, 1] of four dimensions, or of fewer where arguments are left out. It is zero on the integer
+/// lattice and twice differentiable.
 RSL_INLINE float signedNoise4(Vec3 p, float t, Vec3 period = {}, float tPeriod = 0) {
   using noise_detail::Axis;
   const Axis x(p.x, period.x), y(p.y, period.y), z(p.z, period.z), w(t, tPeriod);
@@ -124,7 +124,7 @@ RSL_INLINE float signedNoise4(Vec3 p, float t, Vec3 period = {}, float tPeriod =
   const auto cube = [&](int i) RSL_INLINED { return mix(face(i, 0), face(i, 1), u[1]); };
   return clamp(mix(cube(0), cube(1), u[0]), -1, 1);
 }
-/// signedNoise(p) with joined ends.
+/// signedNoise(p) that repeats with the period.
 RSL_INLINE float signedPeriodicNoise(Vec3 p, Vec3 period) {
   using noise_detail::Axis;
   const Axis x(p.x, period.x), y(p.y, period.y), z(p.z, period.z);
@@ -138,11 +138,11 @@ RSL_INLINE float signedPeriodicNoise(Vec3 p, Vec3 period) {
   return clamp(mix(face(0), face(1), w), -1, 1);
 }
 
-// One and two dimensions are cuts through three, between the lattice planes: on them the gradients would vanish more
-// often than not.
+// Noise of one or two dimensions is a cut through three, between the planes of the lattice: on the planes the gradients
+// would vanish more often than not.
 constexpr float kNoiseCut = 0.5f;
 
-/// RSL's noise(): the same in [0, 1].
+/// RSL's noise(): gradient noise, scaled to [0, 1].
 RSL_INLINE float noiseAt(const LatticePlace& p) { return 0.5f + 0.5f * signedNoiseAt(p); }
 RSL_INLINE float noise(Vec3 p) { return noiseAt(latticePlace(p)); }
 RSL_INLINE float noise(float x) { return noise(Vec3{x, kNoiseCut, kNoiseCut}); }
@@ -156,7 +156,7 @@ RSL_INLINE float pnoise(float x, float y, float xPeriod, float yPeriod) {
 RSL_INLINE float pnoise(Vec3 p, float t, Vec3 period, float tPeriod) {
   return 0.5f + 0.5f * signedNoise4(p, t, period, tPeriod);
 }
-/// Constant in each unit cell, [0, 1).
+/// Noise that is constant in each unit cell, in [0, 1).
 RSL_INLINE float cellnoiseAt(const LatticePlace& p, int32_t t) {
   return static_cast<float>(static_cast<int32_t>(noise_detail::hash4(p.x, p.y, p.z, t) >> 8)) * 0x1p-24f;
 }
@@ -165,7 +165,7 @@ RSL_INLINE float cellnoise(Vec3 p, float t = 0) {
 }
 RSL_INLINE float cellnoise(float x, float y = 0) { return cellnoise(Vec3{x, y, 0}); }
 
-/// Three values that have nothing to do with each other are asked for at places of the lattice far from each other.
+/// The three independent values of a triple are looked up far from each other in the lattice.
 constexpr Vec3 kTriplePlaces[3] = {{0, 0, 0}, {1031, 523, 259}, {2053, 4099, 131}};
 template <class Of>
 Vec3 triple(Vec3 p, const Of& of) {
@@ -189,7 +189,7 @@ inline Vec3 cellnoise3(Vec3 p, float t = 0) {
 // --- Splines
 
 enum class Basis { CatmullRom, Bezier, BSpline, Hermite, Linear };
-/// Of RSL's name; catmull-rom for others.
+/// The basis of that name in RSL; Catmull-Rom if the name is unknown.
 inline Basis basisOf(const std::string& name) {
   return name == "bezier"     ? Basis::Bezier
          : name == "b-spline" ? Basis::BSpline
@@ -197,7 +197,7 @@ inline Basis basisOf(const std::string& name) {
          : name == "linear"   ? Basis::Linear
                               : Basis::CatmullRom;
 }
-/// Weights of four knots at t in [0, 1].
+/// The weights of four knots at t in [0, 1].
 inline void splineWeights(Basis basis, float t, float* w) {
   const float t2 = t * t, t3 = t2 * t, s = 1 - t;
   switch (basis) {
@@ -218,7 +218,7 @@ inline void splineWeights(Basis basis, float t, float* w) {
       w[3] = 0.5f * (t3 - t2);
   }
 }
-/// At x in [0, 1] (clamped) of a curve through n >= 4 knots; Hermite knots are points and tangents by turns.
+/// The value at x, clamped to [0, 1], of a curve through n >= 4 knots. Hermite knots are points and tangents by turns.
 template <class T>
 T spline(Basis basis, float x, const T* knots, int n) {
   const int stride = basis == Basis::Bezier    ? 3
@@ -236,7 +236,7 @@ template <class T>
 T spline(float x, std::initializer_list<T> knots) {
   return spline(Basis::CatmullRom, x, knots.begin(), static_cast<int>(knots.size()));
 }
-/// RSL's "solve" bases: where a curve that rises or falls throughout has a value; 0 or 1 beyond its ends.
+/// RSL's "solve" bases: where a monotonic curve takes a value; 0 or 1 for a value beyond its ends.
 inline float solveSpline(Basis basis, float value, const float* knots, int n) {
   const float sign = spline(basis, 1, knots, n) >= spline(basis, 0, knots, n) ? 1.0f : -1.0f;
   float lo = 0, hi = 1;

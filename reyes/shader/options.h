@@ -28,10 +28,10 @@ typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL =
 typedef enum TmSeverity { TM_WARNING = 1, TM_MISSING = 2 } TmSeverity;
 
 typedef enum TmHitSides { TM_HIT_BOTH = 0, TM_HIT_FRONT = 1, TM_HIT_BACK = 2 } TmHitSides;
-/* TM_HIT_DEFAULT: as the attributes of what is met say. */
+/* TM_HIT_DEFAULT leaves the choice to the attributes of the object that the ray meets. */
 typedef enum TmHitMode { TM_HIT_DEFAULT = 0, TM_HIT_PRIMITIVE = 1, TM_HIT_SHADER = 2 } TmHitMode;
 
-/* Whose value ask() looks for. Parameters and outputs by name; "__shadername" is a shader's own name. */
+/* The thing whose value ask() looks for. Parameters and outputs go by name; "__shadername" is a shader's own name. */
 typedef enum TmWhom {
   TM_OF_SURFACE = 0,
   TM_OF_DISPLACEMENT = 1,
@@ -55,10 +55,10 @@ typedef struct TmRayOptions {
   float sampleBase;          /* share of its micropolygon, 0..1, that the rays of a point start from */
   float opacityThreshold;    /* rays go on behind what is transparent until this much is covered; default 1 */
   int32_t hitSides, hitMode; /* TmHitSides, TmHitMode */
-  /* trace() along directions that the caller draws itself, one a call: how many, and which one this is. */
+  /* For trace() along directions that the caller draws itself, one a call: how many it draws, and which this one is. */
   int32_t drawn, number;
   int32_t passLamps; /* 1: area lights do not glow for these rays, since lightAlong() or specular() has brought them */
-  float importance;  /* default 1: of what the rays bring. rayInfo("importance") where they arrive is the product of all
+  float importance;  /* of what the rays bring; default 1. rayInfo("importance") where they arrive is the product of all
                         on the way */
   const char* label; /* seen by rayLabel() at what they meet; NULL: "" */
   const char *subset, *excludeSubset; /* sets of Attribute "grouping" "membership", separated by commas or spaces; NULL:
@@ -86,8 +86,8 @@ typedef struct TmOcclusion {
   uint32_t structBytes;
   float falloff;       /* what is met at distance d counts exp(-falloff d), or in mode 1 */
   int32_t falloffMode; /* (1 - d / maxDistance)^falloff; falloff 0: wholly */
-  /* Of a whole hemisphere by the cosine: how far an answer may be off that is interpolated between records
-   * (docs/gi.md). 0: traced at every point; < 0: as Attribute "irradiance" "maxerror" says, if it is given. */
+  /* How far an answer for a whole hemisphere, weighted by the cosine, may be off if it is interpolated between records
+   * (docs/gi.md). 0: it is traced at every point; < 0: as Attribute "irradiance" "maxerror" says, if given. */
   float maxVariation;
   float maxSolidAngle;      /* disks that together are seen under less count as one; default 0.01 */
   int32_t clamp;            /* default 1: disks behind others do not count; 0: all do */
@@ -96,7 +96,7 @@ typedef struct TmOcclusion {
   /* The answers, where the arrays are not NULL. */
   float* covered;              /* share of the hemisphere, with falloff */
   TmVec3 radiance;             /* mean of what arrives from there, the environment included */
-  TmVec3 environmentColor;     /* the same of the environment alone */
+  TmVec3 environmentColor;     /* the mean of the environment's part alone */
   TmVec3 environmentDirection; /* mean direction of the rays that meet nothing, unit length, or 0 */
 } TmOcclusion;
 
@@ -112,15 +112,15 @@ static inline TmOcclusion tmOcclusionDefaults(void) {
 /* How texture() and environment() look up (rispec-table section 10). */
 typedef struct TmTextureOptions {
   uint32_t structBytes;
-  int32_t channel;      /* the first of one or three */
-  float fill;           /* of channels that the picture lacks */
+  int32_t channel;      /* the first of the one or three channels that are read */
+  float fill;           /* the value of channels that the picture lacks */
   float swidth, twidth; /* scale of the region; default 1; 0: a point */
   float sblur, tblur;   /* added to the region, as a fraction of the picture */
   int32_t samples;      /* environment() of "raytrace": rays; default 1 */
-  float mipBias;        /* so many levels of the picture finer than the region asks for; negative: coarser */
+  float mipBias;        /* how many levels finer than the region asks for are read; negative: coarser */
   float ignoreAbove;    /* values greater than this are left out of what is averaged, texel by texel; default 1e30 */
   const char* filter;   /* NULL: "box" */
-  /* texture(): a parallelogram of the caller's own, s and t along one side and s and t along the other, for each point.
+  /* texture(): a parallelogram that the caller gives for each point: s and t along one side, s and t along the other.
    * region[0] NULL: the parallelogram that the micropolygon covers in (s, t). */
   const float* region[4];
   const float* angle; /* environment(): angle to filter over, radians, for each point; NULL: that of the micropolygon */
@@ -156,8 +156,8 @@ static inline TmShadowOptions tmShadowDefaults(void) {
   return o;
 }
 
-/* RSL's "send:light:NAME": the parameter of that name, of lights that have one, takes this value, which is as a
- * parameter of the sender would be: a number, a triple or a string. */
+/* RSL's "send:light:NAME": lights that have a parameter of that name take this value for it. The value is laid out like
+ * a parameter of the sender, and is a number, a triple or a string. */
 typedef struct TmMessage {
   const char* name;
   TmValue value;
@@ -167,22 +167,22 @@ typedef struct TmMessage {
 /* One sample of one light after another: call illuminance() with the same struct until it returns 0. */
 typedef struct TmIlluminance {
   uint32_t structBytes;
-  int32_t next;         /* the host's own: 0 at first */
+  int32_t next;         /* kept by the host; 0 at first */
   const char* category; /* "", NULL: all lights; "a,b": one of these; "-a": without; "a&-b" (parameter __category) */
   TmConstVec3 axis;     /* x NULL: from all around; else from the cone around it */
   const float* angles;  /* half angle of that cone, radians, for each point; NULL: `angle` */
   float angle;          /* the same for all points */
   int32_t refresh;      /* 1: lights run again ("lightcache" "refresh") even if they have for the same P, category and
                            messages */
-  /* Where the light arrives; x NULL: at the shaded points. Volumes that give it ask in the air, which no indirect light
-   * reaches, where light shaders see an N of 0 and rays start at once: not for the surface itself. */
+  /* Where the light arrives; x NULL: at the shaded points. A volume gives it to ask for light in the air. No indirect
+   * light arrives there, light shaders see an N of 0, and rays start at once. A surface must not give it. */
   TmConstVec3 P;
   const TmMessage* sent; /* for the lights that run */
   int32_t sentCount;
   /* The answer. */
   int32_t light;         /* its number, for ask() and lightDensity() */
   TmConstVec3 L;         /* from P to the light, of full length; unit length where it is at infinity */
-  TmConstVec3 direction; /* the same, of unit length */
+  TmConstVec3 direction; /* L with unit length */
   TmConstVec3 Cl;        /* shadowed, divided by the number of samples */
   const uint8_t* lit;    /* 1: active, and the sample comes from the cone */
   int32_t isIndirect, nondiffuse, nonspecular;
@@ -199,9 +199,9 @@ static inline TmIlluminance tmIlluminanceDefaults(void) {
 typedef struct TmCloudOptions {
   uint32_t structBytes;
   float radiusScale;       /* default 1 */
-  const float* radius;     /* current space: of the disk that is baked, of what is averaged over; NULL: of the
-                              micropolygon */
-  const char* coordSystem; /* of the file; NULL: "world" */
+  const float* radius;     /* the radius of the disk that is baked or of the region that is averaged, in current space;
+                              NULL: the micropolygon's */
+  const char* coordSystem; /* the space of the file; NULL: "world" */
 } TmCloudOptions;
 
 static inline TmCloudOptions tmCloudDefaults(void) {
@@ -215,8 +215,8 @@ static inline TmCloudOptions tmCloudDefaults(void) {
 /* How photonMap() looks photons up. */
 typedef struct TmPhotonOptions {
   uint32_t structBytes;
-  int32_t estimator; /* the nearest photons that count; default 50 */
-  float maxDistance; /* none farther away does, in units of the file's space; 0: a twentieth of the map's diagonal */
+  int32_t estimator; /* how many of the nearest photons count; default 50 */
+  float maxDistance; /* how far photons count, in units of the file's space; 0: a twentieth of the map's diagonal */
 } TmPhotonOptions;
 
 static inline TmPhotonOptions tmPhotonDefaults(void) {
@@ -227,17 +227,17 @@ static inline TmPhotonOptions tmPhotonDefaults(void) {
   return o;
 }
 
-/* What light diffuses through in subsurface(). The default is marble. */
+/* The material that light diffuses through in subsurface(). The default is marble. */
 typedef struct TmSubsurfaceOptions {
   uint32_t structBytes;
   float ior;                          /* default 1.3 */
   float unitLength;                   /* millimetres in one unit of the file's space; default 1 */
-  float maxSolidAngle;                /* points that together are seen under less count as one; 0: each for itself;
-                                         default 0.1 */
+  float maxSolidAngle;                /* points that are seen together under less count as one; 0: each counts for
+                                         itself; default 0.1 */
   float scattering[3], absorption[3]; /* reduced scattering and absorption, 1/mm */
   /* Unless meanFreePath[0] is 0, these count instead: diffuse albedo, and diffuse mean free path in mm. */
   float albedo[3], meanFreePath[3];
-  const char* coordSystem; /* of the file; NULL: "world" */
+  const char* coordSystem; /* the space of the file; NULL: "world" */
   /* "apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skimmilk", "skin1", "skin2",
    * "spectralon", "wholemilk" (Jensen et al. 2001, figure 5); NULL: as the numbers above say. */
   const char* material;

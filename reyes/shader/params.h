@@ -30,7 +30,7 @@ class Param {
   std::vector<float> floats_;
   std::vector<const char*> strings_;
   TmParamDecl decl_;
-  int place_ = 0, index_ = 0;  // in the lists of shaders, the same in all so that reading costs no question; of TmGrid
+  int place_ = 0, index_ = 0;  // place_ is that in shaders' lists, the same in all; index_ is that in TmGrid::params
   std::vector<const TmShader*> listedBy_;
   Param* const older_ = std::exchange(newest(), this);
 
@@ -40,7 +40,7 @@ class Param {
   }
 };
 
-/// Of TmShaderLibrary: a parameter that no shader lists has no value.
+/// Gives TmShaderLibrary::fault: a parameter that no shader lists would have no value.
 TM_OF_THIS_PLUGIN inline const char* faultOfParameters() {
   static std::string fault;
   for (const Param* p = Param::newest(); p; p = p->older_)
@@ -59,7 +59,7 @@ class FloatParam : public Param {
   }
 };
 
-/// The same at all points, such as a number of rays: RSL's `uniform`. Primitive variables do not override it.
+/// A number that is the same at all points, as RSL's `uniform`: primitive variables do not override it.
 class UniformFloatParam : public Param {
  public:
   UniformFloatParam(const char* name, float value, const char* doc, TmRole role = TM_ROLE_NONE)
@@ -89,7 +89,7 @@ class StringParam : public Param {
   const char* operator()(const TmGrid* g) const { return value(g).string; }
 };
 
-// Arrays, of the length that is declared, are uniform: p(g, element).
+// Arrays are uniform and have the length that is declared: p(g, element).
 
 class FloatArrayParam : public Param {
  public:
@@ -136,8 +136,8 @@ class StringArrayParam : public Param {
   int length(const TmGrid* g) const { return value(g).length; }
 };
 
-/// The identity unless given. 16 floats in RenderMan's order, from shader to current space; Matrix::of
-/// (reyes/shader/shadeops.h) takes them.
+/// A matrix, the identity unless given: 16 floats in RenderMan's order, from shader to current space, which Matrix::of
+/// (reyes/shader/shadeops.h) takes.
 class MatrixParam : public Param {
  public:
   MatrixParam(const char* name, const char* doc)
@@ -145,14 +145,14 @@ class MatrixParam : public Param {
   const float* operator()(const TmGrid* g) const { return value(g).c[0]; }
 };
 
-/// An output parameter: stored, and so worth computing, only where a Display asks for its name.
+/// An output parameter. It is stored, and so worth computing, only where a Display asks for its name.
 template <int32_t type, class T>
 class Output : public Param {
  public:
   Output(const char* name, const char* doc, TmRole role = TM_ROLE_NONE)
       : Param(name, type | TM_OUTPUT, {0, 0, 0}, {}, doc, role) {}
   bool wanted(const TmGrid* g) const { return value(g).step == 1; }
-  /// Pre: wanted.
+  /// To be called only if wanted().
   void set(const TmGrid* g, int i, const T& v) const {
     const float* from = reinterpret_cast<const float*>(&v);
     for (size_t k = 0; k < sizeof(T) / sizeof(float); ++k) const_cast<float*>(value(g).c[k])[i] = from[k];
@@ -164,8 +164,8 @@ using PointOutput = Output<TM_POINT, Vec3>;
 using VectorOutput = Output<TM_VECTOR, Vec3>;
 using NormalOutput = Output<TM_NORMAL, Vec3>;
 
-/// A shader as the renderer sees it. Lists every parameter that it reads; shaders that share a parameter list it at the
-/// same place.
+/// A shader as the renderer sees it. It lists every parameter that it reads; shaders that share a parameter list it at
+/// the same place.
 class Shader {
  public:
   Shader(TmKind kind, const char* name, const char* doc, uint32_t capabilities, void (*shade)(const TmGrid*),
@@ -198,7 +198,7 @@ class Shader {
     p.listedBy_.push_back(&shader_);
     decls_.push_back(p.decl_);
   }
-  /// TmShader::unlist.
+  /// Implements TmShader::unlist.
   static const char* unlist(const TmShader* shader, int32_t k) {
     const char* name = nullptr;
     for (Param* p = Param::newest(); p; p = p->older_) {

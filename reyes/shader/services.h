@@ -10,40 +10,40 @@ extern "C" {
 
 typedef struct TmServices {
   uint32_t structBytes;
-  uint32_t abi; /* of the renderer: TM_SHADER_ABI */
+  uint32_t abi; /* the renderer's TM_SHADER_ABI */
 
   /* --- The surface */
 
-  /* Between named spaces (current, camera, world, object, shader, raster, NDC, screen, or a CoordinateSystem). `kind`
-   * is a TmTransformKind. Returns 0 and copies where a space is unknown. in and out may be the same arrays. */
+  /* Maps between named spaces (current, camera, world, object, shader, raster, NDC, screen or a CoordinateSystem).
+   * `kind` is a TmTransformKind. Returns 0 and copies if a space is unknown. in and out may be the same. */
   int32_t (*transform)(void* host, const TmGrid*, int32_t kind, const char* from, const char* to, TmConstVec3 in,
                        TmVec3 out);
-  /* RISpec calculatenormal(): normal of the batch's surface if its points were at P. Elsewhere than in displacements it
-   * takes TM_NEIGHBOURS, or copies N. */
+  /* RISpec calculatenormal(): the normal that the batch's surface would have if its points were at P. A shader that is
+   * not a displacement needs TM_NEIGHBOURS for it, or gets a copy of N. */
   void (*calculateNormal)(void* host, const TmGrid*, TmConstVec3 P, TmVec3 out);
-  /* Derivative by u (direction 0) or v (1) of a value at every point: centred differences, one-sided at the border of a
-   * grid. Knows u, v, s, t, P, N and primitive variables with TM_DERIVATIVES, all values with TM_NEIGHBOURS and in
-   * displacements. */
+  /* The derivative of a value by u (direction 0) or v (1) at every point, by centred differences that are one-sided at
+   * the border of a grid. With TM_DERIVATIVES it works for u, v, s, t, P, N and primitive variables; with TM_NEIGHBOURS
+   * and in displacements it works for all values. */
   void (*derivative)(void* host, const TmGrid*, int32_t direction, const float* value, float* out);
 
   /* --- Light (RISpec 15.6). N, V need not be of unit length. */
 
-  /* Sum of the Cl of ambient lights. */
+  /* The sum of the Cl of ambient lights. */
   void (*ambient)(void* host, const TmGrid*, TmVec3 out);
-  /* Sum of Cl * max(0, L.N): E/pi. `which` is a TmLightChoice. */
+  /* The sum of Cl * max(0, L.N), which is E/pi. `which` is a TmLightChoice. */
   void (*diffuse)(void* host, const TmGrid*, int32_t which, TmConstVec3 N, TmVec3 out);
-  /* Sum of Cl * max(0, N.H)^(8/roughness); docs/decisions/0004 is about the exponent. */
+  /* The sum of Cl * max(0, N.H)^(8/roughness); docs/decisions/0004 is about the exponent. */
   void (*specular)(void* host, const TmGrid*, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out);
-  /* RISpec illuminance(), sample by sample; returns 0 when there are no more. Ambient lights are not listed. The arrays
-   * live until the shader returns; those of a P that is not that of the batch, of messages and of refreshed lights live
-   * until it has asked for four more such. Call with the same mask until 0 is returned. */
+  /* RISpec illuminance(), sample by sample. Call it with the same mask until it returns 0: there are no more. Ambient
+   * lights are not listed. The arrays live until the shader returns; but if P is not the batch's, or lights get
+   * messages or run again, they live only until four more such samples have been asked for. */
   int32_t (*illuminance)(void* host, const TmGrid*, TmIlluminance*);
   /* Indirect light at P on the side of N: E/pi, unclamped, and one unit dominant direction for each of red, green and
-   * blue (approximate-gi eq. 7). `dominant` may be NULL; else three vectors. The parameters are those of the calling
-   * indirectlight; elsewhere the scene's. */
+   * blue (approximate-gi eq. 7). `dominant` is NULL or an array of three vectors. A light with TM_LIGHT_INDIRECT gets
+   * it by its own parameters, other shaders by those of the scene's. */
   void (*indirectDiffuse)(void* host, const TmGrid*, TmConstVec3 N, TmVec3 out, TmVec3* dominant);
-  /* RISpec shadow(): the share of light that what is in shadow map `name` blocks at P, 1: all; colours from deep maps.
-   * 0 outside the map, for "raytrace", and where the map cannot be read (the renderer traces those shadows itself). */
+  /* RISpec shadow(): the share of light at P that shadow map `name` blocks (1: all), a colour for deep maps. It is 0
+   * outside the map, for "raytrace", and where the map cannot be read (the renderer traces those shadows itself). */
   void (*shadow)(void* host, const TmGrid*, const char* name, const TmShadowOptions*, TmConstVec3 P, TmVec3 out);
 
   /* Multiple importance sampling of a surface's own lobe f (the cosine included, over pi less), as specular() does it.
@@ -64,11 +64,11 @@ typedef struct TmServices {
    * diffuse rays: Attribute "visibility" and the depth limits of "trace" tell them apart. They start by the hit-list
    * origin offset, unless there is a bias. */
 
-  /* Mean colour that the rays bring, through what is transparent, and the least distance to what they meet (1e30:
-   * nothing). Either may be NULL (x NULL). */
+  /* The mean colour that the rays bring, through what is transparent, and the least distance to a hit (1e30: none).
+   * Either array may be NULL (for the colour: its x). */
   void (*trace)(void* host, const TmGrid*, const TmRayOptions*, TmConstVec3 P, TmConstVec3 direction, TmVec3 color,
                 float* distance);
-  /* Fraction of light that travels from P along `toward` to its tip (1: clear); several samples spread over a cone. */
+  /* The share of light that travels from P along `toward` to its tip (1: all); several samples spread over a cone. */
   void (*transmission)(void* host, const TmGrid*, const TmRayOptions*, TmConstVec3 P, TmConstVec3 toward, TmVec3 out);
   /* Ray number `ray` of the options' samples of each active point, around `axis`: hit[i] says whether it met anything,
    * and outputs are set where it did ("ray:" values everywhere). Returns 0 when there are no more. With
@@ -82,21 +82,21 @@ typedef struct TmServices {
    * value of that name and type, the arrays keep theirs. */
   int32_t (*gather)(void* host, const TmGrid*, const TmRayOptions*, TmConstVec3 P, TmConstVec3 axis, int32_t ray,
                     uint8_t* hit, const TmChannel* outputs, int32_t outputCount);
-  /* RISpec occlusion() and indirectdiffuse(): what the cone around N (coneAngle 0: the hemisphere) holds. Returns 0 if
-   * a point cloud is missing, which has been reported. */
+  /* RISpec occlusion() and indirectdiffuse() of the cone around N (coneAngle 0: the hemisphere). Returns 0 if a point
+   * cloud is missing, which has been reported. */
   int32_t (*occlusion)(void* host, const TmGrid*, const TmRayOptions*, TmConstVec3 P, TmConstVec3 N,
                        const TmOcclusion*);
-  /* Of the ray that came to these points: "type" (0 camera, 1 diffuse, 2 specular, 3 transmission), "depth",
-   * "diffusedepth", "speculardepth", "shadowdepth", "importance", "highlights" (0: gathered light is wanted, without
-   * them) into x; "origin", "direction" into all, "length" into x. Returns 0: no such name. */
+  /* Says of the ray that came to these points: "type" (0 camera, 1 diffuse, 2 specular, 3 transmission), "depth",
+   * "diffusedepth", "speculardepth", "shadowdepth", "importance", "length" and "highlights" (0: a gather ray, which
+   * wants none) in x alone; "origin" and "direction" in x, y and z. Returns 0 if there is no such name. */
   int32_t (*rayInfo)(void* host, const TmGrid*, const char* name, TmVec3 out);
-  /* The label of that ray. */
+  /* The label of the ray that came to these points. */
   const char* (*rayLabel)(void* host, const TmGrid*);
 
   /* --- Pictures. One channel where out.y is NULL, else three. They return 0 when the file is missing: the error has
    * been reported and `out` holds the loud substitute. */
 
-  /* Picture `name` at (s,t), t down the image. */
+  /* Looks picture `name` up at (s, t); t grows down the image. */
   int32_t (*texture)(void* host, const TmGrid*, const char* name, const TmTextureOptions*, const float* s,
                      const float* t, TmVec3 out);
   /* Radiance of the latitude-longitude picture `name` towards `direction` (current space, any length). The picture
@@ -114,28 +114,28 @@ typedef struct TmServices {
    * written when the frame ends. N of zero length: a sphere. Returns 0 if it cannot be, which has been reported. */
   int32_t (*bake3d)(void* host, const TmGrid*, const char* file, const TmCloudOptions*, TmConstVec3 P, TmConstVec3 N,
                     const TmChannel* values, int32_t valueCount);
-  /* Values around P in a point cloud (.ptc, held whole) or brick map (.bkm), on surfaces that face as N does (zero
-   * length: all). found[i] is 1 where there are any; elsewhere values are left alone. */
+  /* Looks up values around P in a point cloud (.ptc, held whole) or brick map (.bkm), on surfaces that face as N does
+   * (zero length: on all). found[i] is 1 where there are any; elsewhere the values are left alone. */
   int32_t (*texture3d)(void* host, const TmGrid*, const char* file, const TmCloudOptions*, TmConstVec3 P, TmConstVec3 N,
                        const TmChannel* values, int32_t valueCount, float* found);
-  /* E/pi at P on the side of N from a photon map. */
+  /* Gives E/pi at P on the side of N from a photon map. */
   int32_t (*photonMap)(void* host, const TmGrid*, const char* file, const TmPhotonOptions*, TmConstVec3 P,
                        TmConstVec3 N, TmVec3 out);
-  /* Light that has entered where a point cloud was baked and leaves at P, by the diffusion approximation: E/pi as what
-   * was baked. The cloud holds "_area" and "_radiance_t", what diffuse() gives to a surface that lets it all in. */
+  /* Gives the light that enters where a point cloud was baked and leaves at P, by the diffusion approximation, as E/pi.
+   * The cloud holds "_area" and "_radiance_t", what diffuse() gives to a surface that lets all light in. */
   int32_t (*subsurface)(void* host, const TmGrid*, const char* file, const TmSubsurfaceOptions*, TmConstVec3 P,
                         TmVec3 out);
 
   /* --- Messages */
 
-  /* A value of something else (TmWhom): `type` is the TmType, `out` as a parameter of this shader. It lives until the
-   * shader returns, or as long as what illuminance() has listed the light with. Returns 0 if there is no such value.
-   * `light` counts for TM_OF_LIGHT alone; negative: the light that is running. */
+  /* Gets a value of something else (TmWhom). `type` becomes its TmType, and `out` is laid out as a parameter of this
+   * shader. It lives until the shader returns, or as long as the arrays of the illuminance() that listed the light.
+   * Returns 0 if there is no such value. `light` counts for TM_OF_LIGHT alone; negative: the light that is running. */
   int32_t (*ask)(void* host, const TmGrid*, int32_t whom, int32_t light, const char* name, int32_t* type, TmValue* out);
   /* Tells the user once per shader and object; `severity` is a TmSeverity. */
   void (*report)(void* host, const TmGrid*, int32_t severity, const char* message);
-  /* RISpec printf(): a line on standard error, whole whatever other threads say. It ends with one newline, whether
-   * the text has it or not. */
+  /* RISpec printf(): prints a line on standard error, which other threads' lines do not break up. It ends with one
+   * newline, whether the text has it or not. */
   void (*print)(void* host, const TmGrid*, const char* text);
 } TmServices;
 

@@ -12,21 +12,21 @@ constexpr float kPi = 3.14159265358979f;
 
 inline float radians(float degrees) { return degrees * (kPi / 180); }
 inline float degrees(float radians) { return radians * (180 / kPi); }
-// Where mathematics has no value, these give the ones that Open Shading Language gives, so that no NaN reaches a
-// picture by a number that has just left its range.
-/// a - b floor(a / b): the sign of b. 0 for b = 0.
+// Where mathematics has no value, these functions give the value that Open Shading Language gives, so that a number
+// just outside of its range does not bring a NaN into the picture.
+/// Is a - b floor(a / b), which has the sign of b, and 0 for b = 0.
 RSL_INLINE float mod(float a, float b) { return b == 0 ? 0 : a - b * wholeBelow(a / b); }
-/// 0 for negative numbers.
+/// Is 0 for negative numbers.
 RSL_INLINE float sqrt(float x) { return x < 0 ? 0 : std::sqrt(x); }
-/// 0 for 0 and negative numbers.
+/// Is 0 for 0 and negative numbers.
 RSL_INLINE float inversesqrt(float x) { return x <= 0 ? 0 : 1 / std::sqrt(x); }
-/// Of the nearest number in [-1, 1].
+/// Is the arcsine of the nearest number in [-1, 1].
 RSL_INLINE float asin(float x) { return std::asin(clamp(x, -1, 1)); }
 RSL_INLINE float acos(float x) { return std::acos(clamp(x, -1, 1)); }
-/// The least float for 0 and negative numbers.
+/// Is the least float for 0 and negative numbers.
 inline float log(float x) { return x <= 0 ? -std::numeric_limits<float>::max() : std::log(x); }
 inline float log(float x, float base) { return log(x) / log(base); }
-/// 0 for a negative number to a power that is not whole, and for 0 to a negative one; else what std::pow gives.
+/// Is 0 for a negative number to a power that is not whole, and for 0 to a negative one; else what std::pow gives.
 inline float pow(float x, float y) {
   const bool none =
       (x == 0 && y < 0) || (x < 0 && std::abs(x) <= std::numeric_limits<float>::max() && y != std::floor(y));
@@ -50,24 +50,24 @@ RSL_INLINE Vec3 mix(Vec3 a, Vec3 b, Vec3 t) { return a + (b - a) * t; }
 // --- Geometry
 
 RSL_INLINE float distance(Vec3 a, Vec3 b) { return length(a - b); }
-/// From Q to the segment P0 P1.
+/// The distance from Q to the segment P0 P1.
 RSL_INLINE float ptlined(Vec3 P0, Vec3 P1, Vec3 Q) {
   const Vec3 d = P1 - P0;
   const float l2 = dot(d, d);
   return distance(Q, P0 + d * (l2 > 0 ? clamp(dot(Q - P0, d) / l2, 0, 1) : 0));
 }
-/// Q around the axis P0 P1 by an angle of this cosine and sine, by the right-hand rule in right-handed coordinates
-/// (Rodrigues).
+/// Q, rotated around the axis P0 P1 by an angle of this cosine and sine, by the right-hand rule in right-handed
+/// coordinates (Rodrigues).
 RSL_INLINE Vec3 rotated(Vec3 Q, float cosine, float sine, Vec3 P0, Vec3 P1) {
   const Vec3 k = normalize(P1 - P0), v = Q - P0;
   return P0 + v * cosine + cross(k, v) * sine + k * (dot(k, v) * (1 - cosine));
 }
-/// By radians.
+/// The angle is in radians.
 inline Vec3 rotate(Vec3 Q, float angle, Vec3 P0, Vec3 P1) {
   return rotated(Q, std::cos(angle), std::sin(angle), P0, P1);
 }
-/// Share of reflected and of transmitted light, and their directions. Unit vectors; the transmitted solid angle is not
-/// accounted for.
+/// The shares of reflected and of transmitted light, and their directions. I and N are unit vectors. The change of the
+/// solid angle by refraction is not accounted for.
 inline void fresnel(Vec3 I, Vec3 N, float eta, float& Kr, float& Kt, Vec3& R, Vec3& T) {
   Kr = fresnel(I, N, eta), Kt = 1 - Kr;
   R = reflect(I, N), T = refract(I, N, eta);
@@ -90,7 +90,7 @@ inline Matrix operator*(const Matrix& a, const Matrix& b) {
       out.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j] + a.m[i][3] * b.m[3][j];
   return out;
 }
-/// Gauss-Jordan with pivots. Returns the determinant; `inverse` (may be null) is left alone where that is 0.
+/// Gauss-Jordan with pivots. Returns the determinant. Where that is 0, `inverse` (may be null) is left alone.
 inline float invert(const Matrix& a, Matrix* inverse) {
   Matrix left = a, right;
   float determinant = 1;
@@ -124,7 +124,7 @@ inline Matrix scale(const Matrix& a, Vec3 s) {
   b.m[0][0] = s.x, b.m[1][1] = s.y, b.m[2][2] = s.z;
   return b * a;
 }
-/// By an angle of this cosine and sine.
+/// Rotates by an angle of this cosine and sine.
 inline Matrix rotate(const Matrix& a, float cosine, float sine, Vec3 axis) {
   Matrix b;
   const Vec3 rows[3] = {rotated({1, 0, 0}, cosine, sine, {}, axis), rotated({0, 1, 0}, cosine, sine, {}, axis),
@@ -144,7 +144,7 @@ RSL_INLINE Vec3 transform(const Matrix& a, Vec3 p) {
   const Vec3 q = vtransform(a, p) + Vec3{a.m[3][0], a.m[3][1], a.m[3][2]};
   return w != 0 && w != 1 ? q / w : q;
 }
-/// By the transposed inverse. Zero where the matrix has no inverse.
+/// Transforms a normal by the transposed inverse. It becomes zero where the matrix has no inverse.
 inline Vec3 ntransform(const Matrix& a, Vec3 n) {
   Matrix b;
   if (invert(a, &b) == 0) return {};
@@ -174,7 +174,7 @@ inline Color rgbFromHsl(Color c) {
   const float chroma = (1 - std::abs(2 * c.z - 1)) * c.y, low = c.z - chroma / 2;
   return chroma * rgbFromHue(c.x) + Color{low, low, low};
 }
-/// Rec. 709 primaries, D65.
+/// Takes rgb with the Rec. 709 primaries and the white point D65.
 inline Color xyzFromRgb(Color c) {
   return {dot(c, {0.4123908f, 0.3575843f, 0.1804808f}), dot(c, {0.2126390f, 0.7151687f, 0.0721923f}),
           dot(c, {0.0193308f, 0.1191948f, 0.9505322f})};
@@ -190,7 +190,7 @@ inline Color xyYFromXyz(Color c) {
 inline Color xyzFromXyY(Color c) {
   return c.y != 0 ? Color{c.x * c.z / c.y, c.z, (1 - c.x - c.y) * c.z / c.y} : Color{};
 }
-/// NTSC's.
+/// NTSC's YIQ.
 inline Color yiqFromRgb(Color c) {
   return {dot(c, {0.299f, 0.587f, 0.114f}), dot(c, {0.595716f, -0.274453f, -0.321263f}),
           dot(c, {0.211456f, -0.522591f, 0.311135f})};
@@ -199,7 +199,7 @@ inline Color rgbFromYiq(Color c) {
   return {dot(c, {1, 0.9563f, 0.6210f}), dot(c, {1, -0.2721f, -0.6474f}), dot(c, {1, -1.1070f, 1.7046f})};
 }
 enum class ColorSpace { Rgb, Hsv, Hsl, Yiq, Xyz, XyY };
-/// A space of another name is taken for rgb.
+/// An unknown name counts as rgb.
 inline ColorSpace colorSpaceOf(const std::string& name) {
   return name == "hsv"                    ? ColorSpace::Hsv
          : name == "hsl"                  ? ColorSpace::Hsl
@@ -230,7 +230,7 @@ inline Color ctransform(ColorSpace from, ColorSpace to, Color c) {
       return c;
   }
 }
-/// Between rgb, hsv, hsl, YIQ, xyz and xyY.
+/// Converts between rgb, hsv, hsl, YIQ, xyz and xyY.
 inline Color ctransform(const std::string& from, const std::string& to, Color c) {
   return ctransform(colorSpaceOf(from), colorSpaceOf(to), c);
 }

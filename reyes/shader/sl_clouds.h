@@ -22,7 +22,7 @@ bool bake3d(const char* file, const Point& p, const Normal& n, const std::vector
   const CloudList all = listed(CloudList(), first, list...);
   return bake3d(file, p, n, channels, all.options());
 }
-/// 1 where the file has data, which the channels then hold.
+/// Returns 1 where the file has data, and sets the channels there.
 inline Float texture3d(const char* file, const Point& p, const Normal& n, const std::vector<Channel>& channels,
                        const TmCloudOptions& options = tmCloudDefaults()) {
   std::vector<TmChannel> values;
@@ -38,7 +38,7 @@ Float texture3d(const char* file, const Point& p, const Normal& n, const std::ve
   const CloudList all = listed(CloudList(), first, list...);
   return texture3d(file, p, n, channels, all.options());
 }
-/// E/pi of the nearest photons.
+/// Returns E/pi, estimated from the nearest photons.
 inline Color photonmap(const char* file, const Point& p, const Normal& n, const TmPhotonOptions& options) {
   return tripleFrom([&](TmVec3 out) { grid()->call->photonMap(grid()->host, grid(), file, &options, p, n, out); });
 }
@@ -56,13 +56,13 @@ Color photonmap(const char* file, const Point& p, const Normal& n, const char* f
   return found;
 }
 
-/// Of the photons of Attribute "photon" "causticmap"; none: black.
+/// E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
 inline Color caustic(const Point& p, const Normal& n) {
   const std::string file = askText(TM_OF_ATTRIBUTES, "photon:causticmap");
   return file.empty() ? Color() : photonmap(file.c_str(), p, n);
 }
-/// Light that was baked as "_radiance_t" with "_area", where it leaves after diffusion: of the material of the list,
-/// else of marble. E/pi. The approximation does not look at the normal.
+/// Light that was baked as "_radiance_t" with "_area", where it leaves after diffusion, as E/pi. The list names the
+/// material, marble by default. The approximation does not look at the normal.
 template <class... List>
 Color subsurface(const Point& p, const Normal&, const char* file, const List&... list) {
   const TmSubsurfaceOptions material = listed(tmSubsurfaceDefaults(), list...);

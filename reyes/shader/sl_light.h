@@ -34,11 +34,11 @@ inline float specularScale() {
   if (scale == 0) scale = askText(TM_OF_OPTIONS, "shade:specular") == "rispec" ? 1 : 8;
   return scale;
 }
-/// The lobe of specular(), L and V of any length.
+/// The lobe of specular(). L and V may have any length.
 inline Float specularbrdf(const Vector& L, const Normal& N, const Vector& V, const Float& roughness) {
   return pow(max(0, dot(normalize(N), normalize(normalize(L) + normalize(V)))), specularScale() / roughness);
 }
-/// The same for all points of a call that lie on surfaces of one name (Attribute "identifier" "name").
+/// A random number that all points of a call share if their surfaces have one name (Attribute "identifier" "name").
 inline Float randomGrid() {
   uint32_t hash = 0;
   for (const char c : askText(TM_OF_ATTRIBUTES, "identifier:name")) hash = rsl::latticeHash(int32_t(hash), c, 0);
@@ -52,7 +52,7 @@ template <class... List>
 Color trace(const Point& p, const Vector& r, const char* first, const List&... list) {
   return trace(p, r, listed(tmRayDefaults(), first, list...));
 }
-/// RSL's float trace(): how far the ray goes, 1e30 where it meets nothing.
+/// RSL's float trace(): how far the ray goes, or 1e30 where it meets nothing.
 inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& options = tmRayDefaults()) {
   Float out;
   grid()->call->trace(grid()->host, grid(), &options, p, r, TmVec3{}, out.data());
@@ -83,7 +83,7 @@ Float occlusion(const Point& p, const Normal& n, int samples, const List&... lis
   occlusion(p, n, samples, all);
   return covered;
 }
-/// Mean radiance that arrives from the hemisphere around n (or the cone of the list): not multiplied by Cs or pi.
+/// The mean radiance that arrives from the hemisphere around n (or the cone of the list), not multiplied by Cs or pi.
 template <class... List>
 Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&... list) {
   HemisphereList all = listed(HemisphereList(), list...);
@@ -92,7 +92,7 @@ Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&.
   occlusion(p, n, samples, all);
   return radiance;
 }
-/// Its old name.
+/// The old name of indirectdiffuse().
 template <class... List>
 Color indirect(const Point& p, const Normal& n, int samples, const List&... list) {
   return indirectdiffuse(p, n, samples, list...);
@@ -104,17 +104,17 @@ struct Gathered {
   Gathered(const char* name, Float* f) : output{name, {f->data(), nullptr, nullptr}} {}
   TmChannel output;
 };
-/// Of gather(): evenly over the cone, unless "distribution" is "cosine".
+/// The list of gather(). Rays are even over the cone's solid angle unless "distribution" is "cosine".
 template <class... List>
 TmRayOptions rays(const List&... list) {
   TmRayOptions even = tmRayDefaults();
   even.uniform = 1;
   return listed(even, list...);
 }
-/// category: "illuminance" (or ""): rays are traced; "samplepattern": they are not, and all miss; "environment:NAME":
-/// nor are they, but leave by the light of that picture, whatever direction and angle, with "environment:color",
-/// "environment:direction" and "environment:solidangle" (the sum of color times solid angle over all is the light of
-/// the whole picture).
+/// RSL's gather(). category "illuminance" (or "") traces rays; "samplepattern" only makes directions, which all count
+/// as misses. "environment:NAME" traces none either: all are misses whose directions follow the light of that picture,
+/// whatever the direction and angle given, with "environment:color", "environment:direction" and
+/// "environment:solidangle" (the sum of color times solid angle over all rays is the light of the whole picture).
 template <class Hit, class Miss>
 void gather(const char* category, const Point& p, const Vector& direction, float angle, int samples,
             const TmRayOptions& list, std::initializer_list<Gathered> wanted, const Hit& hit, const Miss& miss) {

@@ -1,6 +1,6 @@
-// RSL's optional parameter lists, such as trace(P, R, "samples", 16, "samplecone", 0.1), on values of a batch: names
-// and what they set are those of lists.h. Part of reyes/sl.h. A name that there is not is an exception, which the
-// renderer reports with shader and object.
+// RSL's optional parameter lists, such as trace(P, R, "samples", 16, "samplecone", 0.1), on values of a batch: lists.h
+// has their names and meanings. Part of reyes/sl.h. An unknown name throws an exception, which the renderer reports
+// with shader and object.
 #pragma once
 #include <stdexcept>
 #include <type_traits>
@@ -11,7 +11,7 @@
 
 namespace sl {
 
-/// A value of a list.
+/// A value in a parameter list.
 struct Setting : rsl::Setting {
   Setting(double v) : rsl::Setting(static_cast<float>(v)) {}
   Setting(const char* v) : rsl::Setting(v) {}
@@ -27,7 +27,7 @@ struct Setting : rsl::Setting {
 using rsl::HemisphereList;
 using rsl::PhotonList;
 struct CloudList : rsl::CloudList {
-  Float same;  ///< The radius that is the same for all.
+  Float same;  ///< The radius that all points share, as an array.
   TmCloudOptions options() const {
     TmCloudOptions o = cloud;
     if (hasRadius) o.radius = same.data();
@@ -43,7 +43,7 @@ struct LightList : rsl::LightList {
   LightList() { padded = grid()->padded; }
 };
 
-/// `options`, changed as a list says.
+/// Returns the options, changed as the list says.
 template <class Options>
 Options listed(Options options) {
   return options;

@@ -10,7 +10,7 @@ inline Triple texture(const char* name, const Float& s, const Float& t,
       [&](TmVec3 out) { grid()->call->texture(grid()->host, grid(), name, &options, s.data(), t.data(), out); });
 }
 inline Triple texture(const char* name) { return texture(name, Float(grid()->s), Float(grid()->t)); }
-/// With a list, which begins with a name.
+/// Takes a parameter list, which begins with a name.
 template <class... List>
 Triple texture(const char* name, const Float& s, const Float& t, const char* first, const List&... list) {
   return texture(name, s, t, listed(tmTextureDefaults(), first, list...));
@@ -19,7 +19,7 @@ template <class... List>
 Triple texture(const char* name, const char* first, const List&... list) {
   return texture(name, Float(grid()->s), Float(grid()->t), first, list...);
 }
-/// One channel.
+/// Reads one channel.
 template <class... List>
 Float ftexture(const char* name, int channel, const Float& s, const Float& t, const List&... list) {
   TmTextureOptions one = listed(tmTextureDefaults(), list...);
@@ -39,10 +39,10 @@ inline Triple texture(const char* name, const Float (&s)[4], const Float (&t)[4]
   for (int k = 0; k < 4; ++k) options.region[k] = sides[k].data();
   return texture(name, s0, t0, options);
 }
-/// What texture() may look up instead of a micropolygon: RSL's filterregion.
+/// The region that texture() averages in place of the micropolygon: RSL's filterregion.
 struct FilterRegion {
   Float s, t, sides[4];
-  /// That of a micropolygon whose points were at s, t.
+  /// Sets it to the region of a micropolygon whose points were at s, t.
   void calculate2d(const Float& atS, const Float& atT) {
     const Float du(grid()->du), dv(grid()->dv);
     s = atS, t = atT;
@@ -65,7 +65,7 @@ template <class... List>
 Triple environment(const char* name, const Triple& R, const char* first, const List&... list) {
   return environment(name, R, listed(tmTextureDefaults(), first, list...));
 }
-/// One channel.
+/// Reads one channel.
 template <class... List>
 Float fenvironment(const char* name, int channel, const Triple& R, const List&... list) {
   TmTextureOptions one = listed(tmTextureDefaults(), list...);
@@ -74,7 +74,7 @@ Float fenvironment(const char* name, int channel, const Triple& R, const List&..
   grid()->call->environment(grid()->host, grid(), name, &one, R, {out.data(), nullptr, nullptr});
   return out;
 }
-/// Over the cone that holds four directions.
+/// Averages over the cone that holds four directions.
 inline Triple environment(const char* name, const Vector (&R)[4]) {
   const Vector middle = normalize(normalize(R[0]) + normalize(R[1]) + normalize(R[2]) + normalize(R[3]));
   Float least = 1;
@@ -92,7 +92,7 @@ Triple shadow(const char* name, const Triple& p, const char* first, const List&.
   return shadow(name, p, listed(tmShadowDefaults(), first, list...));
 }
 
-/// Over the quadrilateral whose corners are four points, in the order of texture(): the mean of its quarters.
+/// Shadow over the quadrilateral whose corners are four points, in the order of texture(): the mean of its quarters.
 template <class... List>
 Triple shadow(const char* name, const Point (&p)[4], const List&... list) {
   const auto at = [&](double a, double b) {

@@ -35,8 +35,8 @@ inline Triple Deriv(const Triple& a, const Float& b) { return Du(a) / Du(b) + Dv
 inline Float filterstep(const Float& edge, const Float& x) {
   return filterstep(edge, x, abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv)));
 }
-/// Another number in [0, 1) at every call, by what the point is: the 48 bits of its first stratified sample name it,
-/// and a hash keeps its numbers apart from the directions that its lobes draw.
+/// Gives another number in [0, 1) at every call. A hash of the point makes it, whose key is the 48 bits of the point's
+/// first stratified sample, and which differs from the hash that gives directions to its lobes.
 inline Float randomNumber() {
   const int call = Run::now().randoms++;
   Float x, y;
@@ -46,7 +46,7 @@ inline Float randomNumber() {
   });
   return x;
 }
-/// Three of them.
+/// Gives three random numbers.
 inline Triple random3() {
   const Float x = randomNumber(), y = randomNumber();
   return {x, y, randomNumber()};
@@ -55,7 +55,7 @@ inline Triple random3() {
 inline Float filterstep(const Float& edge, const Float& x, const char*, double width) {
   return filterstep(edge, x, width * (abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv))));
 }
-/// Of a micropolygon whose points were at p.
+/// The area of a micropolygon whose points were at p.
 inline Float area(const Triple& p) { return length(cross(Du(p) * Float(grid()->du), Dv(p) * Float(grid()->dv))); }
 /// "shading" and "dicing" are the same here: one point is shaded for each micropolygon.
 inline Float area(const Triple& p, const char*) { return area(p); }
@@ -69,7 +69,7 @@ inline Float depth(const Triple& p) {
 
 // --- The ray that came to these points
 
-/// By its RSL name; false: there is none.
+/// Looks up a value of the ray by its RSL name. Returns false if there is none.
 inline bool rayinfo(const char* name, Triple& out) {
   Triple value;
   if (!grid()->call->rayInfo(grid()->host, grid(), name, value.out())) return false;
@@ -82,7 +82,7 @@ inline bool rayinfo(const char* name, Float& out) {
   out = xcomp(value);
   return true;
 }
-/// "type": camera, diffuse, specular, transmission; "label".
+/// Looks up "type" (camera, diffuse, specular or transmission) or "label".
 inline bool rayinfo(const char* name, std::string& out) {
   static const char* const kTypes[] = {"camera", "diffuse", "specular", "transmission"};
   if (std::string_view(name) == "label") return out = grid()->call->rayLabel(grid()->host, grid()), true;
@@ -96,13 +96,13 @@ inline std::string raylabel() { return grid()->call->rayLabel(grid()->host, grid
 
 // --- Other shaders, attributes, options
 
-/// One of these types, or nothing.
+/// Asks for a value whose type is in first..last. Returns false if there is none.
 inline bool askFor(TmWhom whom, int light, const char* name, int first, int last, TmValue& out) {
   int32_t type;
   return grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &out) && type >= first && type <= last;
 }
-/// A value of another shader, of the attributes, ... False, and `out` as it was, where there is none of that name and
-/// type.
+/// Gets a value of another shader, of the attributes or of another TmWhom. Returns false, and leaves `out` alone, where
+/// there is none of that name and type.
 inline bool ask(TmWhom whom, const char* name, TmVec3 out, int light = -1) {
   TmValue v;
   if (!askFor(whom, light, name, out.y ? TM_COLOR : TM_FLOAT, out.y ? TM_NORMAL : TM_FLOAT, v)) return false;
@@ -128,19 +128,19 @@ inline bool ask(TmWhom whom, const char* name, std::string& out, int light = -1)
   out = v.string;
   return true;
 }
-/// Empty: there is none.
+/// Returns an empty text if there is none.
 inline std::string askText(TmWhom whom, const char* name) {
   std::string text;
   ask(whom, name, text);
   return text;
 }
 
-/// Inside illuminance(): of that light.
+/// Inside illuminance(): asks the light whose sample this is.
 template <class T>
 bool lightsource(int light, const char* name, T&& out) {
   return ask(TM_OF_LIGHT, name, out, light);
 }
-// What print() prints of a value at one point.
+// These give what print() prints of a value at one point.
 inline float at(const Float& x, int i) { return x[i]; }
 inline rsl::Vec3 at(const Triple& v, int i) { return v[i]; }
 inline rsl::Matrix at(const Matrix& m, int i) { return m[i]; }
@@ -148,7 +148,7 @@ template <class T>
 const T& at(const T& uniform, int) {
   return uniform;
 }
-/// A line for each active point; the letters are rsl::format's.
+/// Prints a line for each active point. rsl::format explains the letters.
 template <class... Values>
 void print(const std::string& pattern, const Values&... values) {
   forActive([&](int i) { grid()->call->print(grid()->host, grid(), rsl::format(pattern, at(values, i)...).c_str()); });

@@ -99,12 +99,12 @@ inline Float smoothstep(const Float& lo, const Float& hi, const Float& x) {
 inline Float filterstep(const Float& edge, const Float& x, const Float& width) {
   return Float::of([&](int i) { return rsl::filterstep(edge[i], x[i], width[i]); });
 }
-/// RSL's filterstep(edge, s1, s2): averaged from s1 to s2.
+/// RSL's filterstep(edge, s1, s2): step() averaged from s1 to s2.
 inline Float filterstepBetween(const Float& edge, const Float& a, const Float& b) {
   return filterstep(edge, 0.5 * (a + b), abs(b - a));
 }
 
-// --- Splines. The knots are uniform, varying, or an array of parameters.
+// --- Splines. Knots are uniform, varying, or an array of parameters.
 
 inline Float spline(rsl::Basis basis, const Float& x, std::initializer_list<float> knots) {
   return Float::of([&](int i) { return rsl::spline(basis, x[i], knots.begin(), int(knots.size())); });
@@ -112,7 +112,7 @@ inline Float spline(rsl::Basis basis, const Float& x, std::initializer_list<floa
 inline Triple spline(rsl::Basis basis, const Float& x, std::initializer_list<rsl::Color> knots) {
   return Triple::of([&](int i) { return rsl::spline(basis, x[i], knots.begin(), int(knots.size())); });
 }
-/// Of values of a batch.
+/// Takes knots that are values of a batch.
 template <class Knot>
 Knot spline(rsl::Basis basis, const Float& x, const std::vector<Knot>& knots) {
   std::vector<decltype(knots[0][0])> own(knots.size());
@@ -138,7 +138,7 @@ inline Triple spline(const Float& x, std::initializer_list<rsl::Color> knots) {
 
 // --- Noise
 
-/// Over all points at once, so that the compiler vectorises it; `p` and `out` do not overlap.
+/// Runs over all points at once, so that the compiler vectorises it. `p` and `out` must not overlap.
 RSL_HOT inline void noiseOver(int n, TmConstVec3 p, float* __restrict out) {
   for (int i = 0; i < n; ++i) out[i] = 0.5f + 0.5f * rsl::signedNoise(rsl::Vec3{p.x[i], p.y[i], p.z[i]});
 }
@@ -239,7 +239,7 @@ inline Triple ctransform(const char* from, const char* to, const Triple& c) {
 }
 inline Triple ctransform(const char* to, const Triple& c) { return ctransform("rgb", to, c); }
 
-// --- Matrices: one for each point. A uniform one is rsl::Matrix.
+// --- Matrices, one for each point. A uniform matrix is rsl::Matrix.
 
 class Matrix {
  public:
@@ -280,7 +280,7 @@ inline Matrix operator*(const Matrix& a, const Matrix& b) {
 inline Float determinant(const Matrix& a) {
   return Float::of([&](int i) { return rsl::determinant(a[i]); });
 }
-/// The identity where there is none.
+/// Gives the identity where there is no inverse.
 inline Matrix inverse(const Matrix& a) {
   return Matrix::of([&](int i) {
     rsl::Matrix out;

@@ -8,8 +8,8 @@
 
 namespace sl {
 
-/// One run of a shader: its batch, with the mask of the conditionals that are open. A thread has a stack: shaders that
-/// trace run others.
+/// One run of a shader: its batch, whose `active` is the mask of the open conditionals. A thread keeps a stack of runs,
+/// since shaders that trace rays run others.
 class Run {
  public:
   explicit Run(const TmGrid* g) : grid(*g), outer_(std::exchange(current(), this)) {}
@@ -18,8 +18,8 @@ class Run {
   static Run& now() { return *current(); }
 
   TmGrid grid;
-  int randoms = 0;          ///< Calls of random() so far.
-  float specularScale = 0;  ///< Of sl::specularScale(); 0: not asked yet.
+  int randoms = 0;          ///< The number of calls of random() so far.
+  float specularScale = 0;  ///< What sl::specularScale() returns; 0 until it has been called.
 
  private:
   TM_OF_THIS_PLUGIN static Run*& current() {
@@ -30,7 +30,7 @@ class Run {
 };
 inline const TmGrid* grid() { return &Run::now().grid; }
 
-/// Memory of values, kept by the thread from one to the next.
+/// Memory of values. The thread keeps it for the values that come next.
 class Lanes {
  public:
   Lanes() : size_(grid()->padded) {
@@ -66,7 +66,7 @@ class Lanes {
   int size_, capacity_ = 0;
 };
 
-/// Applies an operation to all points, those without a mask too: nothing depends on what they hold.
+/// Applies an operation to all points, the masked ones too: nothing depends on what those hold.
 template <class Op>
 void fill(float* out, const Op& op) {
   for (int i = 0, n = grid()->padded; i < n; ++i) out[i] = op(i);
@@ -98,7 +98,7 @@ struct Mask {
   }
 };
 
-/// Runs `body` for the points that are active and in the mask; not at all where there are none.
+/// Runs `body` for the points that are active and in the mask, or not at all where there are none.
 template <class Body>
 void where(const uint8_t* mask, bool wanted, const Body& body) {
   TmGrid& g = Run::now().grid;
@@ -120,8 +120,8 @@ void If(const Mask& condition, const Then& then, const Else& otherwise) {
   where(condition.on.data(), false, otherwise);
 }
 
-/// RSL's while: `body` again and again for the points for which `condition`, a function that returns a Mask, has always
-/// held.
+/// RSL's while: runs `body` again and again for the points for which `condition`, a function that returns a Mask, has
+/// held every time.
 template <class Condition, class Body>
 void While(const Condition& condition, const Body& body) {
   TmGrid& g = Run::now().grid;
@@ -272,7 +272,7 @@ inline bool operator!=(const rsl::StringParam& a, std::string_view b) { return u
 
 // --- Output parameters
 
-/// RSL's assignment to an output parameter: does nothing where no Display wants it. Colours come premultiplied, as Ci.
+/// RSL's assignment to an output parameter. Does nothing where no Display wants it. Colours are premultiplied, as Ci.
 inline void output(const rsl::FloatOutput& o, const Float& v) {
   if (o.wanted(grid())) forActive([&](int i) { o.set(grid(), i, v[i]); });
 }
@@ -313,7 +313,7 @@ inline Triple operator*(const Float& a, const Triple& b) {
   return Triple::of([&](int i) { return a[i] * b[i]; });
 }
 inline Triple operator*(const Triple& a, const Float& b) { return b * a; }
-// A number beside a triple stands for three.
+// A number beside a triple stands for all three components.
 inline Triple operator+(const Triple& a, const Float& b) { return a + Triple(b); }
 inline Triple operator+(const Float& a, const Triple& b) { return Triple(a) + b; }
 inline Triple operator-(const Triple& a, const Float& b) { return a - Triple(b); }

@@ -36,9 +36,9 @@ std::string concat(const Parts&... parts) {
   return (std::string() + ... + parts);
 }
 
-/// %f a float, %d a number without its fraction, %c a colour, %p a point, vector or normal, %m a matrix, %s a string:
-/// numbers are separated by spaces and written by what they are, whichever other letter asks. %% is one. What has no
-/// value stays as it is. The values are written already.
+/// %f stands for a float, %d for a number without its fraction, %c for a colour, %p for a point, vector or normal, %m
+/// for a matrix, %s for a string. A value is written by its own type, whatever letter asks. %% is a percent sign. A
+/// letter that no value is left for stays as it is. `values` are texts already.
 inline std::string formatTexts(const std::string& pattern, const std::vector<std::string>& values) {
   std::string out;
   size_t next = 0;
@@ -59,7 +59,7 @@ std::string format(const std::string& pattern, const Values&... values) {
   return formatTexts(pattern, {text_detail::written(values)...});
 }
 
-/// Does an extended regular expression fit any part of the text? One that is no regular expression fits nothing.
+/// Tells whether an extended regular expression fits any part of the text. One that is malformed fits nothing.
 inline bool match(const std::string& pattern, const std::string& text) {
   regex_t expression;
   if (regcomp(&expression, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) return false;

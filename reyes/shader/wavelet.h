@@ -15,11 +15,11 @@ class WaveletTile {
     return tile;
   }
 
-  /// Mean 0, deviation 1; frequencies of half a wave to one wave for each unit. Repeats after kSize units.
+  /// Noise of mean 0 and deviation 1, of half a wave to one wave for each unit. It repeats after kSize units.
   float operator()(Vec3 p) const {
     const float x[3] = {p.x, p.y, p.z};
     int middle[3];
-    float weight[3][3];  // of a quadratic B-spline (section 3.2)
+    float weight[3][3];  // of a quadratic B-spline along each axis (section 3.2)
     for (int k = 0; k < 3; ++k) {
       const float rest = x[k] - kSize * wholeBelow(x[k] / kSize), at = std::abs(rest) <= kSize ? rest : 0,
                   m = -wholeBelow(0.5f - at), t = m - (at - 0.5f);
@@ -43,7 +43,7 @@ class WaveletTile {
     return (wrapped(z) * kSize + wrapped(y)) * kSize + wrapped(x);
   }
 
-  /// Random numbers less what a grid of half the resolution can hold of them (section 3.5).
+  /// Random numbers less the part that a grid of half the resolution can hold (section 3.5).
   WaveletTile() : coefficients_(size_t{kSize} * kSize * kSize) {
     std::vector<float> coarse(coefficients_.size());
     for (int z = 0; z < kSize; ++z)
@@ -65,14 +65,14 @@ class WaveletTile {
     for (float& c : coefficients_) c = static_cast<float>(c / deviation);
   }
 
-  /// A sum of four even numbers: near enough to a Gaussian.
+  /// A sum of four uniform numbers, which is near enough to a Gaussian.
   static float random(int x, int y, int z) {
     float sum = -2;
     for (int k = 0; k < 4; ++k) sum += static_cast<float>(latticeHash(x, y, z * 4 + k) >> 8) * 0x1p-24f;
     return sum;
   }
 
-  /// One row: down to half the resolution and up again.
+  /// Replaces one row by what is left of it when it is taken down to half the resolution and up again.
   static void leaveCoarse(std::vector<float>& values, int axis, int a, int b) {
     // The analysis filter that belongs to quadratic B-splines (appendix 1).
     static const float down[32] = {0.000334f, -0.001528f, 0.000410f,  0.003545f, -0.000938f, -0.008233f, 0.002172f,
@@ -98,8 +98,8 @@ class WaveletTile {
   std::vector<float> coefficients_;
 };
 
-/// In [0, 1], mean 1/2, deviation 1/6. What of it is finer than `width`, the distance to the next point, fades to its
-/// mean.
+/// Noise in [0, 1] of mean 1/2 and deviation 1/6. Where it is finer than `width`, the distance to the next point, it
+/// fades to its mean.
 inline float wnoise(Vec3 p, float width = 0) {
   const float seen = 1 - smoothstep(0.5f, 1, width);  // the band ends at one wave a unit
   return clamp(0.5f + seen / 6 * (seen > 0 ? WaveletTile::get()(p) : 0), 0, 1);

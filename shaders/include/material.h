@@ -6,8 +6,8 @@
 
 #include "reflections.h"
 
-/* A highlight with an edge, as glaze has: where the lobe around the half vector falls to 0.72, the more suddenly the
- * nearer `sharpness` is to 1. */
+/* A highlight with an edge, as glaze has. The edge is where the lobe around the half vector falls to 0.72, and it is
+ * the more sudden the nearer `sharpness` is to 1. */
 color LocIllumGlossy(normal n; vector v; float roughness, sharpness) {
   extern point P;
   color sum = 0;
@@ -60,7 +60,7 @@ color MaterialRoughMetal(normal Nf; color basecolor; float Ka, Kd, Ks, roughness
   return basecolor * (Ka * ambient() + Kd * diffuse(Nf) + Ks * specular(Nf, -normalize(I), roughness));
 }
 
-/* Plastic with a mirror image on it, more of it at grazing angles. */
+/* Plastic with a mirror image on it, which is stronger at grazing angles. */
 color MaterialShinyPlastic(normal Nf; color basecolor; float Ka, Kd, Ks, roughness, Kr, blur, ior, twosided;
                            DECLARE_ENVPARAMS) {
   extern point P;

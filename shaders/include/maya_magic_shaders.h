@@ -41,7 +41,7 @@
   v##outColor +=     \
       v##specularColor * (phong(v##normalCamera, mayaView, v##cosinePower) + v##reflectivity * v##reflectedColor)
 
-/* J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977: ellipsoids of an eccentricity. */
+/* Is J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977: ellipsoids of an eccentricity. */
 color mayaBlinn(normal n; vector view; float eccentricity, rolloff) {
   extern point P;
   color sum = 0;

@@ -7,7 +7,7 @@
 
 #include "filterwidth.h"
 
-/* From -1 to 1, of a point, a float, or two floats. */
+/* Noise from -1 to 1 of a point, a float, or two floats. */
 #ifndef snoise
 #define snoise(p) (2 * (float noise(p)) - 1)
 #endif
@@ -21,7 +21,7 @@
 #define vsnoise(p) (2 * (vector noise(p)) - 1)
 #endif
 
-/* How much is left of a noise whose waves are one unit long, in a sample of that width. */
+/* The share of a noise whose waves are one unit long that is left in a sample of that width. */
 #define noisefade(width) (1 - smoothstep(0.2, 0.75, width))
 #ifndef filteredsnoise
 #define filteredsnoise(p, width) (snoise(p) * noisefade(width))
@@ -30,7 +30,7 @@
 #define filteredvsnoise(p, width) (vsnoise(p) * noisefade(width))
 #endif
 
-/* Octaves are `lacunarity` times as fine and `gain` times as strong as the one before. */
+/* A sum of octaves, each `lacunarity` times as fine and `gain` times as strong as the one before. */
 float fBm(point p; float filtwidth; uniform float maxoctaves, lacunarity, gain) {
   uniform float octave, strength = 1, frequency = 1;
   float sum = 0;
@@ -60,7 +60,7 @@ vector vfBm(point p; float filtwidth; uniform float maxoctaves, lacunarity, gain
 #define vfBm_default(p) vfBm(p, filterwidthp(p), 4, 2, 0.5)
 #endif
 
-/* As fBm, of the magnitudes. */
+/* The same sum of the octaves' magnitudes. */
 float turbulence(point p; float filtwidth; uniform float maxoctaves, lacunarity, gain) {
   uniform float octave, strength = 1, frequency = 1;
   float sum = 0;
@@ -76,7 +76,7 @@ float turbulence(point p; float filtwidth; uniform float maxoctaves, lacunarity,
 #define turbulence_default(p) turbulence(p, filterwidthp(p), 4, 2, 0.5)
 #endif
 
-/* Noise at a place that noise has moved. */
+/* Noise at a position that noise has moved. */
 #ifndef VLNoise
 #define VLNoise(p, scale) (snoise((p) + (scale)*vsnoise(p)))
 #endif

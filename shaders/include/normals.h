@@ -2,7 +2,7 @@
 #ifndef NORMALS_H
 #define NORMALS_H
 
-/* Of length 1, and towards the viewer: a surface that has one side alone is not turned for the camera. */
+/* The unit normal towards the viewer. It is not turned for the camera if the surface has one side alone. */
 normal shadingnormal(normal n) {
   extern vector I;
   normal shading = normalize(n);

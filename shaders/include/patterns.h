@@ -6,19 +6,19 @@
 
 #include "filterwidth.h"
 
-/* From 0 at a to 1 at b in a straight line. */
+/* Goes from 0 at a to 1 at b in a straight line. */
 #ifndef boxstep
 #define boxstep(a, b, x) clamp(((x) - (a)) / ((b) - (a)), 0, 1)
 #endif
 
-/* 1 between the two edges, for a sample from x - dx/2 to x + dx/2: the part of it that is inside. */
+/* The part of a sample from x - dx/2 to x + dx/2 that lies between the two edges. */
 float filteredpulse(float edge0, edge1, x, dx) {
   float width = max(dx, MINFILTWIDTH);
   float from = x - width / 2;
   return max(0, (min(from + width, edge1) - max(from, edge0)) / width);
 }
 
-/* 1 in the first `edge` of each period: the difference of the integral of the train at both ends of the sample. */
+/* Integral of a train of pulses, each 1 in the first `edge` of its period: a sample takes its difference. */
 float pulsetrainintegral(float edge, period, x) {
   float periods = floor(x / period);
   return periods * edge + min(edge, x - periods * period);
@@ -29,14 +29,14 @@ float filteredpulsetrain(float edge, period, x, dx) {
   return (pulsetrainintegral(edge, period, x + width / 2) - pulsetrainintegral(edge, period, x - width / 2)) / width;
 }
 
-/* |x|: the integral of it, x|x|/2, likewise. */
+/* |x|, averaged over a sample by its integral, x|x|/2. */
 float filteredabs(float x, dx) {
   float width = max(dx, MINFILTWIDTH);
   float from = x - width / 2, to = x + width / 2;
   return (to * abs(to) - from * abs(from)) / (2 * width);
 }
 
-/* Up from e0 to e1, down from e2 to e3. */
+/* Goes up from e0 to e1 and down from e2 to e3. */
 #ifndef smoothpulse
 #define smoothpulse(e0, e1, e2, e3, x) (smoothstep(e0, e1, x) - smoothstep(e2, e3, x))
 #endif
@@ -54,8 +54,8 @@ color varyEach(color Cin; float index, varyhue, varysat, varylum) {
   return ctransform("hsl", "rgb", color(hue, saturation, lightness));
 }
 
-/* Square tiles of size 1, every other row moved by half a tile: which tile, where in it, and how much of the sample is
- * not in the groove around it. */
+/* Square tiles of size 1, every other row moved by half a tile: the tile of a position, the position in it, and the
+ * part of the sample that is outside of the groove around the tile. */
 float tilepattern(float ss, tt, ds, dt; float groovewidth, grooveheight;
                   output float swhichtile, twhichtile, stile, ttile) {
   twhichtile = floor(tt);

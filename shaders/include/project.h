@@ -1,10 +1,10 @@
-/* Two coordinates for a picture, of a point in space. */
+/* Projects a point in space to two coordinates for a picture. */
 #ifndef PROJECT_H
 #define PROJECT_H
 
 #include "filterwidth.h"
 
-/* Shaders' parameters that are to be matrices are arrays in old shaders. */
+/* Old shaders declare arrays for parameters that stand for matrices. */
 matrix array_to_mx(uniform float m[16]) {
   return matrix(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11], m[12], m[13], m[14], m[15]);
 }
@@ -38,7 +38,7 @@ void ProjectTo2D(string projection; point p; string space; matrix xform; output 
   }
   ds = filterwidth(ss);
   dt = filterwidth(tt);
-  if (projection == "spherical" || projection == "cylindrical") ds = min(ds, abs(1 - ds)); /* over the seam */
+  if (projection == "spherical" || projection == "cylindrical") ds = min(ds, abs(1 - ds)); /* across the seam */
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* The part of what shaders that Slim has written call that rays need: see pxslUtil.h. */
+/* The functions that shaders written by Slim call and that need rays: see pxslUtil.h. */
 #ifndef PXSLRAYUTIL_H
 #define PXSLRAYUTIL_H
 

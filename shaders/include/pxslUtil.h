@@ -1,8 +1,8 @@
-/* What shaders that Slim has written call, by the names and arguments of those calls. */
+/* The functions that shaders written by Slim call, with the names and arguments of those calls. */
 #ifndef PXSLUTIL_H
 #define PXSLUTIL_H
 
-/* How far a place moves over one sample, from its changes along u and v. */
+/* The distance that a position moves over one sample, from its changes along u and v. */
 float pxslFilterWidth(vector dQu, dQv) { return max(sqrt(length(dQu ^ dQv)), 1.0e-6); }
 
 /* Noise that fades to its mean where its waves, one unit long, are finer than a sample. */
@@ -15,7 +15,7 @@ vector pxslFilteredVNoise(point Q; vector dQu, dQv) { return mix(vector noise(Q)
  * second. */
 color pxslBimix(color a, b, c, d; float s, t) { return mix(mix(a, b, s), mix(c, d, s), t); }
 
-/* Each component by a weight of its own. */
+/* Mixes each component by a weight of its own. */
 color pxslCmix(color a, b, weight) { return a + (b - a) * weight; }
 
 #endif

@@ -15,12 +15,12 @@
   string envname = "", envspace = "world"; \
   uniform float envrad = 100
 
-/* What is seen from p in the direction r; alpha: how much of it is something. */
+/* The picture that is seen from p in the direction r. alpha is the share of it that the map covers. */
 color Environment(string name, space; uniform float radius; point p; vector r; float blur; output float alpha) {
   point q = transform(space, p);
   vector look = normalize(vtransform(space, r));
   if (radius > 0) {
-    /* Where the ray leaves the sphere around the origin. From outside of it, the map is as far away. */
+    /* The point where the ray leaves the sphere around the origin. For p outside, the map counts as far away. */
     float along = look.vector(q);
     float inside = along * along - vector(q).vector(q) + radius * radius;
     if (inside > 0 && vector(q).vector(q) < radius * radius) look = vector(q) + look * (sqrt(inside) - along);
@@ -29,7 +29,7 @@ color Environment(string name, space; uniform float radius; point p; vector r; f
   return color environment(name, look, "blur", blur);
 }
 
-/* A picture of the mirror image, as seen by the camera. */
+/* Looks up a picture of the mirror image, as the camera sees it. */
 color ReflMap(string name; point p; float blur; output float alpha) {
   point ndc = transform("NDC", p);
   float x = xcomp(ndc), y = ycomp(ndc);

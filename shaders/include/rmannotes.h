@@ -3,7 +3,7 @@
 #ifndef RMANNOTES_H
 #define RMANNOTES_H
 
-/* From -1 to 1. */
+/* Noise from -1 to 1. */
 #ifndef snoise
 #define snoise(p) (2 * (float noise(p)) - 1)
 #endif
@@ -11,7 +11,7 @@
 #define snoise2(x, y) (2 * (float noise(x, y)) - 1)
 #endif
 
-/* About evenly between lo and hi: noise comes near 0 and 1 too rarely. */
+/* A random number, about even between lo and hi: noise comes near 0 and 1 too rarely. */
 #ifndef udn
 #define udn(x, lo, hi) mix(lo, hi, smoothstep(0.25, 0.75, float noise(x)))
 #endif
@@ -19,12 +19,12 @@
 #define udn2(x, y, lo, hi) mix(lo, hi, smoothstep(0.25, 0.75, float noise(x, y)))
 #endif
 
-/* 1 from a to b, with soft edges outside of it. */
+/* Is 1 from a to b, with soft edges outside of that. */
 #ifndef pulse
 #define pulse(a, b, fuzz, x) (smoothstep((a) - (fuzz), a, x) - smoothstep(b, (b) + (fuzz), x))
 #endif
 
-/* One layer over another, and what is in both, in either, in one alone. */
+/* These lay one layer over another, and give the part that is in both, in either, or in one alone. */
 #ifndef blend
 #define blend(under, over, opacity) mix(under, over, opacity)
 #endif
@@ -41,7 +41,7 @@
 #define complement(a) (1 - (a))
 #endif
 
-/* So many tiles to a unit: where in its tile a position is, from 0 to 1, and which tile that is. */
+/* Divides a unit into so many tiles: the position in its tile, from 0 to 1, and the number of the tile. */
 #ifndef repeat
 #define repeat(position, frequency) mod((position) * (frequency), 1)
 #endif
@@ -62,7 +62,7 @@
   theta = atan((y)-0.5, (x)-0.5)
 #endif
 
-/* (x, y) turned around (ox, oy). */
+/* (x, y), rotated around (ox, oy). */
 #ifndef rotate2d
 #define rotate2d(x, y, radiansturned, ox, oy, rx, ry)                                \
   rx = ((x) - (ox)) * cos(radiansturned) - ((y) - (oy)) * sin(radiansturned) + (ox); \

@@ -1,4 +1,4 @@
-// Arithmetic, comparisons and what RISpec 15.1 builds of them alone.
+// Arithmetic, comparisons and the functions of RISpec 15.1 that consist of them alone.
 #include "reyes/rsl/kernels/points.h"
 #include "reyes/shader/shadeops.h"
 

@@ -9,8 +9,8 @@ using rsl::Vec3;
 
 namespace {
 
-/// Every block of `out` is what `left`, which sets a MatrixBlock, gives for it, times that of the first argument: the
-/// new transformation comes first.
+/// Multiplies a matrix by a new transformation that comes first: each block of `out` is the MatrixBlock that `left`
+/// sets, times that block of the first argument.
 template <class Left>
 RSL_INLINE void before(int blocks, const Lanes& out, const Lanes* in, const Left& left) {
   for (int b = 0; b < blocks; ++b) {
@@ -21,7 +21,7 @@ RSL_INLINE void before(int blocks, const Lanes& out, const Lanes* in, const Left
   }
 }
 
-/// Row and column, 0 to 3 each and rounded down, as a place among the sixteen; what is not a number is 0.
+/// The index among the sixteen numbers, from a row and a column of 0 to 3, each rounded down; NaN counts as 0.
 RSL_INLINE void placesOf(const Lanes& row, const Lanes& column, int b, float* places) {
   const auto held = [](float x) RSL_INLINED {
     return (x >= 1 ? 1.0f : 0.0f) + (x >= 2 ? 1.0f : 0.0f) + (x >= 3 ? 1.0f : 0.0f);

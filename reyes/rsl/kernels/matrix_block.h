@@ -1,4 +1,4 @@
-// The matrices of one block: each of the sixteen numbers for all points, and what takes loops over rows and columns.
+// The matrices of one block: an array over the points for each of the sixteen numbers, and functions with loops.
 #pragma once
 #include "reyes/rsl/kernels/points.h"
 #include "reyes/shader/shadeops.h"
@@ -42,8 +42,8 @@ RSL_INLINE void multiply(const MatrixBlock& a, const MatrixBlock& b, MatrixBlock
           a.at[i][3][k] * b.at[3][j][k];
 }
 
-/// rsl::invert() at all points at once; `right` is the identity at first, and `left` is used up; where a column has
-/// no pivot, `exists` is 0 and `right` does not count.
+/// Does rsl::invert() at all points at once. `right` must be the identity at first, and `left` is used up. Where a
+/// column has no pivot, `exists` becomes 0 and `right` means nothing.
 RSL_INLINE void invert(MatrixBlock& left, MatrixBlock& right, float* determinant, float* exists) {
   for (int k = 0; k < kBlock; ++k) determinant[k] = exists[k] = 1;
   for (int c = 0; c < 4; ++c) {

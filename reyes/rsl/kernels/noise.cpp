@@ -13,8 +13,8 @@ using rsl::Vec3;
 
 RSL_INLINE float cellOf(const rsl::LatticePlace& p) { return rsl::cellnoiseAt(p, 0); }
 
-/// Of a number: `place` is what `parameters` mean, and value(at) the noise at a LatticePlace; of a triple: the
-/// components ask at places far from each other.
+/// Makes kernels of noise that give a number or a triple: value(at) is the noise at a LatticePlace, `place` the
+/// position that `parameters` mean. The components of a triple look at places far from each other.
 #define RSL_LATTICE_NOISE(name, parameters, place, value)                                          \
   RSL_INLINE void name##At(int blocks, const Lanes& out, const Lanes* in, Vec3 far) {              \
     eachByReach(                                                                                   \
@@ -34,7 +34,7 @@ RSL_LATTICE_NOISE(Cell1, (float x), (Vec3{x, 0, 0}), cellOf)
 RSL_LATTICE_NOISE(Cell2, (float x, float y), (Vec3{x, y, 0}), cellOf)
 RSL_LATTICE_NOISE(Cell3, (Vec3 p), p, cellOf)
 
-/// The same where `value` asks for the noise at q.
+/// The same for a `value` that asks for the noise at q.
 #define RSL_NOISE(name, parameters, place, value)                          \
   RSL_KERNEL(name##F) {                                                    \
     each(blocks, out, in, [] parameters RSL_INLINED {                      \

@@ -1,5 +1,5 @@
-// How a kernel is written: as a function of one point, which each() applies to the sixteen of a block in a loop that
-// the compiler vectorises, once for each kind of processor.
+// The tools to write a kernel as a function of one point: each() applies it to the sixteen points of a block in a loop
+// that the compiler vectorises, once for each kind of processor.
 #pragma once
 #include <cstddef>
 #include <cstring>
@@ -8,11 +8,11 @@
 #include "reyes/rsl/kernels.h"
 #include "reyes/shader/math.h"
 
-/// The head of a kernel of that name in the table.
+/// The head of the kernel that the table calls `name`.
 #define RSL_KERNEL(name) RSL_HOT void name(int blocks, const Lanes& out, const Lanes* in)
 
-/// Before a loop over the points of a block: what is written is read at the same point alone (kernels.h), so order does
-/// not count; and the loop is not to be unrolled before it is vectorised.
+/// Belongs before a loop over the points of a block. A written point is read at the same point alone (kernels.h), so
+/// the order does not count; and the loop must not be unrolled before it is vectorised.
 #if defined(__GNUC__) && !defined(__clang__)
 #define RSL_LANES _Pragma("GCC ivdep") _Pragma("GCC unroll 1")
 #else
@@ -25,12 +25,12 @@ namespace tomales::compiler::kernels {
 RSL_OPS(RSL_OP)
 #undef RSL_OP
 
-/// Component c of the first point of block b.
+/// The address of component c of the first point of block b.
 RSL_INLINE float* planeOf(const Lanes& l, int b, int c = 0) {
   return l.data + static_cast<ptrdiff_t>(b) * l.block + static_cast<ptrdiff_t>(c) * l.component;
 }
 
-/// A loop would become a call.
+/// Calls memcpy, since the compiler would turn a loop into a call.
 RSL_INLINE void copyBlock(float* to, const float* from) { std::memcpy(to, from, kBlock * sizeof(float)); }
 
 /// The values of one block, by point.
@@ -64,14 +64,14 @@ template <class Out, class Op, class... In>
 constexpr auto argumentsOf(Out (Op::*)(In...) const) {
   return std::make_integer_sequence<int, sizeof...(In)>();
 }
-/// out = op(in...) at every point; `op` takes and gives float and rsl::Vec3, and is RSL_INLINED.
+/// Sets out = op(in...) at every point. `op` takes and gives float and rsl::Vec3, and is RSL_INLINED.
 template <class Op>
 RSL_INLINE void each(int blocks, const Lanes& out, const Lanes* in, const Op& op) {
   eachBlock(blocks, out, in, op, &Op::operator(), argumentsOf(&Op::operator()));
 }
 
-/// The same where there is a shorter way for points that are near: `isNear`, `near` and `far` take what `op` takes. A
-/// block takes the shorter way if all of its points may.
+/// The same with a shorter computation for points that are near: `isNear`, `near` and `far` take what `op` takes. A
+/// block is computed by `near` if isNear holds at all of its points.
 template <class IsNear, class Near, class Far, class Out, class... In, int... argument>
 RSL_INLINE void eachBlockByReach(int blocks, const Lanes& out, const Lanes* in, const IsNear& isNear, const Near& near,
                                  const Far& far, Out (Far::*)(In...) const, std::integer_sequence<int, argument...>) {
@@ -90,7 +90,7 @@ RSL_INLINE void eachByReach(int blocks, const Lanes& out, const Lanes* in, const
   eachBlockByReach(blocks, out, in, isNear, near, far, &Far::operator(), argumentsOf(&Far::operator()));
 }
 
-/// The component of one number.
+/// Component c of a register, as a register of numbers.
 inline Lanes componentOf(const Lanes& l, int c) {
   return {l.data + static_cast<ptrdiff_t>(c) * l.component, l.block, l.component};
 }

@@ -1,4 +1,4 @@
-// How noise changes along a direction.
+// The directional derivatives of noise.
 #include "reyes/rsl/kernels/points.h"
 #include "reyes/shader/noise.h"
 
@@ -8,7 +8,7 @@ using rsl::Vec3;
 
 namespace {
 
-/// A number and how it changes.
+/// A number and its derivative.
 struct Changing {
   float value, slope;
 };
@@ -17,7 +17,7 @@ RSL_INLINE Changing mix(Changing a, Changing b, Changing t) {
 }
 RSL_INLINE Changing fade(float t, float slope) { return {rsl::fade(t), 30 * (t * t) * ((1 - t) * (1 - t)) * slope}; }
 
-/// The slope of rsl::noise() along d, term by term; 0 where it is held to [0, 1].
+/// The slope of rsl::noise() along d, term by term; 0 where noise() clamps to [0, 1].
 RSL_INLINE float slopeOf(const rsl::LatticePlace& p, Vec3 d) {
   const auto corner = [&](int i, int j, int k) RSL_INLINED {
     const Vec3 offset{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};

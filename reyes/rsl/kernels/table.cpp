@@ -10,7 +10,7 @@ constexpr bool isKernel(std::string_view traits) { return traits.find('K') != st
 
 Kernel kernelOf(Op op) {
   switch (op) {
-    // A generic function leaves what it does not choose alone: that need not be defined.
+    // The generic functions of `if constexpr` need not be defined for operations that they do not take.
 #define RSL_OP(name, signature, traits) \
   case Op::name:                        \
     return [](auto wanted) -> Kernel {  \

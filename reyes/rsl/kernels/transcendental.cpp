@@ -2,8 +2,8 @@
 
 namespace tomales::compiler::kernels {
 
-/// Payne and Hanek 1983, "Radian reduction for trigonometric functions": x is a whole number times 2^e, and of its
-/// product with 2/pi multiples of four do not count, so 128 bits of 2/pi from the place that e says are enough.
+/// Payne and Hanek 1983, "Radian reduction for trigonometric functions": x is a whole number times 2^e. Multiples of
+/// four of its product with 2/pi do not count, so 128 bits of 2/pi are enough, from a place that e gives.
 Angle farAngleOf(float x) {
   if (!(std::abs(x) < static_cast<float>(kInfinite))) return {kNone, 0};
   static constexpr uint32_t kTwoOverPi[] = {0,          0xa2f9836e, 0x4e441529, 0xfc2757d1, 0xf534ddc0,

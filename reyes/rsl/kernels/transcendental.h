@@ -1,8 +1,8 @@
 // Exponentials, angles and the error function of one number each, without a branch and without the C library, whose
 // bits differ between machines. All of them compute in double precision and round once, so a result is within 0.54 ulp
 // of the true value. The polynomials are minimax fits (Remez' algorithm, relative error), none worse than 2e-9, which
-// is 1/30 ulp. Infinities and what is not a number are as in C; where mathematics has no value they give what
-// shadeops.h gives.
+// is 1/30 ulp. Infinities and NaN give what C gives; where mathematics has no value, the functions give what shadeops.h
+// gives.
 #pragma once
 #include <bit>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace tomales::compiler::kernels {
 
 constexpr double kHalfPi = 0x1.921fb54442d18p+0, kLog2OfE = 0x1.71547652b82fep+0, kLogOf2 = 0x1.62e42fefa39efp-1;
 constexpr double kInfinite = std::numeric_limits<double>::infinity(), kNone = std::numeric_limits<double>::quiet_NaN();
-/// Added to a number and subtracted again, it leaves the nearest whole one; the low bits of the sum are that number.
+/// Adding it to a number and subtracting it again rounds to the nearest whole number, in the low bits of the sum.
 constexpr double kRounding = 0x1.8p52;
 
 RSL_INLINE uint64_t bitsOf(double x) { return std::bit_cast<uint64_t>(x); }
@@ -27,19 +27,19 @@ RSL_INLINE double polynomial(double x, double c, More... more) {
   return c + x * polynomial(x, more...);
 }
 
-/// 2^x; 0 and infinity beyond what a float holds.
+/// 2^x, or 0 or infinity where a float cannot hold that.
 RSL_INLINE double exp2Of(double x) {
   const double held = x < -200 ? -200 : x > 200 ? 200 : x, sum = held + kRounding, rest = held - (sum - kRounding);
   return polynomial(rest, 1.0000000005542286, 0.69314720573750282, 0.2402264689059557, 0.055503287766818073,
                     0.0096184889600560896, 0.0013399931312495374, 0.00015345811162244401) *
          doubleOf((bitsOf(sum) << 52) + (uint64_t{1023} << 52));
 }
-/// Of a number that is not negative.
+/// The logarithm of a number that is not negative, to base 2.
 RSL_INLINE double log2Of(float x) {
-  const uint64_t bits = bitsOf(x);  // a double has no trouble with what is subnormal as a float
+  const uint64_t bits = bitsOf(x);  // a double holds the subnormal floats as normal numbers
   const double exponent = doubleOf((bits >> 52) | bitsOf(0x1p52)) - (0x1p52 + 1023),
                mantissa = doubleOf((bits & 0xfffffffffffff) | bitsOf(1));
-  const bool upper = mantissa > 0x1.6a09e667f3bcdp+0;  // the root of 2
+  const bool upper = mantissa > 0x1.6a09e667f3bcdp+0;  // the square root of 2
   const double m = upper ? 0.5 * mantissa : mantissa, s = (m - 1) / (m + 1);
   const double log2 =
       (upper ? exponent + 1 : exponent) + s * polynomial(s * s, 2.8853900817900854, 0.9617966733409624,
@@ -59,7 +59,7 @@ RSL_INLINE float powOf(float x, float y) {
                      std::copysign(power, rsl::chosen(odd, x, 1)));
 }
 
-/// x less the nearest whole number of quarter turns; the last two bits of that number count.
+/// x less the nearest whole number of quarter turns, and that number, whose last two bits count.
 struct Angle {
   double rest;
   uint64_t quarters;
@@ -70,7 +70,7 @@ RSL_INLINE Angle angleOf(float x) {
   const double sum = x * 0x1.45f306dc9c883p-1 + kRounding, quarters = sum - kRounding;
   return {(x - quarters * 0x1.921fb544p+0) - quarters * 0x1.0b4611a626331p-34, bitsOf(sum)};
 }
-/// For all others.
+/// For all other numbers.
 Angle farAngleOf(float x);
 
 RSL_INLINE float sineOf(Angle a) {
@@ -94,7 +94,7 @@ RSL_INLINE float tangentOf(Angle a) {
                             doubleOf((c & ~other) | (s & other)));
 }
 
-/// Of a number in [0, 1].
+/// The arctangent of a number in [0, 1].
 RSL_INLINE double unitArctangentOf(double x) {
   return x * polynomial(x * x, 0.99999999994124593, -0.33333331571170629, 0.19999912048506968, -0.14283980718689059,
                         0.11093241013609598, -0.089802383343366414, 0.072457170906466064, -0.054279101224675876,
@@ -110,11 +110,11 @@ RSL_INLINE float atan2Of(float y, float x) {
   const double ax = std::abs(x), ay = std::abs(y);
   const bool steep = ay > ax;
   const double small = steep ? ax : ay, large = steep ? ay : ax;
-  const double ratio = small == large ? (large == 0 ? 0.0 : 1.0) : small / large;  // 0/0, and both infinite
+  const double ratio = small == large ? (large == 0 ? 0.0 : 1.0) : small / large;  // avoids 0/0 and inf/inf
   const double angle = unitArctangentOf(ratio), first = steep ? kHalfPi - angle : angle;
   return std::copysign(static_cast<float>(std::signbit(x) ? 2 * kHalfPi - first : first), y);
 }
-/// Arcsine of a number in [0, 1], and what is left to a right angle.
+/// The arcsine of a number in [0, 1], and the rest to a right angle.
 struct Arcsine {
   double value, rest;
 };
@@ -144,7 +144,7 @@ RSL_INLINE double smallErfOf(double x) {
                         1.0562961533863376e-6);
 }
 /// exp(-x^2) times a polynomial (as Shepherd and Laframboise 1981, "Chebyshev approximation of (1+2x) exp(x^2)
-/// erfc(x)"), to where a float holds nothing of it.
+/// erfc(x)"), as far as a float can hold erfc.
 RSL_INLINE double largeErfcOf(double value) {
   const double x = value > 10.25 ? 10.25 : value, t = (x - 2) / (x + 2);
   return exp2Of(-kLog2OfE * x * x) / (1 + 2 * x) *

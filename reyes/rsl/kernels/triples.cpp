@@ -54,7 +54,7 @@ RSL_KERNEL(TripleEqual) {
   });
 }
 
-/// Q, radians, and two points of the axis.
+/// Takes Q, the angle in radians, and two points of the axis.
 RSL_KERNEL(RotatePoint) {
   for (int b = 0; b < blocks; ++b) {
     const Angles angles(planeOf(in[1], b));

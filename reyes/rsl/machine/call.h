@@ -1,4 +1,4 @@
-// One call of a service: arguments as the arrays that it wants, results back into registers.
+// One call of a service: gives it the arguments as arrays, and puts its results into registers.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace tomales::compiler {
 
-/// Results are in their registers when it ends: for active points. What is not active of a temporary is 0.
+/// When it ends, results are in their registers, for active points. In temporaries the other points hold 0.
 class Call {
  public:
   Call(Run& r, const Step& s) : run(r), of(*s.of) {}
@@ -22,21 +22,21 @@ class Call {
 
   bool has(size_t k) const { return k < of.in.size() && of.in[k] >= 0; }
   TmConstVec3 triple(size_t k) { return tripleOf(of.in[k]); }
-  /// Its own copy, which a body may not assign.
+  /// A copy of an argument, which the body of a loop cannot assign.
   TmConstVec3 copied(size_t k);
   const float* number(size_t k) { return numberOf(of.in[k]); }
   const char* text(size_t k) const { return run.text(of.in[k]).c_str(); }
-  /// One value for all: of points that differ the first active one's, which is reported.
+  /// The value for all points. If points differ it is that of the first active one, and a warning is given.
   float one(size_t k, const char* what);
-  /// The same as a whole number; 0 where it is none.
+  /// The same as a whole number, 0 if it does not fit an int.
   int32_t whole(size_t k, const char* what);
 
-  /// To be filled by the service.
+  /// Returns the arrays for the service to fill.
   TmVec3 giveTriple(size_t k = 0) { return giveTripleTo(of.out[k]); }
   float* giveNumber(size_t k = 0) { return giveNumberTo(of.out[k]); }
-  /// The same for all active points.
+  /// Sets a result to one value at all active points.
   void set(float value, size_t k = 0);
-  /// Registers of one value take what the service has given so far.
+  /// Copies what the service has given so far to registers of one value.
   void finish();
 
   TmConstVec3 tripleOf(int32_t r);
@@ -53,11 +53,11 @@ class Call {
     const float* from;
     int32_t component;
   };
-  std::vector<Pending> pending_;  ///< Registers of one value, whose service gives one for each point.
+  std::vector<Pending> pending_;  ///< Registers of one value for which the service gives one a point.
 };
 
-/// A value that ask() or textureInfo() has told, into a register, for active points. False, and nothing changes: it has
-/// another type.
+/// Puts a value that ask() or textureInfo() has given into a register, for active points. Returns false, and changes
+/// nothing, if it has another type.
 bool fill(Run& run, int32_t to, int32_t type, const TmValue& v);
 
 }  // namespace tomales::compiler

@@ -1,4 +1,4 @@
-// Blocks, conditions, loops, and what leaves them.
+// Blocks, conditions, loops, and the instruction that leaves them.
 #include <atomic>
 #include <optional>
 
@@ -40,7 +40,7 @@ void executeIf(Run& run, const Step& s) {
   }
 }
 
-/// May a loop go round once more?
+/// Counts an iteration. Returns whether the loop may go round once more.
 bool goesOn(Run& run) {
   const int64_t limit = loopLimit.load(std::memory_order_relaxed);
   const bool endless = limit > 0 && ++run.iterations > limit;
@@ -50,7 +50,7 @@ bool goesOn(Run& run) {
   return run.mask->any;
 }
 
-/// Keeps the points for which the condition holds. False: none.
+/// Keeps the points for which the condition holds. Returns false if there are none.
 bool keep(Run& run, int32_t condition) {
   const Lanes& c = run.lane(condition);
   if (c.block == 0) return *c.data != 0;
@@ -89,7 +89,7 @@ void executeScope(Run& run, const Step& s) {
   execute(run, s.blocks[0]);
 }
 
-/// Those that are active now leave all masks up to that of the label.
+/// Takes the active points out of all masks up to that of the label.
 void executeLeave(Run& run, const Step& s) {
   for (Mask* m = run.mask; m->label != s.of->extra && m->outer;) {
     m = m->outer;

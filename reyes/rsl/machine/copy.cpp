@@ -1,11 +1,11 @@
-// Assignments: to active points alone. Elements of arrays.
+// Assignments, which change active points alone, and elements of arrays.
 #include "reyes/rsl/machine/masks.h"
 #include "reyes/rsl/machine/table.h"
 
 namespace tomales::compiler {
 namespace {
 
-/// One component of a register to another.
+/// Copies one component of a register to another register.
 void copyLane(Run& run, bool all, const float* from, bool fromVaries, float* to, bool toVaries) {
   if (!toVaries)
     std::fill_n(to, kBlock, fromVaries ? from[run.firstActive()] : *from);
@@ -36,7 +36,7 @@ void executeCopy(Run& run, const Step& s) {
   const Register &source = run.reg(from), &target = run.reg(to);
   if (target.shape == Shape::Text) return copyTexts(run, from, to);
   const bool all = !s.of->masked || run.mask->full, fromVaries = run.varies(from), toVaries = run.varies(to);
-  const bool each = source.length > 0;  // else the value counts for all elements
+  const bool each = source.length > 0;  // otherwise the value counts for all elements
   const int32_t elements = each ? std::min(source.length, elementsOf(target)) : elementsOf(target);
   const int32_t width = floatsOf(target);
   const ptrdiff_t one = floatsOf(source) == 1 ? 0 : run.stride(from), next = run.stride(to);
@@ -47,7 +47,7 @@ void executeCopy(Run& run, const Step& s) {
                run.lane(to).data + (e * width + c) * next, toVaries);
 }
 
-/// The element that a number asks for: rounded down, held to the array.
+/// The element that a number asks for: rounded down and clamped to the array.
 int32_t elementAt(float index, int32_t length, bool& outside) {
   const bool fits = index >= 0 && index < static_cast<float>(length);
   outside |= !fits;
@@ -60,7 +60,7 @@ void tellOutside(Run& run, int32_t array) {
            " has not; the nearest is taken");
 }
 
-/// The elements of all points; those that are not active may ask for anything.
+/// The elements that all points ask for; those that are not active may ask for any number.
 const int32_t* elements(Run& run, int32_t array, int32_t index) {
   int32_t* const out = reinterpret_cast<int32_t*>(run.memory.floats(static_cast<size_t>(run.padded)));
   const float* const wanted = run.lane(index).data;

@@ -52,7 +52,7 @@ Run::Run(const Program& p, const TmGrid& g)
   }
   whole.on = memory.bytes(points);
   whole.any = begin(padded, count, g.active, whole.on);
-  // Whoever takes points out does so by masks within this one, or ends them all.
+  // Points are taken out by masks within this one, or all at once.
   everywhere = count == padded && std::memchr(whole.on, 0, points) == nullptr;
 }
 

@@ -6,14 +6,14 @@
 
 namespace tomales::compiler {
 
-/// Which points are active, where control has narrowed it. They lie within each other: a point of an inner one is in
-/// all around it. A byte each, 1 or 0, as TmGrid::active; 0 beyond the batch.
+/// The active points, as control structures have narrowed them. Masks are nested: a point of an inner one is in all
+/// around it. Each point has a byte, 1 or 0, as in TmGrid::active; bytes beyond the batch are 0.
 struct Mask {
   uint8_t* on = nullptr;
-  bool any = true;   ///< Some are.
-  bool full = true;  ///< All are that were active at first. (What happens to others does not matter.)
+  bool any = true;   ///< Some points are active.
+  bool full = true;  ///< All points that were active at first still are. (The others do not matter.)
   Mask* outer = nullptr;
-  int32_t label = -1;  ///< Leave that ends here.
+  int32_t label = -1;  ///< The label whose Leave ends here.
 };
 
 struct Run {
@@ -22,24 +22,24 @@ struct Run {
 
   const Program& program;
   const TmGrid& given;
-  TmGrid grid;  ///< As `given`, with the mask of now once asking() has set it.
+  TmGrid grid;  ///< A copy of `given`, whose mask asking() sets to the present one.
   int32_t count, padded, blocks;
   Memory& memory;
   Borrowed borrowed{memory};
-  Lanes* lanes = nullptr;  ///< Of all registers of numbers.
-  size_t texts = 0;        ///< The first of this run.
+  Lanes* lanes = nullptr;  ///< All registers that hold numbers.
+  size_t texts = 0;        ///< The number of this run's first text.
   Mask whole;
   Mask* mask = &whole;
-  bool everywhere = false;  ///< All points were active at first, and there is no padding.
-  int32_t light = -1;       ///< Inside illuminance: which.
-  int32_t randoms = 0;      ///< Calls of random() so far.
-  float specularScale = 0;  ///< 0: not asked yet.
-  int64_t iterations = 0;   ///< Of all loops.
+  bool everywhere = false;  ///< True if all points were active at first and there is no padding.
+  int32_t light = -1;       ///< The light of the illuminance loop that is running; -1 if none is.
+  int32_t randoms = 0;      ///< The number of calls of random() so far.
+  float specularScale = 0;  ///< 0 until it has been asked for.
+  int64_t iterations = 0;   ///< The number of turns of all loops together.
 
   const Register& reg(int32_t r) const { return program.reg(r); }
   const Lanes& lane(int32_t r) const { return lanes[r]; }
   bool varies(int32_t r) const { return lanes[r].block != 0; }
-  /// From one component, or element of an array, to the next.
+  /// The distance in floats from one component, or element of an array, to the next.
   int32_t stride(int32_t r) const {
     const Lanes& l = lanes[r];
     return l.component != 0 ? l.component : l.block != 0 ? padded : kBlock;
@@ -48,22 +48,22 @@ struct Run {
   std::string& variableText(int32_t r, int32_t element = 0) {
     return memory.text(texts + static_cast<size_t>(program.located(r).at + element));
   }
-  /// For a call of a service.
+  /// The batch with its present mask, for a call of a service.
   const TmGrid* asking() { return grid.active = mask->on, &grid; }
   int32_t firstActive() const;
   void warn(const std::string& message);
   void missing(const std::string& message);
 };
 
-/// Makes a register of `width` components these arrays, which lie evenly apart; false: they do not.
+/// Lets a register use these arrays of `width` components. Returns false if they do not lie evenly apart.
 bool useArrays(Lanes& l, int32_t width, const float* x, const float* y, const float* z);
 
-/// The registers of globals and parameters, before the program runs (given.cpp); and what is stored afterwards.
+/// Sets the registers of globals and parameters before the program runs; store() takes its results (both in given.cpp).
 void open(Run& run);
 void store(Run& run);
 
 void execute(Run& run, const Steps& steps);
-/// Nobody is active any more.
+/// Makes all points inactive for the rest of the run.
 void endAll(Run& run);
 
 }  // namespace tomales::compiler

@@ -1,5 +1,5 @@
-// What the host gives to a shader and takes from it: globals, parameters, outputs (RISpec 3.2, tables 12.1 to 12.5;
-// where our conventions differ from RSL's, reyes/shader_api.h and docs/shader_writing.md).
+// The values that the host gives to a shader and takes from it: globals, parameters, outputs (RISpec 3.2, tables 12.1
+// to 12.5; reyes/shader_api.h and docs/shader_writing.md tell where our conventions differ from RSL's).
 #include <cstring>
 
 #include "reyes/rsl/globals.h"
@@ -9,11 +9,11 @@
 namespace tomales::compiler {
 namespace {
 
-/// Arrays of the grid, or one value for all. c[0] null: zero.
+/// Arrays of the grid, or one value for all points. A null c[0] stands for zero.
 struct Source {
   const float* c[3] = {nullptr, nullptr, nullptr};
   bool same = false;
-  bool reversed = false;  ///< Its negative is meant.
+  bool reversed = false;  ///< True if its negative is meant.
 };
 Source arrays(TmConstVec3 v) { return {{v.x, v.y, v.z}}; }
 Source arrays(TmVec3 v) { return {{v.x, v.y, v.z}}; }
@@ -22,7 +22,7 @@ Source same(const float* one, int32_t components) {
   return {{one, components > 1 ? one + 1 : nullptr, components > 1 ? one + 2 : nullptr}, true};
 }
 
-/// P and N are those of the point on the light in an area light's shader, and Ps and Ns of the point that is lit.
+/// In an area light's shader P and N are those of the point on the light, and Ps and Ns those of the lit point.
 bool isArea(const TmGrid& g) { return g.Pl.x != nullptr; }
 
 Source sourceOf(Global global, ShaderKind kind, const TmGrid& g) {
@@ -94,7 +94,7 @@ Source sourceOf(Global global, ShaderKind kind, const TmGrid& g) {
   return {};
 }
 
-/// The register is what the source holds: in place where it can be.
+/// Gives the register the values of the source, without a copy where that is possible.
 void take(Run& run, int32_t r, const Source& s) {
   Lanes& l = run.lanes[r];
   const Located& located = run.program.located(r);
@@ -115,7 +115,7 @@ void take(Run& run, int32_t r, const Source& s) {
   }
 }
 
-/// An array that varies: kArrayVaries.
+/// Takes an array whose elements vary (kArrayVaries).
 void takeArray(Run& run, int32_t r, const TmValue& v) {
   const Register& reg = run.reg(r);
   const int32_t width = floatsOf(reg);
@@ -125,7 +125,7 @@ void takeArray(Run& run, int32_t r, const TmValue& v) {
                   run.lane(r).data + (e * width + c) * static_cast<ptrdiff_t>(run.stride(r)));
 }
 
-/// Arrays and matrices: element e of component k is c[k][e * components].
+/// Takes arrays and matrices: element e of component k is c[k][e * components].
 void takeSame(Run& run, int32_t r, const TmValue& v) {
   const Register& reg = run.reg(r);
   const Lanes& l = run.lane(r);
@@ -145,7 +145,7 @@ void takeTexts(Run& run, int32_t r, const Parameter& p, const TmValue& v) {
   }
 }
 
-/// An output starts as its default; that of nothing is 0.
+/// Sets an output to its default, or to 0 if it has none.
 void takeDefault(Run& run, int32_t r, const Parameter& p) {
   const Lanes& l = run.lane(r);
   for (int32_t k = 0; k < floatsOf(run.reg(r)); ++k)
@@ -189,7 +189,7 @@ void storeGlobal(Run& run, Global global, int32_t r) {
   if (global == Global::Oi) storeTriple(run, r, g.Oi);
   if (global == Global::Cl) storeTriple(run, r, g.Cl);
   if (global == Global::alpha && g.alpha) storeComponent(run, run.lane(r).data, run.varies(r), g.alpha);
-  if (global == Global::L && !isArea(g)) {  // whose L is the host's
+  if (global == Global::L && !isArea(g)) {  // otherwise the host sets L
     const Lanes& l = run.lane(r);
     for (ptrdiff_t c = 0; c < 3; ++c)
       for (int32_t i = 0; l.block != 0 && i < run.padded; ++i) l.data[c * l.component + i] *= -1;
@@ -205,7 +205,7 @@ void storeOutput(Run& run, int32_t r) {
     storeComponent(run, l.data + k * l.component, l.block != 0, const_cast<float*>(v.c[k]));
 }
 
-/// What the shader leaves alone of Ci and Oi is Cs and Os (RISpec 3.2, table 12.1).
+/// Sets Ci and Oi to Cs and Os where the shader has not assigned them (RISpec 3.2, table 12.1).
 void storeOwnColors(Run& run, bool Ci, bool Oi) {
   const TmGrid& g = run.given;
   const auto copy = [&](TmConstVec3 from, TmVec3 to) {
@@ -239,7 +239,7 @@ void open(Run& run) {
 
 void store(Run& run) {
   bool Ci = false, Oi = false;
-  // Control may have taken points out; what they have computed counts.
+  // Control may have taken points out, but what they have computed counts.
   if (!run.everywhere) begin(run.padded, run.count, run.given.active, run.whole.on);
   for (const int32_t r : run.program.ofHost()) {
     if (isOutput(run, run.reg(r))) storeOutput(run, r);

@@ -5,12 +5,12 @@
 
 namespace tomales::compiler {
 
-/// The value of an entry, with arrays where it is to be filled in.
+/// The value of an entry of a list, with arrays if the service fills it in.
 rsl::Setting settingOf(Call& call, const Setting& entry);
-/// Tells the user what is wrong with an entry; `taken` is what became of it.
+/// Reports what is wrong with an entry; `taken` is what set() returned for it.
 void tell(Call& call, const std::string& name, const rsl::Setting& value, const rsl::Entry& taken);
 
-/// `options`, changed as the list says. What `others` (name, entry, value) takes is none of the options.
+/// Returns the options, changed as the list says. An entry that `others` (name, entry, value) takes is not an option.
 template <class Options, class Others>
 Options listed(Call& call, Options options, const Others& others) {
   using rsl::set;

@@ -11,20 +11,20 @@
 
 namespace tomales::compiler {
 
-/// The default of a parameter with Parameter::computed: that value, which RIB cannot give, says "nothing was given". It
-/// is not a number, so x != x tells it, also after a transformation to current space.
+/// The default of a parameter with Parameter::computed: RIB cannot give this value, so it means that nothing was given.
+/// It is a NaN, so x != x tells it, also after a transformation to current space.
 float notGiven();
 bool isNotGiven(float value);
 
-/// Iterations of all loops of one run, over its whole batch; more is an endless loop, which is reported, and the batch
-/// gets what the shader had so far. 0: no limit. The default ends after seconds, not hours.
+/// Limits the turns of all loops of one run, over its whole batch. More is reported as an endless loop, and the batch
+/// gets what the shader had so far. 0 means no limit. The default ends after seconds, not hours.
 void setLoopLimit(int64_t iterations);
 
-/// `grid.params` are those of code.parameters, in their order. Stored in the grid for active points: Ci and Oi of a
-/// surface; what the shader assigns of Ci, Oi and alpha of a volume or imager, of P and N of a displacement, of L and
-/// Cl of a light; outputs where they are wanted. What goes wrong is told by TmServices::report. When the process is to
-/// stop (reyes/base/stop.h), loops end.
-/// Pre: grid.count > 0.
+/// `grid.params` are those of code.parameters, in their order, and grid.count must be
+/// greater than 0. For active points the grid gets: Ci and Oi of a surface; those of
+/// Ci, Oi and alpha that a volume or imager assigns, of P and N that a displacement
+/// assigns, of L and Cl that a light assigns; and wanted outputs. Problems are reported
+/// by TmServices::report. Loops end when the process is to stop (reyes/base/stop.h).
 void run(const Program& program, const TmGrid& grid);
 
 }  // namespace tomales::compiler

@@ -4,19 +4,19 @@
 
 namespace tomales::compiler {
 
-// --- Over n bytes of masks (a multiple of kBlock)
+// --- These work on n bytes of masks (a multiple of kBlock).
 
-/// 1 where `active` of the first `count` points is not 0, else 0. Returns whether there are any.
+/// Sets `on` to 1 where `active` of the first `count` points is not 0, else to 0. Returns whether there are any.
 bool begin(int n, int count, const uint8_t* active, uint8_t* on);
-/// inner: outer where `condition` is not 0; other: where it is. inner may be outer. Returns whether inner has any.
+/// Splits outer: inner where `condition` is not 0, other where it is. inner may be outer. Tells whether inner has any.
 bool narrow(int n, const uint8_t* outer, const float* condition, uint8_t* inner, uint8_t* other, bool& anyOther);
-/// Takes `leaving` out. Returns whether any remain.
+/// Takes the points of `leaving` out. Returns whether any remain.
 bool remove(int n, const uint8_t* leaving, uint8_t* from);
 bool both(int n, const uint8_t* a, const uint8_t* b, uint8_t* out);
 void copyWhere(int n, const uint8_t* on, const float* from, float* to);
 void fillWhere(int n, const uint8_t* on, float value, float* to);
 
-/// For as long as it lives a mask within the run's; at first the same points.
+/// A mask within the run's, in force while this lives. At first it has the same points.
 class Narrowed {
  public:
   explicit Narrowed(Run& run, int32_t label = -1)
@@ -24,7 +24,7 @@ class Narrowed {
     std::copy_n(mask_.outer->on, run.padded, mask_.on);
     mask_.any = mask_.outer->any, mask_.full = mask_.outer->full;
   }
-  /// Of these points, of which there are some.
+  /// Narrows to these points, of which there must be some.
   Narrowed(Run& run, uint8_t* on, int32_t label = -1) : run_(run), mask_{on, true, false, run.mask, label} {
     run.mask = &mask_;
   }

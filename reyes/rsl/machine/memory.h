@@ -1,5 +1,5 @@
-// Memory of the shaders that a thread runs: a stack, since shaders that trace rays run others. What it has grown to it
-// keeps. Threads: each has one.
+// The memory of the shaders that a thread runs. It is a stack, since shaders that trace rays run others, and does not
+// shrink. Each thread has one.
 #pragma once
 #include <algorithm>
 #include <deque>
@@ -15,13 +15,13 @@ class Memory {
     thread_local Memory memory;
     return memory;
   }
-  /// On a 64-byte boundary; holds anything.
+  /// Returns memory on a 64-byte boundary, which may hold any values.
   float* floats(size_t n) {
     const size_t need = (n + 15) / 16 * 16;
     while (block_ == blocks_.size() || used_ + need > blocks_[block_].size()) {
       if (block_ < blocks_.size()) ++block_;
       used_ = 0;
-      // Nothing lives in blocks behind the last.
+      // Blocks behind the last hold nothing.
       if (block_ == blocks_.size()) blocks_.emplace_back();
       if (blocks_[block_].size() < need) blocks_[block_].resize(std::max(need, kLeast));
     }
@@ -30,7 +30,7 @@ class Memory {
     return p;
   }
   uint8_t* bytes(size_t n) { return reinterpret_cast<uint8_t*>(floats((n + 3) / 4)); }
-  /// Texts number `first` and those behind it, empty.
+  /// Makes n texts, all empty, and returns the number of the first.
   size_t openTexts(size_t n) {
     const size_t first = openTexts_;
     openTexts_ += n;
@@ -40,7 +40,7 @@ class Memory {
   }
   std::string& text(size_t k) { return texts_[k]; }
 
-  /// What has been handed out so far; restore() takes back all that came after.
+  /// A height of the stack; restore() takes back all memory that was handed out after it.
   struct Mark {
     size_t block, used, texts;
   };
@@ -54,7 +54,7 @@ class Memory {
   std::deque<std::string> texts_;  // references stay valid
 };
 
-/// Gives back, at its end, what has been handed out since it began.
+/// Gives back, when it ends, the memory that was handed out in its life.
 class Borrowed {
  public:
   explicit Borrowed(Memory& memory) : memory_(memory), mark_(memory.mark()) {}

@@ -19,10 +19,10 @@ int32_t lastLabel(const Block& block) {
   return last;
 }
 
-/// As kernels/triples.cpp holds the number to 0..2.
+/// The component that a number means, held to 0..2 as kernels/triples.cpp does.
 int32_t componentOf(float which) { return which >= 2 ? 2 : which >= 1 ? 1 : 0; }
 
-/// Ranges that touch become one.
+/// Joins ranges that touch.
 void join(std::vector<Program::Cleared>& ranges) {
   std::sort(ranges.begin(), ranges.end(), [](const Program::Cleared& a, const Program::Cleared& b) {
     return std::pair(a.varying, a.from) < std::pair(b.varying, b.from);
@@ -65,8 +65,8 @@ void Program::find(const Block& block) {
   }
 }
 
-/// Registers that are written at all points before anything looks at them. What stands behind a loop may never be
-/// reached: a loop without end is left (control.cpp).
+/// Finds registers that are written at all points before anything reads them. Code behind a loop does not count as
+/// written: it may never be reached, since an endless loop is left (control.cpp).
 void Program::findOverwritten() {
   std::vector<bool> touched(located_.size(), false);
   for (const Instruction& i : code_.body) {

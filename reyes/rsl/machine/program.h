@@ -1,5 +1,5 @@
-// A compiled shader, made ready to run: what can be known of its code before there is a batch. Immutable, shared by
-// threads.
+// A compiled shader that is ready to run, with all that can be known of its code before there is a batch. It is
+// constant, and threads share it.
 #pragma once
 #include "reyes/base/simd.h"
 #include "reyes/rsl/code.h"
@@ -12,42 +12,42 @@ struct Step;
 using Steps = std::vector<Step>;
 using Execute = void (*)(Run&, const Step&);
 
-/// An instruction, with what would else be looked up each time.
+/// An instruction, with the values that would otherwise be looked up each time.
 struct Step {
   Execute execute = nullptr;
   Kernel kernel = nullptr;
   const Instruction* of = nullptr;
   int32_t out = -1;        ///< The first result.
   int32_t in[4] = {};      ///< The first operands.
-  int32_t components = 1;  ///< Of the result, where a kernel does one at a time.
-  int32_t component = 0;   ///< Of Op::Component: which, where that is known.
+  int32_t components = 1;  ///< The number of components of the result, where a kernel does one at a time.
+  int32_t component = 0;   ///< The component that Op::Component reads, where that is constant.
   bool uniform = false;    ///< The result is one value for the batch.
-  bool left[2] = {};       ///< Something leaves the label `extra`, `extra` + 1, of a Scope or Loop.
+  bool left[2] = {};       ///< Something leaves the label `extra`, or `extra` + 1, of a Scope or Loop.
   std::vector<Steps> blocks;
 };
 
 /// Where a register lies.
 enum class Where : uint8_t {
   Nowhere,   ///< Nothing uses it.
-  Constant,  ///< In the program, `at` floats from its first.
-  Varying,   ///< In the frame, `at` floats a point from its first.
-  Uniform,   ///< In the frame, `at` values from its first.
-  Given,     ///< In the grid, if its arrays can be used as they are; else as Varying.
-  Texts,     ///< Text number `at` of the frame; of constants in the code.
+  Constant,  ///< It lies `at` floats behind the program's first constant.
+  Varying,   ///< It lies `at` floats for each point behind the frame's first.
+  Uniform,   ///< It lies `at` values behind the frame's first.
+  Given,     ///< The grid's arrays are used if they can be; else it is as Varying.
+  Texts,     ///< The frame's text number `at`; a constant is a text of the code.
 };
 struct Located {
   Where where = Where::Nowhere;
   bool assigned = false;  ///< Some instruction writes it.
   bool partly = false;    ///< Some instruction writes it at active points alone.
-  bool once = false;      ///< One instruction writes it.
-  bool opens = true;      ///< What it holds at first may be looked at.
+  bool once = false;      ///< Exactly one instruction writes it.
+  bool opens = true;      ///< Its first value may be read.
   int32_t at = 0;
-  int32_t global = -1;  ///< A Global (globals.h).
+  int32_t global = -1;  ///< The Global (globals.h), or -1.
 };
 
 class Program {
  public:
-  /// Pre: the code has been through all passes. (Registers without a slot get room of their own.)
+  /// The code must have been through all passes. (Registers without a slot get room of their own.)
   explicit Program(Code code);
   Program(const Program&) = delete;
 
@@ -56,9 +56,9 @@ class Program {
   const Located& located(int32_t r) const { return located_[static_cast<size_t>(r)]; }
   const float* constants() const { return constants_.data(); }
   const Steps& body() const { return body_; }
-  /// Globals and parameters that are used, in the order of their numbers.
+  /// The globals and parameters that are used, in the order of their numbers.
   const std::vector<int32_t>& ofHost() const { return ofHost_; }
-  /// Registers that may be read where nobody has written: floats a point (varying) or values (uniform), from ... to.
+  /// Registers that may be read before they are written: floats a point (varying) or values (uniform), [from, to).
   struct Cleared {
     bool varying;
     int32_t from, to;
@@ -75,7 +75,7 @@ class Program {
   Steps prepared(const Block& block) const;
   Code code_;
   std::vector<Located> located_;
-  std::vector<bool> used_, left_;  // registers; labels
+  std::vector<bool> used_, left_;  // by register; by label
   AlignedVector<float> constants_;
   std::vector<Cleared> cleared_;
   std::vector<int32_t> ofHost_;
@@ -83,7 +83,7 @@ class Program {
   int32_t varying_ = 0, uniform_ = 0, texts_ = 0;
 };
 
-/// Floats of one element.
+/// The number of floats of one element.
 inline int32_t floatsOf(const Register& r) { return floatsOf(r.shape); }
 inline int32_t elementsOf(const Register& r) { return r.length > 0 ? r.length : 1; }
 

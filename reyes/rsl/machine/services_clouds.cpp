@@ -4,7 +4,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// Options with the radius as an array.
+/// The options, with a radius for all points as an array.
 TmCloudOptions optionsOf(Call& call, const rsl::CloudList& list) {
   TmCloudOptions options = list.cloud;
   if (!list.hasRadius) return options;
@@ -14,7 +14,7 @@ TmCloudOptions optionsOf(Call& call, const rsl::CloudList& list) {
   return options;
 }
 
-/// file, description of the channels (which their values tell as well), P, N; settings: options and values.
+/// Takes file, description of the channels (their values tell the same), P, N; settings are options and values.
 void bake3d(Run& run, const Step& s) {
   Call call(run, s);
   std::vector<TmChannel> values;
@@ -22,7 +22,7 @@ void bake3d(Run& run, const Step& s) {
       listed(call, rsl::CloudList(), [&](const std::string& name, const Setting& entry, const rsl::Setting&) {
         const Shape shape = run.reg(entry.value).shape;
         if (shape != Shape::Number && shape != Shape::Triple) return false;
-        // Read alone, whatever the type of a channel says.
+        // The channel's type has writable arrays, but bake3d() only reads them.
         const TmConstVec3 v = shape == Shape::Triple ? call.tripleOf(entry.value)
                                                      : TmConstVec3{call.numberOf(entry.value), nullptr, nullptr};
         values.push_back({name.c_str(), {const_cast<float*>(v.x), const_cast<float*>(v.y), const_cast<float*>(v.z)}});
@@ -62,7 +62,7 @@ void photonMap(Run& run, const Step& s) {
                           found);
 }
 
-/// Of the photons of Attribute "photon" "causticmap"; none: black.
+/// E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
 void caustic(Run& run, const Step& s) {
   Call call(run, s);
   const TmVec3 out = call.giveTriple();
@@ -76,7 +76,7 @@ void caustic(Run& run, const Step& s) {
   call.services.photonMap(call.host, call.g, v.string, &options, call.triple(0), call.triple(1), out);
 }
 
-/// file, P, N, at which the approximation does not look.
+/// Takes file, P and N. The approximation does not look at N.
 void subsurface(Run& run, const Step& s) {
   Call call(run, s);
   const TmSubsurfaceOptions options = listed(call, tmSubsurfaceDefaults());

@@ -26,7 +26,7 @@ void specular(Run& run, const Step& s) {
   call.services.specular(call.host, call.g, call.triple(0), call.triple(1), call.number(2), call.giveTriple());
 }
 
-/// What specular() divides by the roughness to get its exponent, as sl::specularScale().
+/// Asks for what specular() divides by the roughness to get its exponent, as sl::specularScale().
 void specularScale(Run& run, const Step& s) {
   Call call(run, s);
   if (run.specularScale == 0) {
@@ -42,7 +42,7 @@ void specularScale(Run& run, const Step& s) {
 void assign(Run& run, int32_t r, TmConstVec3 from) {
   if (r < 0) return;
   Lanes& l = run.lanes[r];
-  // What nobody else writes need not be copied.
+  // A register that nothing else writes can use the service's arrays.
   if (l.block != 0 && run.program.located(r).once && useArrays(l, 3, from.x, from.y, from.z)) return;
   const float* const c[3] = {from.x, from.y, from.z};
   for (ptrdiff_t k = 0; k < 3; ++k)
@@ -52,7 +52,7 @@ void assign(Run& run, int32_t r, TmConstVec3 from) {
       std::fill_n(l.data + k * l.component, kBlock, c[k][run.firstActive()]);
 }
 
-/// What shaders of lights have, into the registers that want it.
+/// Copies the parameters and outputs of a light that the list asks for to their registers.
 void tellOfLight(Run& run, const std::vector<rsl::LightList::Wanted>& wanted) {
   for (const rsl::LightList::Wanted& w : wanted) {
     int32_t type = 0;
@@ -67,11 +67,11 @@ bool isUntouchedP(const Run& run, int32_t r) {
   return l.global == static_cast<int32_t>(Global::P) && !l.assigned;
 }
 
-/// Which points a light reaches: category, P, axis and angle of the instruction.
+/// Fills in the query from the category, P, axis and angle of the instruction.
 void ask(Call& call, const std::string& category, TmIlluminance& query) {
   Run& run = call.run;
   query.category = category.c_str();
-  // Volumes that give a P ask in the air, whatever P is (TmIlluminance::P).
+  // A volume that gives a P asks in the air, wherever P is (TmIlluminance::P).
   const bool inAir = run.program.code().kind == ShaderKind::Volume;
   const bool own = call.has(1) && !inAir && isUntouchedP(run, call.of.in[1]);
   if (call.has(1) && !own) query.P = call.copied(1);
@@ -106,7 +106,7 @@ void illuminance(Run& run, const Step& s) {
   list = listed(call, std::move(list));
   const std::vector<TmMessage> sent = list.messages();
   query.sent = sent.data(), query.sentCount = static_cast<int32_t>(sent.size()), query.refresh = list.refresh;
-  // The mask is the same until there are no more samples, whoever leaves in between.
+  // The mask must be the same until there are no more samples, whatever points leave in between.
   const auto n = static_cast<size_t>(run.padded);
   uint8_t *const asked = run.memory.bytes(n), *const lit = run.memory.bytes(n);
   std::copy_n(run.mask->on, n, asked);
@@ -119,13 +119,13 @@ void illuminance(Run& run, const Step& s) {
   run.light = outer;
 }
 
-/// out = a kernel of one number, over the batch.
+/// Applies a kernel of one number to the batch.
 void apply(Run& run, Op op, float* in, float* out) {
   const Lanes from{in, kBlock, 0}, to{out, kBlock, 0};
   kernelOf(op)(run.blocks, to, &from);
 }
 
-/// Evenly over the solid angle of a cone, where the host gives numbers for it; else the axis (sl::Light::solar()).
+/// A direction in a cone: even over its solid angle if the host gives random numbers, else the axis (sl::solar()).
 void coneLight(Run& run, const Step& s) {
   Call call(run, s);
   const TmConstVec3 axis = call.triple(0);

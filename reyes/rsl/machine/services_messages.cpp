@@ -1,10 +1,10 @@
-// What shaders know of each other, of attributes and options, and of the ray that came (rispec-table 9.1).
+// What shaders can learn of each other, of attributes and options, and of the ray that came (rispec-table 9.1).
 #include "reyes/rsl/machine/call.h"
 
 namespace tomales::compiler {
 namespace {
 
-/// 1, and the value of the settings' one entry, where there is one of that name and type; else 0.
+/// Gives 1, and the value of the settings' one entry, if there is one of that name and type; else 0.
 void ask(Run& run, const Step& s) {
   Call call(run, s);
   int32_t type = 0;
@@ -14,10 +14,10 @@ void ask(Run& run, const Step& s) {
   call.set(told && fill(run, s.of->settings.at(0).value, type, v) ? 1.0f : 0.0f);
 }
 
-/// What RSL's shadername() calls other shaders, in the order of TmWhom.
+/// The names that RSL's shadername() has for other shaders, in the order of TmWhom.
 constexpr std::string_view kWhom[] = {"surface", "displacement", "atmosphere", "incident", "opposite", "light"};
 
-/// Empty: there is none.
+/// Gives an empty text if there is no such shader.
 void shaderName(Run& run, const Step& s) {
   Call call(run, s);
   const auto whom = static_cast<int32_t>(std::find(std::begin(kWhom), std::end(kWhom), call.text(0)) - kWhom);
@@ -28,7 +28,7 @@ void shaderName(Run& run, const Step& s) {
   run.variableText(s.of->out[0]) = told ? v.string : "";
 }
 
-/// The names that are texts in RSL and numbers to the host.
+/// Answers the names that are texts in RSL and numbers to the host.
 bool rayText(Call& call, const std::string& name, std::string& out) {
   static const char* const kTypes[] = {"camera", "diffuse", "specular", "transmission"};
   if (name == "label") return out = call.services.rayLabel(call.host, call.g), true;

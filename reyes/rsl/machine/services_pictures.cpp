@@ -4,7 +4,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// One channel or three.
+/// Returns the arrays for one channel or three, as the result's shape is.
 TmVec3 channels(Call& call) {
   if (call.run.reg(call.of.out[0]).shape == Shape::Number) return {call.giveNumber(), nullptr, nullptr};
   return call.giveTriple();

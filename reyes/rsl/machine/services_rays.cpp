@@ -29,7 +29,7 @@ void transmission(Run& run, const Step& s) {
                              call.giveTriple());
 }
 
-/// occlusion() gives a number, indirectdiffuse() a color: P, N, samples; settings.
+/// occlusion() gives a number, indirectdiffuse() a color. Both take P, N and samples, and settings.
 void hemisphere(Run& run, const Step& s) {
   Call call(run, s);
   rsl::HemisphereList list = listed(call, rsl::HemisphereList());
@@ -42,7 +42,7 @@ void hemisphere(Run& run, const Step& s) {
   call.services.occlusion(call.host, call.g, &list.rays, call.triple(0), call.triple(1), &list.options);
 }
 
-/// What a category means; false: it is none. `category` lives as long as the options.
+/// Sets the options that a category means; false if it is unknown. `category` must live as long as the options.
 bool setCategory(const std::string& category, TmRayOptions& options) {
   constexpr std::string_view kEnvironment = "environment:";
   if (category == "samplepattern")
@@ -60,7 +60,7 @@ void runBody(Run& run, const Step& s, size_t block, uint8_t* on, bool any) {
   execute(run, s.blocks[block]);
 }
 
-/// As sl::gather(): evenly over the cone, unless "distribution" is "cosine"; entries that are filled in are outputs.
+/// As sl::gather(): rays are even over the cone unless "distribution" is "cosine"; entries to be filled are outputs.
 void gather(Run& run, const Step& s) {
   Call call(run, s);
   const std::string category = call.has(0) ? call.text(0) : "";

@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// The change of a value over one micropolygon. Pure: of all points, whoever is active.
+/// The change of a value over one micropolygon. Pure, so it works on all points, active or not.
 template <int direction>
 void step(Run& run, const Step& s) {
   Call call(run, s);
@@ -38,7 +38,7 @@ void transformSpace(Run& run, const Step& s) {
                           call.giveTriple());
 }
 
-/// Where a space has the origin and the ends of the axes of another; a fifth point tells whether that is all.
+/// Asks where a space has the origin and the ends of the axes of another; a fifth point tells if the map is affine.
 void spaceMatrix(Run& run, const Step& s) {
   Call call(run, s);
   const auto n = static_cast<size_t>(run.padded);
@@ -63,8 +63,8 @@ void spaceMatrix(Run& run, const Step& s) {
     std::fill_n(run.lane(to).data + k * run.stride(to), run.varies(to) ? run.padded : kBlock, rows[k]);
 }
 
-/// Another number in [0, 1) at every call, as sl::randomNumber(): by what the point is, whose first stratified sample
-/// names it.
+/// Gives another number in [0, 1) at every call, as sl::randomNumber(): a hash whose key is the point's first
+/// stratified sample.
 void randomInto(Call& call, const float* x, const float* y, float* out) {
   Run& run = call.run;
   const int32_t which = run.randoms++;
@@ -90,7 +90,7 @@ void random(Run& run, const Step& s) {
   }
 }
 
-/// The same for all points on surfaces of one name, as sl::randomGrid().
+/// Gives one number to all points on surfaces of one name, as sl::randomGrid().
 void randomGrid(Run& run, const Step& s) {
   Call call(run, s);
   uint32_t hash = 0;

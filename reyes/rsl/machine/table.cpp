@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// A kernel that takes whole registers: `inputs` of them.
+/// Runs a kernel that takes `inputs` whole registers.
 template <int inputs>
 void runKernel(Run& run, const Step& s) {
   Lanes in[inputs];
@@ -15,7 +15,7 @@ void runKernel(Run& run, const Step& s) {
   s.kernel(s.uniform ? 1 : run.blocks, run.lanes[s.out], in);
 }
 
-/// The same, of more than a Step holds.
+/// The same for a kernel with more inputs than a Step holds.
 void runLongKernel(Run& run, const Step& s) {
   constexpr size_t kMostInputs = 16;
   const std::vector<int32_t>& from = s.of->in;
@@ -24,7 +24,7 @@ void runLongKernel(Run& run, const Step& s) {
   s.kernel(s.uniform ? 1 : run.blocks, run.lanes[s.out], in);
 }
 
-/// One that does a component at a time. Numbers count for all components.
+/// Runs a kernel once for each component. Numbers count for all components.
 template <int inputs>
 void runByComponent(Run& run, const Step& s) {
   Lanes in[inputs], out = run.lanes[s.out];

@@ -1,4 +1,4 @@
-// What does each instruction: a table from Op to function, of one row list for each family.
+// The function that runs each instruction. Each family of instructions has a list of rows.
 #pragma once
 #include <span>
 
@@ -6,12 +6,12 @@
 
 namespace tomales::compiler {
 
-/// Of what no kernel does; never null then.
+/// The function for an instruction that has no kernel. Never null for those.
 Execute executeOf(Op op);
-/// Calls the kernel of a step.
+/// The function that calls the kernel of a step.
 Execute runnerOf(const Step& s);
 
-/// Op::Component where it is known which.
+/// Runs Op::Component where the component is constant.
 Execute componentRunner();
 
 struct Row {

@@ -1,5 +1,5 @@
-// Texts: comparison, concat(), match(), format(), printf() (rispec-table 9.3). What differs from point to point is that
-// of the first active point, but in printf().
+// Texts: comparison, concat(), match(), format(), printf() (rispec-table 9.3). A value that differs from point to point
+// counts as that of the first active point, except in printf().
 #include "reyes/rsl/machine/call.h"
 #include "reyes/shader/text.h"
 
@@ -24,7 +24,7 @@ void concat(Run& run, const Step& s) {
   run.variableText(s.of->out[0]) = std::move(all);
 }
 
-/// A register at a point, as format() writes it; the elements of arrays with spaces between.
+/// A register's value at a point, as format() writes it, with spaces between the elements of arrays.
 std::string written(const Run& run, int32_t r, int32_t i) {
   const Register& reg = run.reg(r);
   std::string out;
@@ -52,7 +52,7 @@ std::string formatted(const Run& run, const Instruction& of, int32_t i) {
 
 void format(Run& run, const Step& s) { run.variableText(s.of->out[0]) = formatted(run, *s.of, run.firstActive()); }
 
-/// A line for each active point (RISpec 15.7).
+/// Prints a line for each active point (RISpec 15.7).
 void print(Run& run, const Step& s) {
   const TmGrid* const g = run.asking();
   for (int32_t i = 0; i < run.count; ++i)

@@ -1,4 +1,4 @@
-// Pure instructions that need texts or many knots: color spaces and splines. Over all points, as kernels.
+// Pure instructions that need texts or many knots: color spaces and splines. Like kernels they work on all points.
 #include "reyes/rsl/machine/table.h"
 #include "reyes/shader/noise.h"
 #include "reyes/shader/shadeops.h"
@@ -6,11 +6,11 @@
 namespace tomales::compiler {
 namespace {
 
-/// Points to work on: one where the result is.
+/// The number of points to work on: one if the result is uniform.
 int32_t pointsOf(const Run& run, int32_t to) { return run.varies(to) ? run.padded : 1; }
 
-/// Component c of a register at a point. Registers of one value have room for kBlock points. A number counts for all
-/// components of the triple that is wanted.
+/// Reads component c of a register at a point. Registers of one value have room for kBlock points. A number counts for
+/// all components of the triple that is wanted.
 class Reader {
  public:
   Reader(const Run& run, int32_t r)
@@ -44,7 +44,7 @@ void colorTransform(Run& run, const Step& s) {
   }
 }
 
-/// Knots of a spline, as registers of one each or as an array.
+/// The knots of a spline, from one register each or from an array.
 struct Knots {
   std::vector<Reader> readers;
   int32_t count = 0, width = 1;
@@ -58,7 +58,7 @@ struct Knots {
   float at(int32_t knot, int32_t component, int32_t i) const {
     return array ? readers[0](i, knot * width + component) : readers[static_cast<size_t>(knot)](i, component);
   }
-  /// The last of fewer than four counts again.
+  /// Repeats the last knot if there are fewer than four.
   void fill(std::vector<float>& own, int32_t component, int32_t i) const {
     for (size_t k = 0; k < own.size(); ++k) own[k] = at(std::min(static_cast<int32_t>(k), count - 1), component, i);
   }

@@ -11,7 +11,7 @@ struct Operator {
   std::string_view text;
   int level;
 };
-/// RISpec 3.2 appendix B: what stands higher here binds less. Unary operators and casts bind tighter than all.
+/// RISpec 3.2 appendix B. A smaller number binds less. Unary operators and casts bind tighter than all of these.
 constexpr Operator kOperators[] = {{"||", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<", 4}, {"<=", 4}, {">", 4},
                                    {">=", 4}, {"+", 5},  {"-", 5},  {"^", 6},  {"*", 7}, {"/", 7},  {".", 8}};
 
@@ -177,7 +177,7 @@ void Parser::list(std::vector<ExprPtr>& out) {
   } while (takeIf(","));
 }
 
-/// (expression), or a triple, or the 16 elements of a matrix.
+/// Reads (expression), a triple, or the 16 elements of a matrix.
 ExprPtr Parser::inBrackets() {
   const Token& open = take();
   std::vector<ExprPtr> values;

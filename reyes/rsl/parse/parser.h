@@ -1,5 +1,5 @@
-// Recursive descent over a row of tokens. An error is thrown as Failed after it has been told, and caught where reading
-// can go on: at the next statement or definition.
+// Recursive descent over a row of tokens. An error is thrown as Failed once it has been reported, and caught where
+// reading can go on: at the next statement or definition.
 #pragma once
 #include <initializer_list>
 
@@ -7,9 +7,9 @@
 
 namespace tomales::compiler {
 
-/// An error that has been told.
+/// An error that has been reported.
 struct Failed {};
-/// One after which nothing more is read.
+/// An error after which nothing more is read.
 struct GaveUp {};
 
 class Parser {
@@ -18,7 +18,7 @@ class Parser {
   File run();
 
  private:
-  /// One more level of nesting while it lives.
+  /// Counts one more level of nesting while it lives.
   class Level {
    public:
     explicit Level(Parser& parser) : parser_(parser) { parser_.deeper(); }
@@ -30,7 +30,7 @@ class Parser {
     Parser& parser_;
   };
 
-  /// What stands before a declared name.
+  /// The words that stand before a declared name.
   struct Specifiers {
     Type type{};
     Detail detail = Detail::Unstated;
@@ -44,7 +44,7 @@ class Parser {
   void expect(std::string_view punctuator);
   void expectClosing(std::string_view punctuator, const Token& open);
   const Token& expectName(std::string_view what);
-  /// "expected X before 'what stands here'", with the word of `known` that was perhaps meant.
+  /// Reports "expected X before 'word'" for the next word, with the word of `known` that was perhaps meant.
   [[noreturn]] void fail(std::string text, const std::vector<std::string>& known = {});
   [[noreturn]] void failAt(const Token& token, std::string text);
   void error(const Token& token, std::string text);
@@ -84,7 +84,7 @@ class Parser {
   void bracketed(Stmt& out);
 
   // expressions.cpp
-  ExprPtr expression();  ///< With commas.
+  ExprPtr expression();  ///< Commas included.
   ExprPtr assignment();
   ExprPtr conditional();
   ExprPtr binary(int lowest);

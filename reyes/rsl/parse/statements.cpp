@@ -26,7 +26,7 @@ StmtPtr Parser::block() {
   return out;
 }
 
-/// Goes on behind a statement with an error.
+/// Reads a statement. After one with an error it goes on behind it.
 void Parser::statementInto(std::vector<StmtPtr>& out) {
   const size_t before = at_;
   try {
@@ -66,7 +66,7 @@ StmtPtr Parser::statement() {
   return expressionStatement();
 }
 
-/// Two words beside each other, of which the first is none that begins something.
+/// Fails on two words beside each other whose first cannot begin a statement.
 void Parser::failNoStatement() {
   static const std::vector<std::string> kKnown{"float", "color",  "point",   "vector",  "normal", "matrix", "string",
                                                "void",  "extern", "uniform", "varying", "output", "return"};

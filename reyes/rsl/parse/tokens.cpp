@@ -49,7 +49,7 @@ void Parser::failAt(const Token& token, std::string text) {
   throw Failed{};
 }
 
-/// At the end of the line before where the token begins another.
+/// Blames the end of the line before, if the token begins a line.
 void Parser::fail(std::string text, const std::vector<std::string>& known) {
   const Token& t = here();
   if (t.kind == TokenKind::Name && (t.text == "class" || t.text == "struct")) refuseRsl2(t, quoted(t.text));
@@ -90,7 +90,7 @@ const Token& Parser::expectName(std::string_view what) {
   return take();
 }
 
-/// The index behind the bracket that closes the one at `index`; the last token's where none does.
+/// The index behind the bracket that closes the one at `index`; that of the last token if none does.
 size_t Parser::behindBracket(size_t index) const {
   int open = 0;
   for (; index + 1 < tokens_.size(); ++index) {
@@ -100,7 +100,7 @@ size_t Parser::behindBracket(size_t index) const {
   return index;
 }
 
-/// Behind the next ';' or '}' block that belongs to the statement, or before the '}' around it.
+/// Skips to behind the next ';' or '}' block that belongs to the statement, or to the '}' around it.
 void Parser::skipStatement() {
   while (!atEnd() && !here().is("}")) {
     if (here().is("{")) {
@@ -111,7 +111,7 @@ void Parser::skipStatement() {
   }
 }
 
-/// To what looks like the beginning of a shader or of a function, outside of braces.
+/// Skips to what looks like the beginning of a shader or of a function, outside of braces.
 void Parser::skipDefinition() {
   while (!atEnd()) {
     if (here().is("{")) {

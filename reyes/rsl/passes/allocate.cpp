@@ -1,5 +1,5 @@
-// Slots for registers: by the order of the code, first fit. A register that lives into or out of a loop lives through
-// all of it, since the code before may run again.
+// Assigns slots to registers in the order of the code, by first fit. A register that lives into or out of a loop lives
+// through all of it, since the loop runs its code again.
 #include <algorithm>
 
 #include "reyes/rsl/passes/passes.h"
@@ -36,11 +36,11 @@ class Lives {
       const int32_t from = at_;
       for (const Block& inner : i.blocks) visit(inner);
       ++at_;
-      forEachRead(i, touchThis), forEachWrite(i, touchThis);  // a loop looks at its condition again and again
+      forEachRead(i, touchThis), forEachWrite(i, touchThis);  // a loop reads its condition again and again
       if (i.op == Op::If || i.op == Op::Scope) continue;
       for (Life& life : lives) {
         if (life.first < 0 || life.last < from) continue;
-        // Touched in the loop, and known outside of it, or before its first round ends.
+        // It is used in the loop, and its value comes from before the loop or from the round before.
         if (life.first < from) life.last = std::max(life.last, at_);
       }
     }
@@ -50,7 +50,7 @@ class Lives {
 
 class Slots {
  public:
-  /// The first place of `width` slots that is free from `first` to `last`.
+  /// Takes the first place of `width` slots that is free from `first` to `last`.
   int32_t take(int32_t width, Life life) {
     std::erase_if(taken_, [&](const Taken& t) { return t.life.last < life.first; });
     std::sort(taken_.begin(), taken_.end(), [](const Taken& a, const Taken& b) { return a.slot < b.slot; });

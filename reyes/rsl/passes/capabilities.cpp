@@ -1,4 +1,4 @@
-// What the host wants to know before it runs a shader, found in its code, so that no author has to declare it.
+// Finds in the code what the host wants to know before it runs a shader, so that no author has to declare it.
 #include "reyes/rsl/globals.h"
 #include "reyes/rsl/passes/passes.h"
 #include "reyes/rsl/passes/walk.h"
@@ -41,7 +41,7 @@ class Analysis {
       case Op::Gather:
       case Op::Occlusion:
       case Op::IndirectDiffuse:
-      case Op::EnvironmentF:  // "raytrace" traces
+      case Op::EnvironmentF:  // "raytrace" traces rays
       case Op::EnvironmentT:
         return TM_TRACES;
       case Op::StepU:
@@ -64,7 +64,7 @@ class Analysis {
     return solar ? TM_LIGHT_SOLAR : 0;
   }
 
-  /// Oi is only ever Os.
+  /// Tells whether Oi is always Os.
   bool keepsOpacity() const {
     bool keeps = true;
     forEach(code_.body, [&](const Instruction& i) {
@@ -75,8 +75,8 @@ class Analysis {
     return keeps;
   }
 
-  /// The greatest set of registers that `holds` keeps: all are in it at first, and one that an instruction writes
-  /// otherwise drops out, until nothing changes.
+  /// Finds the greatest set of registers for which `holds` is true: all are in it at first, and one that an instruction
+  /// writes otherwise drops out, until nothing changes.
   template <class Holds>
   std::vector<char> greatest(const Holds& holds) const {
     std::vector<char> in(code_.registers.size(), 1);
@@ -107,16 +107,16 @@ class Analysis {
     }
   }
 
-  /// What stands behind a Leave is not run by those who have left: no result keeps what it held.
+  /// Points that have left do not run the code behind a Leave, so no result there keeps what it held.
   template <class Drop>
   void dropGlobals(const Drop& drop) const {
     for (size_t k = 0; k < code_.registers.size(); ++k)
       if (code_.registers[k].origin == Origin::Global) drop(static_cast<int32_t>(k));
   }
 
-  /// Is black where no light is: it reflects, and does not shine.
+  /// The condition that a value is black where no light is: the surface reflects, but does not emit.
   struct Dark {
-    bool startsOver;  ///< Ci does not count as Cs at first.
+    bool startsOver;  ///< True if Ci does not count as Cs at first.
     static constexpr bool followsControl = false;
     bool starts(const Register& r, const Code&) const {
       if (r.origin == Origin::Constant) {
@@ -124,7 +124,7 @@ class Analysis {
           if (x != 0) return false;
         return true;
       }
-      // Ci begins as Cs, and a shader that leaves it so shines.
+      // Ci begins as Cs, so a shader that leaves it emits light.
       if (r.origin != Origin::Global) return false;
       return r.index == static_cast<int32_t>(Global::Cl) || (startsOver && r.index == static_cast<int32_t>(Global::Ci));
     }
@@ -189,7 +189,7 @@ class Analysis {
       if (is(static_cast<int32_t>(k), Global::Ci)) return dark[k] == 0;
     return true;  // never assigned: it stays Cs
   }
-  /// Is the first that happens to a global that all of it is assigned?
+  /// Tells whether the first instruction that touches a global assigns all of it.
   bool startsOver(Global g) const {
     for (const Instruction& i : code_.body) {
       bool touched = false;
@@ -207,7 +207,7 @@ class Analysis {
     return false;
   }
 
-  /// A normal on the side from which the surface is seen.
+  /// The condition that a value is a normal on the side from which the surface is seen.
   struct Facing {
     static constexpr bool followsControl = false;
     bool starts(const Register&, const Code&) const { return false; }
@@ -217,7 +217,7 @@ class Analysis {
     }
   };
 
-  /// Comes of Cs, Os, parameters and light alone, not of places, directions or pictures.
+  /// The condition that a value depends on Cs, Os, parameters and light alone, not on places, directions or pictures.
   struct Even {
     const std::vector<char>& facing;
     static constexpr bool followsControl = true;
@@ -242,7 +242,7 @@ class Analysis {
       switch (i.op) {
         case Op::Ambient:
           return true;
-        case Op::Diffuse:  // by whatever normal that faces the eye: the same light is on every side
+        case Op::Diffuse:  // by any normal that faces the eye: the same light is on every side
         case Op::Specular:
           return facing[static_cast<size_t>(i.in[0])] != 0;
         default:

@@ -1,7 +1,7 @@
-// Derivatives by forward differentiation of the code itself: for each register that a Step reaches there are two more,
-// its changes over one micropolygon along u and v, and behind each instruction that writes it those that write them.
-// Rules by hand where they are short (rules.cpp); else central differences, f(x + dx/2) - f(x - dx/2). Light does not
-// change over a micropolygon.
+// Derivatives by forward differentiation of the code itself. Each register that a Step needs gets two more, its changes
+// over one micropolygon along u and v; behind each instruction that writes the register come those that write its
+// changes. Short rules are written by hand (rules.cpp); else central differences are taken, f(x + dx/2) - f(x - dx/2).
+// Light does not change over a micropolygon.
 #include <algorithm>
 
 #include "reyes/rsl/globals.h"
@@ -34,7 +34,7 @@ class Derivation {
     Block body = std::move(code_.body);
     Block first = starts();
     Block rest = rewritten(std::move(body));
-    // What the host knows is asked first, once.
+    // The changes that the host knows are asked for first, once.
     code_.body = std::move(asked_);
     for (Block* part : {&first, &rest})
       code_.body.insert(code_.body.end(), std::make_move_iterator(part->begin()), std::make_move_iterator(part->end()));
@@ -42,9 +42,9 @@ class Derivation {
 
  private:
   const Register& at(int32_t r) const { return code_.registers[static_cast<size_t>(r)]; }
-  /// The host can tell its change.
+  /// Tells whether the host can give the change of the register.
   bool isOfHost(int32_t r) const { return isGiven(r) && writes_[static_cast<size_t>(r)] == 0; }
-  /// Holds something before the shader runs.
+  /// Tells whether the register holds a value before the shader runs.
   bool isGiven(int32_t r) const {
     return at(r).origin == Origin::Global ||
            (at(r).origin == Origin::Parameter && !code_.parameters[static_cast<size_t>(at(r).index)].output);
@@ -90,7 +90,7 @@ class Derivation {
     }
   }
 
-  /// Globals and parameters that the shader changes begin with the change that the host knows.
+  /// Starts the globals and parameters that the shader changes with the change that the host knows.
   Block starts() {
     Block out;
     for (const int32_t r : needed_) {
@@ -102,7 +102,7 @@ class Derivation {
     return out;
   }
 
-  /// The register that holds the change of another.
+  /// The register that holds the change of a register.
   int32_t step(int32_t r, Op side) {
     if (!changes(r)) return zero_;
     if (static_cast<size_t>(r) < steps_.size() && isNeeded(r))
@@ -110,8 +110,8 @@ class Derivation {
     return isOfHost(r) ? hostStep(r, side) : zero_;
   }
 
-  /// What the host knows: places, normals, coordinates, and what primitive variables give. I changes as the place that
-  /// it leads to.
+  /// Asks the host for a change: it knows those of places, normals, coordinates and primitive variables. I changes as
+  /// the place that it leads to.
   int32_t hostStep(int32_t r, Op side) {
     if (at(r).origin == Origin::Global) switch (static_cast<Global>(at(r).index)) {
         case Global::P:
@@ -151,7 +151,7 @@ class Derivation {
       for (Block& inner : i.blocks) inner = rewritten(std::move(inner));
       if (isStep(i)) {
         const int32_t value = step(i.in[0], i.op);
-        // A Step under a mask is of all points, like every pure instruction.
+        // A Step under a mask works on all points, like every pure instruction.
         out.push_back({.op = Op::Copy, .out = i.out, .in = {value}, .place = i.place, .masked = false});
         if (isNeeded(i.out[0])) still(i, out);
         continue;
@@ -161,7 +161,7 @@ class Derivation {
         if (isNeeded(r)) after.push_back(r);
       });
       const Instruction copy = after.empty() ? Instruction{Op::Leave, {}, {}} : withoutBlocks(i);
-      // The rules read the operands as they were: a variable's own change is written before the variable.
+      // The rules read the old operands, so a variable's change is written before the variable.
       if (!after.empty() && !i.out.empty() && at(i.out[0]).origin != Origin::Temporary) {
         changeOf(copy, out);
         out.push_back(std::move(i));
@@ -182,7 +182,7 @@ class Derivation {
             .masked = i.masked};
   }
 
-  /// Nothing is known of how its results change, or they do not.
+  /// Sets the changes of the results to 0: they do not change, or nothing is known of how they do.
   void still(const Instruction& i, Block& out) {
     forEachWrite(i, [&](int32_t r) {
       if (!isNeeded(r)) return;

@@ -43,7 +43,7 @@ class Inference {
     if (r.varying || r.shape == Shape::Text || r.origin == Origin::Constant) return;
     r.varying = changed_ = true;
   }
-  /// Do the structures around vary, from the given depth on?
+  /// Tells whether a structure around varies, from the given depth on.
   bool around(size_t depth) const {
     for (size_t k = depth; k < structures_.size(); ++k)
       if (structures_[k].varies) return true;
@@ -53,7 +53,7 @@ class Inference {
     if (varying_.insert(i).second) changed_ = true;
   }
 
-  /// Results differ from point to point whatever is asked.
+  /// Tells whether the results differ from point to point even for uniform arguments.
   static bool asksTheSurface(const Instruction& i) {
     switch (i.op) {
       case Op::RandomGrid:
@@ -114,7 +114,7 @@ class Inference {
     if (given || (inPart && around(depth))) vary(reg);
   }
 
-  /// Where some points leave, everything that they leave is run by the others alone.
+  /// Where some points leave, the code up to the label runs for the others alone.
   void leave(const Instruction& i) {
     size_t from = structures_.size();
     while (from > 0 && !owns(*structures_[from - 1].instruction, i.extra)) --from;
@@ -154,7 +154,7 @@ void warnOfDetail(const Code& lowered, const std::vector<bool>& varying, Message
       messages.warning(i.place,
                        "a string is chosen by what differs from point to point; strings are the same for all "
                        "points, so the last choice that any point makes counts");
-    // What lights and messages bring is left out: it is the same for all points more often than not.
+    // Values that lights and messages give are not counted: they are mostly the same for all points.
     const bool given = code.registers[static_cast<size_t>(i.in[0])].varying;
     if (r.declared == Detail::Uniform && r.origin == Origin::Variable && given && told.insert(i.out[0]).second)
       messages.warning(r.place,

@@ -1,4 +1,4 @@
-// Constants are computed once, by the kernels that would run them, and copies of what never changes are looked through.
+// Computes constants once, by the kernels that would run them, and replaces copies of what never changes.
 #include <map>
 #include <set>
 
@@ -41,7 +41,7 @@ class Folding {
   bool isNumber(int32_t r, float value) const {
     return isConstant(r) && at(r).shape == Shape::Number && at(r).floats[0] == value;
   }
-  /// Holds the same value wherever it may be read.
+  /// Tells whether the register holds the same value wherever it may be read.
   bool isFixed(int32_t r) const {
     const Register& reg = at(r);
     if (reg.origin == Origin::Constant) return true;
@@ -65,7 +65,7 @@ class Folding {
     return reg;
   }
 
-  /// Variables that are only ever assigned as a whole, in this very block: what is read is what was assigned last.
+  /// Finds variables that are only ever assigned as a whole, in this very block: a read gives the last assignment.
   void findStraight(const Block& block) {
     std::map<int32_t, int> here;
     for (const Instruction& i : block)
@@ -75,7 +75,7 @@ class Folding {
       if (count == writes_[static_cast<size_t>(v)]) straight_.insert(v);
   }
 
-  /// A declaration's 0 that nobody reads before the first assignment, which then is the first value.
+  /// Drops the 0 of a declaration that nobody reads before the first assignment, which becomes the first value.
   void dropFirstValues(Block& block) {
     for (size_t k = 0; k < block.size(); ++k) {
       Instruction& first = block[k];
@@ -169,7 +169,7 @@ class Folding {
     return constant(shape, std::move(result));
   }
 
-  /// What leaves one operand as it is. x * 0 stays: x may be infinite.
+  /// Removes operations that leave one operand as it is. x * 0 stays, since x may be infinite.
   void simplify(const Instruction& i) {
     const auto take = [&](size_t k) {
       if (isFixed(i.in[k]) && at(i.in[k]).shape == at(i.out[0]).shape) become(i, i.in[k]);

@@ -1,49 +1,49 @@
-// What is done to code between lowering and running, in this order. Each pass keeps what the code means; `tomales
-// compile --dump code` shows their result, --dump lowered what they start from.
+// The passes over code between lowering and running, in this order. Each keeps what the code means; `tomales compile
+// --dump code` shows their result, --dump lowered their input.
 #pragma once
 #include "reyes/rsl/code.h"
 #include "reyes/rsl/source.h"
 
 namespace tomales::compiler {
 
-/// Does a surface assign P?
+/// Tells whether a surface assigns P.
 bool movesPoints(const Code& lowered);
-/// What of such a surface moves the points, as a displacement with the same parameters.
+/// The part of such a surface that moves the points, as a displacement with the same parameters.
 Code displacementOf(const Code& lowered);
-/// The surface for points that displacementOf() has moved: what it assigns to P is not seen.
+/// Makes it the surface for points that displacementOf() has moved: nobody sees what it assigns to P.
 void leavePoints(Code& lowered);
 
-/// Says for each register whether it varies over the batch, and for each instruction whether all points are active
-/// there. `varying[k]`: parameter k is given by a primitive variable.
+/// Finds for each register whether it varies over the batch, and for each instruction whether all points are active
+/// there. `varying[k]` is true if a primitive variable gives parameter k.
 void inferDetail(Code& code, const std::vector<bool>& varying);
 
-/// What is doubtful of lowered code, before anything is folded away: a variable that is declared `uniform` and has to
-/// vary, a text that is chosen by what varies.
+/// Warns of doubtful things in lowered code, before anything is folded away: a variable that is declared `uniform` and
+/// has to vary, or a text whose choice varies.
 void warnOfDetail(const Code& lowered, const std::vector<bool>& varying, Messages& messages);
 
-/// Pure instructions on constants become constants, by the kernels that would run them: the same bits. x * 1, x + 0
-/// and the like become x. Returns the register that holds what `of` held (for a value that is looked at from outside).
+/// Turns pure instructions on constants into constants, with the same bits, since the kernels that would run them
+/// compute them. x * 1, x + 0 and the like become x. Returns the register that now holds the value of `of`.
 int32_t foldConstants(Code& code, int32_t of = -1);
 
-/// A pure instruction that has been done for the same values before is not done again.
+/// Removes a pure instruction that has been done for the same values before.
 void shareExpressions(Code& code);
 
-/// Steps of computed values become code (forward differentiation): the change of a product is computed from the changes
-/// of its factors. Steps are left on what the host knows: globals and parameters. Displacements keep theirs: the host
-/// differences their grid. After inferDetail.
+/// Turns steps of computed values into code (forward differentiation): the change of a product is computed from the
+/// changes of its factors. Steps remain for what the host knows: globals and parameters. Displacements keep theirs,
+/// since the host differences their grid. To be called after inferDetail().
 void deriveSteps(Code& code);
 
-/// Instructions whose results nobody reads, and stores that are stored over, are left out; a value that is computed to
-/// be stored in a variable is computed there.
+/// Removes instructions whose results nobody reads, and stores that others overwrite. A value that is computed to be
+/// stored in a variable is computed there.
 void removeUnused(Code& code);
 
-/// What the host wants to know of the shader (TmCapability), found in its code.
+/// Finds in the code the capabilities (TmCapability) of the shader.
 void findCapabilities(Code& code);
 
 /// Gives registers their slots: those whose lives do not overlap may share one.
 void allocateSlots(Code& code);
 
-/// All of them.
+/// Runs all passes.
 void optimise(Code& code, const std::vector<bool>& varying, Messages& messages);
 
 }  // namespace tomales::compiler

@@ -59,7 +59,7 @@ class Rule {
     c_.out.push_back({.op = op, .out = {out}, .in = std::move(in), .place = place_});
     return out;
   }
-  /// Componentwise, as wide as its widest operand.
+  /// Emits a componentwise instruction, as wide as its widest operand.
   int32_t each(Op op, std::vector<int32_t> in) {
     const bool triple = std::any_of(in.begin(), in.end(), [&](int32_t r) { return shape(r) == Shape::Triple; });
     return compute(op, std::move(in), triple ? Shape::Triple : Shape::Number);
@@ -73,13 +73,13 @@ class Rule {
   int32_t cross(int32_t a, int32_t b) {
     return none(a) || none(b) ? c_.zero : compute(Op::Cross, {a, b}, Shape::Triple);
   }
-  /// Where a number is greater than 0; 0 elsewhere.
+  /// Gives `value` where a number is greater than 0, and 0 elsewhere.
   int32_t wherePositive(int32_t number, int32_t value) {
     if (none(value)) return value;
     return each(Op::Select, {compute(Op::Less, {c_.zero, number}, Shape::Number), value, c_.zero});
   }
 
-  /// Empty: there is no short rule.
+  /// The registers of the change; empty if there is no short rule.
   std::vector<int32_t> change() {
     switch (c_.i.op) {
       case Op::Copy:
@@ -135,7 +135,7 @@ class Rule {
   }
 
  private:
-  /// Of functions of numbers, componentwise.
+  /// The rules for functions of numbers, which hold for each component.
   std::vector<int32_t> number() {
     const auto square = [&](int32_t r) { return each(Op::Mul, {r, r}); };
     const bool isNumber = shape(y()) == Shape::Number;
@@ -189,7 +189,7 @@ class Rule {
   const Place place_;
 };
 
-/// f(x + dx/2) - f(x - dx/2), in all operands that change.
+/// Computes f(x + dx/2) - f(x - dx/2), in all operands that change.
 int32_t byDifference(RuleContext& c, Rule& rule) {
   int32_t ends[2];
   for (int k = 0; k < 2; ++k) {
@@ -206,7 +206,7 @@ int32_t byDifference(RuleContext& c, Rule& rule) {
       moved.in[at] = rule.each(Op::Add, {c.i.in[at], half});
     }
     const bool picture = c.i.op == Op::TextureF || c.i.op == Op::TextureT;
-    if (picture && moved.in[4] < 0) {  // half a micropolygon away it covers as much as in its middle
+    if (picture && moved.in[4] < 0) {  // half a micropolygon away, the region is as large as in the middle
       const Shape number = Shape::Number;
       moved.in[4] = rule.compute(Op::StepU, {c.i.in[2]}, number),
       moved.in[5] = rule.compute(Op::StepU, {c.i.in[3]}, number);
@@ -259,7 +259,7 @@ std::vector<size_t> differentiated(const Instruction& i) {
     case Op::Copy:
       return {0};
     default: {
-      if (!info(i.op).kernel()) return {};  // light, rays, messages: the same over a micropolygon
+      if (!info(i.op).kernel()) return {};  // light, rays and messages are the same over a micropolygon
       std::vector<size_t> all;
       for (size_t k = 0; k < i.in.size(); ++k) all.push_back(k);
       return all;
@@ -281,7 +281,7 @@ void writeChange(RuleContext& c, int32_t to) {
   const bool still = std::all_of(operands.begin(), operands.end(), [&](size_t k) { return rule.none(rule.d(k)); });
   std::vector<int32_t> value = still ? std::vector{c.zero} : rule.change();
   if (value.empty()) value = {byDifference(c, rule)};
-  // What is written to a variable is written where the variable is; results of pure instructions are of all points.
+  // A Copy obeys the mask, as the Copy to its variable does; results of pure instructions are for all points.
   const bool masked = c.i.op == Op::Copy && c.i.masked;
   c.out.push_back({.op = Op::Copy, .out = {to}, .in = {value[0]}, .place = c.i.place, .masked = masked});
 }

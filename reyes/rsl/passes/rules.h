@@ -1,4 +1,4 @@
-// Private to the derivation: how the change of a result follows from the changes of what it is computed from.
+// Private to the derivation: gives the change of a result from the changes of its operands.
 #pragma once
 #include <functional>
 
@@ -6,7 +6,7 @@
 
 namespace tomales::compiler {
 
-/// Which of an instruction's operands its result changes with; none: it does not change.
+/// The operands with which an instruction's result changes; empty if it does not change.
 std::vector<size_t> differentiated(const Instruction& i);
 
 struct RuleContext {
@@ -15,10 +15,10 @@ struct RuleContext {
   const Instruction& i;
   int32_t zero;                            ///< A register of 0.
   Op side;                                 ///< StepU or StepV.
-  std::function<int32_t(int32_t)> stepOf;  ///< The register that holds the change of a register; `zero`: none.
+  std::function<int32_t(int32_t)> stepOf;  ///< The register that holds the change of a register, or `zero`.
 };
 
-/// Appends what writes the change of the instruction's result to `to`.
+/// Appends instructions that write the change of the instruction's result to `to`.
 void writeChange(RuleContext& context, int32_t to);
 
 }  // namespace tomales::compiler

@@ -24,7 +24,7 @@ class Sharing {
         renew(i);
         continue;
       }
-      // What a loop changes has changed before its second round.
+      // Registers that a loop changes have other values in its second round.
       const bool again = i.op != Op::If && i.op != Op::Scope;
       if (again) renewAll(i);
       for (Block& inner : i.blocks) run(inner);
@@ -37,7 +37,7 @@ class Sharing {
  private:
   using Key = std::pair<std::pair<Op, Shape>, std::vector<int64_t>>;
 
-  /// Constants of the same value are one.
+  /// Gives constants of the same value one number.
   void numberConstants() {
     std::map<std::pair<Shape, std::pair<std::string, std::vector<std::string>>>, int32_t> first;
     for (size_t k = 0; k < code_.registers.size(); ++k) {

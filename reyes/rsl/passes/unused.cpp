@@ -1,4 +1,4 @@
-// What nobody reads is not computed.
+// Removes computations whose results nobody reads.
 #include <algorithm>
 
 #include "reyes/rsl/globals.h"
@@ -8,14 +8,14 @@
 namespace tomales::compiler {
 namespace {
 
-/// Something else than its results comes of it.
+/// Tells whether the instruction does more than write its results.
 bool hasEffect(const Instruction& i) {
   switch (i.op) {
     case Op::Print:
     case Op::Report:
     case Op::Bake3d:
     case Op::Leave:
-    case Op::RandomF:  // the numbers of the calls behind it depend on how many there were
+    case Op::RandomF:  // later random numbers depend on how many calls were before
     case Op::RandomT:
     case Op::RandomGrid:
       return true;
@@ -24,7 +24,7 @@ bool hasEffect(const Instruction& i) {
   }
 }
 
-/// The host or the caller sees what the shader leaves there.
+/// Tells whether the host or the caller sees what the shader leaves in the register.
 bool isSeen(const Code& code, const Register& r) {
   if (r.origin == Origin::Parameter) return code.parameters[static_cast<size_t>(r.index)].output;
   return r.origin == Origin::Global && info(static_cast<Global>(r.index)).writableIn(code.kind);
@@ -40,7 +40,7 @@ class Removal {
       reads_.assign(code_.registers.size(), 0);
       forEach(code_.body, [&](const Instruction& i) {
         forEachRead(i, [&](int32_t r) { ++reads_[static_cast<size_t>(r)]; });
-        // A store into part of a variable keeps the rest, but reads nothing if nobody else does.
+        // A store into part of a variable counts as no read: it matters only if something else reads the variable.
       });
       sweep(code_.body);
     } while (removed_);
@@ -58,7 +58,7 @@ class Removal {
     bool useful = false;
     forEachWrite(i, [&](int32_t r) { useful |= isRead(r); });
     if (useful) return false;
-    if (i.op == Op::Loop) return false;  // it may not end, which the user is to be told
+    if (i.op == Op::Loop) return false;  // it may be endless, which must be reported
     return std::all_of(i.blocks.begin(), i.blocks.end(), [](const Block& b) { return b.empty(); });
   }
 
@@ -67,7 +67,7 @@ class Removal {
       for (Block& inner : i.blocks) sweep(inner);
     const size_t before = block.size();
     std::erase_if(block, [&](const Instruction& i) {
-      // What stands under a constant condition and never runs goes with it.
+      // An instruction under a constant condition that never holds has an empty block, and goes with its If.
       return isUseless(i);
     });
     removed_ |= block.size() != before;

@@ -1,10 +1,10 @@
-// What every pass does with code: visiting its instructions, and what they read and write.
+// Visits the instructions of code, and the registers that they read and write.
 #pragma once
 #include "reyes/rsl/code.h"
 
 namespace tomales::compiler {
 
-/// `visit` for each instruction, outer ones before those within.
+/// Calls `visit` for each instruction, outer ones before those within.
 template <class Blocks, class Visit>
 void forEach(Blocks& block, const Visit& visit) {
   for (auto& i : block) {
@@ -13,7 +13,7 @@ void forEach(Blocks& block, const Visit& visit) {
   }
 }
 
-/// `visit` for each register that the instruction itself reads; not those of its blocks.
+/// Calls `visit` for each register that the instruction itself reads, without those of its blocks.
 template <class Visit>
 void forEachRead(const Instruction& i, const Visit& visit) {
   for (const int32_t r : i.in)
@@ -24,7 +24,7 @@ void forEachRead(const Instruction& i, const Visit& visit) {
   }
 }
 
-/// Likewise, writes: wholly or in part.
+/// Calls `visit` for each register that the instruction itself writes, wholly or in part.
 template <class Visit>
 void forEachWrite(const Instruction& i, const Visit& visit) {
   for (const int32_t r : i.out)
@@ -33,7 +33,7 @@ void forEachWrite(const Instruction& i, const Visit& visit) {
     if (s.value >= 0 && s.fills) visit(s.value);
 }
 
-/// A write that leaves the register's old value at some points, or in some elements.
+/// Tells whether the register keeps its old value at some points, or in some elements.
 inline bool writesInPart(const Instruction& i) {
   return i.masked && (i.op == Op::Copy || i.op == Op::SetElement || !i.settings.empty() || !info(i.op).pure());
 }
@@ -45,7 +45,7 @@ inline std::vector<int> writeCounts(const Code& code) {
   return out;
 }
 
-/// Replaces what instructions read, by a table from register to register.
+/// Replaces the registers that an instruction reads, by a table from register to register.
 inline void replaceReads(Instruction& i, const std::vector<int32_t>& by) {
   const auto change = [&](int32_t& r) {
     while (r >= 0 && by[static_cast<size_t>(r)] != r) r = by[static_cast<size_t>(r)];

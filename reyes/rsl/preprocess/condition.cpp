@@ -50,7 +50,7 @@ class Evaluator {
     return there;
   }
 
-  /// `counts`: false in a part that is not evaluated, where a division by 0 does no harm.
+  /// `counts` is false in a part that is not evaluated, where a division by 0 does no harm.
   int64_t conditional(bool counts) {
     if (++depth_ > kMostDepth) fail("too many levels of nesting");
     int64_t value = binary(1, counts);

@@ -6,8 +6,8 @@
 
 namespace tomales::compiler {
 
-/// Whether the expression is not 0. Macros are replaced already, and 'defined' is done; other names are 0.
-/// `directive`: where a message stands that no word of the expression can be blamed for. False after an error.
+/// Tells whether the expression is not 0; false after an error. Macros must be replaced already, and 'defined' done;
+/// other names are 0. Messages stand at `directive` if no word of the expression is to blame.
 bool holds(const std::vector<Lexeme>& expression, Place directive, Messages& messages);
 
 }  // namespace tomales::compiler

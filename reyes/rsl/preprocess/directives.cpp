@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-constexpr size_t kMostNameBytes = 4096;  ///< Of an included file.
+constexpr size_t kMostNameBytes = 4096;  ///< The longest name of an included file.
 
 bool isConditional(std::string_view name) {
   return name == "if" || name == "ifdef" || name == "ifndef" || name == "elif" || name == "else" || name == "endif";
@@ -19,7 +19,7 @@ int32_t lengthOf(const Lexeme& l) { return static_cast<int32_t>(l.text.size()); 
 
 void Preprocessor::skipLine() { files_.back().lexer.restOfLine(); }
 
-/// After the '#' that begins a line.
+/// Reads a directive, after the '#' that begins a line.
 void Preprocessor::directive(Place place) {
   const size_t depth = files_.size();
   const Lexeme name = files_.back().lexer.nextInLine();
@@ -80,7 +80,7 @@ bool Preprocessor::evaluate(Lexer& lexer, Place place) {
   return messages_.errorCount() == errors && !stopped_ && holds(expression, place, messages_);
 }
 
-/// The rest of the line, with 1 or 0 for each "defined NAME" and "defined(NAME)".
+/// Reads the rest of the line, with 1 or 0 for each "defined NAME" and "defined(NAME)".
 std::vector<Lexeme> Preprocessor::withDefinedDone(Lexer& lexer) {
   std::vector<Lexeme> out;
   for (Lexeme l = lexer.nextInLine(); !l.isEnd(); l = lexer.nextInLine()) {

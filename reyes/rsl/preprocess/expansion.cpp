@@ -12,7 +12,7 @@ int32_t lengthOf(const Lexeme& l) { return static_cast<int32_t>(l.text.size()); 
 
 }  // namespace
 
-/// Puts the replacement of a macro before what is read next; false: a name that takes arguments and has none.
+/// Puts a macro's replacement before what is read next. False if the macro takes arguments and none follow.
 bool Preprocessor::enter(const Lexeme& name, Macro& macro) {
   const MacroPtr kept = macros_.share(macro.name);  // A directive among the arguments may remove it.
   std::vector<MacroArgument> arguments;
@@ -66,7 +66,7 @@ bool Preprocessor::readArguments(const Lexeme& name, const Macro& macro, std::ve
   return !stopped_;
 }
 
-/// To the ',' or ')' after it.
+/// Reads an argument, to the ',' or ')' after it.
 bool Preprocessor::readArgument(const Lexeme& name, bool isRest, int& depth, std::vector<Lexeme>& out) {
   for (;;) {
     Lexeme l = read();
@@ -88,7 +88,7 @@ bool Preprocessor::readArgument(const Lexeme& name, bool isRest, int& depth, std
   }
 }
 
-/// Are there as many arguments as parameters? Between "()" there is one empty argument or none.
+/// Tells whether there are as many arguments as parameters. "()" is one empty argument or none.
 bool Preprocessor::fits(const Lexeme& name, const Macro& macro, std::vector<MacroArgument>& arguments) {
   if (macro.parameters.empty() && arguments.size() == 1 && arguments[0].written.empty()) arguments.clear();
   if (macro.isVariadic && arguments.size() + 1 == macro.parameters.size()) arguments.emplace_back();
@@ -102,7 +102,7 @@ bool Preprocessor::fits(const Lexeme& name, const Macro& macro, std::vector<Macr
   return false;
 }
 
-/// With the macros in them replaced as if nothing followed.
+/// Replaces the macros in an argument, as if nothing followed it.
 std::vector<Lexeme> Preprocessor::expanded(std::vector<Lexeme> lexemes) {
   const size_t below = rows_.size();
   rows_.push_back({.lexemes = std::move(lexemes), .isArgument = true});

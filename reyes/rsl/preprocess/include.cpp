@@ -13,14 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path without symbolic links and ".."; empty: there is no such thing.
+/// The path without symbolic links and ".."; empty if there is no such file.
 std::string realPath(const std::string& path) {
   std::error_code error;
   const fs::path real = fs::canonical(path, error);
   return error ? std::string() : real.string();
 }
 
-/// Ends of lines as of Unix: "\r\n" of DOS and "\r" of the old Macintosh are one '\n'.
+/// Turns "\r\n" of DOS and "\r" of the old Macintosh into the '\n' of Unix.
 void plainLineEnds(std::string& text) {
   if (text.find('\r') == std::string::npos) return;
   size_t to = 0;

@@ -1,4 +1,4 @@
-// Which file an #include means, and whether it may be read.
+// Finds the file that an #include means, and tells whether it may be read.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,31 +8,31 @@
 
 namespace tomales::compiler {
 
-/// A file's text with every end of a line as '\n', or why there is none.
+/// The text of a file with every end of a line as '\n', or why it cannot be read.
 struct ReadFile {
   std::string path, text;
-  std::string failure;  ///< As a part of a sentence: "there is no such file"; empty: none.
+  std::string failure;  ///< Part of a sentence, such as "there is no such file"; empty if there was none.
 };
 
 ReadFile readFile(const std::string& path);
-/// A text that is in no file.
+/// Makes a ReadFile of a text that is in no file.
 ReadFile asFile(const std::string& name, std::string text);
 
 class IncludeSearch {
  public:
-  /// `ownFolder`: of the shader's file; empty: a text without one.
+  /// `ownFolder` is that of the shader's file; empty for a text without one.
   IncludeSearch(const PreprocessOptions& options, const std::string& ownFolder);
-  /// `fromFolder`: of the including file.
+  /// `fromFolder` is that of the including file.
   ReadFile find(std::string_view name, bool isQuoted, const std::string& fromFolder) const;
 
  private:
   bool isPermitted(const std::string& realPath) const;
-  std::vector<std::string> folders_;    ///< In the order of the search.
-  bool standard_;                       ///< The renderer's own headers come last.
-  std::vector<std::string> permitted_;  ///< Without symbolic links.
+  std::vector<std::string> folders_;    ///< In the order in which they are searched.
+  bool standard_;                       ///< True if the renderer's own headers come last.
+  std::vector<std::string> permitted_;  ///< Paths without symbolic links.
 };
 
-/// The folder that a path names its file in: "." for a plain name.
+/// The folder part of a path: "." for a plain name.
 std::string folderOf(const std::string& path);
 
 }  // namespace tomales::compiler

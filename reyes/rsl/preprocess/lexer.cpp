@@ -18,7 +18,7 @@ constexpr std::array<uint8_t, 256> kClasses = [] {
 
 bool isClass(char c, uint8_t wanted) { return (kClasses[static_cast<unsigned char>(c)] & wanted) != 0; }
 
-/// Of more than one character. '++' and '--' are missing because RSL has none: "a--b" is a - (-b).
+/// Punctuators of several characters. '++' and '--' are missing because RSL has none: "a--b" is a - (-b).
 constexpr std::string_view kLongPunctuators[] = {"...", "->", "<<", ">>", "<=", ">=", "==", "!=", "&&",
                                                  "||",  "+=", "-=", "*=", "/=", "^=", ".=", "##"};
 constexpr std::string_view kPunctuators = "+-*/.^<>=!?:,;()[]{}&|~%#";
@@ -100,7 +100,7 @@ void Lexer::skipLineComment() {
   noteComment(begin);
 }
 
-/// Comments with nothing but blanks between them are one.
+/// Notes a comment. Comments with nothing but blanks between them count as one.
 void Lexer::noteComment(size_t begin) {
   if (!comment_.empty()) begin = static_cast<size_t>(comment_.data() - text_.data());
   comment_ = text_.substr(begin, cursor_.at - begin);
@@ -188,7 +188,7 @@ void Lexer::scanNumber() {
   }
 }
 
-/// To the closing quote or to the end of the line; false: there is none.
+/// Reads to the closing quote or to the end of the line. Returns false if there is no quote.
 bool Lexer::scanQuoted(char quote) {
   step();
   while (look() != quote) {
@@ -216,7 +216,7 @@ void Lexer::scanPunctuator() {
   step();
 }
 
-/// What was read from there, without the continuations in it.
+/// The text that was read since `begin`, without the continuations in it.
 std::string_view Lexer::textFrom(size_t begin) {
   const std::string_view raw = text_.substr(begin, cursor_.at - begin);
   if (raw.find('\n') == std::string_view::npos) return raw;

@@ -10,27 +10,27 @@ namespace tomales::compiler {
 
 enum class LexemeKind : uint8_t {
   Name,
-  Number,  ///< As C's pp-number: also what no number is in the end, such as "1x".
-  String,  ///< With its quotes, escapes as written.
+  Number,  ///< A pp-number of C, which may be no number in the end, such as "1x".
+  String,  ///< With its quotes, and with escapes as written.
   Character,
   Punctuator,
   Other,    ///< A byte that begins none of these.
-  Nothing,  ///< An empty argument while '##' is done.
-  End       ///< Of a file, of a line (Lexer::nextInLine) or of an argument.
+  Nothing,  ///< Stands for an empty argument while '##' is done.
+  End       ///< Ends a file, a line (Lexer::nextInLine) or an argument.
 };
 
 struct Lexeme {
   LexemeKind kind = LexemeKind::End;
   bool spaceBefore = false, startsLine = false;
-  bool isFinal = false;  ///< A macro's name that is not to be replaced any more (C90 6.8.3.4).
-  bool isOpen = false;   ///< A string without its closing quote.
+  bool isFinal = false;  ///< True for a macro's name that must not be replaced any more (C90 6.8.3.4).
+  bool isOpen = false;   ///< True for a string without its closing quote.
   std::string_view text{};
   Place place{};
   bool is(std::string_view punctuator) const { return kind == LexemeKind::Punctuator && text == punctuator; }
   bool isEnd() const { return kind == LexemeKind::End; }
 };
 
-/// Texts that are in no file, for the views of lexemes.
+/// Holds texts that are in no file, for the views of lexemes.
 class MadeTexts {
  public:
   static constexpr size_t kMostBytes = 16u << 20;
@@ -47,16 +47,16 @@ class MadeTexts {
 
 class Lexer {
  public:
-  /// `text` lives as long as what is read from it; its lines end by '\n'.
+  /// `text` must live as long as what is read from it; its lines end by '\n'.
   Lexer(int32_t file, std::string_view text, MadeTexts& made, Messages& messages);
   Lexeme next();
-  /// The next of this line; End before the line's end, which is left for next().
+  /// The next word of this line. Returns End before the line's end, which is left for next().
   Lexeme nextInLine();
-  /// What the rest of the line says, as #error prints it.
+  /// The rest of the line as #error prints it.
   std::string_view restOfLine();
-  /// <NAME> if the line goes on so, else empty; `*place` is where it begins.
+  /// <NAME> if the line goes on so, else empty. `*place` becomes where it begins.
   std::string_view angledName(Place* place);
-  /// The comments directly before the last word of next(); empty: none.
+  /// The comments directly before the last word of next(); empty if there are none.
   std::string_view commentBefore() const { return comment_; }
 
  private:
@@ -64,9 +64,9 @@ class Lexer {
     size_t at = 0, lineStart = 0;
     int32_t line = 1;
   };
-  char look(Cursor& cursor) const;  ///< The character there, behind continuations; '\0': the end.
+  char look(Cursor& cursor) const;  ///< The character there, behind continuations; '\0' at the end.
   char look() { return look(cursor_); }
-  char lookBehind() const;  ///< The one after that.
+  char lookBehind() const;  ///< The character after that of look().
   void step();
   bool atEnd(const Cursor& cursor) const { return cursor.at >= text_.size(); }
   bool skipBlanks(bool inLine);

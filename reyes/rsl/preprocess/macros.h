@@ -1,4 +1,4 @@
-// Definitions of macros, and what one use of a macro is replaced by (C90 6.8.3).
+// Definitions of macros, and the replacement of one use of a macro (C90 6.8.3).
 #pragma once
 #include <memory>
 #include <unordered_map>
@@ -11,9 +11,9 @@ namespace tomales::compiler {
 /// A piece of a macro's replacement.
 struct MacroPiece {
   Lexeme lexeme;
-  int parameter = -1;      ///< Whose argument stands here; -1: the lexeme itself.
-  bool stringify = false;  ///< '#' before the parameter.
-  bool pasted = false;     ///< '##' before it.
+  int parameter = -1;      ///< The parameter whose argument stands here; -1 if the lexeme itself does.
+  bool stringify = false;  ///< True if '#' is before the parameter.
+  bool pasted = false;     ///< True if '##' is before the piece.
 };
 
 struct Macro {
@@ -22,13 +22,13 @@ struct Macro {
   std::string name;
   Place place{};
   bool takesArguments = false, isVariadic = false;
-  std::vector<std::string> parameters;  ///< The last of a variadic one is __VA_ARGS__, or has a name of its own.
+  std::vector<std::string> parameters;  ///< The last of a variadic macro is __VA_ARGS__, or has a name of its own.
   std::vector<MacroPiece> pieces;
-  int active = 0;  ///< Replacements by it that are being read: it is not replaced within them.
+  int active = 0;  ///< The number of its replacements that are being read: it is not replaced within them.
 };
 using MacroPtr = std::shared_ptr<Macro>;
 
-/// The macro that the rest of a "#define" line defines; null after an error.
+/// Reads the rest of a "#define" line. Returns null after an error.
 MacroPtr readDefinition(Lexer& lexer, Place directive, Messages& messages);
 bool isSame(const Macro& a, const Macro& b);
 
@@ -36,7 +36,7 @@ struct MacroArgument {
   std::vector<Lexeme> written, expanded;
 };
 
-/// The replacement with arguments put in, '#' and '##' done. Lexemes of the macro get `expansion`.
+/// The replacement with its arguments, '#' and '##' done. Lexemes of the macro get `expansion`.
 std::vector<Lexeme> substitute(const Macro& macro, const std::vector<MacroArgument>& arguments, int32_t expansion,
                                MadeTexts& made, Messages& messages);
 

@@ -12,7 +12,7 @@ namespace {
 
 int32_t lengthOf(const Lexeme& l) { return static_cast<int32_t>(l.text.size()); }
 
-/// What an escape stands for, `at` behind it; others than these mean their letter.
+/// The character that an escape stands for; `at` moves behind it. Unknown escapes stand for their letter.
 char unescaped(std::string_view text, size_t& at) {
   const char c = text[at++];
   if (c >= '0' && c <= '7') {
@@ -93,7 +93,7 @@ void Preprocessor::putNumber(const Lexeme& l, Token& token) {
   token.number = static_cast<float>(value);
 }
 
-/// Strings beside each other are one, as in C.
+/// Joins strings beside each other, as in C.
 void Preprocessor::putString(const Lexeme& l, Token token) {
   if (l.isOpen) messages_.error(l.place, "this string is not closed on its line", lengthOf(l));
   token.kind = TokenKind::String;

@@ -34,7 +34,7 @@ std::vector<Token> Preprocessor::run(int32_t file) {
     if (!l.isEnd()) put(l);
     if (messages_.errorCount() > Messages::kMostErrors) break;
   }
-  if (stopped_) out_.clear();  // A part of a shader would only be complained about.
+  if (stopped_) out_.clear();  // A part of a shader would only cause more messages.
   out_.push_back({.place = last});
   return std::move(out_);
 }

@@ -1,4 +1,4 @@
-// The row of words that a file becomes: directives are done, macros are replaced.
+// Makes the row of words of a file: does directives and replaces macros.
 #pragma once
 #include "reyes/rsl/preprocess.h"
 #include "reyes/rsl/preprocess/include.h"
@@ -8,38 +8,38 @@ namespace tomales::compiler {
 
 class Preprocessor {
  public:
-  static constexpr size_t kMostBytes = 4 * kMostFileBytes;  ///< Of all that is read, and of all that comes out.
-  /// `ownFolder`: of the shader's file; empty: a text without one.
+  static constexpr size_t kMostBytes = 4 * kMostFileBytes;  ///< Limits what is read, and what comes out.
+  /// `ownFolder` is that of the shader's file; empty for a text without one.
   Preprocessor(const PreprocessOptions& options, const std::string& ownFolder, Sources& sources, Messages& messages);
   std::vector<Token> run(int32_t file);
 
  private:
-  /// An #if with what follows it.
+  /// An #if, with its #elif and #else.
   struct Conditional {
     Place place{};
     bool outerActive = true, anyTaken = false, active = false, hadElse = false;
   };
   struct OpenFile {
     Lexer lexer;
-    std::string folder;  ///< Where its #include "NAME" looks first.
+    std::string folder;  ///< The folder where #include "NAME" looks first.
     std::vector<Conditional> conditionals;
   };
   /// Words that are read before the file goes on: a macro's replacement, an argument, or what was put back.
   struct Row {
     std::vector<Lexeme> lexemes;
     size_t at = 0;
-    MacroPtr macro{};         ///< Whose replacement it is.
-    bool isArgument = false;  ///< Nothing behind its end is read.
+    MacroPtr macro{};         ///< The macro whose replacement it is; null if it is none.
+    bool isArgument = false;  ///< True if reading stops at its end.
   };
 
   // preprocessor.cpp
-  Lexeme next();  ///< After replacement; End: of a file, or of the row that is an argument.
+  Lexeme next();  ///< The next word after replacement; End at the end of a file, or of a row that is an argument.
   Lexeme read();  ///< The next word as it stands.
   Lexeme readFromFiles();
   void putBack(const Lexeme& lexeme);
   void closeFile();
   bool isDone() const { return stopped_ || files_.empty(); }
-  /// An error after which nothing more is read.
+  /// Reports an error after which nothing more is read.
   void stop(Place place, std::string text);
   void predefine(const PreprocessOptions& options);
 
