@@ -105,6 +105,7 @@ float reachAt(const Grid& g, const Border& b, const float* x, const float* y, in
               float cell_px) {
   const float most_px = std::max(borderReach_px(0), reach.least_px);
   if (!reach.open) return std::clamp(kReach * sagitta_px(g, x, y, b, k), reach.least_px, most_px);
+  if (reach.cut) return reach.least_px;
   const float bulge = mayBulge(x, y, b, k) ? kReachOpen * sagitta_px(g, x, y, b, k) : 0.0f;
   return std::min(bulge + std::min(reach.least_px, kShareOfCell * cell_px), most_px);
 }
@@ -118,11 +119,6 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
     const vec2 outward{x[v] - x[v + b.inward], y[v] - y[v + b.inward]};
     const float length = glm::length(outward);
     if (!(length > 0)) continue;
-    if (reach.cut) {
-      push[static_cast<size_t>(v)] +=
-          outward * (reach.least_px / (std::max(slantOf(outward / length, x, y, b, k), kLeastSlant) * length));
-      continue;
-    }
     // Vertices move along the lattice, so that the other borders stay where they are, until the border itself has moved
     // by its reach.
     const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
@@ -168,8 +164,8 @@ Plan planOf(const Grid::Piece& piece, const Object& o, const OpenBorders* known,
   return plan;
 }
 
-/// The borders that end at lines. Their vertices are pushed beyond them: snapped to the lattice they would lie on
-/// either side, and of a narrow cell nothing might be left.
+/// The borders that end at lines. They are pushed out too: the lattice may leave nothing of a narrow cell at the line
+/// itself.
 int edgesAtLines(const RasterGrid& r, size_t piece) {
   int edges = 0;
   for (size_t e = 0; e < 4 && !r.lines.empty(); ++e)

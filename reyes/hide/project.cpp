@@ -77,6 +77,8 @@ TOMALES_HOT RasterExtent extentOf(const float* x, const float* y, const float* d
   return e;
 }
 
+Bound2 grown(const Bound2& b, float by) { return {b.lo - by, b.hi + by}; }
+
 /// Bounds some of the vertices of `r` at a key, without those that are not seeable; notes whether any is out of focus.
 RasterExtent extentOfSeeable(RasterGrid& r, const Camera& camera, int key, int first, int count) {
   const size_t base = static_cast<size_t>(key * r.grid->stride());
@@ -135,8 +137,9 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
     snap(x, y, g.vertexCount());
     for (int p = 0; p < pieces; ++p) {
       const int first = p * count;
-      const auto extent = !allSeeable || camera.defocuses() ? extentOfSeeable(*r, camera, key, first, count)
-                                                            : extentOf(x + first, y + first, d + first, count);
+      auto extent = !allSeeable || camera.defocuses() ? extentOfSeeable(*r, camera, key, first, count)
+                                                      : extentOf(x + first, y + first, d + first, count);
+      if (!r->lines.empty()) extent.bound = grown(extent.bound, kLineReach_px);
       if (pieces > 1) r->ofPiece[static_cast<size_t>(p)].extend(extent);
       r->extend(extent);
     }

@@ -35,6 +35,11 @@ struct alignas(64) Corners {
   int32_t x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];  ///< Pixels of the bucket that they touch.
 };
 
+/// Is the inside of a triangle on the left of its edges?
+inline bool turnsLeft(const Corners& q, int i, int a, int b, int c) {
+  return (q.x[b][i] - q.x[a][i]) * (q.y[c][i] - q.y[a][i]) - (q.y[b][i] - q.y[a][i]) * (q.x[c][i] - q.x[a][i]) > 0;
+}
+
 // The edges of kLanes micropolygons, in two kinds. Edge::inside answers with the sign of a lane, negative if the sample
 // is inside: the processor has more units for operations on vectors than on masks.
 
@@ -70,6 +75,14 @@ struct FloatEdges {
     hn::Store(hn::IfThenElse(left, y, hn::Neg(y)), kF, dy + g);
     const Floats least = hn::IfThenElse(hn::Xor(swapped, left), hn::Zero(kF), all(-kTiny));
     hn::Store(least, kF, limit + g);
+  }
+  /// Sets one lane to the line from p to q, as set() does, unless it has no inside.
+  void setLine(int i, const vec2& p, const vec2& q, bool left) {
+    if (limit[i] == FLT_MAX) return;
+    const bool swapped = q.x < p.x || (q.x == p.x && q.y < p.y);
+    const vec2 along = left ? q - p : p - q, origin = swapped ? q : p;
+    ox[i] = origin.x, oy[i] = origin.y, dx[i] = along.x, dy[i] = along.y;
+    limit[i] = swapped != left ? 0.0f : -kTiny;
   }
   /// Makes the edges of a mask have no inside.
   HWY_INLINE void close(size_t g, Mask closed) {

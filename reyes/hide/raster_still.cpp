@@ -42,6 +42,11 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
   }
 }
 
+/// A cell may be seen outside of its corners up to a line at which it ends.
+HWY_INLINE void growBounds(float* lo, float* hi, float by) {
+  for (int i = 0; i < kLanes; ++i) lo[i] -= by, hi[i] += by;
+}
+
 /// Finds which of kLanes vertices of a grid begin a cell, and its number.
 class CellNumbers {
  public:
@@ -95,6 +100,7 @@ HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& nu
   loadCorners(q.y, r.y.data() + first, row);
   setBounds(q.x, q.xMin, q.xMax);
   setBounds(q.y, q.yMin, q.yMax);
+  if (!r.lines.empty()) growBounds(q.xMin, q.xMax, kLineReach_px), growBounds(q.yMin, q.yMax, kLineReach_px);
   const Floats left = all(static_cast<float>(bucket.x0)), right = all(static_cast<float>(bucket.x1));
   const Floats top = all(static_cast<float>(bucket.y0)), bottom = all(static_cast<float>(bucket.y1));
   uint64_t touching = 0;
@@ -111,75 +117,53 @@ HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& nu
   return touching & numbers.set(q, first, end);
 }
 
-/// The lines at which a cell ends.
-class Lines {
+/// The lines at which a cell ends, in the order of PatchEdge. Pre: the grid has lines.
+class LinesOfCell {
  public:
-  Lines(const RasterGrid& r, const Corners& q, int i) {
-    if (r.lines.empty()) return;
+  LinesOfCell(const RasterGrid& r, int cell) {
     const Grid& g = *r.grid;
-    const int cell = q.cell[i], inPiece = g.pieceCount() > 1 ? g.cellInPiece(cell) : cell;
-    const int v = inPiece / g.nu, u = inPiece - v * g.nu;
-    const BorderLine* lines = &r.lines[g.pieceCount() > 1 ? 4 * static_cast<size_t>(g.pieceOfCell(cell)) : 0];
-    const bool left[2] = {turnsLeft(q, i, 0, 1, 2), turnsLeft(q, i, 1, 3, 2)};  // triangles abc and bdc
-    if (u == 0) add(lines[0].to, lines[0].from, 0, left[0]);
-    if (u == g.nu - 1) add(lines[1].from, lines[1].to, 1, left[1]);
-    if (v == 0) add(lines[2].from, lines[2].to, 0, left[0]);
-    if (v == g.nv - 1) add(lines[3].to, lines[3].from, 1, left[1]);
+    const int inPiece = g.cellInPiece(cell), i = inPiece % g.nu, j = inPiece / g.nu;
+    lines_ = &r.lines[4 * static_cast<size_t>(g.pieceOfCell(cell))];
+    const bool at[4] = {i == 0, i == g.nu - 1, j == 0, j == g.nv - 1};
+    for (int e = 0; e < 4; ++e) ends_[e] = at[e] && !lines_[e].none();
   }
-  bool any() const { return count_ > 0; }
-  /// The samples that a line does not cut off from the triangle that it bounds; `first`: those in abc. They are
-  /// evaluated as edges are, so that surfaces on both sides share them out.
-  HWY_INLINE Mask inside(Mask first, Floats x, Floats y) const {
-    Mask in = hn::Or(inside(0, x, y), bySecond_[0] ? first : hn::Not(first));
-    for (int k = 1; k < count_; ++k) in = hn::And(in, hn::Or(inside(k, x, y), bySecond_[k] ? first : hn::Not(first)));
-    return in;
-  }
+  const BorderLine* at(int edge) const { return ends_[edge] ? lines_ + edge : nullptr; }
+  bool any() const { return ends_[0] || ends_[1] || ends_[2] || ends_[3]; }
 
  private:
-  static bool turnsLeft(const Corners& q, int i, int a, int b, int c) {
-    return (q.x[b][i] - q.x[a][i]) * (q.y[c][i] - q.y[a][i]) - (q.y[b][i] - q.y[a][i]) * (q.x[c][i] - q.x[a][i]) > 0;
-  }
-  void add(const vec2& p, const vec2& q, int triangle, bool left) {
-    if (p == q) return;
-    bySecond_[count_] = triangle == 1;
-    const bool swapped = q.x < p.x || (q.x == p.x && q.y < p.y);
-    const vec2 along = left ? q - p : p - q, origin = swapped ? q : p;
-    ox_[count_] = origin.x, oy_[count_] = origin.y, dx_[count_] = along.x, dy_[count_] = along.y;
-    least_[count_++] = swapped != left ? 0.0f : -kTiny;
-  }
-  HWY_INLINE Mask inside(int k, Floats x, Floats y) const {
-    return hn::Gt(hn::Sub(hn::Mul(all(dx_[k]), hn::Sub(y, all(oy_[k]))), hn::Mul(all(dy_[k]), hn::Sub(x, all(ox_[k])))),
-                  all(least_[k]));
-  }
-
-  int count_ = 0;
-  bool bySecond_[4];  ///< Does it bound bdc, not abc?
-  float ox_[4], oy_[4], dx_[4], dy_[4], least_[4];
+  const BorderLine* lines_;
+  bool ends_[4];
 };
 
-/// A micropolygon that ends at lines.
-template <class Edges>
-struct CutQuad : Quad<Edges> {
-  const Lines& lines;
+bool endAtLines(const RasterGrid& r, const Corners& q, uint64_t cells) {
+  for (; cells; cells &= cells - 1)
+    if (LinesOfCell(r, q.cell[std::countr_zero(cells)]).any()) return true;
+  return false;
+}
 
-  CutQuad(const Quad<Edges>& quad, const Lines& l) : Quad<Edges>(quad), lines(l) {}
-  HWY_INLINE typename Quad<Edges>::Covered covers(const SampleBuffer& samples, size_t lane) const {
-    auto in = Quad<Edges>::covers(samples, lane);
-    in.mask = hn::And(
-        in.mask, lines.inside(in.first, hn::Load(kF, samples.x.data() + lane), hn::Load(kF, samples.y.data() + lane)));
-    return in;
+void setLines(const RasterGrid&, const Corners&, uint64_t, Triangles<LatticeEdges>&) {}
+/// Puts lines in the place of the edges of cells that end at them.
+void setLines(const RasterGrid& r, const Corners& q, uint64_t cells, Triangles<FloatEdges>& t) {
+  if (r.lines.empty()) return;
+  for (; cells; cells &= cells - 1) {
+    const int i = std::countr_zero(cells);
+    const LinesOfCell lines(r, q.cell[i]);
+    if (const BorderLine* l = lines.at(0)) t.ca.setLine(i, l->to, l->from, turnsLeft(q, i, 0, 1, 2));
+    if (const BorderLine* l = lines.at(1)) t.bd.setLine(i, l->from, l->to, turnsLeft(q, i, 1, 3, 2));
+    if (const BorderLine* l = lines.at(2)) t.ab.setLine(i, l->from, l->to, turnsLeft(q, i, 0, 1, 2));
+    if (const BorderLine* l = lines.at(3)) t.dc.setLine(i, l->to, l->from, turnsLeft(q, i, 1, 3, 2));
   }
-};
+}
 
 /// Are edges of some cells short enough for the lattice?
-HWY_INLINE bool fitLattice(const Corners& q, uint64_t cells, const SampleBuffer& samples) {
+HWY_INLINE bool fitLattice(const RasterGrid& r, const Corners& q, uint64_t cells, const SampleBuffer& samples) {
   uint64_t large = 0;
   for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {
     const Floats width = hn::Sub(hn::Load(kF, q.xMax + g), hn::Load(kF, q.xMin + g)),
                  height = hn::Sub(hn::Load(kF, q.yMax + g), hn::Load(kF, q.yMin + g));
     large |= bitsOf(hn::Gt(hn::Max(width, height), all(LatticeEdges::kMost_px))) << g;
   }
-  return samples.fitsLattice() && (large & cells) == 0;
+  return samples.fitsLattice() && (large & cells) == 0 && (r.lines.empty() || !endAtLines(r, q, cells));
 }
 
 /// Lists pairs of a pixel and a cell to be tested, without pixels whose samples are all nearer. It takes as many cells
@@ -216,17 +200,11 @@ HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Tria
     const Kept kept = whole ? Kept::All : keptOf(job, q.cell[i]);
     const Quad<Edges> quad(q, triangles, i);
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
-    const auto test = [&](const auto& shape) {
-      do {
-        const size_t pixel = pixelTests[k].pixel;
-        for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) depthTest(job, shape, pixel * lanes + g, cell, kept);
-        out.nearer[pixel] = 1;
-      } while (++k < count && pixelTests[k].cell == i);
-    };
-    if (const Lines lines(job.raster, q, i); HWY_UNLIKELY(lines.any()))
-      test(CutQuad<Edges>(quad, lines));
-    else
-      test(quad);
+    do {
+      const size_t pixel = pixelTests[k].pixel;
+      for (size_t g = 0; g < lanes; g += hn::Lanes(kF)) depthTest(job, quad, pixel * lanes + g, cell, kept);
+      out.nearer[pixel] = 1;
+    } while (++k < count && pixelTests[k].cell == i);
   }
 }
 
@@ -234,10 +212,12 @@ HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Tria
 /// cells (docs/decisions/0102).
 template <class Edges>
 void depthTestCells(const RasterJob& job, const Corners& q, uint64_t cells) {
+  const uint64_t all = cells;
   size_t count = listPixelTests(job.out, q, cells);
   if (count == 0 && cells == 0) return;
   Triangles<Edges> triangles;
   triangles.set(q, job.raster.facing);
+  setLines(job.raster, q, all, triangles);
   for (; count > 0 || cells; count = listPixelTests(job.out, q, cells)) runPixelTests(job, q, triangles, count);
 }
 
@@ -247,17 +227,14 @@ void layerCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   const RasterGrid& r = job.raster;
   Triangles<Edges> triangles;
   triangles.set(q, r.facing);
+  setLines(r, q, cells, triangles);
   for (uint64_t left = cells; left; left &= left - 1) {
     const int i = std::countr_zero(left);
     const Kept kept = keptOf(job, q.cell[i]);
     const uint32_t cell = job.firstCell + static_cast<uint32_t>(q.cell[i]);
     const PixelRect pixels{q.x0[i], q.y0[i], q.x1[i], q.y1[i]};
     const auto quad = [&] { return Quad<Edges>(q, triangles, i); };
-    const float dMin = r.inSolid ? r.dMin : q.dMin[i];
-    if (const Lines lines(r, q, i); lines.any())
-      sampleCell<false>(job, pixels, dMin, cell, kept, [&] { return CutQuad<Edges>(quad(), lines); });
-    else
-      sampleCell<false>(job, pixels, dMin, cell, kept, quad);
+    sampleCell<false>(job, pixels, r.inSolid ? r.dMin : q.dMin[i], cell, kept, quad);
   }
 }
 
@@ -283,7 +260,7 @@ void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
   for (int k = first; k < end; k += kLanes) {
     const uint64_t cells = keptCells(job, q, setUp(q, job.raster, numbers, k, end, job.out.rect));
     if (cells == 0) continue;
-    if (fitLattice(q, cells, job.out)) {
+    if (fitLattice(job.raster, q, cells, job.out)) {
       setLattice(q.x, job.out.origin.x, q.latticeX);
       setLattice(q.y, job.out.origin.y, q.latticeY);
       sampleCells<LatticeEdges>(job, q, cells);
