@@ -7,7 +7,7 @@
 
 namespace tomales::test {
 
-/// Nothing asks it for geometry: the grids of these tests come ready made.
+/// A primitive that is never asked for geometry: these tests make their grids themselves.
 class NoPrim : public Prim {
  public:
   explicit NoPrim(std::vector<Primvar> primvars = {}) : Prim(std::move(primvars)) {}
