@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kUsualPort = "14158";
 constexpr char kCreateImage = 4, kUpdateImage = 6;
-constexpr int kPatience_ms = 1000;  ///< With a host that does not answer.
+constexpr int kPatience_ms = 1000;  ///< The wait for a host that does not answer.
 
 class Packet {
  public:
@@ -56,7 +56,7 @@ struct Picture {
   std::vector<std::string> channels;
 };
 
-/// -1: nobody listens there.
+/// Returns -1 if nobody listens there.
 int connectTo(const std::string& address) {
   const size_t colon = address.rfind(':');
   const std::string host = address.substr(0, colon),
@@ -102,8 +102,8 @@ int32_t rows(void* opened, const TmDisplayRows* rows, char* problem) {
   update << char{0} << picture.title << static_cast<int32_t>(count);
   for (const std::string& channel : picture.channels) update << channel;
   update << rows->x - picture.x << rows->y - picture.y << rows->width << rows->height;
-  for (int64_t c = 0; c < count; ++c) update << c;      // where each channel begins,
-  for (int64_t c = 0; c < count; ++c) update << count;  // and from pixel to pixel
+  for (int64_t c = 0; c < count; ++c) update << c;      // the offset where each channel begins
+  for (int64_t c = 0; c < count; ++c) update << count;  // the step from pixel to pixel
   const int64_t floats = count * rows->width * rows->height;
   for (int64_t i = 0; i < floats; ++i) update << rows->pixels[i];
   if (update.send(picture.socket)) return 0;

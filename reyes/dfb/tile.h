@@ -1,5 +1,5 @@
-// Private to reyes/dfb: a tile to bytes and back. Its arrays are stored one after the other, member by member, which
-// compresses better than structures.
+// Private to reyes/dfb: converts a tile to bytes and back. Its arrays are stored one after the other, member by member,
+// which compresses better than structures.
 #pragma once
 #include "reyes/base/pack.h"
 #include "reyes/deep.h"
@@ -7,7 +7,7 @@
 namespace tomales {
 
 Bytes packTile(const DeepTile& tile);
-/// Empty: the bytes are not those of a tile whose indices stay inside it.
+/// Returns nothing if the bytes are not those of a tile whose indices stay inside it.
 std::optional<DeepTile> unpackTile(BytesView bytes);
 /// A number that changes with the layout of a tile.
 uint64_t tileSchema();

@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// Hides one bucket. Empty: it was cancelled on the way.
+/// Hides one bucket. Returns nothing if it was cancelled on the way.
 std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes,
                                    const HideContext& context, const SamplePattern& pattern, HideWarnings& warnings) {
   Hider hider(context.scene, context.camera, pattern, rect);

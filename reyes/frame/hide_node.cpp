@@ -10,13 +10,13 @@
 namespace tomales {
 namespace {
 
-/// With so many patches in a pixel, small nodes are opened anew by every bucket: else far more of them than can be seen
-/// would wait for the next row of buckets.
+/// If so many patches lie in a pixel, every bucket opens small nodes anew: else far more of them than can be seen would
+/// wait for the next row of buckets.
 constexpr float kDense = 4, kSmall_px = 32;
 
 /// How a node is opened. Shared: once, by the first bucket that needs its contents. Transient: by each bucket for
-/// itself. AtOnce: the same, and its contents do not go through the queue, in which the pieces of many small things
-/// side by side would wait for each other.
+/// itself. AtOnce: by each bucket too, but its contents do not go through the queue, in which the pieces of many small
+/// things side by side would wait for each other.
 enum class Opening : uint8_t { Shared, Transient, AtOnce };
 
 class OpeningNode : public HideNode {
@@ -225,7 +225,7 @@ class ProceduralNode : public OpeningNode {
     Expansion inside;
     try {
       inside = context_.scene.opened(procedural_);
-    } catch (const Stopped&) {  // the bucket is given up as all others are that are not finished
+    } catch (const Stopped&) {  // the bucket is given up like all others that are not finished
       return {};
     }
     std::set<PrimPtr> shapes;

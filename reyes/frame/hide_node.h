@@ -60,13 +60,13 @@ using HideNodes = std::vector<std::unique_ptr<HideNode>>;
 /// The nearest node comes first; equal ones come in the order of arrival.
 class NodeQueue {
  public:
-  /// The first takes nodes that are kept elsewhere, the second those that end when they have been visited.
+  /// The first takes nodes that are owned elsewhere, the second those that end when they have been visited.
   void push(HideNode* node) { push(std::shared_ptr<HideNode>(std::shared_ptr<void>(), node)); }
   void push(std::shared_ptr<HideNode> node) {
     const float zMin = node->zMin();
     queue_.push({zMin, next_++, std::move(node)});
   }
-  /// Null: the queue is empty.
+  /// Returns null if the queue is empty.
   std::shared_ptr<HideNode> pop() {
     if (queue_.empty()) return nullptr;
     std::shared_ptr<HideNode> node = queue_.top().node;

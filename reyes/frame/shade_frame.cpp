@@ -14,7 +14,7 @@ void addEmission(const ShadePoints& points, const ShadingSystem& shading, Shaded
     for (int c = 0; c < 3; ++c) out.Ci[c][i] += emission[i][c];
 }
 
-/// Makes the points opaque and black: these need no shader.
+/// Makes the points opaque and black, for which no shader is needed.
 void leaveBlack(int count, ShadedPoints& out) {
   out.resize(count);
   for (auto& o : out.Oi) std::fill(o.begin(), o.end(), 1.0f);
@@ -33,7 +33,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
       leaveBlack(points.count(), out);
       continue;
     }
-    // A holdout holds out as much as it is opaque. Compositing uses nothing else of it, so no light is needed.
+    // A holdout hides as much as it is opaque. Compositing uses nothing else of it, so no light is needed.
     if (matte) {
       ShadeContext opacityAlone = context;
       opacityAlone.direct = opacityAlone.indirect = false;

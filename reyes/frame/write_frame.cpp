@@ -46,7 +46,7 @@ class MovingBand {
     const auto columns = static_cast<uint32_t>(frame_.columns);
     std::stable_sort(from, to, [columns](uint32_t a, uint32_t b) { return a % columns < b % columns; });
     fill_({from, to}, [this](size_t index, DeepTile&& tile) {
-      // resolved now, while it is in the cache
+      // resolves it now, while it is in the cache
       filter_.resolve(index, tile);
       if (!filter_.needsTiles()) return;
       tile.forgetPoints();

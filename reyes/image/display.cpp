@@ -13,7 +13,7 @@ namespace {
 float quantised(float value, const Quantize& q, float limit, uint32_t name) {
   const float noisy = std::floor(q.zero + (q.one - q.zero) * value + q.dither * (2 * unitFloat(name) - 1) + 0.5f);
   const float low = std::max(q.min, 0.0f);
-  return noisy > low ? std::min(noisy, std::min(q.max, limit)) : low;  // NaN becomes the minimum
+  return noisy > low ? std::min(noisy, std::min(q.max, limit)) : low;  // NaN becomes the minimum, too
 }
 
 void quantise(Image& image, const std::vector<Quantize>& quantizers, float limit) {
@@ -181,7 +181,7 @@ struct DisplayFile::Impl {
     const size_t step = rows.channels.size(), pixels = rows.pixels.size() / step;
     out.pixels.resize(pixels * from.size());
     for (size_t c = 0; c < from.size(); ++c) {
-      if (from[c] < 0) continue;  // the channel does not exist: 0
+      if (from[c] < 0) continue;  // a channel that does not exist is 0
       float* to = out.pixels.data() + c;
       const float* value = rows.pixels.data() + from[c];
       for (size_t i = 0; i < pixels; ++i) to[i * from.size()] = value[i * step];
@@ -217,12 +217,12 @@ struct DisplayFile::Impl {
   const Selection selection;
   FileFormat format;
   Image shape;
-  std::vector<int> from;  ///< Index of every float in a pixel of the frame's picture; -1: it does not exist.
+  std::vector<int> from;  ///< Index of every float in a pixel of the frame's picture; -1 if it does not exist.
   std::vector<bool> depth;
-  std::vector<Quantize> quantizers;  ///< Empty: floats are written.
+  std::vector<Quantize> quantizers;  ///< If empty, floats are written.
   bool screen = false;
   DeepMerge merge;
-  std::unique_ptr<PictureFile> file;  ///< Null: it has failed, which has been reported.
+  std::unique_ptr<PictureFile> file;  ///< Null if it has failed, which has been reported.
 };
 
 DisplayFile::DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
@@ -249,7 +249,7 @@ View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
   const vec2 toScreen(2 / size.x, -2 / size.y), origin = center * toScreen + vec2(-1, 1), stretch = scale * toScreen;
   mat4 screenFromCamera(1.0f);
   screenFromCamera[0][0] = stretch.x, screenFromCamera[1][1] = stretch.y;
-  const int last = camera.perspective() ? 2 : 3;  // index of the component that x and y are divided by: z, or nothing
+  const int last = camera.perspective() ? 2 : 3;  // index of the component that divides x and y: z, or none
   screenFromCamera[last][0] = origin.x, screenFromCamera[last][1] = origin.y;
   if (camera.perspective())
     screenFromCamera[2][3] = 1, screenFromCamera[3][3] = 0, screenFromCamera[3][2] = -camera.nearClip();

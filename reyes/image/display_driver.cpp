@@ -19,9 +19,9 @@ using namespace driver;
 
 namespace {
 
-constexpr int kPatience_s = 5;  ///< With a driver that does not answer, once the program is told to end.
+constexpr int kPatience_s = 5;  ///< The wait for a driver that does not answer, once the program is told to end.
 
-/// Waits for the other side to say something. False: it takes too long.
+/// Waits for data from the other side. Returns false if it takes too long.
 bool arrives(int socket) {
   constexpr int kTurn_ms = 100;
   for (int waited_ms = 0; waited_ms < 1000 * kPatience_s;) {
@@ -46,7 +46,7 @@ struct DisplayDriver::Impl {
   }
   ~Impl() { end(); }
 
-  /// Returns what is wrong; empty: nothing.
+  /// Returns what is wrong, or an empty text.
   std::string start() {
     const auto programs = besideProgram("tomales_display_host");
     if (programs.empty()) return "the program tomales_display_host is not beside this one";
@@ -66,7 +66,7 @@ struct DisplayDriver::Impl {
     hasFailed = true;
   }
 
-  /// Says something and takes the answer.
+  /// Sends a request and takes the answer.
   bool ask(Request request, std::initializer_list<BytesView> parts, std::string& text) {
     if (hasFailed) return false;
     uint64_t bytes = 0;
@@ -100,7 +100,7 @@ struct DisplayDriver::Impl {
     if (child > 0) ::kill(child, SIGKILL);
   }
 
-  /// Returns the status of the process, which ends when nobody speaks to it.
+  /// Returns the status of the process, which ends when its socket is closed.
   int end() {
     if (socket >= 0) ::close(std::exchange(socket, -1));
     const std::lock_guard lock(mutex);
@@ -114,7 +114,7 @@ struct DisplayDriver::Impl {
   }
 
   const std::string name;
-  std::mutex mutex;  // over child
+  std::mutex mutex;  // protects `child`
   pid_t child = -1;
   std::optional<ChildGuard> guard;
   int socket = -1;
@@ -141,7 +141,7 @@ DisplayDriver::DisplayDriver(const std::string& plugin, const DriverPicture& p) 
 
 DisplayDriver::~DisplayDriver() {
   if (impl_->isOpen && impl_->socket >= 0) {
-    impl_->hasFailed = false;  // it may still keep what it has
+    impl_->hasFailed = false;  // the driver may still keep what it has
     const uint32_t complete = 0;
     std::string text;
     impl_->ask(Request::Close, {std::as_bytes(std::span(&complete, 1))}, text);

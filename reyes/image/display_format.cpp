@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::string_view kHeader = "exrheader_";
 
-/// Parameters that pictures of every format take. asrgba: Ci and a are R G B A here anyway.
+/// Parameters that pictures of every format take. "asrgba" asks for Ci and a as R G B A, which is so here anyway.
 bool everyFormatTakes(const std::string& name) {
   static constexpr std::string_view kNames[] = {"transfer", "compression", "exrcompression", "quantize", "dither",
                                                 "filter",   "filterwidth", "exposure",       "origin",   "asrgba"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// Does its type say what is written, and not only in which format?
+/// Does its type say which data are written, and not only in which format?
 bool writesPass(const DisplayCall& display) { return writesMap(display) || writesDeep(display); }
 
 std::string compressionOf(const DisplayCall& display) {
@@ -33,7 +33,7 @@ std::string pixelTypeOf(const DisplayCall& display) {
 }
 
 std::vector<Metadata> metadataOf(const DisplayCall& display) {
-  // Linear light of the primaries of Rec. 709 and sRGB, unless the Display says otherwise.
+  // Linear light has the primaries of Rec. 709 and sRGB, unless the Display says otherwise.
   Metadata primaries{"chromaticities", "", {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f}};
   if (const Param* p = findParam(display.params, "chromaticities"); p && p->floats.size() == 8)
     primaries.numbers = p->floats;

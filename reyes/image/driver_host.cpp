@@ -1,4 +1,4 @@
-// The program that DisplayDriver starts: loads one display driver and hands it what comes over the socket.
+// The program that DisplayDriver starts. It loads one display driver and passes on the requests from the socket.
 #include <dlfcn.h>
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 namespace tomales::driver {
 namespace {
 
-/// Throws what is wrong with the plugin.
+/// Loads the plugin. Throws what is wrong with it.
 const TmDisplayDriver& load(const char* path) {
   void* handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   if (!handle) throw fmt::format("it cannot be loaded: {}", dlerror());
@@ -38,7 +38,7 @@ std::vector<const char*> textsOf(const std::vector<std::string>& texts) {
   return out;
 }
 
-/// A picture in the words of the C interface.
+/// Describes a picture by the structures of the C interface.
 class Picture {
  public:
   explicit Picture(BytesView bytes) {
@@ -82,7 +82,7 @@ class Picture {
  private:
   Opening opening_;
   std::vector<const char*> channels_;
-  std::deque<std::vector<const char*>> strings_;  // where they are they stay
+  std::deque<std::vector<const char*>> strings_;  // a deque, whose elements never move
   std::vector<TmDisplayParam> params_;
   TmDisplayPicture picture_;
 };
@@ -153,9 +153,9 @@ bool serveNext(Host& host) {
 
 int main(int, char** arguments) {
   using namespace tomales::driver;
-  close_range(kSocket + 1, ~0u, 0);  // what the renderer has open is not to stay open here
+  close_range(kSocket + 1, ~0u, 0);  // closes the files that the renderer has open
   Host host(arguments[1]);
   while (serveNext(host)) {
   }
-  _exit(0);  // what the driver has to finish, close() has finished
+  _exit(0);  // close() has finished all that the driver had to do
 }

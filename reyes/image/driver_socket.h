@@ -1,5 +1,5 @@
-// Private to reyes/image: what DisplayDriver and the program that it starts say to each other, over a socket. Each
-// request is answered by whether it went well, and a text: what went wrong, or, of Open, the parameters that were not
+// Private to reyes/image: the protocol between DisplayDriver and the program that it starts, over a socket. The answer
+// to each request says whether it went well, and has a text: what went wrong or, for Open, the parameters that were not
 // read, each in a line.
 #pragma once
 #include <sys/socket.h>
@@ -12,11 +12,11 @@
 
 namespace tomales::driver {
 
-constexpr int kSocket = STDERR_FILENO + 1;  ///< Of the program.
+constexpr int kSocket = STDERR_FILENO + 1;  ///< The socket's descriptor in the program.
 
 enum class Request : uint32_t { Open, Rows, Close };
 
-/// What is said in the one direction and in the other. `bytes` follow.
+/// The heads of messages in the two directions. `bytes` follow.
 struct RequestHead {
   Request request;
   uint64_t bytes;
@@ -41,12 +41,12 @@ void fields(A& a, Opening& x) {
   each(a, name, mode, window, pixelAspect, channels, params, worldToCamera, worldToScreen);
 }
 
-/// The bytes of Request::Rows begin with this; pixels follow. Those of Close are one uint32_t: is the picture complete?
+/// Request::Rows has these bytes, then pixels. Request::Close has one uint32_t, which is 1 if the picture is complete.
 struct RowsHead {
   int32_t x, y, width, height;
 };
 
-/// False: the other side has gone.
+/// Returns false if the other side has gone.
 inline bool sendAll(int socket, const void* data, size_t size) {
   for (const char* at = static_cast<const char*>(data); size > 0;) {
     const ssize_t n = ::send(socket, at, size, MSG_NOSIGNAL);

@@ -1,4 +1,4 @@
-// Pictures for display drivers, as one more format.
+// Writes pictures for display drivers, as one more format.
 #include <stdexcept>
 
 #include "reyes/display_driver.h"

@@ -34,7 +34,7 @@ namespace {
 /// in two thirds of the time.
 constexpr int kZipLevel = 2;
 
-/// "layer" of "layer.X". Colour and depth have layers of their own.
+/// Returns "layer" of "layer.X". Colour and depth have layers of their own.
 std::string layerOf(const std::string& channel) {
   const size_t dot = channel.rfind('.');
   if (dot != std::string::npos) return channel.substr(0, dot);
@@ -157,7 +157,7 @@ class ExrFile : public FormatWriter {
     out = std::make_unique<Imf::StdOFStream>(stream, path.c_str());
     std::vector<Imf::Header> headers;
     for (const Part& part : parts) headers.push_back(headerOf(shape, format, part));
-    const int helpers = threadCount() > 1 ? threadCount() : 0;  // they compress; without them the caller does
+    const int helpers = threadCount() > 1 ? threadCount() : 0;  // they compress; if there are none, the caller does
     if (Imf::globalThreadCount() < helpers) Imf::setGlobalThreadCount(helpers);
     file = std::make_unique<Imf::MultiPartOutputFile>(*out, headers.data(), static_cast<int>(headers.size()), false,
                                                       helpers);

@@ -154,7 +154,7 @@ class ExrRows : public FormatWriter {
   const std::vector<FileChannel> channels_;
   std::ofstream stream_;
   std::ofstream::pos_type table_;
-  std::vector<uint64_t> offsets_;  ///< Offset of every block of rows; 0: not written yet.
+  std::vector<uint64_t> offsets_;  ///< Offset of every block of rows; 0 before it is written.
   size_t next_ = 0;
 };
 

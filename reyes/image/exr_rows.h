@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// header: that of all channels of `shape`, with ZIP_COMPRESSION.
+/// `header` is that of all channels of `shape`, with ZIP_COMPRESSION.
 std::unique_ptr<FormatWriter> openExrRows(const std::string& path, const Image& shape, const Imf::Header& header);
 
 }  // namespace tomales

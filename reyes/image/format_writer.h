@@ -15,10 +15,10 @@ class FormatWriter {
   virtual void write(const Image& rows) = 0;
   virtual void write(const DeepRows& rows);
   virtual void close() = 0;
-  virtual std::vector<std::string> unread() const { return {}; }  ///< As of PictureFile.
+  virtual std::vector<std::string> unread() const { return {}; }  ///< The same as of PictureFile.
 };
 
-/// The pixels of `rows` as bytes of `type`, from the first row to the last.
+/// Returns the pixels of `rows` as bytes of `type`, from the first row to the last.
 std::vector<std::byte> packed(const Image& rows, SampleType type);
 
 }  // namespace tomales

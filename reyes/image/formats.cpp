@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-// Each is defined beside its writer.
+// Each format is defined beside its writer.
 const PictureFormat &exrFormat(), &tiffFormat(), &pngFormat();
 
 namespace {

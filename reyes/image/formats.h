@@ -13,17 +13,17 @@ using Words = std::vector<std::string_view>;
 
 struct PictureFormat {
   const char* name;           ///< The type of a Display that asks for it.
-  const char* title;          ///< For messages.
+  const char* title;          ///< Used in messages.
   Words types = {};           ///< Other types of Displays that ask for it.
-  Words extensions = {};      ///< Of file names, with the dot.
-  Words compressions = {};    ///< Those that a Display may ask for.
+  Words extensions = {};      ///< Extensions of file names, with the dot.
+  Words compressions = {};    ///< Compressions that a Display may ask for.
   Words params = {};          ///< Parameters of a Display that other formats have no use for; "x_*": all that begin so.
-  bool floats = false;        ///< It can hold floating point numbers,
-  bool quantises = false;     ///< but does only where Quantize has no integers, or never.
+  bool floats = false;        ///< It can hold floating point numbers.
+  bool quantises = false;     ///< It holds integers where Quantize asks for them, or always.
   bool dividesColor = false;  ///< Its colours have been divided by alpha.
   bool carriesNames = false;  ///< It holds named texts, matrices, Cryptomatte and deep pixels.
-  bool isForScreens = false;  ///< Whoever opens it expects colours that are encoded for a screen.
-  /// `shape`: the whole picture, without pixels. For integer types, pixels hold integers already. Throws
+  bool isForScreens = false;  ///< True if programs that open it expect colours that are encoded for a screen.
+  /// `shape` is the whole picture, without pixels. For integer types, pixels hold integers already. Throws
   /// std::exception.
   std::unique_ptr<FormatWriter> (*open)(const std::string& path, const Image& shape,
                                         const FileFormat& format) = nullptr;
@@ -32,11 +32,11 @@ struct PictureFormat {
   bool takes(std::string_view param) const;
 };
 
-/// The first is for names without an extension, and for what only a format that carries names can hold.
+/// The first format is used for names without an extension, and for data that only a format that carries names holds.
 std::span<const PictureFormat* const> pictureFormats();
-/// Of pictures for display drivers; not in the table.
+/// The format of pictures for display drivers, which is not in the table.
 const PictureFormat& driverFormat();
-/// Null: there is none.
+/// Returns null if there is none.
 const PictureFormat* formatOfType(std::string_view displayType);
 const PictureFormat* formatOfExtension(const std::string& path);
 /// Does some format take this parameter of a Display?

@@ -72,8 +72,8 @@ struct PictureFile::Impl {
     return false;
   }
 
-  std::string problem;                         // first: opening the file says what it is
-  const std::unique_ptr<UnfinishedFile> file;  // null: a driver takes the picture
+  std::string problem;                         // before `file`: opening that writes the problem here
+  const std::unique_ptr<UnfinishedFile> file;  // null if a driver takes the picture
   const Image shape;
   const FileFormat format;
   std::unique_ptr<FormatWriter> writer;

@@ -25,10 +25,10 @@ struct DriverCall {
 
 struct FileFormat {
   const PictureFormat* kind = nullptr;
-  SampleType type = SampleType::Float;    ///< Integer types: pixels hold integers already, 0..255 or 0..65535.
-  bool unassociatedAlpha = false;         ///< Colour has been divided by alpha.
-  std::string compression = {};           ///< Empty: the format's best lossless one.
-  int tile = 0;                           ///< Side of a tile; 0: scanlines.
+  SampleType type = SampleType::Float;    ///< For integer types, pixels hold integers already, 0..255 or 0..65535.
+  bool unassociatedAlpha = false;         ///< True if the colour has been divided by alpha.
+  std::string compression = {};           ///< If empty, the format's best lossless one.
+  int tile = 0;                           ///< Side of a tile; 0 for scanlines.
   bool deep = false;                      ///< OpenEXR: a list of samples in every pixel.
   bool multipart = false;                 ///< OpenEXR: one part for each layer.
   std::vector<std::string> precise = {};  ///< Channels that stay float in a file of halves.
@@ -37,8 +37,8 @@ struct FileFormat {
   std::optional<DriverCall> driver = {};
 };
 
-/// Writes a picture to an UnfinishedFile; close() gives it its name. A file that is not closed leaves nothing behind.
-/// Pictures for drivers are no files.
+/// Writes a picture to an UnfinishedFile, which close() gives its name. A file that is not closed leaves nothing
+/// behind. Pictures for drivers are not files.
 class PictureFile {
  public:
   static constexpr int kBandRows = 64;
@@ -59,7 +59,7 @@ class PictureFile {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Copies a shadow map. Unless done `error` says why.
+/// Copies a shadow map. Unless the result is Done, `error` says why.
 Making copyShadowMap(const std::string& from, const std::string& to, std::string& error);
 
 /// IEC 61966-2-1 transfer of one linear value, clamped to [0,1].

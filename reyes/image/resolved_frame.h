@@ -45,7 +45,7 @@ class ResolvedFrame {
  private:
   /// Pixels of one row from (x, y) on that lie in one tile.
   struct TileRun {
-    const ResolvedTile* tile;  ///< Null: the pixels see nothing.
+    const ResolvedTile* tile;  ///< Null if the pixels see nothing.
     size_t pixel;              ///< Index of the first of them in the tile.
     int end;                   ///< The x after the last of them.
 

@@ -83,7 +83,7 @@ void composite(const ShadedLayer& l, const LayerExtras& more, SampleStack& stack
     if (coveredFrom(l, first, covered)) compositeAt(l, more, covered, stack, first);
 }
 
-/// The same arithmetic in the same order, one vector of samples after the other: nothing is stored before the last
+/// Does the same arithmetic in the same order, one vector of samples after the other: nothing is stored before the last
 /// fragment.
 void compositeAll(std::span<const ShadedLayer> shadedLayers, SampleStack& stack) {
   for (size_t first = 0; first < stack.lanes; first += hn::Lanes(kF)) {

@@ -36,7 +36,7 @@ struct ShadedLayer {
 struct LayerExtras {
   std::span<const ExtraFloat> extras;
   const float* extraValues;
-  const Air* air = nullptr;  ///< Air that is left out of the shade. Null: no fragment of the tile has any.
+  const Air* air = nullptr;  ///< Air that is left out of the shade; null if no fragment of the tile has any.
 };
 
 /// Arrays have a lane for each sample.

@@ -37,7 +37,7 @@ class WeightTable {
     int pattern, place;
   };
   const int reachX, reachY;
-  /// (dx, dy): from the pixel that is being filtered to the one that has the pattern.
+  /// (dx, dy) leads from the pixel that is being filtered to the one that has the pattern.
   Cell cell(int pattern, int dx, int dy) const { return {pattern, (reachY - dy) * (2 * reachX + 1) + reachX - dx}; }
   float sum(const Cell& cell) const { return sums(cell.pattern)[cell.place]; }
   float sum(const Cell& cell, uint64_t mask, uint16_t word) const {

@@ -28,7 +28,7 @@ std::string oiioError() {
 
 struct Seal {
   char magic[8];
-  uint64_t sum;  ///< Of the bytes before the seal.
+  uint64_t sum;  ///< Sum of the bytes before the seal.
 };
 constexpr char kSealMagic[] = "TMSEALED";
 
@@ -41,8 +41,8 @@ std::optional<Bytes> bytesOf(const std::string& file) {
   return in ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// Files of the cache end in a sum of what comes before, which readers of TIFF pass over: one that was cut off or has
-/// rotted would else be noticed where its texels are wanted, in the middle of a frame, or not at all.
+/// Files of the cache end in a sum of their contents, which readers of TIFF ignore. Without it, a file that was cut off
+/// or has rotted would be noticed when its texels are wanted, in the middle of a frame, or never.
 bool seal(const std::string& file) {
   const auto bytes = bytesOf(file);
   if (!bytes) return false;
@@ -63,8 +63,8 @@ bool isSealed(const std::string& file) {
          s.sum == checksum(BytesView(*bytes).first(bytes->size() - sizeof s));
 }
 
-/// Every texel is read here: a truncated picture is found out before anything is made of it. By an ImageInput, since an
-/// ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
+/// Reads every texel here, so that a truncated picture is found before anything is made of it. It uses an ImageInput,
+/// since an ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
 bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) return error = oiioError(), false;
@@ -118,11 +118,11 @@ bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std
   const bool exr = fs::path(file).extension() == ".exr";
   config.attribute("maketx:fileformatname", exr ? "openexr" : "tiff");
   config.attribute("maketx:filtername", recipe.filter);
-  config.attribute("DateTime", "1970:01:01 00:00:00");  // else now, and no two conversions would be alike
+  config.attribute("DateTime", "1970:01:01 00:00:00");  // a date of now would make no two conversions alike
   config.attribute("wrapmodes", recipe.sWrap + "," + recipe.tWrap);
   try {
-    // A folder, because OpenImageIO makes a file of its own beside the one that it is asked for, which a
-    // killed process would leave.
+    // It is a folder, because OpenImageIO makes another file beside the one that it is asked for, which a killed
+    // process would leave.
     const TemporaryFolder folder(scratch);
     const fs::path first = folder.path() / "first", made = exr ? first : folder.path() / "texture";
     if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, first.string(), config))
@@ -179,7 +179,7 @@ std::string tiledFile(const std::string& picture, const std::string& folder, std
   if (!readWhole(picture, whole, error)) return {};
   fs::create_directories(file.parent_path(), problem);
   TextureRecipe recipe;
-  // A cache that cannot be written costs time and memory, and nothing else: OpenImageIO makes the levels in memory.
+  // A cache that cannot be written only costs time and memory: OpenImageIO makes the levels in memory.
   if (problem || !write(whole, recipe, file.string(), folder, true, error)) return error.clear(), picture;
   return file.string();
 }

@@ -1,4 +1,4 @@
-// Pictures to tiled MIP files, and where those of the cache are. Private to the module.
+// Private to the module: converts pictures to tiled MIP files, and finds those of the cache.
 #pragma once
 #include <OpenImageIO/imagebuf.h>
 
@@ -8,17 +8,17 @@
 
 namespace tomales {
 
-/// PictureLibrary::makeTexture.
+/// Does what PictureLibrary::makeTexture does.
 Making convert(const TextureRecipe& recipe, std::string& error);
 
-/// All texels of a file. False: `error` says why.
+/// Reads all texels of a file. Returns false on failure, and `error` says why.
 bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& error);
 
-/// Six faces as one latitude-longitude picture that resolves them everywhere.
+/// Makes one latitude-longitude picture of six faces, fine enough to resolve them everywhere.
 std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::string& error);
 
-/// The tiled MIP file that stands for a picture: itself, or its conversion in `folder`, made now if need be. Empty:
-/// unreadable. `note`: what had to be made anew because it was damaged.
+/// Returns the tiled MIP file that stands for a picture: itself, or its conversion in `folder`, made now if need be.
+/// Empty if it is unreadable. `note` tells what had to be made anew because it was damaged.
 std::string tiledFile(const std::string& picture, const std::string& folder, std::string& error, std::string& note);
 
 }  // namespace tomales

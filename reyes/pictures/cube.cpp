@@ -1,11 +1,11 @@
-// Six views along the axes as one latitude-longitude picture.
+// Makes one latitude-longitude picture of six views along the axes.
 #include "reyes/base/math.h"
 #include "reyes/pictures/convert.h"
 
 namespace tomales {
 namespace {
 
-/// How the picture of a face stands in space: RISpec's cross of a left-handed world, +y up, +x right of +z.
+/// The orientation of a face's picture in space: RISpec's cross of a left-handed world, +y up, +x right of +z.
 struct Face {
   vec3 forward, right, down;
 };
@@ -33,12 +33,12 @@ std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::strin
     edge = std::max(edge, faces[k].spec().width);
     channels = k == 0 ? faces[k].nchannels() : std::min(channels, faces[k].nchannels());
   }
-  // A quarter of the equator for each face.
+  // Each face gets a quarter of the equator.
   const int width = 4 * edge, height = 2 * edge;
   OIIO::ImageBuf out(OIIO::ImageSpec(width, height, channels, OIIO::TypeDesc::FLOAT));
   const float perSlope = 1 / std::tan(recipe.fov_degrees * kPi / 360);
   std::vector<float> texel(static_cast<size_t>(channels)), sum(texel.size());
-  constexpr int kSide = 2;  // samples of a texel, a side
+  constexpr int kSide = 2;  // samples along a side of a texel
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       std::fill(sum.begin(), sum.end(), 0.0f);

@@ -4,8 +4,8 @@
 
 namespace tomales {
 
-/// Null without `error`: no OpenEXR file, or one that is not a single part of scanlines, tiles or deep scanlines of
-/// floats, which are OpenImageIO's. Null with `error`: it is damaged.
+/// Returns null without `error` for a file that is not OpenEXR, or not a single part of scanlines, tiles or deep
+/// scanlines of floats: OpenImageIO reads those. Returns null with `error` if the file is damaged.
 std::unique_ptr<PictureReader> openExrPicture(const std::string& path, std::string& error);
 
 }  // namespace tomales

@@ -11,8 +11,8 @@
 namespace tomales {
 namespace {
 
-/// Beside the program, as built, or in lib, as installed; else where the loader looks, by the run path of the program
-/// (CMakeLists.txt). A sanitizer's loader looks with its own run path.
+/// Opens the module beside the program, as built, or in lib, as installed; else where the loader finds it, by the run
+/// path of the program (CMakeLists.txt). A sanitizer's loader uses its own run path.
 void* openModule() {
   constexpr const char* kName = "libtomales_openimageio.so";
   for (const auto& path : besideProgram(kName))
@@ -27,7 +27,7 @@ const PictureLibrary* pictureLibrary(std::string& error) {
     const PictureLibrary* library = nullptr;
     std::string error;
     Loaded() {
-      void* handle = openModule();  // never closed: textures are in use until the end
+      void* handle = openModule();  // it is never closed: textures are in use until the end
       using Function = const PictureLibrary* (*)();
       const auto function = handle ? reinterpret_cast<Function>(dlsym(handle, "tomalesPictureLibrary")) : nullptr;
       if (function)

@@ -1,4 +1,4 @@
-// The module over OpenImageIO: with its neighbours in this folder, all that includes it.
+// The module over OpenImageIO: only this file and its neighbours in this folder include that library.
 #include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/imageio.h>
 

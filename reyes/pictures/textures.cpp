@@ -32,16 +32,16 @@ std::string cacheFolderOf(const TextureSettings& settings) {
   return (home ? std::string(home) + "/.cache" : fs::temp_directory_path().string()) + "/tomales/textures";
 }
 
-/// Where the number of a tile stands in a name; npos: nowhere.
+/// Returns the position of a tile's number in a name; npos if it has none.
 size_t tileMark(const std::string& name, size_t& length) {
   for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
     if (const size_t at = name.find(mark); at != std::string::npos) return length = mark.size(), at;
   return std::string::npos;
 }
 
-/// A picture by the name that shaders call it, open.
+/// A picture that is open, under the name by which shaders call it.
 struct Picture {
-  std::map<int, Handle*> tiles;  ///< By UDIM number; 0: the one.
+  std::map<int, Handle*> tiles;  ///< Indexed by UDIM number; 0 if there is only one.
   bool tiled = false;
   std::string error;   ///< Why there is none.
   std::string remark;  ///< What was taken in place of a file, and why.
@@ -63,7 +63,7 @@ class SharedSystem {
     ++users;
     textures->attribute("max_memory_MB", static_cast<float>(memory_bytes) / (1 << 20));
   }
-  /// The last one leaves no tile and no open file: what is rewritten between frames is then read anew.
+  /// Frees tiles and closes files after the last user: a picture that is rewritten between frames is then read anew.
   void leave() {
     const std::lock_guard lock(mutex);
     if (--users == 0) textures->invalidate_all(true);
@@ -83,7 +83,7 @@ class SharedSystem {
 
  private:
   SharedSystem() {
-    textures->attribute("automip", 1);  // pictures of a cache folder that cannot be written
+    textures->attribute("automip", 1);  // needed for pictures of a cache folder that cannot be written
     textures->attribute("autotile", 64);
   }
 
@@ -122,7 +122,7 @@ class Cache : public TextureCache {
       const std::shared_lock lock(mutex);
       if (const auto it = pictures.find(name); it != pictures.end()) return *it->second;
     }
-    // One conversion at a time: others who want this picture wait for it, and there are few.
+    // One conversion runs at a time: others who want this picture wait for it, and there are few.
     const std::unique_lock lock(mutex);
     auto& slot = pictures[std::string(name)];
     if (!slot) slot = open(std::string(name));
@@ -181,7 +181,7 @@ class Cache : public TextureCache {
   OIIO::TextureSystem* const system = SharedSystem::get().textures;
   const TextureSettings settings;
   const std::string cacheFolder;
-  std::shared_mutex mutex;  ///< Over pictures.
+  std::shared_mutex mutex;  ///< Protects `pictures`.
   std::map<std::string, std::unique_ptr<const Picture>, std::less<>> pictures;
 };
 

@@ -1,4 +1,4 @@
-// Lookups in pictures through OpenImageIO's texture system. Private to the module.
+// Private to the module: lookups in pictures through OpenImageIO's texture system.
 #pragma once
 #include "reyes/pictures.h"
 

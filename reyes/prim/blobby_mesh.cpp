@@ -20,8 +20,8 @@ using Lattice = std::array<uint32_t, 3>;  ///< Coordinates in finest cells from 
 struct Cell {
   Lattice corner;
   uint32_t size;            ///< Edge in finest cells.
-  uint32_t firstChild = 0;  ///< First of eight children; 0: none.
-  uint8_t inside = 0;       ///< Bit k: corner (k & 1, k >> 1 & 1, k >> 2).
+  uint32_t firstChild = 0;  ///< First of eight children; 0 if there are none.
+  uint8_t inside = 0;       ///< Bit k is for corner (k & 1, k >> 1 & 1, k >> 2).
   int32_t vertex = -1;
 };
 
@@ -57,7 +57,7 @@ bool isFlatEnough(const std::vector<dvec3>& crossings, const BlobField& field) {
 
 class Contourer {
  public:
-  /// coarser: factor by which cells may be larger than the features require.
+  /// `coarser` is a factor by which cells may be larger than the features require.
   Contourer(const BlobField& field, const Box& box, double coarser)
       : origin_(box.lo),
         cellsOfFeature_(kCellsOfFeature / coarser),
@@ -78,7 +78,7 @@ class Contourer {
                       kMostCoarsening);
   }
 
-  /// Empty: it takes too many cells.
+  /// Returns nothing if it takes too many cells.
   std::optional<BlobMesh> run() {
     if (cells_.size() > mostCells_) return {};
     for (uint32_t k = 0; k < cells_.size(); ++k)

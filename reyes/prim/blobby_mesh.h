@@ -24,7 +24,7 @@ struct BlobQuad {
 struct BlobMesh {
   std::vector<BlobVertex> vertices;
   std::vector<BlobQuad> quads;
-  bool complete = true;  ///< False: the surface was so large that the mesh is coarser than the field requires.
+  bool complete = true;  ///< False if the surface was so large that the mesh is coarser than the field requires.
 };
 
 /// Dual contouring (Ju et al. 2002) of an octree that is as fine as the field's features, and finer where a cell meets

@@ -61,7 +61,7 @@ class LayoutMaker {
 
 }  // namespace
 
-// Uses blossoming.
+// Computes the piece by blossoming.
 Cubic<vec4> piece(const Cubic<vec4>& c, float t0, float t1) {
   const auto blossom = [&](float r, float s, float t) {
     const vec4 a = glm::mix(c[0], c[1], r), b = glm::mix(c[1], c[2], r), d = glm::mix(c[2], c[3], r);

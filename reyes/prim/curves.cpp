@@ -149,7 +149,7 @@ class Ribbons : public Prim, public OpenBorders {
     spread(n, u, section.data(), sections, out);
   }
 
-  /// RISpec: v runs along the whole curve.
+  /// By RISpec, v runs along the whole curve.
   void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
     const CurveSegment& s = segments_[patch];
     std::copy_n(u, n, su);
@@ -242,7 +242,7 @@ class Ribbons : public Prim, public OpenBorders {
 
   size_t shapeBytes() const override { return segments_.bytes() + bytesOf(normals_); }
   CurveSegments segments_;
-  std::vector<Cubic<vec3>> normals_;  // empty: it faces the eye
+  std::vector<Cubic<vec3>> normals_;  // if empty, it faces the eye
   Eye eye_;
 };
 

@@ -15,7 +15,7 @@ double latticeDiskArea(int nu, int nv);
 /// Evaluates the disk over the unit square, without a seam; derivatives are parallel only at the four corners.
 void evaluateDisk(const Disk& disk, int n, const float* u, const float* v, const SurfacePoints& out);
 
-/// The same at the four corners, moved away from the centre by `more` of their distance.
+/// Does the same at the four corners, moved away from the centre by `more` of their distance.
 void evaluateDot(const Disk& disk, float more, const SurfacePoints& out);
 
 }  // namespace tomales

@@ -86,7 +86,7 @@ class EarClipper {
     return std::move(out_);
   }
 
-  /// Empty as soon as there is no common ear.
+  /// Returns nothing as soon as there is no common ear.
   std::optional<Pieces> clipAlike() {
     while (count_ > 3) {
       cut(findEar());

@@ -23,9 +23,9 @@ struct Pieces {
   bool disjoint = true;  ///< The parts do not overlap at any key. False only for a polygon that moves.
 };
 
-/// Convex parts that cover the polygon: itself, or triangles by ear clipping (Meisters 1975; for a polygon that moves,
-/// corners that are ears at all keys). It never fails: where the polygon crosses itself the triangles overlap, and also
-/// at later keys of a polygon that cannot be cut alike at all keys.
+/// Returns convex parts that cover the polygon: itself, or triangles by ear clipping (Meisters 1975; for a polygon that
+/// moves, corners that are ears at all keys). It never fails: where the polygon crosses itself the triangles overlap,
+/// and also at later keys of a polygon that cannot be cut alike at all keys.
 Pieces convexPieces(const Outlines& keys);
 
 /// Does every corner turn, and turn the same way, at all keys?

@@ -23,7 +23,7 @@ Direction directionOf(const char* name, int controls, bool periodic, int span, i
   return {controls, step, periodic ? rest / step : rest / step + 1, periodic};
 }
 
-/// "Pz": heights over the parameter square (RISpec section 5.2).
+/// Reads "Pz": heights over the parameter square (RISpec section 5.2).
 std::vector<vec3> takeHeights(const Param& heights, const Layout& mesh) {
   if (heights.floats.size() != mesh.controls())
     throw PrimError(fmt::format("Pz has {} values where {} vertices need {} floats", heights.floats.size(),

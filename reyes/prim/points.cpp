@@ -74,7 +74,7 @@ class PointCloud : public Prim, public Scattered {
   Primvar width_;
 };
 
-/// Shapes with a plane: that of "N", or the one that faces the eye.
+/// Shapes with a plane, which is that of "N" or faces the eye.
 template <class Shape>
 class FlatPoints : public PointCloud, public OpenBorders {
  public:
@@ -200,7 +200,7 @@ class Squares : public FlatPoints<Squares> {
     return {points_[patch], width * (c * right - s * down), width / valueOf(aspect_, patch) * (c * down + s * right)};
   }
 
-  /// Values of "constant" + name or of name; one for all, or one for each point.
+  /// Returns the values of "constant" + name or of name; one for all, or one for each point.
   std::vector<float> numbersOf(const std::string& name, float fallback) const {
     std::vector<float> out{fallback};
     for (const std::string& wanted : {"constant" + name, name})

@@ -236,15 +236,15 @@ class Decomposer {
   const EdgeFaces edges_;
   Decomposition out_;
   size_t holesIgnored_ = 0, overlapping_ = 0;
-  std::vector<uint32_t> corner_;     // of the current face
-  Points points_;                    // of its corners at some key
-  std::vector<glm::dvec3> normals_;  // by key
+  std::vector<uint32_t> corner_;     // corners of the current face
+  Points points_;                    // positions of its corners at some key
+  std::vector<glm::dvec3> normals_;  // indexed by key
   glm::dvec3 normal_{0};
   Outlines outlines_;
   bool disjoint_ = true;
-  std::vector<char> open_;             // for the edge from a corner to the next
-  std::vector<int> loopStart_;         // first corner of every loop, and the end
-  std::vector<uint32_t> at_, middle_;  // of the current piece
+  std::vector<char> open_;             // indexed by corner: its edge to the next one
+  std::vector<int> loopStart_;         // index of the first corner of every loop, and the end
+  std::vector<uint32_t> at_, middle_;  // vertices of the current piece
 };
 
 }  // namespace

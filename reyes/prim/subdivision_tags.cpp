@@ -110,7 +110,7 @@ class TagReader {
     if (const int k = choice(tag, 3); k >= 0) out.faceVarying = kMeaning[k];
   }
 
-  /// 1: the weights of every face; 2: those for triangles.
+  /// The argument 1 means the weights of every face, 2 those for triangles.
   void readSmoothTriangles(const Tag& tag) {
     if (const int k = choice(tag, 2); k >= 0) out.smoothTriangles = k == 2;
   }

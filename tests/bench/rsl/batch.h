@@ -14,7 +14,7 @@ namespace tomales::bench {
 constexpr int kPoints = 256, kLights = 4;
 
 struct Light {
-  TmConstVec3 L;  ///< Of unit length, towards the light.
+  TmConstVec3 L;  ///< The unit vector towards the light.
   rsl::Color Cl;
 };
 
@@ -32,7 +32,7 @@ class Batch {
   void bind(const TmShader& shader);
   /// "shader" from "current" space.
   static constexpr float kSpace[3][4] = {{0.8f, -0.6f, 0, 0.3f}, {0.6f, 0.8f, 0, -0.2f}, {0, 0, 1, -4}};
-  /// What texture() finds, of one channel or three.
+  /// Gives the values that texture() finds, of one channel or three.
   static void lookUp(const TmGrid* g, const float* s, const float* t, TmVec3 out);
 
  private:

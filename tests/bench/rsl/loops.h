@@ -10,7 +10,7 @@
 namespace tomales::bench {
 
 struct Loop {
-  std::string_view name;  ///< Of the shader.
+  std::string_view name;  ///< Name of the shader.
   void (*run)(const Batch& batch);
 };
 std::span<const Loop> fusedLoops();

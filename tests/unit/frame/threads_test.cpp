@@ -1,4 +1,4 @@
-// Which buckets threads hide at the same time.
+// Tests which buckets the threads hide at the same time.
 #include <gtest/gtest.h>
 
 #include <condition_variable>

@@ -1,4 +1,4 @@
-// What disks hide of a hemisphere, against form factors.
+// Compares the part of a hemisphere that disks hide with form factors.
 #include "gi/clouds/disks.h"
 
 #include <gtest/gtest.h>

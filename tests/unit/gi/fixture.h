@@ -133,7 +133,7 @@ inline double powerOf(const std::vector<StoredPhoton>& photons) {
   return sum;
 }
 
-/// What a hider would leave of the frame with one sample a pixel, by rays; a facet for each pixel.
+/// Makes by rays what a hider would make of the frame with one sample a pixel; a facet for each pixel.
 inline DeepFrame frameOf(const World& world, int bucket) {
   DeepFrame frame;
   frame.crop = frame.padded = {0, 0, world.camera.xResolution(), world.camera.yResolution()};
@@ -190,7 +190,7 @@ inline std::vector<vec3> indirectAt(const GiServices& services, const ShadePoint
   return out;
 }
 
-/// Of all points of a frame, by batch.
+/// Returns the indirect light at all points of a frame, by batch.
 inline std::vector<vec3> indirectOf(const GiServices& services, const World& world, const DeepFrame& frame) {
   std::vector<vec3> out(static_cast<size_t>(frame.crop.width() * frame.crop.height()));
   for (const DeepTile& tile : frame.tiles)

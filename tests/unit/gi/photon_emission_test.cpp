@@ -1,4 +1,4 @@
-// What photons bring of lights of every kind, where the power that arrives is known.
+// Tests the photons of lights of every kind, where the power that arrives is known.
 #include <gtest/gtest.h>
 
 #include <map>

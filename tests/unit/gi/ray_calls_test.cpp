@@ -1,4 +1,4 @@
-// What shaders trace, against closed forms.
+// Compares what shaders trace with closed forms.
 #include <gtest/gtest.h>
 
 #include "tests/unit/gi/fixture.h"

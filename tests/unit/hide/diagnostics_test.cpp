@@ -1,4 +1,4 @@
-// What the hider says that it does not know, or shows badly.
+// Tests the hider's counts of samples whose result is uncertain or badly shown.
 #include <gtest/gtest.h>
 
 #include "tests/unit/hide/tile.h"

@@ -21,7 +21,7 @@ inline std::shared_ptr<const RasterGrid> raster(const World& w, const std::share
 
 inline const Fragment* begin(const DeepTile& t, const DeepPixel& p) { return t.fragments.data() + p.first; }
 
-/// How many fragments sample s of a pixel belongs to.
+/// Counts the fragments that sample s of a pixel belongs to.
 inline int hits(const DeepTile& t, int x, int y, int s) {
   const DeepPixel& p = t.pixel(x, y);
   int n = 0;

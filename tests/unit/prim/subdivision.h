@@ -10,7 +10,7 @@ inline const std::vector<int> kCubeCounts = {4, 4, 4, 4, 4, 4};
 inline const std::vector<int> kCubeFaces = {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4,
                                             1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};  // outward
 
-/// What makeSubdivisionMesh() is given.
+/// The arguments of makeSubdivisionMesh().
 struct Mesh {
   std::vector<int> counts, vertices;
   ParamList params;

@@ -1,4 +1,4 @@
-// What tests of curves and of points share: wiggling lines, widths, and an eye that they turn to.
+// Shared by the tests of curves and of points: wiggling lines, widths, and an eye that they turn to.
 #pragma once
 #include "tests/unit/prim/support.h"
 

@@ -61,7 +61,7 @@ struct World {
     attributes.surface = shader("constant");
   }
 
-  /// With the current `attributes`.
+  /// Adds an object with the current `attributes`.
   int add(PrimPtr prim, const mat4& cameraFromObject = mat4(1.0f)) {
     Object o;
     o.shapes = {std::move(prim)};

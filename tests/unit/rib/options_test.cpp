@@ -1,4 +1,4 @@
-// What options, the camera and transformations leave in the Scene.
+// Tests the effect of options, the camera and transformations on the Scene.
 #include "rib_test_tools.h"
 
 namespace tomales {

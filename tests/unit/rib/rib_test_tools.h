@@ -1,4 +1,4 @@
-// What the tests of the RIB reader share.
+// Shared by the tests of the RIB reader.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// With all that its procedurals stand for.
+/// Opens all procedurals of the scene.
 inline Scene opened(Scene&& scene) {
   scene.open([](const Attributes&) { return true; });
   return std::move(scene);

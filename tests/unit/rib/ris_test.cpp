@@ -1,4 +1,4 @@
-// What requests of the RIS era become.
+// Tests what requests of the RIS era are translated to.
 #include "rib_test_tools.h"
 
 namespace tomales {

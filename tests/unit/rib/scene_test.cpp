@@ -1,4 +1,4 @@
-// What attributes, shaders and lights leave in the Scene.
+// Tests the effect of attributes, shaders and lights on the Scene.
 #include <chrono>
 
 #include "rib_test_tools.h"

@@ -57,7 +57,7 @@ class ServedGrid : public FakeGrid {
   void maskAtRandom() {
     for (int i = 0; i < grid.count; ++i) active[static_cast<size_t>(i)] = rsl::latticeHash(i, grid.count, 77) % 2 != 0;
   }
-  /// What the host does before a shader runs. Outputs of active points are 0.
+  /// Does what the host does before a shader runs. Outputs of active points are 0.
   void bindOutputs(const Code& code) {
     bind(code);
     for (size_t k = 0; k < params.size(); ++k)

@@ -1,4 +1,4 @@
-// What is said of texts that are wrong: line, column and words.
+// Tests the messages about texts that are wrong: line, column and words.
 #include <gtest/gtest.h>
 
 #include "front_test_tools.h"

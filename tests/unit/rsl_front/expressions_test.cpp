@@ -1,4 +1,4 @@
-// Which operator takes which operands: RISpec 3.2 appendix B.
+// Tests which operator takes which operands (RISpec 3.2 appendix B).
 #include <gtest/gtest.h>
 
 #include "front_test_tools.h"

@@ -50,7 +50,7 @@ inline std::string messagesOf(const Front& front) {
   return out;
 }
 
-/// Of a file with these lines in the body of a shader.
+/// Parses a file with these lines in the body of a shader.
 inline std::string treeOf(const std::string& statements) {
   Front front("surface x() {\n" + statements + "\n}");
   front.parsed();

@@ -1,4 +1,4 @@
-// Which files #include reads, and which it must not.
+// Tests which files #include reads, and which it must not read.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What the renderer of FakeGrid answers: numbers that tell what was asked. Part of fake_grid.h.
+// Part of fake_grid.h: the answers of the renderer of FakeGrid, numbers that tell what was asked.
 #pragma once
 #include "tests/unit/rsl_machine/fake_grid.h"
 

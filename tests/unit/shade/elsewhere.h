@@ -52,7 +52,7 @@ class Elsewhere : public Stage {
     onSurface = what;
     return shade(points(std::vector<vec3>(static_cast<size_t>(n), vec3(0, 0, 5))), context);
   }
-  /// What is seen of a black surface at z = `depth` through the volume.
+  /// Returns what is seen of a black surface at z = `depth` through the volume.
   vec3 through(float depth, const std::function<void(sl::Volume&)>& what) {
     attributes.atmosphere = std::make_shared<const ShaderCall>(call("between", {}));
     onSurface = [](sl::Surface& s) { s.Ci = sl::Color(); };

@@ -8,7 +8,7 @@
 
 namespace tomales {
 
-/// As `cmake --install` does.
+/// Copies the headers as `cmake --install` does.
 inline void installHeaders(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "reyes/shader");
   std::istringstream headers(TOMALES_PLUGIN_HEADERS);

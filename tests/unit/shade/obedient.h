@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// What the one shader does; set by the test, on whose thread it runs.
+/// The body of the one shader; set by the test, on whose thread it runs.
 inline std::function<void(sl::Surface&)> body;
 struct obedient : sl::Surface {
   void main() {

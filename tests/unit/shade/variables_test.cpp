@@ -1,4 +1,4 @@
-// What Displays ask of a surface beside Ci and Oi.
+// Tests the variables that Displays ask of a surface beside Ci and Oi.
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {

@@ -47,7 +47,7 @@ inline PrimPtr quad(float size, float y) {
   return makeBilinearPatchMesh(2, false, 2, false, {P}, problems);
 }
 
-/// Of all objects, in view of the whole frame.
+/// Splits all objects, in view of the whole frame.
 inline std::vector<SubPatch> split(const Scene& scene, Stats& stats, Log& log) {
   const Camera camera(scene.options);
   std::vector<SubPatch> all;
