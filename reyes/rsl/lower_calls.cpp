@@ -163,8 +163,12 @@ int32_t Lowering::normalOf(int32_t position) {
   if (code_.kind == ShaderKind::Displacement) return compute(Op::CalculateNormal, {position});
   const int32_t across = compute(
       Op::Cross, {compute(Op::StepU, {position}, Shape::Triple), compute(Op::StepV, {position}, Shape::Triple)});
-  // A shader cannot know which way dPdu ^ dPdv points, so the normal is put on the side of the geometric one.
-  const int32_t natural = compute(Op::Cross, {global(Global::dPdu), global(Global::dPdv)});
+  // A shader cannot know which way dPdu ^ dPdv points, so the normal is put on the side of the geometric one. Steps are
+  // dPdu du and dPdv dv, and of a polygon, whose u and v are its x and y, du or dv may be a rounding error of any sign.
+  const auto edge = [&](Global derivative, Global size) {
+    return compute(Op::Mul, {global(derivative), global(size)}, Shape::Triple);
+  };
+  const int32_t natural = compute(Op::Cross, {edge(Global::dPdu, Global::du), edge(Global::dPdv, Global::dv)});
   const int32_t against = compute(Op::Less, {compute(Op::Dot, {natural, global(Global::Ng)}), number(0)});
   const int32_t turned =
       compute(Op::Select, {against, compute(Op::Neg, {across}, Shape::Triple), across}, Shape::Triple);

@@ -89,8 +89,9 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
       const Stencil& s = batch.stencil;
       return vec3(s.difference(d, P.x, i), s.difference(d, P.y, i), s.difference(d, P.z, i));
     };
-    // The normal is on the side of the geometric one, since a shader cannot know which way dPdu ^ dPdv points.
-    const vec3 across = cross(get(g->dPdu, i), get(g->dPdv, i));
+    // The normal is on the side of the geometric one, since a shader cannot know which way dPdu ^ dPdv points. Of a
+    // polygon, whose u and v are its x and y, du or dv may be a rounding error of any sign.
+    const vec3 across = cross(get(g->dPdu, i) * g->du[i], get(g->dPdv, i) * g->dv[i]);
     const float side = dot(across, get(g->Ng, i)) < 0 ? -1.0f : 1.0f;
     set(out, i, normalizeOr(side * cross(along(0), along(1)), get(g->N, i)));
   });

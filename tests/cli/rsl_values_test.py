@@ -127,4 +127,13 @@ expect("in_current", f'Translate 5 0 0 Rotate 90 0 0 1 Surface "in_current" "flo
        'a default matrix "current" 1')
 t.write("moons.sl", "surface moons(uniform point shade = point \"current\" (.6, .5, 0)) { float d = distance(shade, (s, t, 0)); Oi = 1; Ci = d; }\n")
 expect("moons", f'Surface "moons" {PATCH}', lambda x, y: (math.hypot((1 + x) / 2 - .6, (1 - y) / 2 - .5),) * 3, "a point of texture space, as patterns have it")
+
+# The u and v of a polygon are its x and y. Its micropolygons have other edges, so that du or dv is a rounding error.
+t.write("sides.sl", "surface sides() { Oi = 1; Ci = 0.5 + 0.5 * normalize(calculatenormal(P)) . normalize(N); }\n")
+t.write("wall.rib", """Format 160 100 1 Projection "perspective" "fov" [24] PixelSamples 2 2
+Rotate -7.5 1 0 0 Translate 0 -3.75 15.2 WorldBegin Surface "sides" Polygon "P" [-14 -8 9 -14 16 9 14 16 9 14 -8 9] WorldEnd
+""")
+t.expect_run("a wall", ["wall.rib", "-o", "wall.exr"], 0)
+wall = pixels(t.folder / "wall.exr")
+t.expect(min(p[0] for p in wall.values()) > 0.999, f"calculatenormal() of a polygon is its normal ({min(p[0] for p in wall.values()):.3f})")
 t.finish()
