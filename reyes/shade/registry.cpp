@@ -255,8 +255,10 @@ const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kin
     for (const std::string& file : pluginFiles(name, trust.folders))
       if (load(file))
         if (const TmShader* s = known(name, kind); s && s != own) return s;
-  if (const TmShader* s = findText(name, kind, searchPath, beside))
-    return tellOfStandardName(*s, searchPath, beside), s;
+  if (const TmShader* s = findText(name, kind, searchPath, beside)) {
+    if (own) tellOfStandardName(*s, searchPath, beside);
+    return s;
+  }
   if (own) return own;
   std::vector<std::string> others;  // plugins of that name without such a shader
   for (const std::string& file : trustedFiles(name, searchPath)) {
