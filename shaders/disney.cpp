@@ -1,23 +1,32 @@
 // A principled surface after Burley 2012, "Physically-based shading at Disney" (sections 5.3 to 5.6), without
 // anisotropy and subsurface. Highlights combine samples of the lights and of its own two lobes; reflected rays are
-// drawn from the lobes.
+// drawn from the lobes. Every parameter may be multiplied by a picture.
+#include <optional>
+
 #include "reyes/shader/shadeops.h"
+#include "shaders/maps.h"
 
 namespace {
 
 using rsl::Color;
 using rsl::Vec3;
 
-rsl::FloatParam metallic("metallic", 0, "0: dielectric, 1: metal"),
-    specular("specular", 0.5f, "reflection at normal incidence; 0.5: index 1.5");
-rsl::FloatParam speculartint("speculartint", 0, "tint of that towards the base colour"),
-    roughness("roughness", 0.5f, "of both lobes");
-rsl::FloatParam sheen("sheen", 0, "grazing reflection of cloth"), sheentint("sheentint", 0.5f, "its tint");
-rsl::FloatParam clearcoat("clearcoat", 0, "a second lobe"), clearcoatgloss("clearcoatgloss", 1, "1: glossy, 0: satin");
+MappedFloat metallic("metallic", 0, "0: dielectric, 1: metal", "metallicmap", "metallicchannel"),
+    specular("specular", 0.5f, "reflection at normal incidence; 0.5: index 1.5", "specularmap", "specularchannel"),
+    speculartint("speculartint", 0, "tint of that towards the base colour", "speculartintmap", "speculartintchannel"),
+    roughness("roughness", 0.5f, "of both lobes", "roughnessmap", "roughnesschannel"),
+    sheen("sheen", 0, "grazing reflection of cloth", "sheenmap", "sheenchannel"),
+    sheentint("sheentint", 0.5f, "its tint", "sheentintmap", "sheentintchannel"),
+    clearcoat("clearcoat", 0, "a second lobe", "clearcoatmap", "clearcoatchannel"),
+    clearcoatgloss("clearcoatgloss", 1, "1: glossy, 0: satin", "clearcoatglossmap", "clearcoatglosschannel");
 rsl::UniformFloatParam reflections("reflections", 0,
                                    "rays that mirror the scene, a point that the camera sees; 0: lights alone");
 rsl::ColorParam emission("emission", {0, 0, 0}, "radiance that it adds");
-rsl::StringParam texturename("texturename", "", "picture that multiplies Cs, the base colour");
+rsl::StringParam texturename("texturename", "", "picture that multiplies Cs, the base colour"),
+    emissionmap("emissionmap", "", "picture that multiplies the emission");
+rsl::UniformFloatParam linearize("linearize", 0, "1: those two pictures are sRGB, and are made linear");
+NormalMap normalmap;
+MappedFloat opacity("opacity", 1, "multiplies Os", "opacitymap", "opacitychannel");
 rsl::ColorOutput diffusePart("diffuse", "share of diffuse light and sheen"),
     specularPart("specular", "share of highlights"), reflectionPart("reflection", "share of the mirrored scene"),
     albedo("albedo", "base colour");
@@ -42,19 +51,36 @@ float smithGgx(float nv, float alpha) {
   return 1 / (nv + std::sqrt(a + b - a * b));
 }
 
+/// The parameters of a batch, multiplied by their pictures.
+struct Inputs {
+  explicit Inputs(const rsl::Batch& b)
+      : paint(b, texturename(b.g), linearize(b.g) != 0),
+        metallic(b, ::metallic),
+        specular(b, ::specular),
+        speculartint(b, ::speculartint),
+        roughness(b, ::roughness),
+        sheen(b, ::sheen),
+        sheentint(b, ::sheentint),
+        clearcoat(b, ::clearcoat),
+        clearcoatgloss(b, ::clearcoatgloss) {}
+
+  ColorPicture paint;
+  MappedValues metallic, specular, speculartint, roughness, sheen, sheentint, clearcoat, clearcoatgloss;
+};
+
 /// The material of one point, from the parameters.
 struct Material {
   Color base, specular0, sheen;
   float roughness, alpha, coat, coatAlpha, matte;
 
-  Material(const TmGrid* g, int i, Color paint)
-      : base(rsl::get(g->Cs, i) * paint), roughness(rsl::clamp(::roughness(g, i), 0, 1)) {
-    const float bright = luminance(base), metal = rsl::clamp(metallic(g, i), 0, 1);
+  Material(const TmGrid* g, int i, const Inputs& in)
+      : base(rsl::get(g->Cs, i) * in.paint[i]), roughness(rsl::clamp(in.roughness[i], 0, 1)) {
+    const float bright = luminance(base), metal = rsl::clamp(in.metallic[i], 0, 1);
     const Color tint = bright > 0 ? base / bright : Color{1, 1, 1}, white{1, 1, 1};
-    specular0 = rsl::mix(0.08f * ::specular(g, i) * rsl::mix(white, tint, speculartint(g, i)), base, metal);
-    sheen = ::sheen(g, i) * rsl::mix(white, tint, sheentint(g, i));
+    specular0 = rsl::mix(0.08f * in.specular[i] * rsl::mix(white, tint, in.speculartint[i]), base, metal);
+    sheen = in.sheen[i] * rsl::mix(white, tint, in.sheentint[i]);
     alpha = std::max(1e-3f, roughness * roughness);
-    coat = 0.25f * clearcoat(g, i), coatAlpha = rsl::mix(0.1f, 0.001f, clearcoatgloss(g, i));
+    coat = 0.25f * in.clearcoat[i], coatAlpha = rsl::mix(0.1f, 0.001f, in.clearcoatgloss[i]);
     matte = 1 - metal;
   }
   /// diffuse() and glossy() are BRDFs times pi, for light that is E/pi. diffuse() includes the sheen.
@@ -112,7 +138,7 @@ struct Lobes {
 /// One batch of points with their materials.
 class Glossy {
  public:
-  Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const rsl::Vec3Array& paint)
+  Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const Inputs& inputs)
       : b_(b),
         g_(b.g),
         ofLights_(static_cast<int>(g_->call->lobeSamples(g_->host, g_))),
@@ -122,7 +148,7 @@ class Glossy {
         density_(g_),
         cl_(g_) {
     lobes_.reserve(static_cast<size_t>(g_->count));
-    for (int i = 0; i < g_->count; ++i) lobes_.emplace_back(N[i], V[i], Material(g_, i, paint[i]));
+    for (int i = 0; i < g_->count; ++i) lobes_.emplace_back(N[i], V[i], Material(g_, i, inputs));
   }
   const Lobes& operator[](int i) const { return lobes_[static_cast<size_t>(i)]; }
 
@@ -176,15 +202,17 @@ class Glossy {
   rsl::Vec3Array cl_;
 };
 
-void shade(const TmGrid* g) {
-  const rsl::Batch b(g);
-  const rsl::Vec3Array N = b.facingNormals(), V = b.towardsViewer(), ambient = b.ambient();
-  rsl::Vec3Array paint(g), diffuse(g), highlight(g), mirrored(g);
-  for (int i : b) paint.set(i, {1, 1, 1});
-  if (*texturename(g)) b.texture(texturename(g), paint);
+/// `Opacity` of a point is its Oi.
+template <class Opacity>
+void shadeWith(const rsl::Batch& b, const Opacity& Oi) {
+  const TmGrid* g = b.g;
+  const rsl::Vec3Array N = normalmap.facingNormals(b), V = b.towardsViewer(), ambient = b.ambient();
+  rsl::Vec3Array diffuse(g), highlight(g), mirrored(g);
+  const Inputs inputs(b);
+  const ColorPicture glow(b, emissionmap(g), linearize(g) != 0);
   // Gather rays carry diffuse light alone.
   const bool shiny = b.wantsHighlights();
-  Glossy glossy(b, N, V, paint);
+  Glossy glossy(b, N, V, inputs);
   for (TmIlluminance sample = tmIlluminanceDefaults(); b.illuminance(sample);) {
     for (int i : b) {
       const Vec3 L = rsl::get(sample.direction, i), H = rsl::normalize(L + V[i]);
@@ -205,18 +233,102 @@ void shade(const TmGrid* g) {
   for (int i : b) {
     const Material& m = glossy[i].material;
     const Color matte = m.matte * m.base * ambient[i] + diffuse[i];
-    b.output(i, matte + highlight[i] + mirrored[i] + emission(g, i), b.Os(i));
-    if (diffusePart.wanted(g)) diffusePart.set(g, i, b.Os(i) * matte);
-    if (specularPart.wanted(g)) specularPart.set(g, i, b.Os(i) * highlight[i]);
-    if (reflectionPart.wanted(g)) reflectionPart.set(g, i, b.Os(i) * mirrored[i]);
-    if (albedo.wanted(g)) albedo.set(g, i, b.Os(i) * m.base);
+    b.output(i, matte + highlight[i] + mirrored[i] + emission(g, i) * glow[i], Oi(i));
+    if (diffusePart.wanted(g)) diffusePart.set(g, i, Oi(i) * matte);
+    if (specularPart.wanted(g)) specularPart.set(g, i, Oi(i) * highlight[i]);
+    if (reflectionPart.wanted(g)) reflectionPart.set(g, i, Oi(i) * mirrored[i]);
+    if (albedo.wanted(g)) albedo.set(g, i, Oi(i) * m.base);
   }
+}
+
+void shade(const TmGrid* g) {
+  const rsl::Batch b(g);
+  shadeWith(b, [&](int i) { return b.Os(i); });
+}
+
+void shadeCutout(const TmGrid* g) {
+  const rsl::Batch b(g);
+  const MappedValues share(b, opacity);
+  shadeWith(b, [&](int i) { return rsl::clamp(share[i], 0, 1) * b.Os(i); });
 }
 }  // namespace
 
-extern const rsl::Shader disneyShader;
+extern const rsl::Shader disneyShader, disneycutoutShader;
 const rsl::Shader disneyShader(TM_SURFACE, "disney", "principled surface of base colour Cs (Burley 2012)",
                                TM_KEEPS_OPACITY | TM_TRACES | TM_TRACES_HIGHLIGHTS | TM_DERIVATIVES, shade,
-                               {&metallic, &specular, &speculartint, &roughness, &sheen, &sheentint, &clearcoat,
-                                &clearcoatgloss, &reflections, &emission, &texturename, &diffusePart, &specularPart,
-                                &reflectionPart, &albedo});
+                               {&metallic.value,
+                                &specular.value,
+                                &speculartint.value,
+                                &roughness.value,
+                                &sheen.value,
+                                &sheentint.value,
+                                &clearcoat.value,
+                                &clearcoatgloss.value,
+                                &reflections,
+                                &emission,
+                                &texturename,
+                                &diffusePart,
+                                &specularPart,
+                                &reflectionPart,
+                                &albedo,
+                                &metallic.map,
+                                &metallic.channel,
+                                &specular.map,
+                                &specular.channel,
+                                &speculartint.map,
+                                &speculartint.channel,
+                                &roughness.map,
+                                &roughness.channel,
+                                &sheen.map,
+                                &sheen.channel,
+                                &sheentint.map,
+                                &sheentint.channel,
+                                &clearcoat.map,
+                                &clearcoat.channel,
+                                &clearcoatgloss.map,
+                                &clearcoatgloss.channel,
+                                &emissionmap,
+                                &linearize,
+                                &normalmap.map,
+                                &normalmap.scale});
+// The same parameters may serve two shaders at the same places.
+const rsl::Shader disneycutoutShader(TM_SURFACE, "disneycutout", "disney with a picture of its opacity",
+                                     TM_TRACES | TM_TRACES_HIGHLIGHTS | TM_DERIVATIVES, shadeCutout,
+                                     {&metallic.value,
+                                      &specular.value,
+                                      &speculartint.value,
+                                      &roughness.value,
+                                      &sheen.value,
+                                      &sheentint.value,
+                                      &clearcoat.value,
+                                      &clearcoatgloss.value,
+                                      &reflections,
+                                      &emission,
+                                      &texturename,
+                                      &diffusePart,
+                                      &specularPart,
+                                      &reflectionPart,
+                                      &albedo,
+                                      &metallic.map,
+                                      &metallic.channel,
+                                      &specular.map,
+                                      &specular.channel,
+                                      &speculartint.map,
+                                      &speculartint.channel,
+                                      &roughness.map,
+                                      &roughness.channel,
+                                      &sheen.map,
+                                      &sheen.channel,
+                                      &sheentint.map,
+                                      &sheentint.channel,
+                                      &clearcoat.map,
+                                      &clearcoat.channel,
+                                      &clearcoatgloss.map,
+                                      &clearcoatgloss.channel,
+                                      &emissionmap,
+                                      &linearize,
+                                      &normalmap.map,
+                                      &normalmap.scale,
+                                      &opacity.value,
+                                      &opacity.map,
+                                      &opacity.channel});

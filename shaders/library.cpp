@@ -4,7 +4,8 @@ extern const rsl::Shader constantShader, matteShader, metalShader, plasticShader
     defaultsurfaceShader, ambientlightShader, distantlightShader, pointlightShader, spotlightShader, arealightShader,
     environmentlightShader, indirectlightShader, filterlightShader, shadowspotShader, shadowpointShader,
     shadowdistantShader, shinymetalShader, fogShader, depthcueShader, backgroundShader, clamptoalphaShader, bumpyShader,
-    noisybumpShader, mirrorShader, glassShader, occlusionlightShader, disneyShader, daylightShader, sunlightShader;
+    noisybumpShader, mirrorShader, glassShader, occlusionlightShader, disneyShader, disneycutoutShader, daylightShader,
+    sunlightShader;
 
 const TmShaderLibrary* tomales_builtin_shaders(void) {
   static const TmShader* const shaders[] = {constantShader,      matteShader,          metalShader,
@@ -16,7 +17,8 @@ const TmShaderLibrary* tomales_builtin_shaders(void) {
                                             fogShader,           depthcueShader,       backgroundShader,
                                             clamptoalphaShader,  bumpyShader,          noisybumpShader,
                                             mirrorShader,        glassShader,          occlusionlightShader,
-                                            disneyShader,        daylightShader,       sunlightShader};
+                                            disneyShader,        disneycutoutShader,   daylightShader,
+                                            sunlightShader};
   static const TmShaderLibrary library = rsl::libraryOf(shaders);
   return &library;
 }

@@ -207,7 +207,9 @@ bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::str
       handle = known.tiles.begin()->second;
     }
     const auto edge = [&](const float* e) { return e && std::isfinite(e[i]) ? e[i] : 0.0f; };
-    if (handle) {
+    // OpenImageIO 2.4 reads beyond the texel where a picture lacks even the first channel.
+    const OIIO::ImageSpec* spec = handle ? system->imagespec(handle, thread) : nullptr;
+    if (handle && !(spec && q.channel >= spec->nchannels)) {
       found = system->texture(handle, thread, options, s, t, edge(q.su), edge(q.tu), edge(q.sv), edge(q.tv), n, texel);
       ++lookups;
     }

@@ -38,6 +38,22 @@ void splitTextureCoordinates(const Param& param, const std::vector<float>& value
   }
 }
 
+/// The points of an hpoint, which shaders take as such (RISpec 3.2, section 3.1). Rational patches weigh what is at
+/// their vertices by their own weights, which are those of a copy of Pw.
+void divideByWeight(Primvar& p) {
+  std::vector<float> points;
+  points.reserve(p.values.size() / 4 * 3);
+  for (size_t k = 0; k < p.values.size(); k += 4)
+    for (size_t c = 0; c < 3; ++c) points.push_back(p.values[k + c] / p.values[k + 3]);
+  p.type = ValueType::Point, p.width = p.width / 4 * 3, p.values = std::move(points);
+}
+
+bool hasWeights(const std::vector<float>& values) {
+  for (size_t k = 3; k < values.size(); k += 4)
+    if (values[k] == 0) return false;
+  return true;
+}
+
 void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Primvar>& out, Problems& problems) {
   if (param.type == ValueType::String) {
     if (param.strings.size() == 1 && (param.storage == Storage::Constant || param.storage == Storage::Uniform))
@@ -53,10 +69,13 @@ void takePrimvar(const Param& param, const PrimvarCounts& counts, std::vector<Pr
                                    values.size(), elements, needed));
     return;
   }
-  if (param.name == "st" && param.width() == 2)
-    splitTextureCoordinates(param, values, out);
-  else
-    out.push_back({param.name, param.storage, param.type, param.width(), std::move(values)});
+  if (param.name == "st" && param.width() == 2) return splitTextureCoordinates(param, values, out);
+  if (param.type == ValueType::HPoint && !hasWeights(values)) {
+    problems.push_back(fmt::format("{} has a point of weight 0; it was dropped", param.name));
+    return;
+  }
+  Primvar& p = out.emplace_back(Primvar{param.name, param.storage, param.type, param.width(), std::move(values)});
+  if (p.type == ValueType::HPoint) divideByWeight(p);
 }
 
 [[noreturn]] void wrongPositionCount(const char* name, size_t values, size_t vertices, size_t width) {

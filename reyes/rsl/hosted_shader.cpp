@@ -8,6 +8,7 @@
 #include "reyes/rsl/machine/machine.h"
 #include "reyes/rsl/passes/passes.h"
 #include "reyes/rsl/passes/walk.h"
+#include "reyes/rsl_host.h"
 
 namespace tomales::compiler {
 namespace {
@@ -32,7 +33,7 @@ int32_t typeOf(const Parameter& p) {
                                        TM_VECTOR, TM_NORMAL, TM_MATRIX, TM_STRING};
   int32_t type = kTypes[static_cast<size_t>(p.type.base)];
   if (p.output) type |= TM_OUTPUT;
-  if (p.detail == Detail::Uniform && !p.output) type |= TM_UNIFORM;
+  if (p.type.isArray()) type |= kArrayVaries;
   return type;
 }
 

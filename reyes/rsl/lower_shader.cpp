@@ -15,6 +15,14 @@ const Expr& inShaderSpace(const Expr& e) {
   return e.kind == ExprKind::Cast && e.text == "shader" && spatial ? *e.args[0] : e;
 }
 
+/// Is a part of it given in a space by name? What is constant of that ("current") is so in current space, and the host
+/// takes what it knows of a default to be in the shader's.
+bool namesSpace(const Expr& e) {
+  const bool spatial = (e.written.isTriple() && e.written.base != Base::Color) || e.written.is(Base::Matrix);
+  if (e.kind == ExprKind::Cast && !e.text.empty() && spatial) return true;
+  return std::any_of(e.args.begin(), e.args.end(), [](const ExprPtr& a) { return namesSpace(*a); });
+}
+
 }  // namespace
 
 void Lowering::shader(const Shader& s) {
@@ -106,10 +114,10 @@ bool Lowering::constantDefault(const Variable& v, Parameter& p) {
     scratch.kind = code_.kind;
     Messages later;  // the same is told when the shader itself is lowered
     Lowering alone(scratch, later);
-    const int32_t reg = alone.value(inShaderSpace(*elements[k]), {v.type.base});
-    const int32_t folded = foldConstants(scratch, reg);
+    const Expr& e = inShaderSpace(*elements[k]);
+    const int32_t folded = foldConstants(scratch, alone.value(e, {v.type.base}));
     const Register& r = scratch.registers[static_cast<size_t>(folded)];
-    if (r.origin != Origin::Constant) {
+    if (r.origin != Origin::Constant || namesSpace(e)) {
       constants = false;
     } else if (of == Shape::Text) {
       p.texts[k] = r.texts[0];

@@ -8,6 +8,20 @@
 #include "reyes/shade/illuminate.h"
 
 namespace tomales {
+namespace {
+
+/// As kArrayVaries (reyes/rsl_host.h) wants it.
+TmValue arrayOf(const Override& o, int32_t length, const std::function<const float*(int)>& primvar, const TmGrid& g,
+                Arena& arena) {
+  TmValue out{{}, 1, length, nullptr};
+  float* const all = arena.floats(g.padded * o.width);
+  const auto place = [&](int k) { return all + static_cast<ptrdiff_t>(k) * g.padded; };
+  for (int k = 0; k < o.width; ++k) std::copy_n(primvar(o.primvarOffset + k), g.count, place(k));
+  for (int k = 0; k < o.width / length; ++k) out.c[k] = place(k);
+  return out;
+}
+
+}  // namespace
 
 Batch::Batch(const BoundScene& s, const BoundGroup& g, const ShadeContext& c, Arena& a)
     : scene(s), group(g), context(c), arena(a) {}
@@ -40,7 +54,10 @@ void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Ov
   params_ = shader.values;
   for (const Override& o : overrides) {
     TmValue& value = params_[static_cast<size_t>(o.param)];
-    for (int k = 0; k < o.width; ++k) value.c[k] = primvar(o.primvarOffset + k);
+    if (value.length > 1)
+      value = arrayOf(o, value.length, primvar, tm, arena);
+    else
+      for (int k = 0; k < o.width; ++k) value.c[k] = primvar(o.primvarOffset + k);
     value.step = 1;
   }
   tm.params = params_.data();

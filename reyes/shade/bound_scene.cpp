@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "reyes/dialect.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shade/binder.h"
+#include "reyes/shade/parameter_values.h"
 #include "reyes/shader/params.h"
 #include "reyes/shader_registry.h"
 
@@ -16,10 +18,11 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
   for (int i = 0; i < bound.shader->paramCount; ++i) {
     const TmParamDecl& decl = bound.shader->params[i];
     if (isOutput(decl)) continue;
-    const int width = typeOf(decl) == TM_FLOAT ? 1 : typeOf(decl) <= TM_NORMAL ? 3 : 0;
+    const int length = std::max(1, decl.arrayLength), width = length * floatsOf(typeOf(decl));
+    const bool overridable = typeOf(decl) <= TM_NORMAL && (length == 1 || (decl.type & kArrayVaries) != 0);
     int offset = 0;
     for (const Primvar& p : primvars) {
-      const bool same = p.name == decl.name && p.width == width && decl.arrayLength == 1;
+      const bool same = overridable && p.name == decl.name && p.width == width;
       if (same && isUniform(decl))
         log.report(Severity::Warning, "shader-parameter-uniform", bound.where,
                    fmt::format(

@@ -3,8 +3,10 @@ import glob
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
+import time
 
 arguments = sys.argv[sys.argv.index("--") + 1 :]
 sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # scenes.py renders nothing, and lends its tools
@@ -12,7 +14,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 import scenes  # noqa: E402
 from scenes import add, camera, empty_scene, exr, light, material  # noqa: E402
-from tomales_blender import passes as passes_module  # noqa: E402
+from tomales_blender import panels, passes as passes_module  # noqa: E402
+from tomales_blender.engine import TomalesEngine  # noqa: E402
 
 FOLDER, found = arguments[0], {}
 
@@ -148,7 +151,76 @@ def unsupported():
     return render(scene, "unsupported", export_only=True)
 
 
-for feature in (passes, animation, deformation, faults, strands, override, refused, unsupported):
+def cancel():
+    """Stops at the first question whether to; seconds until the scene, which takes minutes, is given up."""
+    scene = scenes.area()
+    scene.render.engine, scene.tomales.pixel_samples, scene.tomales.light_samples = "TOMALES", 32, 4096
+    asked, TomalesEngine._is_given_up = TomalesEngine._is_given_up, lambda self: True
+    begin = time.time()
+    bpy.ops.render.render()
+    TomalesEngine._is_given_up = asked
+    return time.time() - begin
+
+
+def progress():
+    """What the engine has said while it rendered: the shares rise to the whole."""
+    scene = scenes.area()
+    scene.render.engine = "TOMALES"
+    shares = []
+    show, TomalesEngine._show_progress = TomalesEngine._show_progress, lambda self: shares.append(self._progress)
+    bpy.ops.render.render()
+    TomalesEngine._show_progress = show
+    return {"rises": shares == sorted(shares), "last": shares[-1]}
+
+
+GLOW = "surface glow(output varying color warm = 0;) { warm = color(0.25, 0.5, 0.75); Ci = Cs * diffuse(faceforward(normalize(N), I)); Oi = 1; }"
+
+
+def layers():
+    """Two view layers, of which the second has an AOV of a shader's output, and a light group."""
+    scene = scenes.area()
+    scene.objects["Plane"].data.materials[0].tomales.shader = "glow"
+    scene.objects["AREA"].lightgroup = "key"
+    scene.view_layers.new("Second")
+    layer = scene.view_layers["Second"]
+    layer.aovs.add().name = "warm"
+    layer.lightgroups.add(name="key")
+    layer.use_pass_position = True
+    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    os.makedirs(os.path.join(FOLDER, "layers"), exist_ok=True)
+    with open(os.path.join(FOLDER, "layers", "glow.sl"), "w") as file:
+        file.write(GLOW)
+    render(scene, "layers")
+    channels = exr.read(scene.render.filepath)
+    middle = {name: float(values[36, 48]) for name, values in channels.items()}
+    light = {name: float(values.mean()) for name, values in channels.items() if "Combined" in name and name.endswith("R")}
+    return {"middle": middle, "light": light}
+
+
+def moved():
+    """A frame with pictures that is exported, moved and rendered where it is then; and one without a folder, of which two frames are rendered."""
+    scene = scenes.texture()
+    render(scene, "exported", export_only=True)
+    there = os.path.join(FOLDER, "moved")
+    shutil.move(os.path.join(FOLDER, "exported"), there)
+    done = subprocess.run([os.environ["TOMALES"], "untitled.0001.rib"], cwd=there, capture_output=True, text=True)
+    scene.tomales.export_only, scene.tomales.folder = False, ""
+    scene.frame_start, scene.frame_end, scene.render.filepath = 1, 2, os.path.join(FOLDER, "animated")
+    bpy.ops.render.render(animation=True)
+    means = [float(exr.read(f"{FOLDER}/animated{frame:04d}.exr")["R"].mean()) for frame in (1, 2)]
+    return {"code": done.returncode, "said": done.stderr, "moved": float(exr.read(os.path.join(there, "untitled.0001.exr"))["R"].mean()), "frames": means}
+
+
+def interface():
+    """The properties that the button makes of what the renderer says of a shader."""
+    made, _ = material("m", (0.5, 0.5, 0.5))
+    made.tomales.shader = "plastic"
+    panels.fill(made.tomales, panels.parameters_of("plastic"))
+    return {p.name: [p.kind.split()[-1], p.value()] for p in made.tomales.parameters}
+
+
+FEATURES = (passes, animation, deformation, faults, strands, override, refused, unsupported, cancel, progress, layers, moved, interface)
+for feature in FEATURES:
     found[feature.__name__] = feature()
     with open(os.path.join(FOLDER, "features.json"), "w") as file:
         json.dump(found, file)

@@ -53,8 +53,6 @@ def camera(scene, location, target=(0, 0, 0), **settings):
     return obj
 
 
-
-
 def light(scene, kind, location, rotation=(0, 0, 0), **settings):
     data = bpy.data.lights.new(kind, kind)
     for name, value in settings.items():
@@ -262,7 +260,203 @@ def subdivision():
     return scene
 
 
-SCENES = [area, disk_lamp, sun, point, spot, camera_shift, orthographic, focus, motion, texture, panorama, instances, room, subdivision]
+def soft_sun():
+    scene = sun()
+    scene.objects["SUN"].data.angle = 0.3
+    scene.tomales.light_samples = 256
+    return scene
+
+
+def lit_plane(kind="ShaderNodeBsdfDiffuse", **inputs):
+    """A plane under a slanting sun, whose nodes the caller adds: scene, node tree, shader."""
+    scene = empty_scene()
+    made, shader = material("graph", (0.5, 0.5, 0.5), kind, **inputs)
+    add(bpy.ops.mesh.primitive_plane_add, made, size=4)
+    camera(scene, (0.5, -1, 6))
+    light(scene, "SUN", (0, 0, 5), (0.6, 0.4, 0), energy=3, angle=0)
+    scene.tomales.bounces = 0
+    scene.cycles.max_bounces = 0
+    return scene, made.node_tree, shader
+
+
+def image_node(tree, image, **settings):
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    for name, value in settings.items():
+        setattr(node, name, value)
+    return node
+
+
+def waves(u, v):
+    """Heights that are no mirror image of themselves, and periodic as pictures are."""
+    u, v = 2 * math.pi * u, 2 * math.pi * v
+    return numpy.repeat((0.5 + 0.25 * numpy.sin(u + v) + 0.25 * numpy.sin(2 * v - u + 1))[..., None], 3, -1)
+
+
+def bump():
+    scene, tree, shader = lit_plane()
+    node = tree.nodes.new("ShaderNodeBump")
+    node.inputs["Distance"].default_value, node.inputs["Strength"].default_value = 0.3, 1
+    tree.links.new(image_node(tree, picture("waves", 256, 256, waves, True)).outputs["Color"], node.inputs["Height"])
+    tree.links.new(node.outputs["Normal"], shader.inputs["Normal"])
+    return scene
+
+
+def normal_map():
+    scene, tree, shader = lit_plane()
+    node = tree.nodes.new("ShaderNodeNormalMap")
+    node.uv_map = "UVMap"
+    tilted = picture("tilted", 64, 64, lambda u, v: numpy.stack([0.5 + 0.3 * numpy.sin(6 * u), 0.5 + 0.25 * v, numpy.full_like(u, 0.9)], -1), True)
+    tree.links.new(image_node(tree, tilted).outputs["Color"], node.inputs["Color"])
+    tree.links.new(node.outputs["Normal"], shader.inputs["Normal"])
+    return scene
+
+
+def displaced():
+    """A displacement that moves the surface, seen from the side."""
+    scene, tree, shader = lit_plane()
+    plane = scene.objects["Plane"]
+    modifier = plane.modifiers.new("fine", "SUBSURF")
+    modifier.subdivision_type, modifier.render_levels = "SIMPLE", 7
+    plane.material_slots[0].material.cycles.displacement_method = "DISPLACEMENT"
+    node = tree.nodes.new("ShaderNodeDisplacement")
+    node.inputs["Scale"].default_value, node.inputs["Midlevel"].default_value = 0.6, 0.3
+    tree.links.new(image_node(tree, picture("waves", 256, 256, waves, True)).outputs["Color"], node.inputs["Height"])
+    tree.links.new(node.outputs["Displacement"], tree.nodes["Material Output"].inputs["Displacement"])
+    camera(scene, (1, -5, 1.5))
+    return scene
+
+
+def graph():
+    """Two pictures, one turned and repeated, mixed by a third through the nodes that artists use, in a group."""
+    scene, tree, shader = lit_plane()
+    group = bpy.data.node_groups.new("mixed", "ShaderNodeTree")
+    group.outputs.new("NodeSocketColor", "Color")
+    group.inputs.new("NodeSocketColor", "Tint")
+    nodes, link = group.nodes, group.links.new
+    outside, inside = nodes.new("NodeGroupInput"), nodes.new("NodeGroupOutput")
+    stripes = picture("stripes", 64, 64, lambda u, v: numpy.stack([u, 0.2 + 0 * u, (v > 0.5) * 0.8], -1))
+    one, two = image_node(group, stripes), image_node(group, picture("ramp", 32, 32, lambda u, v: numpy.stack([v, u, u * v], -1), True))
+    mapping, coordinates = nodes.new("ShaderNodeMapping"), nodes.new("ShaderNodeTexCoord")
+    mapping.inputs["Scale"].default_value, mapping.inputs["Rotation"].default_value = (2, 2, 1), (0, 0, math.pi / 2)
+    link(coordinates.outputs["UV"], mapping.inputs["Vector"])
+    link(mapping.outputs["Vector"], one.inputs["Vector"])
+    hue, ramp, mix, power = (nodes.new(f"ShaderNode{kind}") for kind in ("HueSaturation", "ValToRGB", "MixRGB", "Math"))
+    hue.inputs["Hue"].default_value, hue.inputs["Saturation"].default_value = 0.6, 0.8
+    link(one.outputs["Color"], hue.inputs["Color"])
+    power.operation = "POWER"
+    power.inputs[1].default_value = 2
+    link(two.outputs["Color"], power.inputs[0])
+    link(power.outputs["Value"], ramp.inputs["Fac"])
+    link(ramp.outputs["Color"], mix.inputs["Fac"])
+    link(hue.outputs["Color"], mix.inputs["Color1"])
+    link(outside.outputs["Tint"], mix.inputs["Color2"])
+    link(mix.outputs["Color"], inside.inputs["Color"])
+    node = tree.nodes.new("ShaderNodeGroup")
+    node.node_tree = group
+    node.inputs["Tint"].default_value = (0.1, 0.7, 0.9, 1)
+    tree.links.new(node.outputs["Color"], shader.inputs["Color"])
+    return scene
+
+
+def mixture():
+    """A quarter of a surface that is not there over one that glows a little, with colours of the vertices."""
+    scene, tree, shader = lit_plane()
+    plane = scene.objects["Plane"]
+    colors = plane.data.color_attributes.new("Painted", "FLOAT_COLOR", "CORNER")
+    for item, loop in zip(colors.data, plane.data.loops):  # linear over the plane, so that no diagonal shows
+        x, y, _ = plane.data.vertices[loop.vertex_index].co
+        item.color = (0.5 + 0.2 * x, 0.5 + 0.2 * y, 0.4 - 0.1 * x, 1)
+    painted, clear, mix, glow, both = (
+        tree.nodes.new(f"ShaderNode{kind}") for kind in ("VertexColor", "BsdfTransparent", "MixShader", "Emission", "AddShader")
+    )
+    painted.layer_name = "Painted"
+    mix.inputs[0].default_value = 0.25
+    glow.inputs["Color"].default_value = (0.1, 0.1, 0.3, 1)
+    tree.links.new(painted.outputs["Color"], shader.inputs["Color"])
+    tree.links.new(shader.outputs[0], both.inputs[0])
+    tree.links.new(glow.outputs[0], both.inputs[1])
+    tree.links.new(both.outputs[0], mix.inputs[1])
+    tree.links.new(clear.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    scene.render.film_transparent = True
+    return scene
+
+
+def turned_sky():
+    scene = panorama()
+    tree = scene.world.node_tree
+    mapping, coordinates = tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeTexCoord")
+    mapping.inputs["Rotation"].default_value = (0.3, 0, 1.2)
+    tree.links.new(coordinates.outputs["Generated"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs["Vector"], tree.nodes["Environment Texture"].inputs["Vector"])
+    tree.nodes["Background"].inputs["Strength"].default_value = 0.5
+    return scene
+
+
+def creases():
+    scene = subdivision()
+    cube = scene.objects["Cube"]
+    for edge in cube.data.edges[:5]:
+        edge.crease = 0.6
+    for edge in cube.data.edges[5:8]:
+        edge.crease = 1
+    return scene
+
+
+def hair():
+    """Strands of a particle system on a ball. They glow, because renderers differ in how light falls on a ribbon."""
+    scene = empty_scene()
+    made, _ = material("hair", (0.7, 0.4, 0.2), "ShaderNodeEmission")
+    ball = add(bpy.ops.mesh.primitive_uv_sphere_add, made, radius=1)
+    settings = ball.modifiers.new("hair", "PARTICLE_SYSTEM").particle_system.settings
+    settings.type, settings.count, settings.hair_length, settings.render_step = "HAIR", 300, 0.8, 3
+    settings.root_radius, settings.tip_radius, settings.radius_scale = 3, 3, 0.01
+    scene.world.color = (0, 0, 0.2)
+    camera(scene, (0, -6, 2))
+    scene.tomales.bounces = 0
+    return scene
+
+
+def deformation():
+    """A glowing cube that a shape key moves within the shutter."""
+    scene = empty_scene()
+    glow, _ = material("glow", (1, 0.5, 0.2), "ShaderNodeEmission")
+    cube = add(bpy.ops.mesh.primitive_cube_add, glow, size=1.5)
+    cube.shape_key_add(name="Basis")
+    key = cube.shape_key_add(name="aside")
+    for point in key.data:
+        point.co.x += 1 + point.co.z
+    for frame, value in ((0, 0), (2, 2)):
+        key.value = value
+        key.slider_max = 2
+        key.keyframe_insert("value", frame=frame)
+    for curve in cube.data.shape_keys.animation_data.action.fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    camera(scene, (0, -6, 1))
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1
+    scene.tomales.pixel_samples = 8
+    scene.tomales.bounces = 0
+    scene.frame_set(1)
+    return scene
+
+
+def metal():
+    """Polished metal that mirrors a lit floor."""
+    scene = empty_scene()
+    floor((0.6, 0.3, 0.2))
+    made, _ = material("metal", (0.9, 0.9, 0.9), "ShaderNodeBsdfPrincipled", Metallic=1.0, Roughness=0.3)
+    add(bpy.ops.mesh.primitive_uv_sphere_add, made, radius=1, location=(0, 0, 1), segments=64, ring_count=32)
+    bpy.ops.object.shade_smooth()
+    camera(scene, (0, -6, 3))
+    light(scene, "AREA", (1, -1, 4), energy=300, size=2)
+    scene.tomales.reflection_samples = 32
+    return scene
+
+
+SCENES = [area, disk_lamp, sun, soft_sun, point, spot, camera_shift, orthographic, focus, motion, deformation, texture, panorama, turned_sky]
+SCENES += [instances, room, subdivision, creases, bump, normal_map, displaced, graph, mixture, hair, metal]
 
 
 def blocks(path):

@@ -5,6 +5,7 @@ A model is right-handed with y up, unless its format says otherwise. Faces are c
 import base64
 import json
 import struct
+import zlib
 
 #: A unit cube around the origin: a face, its normal, its corners with texture coordinates whose v runs up.
 FACES = {
@@ -32,6 +33,15 @@ def cube():
 
 def triangles(quads):
     return [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+
+
+def png(size, texel):
+    """A square picture; `texel` gives the bytes of column x, row y from the top: three, or four with alpha."""
+    rows = [[bytes(texel(x, y)) for x in range(size)] for y in range(size)]
+    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    head = struct.pack(">IIBBBBB", size, size, 8, 2 if len(rows[0][0]) == 3 else 6, 0, 0, 0)
+    body = zlib.compress(b"".join(b"\0" + b"".join(row) for row in rows))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")
 
 
 def obj(positions, faces, uvs=(), normals=(), colors=(), before="", material=""):

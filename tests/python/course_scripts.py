@@ -71,15 +71,19 @@ def run(script):
 
 
 def all_of(folder):
-    """The scripts of one folder, one after the other."""
-    return [(script, *run(script)) for script in sorted(folder.glob("*.py")) if given.only in str(script) and "import prman" in script.read_text(errors="replace")]
+    """The scripts of one folder, one after the other. Says how each ends."""
+    ends = []
+    for script in sorted(folder.glob("*.py")):
+        if given.only in str(script) and "import prman" in script.read_text(errors="replace"):
+            kind, reason = run(script)
+            print(f"{kind:<8} {script.relative_to(copy)}: {reason[:300]}", flush=True)
+            ends.append(kind)
+    return ends
 
 
 folders = sorted({f.parent for f in copy.rglob("*.py")})
 with concurrent.futures.ThreadPoolExecutor(given.j) as pool:
     ends = [end for some in pool.map(all_of, folders) for end in some]
-for script, kind, reason in sorted(ends, key=lambda e: e[1]):
-    print(f"{kind:<8} {script.relative_to(copy)}: {reason[:300]}")
-counts = {kind: sum(e[1] == kind for e in ends) for kind in ("whole", "missing", "module", "script", "time", "none")}
+counts = {kind: ends.count(kind) for kind in ("whole", "missing", "module", "script", "time", "none")}
 print(f"{len(ends)} scripts import prman: {counts['whole']} rendered whole, {counts['missing']} with something missing, {counts['module']} modules imported; "
       f"{counts['script']} raised, {counts['time']} took too long, {counts['none']} left no picture")

@@ -1,5 +1,8 @@
 #include "reyes/bindings/assimp/look.h"
 
+#include <assimp/GltfMaterial.h>
+
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -31,9 +34,137 @@ float roughnessOf(const aiMaterial& m) {
   return exponent > 0 ? roughnessOfExponent(exponent) : 0.5f;
 }
 
+/// Pictures of a material that multiply a parameter of disney.
+struct Mapped {
+  aiTextureType type;
+  const char* map;
+  const char* multiplied;  ///< nullptr: the colour.
+  const char* channel;     ///< nullptr: all.
+  float number;            ///< Of the channel.
+};
+constexpr Mapped kMapped[] = {
+    {aiTextureType_BASE_COLOR, "texturename", nullptr, nullptr, 0},
+    {aiTextureType_DIFFUSE, "texturename", nullptr, nullptr, 0},
+    {aiTextureType_METALNESS, "metallicmap", "metallic", "metallicchannel", 0},
+    {aiTextureType_DIFFUSE_ROUGHNESS, "roughnessmap", "roughness", "roughnesschannel", 0},
+    {aiTextureType_CLEARCOAT, "clearcoatmap", "clearcoat", "clearcoatchannel", 0},
+    {aiTextureType_NORMALS, "normalmap", nullptr, nullptr, 0},
+    {aiTextureType_NORMAL_CAMERA, "normalmap", nullptr, nullptr, 0},
+    {aiTextureType_EMISSION_COLOR, "emissionmap", "emission", nullptr, 0},
+    {aiTextureType_EMISSIVE, "emissionmap", "emission", nullptr, 0},
+    {aiTextureType_OPACITY, "opacitymap", "opacity", "opacitychannel", 0},
+};
+// glTF keeps two in one picture, which Assimp has no type for.
+constexpr Mapped kMetallicRoughness[] = {{aiTextureType_UNKNOWN, "roughnessmap", "roughness", "roughnesschannel", 1},
+                                         {aiTextureType_UNKNOWN, "metallicmap", "metallic", "metallicchannel", 2}};
+
+struct LeftOut {
+  aiTextureType type;
+  const char* what;
+};
+constexpr LeftOut kLeftOut[] = {{aiTextureType_HEIGHT, "a bump map"},
+                                {aiTextureType_DISPLACEMENT, "a displacement map"},
+                                {aiTextureType_SPECULAR, "a map of specular colour"},
+                                {aiTextureType_SHININESS, "a map of shininess"},
+                                {aiTextureType_REFLECTION, "a reflection map"},
+                                {aiTextureType_TRANSMISSION, "a map of transmission"}};
+
+Param* find(ParamList& list, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const Param& p) { return p.name == name; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+/// Adds pictures to a look.
+class Painter {
+ public:
+  Painter(const aiMaterial& material, Textures& textures, Look& look)
+      : material_(material), textures_(textures), look_(look) {}
+
+  void add(const Mapped& mapped) {
+    aiString path;
+    aiTextureMapMode wrap[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+    unsigned set = 0;
+    if (find(look_.parameters, mapped.map) || material_.GetTextureCount(mapped.type) == 0 ||
+        material_.GetTexture(mapped.type, 0, &path, nullptr, &set, nullptr, nullptr, wrap) != aiReturn_SUCCESS)
+      return;
+    const std::string file = textures_.file(of(path), wrap[0], wrap[1]);
+    if (file.empty()) return;
+    if (count_++ == 0) look_.textureSet = set;
+    if (set != look_.textureSet) leaveOut("other texture coordinates for some of its pictures");
+    look_.parameters.push_back(param(mapped.map, file));
+    if (mapped.channel) look_.parameters.push_back(param(mapped.channel, mapped.number));
+    multiplyOne(mapped);
+  }
+  void leaveOut(const std::string& what) { look_.leftOut += (look_.leftOut.empty() ? "" : ", ") + what; }
+
+ private:
+  /// A picture stands alone where its material gives no number to multiply, or 0, as formats without factors do.
+  void multiplyOne(const Mapped& mapped) {
+    if (!mapped.multiplied || mapped.multiplied == std::string("opacity")) return;
+    const bool isColor = mapped.multiplied == std::string("emission"),
+               isRoughness = mapped.multiplied == std::string("roughness");
+    Param* p = find(look_.parameters, mapped.multiplied);
+    if (isColor && !p)
+      look_.parameters.push_back(param(mapped.multiplied, ValueType::Color, vec3(1.0f)));
+    else if (!p)
+      look_.parameters.push_back(param(mapped.multiplied, 1.0f));
+    else if (isRoughness && !number(material_, AI_MATKEY_ROUGHNESS_FACTOR))
+      p->floats = {1};
+  }
+
+  const aiMaterial& material_;
+  Textures& textures_;
+  Look& look_;
+  int count_ = 0;
+};
+
+std::string alphaMode(const aiMaterial& material) {
+  aiString mode;
+  return material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS ? of(mode) : "";
+}
+
+/// Its reader always says how alpha counts.
+bool isGltf(const aiMaterial& material) { return !alphaMode(material).empty(); }
+
+/// Alpha of the base colour's picture, where glTF says that it counts.
+void addAlpha(const aiMaterial& material, Look& look) {
+  const Param* paint = find(look.parameters, "texturename");
+  if (!paint || find(look.parameters, "opacitymap") || alphaMode(material) == "OPAQUE" || !isGltf(material)) return;
+  look.parameters.push_back(param("opacitymap", std::string(paint->strings[0])));
+  look.parameters.push_back(param("opacitychannel", 3.0f));
+}
+
+/// What is not lit glows in its colour.
+void makeUnlit(Look& look) {
+  ParamList out{param("emission", ValueType::Color, look.color), param("specular", 0.0f)};
+  for (Param& p : look.parameters)
+    if (p.name == "texturename" || p.name == "opacitymap" || p.name == "opacitychannel" || p.name == "linearize") {
+      if (p.name == "texturename") p.name = "emissionmap";
+      out.push_back(p);
+    }
+  look.parameters = std::move(out), look.color = vec3(0.0f);
+}
+
+void addPictures(const aiMaterial& material, Textures& textures, bool pictureReplaces, Look& look) {
+  Painter painter(material, textures, look);
+  if (isGltf(material))
+    for (const Mapped& mapped : kMetallicRoughness) painter.add(mapped);
+  for (const Mapped& mapped : kMapped) painter.add(mapped);
+  addAlpha(material, look);
+  if (pictureReplaces && find(look.parameters, "texturename")) look.color = vec3(1.0f);
+  if (find(look.parameters, "texturename") || find(look.parameters, "emissionmap"))
+    look.parameters.push_back(param("linearize", 1.0f));
+  const float scale = number(material, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0)).value_or(1);
+  if (find(look.parameters, "normalmap") && scale != 1) look.parameters.push_back(param("normalscale", scale));
+  if (find(look.parameters, "opacitymap")) look.shader = "disneycutout";
+  for (const LeftOut& l : kLeftOut)
+    if (material.GetTextureCount(l.type) > 0) painter.leaveOut(l.what);
+  if (number(material, AI_MATKEY_TRANSMISSION_FACTOR).value_or(0) > 0) painter.leaveOut("transmission");
+}
+
 }  // namespace
 
-Look lookOf(const aiMaterial& material) {
+Look lookOf(const aiMaterial& material, Textures& textures, bool pictureReplaces) {
   Look out;
   aiString name;
   material.Get(AI_MATKEY_NAME, name);
@@ -52,12 +183,16 @@ Look lookOf(const aiMaterial& material) {
   if (const auto emitted = color(material, AI_MATKEY_COLOR_EMISSIVE); emitted && maxComponent(*emitted) > 0)
     out.parameters.push_back(
         param("emission", ValueType::Color, *emitted * number(material, AI_MATKEY_EMISSIVE_INTENSITY).value_or(1)));
+  addPictures(material, textures, pictureReplaces, out);
+  int shading = 0;
+  if (material.Get(AI_MATKEY_SHADING_MODEL, shading) == aiReturn_SUCCESS && shading == aiShadingMode_Unlit)
+    makeUnlit(out);
   return out;
 }
 
 Requests requestsOf(const Look& look) {
   return {call("Color", look.color), call("Opacity", vec3(look.opacity)),
-          callWith(look.parameters, "Surface", "disney")};
+          callWith(look.parameters, "Surface", look.shader)};
 }
 
 }  // namespace tomales::model

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "reyes/bindings/assimp/rib_calls.h"
+#include "reyes/bindings/assimp/textures.h"
 
 namespace tomales::model {
 
@@ -12,12 +13,14 @@ struct Look {
   std::string name;
   vec3 color{0.8f};
   float opacity = 1;
-  ParamList parameters;         ///< Of disney.
-  unsigned textureSet = 0;      ///< Which of a mesh's texture coordinates are st.
-  mat3 textureTransform{1.0f};  ///< Of (s, t, 1), before t is turned to run down the picture.
+  std::string shader = "disney";
+  ParamList parameters;
+  unsigned textureSet = 0;  ///< Which of a mesh's texture coordinates are st.
+  std::string leftOut;      ///< What the shader has nothing for; empty: nothing.
 };
 
-Look lookOf(const aiMaterial& material);
+/// `pictureReplaces`: a picture takes the place of the colour, which it multiplies elsewhere.
+Look lookOf(const aiMaterial& material, Textures& textures, bool pictureReplaces);
 /// Color, Opacity and Surface.
 Requests requestsOf(const Look& look);
 

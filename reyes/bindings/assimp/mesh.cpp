@@ -87,9 +87,8 @@ class Variables {
     for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
       if (!mesh.HasTextureCoords(set)) continue;
       const std::string name = set == look.textureSet ? "st" : fmt::format("st{}", set);
-      const mat3 transform = set == look.textureSet ? look.textureTransform : mat3(1.0f);
       add(name, ValueType::Float, 2, [&](int v) {
-        const vec3 uv = transform * vec3(mesh.mTextureCoords[set][v].x, mesh.mTextureCoords[set][v].y, 1);
+        const aiVector3D& uv = mesh.mTextureCoords[set][v];
         return vec3(uv.x, 1 - uv.y, 0);
       });
     }

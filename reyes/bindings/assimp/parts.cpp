@@ -20,23 +20,23 @@ std::string fileName(const std::string& stem) {
 
 }  // namespace
 
-void writePart(const std::string& path, std::string_view bytes) {
+void writePart(const std::string& path, const std::string& bytes) {
   std::string error;
-  if (!writeFile(path, std::string(bytes), error))
-    throw WriteError(fmt::format("{} cannot be written: {}", path, error));
+  if (!writeFile(path, bytes, error)) throw WriteError(fmt::format("{} cannot be written: {}", path, error));
 }
 
-std::string Parts::add(const std::string& stem, const std::string& ending, std::string_view bytes) {
+Parts::Place Parts::reserve(const std::string& stem, const std::string& ending) {
   if (count_ == 0) std::filesystem::create_directories(settings_.parts);
-  const std::string name = fmt::format("{:04}_{}{}", ++count_, fileName(stem), ending);
-  writePart(settings_.parts + "/" + name, bytes);
-  return settings_.partsByName + "/" + name;
+  const std::string name = fmt::format("/{:04}_{}{}", ++count_, fileName(stem), ending);
+  return {settings_.parts + name, settings_.partsByName + name};
 }
 
 std::string Parts::addArchive(const std::string& stem, const Requests& requests) {
   std::string rib;
   write(requests, *makeRibWriter({true, false, [&](std::string_view more) { rib += more; }}));
-  return add(stem, ".rib", rib);
+  const Place place = reserve(stem, ".rib");
+  writePart(place.path, rib);
+  return place.name;
 }
 
 }  // namespace tomales::model

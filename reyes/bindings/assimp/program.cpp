@@ -31,7 +31,8 @@ void limitResources() {
 Severity import(const model::Settings& settings, Log& log) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  const aiScene* scene = importer.ReadFile(settings.model, aiProcess_ValidateDataStructure);
+  const aiScene* scene =
+      importer.ReadFile(settings.model, aiProcess_ValidateDataStructure | aiProcess_TransformUVCoords);
   const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
   if (!scene || !scene->mRootNode)
     log.report(Severity::Error, "import-unreadable", where,

@@ -41,7 +41,7 @@ class SceneWriter {
         nodes_(nodesOf(scene, worldFromModel(settings))),
         uses_(scene.mNumMeshes, 0),
         parts_(settings) {
-    for (unsigned k = 0; k < scene.mNumMaterials; ++k) looks_.push_back(lookOf(*scene.mMaterials[k]));
+    addLooks();
     for (const Instance& i : nodes_.instances) ++uses_[i.mesh];
   }
 
@@ -57,6 +57,18 @@ class SceneWriter {
  private:
   void note(Severity severity, const char* code, const std::string& message) {
     log_.report(severity, code, where_, message);
+  }
+
+  /// In .fbx and .dae a picture stands in for a colour.
+  void addLooks() {
+    const std::string ending = endingOf(settings_.model);
+    Textures textures(scene_, settings_, parts_, log_);
+    for (unsigned k = 0; k < scene_.mNumMaterials; ++k) {
+      looks_.push_back(lookOf(*scene_.mMaterials[k], textures, ending == ".fbx" || ending == ".dae"));
+      if (const Look& look = looks_.back(); !look.leftOut.empty())
+        note(Severity::Warning, "import-material",
+             fmt::format("material \"{}\" has what disney has nothing for: {}", look.name, look.leftOut));
+    }
   }
 
   void tellOfWhatIsLeftOut() {

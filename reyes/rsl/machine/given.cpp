@@ -115,6 +115,16 @@ void take(Run& run, int32_t r, const Source& s) {
   }
 }
 
+/// An array that varies: kArrayVaries.
+void takeArray(Run& run, int32_t r, const TmValue& v) {
+  const Register& reg = run.reg(r);
+  const int32_t width = floatsOf(reg);
+  for (int32_t e = 0; e < std::min(elementsOf(reg), v.length); ++e)
+    for (int32_t c = 0; c < width; ++c)
+      std::copy_n(v.c[c] + static_cast<ptrdiff_t>(e * width) * run.padded, run.padded,
+                  run.lane(r).data + (e * width + c) * static_cast<ptrdiff_t>(run.stride(r)));
+}
+
 /// Arrays and matrices: element e of component k is c[k][e * components].
 void takeSame(Run& run, int32_t r, const TmValue& v) {
   const Register& reg = run.reg(r);
@@ -149,6 +159,7 @@ void takeParameter(Run& run, int32_t r) {
   const TmValue& v = run.given.params[reg.index];
   if (reg.shape == Shape::Text) return takeTexts(run, r, p, v);
   if (p.output) return run.program.located(r).opens ? takeDefault(run, r, p) : void();
+  if (reg.length > 0 && v.step != 0) return takeArray(run, r, v);
   if (reg.length > 0 || reg.shape == Shape::Matrix) return takeSame(run, r, v);
   take(run, r, {{v.c[0], v.c[1], v.c[2]}, v.step == 0});
 }

@@ -16,13 +16,44 @@ import tomales
 from .camera import UnsupportedCamera, resolution
 from .frame import Frame
 from .passes import Passes, wanted
-from .snapshot import ShapeCache, ends_in_subdivision
+from .snapshot import Cache, ends_in_subdivision
 
 _PERCENT = re.compile(rb"(\d+)%")
 _LOOK_S = 0.1  #: How often it is seen whether the user wants to stop.
 
-_cache = ShapeCache()  #: Of one rendering of frames; Blender makes an engine for each frame.
-_switched_off: list[tuple[bpy.types.Object, str]] = []
+
+class Session:
+    """One rendering of one frame or of many, for each of which Blender makes an engine."""
+
+    def __init__(self) -> None:
+        self.cache = Cache()
+        self._temporary: tempfile.TemporaryDirectory[str] | None = None
+        self._switched_off: list[tuple[str, str]] = []  #: Names of objects and modifiers.
+
+    def folder(self, chosen: str) -> Path:
+        if chosen:
+            return Path(bpy.path.abspath(chosen))
+        if not self._temporary:
+            self._temporary = tempfile.TemporaryDirectory(prefix="tomales_")
+        return Path(self._temporary.name)
+
+    def begin(self, scene: bpy.types.Scene) -> None:
+        """Switches modifiers off whose cages are exported."""
+        for obj in scene.objects if scene.tomales.subdivide else ():
+            if obj.type == "MESH" and not obj.library and ends_in_subdivision(obj) and obj.modifiers[-1].show_render:
+                obj.modifiers[-1].show_render = False
+                self._switched_off.append((obj.name, obj.modifiers[-1].name))
+
+    def end(self) -> None:
+        for name, modifier in self._switched_off:
+            obj = bpy.data.objects.get((name, None))
+            if obj and modifier in obj.modifiers:
+                obj.modifiers[modifier].show_render = True
+        if self._temporary:
+            self._temporary.cleanup()
+
+
+_session = Session()
 
 
 class TomalesEngine(bpy.types.RenderEngine):
@@ -34,32 +65,35 @@ class TomalesEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph: bpy.types.Depsgraph) -> None:
         self._messages: list[str] = []
-        settings = depsgraph.scene.tomales
+        for p in wanted(depsgraph.view_layer):
+            if p.own:
+                self.add_pass(p.name, len(p.channels), p.channels, layer=depsgraph.view_layer.name)
         result = self.begin_result(0, 0, *self._size(depsgraph.scene), layer=depsgraph.view_layer.name)
-        with tempfile.TemporaryDirectory(prefix="tomales_") as temporary:
-            folder = Path(bpy.path.abspath(settings.folder)) if settings.folder else Path(temporary)
-            try:
-                self._render(depsgraph, folder, result)
-            except (UnsupportedCamera, OSError, tomales.RiError, tomales.RendererNotFound) as problem:
-                self._error(str(problem))
-            except Exception:
-                self._error(traceback.format_exc())
-            finally:
-                # Blender 3.4 crashes when the next rendering begins before the result of this one has ended.
-                self.end_result(result)
+        try:
+            self._render(depsgraph, _session.folder(depsgraph.scene.tomales.folder), result)
+        except (UnsupportedCamera, OSError, tomales.RiError, tomales.RendererNotFound) as problem:
+            self._error(str(problem))
+        except Exception:
+            self._error(traceback.format_exc())
+        finally:
+            # Blender 3.4 crashes when the next rendering begins before the result of this one has ended.
+            self.end_result(result)
 
     def _render(self, depsgraph: bpy.types.Depsgraph, folder: Path, result: bpy.types.RenderResult) -> None:
-        scene = depsgraph.scene
+        scene, layer = depsgraph.scene, depsgraph.view_layer
         if not scene.camera:
             return self._error("the scene has no camera")
         name = f"{Path(bpy.data.filepath).stem or 'untitled'}.{scene.frame_current:04d}"
-        passes = Passes(depsgraph.view_layer, folder / f"{name}.exr")
+        if len(scene.view_layers) > 1:
+            name = f"{name}.{bpy.path.clean_name(layer.name)}"
+        passes = Passes(layer, folder, f"{name}.exr")
         self.update_stats("", "Writing RIB")
-        rib = Frame(self, depsgraph, folder, _cache, self._warn).write(name, passes)
-        if scene.tomales.export_only or not self._run(rib, folder, shlex.split(scene.tomales.options)):
+        rib = Frame(self, depsgraph, folder, _session.cache, self._warn).write(name, passes)
+        if scene.tomales.export_only:
             return
-        to_world = numpy.array(scene.camera.matrix_world.normalized().to_3x3()) @ numpy.diag([1, 1, -1])
-        passes.read(result, to_world)
+        self.update_stats("", "Rendering")
+        if self._run(rib, folder, shlex.split(scene.tomales.options)):
+            passes.read(result, numpy.array(scene.camera.matrix_world.normalized()) @ numpy.diag([1, 1, -1, 1]))
 
     @staticmethod
     def _size(scene: bpy.types.Scene) -> tuple[int, int]:
@@ -77,12 +111,13 @@ class TomalesEngine(bpy.types.RenderEngine):
         reader.start()
         while process.poll() is None:
             reader.join(_LOOK_S)
-            self.update_progress(self._progress)
-            if self.test_break():
+            self._show_progress()
+            if self._is_given_up():
                 process.terminate()
                 process.wait()
                 return False
         reader.join()
+        self._show_progress()
         for message in self._messages:
             self._warn(message)
         if process.returncode not in (0, 3):
@@ -91,7 +126,13 @@ class TomalesEngine(bpy.types.RenderEngine):
 
     _progress = 0.0
 
-    def _listen(self, process: subprocess.Popen) -> None:
+    def _show_progress(self) -> None:
+        self.update_progress(self._progress)
+
+    def _is_given_up(self) -> bool:
+        return self.test_break()
+
+    def _listen(self, process: subprocess.Popen[bytes]) -> None:
         """In a thread of its own: touches nothing of Blender."""
         assert process.stdout is not None
         for line in process.stdout:
@@ -118,21 +159,19 @@ class TomalesEngine(bpy.types.RenderEngine):
 @bpy.app.handlers.persistent
 def begin(scene: bpy.types.Scene, *_: object) -> None:
     """Before frames are rendered."""
-    global _cache
-    _cache = ShapeCache()
-    if scene.render.engine == TomalesEngine.bl_idname and scene.tomales.subdivide and not _switched_off:
-        for obj in scene.objects:
-            if obj.type == "MESH" and ends_in_subdivision(obj) and obj.modifiers[-1].show_render:
-                obj.modifiers[-1].show_render = False  # the cage itself is exported
-                _switched_off.append((obj, obj.modifiers[-1].name))
+    global _session
+    _session.end()
+    _session = Session()
+    if scene.render.engine == TomalesEngine.bl_idname:
+        _session.begin(scene)
 
 
 @bpy.app.handlers.persistent
 def end(*_: object) -> None:
     """After them, or where they are cancelled."""
-    while _switched_off:
-        obj, name = _switched_off.pop()
-        obj.modifiers[name].show_render = True
+    global _session
+    _session.end()
+    _session = Session()
 
 
 _HANDLERS = (("render_init", begin), ("render_complete", end), ("render_cancel", end))

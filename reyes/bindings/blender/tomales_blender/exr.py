@@ -1,4 +1,4 @@
-"""Uncompressed OpenEXR files of one part as numpy arrays: textures out, render passes in.
+"""Uncompressed OpenEXR files of one part as numpy arrays: textures out in tiles, render passes in by rows.
 
 The format is that of "OpenEXR File Layout" (openexr.com). Blender has no module of its own for it in all versions.
 """
@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import struct
+from collections.abc import Iterator
 
 import numpy
 
@@ -14,11 +15,17 @@ _NONE = 0
 _TYPES = {0: numpy.dtype("<u4"), 1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
 
 
-def write(path: str | os.PathLike[str], pixels: numpy.ndarray) -> None:
-    """float16 of shape (height, width, channels), the top row first; channels are R, G, B, A, or fewer of these."""
+_TILE = 64
+_MIPMAP_LEVELS, _TILED = 1, 0x200  # rounded down
+
+
+def write_texture(path: str | os.PathLike[str], pixels: numpy.ndarray) -> None:
+    """float16 of shape (height, width, channels), the top row first; channels are R, G, B, A, or fewer of these.
+
+    Tiles of all levels down to one pixel, and periodic: the renderer reads the file as it is.
+    """
     height, width, count = pixels.shape
     names = sorted("RGBA"[:count])
-    order = ["RGBA".index(name) for name in names]
     box = struct.pack("<4i", 0, 0, width - 1, height - 1)
     attributes = [
         ("channels", "chlist", b"".join(n.encode() + b"\0" + struct.pack("<iB3xii", 1, 0, 1, 1) for n in names) + b"\0"),
@@ -29,19 +36,38 @@ def write(path: str | os.PathLike[str], pixels: numpy.ndarray) -> None:
         ("pixelAspectRatio", "float", struct.pack("<f", 1)),
         ("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
         ("screenWindowWidth", "float", struct.pack("<f", 1)),
+        ("tiles", "tiledesc", struct.pack("<IIB", _TILE, _TILE, _MIPMAP_LEVELS)),
+        ("wrapmodes", "string", b"periodic,periodic"),  # as Blender's Image Texture repeats
     ]
-    header = struct.pack("<ii", _MAGIC, _VERSION)
+    header = struct.pack("<ii", _MAGIC, _VERSION | _TILED)
     for name, kind, value in attributes:
         header += name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+    planes = pixels[:, :, ["RGBA".index(name) for name in names]].astype("f4")
+    tiles = [tile for level, picture in enumerate(_levels(planes)) for tile in _tiles(level, picture)]
     header += b"\0"
-    row_bytes = 8 + width * count * 2
-    rows = numpy.empty((height, row_bytes), "u1")
-    rows[:, :8] = numpy.column_stack([numpy.arange(height), numpy.full(height, row_bytes - 8)]).astype("<i4").view("u1").reshape(height, 8)
-    planes = pixels[:, :, order].transpose(0, 2, 1).astype("<f2")
-    rows[:, 8:] = numpy.ascontiguousarray(planes).view("u1").reshape(height, -1)
-    first = len(header) + 8 * height
+    ends = numpy.cumsum([len(header) + 8 * len(tiles), *map(len, tiles)])
     with open(path, "wb") as file:
-        file.write(header + (first + row_bytes * numpy.arange(height)).astype("<u8").tobytes() + rows.tobytes())
+        file.write(header + ends[:-1].astype("<u8").tobytes() + b"".join(tiles))
+
+
+def _levels(picture: numpy.ndarray) -> Iterator[numpy.ndarray]:
+    """Each half as wide and high as the one before: means of two by two pixels. A last odd row or column is left out."""
+    yield picture
+    while max(picture.shape[:2]) > 1:
+        for axis in (0, 1):
+            size = picture.shape[axis] // 2
+            if size:
+                first, second = (picture.take(numpy.arange(size) * 2 + i, axis) for i in (0, 1))
+                picture = (first + second) / 2
+        yield picture
+
+
+def _tiles(level: int, picture: numpy.ndarray) -> Iterator[bytes]:
+    """Those at the right and at the bottom are as large as what is left."""
+    for y in range(0, picture.shape[0], _TILE):
+        for x in range(0, picture.shape[1], _TILE):
+            data = numpy.ascontiguousarray(picture[y : y + _TILE, x : x + _TILE].transpose(0, 2, 1), "<f2").tobytes()
+            yield struct.pack("<5i", x // _TILE, y // _TILE, level, level, len(data)) + data
 
 
 def read(path: str | os.PathLike[str]) -> dict[str, numpy.ndarray]:

@@ -4,52 +4,70 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import dataclass
+from math import floor
 from pathlib import Path
 
 import bpy
 import tomales
-from mathutils import Matrix
 
 from . import lights
-from .camera import flat, write_camera, write_motion
+from .camera import write_camera, write_motion
 from .geometry import TIMES
-from .materials import Look, look_of
+from .materials import Look, changes, look_of
 from .passes import Passes
-from .snapshot import Placed, ShapeCache, Snapshot, take
+from .settings import TomalesScene
+from .snapshot import Placed, Cache, Snapshot, take
 from .textures import Textures
 
 Warn = Callable[[str], None]
 
 
+@dataclass
+class _Part:
+    """What is drawn of a shape, in one material."""
+
+    archive: str
+    look: Look
+    handle: str | int | None = None  #: Of the object that instances show.
+
+
 class Frame:
     """Writes FOLDER/NAME.rib, FOLDER/archives/HASH.rib and FOLDER/textures/HASH.exr."""
 
-    def __init__(self, engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph, folder: Path, cache: ShapeCache, warn: Warn) -> None:
+    def __init__(self, engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph, folder: Path, cache: Cache, warn: Warn) -> None:
         self._engine = engine
         self._depsgraph = depsgraph
         self._scene = depsgraph.scene
-        self._settings = depsgraph.scene.tomales
         self._folder = folder
         self._cache = cache
         self._warn = warn
-        self._textures = Textures(folder / "textures", warn)
+        self._textures = Textures(folder, warn)
         self._looks: dict[str, Look] = {}
+        self._materials = {m.name_full: m for m in bpy.data.materials}
+        self._changing = {name for name, m in self._materials.items() if changes(m)}
+
+    @property
+    def _settings(self) -> TomalesScene:
+        """Asked for each time: Blender frees it when the frame changes."""
+        return self._scene.tomales
 
     def write(self, name: str, passes: Passes) -> Path:
         """Raises UnsupportedCamera, and OSError."""
         camera = self._scene.camera
-        times, snapshots = self._snapshots(camera)
+        snapshots = self._snapshots(camera)
+        times = TIMES(len(snapshots)) if len(snapshots) > 1 else [0.0]  # the shutter opens at 0 and closes at 1
         first = snapshots[0]
         path = self._folder / f"{name}.rib"
         self._folder.mkdir(parents=True, exist_ok=True)
         lights.write_shaders(self._folder)
         ri = tomales.Ri()
         ri.Begin(path)
-        ri.Option("searchpath", {"string shader": f"{self._folder}:@", "string archive": f"{self._folder}:@"})
+        ri.Option("searchpath", {"string texture": f"{self._folder}:.:@"})  # the working folder, where the whole has been moved
         passes.write(ri)
         self._write_options(ri)
         if len(times) > 1:
-            ri.Shutter(times[0], times[-1])
+            ri.Shutter(0, 1)
         write_camera(ri, self._scene, camera, self._depsgraph, times, [s.camera for s in snapshots])
         ri.WorldBegin()
         ri.Orientation("rh")
@@ -61,22 +79,21 @@ class Frame:
 
     # When
 
-    def _snapshots(self, camera: bpy.types.Object) -> tuple[list[float], list[Snapshot]]:
+    def _snapshots(self, camera: bpy.types.Object) -> list[Snapshot]:
         """At every key of the shutter, or at the frame alone."""
-        times = [0.0]
-        if self._scene.render.use_motion_blur and self._engine:
-            shutter = self._scene.render.motion_blur_shutter
-            begin = {"START": 0, "CENTER": -shutter / 2, "END": -shutter}[self._settings.shutter_position]
-            times = [begin + shutter * t for t in TIMES(self._settings.shutter_keys)]
-        frame, out = self._scene.frame_current, []
-        for time in times:
-            if len(times) > 1:
-                whole = int((frame + time) // 1)
-                self._engine.frame_set(whole, frame + time - whole)
-            out.append(take(self._depsgraph, camera, self._settings.subdivide, self._cache if len(times) == 1 else ShapeCache(), self._warn))
-        if len(times) > 1:
-            self._engine.frame_set(frame, 0.0)
-        return times, out
+        if not self._scene.render.use_motion_blur:
+            return [self._take(camera)]
+        shutter, frame, out = self._scene.render.motion_blur_shutter, self._scene.frame_current, []
+        begin = frame + {"START": 0, "CENTER": -shutter / 2, "END": -shutter}[self._settings.shutter_position]
+        for share in TIMES(self._settings.shutter_keys):
+            time = begin + shutter * share
+            self._engine.frame_set(floor(time), time - floor(time))
+            out.append(self._take(camera))
+        self._engine.frame_set(frame, 0.0)
+        return out
+
+    def _take(self, camera: bpy.types.Object) -> Snapshot:
+        return take(self._depsgraph, camera, self._settings.subdivide, self._cache, self._warn)
 
     # Options and lights
 
@@ -98,51 +115,49 @@ class Frame:
             ri.AttributeEnd()
             ri.Illuminate(f"light{i}", 1)
         if sky and not self._scene.render.film_transparent:
-            lights.write_sky(ri, sky, snapshot.camera, lights.SKY_RADIUS_SHARE * self._scene.camera.data.clip_end)
+            sky.write(ri, snapshot.camera, lights.SKY_RADIUS_SHARE * self._scene.camera.data.clip_end)
 
     # Objects
 
     def _write_objects(self, ri: tomales.Ri, times: list[float], snapshots: list[Snapshot]) -> None:
         first = snapshots[0]
-        pieces = {(key, i): self._archive(key, i, snapshots) for key, shape in first.shapes.items() for i in range(len(shape.pieces))}
-        looks = {(key, i): self._look(shape.materials, shape.pieces[i].slot) for key, shape in first.shapes.items() for i in range(len(shape.pieces))}
         uses = Counter(placed.shape for placed in first.placed.values())
-        objects: dict[tuple[str, int], str] = {}
-        for piece, archive in pieces.items():
-            if uses[piece[0]] > 1 and not looks[piece].emission:
-                objects[piece] = ri.ObjectBegin()
-                ri.ReadArchive(archive)
-                ri.ObjectEnd()
-        emits = {key for (key, _), look in looks.items() if look.emission}
+        parts: dict[str, list[_Part]] = {}
+        for key, shape in first.shapes.items():
+            parts[key] = [_Part(self._archive(key, i, snapshots), self._look(shape.materials, piece.slot)) for i, piece in enumerate(shape.pieces)]
+            for part in parts[key]:
+                if uses[key] > 1 and not part.look.emission:
+                    part.handle = ri.ObjectBegin()
+                    ri.ReadArchive(part.archive)
+                    ri.ObjectEnd()
+        emits = {key for key, some in parts.items() if any(part.look.emission for part in some)}
         for placed in sorted(first.placed.values(), key=lambda p: p.shape not in emits):
-            self._write_placed(ri, placed, times, snapshots, pieces, looks, objects)
+            self._write_placed(ri, placed, times, snapshots, parts[placed.shape])
 
-    def _write_placed(self, ri: tomales.Ri, placed: Placed, times: list[float], snapshots: list[Snapshot], pieces: dict, looks: dict, objects: dict) -> None:
+    def _write_placed(self, ri: tomales.Ri, placed: Placed, times: list[float], snapshots: list[Snapshot], parts: list[_Part]) -> None:
         handles = []
         ri.AttributeBegin()
         ri.Attribute("identifier", {"string name": placed.name})
         if not all(placed.visibility.values()):
             ri.Attribute("visibility", {f"int {ray}": int(seen) for ray, seen in placed.visibility.items()})
         write_motion(ri, times, [s.placed[placed.key].matrix if placed.key in s.placed else placed.matrix for s in snapshots])
-        for piece, archive in pieces.items():
-            if piece[0] != placed.shape:
-                continue
-            look = looks[piece]
-            if look.emission:
-                handles.append(ri.AreaLightSource("arealight", {"lightcolor": look.emission, "float samples": self._settings.light_samples}))
-            look.write(ri)
-            ri.ObjectInstance(objects[piece]) if piece in objects else ri.ReadArchive(archive)
+        for part in parts:
+            if part.look.emission:
+                handles.append(ri.AreaLightSource("arealight", {"lightcolor": part.look.emission, "float samples": self._settings.light_samples}))
+            ri.ArchiveRecord(ri.VERBATIM, part.look.rib)
+            ri.ReadArchive(part.archive) if part.handle is None else ri.ObjectInstance(part.handle)
         ri.AttributeEnd()
         for handle in handles:
             ri.Illuminate(handle, 1)
 
     def _look(self, materials: list[str], slot: int) -> Look:
         name = materials[min(slot, len(materials) - 1)] if materials else ""
-        if name not in self._looks:
-            material = next((m for m in bpy.data.materials if m.name_full == name), None)
+        looks = self._looks if name in self._changing else self._cache.looks
+        if name not in looks:
+            material = self._materials.get(name)
             evaluated = material.evaluated_get(self._depsgraph) if material else None
-            self._looks[name] = look_of(evaluated, self._textures, self._warn)
-        return self._looks[name]
+            looks[name] = look_of(evaluated, self._textures, self._settings.reflection_samples, self._warn)
+        return looks[name]
 
     def _archive(self, key: str, i: int, snapshots: list[Snapshot]) -> str:
         """The file of a piece, below the folder. Its name tells its contents, so that it is written once."""

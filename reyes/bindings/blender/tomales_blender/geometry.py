@@ -51,6 +51,14 @@ class Piece:
         return any(not numpy.array_equal(self.calls[i][2]["P"], piece.calls[i][2]["P"]) for piece in later)
 
 
+@dataclass(frozen=True)
+class Uses:
+    """What a material's shader wants to know under the names of the RISpec."""
+
+    uv_map: str = ""  #: As st; empty: the active one.
+    color: str = ""  #: Colour attribute, as Cs.
+
+
 def TIMES(count: int) -> list[float]:
     """Keys of a shutter that opens at 0 and closes at 1."""
     return [i / (count - 1) for i in range(count)]
@@ -90,13 +98,11 @@ def _values(items, name: str, kind: str, width: int = 1) -> numpy.ndarray:
 
 
 def _add_texture_coordinates(mesh: bpy.types.Mesh, faces: _Faces) -> None:
-    """The active set as st, every set under its own name. The origin of pictures is at the top in RIB."""
+    """Every set under its own name. The origin of pictures is at the top in RIB."""
     for layer in mesh.uv_layers:
         uv = _values(layer.data, "uv", "f4", 2)
         uv[:, 1] = 1 - uv[:, 1]
         faces.corners[f"facevarying float[2] uv_{_word(layer.name)}"] = uv
-        if layer.active_render:
-            faces.corners["facevarying float[2] st"] = uv
 
 
 def _add_colors(mesh: bpy.types.Mesh, faces: _Faces) -> None:
@@ -106,50 +112,67 @@ def _add_colors(mesh: bpy.types.Mesh, faces: _Faces) -> None:
         faces.corners[f"facevarying color color_{_word(layer.name)}"] = by_corner
 
 
+def _variables_of(mesh: bpy.types.Mesh, faces: _Faces, use: Uses) -> dict[str, numpy.ndarray]:
+    """All that faces of one material bring, and what its shader knows as st and Cs."""
+    active = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+    out = dict(faces.corners)
+    for token, name in (("float[2] st", f"float[2] uv_{_word(use.uv_map or active)}"), ("color Cs", f"color color_{_word(use.color)}")):
+        if f"facevarying {name}" in out:
+            out[f"facevarying {token}"] = out[f"facevarying {name}"]
+    return out
+
+
 def _word(name: str) -> str:
     return "".join(c if c.isalnum() else "_" for c in name)
 
 
-def mesh_pieces(mesh: bpy.types.Mesh, subdivide: bool) -> list[Piece]:
-    """Polygons with their normals, or where `subdivide` a subdivision surface with its creases."""
+def mesh_pieces(mesh: bpy.types.Mesh, subdivision: bpy.types.SubsurfModifier | None, uses: list[Uses]) -> list[Piece]:
+    """Polygons with their normals, or what the modifier would make of the mesh as a subdivision surface. `uses`: of each slot."""
     faces = _Faces.of(mesh)
     if len(faces.counts) == 0:
         return []
     _add_texture_coordinates(mesh, faces)
     _add_colors(mesh, faces)
     slots = sorted(set(faces.materials.tolist()))
-    make = _subdivision if subdivide else _polygons
-    return [Piece(slot, [make(mesh, faces, faces.materials == slot, len(slots) > 1)]) for slot in slots]
+    pieces = []
+    for slot in slots:
+        variables = _variables_of(mesh, faces, uses[min(slot, len(uses) - 1)] if uses else Uses())
+        chosen = faces.materials == slot
+        call = _subdivision(mesh, faces, chosen, variables, subdivision) if subdivision else _polygons(mesh, faces, chosen, variables)
+        pieces.append(Piece(slot, [call]))
+    return pieces
 
 
-def _polygons(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, several: bool) -> tuple:
+def _polygons(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, variables: dict[str, numpy.ndarray]) -> tuple:
     counts, corners = faces.only(chosen)
     parameters = {"P": faces.points}
     smooth = _values(mesh.polygons, "use_smooth", "?")
     if smooth[chosen].any() or mesh.use_auto_smooth or mesh.has_custom_normals:
         mesh.calc_normals_split()
         parameters["facevarying normal N"] = _values(mesh.loops, "normal", "f4", 3)[corners]
-    parameters.update({token: values[corners] for token, values in faces.corners.items()})
+    parameters.update({token: values[corners] for token, values in variables.items()})
     return "PointsPolygons", (counts, faces.vertices[corners]), parameters
 
 
-def _subdivision(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, several: bool) -> tuple:
+def _subdivision(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, variables: dict[str, numpy.ndarray], modifier: bpy.types.SubsurfModifier) -> tuple:
     """Faces of other materials are holes, so that the surface stays smooth across the seam."""
-    tags, counts, integers, floats = ["interpolateboundary"], [1, 0], [2], []
-    edges = _values(mesh.edges, "vertices", "i4", 2)
-    creases = _values(mesh.edges, "crease", "f4")
-    for edge in numpy.flatnonzero(creases > 0):
-        tags.append("crease")
-        counts += [2, 1]
-        integers += edges[edge].tolist()
-        floats.append(10.0 if creases[edge] >= 1 else float(creases[edge]) * 10)
-    if several:
-        holes = numpy.flatnonzero(~chosen).tolist()
+    tags, counts, integers, floats = ["interpolateboundary"], [1, 0], [2 if modifier.boundary_smooth == "ALL" else 1], []
+    if modifier.use_creases:
+        edges = _values(mesh.edges, "vertices", "i4", 2)
+        corners = _values(mesh.vertex_creases[0].data, "value", "f4") if len(getattr(mesh, "vertex_creases", ())) else numpy.zeros(0)
+        for tag, sharpness, ends in (("crease", _values(mesh.edges, "crease", "f4"), edges), ("corner", corners, None)):
+            for i in numpy.flatnonzero(sharpness > 0):
+                on = edges[i].tolist() if ends is not None else [int(i)]
+                tags.append(tag)
+                counts += [len(on), 1]
+                integers += on
+                floats.append(10 * float(sharpness[i]) ** 2)  # as Blender gives them to OpenSubdiv
+    holes = numpy.flatnonzero(~chosen).tolist()
+    if holes:
         tags.append("hole")
         counts += [len(holes), 0]
         integers += holes
-    parameters = {"P": faces.points, **faces.corners}
-    return "SubdivisionMesh", ("catmull-clark", faces.counts, faces.vertices, tags, counts, integers, floats), parameters
+    return "SubdivisionMesh", ("catmull-clark", faces.counts, faces.vertices, tags, counts, integers, floats), {"P": faces.points, **variables}
 
 
 def curve_pieces(curves: bpy.types.Curves) -> list[Piece]:
@@ -174,9 +197,13 @@ def hair_pieces(obj: bpy.types.Object, system: bpy.types.ParticleSystem) -> list
     if not strands:
         return []
     points = numpy.array(strands, "f4").reshape(-1, 3)
-    along = numpy.tile(numpy.linspace(0, 1, steps, dtype="f4"), len(strands))
-    root, tip = settings.root_radius * settings.radius_scale, settings.tip_radius * settings.radius_scale
-    width = 2 * (root + (tip - root) * along)
+    # What Blender calls radii are diameters in Cycles, whose taper this is.
+    power = 1 + settings.shape if settings.shape < 0 else 1 / max(1 - settings.shape, 1e-3)
+    along = numpy.linspace(1, 0, steps, dtype="f4") ** power
+    widths = (settings.tip_radius + (settings.root_radius - settings.tip_radius) * along) * settings.radius_scale
+    if settings.use_close_tip:
+        widths[-1] = 0
+    width = numpy.tile(widths, len(strands))
     return [Piece(settings.material - 1, [_strands(points, numpy.full(len(strands), steps), width)])]
 
 

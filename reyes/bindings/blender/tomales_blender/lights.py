@@ -6,15 +6,19 @@ RISpec sends E/pi (docs/gi.md), so a pi is divided out.
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import acos, cos, pi
+from dataclasses import dataclass
+from math import acos, cos, pi, tan
 from pathlib import Path
 
 import bpy
 import tomales
 from mathutils import Matrix
 
+from . import relief
 from .camera import flat
+from .nodes import Graph, Unsupported, source
 from .textures import Textures
+from .values import is_picture, mean
 
 Warn = Callable[[str], None]
 
@@ -24,54 +28,71 @@ def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: s
     light = obj.data
     ri.Attribute("light", {"string shadows": "on" if light.use_shadow else "off"})
     ri.ConcatTransform(flat(matrix.normalized() if light.type != "AREA" else matrix))
-    color = list(light.color)
+    common: dict[str, object] = {"lightcolor": list(light.color), **group_of(obj)}
     if light.type == "SUN":
-        ri.LightSource("distantlight", handle, {"intensity": light.energy / pi, "lightcolor": color, "point from": [0, 0, 0], "point to": [0, 0, -1]})
-        if light.angle > 0.02:
-            warn(f"{obj.name}: the sun has no size here, and its shadows are sharp")
+        _write_sun(ri, light, handle, samples, common)
     elif light.type == "AREA":
-        _write_area(ri, obj, matrix, handle, samples)
-    elif light.shadow_soft_size > 0 and light.type == "POINT":
+        _write_area(ri, light, matrix, handle, samples, common)
+    elif light.type == "SPOT":
+        _write_spot(ri, obj, handle, common, warn)
+    elif light.shadow_soft_size > 0:
         radius = light.shadow_soft_size
-        radiance = light.energy / (4 * pi**2 * radius**2)
-        ri.AreaLightSource("arealight", handle, {"intensity": radiance, "lightcolor": color, "float samples": samples, "float visible": 0})
-        _hide_from_camera(ri)
+        _emit(ri, handle, light.energy / (4 * pi**2 * radius**2), samples, common)
         ri.Sphere(radius, -radius, radius, 360)
-    elif light.type == "POINT":
-        ri.LightSource("pointlight", handle, {"intensity": light.energy / (4 * pi**2), "lightcolor": color})
     else:
-        _write_spot(ri, obj, handle, warn)
+        ri.LightSource("pointlight", handle, {"intensity": light.energy / (4 * pi**2), **common})
 
 
-def _write_spot(ri: tomales.Ri, obj: bpy.types.Object, handle: str, warn: Warn) -> None:
+def group_of(owner: bpy.types.Object | bpy.types.World) -> dict[str, object]:
+    """The light group, for a pass of its own."""
+    name = getattr(owner, "lightgroup", "")
+    return {"uniform string __group": name} if name else {}
+
+
+def _emit(ri: tomales.Ri, handle: str, radiance: float, samples: int, common: dict[str, object]) -> None:
+    """What follows shines, and is itself seen by nothing."""
+    ri.AreaLightSource("arealight", handle, {"intensity": radiance, "float samples": samples, "float visible": 0, **common})
+    ri.Attribute("visibility", {"int camera": 0, "int diffuse": 0, "int specular": 0, "int transmission": 0})
+    ri.Surface("constant")
+
+
+_SUN_DISTANCE = 1e6  # so far that a scene of a kilometre sees it in one direction, to a milliradian
+
+
+def _write_sun(ri: tomales.Ri, light: bpy.types.SunLight, handle: str, samples: int, common: dict[str, object]) -> None:
+    """Its strength is what falls on a surface that faces it. A disk of the angle's size has soft shadows."""
+    if light.angle < 1e-4:
+        ri.LightSource("distantlight", handle, {"intensity": light.energy / pi, "point from": [0, 0, 0], "point to": [0, 0, -1], **common})
+        return
+    radius = tan(min(light.angle, pi - 0.01) / 2) * _SUN_DISTANCE
+    _emit(ri, handle, light.energy * (1 + (_SUN_DISTANCE / radius) ** 2) / pi, samples, common)
+    ri.Translate(0, 0, _SUN_DISTANCE)
+    ri.Scale(radius, radius, -1)
+    ri.Disk(0, 1, 360)
+
+
+def _write_spot(ri: tomales.Ri, obj: bpy.types.Object, handle: str, common: dict[str, object], warn: Warn) -> None:
     light = obj.data
     half = light.spot_size / 2
     edge = acos(min(1, cos(half) + (1 - cos(half)) * light.spot_blend))
     ri.LightSource("spotlight", handle, {
-        "intensity": light.energy / (4 * pi**2), "lightcolor": list(light.color), "point from": [0, 0, 0], "point to": [0, 0, -1],
-        "coneangle": half, "conedeltaangle": half - edge, "beamdistribution": 1,
+        "intensity": light.energy / (4 * pi**2), "point from": [0, 0, 0], "point to": [0, 0, -1],
+        "coneangle": half, "conedeltaangle": half - edge, "beamdistribution": 1, **common,
     })  # fmt: skip
     if light.shadow_soft_size > 0.05:
         warn(f"{obj.name}: the spot light has no size here, and its shadows are sharp")
 
 
-def _hide_from_camera(ri: tomales.Ri) -> None:
-    ri.Attribute("visibility", {"int camera": 0, "int diffuse": 0, "int specular": 0, "int transmission": 0})
-    ri.Surface("constant")
-
-
-def _write_area(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: str, samples: int) -> None:
+def _write_area(ri: tomales.Ri, light: bpy.types.AreaLight, matrix: Matrix, handle: str, samples: int, common: dict[str, object]) -> None:
     """It shines along -z of its object, from its whole size in the world.
 
     Cycles takes a quarter of the power over the area for its radiance, where a Lambertian emitter would have 1 / pi.
     """
-    light = obj.data
     scale = matrix.to_scale()
     width, height = light.size, light.size if light.shape in ("SQUARE", "DISK") else light.size_y
     round_ = light.shape in ("DISK", "ELLIPSE")
     area = width * height * abs(scale.x * scale.y) * (pi / 4 if round_ else 1)
-    ri.AreaLightSource("arealight", handle, {"intensity": light.energy / (4 * max(area, 1e-12)), "lightcolor": list(light.color), "float samples": samples, "float visible": 0})
-    _hide_from_camera(ri)
+    _emit(ri, handle, light.energy / (4 * max(area, 1e-12)), samples, common)
     ri.Scale(width / 2, height / 2, -1)  # mirrored, so that what faces +z faces -z
     if round_:
         ri.Disk(0, 1, 360)
@@ -91,53 +112,74 @@ SKY_SHADER = """surface tomales_sky(color tint = 1; string map = "";)
 SKY_RADIUS_SHARE = 0.9  # of the far clipping distance
 
 
-def write_world(ri: tomales.Ri, world: bpy.types.World, handle: str, textures: Textures, samples: int, warn: Warn) -> dict[str, object] | None:
-    """A sky as a light; None if it is black. Returns parameters of the shader that shows it."""
-    color, strength, image = _background(world, warn)
-    tint = [c * strength for c in color]
+def write_world(ri: tomales.Ri, world: bpy.types.World, handle: str, textures: Textures, samples: int, warn: Warn) -> Sky | None:
+    """A sky as a light; None if it is black."""
+    tint, picture, turned = _background(world, textures, lambda text: warn(f"world {world.name}: {text}"))
     if max(tint) <= 0:
         return None
-    path = textures.file(image) if image else None
-    parameters: dict[str, object] = {"lightcolor": tint, "float samples": samples}
-    if path:
-        parameters.update({"string map": str(path), "string mapspace": "shader"})
+    parameters: dict[str, object] = {"lightcolor": tint, "float samples": samples, **group_of(world)}
+    if picture:
+        parameters.update({"string map": picture, "string mapspace": "shader"})
     ri.Attribute("light", {"string shadows": "on"})
     ri.TransformBegin()
-    ri.Scale(-1, 1, 1)  # longitudes run the other way round in Blender's panoramas
+    sky = Sky({"color tint": tint, **({"string map": picture} if picture else {})}, turned)
+    sky.place(ri)
     ri.LightSource("environmentlight", handle, parameters)
     ri.TransformEnd()
-    return {"color tint": tint, **({"string map": str(path)} if path else {})}
+    return sky
 
 
-def write_sky(ri: tomales.Ri, parameters: dict[str, object], eye: Matrix, radius: float) -> None:
-    """A sphere around the camera, which nothing else sees."""
-    ri.AttributeBegin()
-    ri.Attribute("visibility", {"int camera": 1, "int diffuse": 0, "int specular": 0, "int transmission": 0})
-    ri.ConcatTransform(flat(Matrix.Translation(eye.translation)))
-    ri.Scale(-1, 1, 1)
-    ri.Surface("tomales_sky", parameters)
-    ri.Sphere(radius, -radius, radius, 360)
-    ri.AttributeEnd()
+@dataclass
+class Sky:
+    """What the camera sees of the world."""
+
+    parameters: dict[str, object]
+    turned: Matrix  #: The world's space from the panorama's.
+
+    def place(self, ri: tomales.Ri) -> None:
+        ri.ConcatTransform(flat(self.turned))
+        ri.Scale(-1, 1, 1)  # longitudes run the other way round in Blender's panoramas
+
+    def write(self, ri: tomales.Ri, eye: Matrix, radius: float) -> None:
+        """A sphere around the camera, which nothing else sees."""
+        ri.AttributeBegin()
+        ri.Attribute("visibility", {"int camera": 1, "int diffuse": 0, "int specular": 0, "int transmission": 0})
+        ri.ConcatTransform(flat(Matrix.Translation(eye.translation)))
+        self.place(ri)
+        ri.Surface("tomales_sky", self.parameters)
+        ri.Sphere(radius, -radius, radius, 360)
+        ri.AttributeEnd()
 
 
-def _background(world: bpy.types.World, warn: Warn) -> tuple[list[float], float, bpy.types.Image | None]:
-    """Colour, strength and panorama of the world's Background node."""
+def _background(world: bpy.types.World, textures: Textures, say: Warn) -> tuple[list[float], str, Matrix]:
+    """Colour, panorama and its rotation, of the world's Background node."""
+    still = Matrix.Identity(4)
     if not world.use_nodes:
-        return list(world.color), 1.0, None
+        return list(world.color), "", still
     node = next((n for n in world.node_tree.nodes if n.type == "BACKGROUND"), None)
     if not node:
-        warn(f"world {world.name}: it has no Background node; it is black")
-        return [0, 0, 0], 0.0, None
-    color, strength = node.inputs["Color"], node.inputs["Strength"].default_value
-    if not color.is_linked:
-        return list(color.default_value)[:3], strength, None
-    source = color.links[0].from_node
-    if source.type == "TEX_ENVIRONMENT" and source.image:
-        return [1, 1, 1], strength, source.image
-    warn(f"world {world.name}: the node {source.name} is not supported; its colour is taken as grey")
-    return [0.5, 0.5, 0.5], strength, None
+        say("it has no Background node; it is black")
+        return [0, 0, 0], "", still
+    graph = Graph(textures.pixels)
+    try:
+        value = graph.of(node.inputs["Color"]) * mean(graph.of(node.inputs["Strength"]))[0]
+    except Unsupported as problem:
+        say(f"the node {problem} is not supported; the sky is grey")
+        return [0.5 * node.inputs["Strength"].default_value] * 3, "", still
+    if not is_picture(value):
+        return mean(value), "", still
+    return [1.0, 1.0, 1.0], textures.file(value), rotation_of(next(n for n in world.node_tree.nodes if n.type == "TEX_ENVIRONMENT"))
+
+
+def rotation_of(node: bpy.types.Node) -> Matrix:
+    """Of a Mapping node before an Environment Texture, the other way round: it turns directions, not the sky."""
+    output = source(node.inputs["Vector"])
+    turned = output is not None and output.node.type == "MAPPING"
+    matrix = output.node.inputs["Rotation"].default_value.to_matrix().to_4x4() if turned else Matrix.Identity(4)
+    return matrix if turned and output.node.vector_type == "TEXTURE" else matrix.transposed()
 
 
 def write_shaders(folder: Path) -> None:
-    """The shaders that worlds need, in RSL."""
-    (folder / "tomales_sky.sl").write_text(SKY_SHADER)
+    """The shaders that frames need, in RSL."""
+    for name, text in (("tomales_sky", SKY_SHADER), ("tomales_relief", relief.SHADER)):
+        (folder / f"{name}.sl").write_text(text)

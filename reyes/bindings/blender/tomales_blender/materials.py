@@ -1,10 +1,12 @@
 """Blender's materials as shaders.
 
-A Principled BSDF becomes `disney`, with the image that its base colour comes from. Other nodes become the nearest shader,
-and are named in a message where something is lost. A shader named in the panel takes the place of all nodes.
+A graph of closures becomes one surface (closures.py), and that a shader: `disney` as a rule. What disney takes no picture for
+has the picture's mean. A shader named in the panel takes the place of all nodes.
 """
 from __future__ import annotations
 
+import functools
+import io
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,7 +14,10 @@ from typing import Any
 import bpy
 import tomales
 
+from .closures import Closure, Reader
+from .relief import relief_of
 from .textures import Textures
+from .values import is_picture, mean
 
 Warn = Callable[[str], None]
 
@@ -23,28 +28,33 @@ class Look:
 
     shader: str = "disney"
     parameters: dict[str, Any] = field(default_factory=dict)
-    color: list[float] = field(default_factory=lambda: [0.8, 0.8, 0.8])
+    color: list[float] | None = field(default_factory=lambda: [0.8, 0.8, 0.8])  #: None: the primitive's own.
     opacity: float = 1
     emission: list[float] | None = None  #: Radiance, which an area light brings: the shader itself must not.
-    displacement: tuple[str, dict[str, Any]] | None = None
+    relief: dict[str, Any] | None = None  #: Parameters of the displacement shader tomales_relief.
+    bound: float = 0  #: How far that moves the surface, in the object's space.
 
-    def write(self, ri: tomales.Ri) -> None:
-        ri.Color(self.color)
+    @functools.cached_property
+    def rib(self) -> str:
+        """Its requests, which every object that has it repeats."""
+        out = io.BytesIO()
+        ri = tomales.Ri()
+        ri.Begin(out)
+        if self.color:
+            ri.Color(self.color)
         if self.opacity < 1:
             ri.Opacity([self.opacity] * 3)
-        if self.displacement:
-            ri.Displacement(self.displacement[0], self.displacement[1])
+        if self.bound:
+            ri.Attribute("displacementbound", {"float sphere": self.bound, "string coordinatesystem": "object"})
+        if self.relief:
+            ri.Displacement("tomales_relief", self.relief)
         ri.Surface(self.shader, self.parameters)
+        ri.End()
+        return "".join(line for line in out.getvalue().decode(errors="surrogateescape").splitlines(True) if not line.startswith(("#", "version")))
 
 
-#: Inputs of the Principled BSDF, in the names of Blender 3.4 and of 4.0, and parameters of disney.
-_PRINCIPLED = {
-    "metallic": ("Metallic",), "specular": ("Specular", "Specular IOR Level"), "speculartint": ("Specular Tint",),
-    "roughness": ("Roughness",), "sheen": ("Sheen", "Sheen Weight"), "clearcoat": ("Clearcoat", "Coat Weight"),
-}  # fmt: skip
-
-
-def look_of(material: bpy.types.Material | None, textures: Textures, warn: Warn) -> Look:
+def look_of(material: bpy.types.Material | None, textures: Textures, reflections: int, warn: Warn) -> Look:
+    """`reflections`: rays of a point that mirror the scene."""
     if material is None:
         return Look(parameters={"float roughness": 0.5})
     if material.tomales.shader:
@@ -52,16 +62,21 @@ def look_of(material: bpy.types.Material | None, textures: Textures, warn: Warn)
     if not material.use_nodes:
         color = list(material.diffuse_color)
         return Look(color=color[:3], parameters={"float metallic": material.metallic, "float roughness": material.roughness})
-    output = next((n for n in material.node_tree.nodes if n.type == "OUTPUT_MATERIAL" and n.is_active_output), None)
-    surface = output.inputs["Surface"] if output else None
-    if not surface or not surface.is_linked:
-        return Look(shader="constant", color=[0, 0, 0])
-    node = surface.links[0].from_node
-    make = _MAKERS.get(node.type)
-    if not make:
-        warn(f"material {material.name}: the node {node.name} is not supported; its viewport colour is used")
-        return Look(color=list(material.diffuse_color)[:3])
-    return make(node, material, textures, warn)
+    say = lambda text: warn(f"material {material.name}: {text}")  # noqa: E731
+    reader = Reader(textures.pixels, say)
+    look = _shaded(reader.surface(material), textures, reflections, say)
+    if look.shader != "null":
+        look.relief, look.bound = relief_of(material, reader, textures, say)
+    return look
+
+
+def changes(material: bpy.types.Material) -> bool:
+    """Whether it may look different in another frame."""
+    trees = [material.node_tree] if material.use_nodes else []
+    for tree in trees:
+        trees += [node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree and node.node_tree not in trees]
+    images = [node.image for tree in trees for node in tree.nodes if node.type == "TEX_IMAGE" and node.image]
+    return any(owner.animation_data for owner in (material, *trees)) or any(image.source in ("SEQUENCE", "MOVIE") for image in images)
 
 
 def _override(material: bpy.types.Material) -> Look:
@@ -70,73 +85,62 @@ def _override(material: bpy.types.Material) -> Look:
     return Look(settings.shader, parameters, color=list(material.diffuse_color)[:3])
 
 
-def _value(node: bpy.types.Node, names: tuple[str, ...], material: bpy.types.Material, warn: Warn) -> Any:
-    """What an input is set to. A link is named, as nothing follows it."""
-    socket = next((node.inputs[name] for name in names if name in node.inputs), None)
-    if socket is None:
-        return None
-    if socket.is_linked:
-        warn(f"material {material.name}: {socket.links[0].from_node.name} at {names[0]} is not followed; its default is used")
-    value = socket.default_value
-    return list(value)[:3] if hasattr(value, "__len__") else float(value)
+def _shaded(closure: Closure, textures: Textures, reflections: int, say: Warn) -> Look:
+    """The shader that has this closure's parameters."""
+    emission = mean(closure.emission)
+    if is_picture(closure.emission):
+        say("what glows has the mean of its picture")
+    look = Look(opacity=mean(closure.opacity)[0], emission=emission if max(emission) > 0 else None)
+    if closure.kind == "null":
+        return Look("null")
+    if closure.kind == "glow":
+        look.shader, look.color = "constant", [0, 0, 0]
+        return look
+    if closure.vertex_color:
+        look.color = None
+    elif is_picture(closure.color):
+        look.color = [1, 1, 1]
+    else:
+        look.color = mean(closure.color)
+    if closure.kind == "glass":
+        look.shader = "glass"
+        look.parameters = {"float eta": mean(closure.ior)[0], "color transmitcolor": mean(closure.color)}
+    elif closure.kind == "matte" and not is_picture(closure.opacity):
+        _matte(look, closure, textures)
+    else:
+        _disney(look, closure, textures, reflections, say)
+    return look
 
 
-def _color(socket: bpy.types.NodeSocket, material: bpy.types.Material, textures: Textures, warn: Warn) -> tuple[list[float], str | None]:
-    """A colour, and the file of the picture that multiplies it."""
-    if socket.is_linked:
-        source = socket.links[0].from_node
-        if source.type == "TEX_IMAGE" and source.image:
-            path = textures.file(source.image)
-            return ([1, 1, 1], str(path)) if path else (list(socket.default_value)[:3], None)
-        if source.type == "RGB":
-            return list(source.outputs[0].default_value)[:3], None
-        warn(f"material {material.name}: {source.name} at {socket.name} is not followed; its default is used")
-    return list(socket.default_value)[:3], None
+def _matte(look: Look, closure: Closure, textures: Textures) -> None:
+    look.shader = "matte"
+    if is_picture(closure.color):
+        look.shader = "paintedplastic"
+        look.parameters = {"Kd": 1, "Ks": 0, "string texturename": textures.file(closure.color)}
 
 
-def _principled(node: bpy.types.Node, material: bpy.types.Material, textures: Textures, warn: Warn) -> Look:
-    color, texture = _color(node.inputs["Base Color"], material, textures, warn)
-    transmission = _value(node, ("Transmission", "Transmission Weight"), material, warn) or 0
-    if transmission > 0.5:
-        return Look("glass", {"float eta": _value(node, ("IOR",), material, warn), "color transmitcolor": color})
-    parameters = {name: _value(node, inputs, material, warn) for name, inputs in _PRINCIPLED.items()}
-    parameters = {f"float {name}": value for name, value in parameters.items() if isinstance(value, float)}
-    if texture:
-        parameters["string texturename"] = texture
-    emitted, strength = next(node.inputs[n] for n in ("Emission", "Emission Color") if n in node.inputs), _value(node, ("Emission Strength",), material, warn)
-    radiance = [c * strength for c in list(emitted.default_value)[:3]]
-    return Look("disney", parameters, color, _value(node, ("Alpha",), material, warn), radiance if max(radiance) > 0 else None)
+@functools.cache
+def _maps() -> dict[str, str]:
+    """The parameter of disney that takes a picture for another one of its parameters."""
+    try:
+        strings = {p["name"] for shader in tomales.info("disney")["shaders"] for p in shader["parameters"] if p["type"].endswith("string")}
+    except (tomales.CommandFailed, tomales.RendererNotFound):
+        strings = set()  # an export without the program: means of pictures count
+    return {name.removesuffix("map"): name for name in strings if name.endswith("map")} | {"color": "texturename"}
 
 
-def _emission(node: bpy.types.Node, material: bpy.types.Material, textures: Textures, warn: Warn) -> Look:
-    color, _ = _color(node.inputs["Color"], material, textures, warn)
-    radiance = [c * node.inputs["Strength"].default_value for c in color]
-    return Look("constant", {}, [0, 0, 0], 1, radiance)
-
-
-def _diffuse(node: bpy.types.Node, material: bpy.types.Material, textures: Textures, warn: Warn) -> Look:
-    color, texture = _color(node.inputs["Color"], material, textures, warn)
-    if not texture:
-        return Look("matte", {}, color)
-    return Look("paintedplastic", {"Kd": 1, "Ks": 0, "string texturename": texture}, color)
-
-
-def _glossy(node: bpy.types.Node, material: bpy.types.Material, textures: Textures, warn: Warn) -> Look:
-    color, texture = _color(node.inputs["Color"], material, textures, warn)
-    parameters: dict[str, Any] = {"float metallic": 1, "float roughness": _value(node, ("Roughness",), material, warn), "float reflections": 4}
-    return Look("disney", {**parameters, **({"string texturename": texture} if texture else {})}, color)
-
-
-def _glass(node: bpy.types.Node, material: bpy.types.Material, textures: Textures, warn: Warn) -> Look:
-    color, _ = _color(node.inputs["Color"], material, textures, warn)
-    return Look("glass", {"float eta": _value(node, ("IOR",), material, warn), "color transmitcolor": color})
-
-
-def _transparent(node: bpy.types.Node, material: bpy.types.Material, textures: Textures, warn: Warn) -> Look:
-    return Look("null")
-
-
-_MAKERS = {
-    "BSDF_PRINCIPLED": _principled, "EMISSION": _emission, "BSDF_DIFFUSE": _diffuse, "BSDF_GLOSSY": _glossy, "BSDF_GLASS": _glass,
-    "BSDF_REFRACTION": _glass, "BSDF_TRANSPARENT": _transparent,
-}  # fmt: skip
+def _disney(look: Look, closure: Closure, textures: Textures, reflections: int, say: Warn) -> None:
+    parameters = look.parameters
+    if is_picture(closure.color):
+        parameters["string texturename"] = textures.file(closure.color)
+    for name, value in closure.numbers.items():
+        picture = _maps().get(name) if is_picture(value) else None
+        parameters[f"float {name}"] = 1.0 if picture else mean(value)[0]
+        if picture:
+            parameters[f"string {picture}"] = textures.file(value)
+        elif is_picture(value):
+            say(f"{name} has the mean of its picture, {mean(value)[0]:.3g}")
+    if is_picture(closure.opacity):
+        say(f"the opacity has the mean of its picture, {look.opacity:.3g}")
+    if reflections and max(mean(closure.numbers[name])[0] for name in ("metallic", "specular", "clearcoat")) > 0:
+        parameters["float reflections"] = reflections

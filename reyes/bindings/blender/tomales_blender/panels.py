@@ -32,7 +32,7 @@ def parameters_of(shader: str) -> list[dict]:
     shaders = said["shaders"] if "shaders" in said else [said]
     if "parameters" not in shaders[0]:
         raise ValueError(f"{shader} is no shader")
-    return shaders[0]["parameters"]
+    return [p for p in shaders[0]["parameters"] if "output" not in p["type"].split()]
 
 
 def fill(settings, found: list[dict]) -> None:
@@ -69,7 +69,7 @@ class TOMALES_PT_render(_Panel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.tomales
         layout.use_property_split = True
-        for name in ("pixel_samples", "filter_width", "shading_rate", "light_samples", "bounces", "gather_samples", "subdivide"):
+        for name in ("pixel_samples", "filter_width", "shading_rate", "light_samples", "reflection_samples", "bounces", "gather_samples", "subdivide"):
             layout.prop(settings, name)
         layout.prop(context.scene.render, "film_transparent")
         layout.prop(context.scene.render, "use_motion_blur")

@@ -1,6 +1,7 @@
 """Blender's render passes as the channels of one picture, and back."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,8 @@ import tomales
 
 from . import exr
 
+_FAR = 1e10  #: Blender's depth where nothing is.
+
 
 @dataclass(frozen=True)
 class Pass:
@@ -17,62 +20,100 @@ class Pass:
 
     name: str  #: Blender's.
     channels: str
-    variable: str  #: The renderer's, in Display's mode.
-    setting: str = ""  #: The view layer's property that asks for it; empty: always there.
+    variable: str = ""  #: The renderer's, in Display's mode; empty: none, the pass is white.
+    setting: str = ""  #: The view layer's property that asks for it.
     kind: str = "COLOR"
+    declared: str = ""  #: DisplayChannel's type, for what is not a standard variable of surfaces.
+    source: str = ""  #: DisplayChannel's.
+    is_light: bool = False  #: Cycles has the surface's colour apart, so it is divided out.
+    own: bool = False  #: One that Blender does not know by itself.
+
+    def plane_names(self) -> list[str]:
+        """Its channels in the file."""
+        if self.variable == "z":
+            return ["Z"]
+        if self.declared == "float":
+            return [self.variable]
+        return [f"{self.variable}.{c}" for c in ("XYZ" if self.kind == "VECTOR" and not self.declared else "RGB")]
 
 
 PASSES = (
     Pass("Depth", "Z", "z", "use_pass_z", "VALUE"),
     Pass("Normal", "XYZ", "normal", "use_pass_normal", "VECTOR"),
+    Pass("Position", "XYZ", "P", "use_pass_position", "VECTOR"),
     Pass("DiffCol", "RGB", "albedo", "use_pass_diffuse_color"),
-    Pass("DiffDir", "RGB", "diffuse", "use_pass_diffuse_direct"),
-    Pass("DiffInd", "RGB", "indirectdiffuse", "use_pass_diffuse_indirect"),
-    Pass("GlossDir", "RGB", "specular", "use_pass_glossy_direct"),
-    Pass("GlossInd", "RGB", "reflection", "use_pass_glossy_indirect"),
+    Pass("DiffDir", "RGB", "diffuse", "use_pass_diffuse_direct", declared="color", is_light=True),
+    Pass("DiffInd", "RGB", "indirectdiffuse", "use_pass_diffuse_indirect", declared="color", is_light=True),
+    Pass("GlossCol", "RGB", "", "use_pass_glossy_color"),
+    Pass("GlossDir", "RGB", "specular", "use_pass_glossy_direct", declared="color"),
+    Pass("GlossInd", "RGB", "reflection", "use_pass_glossy_indirect", declared="color"),
 )  # fmt: skip
 
 
 def wanted(layer: bpy.types.ViewLayer) -> list[Pass]:
-    return [p for p in PASSES if getattr(layer, p.setting)]
+    """Those that are switched on, AOVs (outputs of shaders by their names) and light groups."""
+    out = [p for p in PASSES if getattr(layer, p.setting)]
+    for aov in layer.aovs:
+        if aov.is_valid and aov.name.isidentifier():
+            color = aov.type == "COLOR"
+            out.append(Pass(aov.name, "RGBA" if color else "X", aov.name, "", "COLOR" if color else "VALUE", "color" if color else "float", own=True))
+    for i, group in enumerate(layer.lightgroups):
+        out.append(Pass(f"Combined_{group.name}", "RGB", f"lightgroup{i}", declared="color", source=f"lightgroup:{group.name}", own=True))
+    return out
 
 
 class Passes:
     """Those of one view layer, in one file."""
 
-    def __init__(self, layer: bpy.types.ViewLayer, picture: Path) -> None:
+    def __init__(self, layer: bpy.types.ViewLayer, folder: Path, name: str) -> None:
+        """`name`: of the picture, relative to the folder in which the renderer runs."""
         self._passes = wanted(layer)
-        self._picture = picture
+        self._folder = folder
+        self._name = name
+        self._settings = {p.variable: p for p in self._passes if p.variable}
+        if any(p.is_light for p in self._passes):
+            self._settings.setdefault("albedo", PASSES[3])
 
     def write(self, ri: tomales.Ri) -> None:
         """DisplayChannels and the Display. The picture is raw, so that Blender's own view transform applies."""
-        for p in self._passes:
-            if p.variable not in ("z", "albedo", "normal"):
-                ri.DisplayChannel(f"color {p.variable}")
-        mode = ",".join(["Ci", "a", *[p.variable for p in self._passes]])
-        ri.Display(self._picture, "openexr", mode, {"string compression": "none", "string exrpixeltype": "float"})
+        for p in self._settings.values():
+            if p.declared:
+                ri.DisplayChannel(f"{p.declared} {p.variable}", {"string source": p.source} if p.source else {})
+        ri.Display(self._name, "openexr", ",".join(["Ci", "a", *self._settings]), {"string compression": "none", "string exrpixeltype": "float"})
 
     def read(self, result: bpy.types.RenderResult, to_world: numpy.ndarray) -> None:
-        """Into the first layer of the result, bottom row first. `to_world` turns normals of camera space. Raises OSError."""
-        channels = exr.read(self._picture)
+        """Into the result's layer, bottom row first. `to_world`: a matrix of 4 x 4, from camera space. Raises OSError."""
+        channels = exr.read(self._folder / self._name)
+        planes_of = lambda names: numpy.stack([_channel(channels, name) for name in names])  # noqa: E731
         layer = result.layers[0]
-        self._fill(layer.passes["Combined"], [channels[c] for c in "RGBA"], result)
+        self._fill(layer.passes["Combined"], planes_of("RGBA"), result)
         for p in self._passes:
-            if p.name not in layer.passes:
-                continue
-            if p.variable == "z":
-                planes = [numpy.where(numpy.isfinite(channels["Z"]), channels["Z"], 1e10)]
-            else:
-                suffixes = "xyz" if f"{p.variable}.x" in channels else "XYZ" if f"{p.variable}.X" in channels else "RGB"
-                planes = [channels[f"{p.variable}.{c}"] for c in suffixes]
-            if p.kind == "VECTOR":
-                planes = list(numpy.tensordot(to_world, numpy.stack(planes), 1))
-            self._fill(layer.passes[p.name], planes, result)
+            if p.name in layer.passes:
+                planes = planes_of(p.plane_names()) if p.variable else numpy.ones((3, *channels["A"].shape), "f4")
+                self._fill(layer.passes[p.name], self._converted(p, planes, planes_of, to_world), result)
+
+    def _converted(self, p: Pass, planes: numpy.ndarray, planes_of: Callable[[list[str]], numpy.ndarray], to_world: numpy.ndarray) -> numpy.ndarray:
+        """As Blender has the values."""
+        if p.variable == "z":
+            return numpy.where(numpy.isfinite(planes), planes, _FAR)
+        if p.kind == "VECTOR":
+            there = planes_of(["A"]) if p.variable == "P" else 0
+            return numpy.tensordot(to_world[:3, :3], planes, 1) + to_world[:3, 3, None, None] * there
+        if p.is_light:
+            color = planes_of(PASSES[3].plane_names())
+            return numpy.divide(planes, color, out=numpy.zeros_like(planes), where=color > 0)
+        return numpy.concatenate([planes, planes_of(["A"])]) if p.channels == "RGBA" else planes
 
     @staticmethod
-    def _fill(target: bpy.types.RenderPass, planes: list[numpy.ndarray], result: bpy.types.RenderResult) -> None:
-        height, width = planes[0].shape
+    def _fill(target: bpy.types.RenderPass, planes: numpy.ndarray, result: bpy.types.RenderResult) -> None:
+        _, height, width = planes.shape
         if (width, height) != (result.resolution_x, result.resolution_y):
             raise OSError(f"the picture has {width} x {height} pixels, not {result.resolution_x} x {result.resolution_y}")
-        values = numpy.stack(planes[: target.channels], -1)[::-1]
+        values = planes[: target.channels].transpose(1, 2, 0)[::-1]
         target.rect.foreach_set(numpy.ascontiguousarray(values, "f4").reshape(-1, target.channels)) if hasattr(target.rect, "foreach_set") else setattr(target, "rect", values.reshape(-1, target.channels).tolist())
+
+
+def _channel(channels: dict[str, numpy.ndarray], name: str) -> numpy.ndarray:
+    if name not in channels:
+        raise OSError(f"the picture has no channel {name}")
+    return channels[name]

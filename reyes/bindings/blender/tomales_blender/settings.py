@@ -14,6 +14,7 @@ class TomalesScene(bpy.types.PropertyGroup):
     bounces: IntProperty(name="Bounces", description="Diffuse bounces of indirect light; 0 leaves it out", default=1, min=0, max=16)
     gather_samples: IntProperty(name="Gather Samples", description="Rays of an irradiance sample", default=256, min=16, max=16384)
     light_samples: IntProperty(name="Light Samples", description="Samples of area lights and of the world for each shaded point", default=32, min=1, max=4096)
+    reflection_samples: IntProperty(name="Reflection Samples", description="Rays that mirror the scene in glossy materials, for each shaded point; 0: they mirror lights alone", default=4, min=0, max=256)
     subdivide: BoolProperty(
         name="Smooth Subdivision",
         description="A Subdivision Surface modifier at the end of the stack becomes a subdivision surface with creases, as fine as the picture needs",

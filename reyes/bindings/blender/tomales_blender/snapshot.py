@@ -8,6 +8,8 @@ import bpy
 from mathutils import Matrix
 
 from . import geometry
+from .closures import uses_of
+from .materials import Look
 
 Warn = Callable[[str], None]
 
@@ -43,31 +45,33 @@ class Snapshot:
     shapes: dict[str, Shape] = field(default_factory=dict)
 
 
-class ShapeCache:
-    """Shapes that no frame of an animation can change: those of objects without modifiers, shape keys and animation."""
+class Cache:
+    """What no frame of an animation can change: shapes of objects without modifiers, shape keys and animation, and looks."""
 
     def __init__(self) -> None:
         self.shapes: dict[str, Shape] = {}
         self.archives: dict[tuple[str, int], str] = {}
+        self.looks: dict[str, Look] = {}  #: By the full name of the material.
 
 
-def take(depsgraph: bpy.types.Depsgraph, camera: bpy.types.Object, subdivide: bool, cache: ShapeCache, warn: Warn) -> Snapshot:
+def take(depsgraph: bpy.types.Depsgraph, camera: bpy.types.Object, subdivide: bool, cache: Cache, warn: Warn) -> Snapshot:
     out = Snapshot(camera.evaluated_get(depsgraph).matrix_world.copy())
     for instance in depsgraph.object_instances:
-        obj = instance.object
+        # An instance's own object is a copy that lasts as long as the step of this loop: it has no meshes and particles.
+        obj = instance.instance_object if instance.is_instance else instance.object
         key = (obj.name_full, instance.parent.name_full if instance.parent else "", tuple(instance.persistent_id) if instance.is_instance else ())
         if obj.type == "LIGHT":
             out.lights[key] = (obj.original, instance.matrix_world.copy())
             continue
         systems = [] if instance.is_instance else list(_strand_systems(obj))
         if instance.show_self:
-            _add(out, key, obj, instance, lambda: _surface(obj, subdivide, warn), cache)
+            _add(out, key, obj, instance, lambda: _surface(obj, subdivide, warn), cache, "")
         for system in systems:
             _add(out, (*key, system.name), obj, instance, lambda: _strands(obj, system), None, " " + system.name)
     return out
 
 
-def _add(out: Snapshot, key: tuple, obj: bpy.types.Object, instance: bpy.types.DepsgraphObjectInstance, make: Callable[[], Shape | None], cache: ShapeCache | None, suffix: str = "") -> None:
+def _add(out: Snapshot, key: tuple, obj: bpy.types.Object, instance: bpy.types.DepsgraphObjectInstance, make: Callable[[], Shape | None], cache: Cache | None, suffix: str) -> None:
     original = obj.original
     shape_key = f"{obj.name_full if suffix or obj.modifiers or obj.type != 'MESH' else original.data.name_full}{suffix}"
     if shape_key not in out.shapes:
@@ -101,7 +105,8 @@ def _surface(obj: bpy.types.Object, subdivide: bool, warn: Warn) -> Shape | None
     if mesh is None:
         return None
     try:
-        return _shape(obj, geometry.mesh_pieces(mesh, subdivide and ends_in_subdivision(obj.original)))
+        last = obj.original.modifiers[-1] if subdivide and ends_in_subdivision(obj.original) else None
+        return _shape(obj, geometry.mesh_pieces(mesh, last, [uses_of(slot.material) for slot in obj.material_slots]))
     finally:
         obj.to_mesh_clear()
 

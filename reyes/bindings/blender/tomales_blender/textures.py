@@ -1,4 +1,4 @@
-"""Images of Blender as files that the renderer reads: linear, since it takes colours as they are in the file."""
+"""Images of Blender as linear arrays, and arrays as files that the renderer reads: it takes colours as they are in the file."""
 from __future__ import annotations
 
 import hashlib
@@ -9,24 +9,26 @@ import bpy
 import numpy
 
 from . import exr
+from .values import Value, is_gray
+
+FOLDER = "textures"
 
 
 class Textures:
-    """Writes each image once into a folder. Names tell contents, so that frames and scenes share files."""
+    """Writes pictures once into FOLDER below a folder. Names tell contents, so that frames and scenes share files."""
 
     def __init__(self, folder: Path, warn: Callable[[str], None]) -> None:
         self._folder = folder
         self._warn = warn
-        self._files: dict[tuple[str, bool], Path | None] = {}
+        self._images: dict[str, numpy.ndarray | None] = {}
 
-    def file(self, image: bpy.types.Image, is_data: bool = False) -> Path | None:
-        """None if the image has no pixels, with a message. `is_data`: numbers, which are never linearised."""
-        key = (image.name_full, is_data)
-        if key not in self._files:
-            self._files[key] = self._write(image, is_data)
-        return self._files[key]
+    def pixels(self, image: bpy.types.Image) -> numpy.ndarray | None:
+        """Linear, of shape (height, width, 4), the top row first; None if there are none, with a message."""
+        if image.name_full not in self._images:
+            self._images[image.name_full] = self._read(image)
+        return self._images[image.name_full]
 
-    def _write(self, image: bpy.types.Image, is_data: bool) -> Path | None:
+    def _read(self, image: bpy.types.Image) -> numpy.ndarray | None:
         width, height = image.size
         if width * height == 0:
             self._warn(f"the image {image.name} is missing: {image.filepath}")
@@ -34,15 +36,23 @@ class Textures:
         pixels = numpy.empty(width * height * image.channels, "f4")
         image.pixels.foreach_get(pixels)
         pixels = pixels.reshape(height, width, image.channels)[::-1]
-        if not is_data and not image.is_float and image.colorspace_settings.name == "sRGB":
-            pixels = pixels.copy()
-            pixels[..., :3] = linear(pixels[..., :3])
-        name = hashlib.sha256(pixels.tobytes()).hexdigest()[:20]
-        path = self._folder / f"{name}.exr"
+        out = numpy.ones((height, width, 4), "f4")
+        out[..., :3] = pixels[..., :3] if image.channels > 2 else pixels[..., :1]
+        if image.channels == 4:
+            out[..., 3] = pixels[..., 3]
+        if not image.is_float and image.colorspace_settings.name == "sRGB":
+            out[..., :3] = linear(out[..., :3])
+        return out
+
+    def file(self, picture: Value) -> str:
+        """The file of a picture, relative to the folder."""
+        pixels = numpy.ascontiguousarray(picture[..., :1] if is_gray(picture) else picture, "f2")
+        name = f"{FOLDER}/{hashlib.sha256(pixels.tobytes()).hexdigest()[:20]}.exr"
+        path = self._folder / name
         if not path.exists():
-            self._folder.mkdir(parents=True, exist_ok=True)
-            exr.write(path, pixels if image.channels > 2 else pixels[..., :1])
-        return path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            exr.write_texture(path, pixels)
+        return name
 
 
 def linear(srgb: numpy.ndarray) -> numpy.ndarray:

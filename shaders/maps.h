@@ -1,0 +1,94 @@
+// Pictures that multiply parameters of a surface, and normal maps; all are looked up at s, t.
+#pragma once
+#include <optional>
+
+#include "reyes/shader.h"
+#include "reyes/shader/shadeops.h"
+
+/// A number that one channel of a picture multiplies.
+struct MappedFloat {
+  rsl::FloatParam value;
+  rsl::StringParam map;
+  rsl::UniformFloatParam channel;
+
+  MappedFloat(const char* name, float fallback, const char* doc, const char* mapName, const char* channelName)
+      : value(name, fallback, doc),
+        map(mapName, "", "picture that multiplies it"),
+        channel(channelName, 0, "the channel of that picture, 0 the first") {}
+};
+
+/// Its values at the points of a batch.
+class MappedValues {
+ public:
+  MappedValues(const rsl::Batch& b, const MappedFloat& of) : g_(b.g), of_(of) {
+    if (*of.map(g_) == 0) return;
+    TmTextureOptions options = tmTextureDefaults();
+    options.channel = static_cast<int>(rsl::clamp(of.channel(g_), 0, 63));
+    picture_.emplace(g_);
+    g_->call->texture(g_->host, g_, of.map(g_), &options, g_->s, g_->t, {picture_->data(), nullptr, nullptr});
+  }
+  float operator[](int i) const { return picture_ ? of_.value(g_, i) * (*picture_)[i] : of_.value(g_, i); }
+
+ private:
+  const TmGrid* const g_;
+  const MappedFloat& of_;
+  std::optional<rsl::Array> picture_;
+};
+
+/// A colour of sRGB in linear light (IEC 61966-2-1).
+inline rsl::Color linearOfSrgb(rsl::Color c) {
+  const auto linear = [](float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); };
+  return {linear(c.x), linear(c.y), linear(c.z)};
+}
+
+/// The colours of a picture at the points of a batch; white where there is none. The renderer multiplies colours by the
+/// picture's alpha as it reads them. That of sRGB is divided out again, as such pictures keep colours and alpha apart.
+class ColorPicture {
+ public:
+  ColorPicture(const rsl::Batch& b, const char* map, bool isSrgb) {
+    if (*map == 0) return;
+    picture_.emplace(b.g);
+    if (!b.texture(map, *picture_) || !isSrgb) return;
+    TmTextureOptions options = tmTextureDefaults();
+    options.channel = 3, options.fill = 1;
+    rsl::Array alpha(b.g);
+    b.g->call->texture(b.g->host, b.g, map, &options, b.g->s, b.g->t, {alpha.data(), nullptr, nullptr});
+    for (int i : b) picture_->set(i, linearOfSrgb((*picture_)[i] / std::max(alpha[i], 1e-3f)));
+  }
+  rsl::Color operator[](int i) const { return picture_ ? (*picture_)[i] : rsl::Color{1, 1, 1}; }
+
+ private:
+  std::optional<rsl::Vec3Array> picture_;
+};
+
+/// Normals in tangent space: red along s, green against t (up the picture), blue along the normal; 0.5 is 0.
+struct NormalMap {
+  rsl::StringParam map{"normalmap", "", "picture of normals in tangent space, its green upwards"};
+  rsl::FloatParam scale{"normalscale", 1, "how far they turn; negative: against what the picture says"};
+
+  /// Of unit length, towards the viewer, as rsl::Batch::facingNormals().
+  rsl::Vec3Array facingNormals(const rsl::Batch& b) const {
+    rsl::Vec3Array N = b.facingNormals(), texel(b.g);
+    if (*map(b.g) == 0 || !b.texture(map(b.g), texel)) return N;
+    rsl::Array su(b.g), sv(b.g), tu(b.g), tv(b.g);
+    const auto derive = [&](const float* value, int direction, rsl::Array& out) {
+      b.g->call->derivative(b.g->host, b.g, direction, value, out.data());
+    };
+    derive(b.g->s, 0, su), derive(b.g->s, 1, sv), derive(b.g->t, 0, tu), derive(b.g->t, 1, tv);
+    for (int i : b) {
+      const rsl::Vec3 outward = rsl::normalize(b.N(i)), dPdu = rsl::get(b.g->dPdu, i), dPdv = rsl::get(b.g->dPdv, i);
+      // P and (s, t) are functions of (u, v): dP/ds and dP/dt by the inverse of d(s, t)/d(u, v), but for its size.
+      const float turn = su[i] * tv[i] - sv[i] * tu[i] < 0 ? -1.0f : 1.0f;
+      const rsl::Vec3 alongS = turn * (tv[i] * dPdu - tu[i] * dPdv), alongT = turn * (su[i] * dPdv - sv[i] * dPdu);
+      const rsl::Vec3 flat = alongS - rsl::dot(alongS, outward) * outward;
+      if (!(rsl::dot(flat, flat) > 0)) continue;
+      const rsl::Vec3 tangent = rsl::normalize(flat), side = rsl::cross(outward, tangent),
+                      up = rsl::dot(side, alongT) > 0 ? -1.0f * side : side;
+      const rsl::Vec3 n = 2.0f * texel[i] - rsl::Vec3{1, 1, 1};
+      const float k = scale(b.g, i);
+      const rsl::Vec3 turned = (k * n.x) * tangent + (k * n.y) * up + std::max(n.z, 1e-3f) * outward;
+      N.set(i, rsl::normalize(rsl::dot(N[i], outward) < 0 ? -1.0f * turned : turned));
+    }
+    return N;
+  }
+};
