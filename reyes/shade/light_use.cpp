@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "reyes/base/rng.h"
 #include "reyes/camera_bound.h"
 #include "reyes/shade/batch.h"
 
@@ -10,7 +9,6 @@ namespace tomales {
 namespace {
 
 constexpr size_t kMostNamed = 3;     ///< One message names no more surfaces.
-constexpr uint32_t kOneChunkOf = 8;  ///< Brightness is counted in one chunk of so many.
 constexpr int64_t kFewPoints = 100;  ///< Fewer points say nothing about a picture.
 constexpr double kShareOfPoints = 0.5;
 constexpr int kGlare_stops = 4;  ///< No film of any time shows white paper at sixteen times its white.
@@ -67,7 +65,7 @@ void LightUse::add(const Batch& batch) {
     Lamp& lamp = lamps_[static_cast<size_t>(sample.light->index)];
     if (!lamp.comes.load(std::memory_order_relaxed)) follow(batch, sample, lamp);
   }
-  if (hashCombine(batch.points->key(0), batch.points->name(0).sequence, 0) % kOneChunkOf == 0) countStops(batch);
+  countStops(batch);
 }
 
 // Where a shadow ray has been traced there was light, and a surface that wanted to know of it.

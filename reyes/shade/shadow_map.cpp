@@ -151,7 +151,7 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
 const ShadowMap* ShadowMaps::find(const std::string& name, const SourceLoc& where, const std::string& user) const {
   const std::lock_guard lock(mutex_);
   const auto [it, isNew] = maps_.try_emplace(name);
-  if (!isNew) return it->second.get();
+  if (!isNew || name.empty()) return it->second.get();  // shaders that are given no map look up ""
   const std::vector<std::string> candidates = candidateFiles(name, searchPath_);
   const std::string path = candidates.empty() ? "" : candidates.front();
   std::string error;

@@ -75,7 +75,7 @@ t.expect('"2"' in said.get("light-glare", "") and "64 times" in said["light-glar
 t.expect("light-glare" not in told("exposed", 'LightSource "distantlight" 2 "intensity" 100\n' + BALL, "Exposure .01 1"), "Exposure counts")
 
 # The two conventions of arealight: a patch of area 1 at distance 3 in front of the camera's wall.
-AREA = 'AttributeBegin\nTranslate 0 0 -3\nAttribute "visibility" "camera" 0\nAreaLightSource "arealight" 1 "intensity" 9 {given}\nPatch "bilinear" "P" [{p}]\nAttributeEnd\n'
+AREA = 'AttributeBegin\nTranslate 0 0 -3\nAttribute "visibility" "camera" 0\nAreaLightSource "arealight" 1 "intensity" 9 {given}\nPatch "bilinear" "P" [{p}]\nAttributeEnd\nIlluminate 1 1\n'
 WALL = 'Surface "matte" "Ka" 0 "Kd" 1\nPatch "bilinear" "P" [-.1 .1 0 .1 .1 0 -.1 -.1 0 .1 -.1 0]\n'
 
 
