@@ -66,7 +66,7 @@ t.expect("missing: 1" in t.run("info", "job/nowhere.rib").stdout, "and nothing e
 t.write("job/looks.sl", 'surface looks(string map = "";) { Oi = 1; Ci = color texture(map) + color environment(map, N) + shadow(map, P); }')
 result = t.expect_run("an empty name", [scene("empty", 'Surface "looks"')], 0)
 t.expect(not result.stderr, "is no matter")
-t.expect_run("black", [scene("black", 'Surface "constant" Color 0')], 0)
+t.expect_run("black", [scene("black", 'Surface "constant" Color 0 0 0')], 0)
 t.expect(same("empty", "black"), "and brings nothing")
 
 # Folders of the user.
