@@ -164,7 +164,7 @@ class Cache : public TextureCache {
       }
       if (problem.empty()) problem = error;
     }
-    if (!problem.empty()) picture.error = problem;
+    if (!named.empty()) picture.error = problem;  // else it is not found, whatever else lies there
   }
 
   /// Null: `error` says why.
