@@ -8,6 +8,7 @@
 //   never     knows a camera, an attribute or a shader
 // Space: everything is in object space. Threads: const members may be called concurrently.
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,6 +28,14 @@ struct UvRect {
 
 /// Bits for the four edges of a patch, in the order of PatchInfo::openEdges.
 enum PatchEdge : uint8_t { kEdgeU0 = 1, kEdgeU1 = 2, kEdgeV0 = 4, kEdgeV1 = 8, kAllEdges = 15 };
+
+/// The two of what belongs to the corners (RISpec's order) that belong to the ends of an edge, in the direction of u or
+/// v.
+template <class T>
+std::array<T, 2> endsOf(const std::array<T, 4>& corners, PatchEdge edge) {
+  const size_t from = edge == kEdgeU1 ? 1 : edge == kEdgeV1 ? 2 : 0, to = edge == kEdgeU0 ? 2 : edge == kEdgeV0 ? 1 : 3;
+  return {corners[from], corners[to]};
+}
 
 struct PatchInfo {
   bool planar = false;            ///< True if it is flat, with straight edges, so that two triangles are exact.
@@ -106,6 +115,15 @@ class Prim {
   virtual Kept kept(uint32_t /*patch*/, const UvRect& /*rect*/) const { return Kept::All; }
   /// Is this point kept by trim curves?
   virtual bool keeps(uint32_t /*patch*/, float /*u*/, float /*v*/) const { return true; }
+
+  /// True for particles and ribbons, which no other surface continues: their open edges end at their vertices.
+  virtual bool isLone() const { return false; }
+  /// The ends, in the direction of u or v, of the straight line that an edge of a patch is on, in object space. The
+  /// line may go on beyond the patch: its ends are points that another surface is likely to have as well. Returns
+  /// nothing if the edge is not known to be straight.
+  virtual std::optional<std::array<vec3, 2>> straightEdge(uint32_t /*patch*/, PatchEdge /*edge*/) const {
+    return std::nullopt;
+  }
 
   /// Approximate memory of the primitive.
   size_t bytes() const;

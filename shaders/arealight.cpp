@@ -7,7 +7,8 @@ rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance that the geometry 
 rsl::FloatParam area(
     "area", 0,
     "0: intensity is a scale of radiance. Else the area of the geometry, and a point at the distance d "
-    "gets intensity / d^2, as BMRT has it, however large that is");
+    "gets intensity / d^2, as BMRT has it, however large that is",
+    TM_ROLE_AREA);
 rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: camera and specular rays do not see it glow", TM_ROLE_VISIBLE);
 

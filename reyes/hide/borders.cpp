@@ -3,8 +3,6 @@
 // neighbour has as well. An open one that is curved reaches over its own chords.
 #include "reyes/hide/borders.h"
 
-#include "reyes/open_borders.h"
-
 namespace tomales {
 namespace {
 
@@ -148,12 +146,12 @@ struct Plan {
   std::array<BorderLine, 4> lines{};
 };
 
-Plan planOf(const Grid::Piece& piece, const Object& o, const OpenBorders* known, const Camera& camera, bool still) {
+Plan planOf(const Grid::Piece& piece, const Object& o, const Camera& camera, bool still) {
   Plan plan;
   plan.reaching = static_cast<uint8_t>(kAllEdges & ~piece.openEdges);
   for (size_t e = 0; e < 4; ++e) {
     if (!(piece.openEdges & kEdges[e])) continue;
-    const auto ends = known ? known->straightEdge(piece.patch, kEdges[e]) : std::nullopt;
+    const auto ends = o.shape().straightEdge(piece.patch, kEdges[e]);
     if (ends && (*ends)[0] == (*ends)[1]) continue;
     const auto line = ends && still ? lineOf(*ends, o.cameraFromObject.keys.front(), camera) : std::nullopt;
     if (line)
@@ -177,13 +175,12 @@ int edgesAtLines(const RasterGrid& r, size_t piece) {
 
 void planBorders(RasterGrid& r, const Object& object, const Camera& camera) {
   const Grid& g = *r.grid;
-  const auto* known = dynamic_cast<const OpenBorders*>(&object.shape());
-  const bool lone = known && known->isLone();
+  const bool lone = object.shape().isLone();
   const bool still = g.keyCount == 1 && object.shapes.size() == 1 && !g.displaced && !camera.defocuses();
   for (size_t p = 0; p < g.pieces.size(); ++p) {
     const Grid::Piece& piece = g.pieces[p];
     const auto joined = static_cast<uint8_t>(kAllEdges & ~piece.openEdges);
-    const Plan plan = lone ? Plan{joined} : planOf(piece, object, known, camera, still);
+    const Plan plan = lone ? Plan{joined} : planOf(piece, object, camera, still);
     if (plan.reaching && r.reaching.empty()) r.reaching.resize(g.pieces.size());
     if (plan.reaching) r.reaching[p] = plan.reaching;
     // The edges of a lone cell that nothing moves are its lines.

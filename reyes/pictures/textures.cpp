@@ -39,9 +39,14 @@ size_t tileMark(const std::string& name, size_t& length) {
   return std::string::npos;
 }
 
+struct OpenFile {
+  Handle* handle = nullptr;  ///< Null: the file cannot be opened.
+  int channels = 0;
+};
+
 /// A picture that is open, under the name by which shaders call it.
 struct Picture {
-  std::map<int, Handle*> tiles;  ///< Indexed by UDIM number; 0 if there is only one.
+  std::map<int, OpenFile> tiles;  ///< Indexed by UDIM number; 0 if there is only one.
   bool tiled = false;
   std::string error;   ///< Why there is none.
   std::string remark;  ///< What was taken in place of a file, and why.
@@ -155,8 +160,8 @@ class Cache : public TextureCache {
     std::string problem;  // with the best candidate
     for (const std::string& candidate : candidateFiles(name, settings.searchPath, textureEndings())) {
       std::string error;
-      if (Handle* handle = openFile(candidate, error)) {
-        picture.tiles[tile] = handle;
+      if (const OpenFile file = openFile(candidate, error); file.handle) {
+        picture.tiles[tile] = file;
         if (candidate == named) return;
         picture.remark = fmt::format("{}; {} is taken, which has its name",
                                      named.empty() ? "is not there" : "cannot be read (" + problem + ")", candidate);
@@ -167,15 +172,16 @@ class Cache : public TextureCache {
     if (!named.empty()) picture.error = problem;  // else it is not found, whatever else lies there
   }
 
-  /// Null: `error` says why.
-  Handle* openFile(const std::string& path, std::string& error) {
+  /// Where there is no handle, `error` says why.
+  OpenFile openFile(const std::string& path, std::string& error) {
     std::string note;
     const std::string file = tiledFile(path, cacheFolder, error, note);
     if (!note.empty() && settings.note) settings.note(note);
     Handle* handle = file.empty() ? nullptr : system->get_texture_handle(OIIO::ustring(file));
-    if (handle && system->good(handle)) return handle;
+    const OIIO::ImageSpec* spec = handle && system->good(handle) ? system->imagespec(handle) : nullptr;
+    if (spec) return {handle, spec->nchannels};
     if (error.empty()) error = system->geterror();
-    return nullptr;
+    return {};
   }
 
   OIIO::TextureSystem* const system = SharedSystem::get().textures;
@@ -196,21 +202,21 @@ bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::str
     if (!q.active[i]) continue;
     float texel[3] = {q.fill, q.fill, q.fill};
     float s = std::isfinite(q.s[i]) ? q.s[i] : 0, t = std::isfinite(q.t[i]) ? q.t[i] : 0;
-    Handle* handle = nullptr;
+    OpenFile file;
     if (known.tiled) {
       const float column = std::floor(s), row = std::floor(t);
       const auto tile = column >= 0 && column < 10 && row >= 0 && row < 10
                             ? known.tiles.find(1001 + static_cast<int>(column) + 10 * static_cast<int>(row))
                             : known.tiles.end();
-      if (tile != known.tiles.end()) handle = tile->second, s -= column, t -= row;
+      if (tile != known.tiles.end()) file = tile->second, s -= column, t -= row;
     } else {
-      handle = known.tiles.begin()->second;
+      file = known.tiles.begin()->second;
     }
     const auto edge = [&](const float* e) { return e && std::isfinite(e[i]) ? e[i] : 0.0f; };
     // OpenImageIO 2.4 reads beyond the texel where a picture lacks even the first channel.
-    const OIIO::ImageSpec* spec = handle ? system->imagespec(handle, thread) : nullptr;
-    if (handle && !(spec && q.channel >= spec->nchannels)) {
-      found = system->texture(handle, thread, options, s, t, edge(q.su), edge(q.tu), edge(q.sv), edge(q.tv), n, texel);
+    if (file.handle && q.channel < file.channels) {
+      found =
+          system->texture(file.handle, thread, options, s, t, edge(q.su), edge(q.tu), edge(q.sv), edge(q.tv), n, texel);
       ++lookups;
     }
     for (int k = 0; k < n; ++k) channels[k][i] = texel[k];
@@ -228,7 +234,7 @@ bool Cache::info(const std::string& name, const std::string& what, std::vector<f
   numbers.clear(), text.clear();
   if (what == "exists") return numbers = {there ? 1.0f : 0.0f}, true;
   if (!there) return false;
-  Handle* handle = known.tiles.begin()->second;
+  Handle* handle = known.tiles.begin()->second.handle;
   const auto get = [&](const char* fact, OIIO::TypeDesc type, void* to) {
     return system->get_texture_info(handle, nullptr, 0, OIIO::ustring(fact), type, to);
   };

@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "reyes/base/simd.h"
-#include "reyes/open_borders.h"
 #include "reyes/prim/curve_segments.h"
 #include "reyes/prim/facing.h"
 #include "reyes/prim/interpolation.h"
@@ -105,7 +104,7 @@ TOMALES_HOT void spread(int n, const float* u, const int* section, const Section
   }
 }
 
-class Ribbons : public Prim, public OpenBorders {
+class Ribbons : public Prim {
  public:
   explicit Ribbons(CurveSegments segments) : Prim(std::move(segments.primvars)), segments_(std::move(segments)) {
     if (const Primvar* normals = normalsOf(primvars_)) normals_ = segments_.along(*normals);

@@ -1,7 +1,6 @@
 // Bilinear and bicubic patch meshes (RISpec section 5.2). A Patch is a mesh of one patch.
 #include <fmt/format.h>
 
-#include "reyes/open_borders.h"
 #include "reyes/prim/patch_mesh.h"
 #include "reyes/prim/primvars.h"
 
@@ -46,7 +45,7 @@ std::vector<vec3> takeControls(const ParamList& params, const Layout& mesh, Prob
   return heights ? takeHeights(*heights, mesh) : takePositions(params, mesh.controls(), true, problems);
 }
 
-class BilinearMesh : public PatchMesh, public OpenBorders {
+class BilinearMesh : public PatchMesh {
  public:
   BilinearMesh(const Layout& mesh, const ParamList& params, Problems& problems)
       : PatchMesh(mesh, params, problems), points_(takeControls(params, mesh, problems)) {}

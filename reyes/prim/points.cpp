@@ -1,7 +1,6 @@
 // Particles as disks, squares or spheres (RISpec 3.2, Points).
 #include <fmt/format.h>
 
-#include "reyes/open_borders.h"
 #include "reyes/prim/disk_lattice.h"
 #include "reyes/prim/facing.h"
 #include "reyes/prim/interpolation.h"
@@ -76,7 +75,7 @@ class PointCloud : public Prim, public Scattered {
 
 /// Shapes with a plane, which is that of "N" or faces the eye.
 template <class Shape>
-class FlatPoints : public PointCloud, public OpenBorders {
+class FlatPoints : public PointCloud {
  public:
   bool isLone() const override { return true; }
   using PointCloud::PointCloud;

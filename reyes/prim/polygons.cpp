@@ -1,14 +1,13 @@
 // Polygons (RISpec section 5.1) as bilinear patches.
 #include <fmt/format.h>
 
-#include "reyes/open_borders.h"
 #include "reyes/prim/polygon_patches.h"
 #include "reyes/prim/primvars.h"
 
 namespace tomales {
 namespace {
 
-class Polygons : public Prim, public OpenBorders {
+class Polygons : public Prim {
  public:
   Polygons(Decomposition parts, std::vector<vec3> positions, std::vector<int> vertices, std::vector<Primvar> primvars)
       : Prim(std::move(primvars)),

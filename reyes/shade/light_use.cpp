@@ -8,9 +8,11 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kMostNamed = 3;     ///< One message names no more surfaces.
-constexpr int64_t kFewPoints = 100;  ///< Fewer points say nothing about a picture.
+constexpr size_t kMostNamed = 3;    ///< One message names no more surfaces.
+constexpr int64_t kFewPoints = 10;  ///< Fewer counted points say nothing about a picture.
 constexpr double kShareOfPoints = 0.5;
+constexpr int kCounted =
+    16;  ///< One point of so many is counted, which tells a share of the picture as well as all do.
 constexpr int kGlare_stops = 4;  ///< No film of any time shows white paper at sixteen times its white.
 
 bool isDirect(const BoundLight& light) { return !light.can(TM_LIGHT_INDIRECT); }
@@ -74,7 +76,8 @@ void LightUse::follow(const Batch& batch, const LightSample& sample, Lamp& lamp)
     const bool sent = get(sample.Cl, i) != vec3(0.0f), traced = sample.pending && !sample.pending[i];
     if (!sent && !traced) continue;
     const bool faces = sample.pending ? traced : dot(batch.points->facingNormal(i), get(sample.L, i)) > 0;
-    if (!lamp.bright.exchange(true) && !sample.rays.solar) {
+    // The places of an area light differ, and which of them is seen first depends on threads.
+    if (!lamp.bright.exchange(true) && !sample.rays.solar && !sample.light->can(TM_LIGHT_AREA)) {
       const std::lock_guard lock(mutex_);
       places_[static_cast<size_t>(sample.light->index)] = batch.points->position(i) + get(sample.far, i);
     }
@@ -86,29 +89,31 @@ void LightUse::follow(const Batch& batch, const LightSample& sample, Lamp& lamp)
 /// Counts how bright diffuse() makes white paper in the light of each lamp.
 void LightUse::countStops(const Batch& batch) {
   const std::vector<LightSample>& samples = batch.lights.evaluated();
-  const int n = batch.points->count();
-  std::vector<float> sum;
+  const int n = batch.points->count(), counted = (n + kCounted - 1) / kCounted;
+  static thread_local std::vector<float> sum;
   for (size_t begin = 0, end; begin < samples.size(); begin = end) {
     const BoundLight& light = *samples[begin].light;
-    sum.assign(static_cast<size_t>(n), 0.0f);
+    sum.assign(static_cast<size_t>(counted), 0.0f);
     for (end = begin; end < samples.size() && samples[end].light == &light; ++end)
-      for (int i = 0; i < n; ++i) {
+      for (int i = 0; i < n; i += kCounted) {
         const float cosine = dot(batch.points->facingNormal(i), get(samples[end].L, i));
         const bool counts = cosine > 0 && !(samples[end].pending && samples[end].pending[i]);
-        if (counts) sum[static_cast<size_t>(i)] += cosine * luminance(get(samples[end].Cl, i));
+        if (counts) sum[static_cast<size_t>(i / kCounted)] += cosine * luminance(get(samples[end].Cl, i));
       }
     for (const float brightness : sum)
       if (brightness >= 1)
         ++lamps_[static_cast<size_t>(light.index)]
               .stops[static_cast<size_t>(std::min(std::ilogb(brightness), kStops - 1))];
   }
-  points_ += n;
+  points_ += counted;
 }
 
 void LightUse::warn(const BoundScene& scene) const {
   warnOfDarkness(scene);
   const bool whole = scene.scene.options.cropWindow == Options().cropWindow;
-  if (whole) warnOfUseless(scene);
+  const bool indirect =
+      std::any_of(scene.lights.begin(), scene.lights.end(), [](const auto& l) { return l && !isDirect(*l); });
+  if (whole && !indirect) warnOfUseless(scene);  // what a lamp sends elsewhere comes back from there
   warnOfGlare(scene);
 }
 

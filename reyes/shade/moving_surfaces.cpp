@@ -35,12 +35,11 @@ class MovingSurfaces {
     const std::lock_guard lock(mutex_);
     const auto [it, isNew] = known_.try_emplace(surface);
     if (!isNew) return it->second;
-    ShaderCall call = *surface;
-    call.name = kOfSurface + call.name;
-    const ShaderName name = nameOf(call, TM_DISPLACEMENT);
-    if (registry_.find(name.name, name.kind, path_, name.beside))
-      it->second = std::make_shared<const ShaderCall>(std::move(call));
-    return it->second;
+    const ShaderName name = nameOf(*surface, TM_DISPLACEMENT);
+    if (!registry_.find(kOfSurface + name.name, name.kind, path_, name.beside)) return nullptr;
+    auto call = std::make_shared<ShaderCall>(*surface);
+    call->name = kOfSurface + name.name;
+    return it->second = std::move(call);
   }
 
  private:

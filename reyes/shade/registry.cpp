@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <tuple>
 
 #include "reyes/base/crash_note.h"
 #include "reyes/base/input_file.h"
@@ -291,7 +292,9 @@ const TmShader* ShaderRegistry::find(const std::string& name, TmKind kind, const
 void ShaderRegistry::prepare(const std::vector<ShaderName>& names, const std::string& searchPath) {
   const std::lock_guard lock(impl_->mutex);
   std::vector<RslRequest> requests;
+  std::set<std::tuple<std::string, TmKind, std::string>> seen;  // a hundred thousand objects may name one shader
   for (const ShaderName& n : names) {
+    if (!seen.emplace(n.name, n.kind, n.beside).second) continue;
     if (impl_->answers.count({n.name, n.kind, searchPath, n.beside})) continue;
     const TmShader* const own = impl_->known(n.name, n.kind);
     if ((own && impl_->comesBeforeTexts(*own)) || !pluginFiles(n.name, impl_->trust.folders).empty()) continue;

@@ -33,6 +33,7 @@ constexpr RoleInfo kRoles[] = {
     {TM_ROLE_SHADOW_VARIANCE, "shadowvariance", TM_FLOAT, TM_LIGHT},
     {TM_ROLE_SCATTERING, "scattering", TM_COLOR, TM_VOLUME},
     {TM_ROLE_ABSORPTION, "absorption", TM_COLOR, TM_VOLUME},
+    {TM_ROLE_AREA, "area", TM_FLOAT, TM_LIGHT},
 };
 
 constexpr TmParamDecl standard(const char* name, TmRole role, TmType type, const char* doc) {

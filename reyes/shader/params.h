@@ -169,7 +169,7 @@ using NormalOutput = Output<TM_NORMAL, Vec3>;
 class Shader {
  public:
   Shader(TmKind kind, const char* name, const char* doc, uint32_t capabilities, void (*shade)(const TmGrid*),
-         std::initializer_list<Param*> params) {
+         const std::vector<Param*>& params) {
     shader_.abi = TM_SHADER_ABI;
     shader_.structBytes = sizeof shader_;
     shader_.kind = kind;

@@ -95,7 +95,9 @@ typedef enum TmRole {
   TM_ROLE_SHADOW_MAP = 22,      /* string, one or several. Any light: a shadow map that the shader reads */
   TM_ROLE_SHADOW_VARIANCE = 23, /* float. Any light: what its shadow rays may leave open */
   TM_ROLE_SCATTERING = 24,      /* color. Volume: for each unit of length of the world, as photons meet it */
-  TM_ROLE_ABSORPTION = 25       /* color. Likewise */
+  TM_ROLE_ABSORPTION = 25,      /* color. Likewise */
+  TM_ROLE_AREA = 26             /* float. TM_LIGHT_AREA: the area of its geometry, which the host gives where the scene
+                                   does not and asks for light as BMRT has it; 0: it is not known */
 } TmRole;
 
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */

@@ -2,7 +2,6 @@
 
 #include <bit>
 
-#include "reyes/open_borders.h"
 #include "reyes/scattered.h"
 #include "reyes/split.h"
 #include "reyes/split/placement.h"
@@ -67,8 +66,7 @@ bool isFlat(const Object& o, uint32_t patch) {
 bool isAlone(const Object& o, uint32_t patch) {
   const PatchInfo info = o.shape().info(patch);
   if (o.displacementBound > 0 || (info.openEdges & kAllEdges) != kAllEdges) return false;
-  const auto* known = dynamic_cast<const OpenBorders*>(&o.shape());
-  return info.planar || (known && known->isLone());
+  return info.planar || o.shape().isLone();
 }
 
 /// Splits the patches of one object.

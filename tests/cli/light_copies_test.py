@@ -157,7 +157,10 @@ alone = [
 ]
 for name, params in alone:
     alike(name, [(name, "it", params)], RENDER)
-t.expect(alike("arealight", [AREA], RENDER)[10, 17][0] > 0, "it lights the floor")
+radiance = alike("arealight", [AREA], RENDER)[10, 17][0]
+t.expect(radiance > 0, "it lights the floor")
+ofBmrt = alike("arealight as BMRT has it", [AREA], [*RENDER, "--arealight", "bmrt"])[10, 17][0]
+t.expect(abs(ofBmrt / radiance - 3.14159265 / 1.44) < 0.01, f"by pi / area more ({ofBmrt / radiance:.4f})")
 alike("arealight, invisible", [("arealight", "lamp", {"samples": 4, "visible": 0})], RENDER)
 tested = {name for name, _ in alone} | {"arealight", "indirectlight", "filterlight"}
 t.expect(tested == set(declared), f"every built-in light is here: {tested ^ set(declared)}")

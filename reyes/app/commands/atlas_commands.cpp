@@ -12,6 +12,7 @@
 #include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/watch/stats_json.h"
+#include "reyes/area_lights.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
@@ -86,6 +87,7 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   applyOverrides(scene, settings);
   ShaderRegistry registry(log, pluginTrust(settings), settings.standardFromFiles);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  measureAreaLights(scene, registry);
   displaceByMovingSurfaces(scene, registry, log);
   scene.open([](const Attributes& a) { return a.visibility.photon; });
   ShadingSystem shading(scene, registry, nullptr, log, stats);

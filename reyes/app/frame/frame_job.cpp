@@ -14,6 +14,7 @@
 #include "reyes/app/watch/pixel_report.h"
 #include "reyes/app/watch/preview.h"
 #include "reyes/app/watch/sketch.h"
+#include "reyes/area_lights.h"
 #include "reyes/base/search_path.h"
 #include "reyes/moving_surfaces.h"
 
@@ -34,6 +35,7 @@ FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, L
       meter_(settings.progress, "preparing"),
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   registry_.addLibrary(tomales_builtin_shaders(), "built-in");
+  measureAreaLights(scene, registry_);
   if (!settings.draft) displaceByMovingSurfaces(scene, registry_, log);
   shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
   shading_->setClouds(&clouds_);

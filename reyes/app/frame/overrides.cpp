@@ -5,7 +5,6 @@
 #include <functional>
 #include <set>
 
-#include "reyes/app/frame/area_lights.h"
 #include "reyes/base/output_root.h"
 #include "reyes/image.h"
 #include "reyes/scene_changes.h"
@@ -122,7 +121,6 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   raiseTextureMemory(scene.options);
   setWord(scene.options, "shade:specular", settings.specular);
   setWord(scene.options, "shade:arealight", settings.arealight);
-  measureAreaLights(scene);
   if (settings.textureMemory) {
     Param kilobytes;
     kilobytes.name = "texturememory", kilobytes.type = ValueType::Float;

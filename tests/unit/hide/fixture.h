@@ -4,12 +4,11 @@
 #include <functional>
 
 #include "reyes/hide.h"
-#include "reyes/open_borders.h"
 
 namespace tomales::test {
 
 /// Nothing asks it for geometry: the grids of these tests come ready made, and end where their vertices are.
-class NoPrim : public Prim, public OpenBorders {
+class NoPrim : public Prim {
  public:
   explicit NoPrim(std::vector<Primvar> primvars = {}) : Prim(std::move(primvars)) {}
   bool isLone() const override { return true; }

@@ -1,8 +1,12 @@
-#include "reyes/app/frame/area_lights.h"
+#include "reyes/area_lights.h"
 
+#include <algorithm>
 #include <vector>
 
+#include "reyes/base/search_path.h"
 #include "reyes/dialect.h"
+#include "reyes/shade/binder.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -43,18 +47,30 @@ double areaOf(const Scene& scene, int light) {
   return sum;
 }
 
+/// Null if the light's shader takes no area, or the scene gives it.
+const TmParamDecl* parameterOfArea(const ShaderCall& call, const std::string& path, ShaderRegistry& registry) {
+  const ShaderName name = nameOf(call, TM_LIGHT);
+  const TmShader* shader = registry.find(name.name, name.kind, path, name.beside);
+  if (!shader) return nullptr;
+  const TmParamDecl* const end = shader->params + shader->paramCount;
+  const TmParamDecl* area =
+      std::find_if(shader->params, end, [](const TmParamDecl& p) { return p.role == TM_ROLE_AREA; });
+  return area == end || findParam(call.params, area->name) ? nullptr : area;
+}
+
 }  // namespace
 
-void measureAreaLights(Scene& scene) {
+void measureAreaLights(Scene& scene, ShaderRegistry& registry) {
   const std::string convention = wordOf(scene.options, "shade:arealight");
   if (convention != "bmrt" && !(convention.empty() && isMadeForBmrt(scene))) return;
+  const std::string path = pathOf(scene.options.searchPaths, "shader");
   for (std::shared_ptr<LightCall>& light : scene.lights) {
-    if (!light->area || light->shader.name != "arealight" || findParam(light->shader.params, "area")) continue;
-    const double area = areaOf(scene, light->index);
+    const TmParamDecl* taken = light->area ? parameterOfArea(light->shader, path, registry) : nullptr;
+    const double area = taken ? areaOf(scene, light->index) : 0;
     if (!(area > 0)) continue;
     auto measured = std::make_shared<LightCall>(*light);
-    Param p;  // constant: a shader of the scene's own that is called so need not have it
-    p.name = "area", p.storage = Storage::Constant, p.floats = {static_cast<float>(area)};
+    Param p;
+    p.name = taken->name, p.floats = {static_cast<float>(area)};
     measured->shader.params.push_back(std::move(p));
     light = std::move(measured);
   }
