@@ -1,5 +1,6 @@
 """What a stranger is told: each cause once, what helps, what a scene needs, what is built in, and what the options are."""
 import json
+import re
 
 from program import GOOD, Suite
 
