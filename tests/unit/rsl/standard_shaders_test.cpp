@@ -1,6 +1,7 @@
 // The standard shaders, written in RSL from their formulas (RISpec 3.2, appendix A): what they give, and what is found
 // of them, is what the built-in ones of the same names give and declare.
 #include <OpenImageIO/imagebuf.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <random>
@@ -84,6 +85,11 @@ displacement bumpy(float Km = 1; string texturename = "") {
 }
 )RSL";
 
+/// A file of this process, since ctest runs several of these tests at once.
+std::string ownFile(const char* ending) {
+  return ::testing::TempDir() + "tomales_standard_shaders_" + std::to_string(::getpid()) + ending;
+}
+
 /// A stage that stands by itself, so that a test may have two.
 class Studio : public Stage {
  public:
@@ -93,7 +99,7 @@ class Studio : public Stage {
     scene.options.projection = ProjectionKind::Perspective, scene.options.nearClip = 2, scene.options.farClip = 12;
     services.seen = [](const vec3& d) { return vec3(0.5f) + 0.5f * glm::normalize(d); };
     if (!written) return;
-    const std::string path = ::testing::TempDir() + "tomales_standard_shaders.sl";
+    const std::string path = ownFile(".sl");
     std::ofstream(path) << kShaders;
     const auto file = RslFile::compile(path, {});
     EXPECT_EQ(file->errors(), 0) << file->messages();
@@ -166,7 +172,7 @@ std::string picture() {
       const float texel[3] = {0.02f * static_cast<float>(x), 0.01f * static_cast<float>(y), 0.25f};
       out.setpixel(x, y, texel);
     }
-  const std::string path = ::testing::TempDir() + "tomales_standard_shaders.exr";
+  const std::string path = ownFile(".exr");
   EXPECT_TRUE(out.write(path));
   return path;
 }
