@@ -21,6 +21,9 @@ constexpr double kRounding = 1e-3;  ///< Half a circle is twelve polygons, whate
 constexpr float kLeastChord = 1e-4f;
 /// Limits for one patch; levels are diced only where rays come.
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
+/// What a patch may have in any picture, and how many times the polygons that would cover the picture evenly: a plane
+/// that reaches from the eye to the horizon needs many more.
+constexpr double kAlwaysQuads = 1 << 16, kMostOfPicture = 256;
 
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
@@ -62,9 +65,16 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
          !camera.outside(bound.grown(o.displacementBound), {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
-/// Limits the number of polygons. log: null reports nothing.
-CoarseRate limited(const Object& o, double nu, double nv, const char* remedy, Log* log) {
+/// The greatest number of polygons that a patch may have when their edges are so long. A small picture cannot show more
+/// than some, whatever a patch of enormous coordinates asks for.
+double mostQuads(const Object& o, const Camera& camera, float edge_px) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
+  const double covering = double{camera.xResolution()} * camera.yResolution() / (double{edge_px} * edge_px);
+  return std::clamp(kMostOfPicture * covering, kAlwaysQuads, most);
+}
+
+/// Limits the number of polygons. log: null reports nothing.
+CoarseRate limited(const Object& o, double nu, double nv, double most, const char* remedy, Log* log) {
   if (nu * nv <= most) return {static_cast<int>(nu), static_cast<int>(nv)};
   if (log)
     log->report(Severity::Warning, "trace-tessellation", o.where,
@@ -107,7 +117,7 @@ Fineness fixedFineness(const Object& o) {
 class PatchLines {
  public:
   PatchLines(const Scene& scene, const Camera& camera, int object, uint32_t patch)
-      : object_(scene.objects[static_cast<size_t>(object)]) {
+      : object_(scene.objects[static_cast<size_t>(object)]), camera_(camera) {
     const Grid probe = dice(scene, object, patch, UvRect{}, kProbes, kProbes, 1);
     u_ = linesOf(probe, camera, 1, kProbes + 1), v_ = linesOf(probe, camera, kProbes + 1, 1);
     // The turn of displaced normals is not known beforehand, so displaced surfaces keep the pixel rate out of view too.
@@ -115,7 +125,8 @@ class PatchLines {
   }
 
   CoarseRate rate(const Fineness& fineness, Log* log) const {
-    return limited(object_, count(u_, fineness), count(v_, fineness), fineness.remedy, log);
+    return limited(object_, count(u_, fineness), count(v_, fineness), mostQuads(object_, camera_, fineness.edge_px),
+                   fineness.remedy, log);
   }
 
  private:
@@ -128,6 +139,7 @@ class PatchLines {
   }
 
   const Object& object_;
+  const Camera& camera_;
   LineFigures u_, v_;
   bool byPixels_;
 };

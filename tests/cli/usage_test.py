@@ -14,6 +14,8 @@ for arguments in ([], ["render"], ["good.rib", "--frobnicate"], ["good.rib", "--
                   ["good.rib", "--crop", "1,0,0,1"], ["good.rib", "--format", "640"], ["good.rib", "--frames", "9-1"],
                   ["good.rib", "-t", "0"], ["good.rib", "-o", "a.jpg"], ["good.rib", "--gi", "magic"], ["compare", "good.rib"]):
     t.expect_run("usage: " + " ".join(arguments), arguments, 1)
+for arguments in (["good.rib", "--stats", "-o", "a.exr"], ["good.rib", "-o", "--progress"], ["chart", "-o", "-t", "1", "good.rib"]):
+    t.expect_run("usage: " + " ".join(arguments), arguments, 1, "stands where a value is missing")
 t.expect_run("--version", ["--version"], 0, sys.argv[2])
 t.expect_run("--help", ["--help"], 0, "render", "info", "compare")
 

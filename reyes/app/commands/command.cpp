@@ -356,6 +356,7 @@ int parseAndRun(int argc, char** argv) {
   buildCompile(app, in, code);
   buildShadetest(app, in, code);
   buildAtlas(app, in, code);
+  refuseOptionsAsValues(app);
   finishHelp(app);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -45,6 +45,16 @@ CLI::Validator between(double least, double most) {
   return {[problem](std::string& text) { return problem(text); }, ""};
 }
 
+void refuseOptionsAsValues(CLI::App& app) {
+  const auto problem = [](const std::string& text) {
+    const bool option = text.size() > 1 && text[0] == '-' && (text[1] == '-' || std::isalpha(text[1]));
+    return option ? "\"" + text + "\" stands where a value is missing" : std::string();
+  };
+  for (CLI::App* command : app.get_subcommands({}))
+    for (CLI::Option* o : command->get_options())
+      if (!o->get_positional() && o->get_items_expected_min() > 0) o->check(problem);
+}
+
 std::optional<std::string> parseOutput(const std::string& text) {
   return namesPicture(text) ? std::optional(text) : std::nullopt;
 }

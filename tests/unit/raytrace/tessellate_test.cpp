@@ -136,5 +136,16 @@ TEST(Tessellate, AnAbsurdRateIsLimitedAndReported) {
   EXPECT_EQ(world.log.count("trace-tessellation"), 1);
 }
 
+TEST(Tessellate, ASmallPictureAsksForFewPolygonsOfAnEnormousPatch) {
+  World world;
+  world.scene.options.xResolution = world.scene.options.yResolution = 16;
+  world.scene.options.projection = ProjectionKind::Orthographic;
+  world.add(sphere(), mat4(mat3(1e6f)));
+  const auto groups = coarse(world);
+  EXPECT_GT(groups[0].quads.size(), size_t{1} << 14);
+  EXPECT_LE(groups[0].quads.size(), size_t{1} << 16);
+  EXPECT_GT(world.log.count("trace-tessellation"), 0);
+}
+
 }  // namespace
 }  // namespace tomales::test
