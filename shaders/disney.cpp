@@ -26,7 +26,10 @@ rsl::StringParam texturename("texturename", "", "picture that multiplies Cs, the
     emissionmap("emissionmap", "", "picture that multiplies the emission");
 rsl::UniformFloatParam linearize("linearize", 0, "1: those two pictures are sRGB, and are made linear");
 NormalMap normalmap;
+SecondSet secondSet;
 MappedFloat opacity("opacity", 1, "multiplies Os", "opacitymap", "opacitychannel");
+rsl::UniformFloatParam opacitycutoff("opacitycutoff", 0,
+                                     "above 0: what is at least as opaque is there, the rest is cut away");
 rsl::ColorOutput diffusePart("diffuse", "share of diffuse light and sheen"),
     specularPart("specular", "share of highlights"), reflectionPart("reflection", "share of the mirrored scene"),
     albedo("albedo", "base colour");
@@ -53,16 +56,16 @@ float smithGgx(float nv, float alpha) {
 
 /// The parameters of a batch, multiplied by their pictures.
 struct Inputs {
-  explicit Inputs(const rsl::Batch& b)
-      : paint(b, texturename(b.g), linearize(b.g) != 0),
-        metallic(b, ::metallic),
-        specular(b, ::specular),
-        speculartint(b, ::speculartint),
-        roughness(b, ::roughness),
-        sheen(b, ::sheen),
-        sheentint(b, ::sheentint),
-        clearcoat(b, ::clearcoat),
-        clearcoatgloss(b, ::clearcoatgloss) {}
+  Inputs(const rsl::Batch& b, const Coordinates& at)
+      : paint(b, at.of("texturename"), texturename(b.g), linearize(b.g) != 0),
+        metallic(b, at, ::metallic),
+        specular(b, at, ::specular),
+        speculartint(b, at, ::speculartint),
+        roughness(b, at, ::roughness),
+        sheen(b, at, ::sheen),
+        sheentint(b, at, ::sheentint),
+        clearcoat(b, at, ::clearcoat),
+        clearcoatgloss(b, at, ::clearcoatgloss) {}
 
   ColorPicture paint;
   MappedValues metallic, specular, speculartint, roughness, sheen, sheentint, clearcoat, clearcoatgloss;
@@ -204,12 +207,12 @@ class Glossy {
 
 /// `Opacity` of a point is its Oi.
 template <class Opacity>
-void shadeWith(const rsl::Batch& b, const Opacity& Oi) {
+void shadeWith(const rsl::Batch& b, const Coordinates& at, const Opacity& Oi) {
   const TmGrid* g = b.g;
-  const rsl::Vec3Array N = normalmap.facingNormals(b), V = b.towardsViewer(), ambient = b.ambient();
+  const rsl::Vec3Array N = normalmap.facingNormals(b, at.of("normalmap")), V = b.towardsViewer(), ambient = b.ambient();
   rsl::Vec3Array diffuse(g), highlight(g), mirrored(g);
-  const Inputs inputs(b);
-  const ColorPicture glow(b, emissionmap(g), linearize(g) != 0);
+  const Inputs inputs(b, at);
+  const ColorPicture glow(b, at.of("emissionmap"), emissionmap(g), linearize(g) != 0);
   // Gather rays carry diffuse light alone.
   const bool shiny = b.wantsHighlights();
   Glossy glossy(b, N, V, inputs);
@@ -243,13 +246,19 @@ void shadeWith(const rsl::Batch& b, const Opacity& Oi) {
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
-  shadeWith(b, [&](int i) { return b.Os(i); });
+  shadeWith(b, Coordinates(b, secondSet), [&](int i) { return b.Os(i); });
 }
 
 void shadeCutout(const TmGrid* g) {
   const rsl::Batch b(g);
-  const MappedValues share(b, opacity);
-  shadeWith(b, [&](int i) { return rsl::clamp(share[i], 0, 1) * b.Os(i); });
+  const Coordinates at(b, secondSet);
+  const MappedValues share(b, at, opacity);
+  const float cutoff = opacitycutoff(g);
+  const auto cut = [&](float o) { return o >= cutoff ? 1.0f : 0.0f; };
+  shadeWith(b, at, [&](int i) {
+    const Color o = rsl::clamp(share[i], 0, 1) * b.Os(i);
+    return cutoff > 0 ? Color{cut(o.x), cut(o.y), cut(o.z)} : o;
+  });
 }
 
 /// The parameters of both shaders, which are at the same places in the two lists.
@@ -288,12 +297,15 @@ std::vector<rsl::Param*> parameters() {
           &emissionmap,
           &linearize,
           &normalmap.map,
-          &normalmap.scale};
+          &normalmap.scale,
+          &secondSet.s,
+          &secondSet.t,
+          &secondSet.maps};
 }
 
 std::vector<rsl::Param*> parametersOfCutout() {
   std::vector<rsl::Param*> out = parameters();
-  out.insert(out.end(), {&opacity.value, &opacity.map, &opacity.channel});
+  out.insert(out.end(), {&opacity.value, &opacity.map, &opacity.channel, &opacitycutoff});
   return out;
 }
 }  // namespace

@@ -179,6 +179,10 @@ std::string tiledFile(const std::string& picture, const std::string& folder, std
   if (!readWhole(picture, whole, error)) return {};
   fs::create_directories(file.parent_path(), problem);
   TextureRecipe recipe;
+  // Beyond its edges a picture is black, as the tools of other renderers have it, unless its file says otherwise.
+  const std::string wraps = whole.spec().get_string_attribute("wrapmodes");
+  if (const size_t comma = wraps.find(','); comma != std::string::npos)
+    recipe.sWrap = wraps.substr(0, comma), recipe.tWrap = wraps.substr(comma + 1);
   // A cache that cannot be written only costs time and memory: OpenImageIO makes the levels in memory.
   if (problem || !write(whole, recipe, file.string(), folder, true, error)) return error.clear(), picture;
   return file.string();

@@ -2,7 +2,7 @@
 import math
 import subprocess
 
-from models import Gltf, cube, fbx, obj, ply, png, stl, triangles
+from models import Gltf, collada, cube, fbx, obj, ply, png, stl, triangles
 from program import Suite
 
 t = Suite()
@@ -150,10 +150,61 @@ ways = facing("metal.glb", lambda scene: {"pbrMetallicRoughness": {"metallicRoug
 t.expect(ways[60][50][0] > 1.5 * ways[60][110][0], "the blue channel makes the right half a metal, which scatters nothing")
 cut = facing("cut.glb", paint(png(8, lambda x, y: (255, 255, 255, 255 * (y >= 4))), alphaMode="BLEND"))
 t.expect(max(cut[30][80]) == 0 and min(cut[90][80]) > 50, "alpha of a picture cuts away where the material blends")
+ramp = png(64, lambda x, y: (255, 255, 255, 255 * (64 - y) // 64))  # alpha 1 on top, 0 at the bottom
+
+
+def rows(name, **mode):
+    """Brightness above, and below, the middle of a square whose alpha falls downwards."""
+    seen = facing(name, paint(ramp, **mode))
+    return [seen[y][80][0] for y in (40, 56, 64, 80)]
+
+
+masked, third, blended = rows("masked.glb", alphaMode="MASK"), rows("third.glb", alphaMode="MASK", alphaCutoff=0.4), rows("blended.glb", alphaMode="BLEND")
+t.expect(masked[0] == masked[1] > 50 and masked[2] == masked[3] == 0, f"MASK is whole where alpha is at least 0.5, and nothing elsewhere: {masked}")
+t.expect(third[2] == third[0] and third[3] == 0, f"or at least what the material says: {third}")
+t.expect(all(a > b + 5 for a, b in zip(blended, blended[1:])) and blended[3] > 50, f"BLEND shows less and less: {blended}")
+alpha = lambda a, **mode: lambda scene: {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [1, 1, 1, a]}, **mode}
+factors = [facing(f"factor{k}.glb", alpha(*look[:1], alphaMode=look[1]))[60][80][0] for k, look in enumerate(((0.4, "OPAQUE"), (0.4, "MASK"), (0.6, "MASK"), (1, "OPAQUE")))]
+t.expect(factors[1] == 0 and factors[0] == factors[2] == factors[3] > 50, f"a material's own alpha counts in the same way: {factors}")
+corners = [facing(f"corner{m}.glb", alpha(1, alphaMode=m), COLOR_0=[(1, 1, 1, a) for a in (0, 0, 1, 1)]) for m in ("OPAQUE", "MASK")]
+t.expect(corners[0][80][80] == corners[0][40][80] == corners[1][40][80] > (50, 50, 50) and corners[1][80][80] == (0, 0, 0), "so do alphas of vertices")
 whole = facing("whole.glb", paint(png(8, lambda x, y: (255, 255, 255, 255 if y >= 4 else 51))))
 t.expect(abs(whole[30][80][0] - whole[90][80][0]) <= 2, "and nowhere else, nor does it darken")
 glow = facing("glow.glb", lambda scene: {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": scene.image(quarters)}, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}})
 t.expect([strongest(glow[y][x]) for x, y in CENTERS] == ["r", "g", "b", "rgb"], "a picture of what glows is seen")
+
+
+# Each picture may have texture coordinates of its own.
+def of_two(scene):
+    """The colour by the first set, what cuts away by the second: there the square has the left half of the picture alone."""
+    halves = scene.image(png(64, lambda x, y: (255, 255, 255, 255 * (x < 16))))
+    return {"alphaMode": "MASK", "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0, 0, 0, 1], "baseColorTexture": {"index": halves}},
+            "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": scene.image(quarters), "texCoord": 1}}
+
+
+left_half = facing("two.glb", of_two, uv=[(u / 2, v) for u, v in uvs[:4]], TEXCOORD_1=uvs[:4])
+t.expect([strongest(left_half[y][x]) for x, y in CENTERS] == ["r", "", "b", ""], "two pictures have two sets of coordinates")
+only = facing("second.glb", lambda scene: {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": scene.image(quarters), "texCoord": 1}}},
+              uv=[(0.1, 0.1)] * 4, TEXCOORD_1=uvs[:4])
+t.expect([strongest(only[y][x]) for x, y in CENTERS] == ["r", "g", "b", "rgb"], "or all have the second")
+
+
+def wrapped(name, **sampler):
+    """Of the quarters, between -1 and 2: colours at the middles of the nine squares there, row by row."""
+    def look(scene):
+        index = scene.image(quarters)
+        if sampler:
+            scene.document["textures"][index]["sampler"] = scene.add("samplers", sampler)
+        return {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": index}, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}}
+    seen = facing(name, look, uv=[(3 * u - 1, 3 * v - 1) for u, v in uvs[:4]])
+    return [strongest(seen[y][x]) for y in (10, 50, 90) for x in (30, 70, 110)]
+
+
+t.expect(wrapped("wraps.glb") == ["r"] * 9, f"pictures repeat where the file says nothing: {wrapped('wraps.glb')}")
+clamped = wrapped("clamps.glb", wrapS=33071, wrapT=33071)
+t.expect(clamped == ["r", "r", "g", "r", "r", "g", "b", "b", "rgb"], f"their edges go on where it says so: {clamped}")
+mirrored = wrapped("mirrors.glb", wrapS=33648, wrapT=10497)
+t.expect(mirrored == ["g", "r", "g"] * 3, f"or they are mirrored: {mirrored}")
 
 
 def tilted(x, y):
@@ -173,6 +224,41 @@ from_right, from_top = [0, s[0], 0, s[1]], [-s[0], 0, 0, s[1]]
 bumps = [[lit_from(f"tilt{a}{b}.glb", sun, tilted(*by)) for b, sun in enumerate((from_right, from_top))] for a, by in enumerate(((90, 0), (-90, 0), (0, 90)))]
 t.expect(bumps[0][0] > bumps[1][0] + 40, f"red of a normal map turns to the right: {bumps}")
 t.expect(bumps[2][1] > bumps[2][0] + 20 and bumps[0][0] > bumps[0][1] + 20, f"green turns up, where red lets light from there alone: {bumps}")
+
+# Lights of other formats, whose cones are told by whole angles: what a white square sends back, which they face.
+WHITE_SQUARE = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+
+
+def shone_on(name, light):
+    seen = imported(name, collada(WHITE_SQUARE, [(0, 1, 2, 3)], light, "<perspective><xfov>40</xfov><aspect_ratio>1.333</aspect_ratio><znear>1</znear></perspective>"), "--light-scale", "1")
+    return [seen[60][x][0] for x in (80, 110)]
+
+
+sun = shone_on("sun.dae", "<directional><color>.5 .5 .5</color></directional>")
+near = shone_on("point.dae", "<point><color>8 8 8</color><quadratic_attenuation>1</quadratic_attenuation><constant_attenuation>0</constant_attenuation></point>")
+even = shone_on("even.dae", "<point><color>.5 .5 .5</color></point>")
+cone = shone_on("spot.dae", "<spot><color>.5 .5 .5</color><falloff_angle>12</falloff_angle><outer_cone>14</outer_cone></spot>")
+t.expect(sun[0] > 50 and max(abs(other[0] - sun[0]) for other in (near, even, cone)) <= 1, f"they are as strong as the file says: {sun, near, even, cone}")
+t.expect(abs(sun[1] - sun[0]) <= 4 and cone[1] == 0, f"and a spot lights its cone alone: {sun, cone}")
+
+t.write("nameless.dae", collada(WHITE_SQUARE, [(0, 1, 2, 3)], "", "<perspective><xfov>40</xfov></perspective>").replace('name="camera"', ""))
+t.expect_run("a camera that Assimp does not read is told of", ["import", "nameless.dae", "-o", "nameless.rib"], 0, "import-camera", "does not tell its angle")
+
+# What moves is told.
+moving = Gltf()
+bound = moving.mesh(positions, triangles(quads), NORMAL=normals)
+moving.document["meshes"][bound]["primitives"][0]["attributes"].update(
+    JOINTS_0=moving.add("accessors", {"bufferView": moving.view(bytes(4 * 24)), "componentType": 5121, "count": 24, "type": "VEC4"}),
+    WEIGHTS_0=moving.floats([(1, 0, 0, 0)] * 24))
+joint = moving.node(name="bone")
+moving.node(mesh=bound, skin=moving.add("skins", {"joints": [joint], "inverseBindMatrices": moving.floats([(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)])}))
+morphing = moving.mesh(positions, triangles(quads), NORMAL=normals)
+moving.document["meshes"][morphing]["primitives"][0]["targets"] = [{"POSITION": moving.floats(positions)}]
+moving.node(mesh=morphing, translation=[2, 0, 0])
+times, turns = moving.floats([(0,), (1,)]), moving.floats([(0, 0, 0), (1, 0, 0)])
+moving.add("animations", {"channels": [{"sampler": 0, "target": {"node": joint, "path": "translation"}}], "samplers": [{"input": times, "output": turns}]})
+t.write("moving.glb", moving.glb())
+t.expect_run("animations, bones and other shapes are told of", ["import", "moving.glb", "-o", "moving.rib"], 0, "import-animation", "import-skin", "import-morph")
 
 # Pictures beside the model, under the names that people's machines give them.
 (t.folder / "textures").mkdir(exist_ok=True)
@@ -214,58 +300,8 @@ t.expect_run("a name that is no RIB's", ["import", "cube.obj", "-o", "none.txt"]
 t.expect(not list(t.folder.glob("*none*")) and not list(t.folder.glob(".tomales*")), "none of these leaves a file")
 t.expect_run("a model where a scene is wanted", ["cube.obj"], 2, "tomales import cube.obj -o FILE.rib")
 
-# Odd corners: a scene that renders, or a message.
-
-
-def odd(change, mode=4, faces=((0, 1, 2), (0, 2, 3)), corners=square, **node):
-    scene = Gltf()
-    scene.node(mesh=scene.mesh(corners, faces, mode=mode), **node)
-    change(scene)
-    return scene.glb()
-
-
-def cycle(scene):
-    scene.document["nodes"][0]["children"] = [0]
-
-
-def deep(scene):
-    for k in range(3000):
-        scene.document["nodes"][k]["children"] = [scene.node(root=False)]
-
-
-def far_index(scene):
-    scene.document["accessors"][0]["count"] = 2
-
-
-nothing = lambda scene: None
-nan, inf = float("nan"), float("inf")
+# Names are no paths.
 escaping = 'name with "quotes" ../../../escaped\n'
-ODD = {
-    "cyclic nodes": (odd(cycle), {2}),
-    "a chain of nodes": (odd(deep), {0, 2}),
-    "corners that are not there": (odd(far_index), {0, 2}),
-    "a corner that is no number": (odd(nothing, corners=square[:3] + [(nan, 0, 0)]), {0}),
-    "no corner that is a number": (odd(nothing, corners=[(nan, inf, 0)] * 4), {2}),
-    "huge coordinates": (odd(nothing, corners=[(x * 1e30, y * 1e30, z) for x, y, z in square]), {0}),
-    "tiny coordinates": (odd(nothing, corners=[(x * 1e-30, y * 1e-30, z) for x, y, z in square]), {0}),
-    "one place for all corners": (odd(nothing, corners=[(1, 2, 3)] * 4), {0}),
-    "a scale of 0": (odd(nothing, scale=[0, 1, 1]), {2}),
-    "negative scales": (odd(nothing, scale=[-2, -1, -1]), {0}),
-    "three faces at an edge": (odd(nothing, faces=((0, 1, 2), (0, 1, 3), (0, 1, 2), (1, 0, 3))), {0}),
-    "points": (odd(nothing, mode=0, faces=((0, 1), (2, 3))), {0}),
-    "lines": (odd(nothing, mode=1, faces=((0, 1), (2, 3))), {0}),
-    "names that are paths": (odd(nothing, name=escaping), {0}),
-    "no meshes": (odd(lambda scene: scene.document["nodes"][0].pop("mesh")), {2}),
-}
-for what, (model, codes) in ODD.items():
-    t.write("odd.glb", model)
-    for options in ([], ["--subdivide"]):
-        made = t.run("import", "odd.glb", "-o", "odd.rib", *options)
-        t.expect(made.returncode in codes and bool(made.stderr) >= (made.returncode > 0), f"{what} {options}: {made.returncode} {made.stderr}")
-        if made.returncode == 0:
-            drawn = t.run("odd.rib", "-o", "odd.png", "--format", "32x24")
-            t.expect(drawn.returncode in (0, 3), f"{what} {options}: renders: {drawn.returncode} {drawn.stderr}")
-        (t.folder / "odd.rib").unlink(missing_ok=True)
 large = Gltf()
 large.node(mesh=large.mesh(grid, [f for a, b, c, d in ball for f in ((a, b, c), (a, c, d))], name=escaping))
 t.write("a name.glb", large.glb())

@@ -190,3 +190,27 @@ Connections:  {{
  C: "OO",3,2
 }}
 """
+
+
+def collada(positions, faces, light="", camera=""):
+    """COLLADA 1.4, with what stands in `light` and in `camera` as elements of technique_common; both look along -z from
+    (0, 0, 4)."""
+    points = " ".join(f"{c}" for p in positions for c in p)
+    counts, corners = " ".join(str(len(f)) for f in faces), " ".join(str(i) for f in faces for i in f)
+    library = lambda kind, content: f'<library_{kind}s><{kind} id="{kind}" name="{kind}">{content}</{kind}></library_{kind}s>' if content else ""
+    common = lambda content: f"<technique_common>{content}</technique_common>"
+    placed = lambda kind, content: f'<node id="of_{kind}"><translate>0 0 4</translate><instance_{kind} url="#{kind}"/></node>' if content else ""
+    return f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+{library("light", light and common(light))}{library("camera", camera and f"<optics>{common(camera)}</optics>")}
+<library_geometries><geometry id="shape"><mesh>
+ <source id="places"><float_array id="numbers" count="{3 * len(positions)}">{points}</float_array>
+  <technique_common><accessor source="#numbers" count="{len(positions)}" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+ <vertices id="corners"><input semantic="POSITION" source="#places"/></vertices>
+ <polylist count="{len(faces)}"><input semantic="VERTEX" source="#corners" offset="0"/><vcount>{counts}</vcount><p>{corners}</p></polylist>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="all"><node id="thing"><instance_geometry url="#shape"/></node>{placed("light", light)}{placed("camera", camera)}</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#all"/></scene>
+</COLLADA>
+"""

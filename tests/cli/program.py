@@ -1,6 +1,7 @@
 """Runs the renderer in a folder of its own and collects what did not go as a test expects."""
 import os
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -33,9 +34,11 @@ class Suite:
         """Plugins of these folders of the test are loaded, as --shaders has it."""
         os.environ["TOMALES_SHADERS"] = folders
 
-    def run(self, *arguments, stdin=None):
+    def run(self, *arguments, stdin=None, cpu_s=None):
+        """With `cpu_s`, the program and its children may each take that much CPU time."""
+        limit = cpu_s and (lambda: resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, resource.RLIM_INFINITY)))
         return subprocess.run([self.program, *arguments], cwd=self.folder, input=stdin, capture_output=True,
-                              timeout=60, text=True, errors="replace",
+                              timeout=60, text=True, errors="replace", preexec_fn=limit,
                               env={"XDG_CONFIG_HOME": str(self.folder / "config"), **os.environ,
                                    "TOMALES_TEXTURE_CACHE": str(self.folder / "textures")})
 

@@ -1,6 +1,7 @@
 """Pictures on surfaces: filtered where small, made by RIB requests, loud where broken."""
 import json
 import struct
+import subprocess
 import zlib
 
 from program import Suite
@@ -48,6 +49,10 @@ suite.expect_run("MakeTexture makes what a later world reads",
 suite.expect((suite.folder / "made.tex").exists(), "the file is there under its own name")
 suite.expect_run("a picture that is not there cannot be made into a texture",
                  [scene("none", "grain.png", 'MakeTexture "absent.png" "b.tex" "black" "black" "box" 1 1')], 3, "MakeTexture", "absent.png")
+subprocess.run(["oiiotool", "grain.png", "--attrib", "wrapmodes", "periodic,clamp", "-o", "grain.tif"], cwd=suite.folder, check=True)
+suite.expect_run("a picture that wraps by what its file says", [scene("wrapping", "grain.tif", coordinates='"st" [3.1 0.2  3.9 0.1  3.2 0.8  3.8 0.9]')], 0)
+suite.expect_run("and one whose file says nothing", [scene("ending", "grain.png", coordinates='"st" [3.1 0.2  3.9 0.1  3.2 0.8  3.8 0.9]')], 0)
+suite.expect(abs(red("wrapping")["mean"] - red("own")["mean"]) < 0.01 and red("ending")["max"] == 0, "goes on beyond its edge, where the other is black")
 suite.expect_run("six faces make an environment", [scene("cube", "cube.env", 'MakeCubeFaceEnvironment '
                  + '"grain.png" ' * 6 + '"cube.env" 90 "box" 1 1')], 0)
 suite.expect_run("a wrong filter and wrap mode are named",

@@ -1,6 +1,7 @@
 #include "reyes/app/commands/import.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <cerrno>
@@ -26,6 +27,13 @@ int statusOf(pid_t child) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return status;
+}
+
+/// The user's own limit (ulimit -t) may be lower.
+rlim_t mostSeconds() {
+  rlimit now{};
+  getrlimit(RLIMIT_CPU, &now);
+  return std::min<rlim_t>(now.rlim_cur, model::kMostSeconds);
 }
 
 /// Runs the program that reads models. It reports itself what it leaves out; the worst severity of that is returned.
@@ -55,7 +63,7 @@ Severity read(const model::Settings& settings, Log& log) {
     return static_cast<Severity>(answer - model::kFirstAnswer);
   if (!WIFSIGNALED(status)) return fail("tomales_assimp ends without an answer");
   if (WTERMSIG(status) == SIGXCPU)
-    return fail(fmt::format("Assimp has not read it within {} s of CPU time", model::kMostSeconds));
+    return fail(fmt::format("Assimp has not read it within {} s of CPU time", mostSeconds()));
   return fail(fmt::format("Assimp ends while it reads it ({})", strsignal(WTERMSIG(status))));
 }
 

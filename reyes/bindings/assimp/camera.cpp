@@ -1,5 +1,7 @@
 #include "reyes/bindings/assimp/camera.h"
 
+#include <assimp/defs.h>
+
 #include "reyes/bindings/assimp/nodes.h"
 
 namespace tomales::model {
@@ -35,6 +37,9 @@ Camera cameraOf(const aiCamera& camera, const mat4& worldFromNode) {
       lookingAlong(transformPoint(worldFromNode, of(camera.mPosition)), forward, usableUp(forward, up));
   if (camera.mAspect > 0.05f && camera.mAspect < 20) out.aspect = camera.mAspect;
   if (camera.mOrthographicWidth > 0) out.orthographic_halfWidth = camera.mOrthographicWidth;
+  // Assimp 5.2 does not read cameras of COLLADA that have no name, and takes its own angle, in radians, for degrees.
+  out.isAngleKnown = camera.mHorizontalFOV != AI_DEG_TO_RAD(aiCamera().mHorizontalFOV);
+  if (!out.isAngleKnown) return out;
   // Without an aspect the angle is that of a square picture.
   const bool landscape = camera.mAspect > 1 && out.aspect == camera.mAspect;
   const float half = std::tan(glm::clamp(camera.mHorizontalFOV, 0.01f, 3.1f) / 2);

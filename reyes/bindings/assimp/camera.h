@@ -10,6 +10,7 @@ namespace tomales::model {
 struct Camera {
   mat4 worldFromCamera{1.0f};
   float fov_degrees = 30;            ///< Along the shorter side of the picture.
+  bool isAngleKnown = true;          ///< False: fov_degrees is not that of the model.
   float aspect = 4.0f / 3;           ///< Width over height.
   float orthographic_halfWidth = 0;  ///< Greater than 0: a parallel projection.
 };

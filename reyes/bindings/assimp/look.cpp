@@ -90,11 +90,17 @@ class Painter {
     const std::string file = textures_.file(of(path), wrap[0], wrap[1]);
     if (file.empty()) return;
     if (count_++ == 0) look_.textureSet = set;
-    if (set != look_.textureSet) leaveOut("other texture coordinates for some of its pictures");
+    if (set != look_.textureSet && !look_.secondSet) look_.secondSet = set;
+    if (set == look_.secondSet)
+      ofSecondSet_ += (ofSecondSet_.empty() ? "" : " ") + std::string(mapped.map);
+    else if (set != look_.textureSet)
+      leaveOut("a third set of texture coordinates for its pictures");
     look_.parameters.push_back(param(mapped.map, file));
     if (mapped.channel) look_.parameters.push_back(param(mapped.channel, mapped.number));
     multiplyOne(mapped);
   }
+  /// Names of the parameters whose pictures are looked up at the second set of texture coordinates.
+  const std::string& ofSecondSet() const { return ofSecondSet_; }
   void leaveOut(const std::string& what) { look_.leftOut += (look_.leftOut.empty() ? "" : ", ") + what; }
 
  private:
@@ -115,6 +121,7 @@ class Painter {
   const aiMaterial& material_;
   Textures& textures_;
   Look& look_;
+  std::string ofSecondSet_;
   int count_ = 0;
 };
 
@@ -126,19 +133,26 @@ std::string alphaMode(const aiMaterial& material) {
 /// Its reader always says how alpha counts.
 bool isGltf(const aiMaterial& material) { return !alphaMode(material).empty(); }
 
-/// Alpha of the base colour's picture, where glTF says that it counts.
-void addAlpha(const aiMaterial& material, Look& look) {
-  const Param* paint = find(look.parameters, "texturename");
-  if (!paint || find(look.parameters, "opacitymap") || alphaMode(material) == "OPAQUE" || !isGltf(material)) return;
-  look.parameters.push_back(param("opacitymap", std::string(paint->strings[0])));
-  look.parameters.push_back(param("opacitychannel", 3.0f));
+/// How alpha counts in glTF (section 3.9.4 of its specification): not at all, as it is, or as what is there or not.
+void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
+  const float cutoff = number(material, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5f);
+  const bool isMask = alphaMode(material) == "MASK";
+  if (alphaMode(material) == "OPAQUE" || (isMask && cutoff <= 0)) {
+    look.opacity = 1, look.usesVertexAlpha = false;
+    return;
+  }
+  painter.add({aiTextureType_BASE_COLOR, "opacitymap", "opacity", "opacitychannel", 3});
+  if (isMask) look.shader = "disneycutout", look.parameters.push_back(param("opacitycutoff", cutoff));
 }
 
-/// What is not lit glows in its colour.
+/// What is not lit glows in its colour. Its picture is the only one.
 void makeUnlit(Look& look) {
+  if (const Param* p = find(look.parameters, "secondset"); p && p->strings[0].find("texturename") != std::string::npos)
+    look.textureSet = *look.secondSet;
+  look.secondSet.reset();
   ParamList out{param("emission", ValueType::Color, look.color), param("specular", 0.0f)};
   for (Param& p : look.parameters)
-    if (p.name == "texturename" || p.name == "opacitymap" || p.name == "opacitychannel" || p.name == "linearize") {
+    if (p.name == "texturename" || p.name == "linearize" || p.name.starts_with("opacity")) {
       if (p.name == "texturename") p.name = "emissionmap";
       out.push_back(p);
     }
@@ -150,7 +164,8 @@ void addPictures(const aiMaterial& material, Textures& textures, bool pictureRep
   if (isGltf(material))
     for (const Mapped& mapped : kMetallicRoughness) painter.add(mapped);
   for (const Mapped& mapped : kMapped) painter.add(mapped);
-  addAlpha(material, look);
+  if (isGltf(material)) applyAlphaMode(material, painter, look);
+  if (!painter.ofSecondSet().empty()) look.parameters.push_back(param("secondset", painter.ofSecondSet()));
   if (pictureReplaces && find(look.parameters, "texturename")) look.color = vec3(1.0f);
   if (find(look.parameters, "texturename") || find(look.parameters, "emissionmap"))
     look.parameters.push_back(param("linearize", 1.0f));

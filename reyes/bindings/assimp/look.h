@@ -2,6 +2,7 @@
 #pragma once
 #include <assimp/material.h>
 
+#include <optional>
 #include <string>
 
 #include "reyes/bindings/assimp/rib_calls.h"
@@ -13,10 +14,12 @@ struct Look {
   std::string name;
   vec3 color{0.8f};
   float opacity = 1;
+  bool usesVertexAlpha = true;
   std::string shader = "disney";
   ParamList parameters;
-  unsigned textureSet = 0;  ///< Which of a mesh's texture coordinates are st.
-  std::string leftOut;      ///< What the shader has nothing for; empty: nothing.
+  unsigned textureSet = 0;            ///< Which of a mesh's texture coordinates are st.
+  std::optional<unsigned> secondSet;  ///< Which are s1 and t1.
+  std::string leftOut;                ///< What the shader has nothing for; empty: nothing.
 };
 
 /// `pictureReplaces`: a picture takes the place of the colour, which it multiplies elsewhere.

@@ -86,18 +86,22 @@ class Variables {
   void addTextureCoordinates(const aiMesh& mesh, const Look& look) {
     for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
       if (!mesh.HasTextureCoords(set)) continue;
-      const std::string name = set == look.textureSet ? "st" : fmt::format("st{}", set);
-      add(name, ValueType::Float, 2, [&](int v) {
-        const aiVector3D& uv = mesh.mTextureCoords[set][v];
-        return vec3(uv.x, 1 - uv.y, 0);
-      });
+      const aiVector3D* uv = mesh.mTextureCoords[set];
+      if (set == look.secondSet) {
+        add("s1", ValueType::Float, 1, [&](int v) { return vec3(uv[v].x); });
+        add("t1", ValueType::Float, 1, [&](int v) { return vec3(1 - uv[v].y); });
+      } else {
+        add(set == look.textureSet ? "st" : fmt::format("st{}", set), ValueType::Float, 2,
+            [&](int v) { return vec3(uv[v].x, 1 - uv[v].y, 0); });
+      }
     }
   }
   void addColors(const aiMesh& mesh, const Look& look) {
     if (!mesh.HasVertexColors(0)) return;
     const aiColor4D* colors = mesh.mColors[0];
     add("Cs", ValueType::Color, 3, [&](int v) { return look.color * vec3(colors[v].r, colors[v].g, colors[v].b); });
-    if (std::any_of(colors, colors + mesh.mNumVertices, [](const aiColor4D& c) { return c.a < 1; }))
+    if (look.usesVertexAlpha &&
+        std::any_of(colors, colors + mesh.mNumVertices, [](const aiColor4D& c) { return c.a < 1; }))
       add("Os", ValueType::Color, 3, [&](int v) { return vec3(look.opacity * colors[v].a); });
   }
 

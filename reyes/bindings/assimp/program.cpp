@@ -1,13 +1,10 @@
 // The program that `tomales import` starts: reads a model through Assimp and writes RIB. It is a process of its own
 // because Assimp crashes, hangs or takes all memory on some damaged files.
-#include <assimp/postprocess.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <assimp/Importer.hpp>
-
 #include "reyes/base/chunk_file.h"
-#include "reyes/bindings/assimp/scene_file.h"
+#include "reyes/bindings/assimp/model_file.h"
 
 namespace {
 
@@ -28,20 +25,6 @@ void limitResources() {
 #endif
 }
 
-Severity import(const model::Settings& settings, Log& log) {
-  Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  const aiScene* scene =
-      importer.ReadFile(settings.model, aiProcess_ValidateDataStructure | aiProcess_TransformUVCoords);
-  const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
-  if (!scene || !scene->mRootNode)
-    log.report(Severity::Error, "import-unreadable", where,
-               std::string("cannot be read: ") + importer.GetErrorString());
-  else
-    model::writeScene(*scene, settings, log);
-  return log.worst();
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -50,7 +33,7 @@ int main(int argc, char** argv) {
   const model::Settings settings = model::settingsOf({argv + 1, argv + argc});
   const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
   try {
-    return model::answerOf(import(settings, log));
+    model::importModel(settings, log);
   } catch (const WriteError& e) {
     log.report(Severity::Output, "import-write", {}, e.what());
   } catch (const std::exception& e) {

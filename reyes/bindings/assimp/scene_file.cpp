@@ -75,6 +75,16 @@ class SceneWriter {
     if (scene_.mNumAnimations > 0)
       note(Severity::Note, "import-animation",
            fmt::format("{} animations are left out: the model is taken at rest", scene_.mNumAnimations));
+    const auto count = [&](auto aiMesh::*number) {
+      return std::count_if(scene_.mMeshes, scene_.mMeshes + scene_.mNumMeshes,
+                           [&](const aiMesh* mesh) { return mesh->*number > 0; });
+    };
+    if (const auto skinned = count(&aiMesh::mNumBones); skinned > 0)
+      note(Severity::Note, "import-skin",
+           fmt::format("the bones of {} meshes are left out: they are taken as they were bound to them", skinned));
+    if (const auto morphed = count(&aiMesh::mNumAnimMeshes); morphed > 0)
+      note(Severity::Note, "import-morph",
+           fmt::format("the other shapes of {} meshes are left out: each is taken in its first shape", morphed));
     if (nodes_.unusable > 0)
       note(Severity::Warning, "import-transformation",
            fmt::format("{} objects are left out, as their transformations flatten them or are no finite numbers",
@@ -111,9 +121,14 @@ class SceneWriter {
     for (unsigned k = 0; k < scene_.mNumCameras; ++k) {
       const aiCamera& c = *scene_.mCameras[k];
       const auto node = nodes_.worldFromNode.find(of(c.mName));
-      if (settings_.camera.empty() || settings_.camera == of(c.mName))
-        return cameraOf(isGltf(endingOf(settings_.model)) ? gltfCamera(c) : c,
-                        node == nodes_.worldFromNode.end() ? mat4(1.0f) : node->second);
+      if (!settings_.camera.empty() && settings_.camera != of(c.mName)) continue;
+      const Camera out = cameraOf(isGltf(endingOf(settings_.model)) ? gltfCamera(c) : c,
+                                  node == nodes_.worldFromNode.end() ? mat4(1.0f) : node->second);
+      if (!out.isAngleKnown)
+        note(Severity::Warning, "import-camera",
+             fmt::format("camera \"{}\": Assimp does not tell its angle; {} degrees are taken", of(c.mName),
+                         out.fov_degrees));
+      return out;
     }
     if (!settings_.camera.empty()) {
       std::string names;
