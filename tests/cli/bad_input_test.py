@@ -50,6 +50,10 @@ for what, change, says in (("behind the camera", ("0 0 4", "0 0 -4"), "behind th
     t.write("empty.rib", GOOD.replace(*change))
     t.expect_run("a scene whose geometry is " + what, ["empty.rib"], 3, "nothing is to be seen", says)
 t.write("good.rib", GOOD)
+for verb, output in (("render", "sliver.exr"), ("hide", "sliver.dfb")):
+    t.expect_run(f"a crop between two pixels, {verb}", [verb, "good.rib", "--format", "24x20", "--crop", "0,1,0.801,0.814", "-o", output], 3,
+                 "CropWindow 0 1 0.801 0.814 holds none of the 24 x 20 pixels")
+    t.expect(not (t.folder / output).exists(), "has no picture")
 result = t.expect_run("a crop without anything in it", ["good.rib", "--crop", "0,0.1,0,0.1"], 0)
 t.expect("nothing" not in result.stderr, "is no reason for a warning")
 

@@ -44,4 +44,15 @@ void explainEmptyFrame(const Scene& scene, Log& log) {
   log.report(Severity::Missing, "frame-empty", scene.where, "nothing is to be seen in this frame: " + why);
 }
 
+bool cropHasPixels(const Scene& scene, Log& log) {
+  const Camera camera(scene.options);
+  const PixelRect crop = camera.crop();
+  if (crop.width() > 0 && crop.height() > 0) return true;
+  const auto& w = scene.options.cropWindow;
+  log.report(Severity::Missing, "crop-empty", scene.where,
+             fmt::format("CropWindow {:g} {:g} {:g} {:g} holds none of the {} x {} pixels; there is no picture of it",
+                         w[0], w[1], w[2], w[3], camera.xResolution(), camera.yResolution()));
+  return false;
+}
+
 }  // namespace tomales

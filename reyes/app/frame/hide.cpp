@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_job.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/input_file.h"
@@ -38,7 +39,7 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
   const auto unwritten = [&](const std::string& why) {
     log.report(Severity::Output, "dfb-write", {}, "\"" + path + "\" could not be written: " + why);
   };
-  if (!hasFolder(path, {}, log)) return;
+  if (!cropHasPixels(scene, log) || !hasFolder(path, {}, log)) return;
   const PixelRect crop = Camera(scene.options).crop();
   if (int64_t{crop.width()} * crop.height() / (int64_t{scene.options.bucketWidth} * scene.options.bucketHeight) >=
       kMostTiles)

@@ -5,6 +5,7 @@
 
 #include "gi/icf.h"
 #include "reyes/app/frame/bucket_file.h"
+#include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_job.h"
 #include "reyes/app/frame/tile_store.h"
 #include "reyes/app/watch/interrupt.h"
@@ -88,6 +89,7 @@ bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob&
 
 void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log,
                  const std::function<void()>& afterStage) {
+  if (!cropHasPixels(scene, log)) return;
   const DeepFrame layout = layOutFrame(scene);
   if (!displaysHaveFolders(scene.options, pluginTrust(settings), log) || !fitsMemory(scene, layout, log)) return;
   checkDisplays(scene.options, log);
