@@ -41,7 +41,8 @@ Tried findShaders(const ShadetestCommand& command, ShaderRegistry& registry, Log
     return {plugin.all(), {}};
   }
   if (fs::path(name).extension() == ".sl") {
-    const auto file = RslFile::compile(name, {.includeFolders = command.folders});
+    const std::unique_ptr<const RslFunctions> functions = registry.functions("");
+    const auto file = RslFile::compile(name, {.includeFolders = command.folders, .functions = functions.get()});
     Tried out{{}, file->files()};
     if (file->errors() > 0) {
       log.report(Severity::Error, "shadetest-compile", {}, name + " does not compile:\n" + file->messages());
@@ -217,7 +218,8 @@ struct Outcome {
 
 Outcome tryOnce(const ShadetestCommand& command) {
   Log log;
-  ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, not a scene
+  // The user names the shader, not a scene.
+  ShaderRegistry registry(log, {.folders = ".:" + command.shaderFolders});
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const Tried tried = findShaders(command, registry, log);
   if (tried.shaders.empty()) return {std::max<int>(exitCodeOf(log), kUnreadable), tried.files};
