@@ -15,6 +15,8 @@ source = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENE = """Format 16 16 1
 PixelFilter "box" 1 1
 PixelSamples 1 1
+Hider "hidden" "int jitter" [0]
+ShadingRate .01
 Translate 0 0 3
 WorldBegin
 Surface "%s"

@@ -20,8 +20,9 @@ Surface "matte" "Kd" [1] "Ka" [0]
 Patch "bilinear" "P" [-1 1 0  1 1 0  -1 -1 0  1 -1 0]
 WorldEnd
 """
-# The lamp is a square of side 2, 1.5 before the floor, and looks at it.
+# The lamp is a square of side 2, 1.5 before the floor, and looks at it. The camera looks through it.
 LAMP = """AttributeBegin
+Attribute "visibility" "int camera" [0]
 %sAreaLightSource "%s" 1 %s
 Patch "bilinear" "P" [%s]
 AttributeEnd
@@ -72,7 +73,7 @@ t.write("normals.sl", 'light normals() { normal n = ntransform("world", normaliz
 even = render("even", lamp("even"))
 expect("even", even, lambda px, py, square: 2 / square, "is the mean of lights all over the lamp")
 expect("downward", render("downward", lamp("downward")), lambda px, py, square: 1.5 / square ** 1.5, "with the cosine at the lamp, by N")
-t.expect(max(p[0] for p in render("upward", lamp("downward", points=UP)).values()) == 0, "  whose other side looks away")
+t.expect(max(p[0] for p in render("upward", lamp("downward", points=UP), 0, "comes to nothing").values()) == 0, "  whose other side looks away")
 expect("half", render("half", lamp("half", '"float __samples" [256]')), lambda px, py, square: float(px > 0), "P tells where on the lamp, in any space", 0.08)
 seen = render("normals", lamp("normals"))[4, 4]
 t.expect(seen[0] == seen[1] > 0.5 and abs(seen[0] - seen[2]) < 1e-4, f"  N and Ng are those of the lamp: towards the floor ({seen[:3]})")
@@ -81,7 +82,7 @@ t.expect(all(abs(moved[k][0] - even[k][0]) < 1e-4 for k in even), "  wherever th
 less = render("written", lamp("written", ""))
 t.expect(max(p[0] for p in less.values()) > 0, '  "__samples" may be a parameter of the shader')
 hidden = render("hidden", lamp("even") + '\nAttributeBegin Surface "constant" Opacity [1 1 1] Attribute "visibility" "int camera" [0]'
-                ' Patch "bilinear" "P" [-9 9 -1  9 9 -1  -9 -9 -1  9 -9 -1] AttributeEnd')
+                ' Patch "bilinear" "P" [-9 9 -1  9 9 -1  -9 -9 -1  9 -9 -1] AttributeEnd', 0, "lies in its shadow")
 t.expect(max(p[0] for p in hidden.values()) == 0, "  what is between throws a shadow")
 t.expect_run("a light that stands elsewhere", [t.write("still.rib", SCENE % lamp("still", "")), "-o", "still.exr"], 0, "not an area light; it shines without its geometry")
 

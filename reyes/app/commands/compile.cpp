@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "reyes/app/exit_code.h"
+#include "reyes/app/settings.h"
 #include "reyes/base/input_file.h"
 #include "reyes/shader_registry.h"
 
@@ -40,7 +41,7 @@ RslSettings rslSettings(const std::vector<std::string>& folders, const std::vect
 
 int compileCommand(const CompileCommand& command) {
   Log log;
-  const ShaderRegistry registry(log, {.folders = command.shaderFolders});
+  const ShaderRegistry registry(log, pluginTrust(Trust{.shaderFolders = command.shaderFolders}));
   const std::unique_ptr<const RslFunctions> functions = registry.functions("");
   RslSettings settings = rslSettings(command.folders, command.definitions);
   settings.functions = functions.get();

@@ -12,6 +12,7 @@
 #include "reyes/app/commands/shader_check.h"
 #include "reyes/app/commands/shader_scene.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/app/settings.h"
 #include "reyes/base/stop.h"
 #include "reyes/dice.h"
 #include "reyes/frame.h"
@@ -218,8 +219,9 @@ struct Outcome {
 
 Outcome tryOnce(const ShadetestCommand& command) {
   Log log;
-  // The user names the shader, not a scene.
-  ShaderRegistry registry(log, {.folders = ".:" + command.shaderFolders});
+  PluginTrust trust = pluginTrust(Trust{.shaderFolders = command.shaderFolders});
+  trust.folders = ".:" + trust.folders;  // the user names the shader, not a scene
+  ShaderRegistry registry(log, trust);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const Tried tried = findShaders(command, registry, log);
   if (tried.shaders.empty()) return {std::max<int>(exitCodeOf(log), kUnreadable), tried.files};
