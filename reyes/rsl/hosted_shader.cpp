@@ -86,7 +86,8 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
   uniform_ = programOf(lowered_, std::vector<bool>(lowered_.parameters.size(), false), messages);
   refuseHuge(code(), messages);
   declareParameters();
-  if (lowered_.onGeometry || (code().capabilities & TM_LIGHT_SKY) != 0) declareExtent();
+  const bool hasExtent = lowered_.onGeometry || (code().capabilities & TM_LIGHT_SKY) != 0;
+  if (hasExtent) declareExtent();
   TmShader& host = host_.shader;
   host_.program = this;
   host.abi = TM_SHADER_ABI, host.structBytes = sizeof host;
@@ -94,6 +95,7 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
   host.paramCount = static_cast<int32_t>(params_.size()), host.paramBytes = sizeof(TmParamDecl);
   host.params = params_.data();
   host.shade = shade, host.name = lowered_.name.c_str(), host.doc = lowered_.doc.c_str();
+  if (hasExtent) host.capabilities |= TM_LIGHT_SHADOWED;
   if (lowered_.onGeometry) host.capabilities |= TM_LIGHT_AREA | kLightIsMean;
 }
 

@@ -222,7 +222,7 @@ std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& se
 FunctionsOfFolders ShaderRegistry::Impl::functionsAlong(const std::string& searchPath) {
   std::vector<std::string> folders = foldersOf(trust.folders);
   if (trust.sceneFolders)
-    for (const std::string& folder : foldersOf(searchPath)) folders.push_back(folder);
+    for (const std::string& folder : foldersOf(searchPath.empty() ? "." : searchPath)) folders.push_back(folder);
   return {functionPlugins, std::move(folders)};
 }
 

@@ -96,4 +96,7 @@ t.expect(all(abs(m - w) < 0.01 * w for m, w in zip(mean, (0.5, 1, 2))), f"  an e
 seen = render("dome", f'LightSource "dome" 1 {samples}')
 mean = sum(p[0] for p in seen.values()) / len(seen)
 t.expect(abs(mean - 2 / 3) < 0.01, f"  a sky as bright as it is high: 2/3, the mean cosine by cosine ({mean:.4f})")
+ball = 'Translate 0 0 -.5 Surface "constant" Sphere .4 -.4 .4 360 Translate 0 0 .5'
+shade = render("shaded", f'LightSource "sky" 1 {samples} AttributeBegin Attribute "visibility" "int camera" [0] {ball} AttributeEnd')
+t.expect(shade[3, 3][0] < 0.6 < 0.9 < shade[0, 0][0], f"  what stands before the sky throws a shadow ({shade[3, 3][0]:.2f} below, {shade[0, 0][0]:.2f} aside)")
 t.finish()
