@@ -172,6 +172,8 @@ void Emitters::place(const EmitterLattice& from, size_t k, float u, float v, vec
 
 float Emitters::reach(int light) const { return known(light) ? given(light).reach : 0.0f; }
 
+float Emitters::area(int light) const { return known(light) ? static_cast<float>(sources(light).areas.total()) : 0.0f; }
+
 Emitters::AreaPoint Emitters::onLattice(const EmitterLight& light, const Source& source, double u, double v) const {
   const EmitterLattice& lattice = light.lattices[source.lattice];
   const size_t row = source.rows.pick(v), column = source.row[row].pick(u);

@@ -39,6 +39,7 @@ class Emitters {
   const EmitterTable& table() const { return table_; }
 
   float reach(int light) const;
+  float area(int light) const;
 
   /// Tells whether some emitter of this light has an area.
   bool shines(int light) const { return known(light) && sources(light).areas.count() > 0; }

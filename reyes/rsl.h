@@ -7,13 +7,27 @@
 #include <utility>
 #include <vector>
 
+#include "reyes/shader/functions.h"
 #include "reyes/shader_api.h"
 
 namespace tomales {
 
+/// Functions that shaders may call besides those of the language: plugins bring them. Threads: any.
+class RslFunctions {
+ public:
+  virtual ~RslFunctions() = default;
+  /// The functions of that name, which live as long as the process.
+  virtual std::vector<const TmFunction*> named(const std::string& name) const = 0;
+};
+
+/// The name by which a shader calls the function. It is empty if the prototype is not one that
+/// reyes/shader/functions.h describes, or if there is no code.
+std::string rslNameOf(const TmFunction& function);
+
 struct RslSettings {
   std::vector<std::string> includeFolders{};  ///< The folders of #include, besides that of the file.
   std::vector<std::pair<std::string, std::string>> definitions{};
+  const RslFunctions* functions = nullptr;  ///< Null if there are none.
 };
 
 /// What RSL says of a parameter beyond its TmParamDecl.

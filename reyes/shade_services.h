@@ -186,6 +186,8 @@ class ShadeServices {
   /// How far in front of an area light's samples the polygons may lie that rays meet in its place: shadow rays end
   /// before that.
   virtual float emitterReach(int light) const = 0;
+  /// The area of all geometry of an area light; 0 if it has none.
+  virtual float emitterArea(int light) const = 0;
 
   /// Gives the indirect diffuse light on the side of N.
   virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,

@@ -53,6 +53,9 @@ class ShaderRegistry {
   void prepare(const std::vector<ShaderName>& names, const std::string& searchPath);
   /// The folders where find() looks for the text of a shader.
   std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
+  /// The functions of plugins that shaders in RSL may call: those of the trusted folders and, as far as folders of the
+  /// scene are trusted, those along `searchPath`. It must not outlive the registry.
+  std::unique_ptr<const RslFunctions> functions(const std::string& searchPath) const;
   /// For a shader that find() has not found: the end of a message that tells what else has that name or a similar one.
   std::string hintOfMissing(const std::string& name, TmKind kind, const std::string& searchPath,
                             const std::string& beside) const;

@@ -140,6 +140,11 @@ float GiServices::emitterReach(int light) const {
   return emitters ? emitters->reach(light) : 0.0f;
 }
 
+float GiServices::emitterArea(int light) const {
+  const Emitters* emitters = impl_->knownEmitters();
+  return emitters ? emitters->area(light) : 0.0f;
+}
+
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                  const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const {
   if (impl_->settings.mode == GiMode::Baked) return bakedIndirect(*impl_, points, active, out);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 #include "reyes/shader_api.h"
 
@@ -133,15 +134,14 @@ Base baseOf(std::string_view word) {
   return static_cast<Base>(at - std::begin(kNames));
 }
 
-/// Makes one of the functions that a row declares: `letter` stands for T or V.
-Builtin readingOf(const Row& row, Base letter) {
+/// Makes one of the functions that a signature declares: `letter` stands for T or V.
+Builtin readingOf(std::string_view signature, Base letter) {
   Builtin out;
-  out.op = row.op, out.emit = row.emit, out.number = row.number;
-  std::string_view rest = row.signature;
+  std::string_view rest = signature;
   Slot slot;
   bool first = true;
   while (!rest.empty()) {
-    const size_t end = rest.find_first_of(" ()");
+    const size_t end = rest.find_first_of(" (),");
     std::string_view word = rest.substr(0, end);
     const char after = end == std::string_view::npos ? ' ' : rest[end];
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
@@ -150,7 +150,7 @@ Builtin readingOf(const Row& row, Base letter) {
       out.name = word;
     } else if (word == "...") {
       out.more = true;
-    } else if (word == "out") {
+    } else if (word == "out" || word == "output") {
       slot.output = true;
     } else {
       slot.array = word.ends_with("[]");
@@ -166,6 +166,12 @@ Builtin readingOf(const Row& row, Base letter) {
       first = false, slot = {};
     }
   }
+  return out;
+}
+
+Builtin readingOf(const Row& row, Base letter) {
+  Builtin out = readingOf(row.signature, letter);
+  out.op = row.op, out.emit = row.emit, out.number = row.number;
   return out;
 }
 
@@ -190,6 +196,16 @@ std::vector<Builtin> readAll() {
 }
 
 }  // namespace
+
+std::optional<Builtin> builtinOf(const TmFunction& function) {
+  static const std::regex kForm(
+      R"(\s*(void|float|color|point|vector|normal)\s+[A-Za-z_]\w*\s*\((\s*|)"
+      R"((\s*(output\s+(float|color|point|vector|normal)|float|color|point|vector|normal|matrix|string)\s*(,(?!\s*\))|(?=\))))*)\)\s*)");
+  if (!function.prototype || !function.call || !std::regex_match(function.prototype, kForm)) return {};
+  Builtin out = readingOf(function.prototype, Base::Float);
+  out.op = Op::Plugin, out.emit = Emit::Plugin, out.plugin = &function;
+  return out;
+}
 
 std::span<const Builtin> builtins() {
   static const std::vector<Builtin> table = readAll();

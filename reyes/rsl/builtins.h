@@ -8,6 +8,7 @@
 
 #include "reyes/rsl/ops.h"
 #include "reyes/rsl/tree.h"
+#include "reyes/shader/functions.h"
 
 namespace tomales::compiler {
 
@@ -32,6 +33,7 @@ enum class Emit : uint8_t {
   Print,
   ArrayLength,
   Number,  ///< The constant `number`.
+  Plugin,  ///< The function of a plugin.
 };
 
 /// The arguments that a parameter takes.
@@ -50,7 +52,12 @@ struct Builtin {
   Op op{};
   Emit emit = Emit::Instruction;
   float number = 0;
+  const TmFunction* plugin = nullptr;  ///< Null for a function of the language.
 };
+
+/// Makes the row of a plugin's function. There is none if its prototype cannot be read, or names a type that functions
+/// of plugins cannot have.
+std::optional<Builtin> builtinOf(const TmFunction& function);
 
 /// All rows. Those of one name are together.
 std::span<const Builtin> builtins();

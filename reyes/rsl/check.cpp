@@ -8,8 +8,12 @@
 
 namespace tomales::compiler {
 
-Checker::Checker(std::deque<Variable>& globals, const File* prelude, Messages& messages)
-    : globals_(globals), prelude_(prelude), messages_(messages) {
+Checker::Checker(Checked& checked, const File* prelude, const RslFunctions* plugins, Messages& messages)
+    : globals_(checked.globals),
+      pluginRows_(&checked.ofPlugins),
+      prelude_(prelude),
+      plugins_(plugins),
+      messages_(messages) {
   Scope& outermost = scopes_.emplace_back();
   for (int32_t k = 0; k < kGlobals; ++k) {
     const GlobalInfo& g = info(static_cast<Global>(k));
@@ -289,9 +293,9 @@ void Checker::refuseRecursion() {
   for (const Function* f : all) visit(visit, f);
 }
 
-Checked check(File file, Messages& messages) {
+Checked check(File file, Messages& messages, const RslFunctions* plugins) {
   Checked out{std::move(file), {}};
-  Checker(out.globals, &prelude().file, messages).file(out.file);
+  Checker(out, &prelude().file, plugins, messages).file(out.file);
   return out;
 }
 

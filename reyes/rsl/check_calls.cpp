@@ -107,14 +107,13 @@ Type Checker::typeOfCall(Expr& e) {
       all.push_back(f.get());
       if (const int far = fit(e, *f); far >= 0 && (!best || far < least)) best = f.get(), least = far;
     }
-  const auto [first, count] = rowsOf(e.text);
-  int32_t chosen = -1;
-  for (int32_t row = first; row < first + count; ++row)
-    if (const int far = fit(e, builtins()[static_cast<size_t>(row)]); far >= 0 && (least < 0 || far < least))
-      chosen = row, least = far;
-  if (chosen >= 0) return typeOfBuiltin(e, chosen);
+  const std::vector<const Builtin*> rows = builtinsOf(e.text);
+  const Builtin* chosen = nullptr;
+  for (const Builtin* b : rows)
+    if (const int far = fit(e, *b); far >= 0 && (least < 0 || far < least)) chosen = b, least = far;
+  if (chosen) return typeOfBuiltin(e, *chosen);
   if (best) return typeOfFunction(e, *best);
-  if (count == 0 && all.empty()) return unknownFunction(e), Type{Base::Float};
+  if (rows.empty() && all.empty()) return unknownFunction(e), Type{Base::Float};
   noFit(e, all);
   return kUnknown;
 }
@@ -130,9 +129,23 @@ Type Checker::typeOfFunction(Expr& e, const Function& f) {
   return f.result;
 }
 
-Type Checker::typeOfBuiltin(Expr& e, int32_t row) {
-  const Builtin& b = builtins()[static_cast<size_t>(row)];
-  e.builtin = row;
+/// Finds the functions of the language, or, where it has none of that name, those of plugins.
+std::vector<const Builtin*> Checker::builtinsOf(const std::string& name) {
+  std::vector<const Builtin*> out;
+  const auto [first, count] = rowsOf(name);
+  for (int32_t row = first; row < first + count; ++row) out.push_back(&builtins()[static_cast<size_t>(row)]);
+  if (count > 0 || !plugins_) return out;
+  const auto [known, isNew] = plugged_.try_emplace(name);
+  if (isNew) {
+    for (const TmFunction* f : plugins_->named(name))
+      if (const std::optional<Builtin> b = builtinOf(*f))
+        pluginRows_->push_back(*b), known->second.push_back(&pluginRows_->back());
+  }
+  return known->second;
+}
+
+Type Checker::typeOfBuiltin(Expr& e, const Builtin& b) {
+  e.builtin = &b;
   const size_t n = b.slots.size();
   for (size_t i = 0; i < e.args.size(); ++i) {
     if (i >= n && takesList(b)) break;
@@ -204,9 +217,10 @@ void Checker::unknownFunction(Expr& e) {
 void Checker::noFit(Expr& e, const std::vector<const Function*>& functions) {
   messages_.error(e.place, fmt::format("there is no {}({})", e.text, argumentTypes(e)), e.length);
   for (const Function* f : functions) messages_.note(f->place, fmt::format("there is {}", signature(*f)));
-  const auto [first, count] = rowsOf(e.text);
-  for (int32_t row = first; row < first + std::min(count, 4); ++row)
-    messages_.note({}, fmt::format("there is {}", signature(builtins()[static_cast<size_t>(row)])));
+  std::vector<const Builtin*> rows = builtinsOf(e.text);
+  constexpr size_t kMostShown = 4;
+  rows.resize(std::min(rows.size(), kMostShown));
+  for (const Builtin* b : rows) messages_.note({}, fmt::format("there is {}", signature(*b)));
 }
 
 }  // namespace tomales::compiler

@@ -211,17 +211,15 @@ void Checker::retarget(Expr& e, const Type& wanted) {
       return;
     case ExprKind::Call: {
       if (e.missing) e.type = wanted;
-      if (e.builtin < 0 || e.type == wanted) return;
-      const auto [first, count] = rowsOf(e.text);
+      if (!e.builtin || e.type == wanted) return;
       int best = -1;
-      int32_t chosen = -1;
-      for (int32_t row = first; row < first + count; ++row) {
-        const Builtin& b = builtins()[static_cast<size_t>(row)];
-        const int far = fit(e, b);
-        if (far < 0 || Type{b.result} != wanted) continue;
-        if (best < 0 || far < best) best = far, chosen = row;
+      const Builtin* chosen = nullptr;
+      for (const Builtin* b : builtinsOf(e.text)) {
+        const int far = fit(e, *b);
+        if (far < 0 || Type{b->result} != wanted) continue;
+        if (best < 0 || far < best) best = far, chosen = b;
       }
-      if (chosen >= 0) e.type = typeOfBuiltin(e, chosen);
+      if (chosen) e.type = typeOfBuiltin(e, *chosen);
       return;
     }
     default:
@@ -232,8 +230,8 @@ void Checker::retarget(Expr& e, const Type& wanted) {
 // N * noise(P) moves points along N: beside a triple, noise is meant as a number. The colour of a picture is not.
 void Checker::retargetFactor(Expr& e, const Type& wanted) {
   if (e.kind == ExprKind::Tuple || e.type.isTriple()) return retarget(e, wanted);
-  if (e.kind != ExprKind::Call || e.builtin < 0 || !wanted.is(Base::Color)) return;
-  const Emit emit = builtins()[static_cast<size_t>(e.builtin)].emit;
+  if (e.kind != ExprKind::Call || !e.builtin || !wanted.is(Base::Color)) return;
+  const Emit emit = e.builtin->emit;
   if (emit == Emit::Texture || emit == Emit::Environment || emit == Emit::Shadow || emit == Emit::List)
     retarget(e, wanted);
 }

@@ -11,8 +11,8 @@ namespace tomales::compiler {
 
 class Checker {
  public:
-  /// `prelude` is null while the prelude itself is checked.
-  Checker(std::deque<Variable>& globals, const File* prelude, Messages& messages);
+  /// `prelude` is null while the prelude itself is checked. `plugins` is null if there are none.
+  Checker(Checked& checked, const File* prelude, const RslFunctions* plugins, Messages& messages);
   void file(File& file);
 
  private:
@@ -56,7 +56,8 @@ class Checker {
 
   // --- check_calls.cpp
   Type typeOfCall(Expr& e);
-  Type typeOfBuiltin(Expr& e, int32_t row);
+  Type typeOfBuiltin(Expr& e, const Builtin& b);
+  std::vector<const Builtin*> builtinsOf(const std::string& name);
   Type typeOfFunction(Expr& e, const Function& f);
   void unknownFunction(Expr& e);
   void noFit(Expr& e, const std::vector<const Function*>& functions);
@@ -75,7 +76,10 @@ class Checker {
   std::vector<std::string> functionNames() const;
 
   std::deque<Variable>& globals_;
+  std::deque<Builtin>* const pluginRows_;
   const File* const prelude_;
+  const RslFunctions* const plugins_;
+  std::map<std::string, std::vector<const Builtin*>> plugged_;  ///< The rows of names that plugins were asked for.
   Messages& messages_;
   std::vector<Scope> scopes_;
   const Function* current_ = nullptr;  ///< Null in the body of a shader.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reyes/rsl/builtins.h"
 #include "reyes/rsl/ops.h"
 #include "reyes/rsl/tree.h"
 
@@ -77,8 +78,11 @@ struct Code {
   std::string name, doc, path;
   std::vector<Register> registers;
   std::vector<Parameter> parameters;
+  std::vector<const Builtin*> plugins;  ///< The functions that Op::Plugin calls.
   Block body;
   int32_t labels = 0;
+  bool asksPlace = false;                        ///< True for a light that reads P, its own place.
+  bool onGeometry = false;                       ///< True if the host gives P, on the geometry of AreaLightSource.
   uint32_t capabilities = 0;                     ///< TmCapability, found by analysis (passes/capabilities.h).
   int32_t varyingFloats = 0, uniformFloats = 0;  ///< The slots of both kinds that the machine needs.
 };

@@ -6,6 +6,7 @@
 #include "reyes/rsl/hosted_shader.h"
 #include "reyes/rsl/lower.h"
 #include "reyes/rsl/parse.h"
+#include "reyes/rsl_host.h"
 
 namespace tomales {
 
@@ -30,13 +31,21 @@ PreprocessOptions optionsOf(const RslSettings& settings) {
   return out;
 }
 
-Code loweredFrom(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages) {
-  Code out = lower(checked, shader, messages);
+Code loweredFrom(const Checked& checked, const Shader& shader, const std::string& path, Messages& messages,
+                 bool onGeometry = false) {
+  Code out = lower(checked, shader, messages, onGeometry);
   out.path = path;
   return out;
 }
 
 }  // namespace
+
+std::string rslNameOf(const TmFunction& function) {
+  const std::optional<Builtin> b = builtinOf(function);
+  return b ? b->name : std::string();
+}
+
+const TmShader* rslAreaLight(const TmShader& light) { return HostedShader::areaForm(light); }
 
 RslFile::RslFile() : impl_(new Impl) {}
 RslFile::~RslFile() = default;
@@ -44,10 +53,15 @@ RslFile::~RslFile() = default;
 std::shared_ptr<const RslFile> RslFile::compile(const std::string& path, const RslSettings& settings) {
   const std::shared_ptr<RslFile> file(new RslFile);
   Impl& f = *file->impl_;
-  f.checked = check(parse(preprocess(path, optionsOf(settings), f.sources, f.messages), f.messages), f.messages);
+  f.checked = check(parse(preprocess(path, optionsOf(settings), f.sources, f.messages), f.messages), f.messages,
+                    settings.functions);
   if (!f.messages.hasErrors())
-    for (const auto& s : f.checked.file.shaders)
-      f.shaders.emplace_back(loweredFrom(f.checked, *s, path, f.messages), f.messages);
+    for (const auto& s : f.checked.file.shaders) {
+      HostedShader& shader = f.shaders.emplace_back(loweredFrom(f.checked, *s, path, f.messages), f.messages);
+      Messages told;  // the first lowering has reported the same
+      if (shader.canBeOnGeometry())
+        shader.setAreaForm(std::make_unique<HostedShader>(loweredFrom(f.checked, *s, path, told, true), told));
+    }
   if (!f.messages.hasErrors())
     for (const HostedShader& p : f.shaders)
       if (const TmShader* host = p.host()) f.hosts.push_back(host);
@@ -109,7 +123,7 @@ std::string RslFile::dump(const std::string& path, const RslSettings& settings, 
   if (stage == "tokens") return compiler::dump(tokens, sources);
   File file = parse(tokens, messages);
   if (stage == "tree") return compiler::dump(file);
-  const Checked checked = check(std::move(file), messages);
+  const Checked checked = check(std::move(file), messages, settings.functions);
   if (stage == "types") return compiler::dump(checked.file);
   std::string out;
   if (messages.hasErrors()) return out;

@@ -86,6 +86,8 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
   uniform_ = programOf(lowered_, std::vector<bool>(lowered_.parameters.size(), false), messages);
   refuseHuge(code(), messages);
   declareParameters();
+  const bool hasExtent = lowered_.onGeometry || (code().capabilities & TM_LIGHT_SKY) != 0;
+  if (hasExtent) declareExtent();
   TmShader& host = host_.shader;
   host_.program = this;
   host.abi = TM_SHADER_ABI, host.structBytes = sizeof host;
@@ -93,6 +95,19 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
   host.paramCount = static_cast<int32_t>(params_.size()), host.paramBytes = sizeof(TmParamDecl);
   host.params = params_.data();
   host.shade = shade, host.name = lowered_.name.c_str(), host.doc = lowered_.doc.c_str();
+  if (hasExtent) host.capabilities |= TM_LIGHT_SHADOWED;
+  if (lowered_.onGeometry) host.capabilities |= TM_LIGHT_AREA | kLightIsMean;
+}
+
+bool HostedShader::canBeOnGeometry() const {
+  const bool distant = (code().capabilities & (TM_LIGHT_AMBIENT | TM_LIGHT_SOLAR)) != 0;
+  return lowered_.asksPlace && !distant;
+}
+
+const TmShader* HostedShader::areaForm(const TmShader& light) {
+  if (light.shade != shade) return nullptr;
+  const HostedShader* form = reinterpret_cast<const Hosted*>(&light)->program->area_.get();
+  return form ? &form->host_.shader : nullptr;
 }
 
 void HostedShader::declareParameters() {
@@ -107,9 +122,26 @@ void HostedShader::declareParameters() {
   }
 }
 
+/// Declares the parameters of a light with an extent, for which the language has no words.
+void HostedShader::declareExtent() {
+  static constexpr float kSamples = 16, kNo = 0;
+  declareForHost("__samples", TM_ROLE_SAMPLES, &kSamples);
+  declareForHost("__visible", TM_ROLE_VISIBLE, &kNo);
+}
+
+/// Gives the role to the shader's own parameter of that name, or adds one.
+void HostedShader::declareForHost(const char* name, TmRole role, const float* value) {
+  for (TmParamDecl& p : params_)
+    if (std::string_view(p.name) == name && p.type == TM_FLOAT && p.arrayLength == 1) {
+      p.role = role;
+      return;
+    }
+  params_.push_back({name, TM_FLOAT, 1, value, nullptr, "", role});
+}
+
 const Program& HostedShader::programFor(const TmGrid& grid) const {
   std::vector<bool> varying;
-  for (size_t k = 0; k < params_.size(); ++k) {
+  for (size_t k = 0; k < lowered_.parameters.size(); ++k) {
     if (grid.params[k].step == 0 || lowered_.parameters[k].output) continue;
     varying.resize(params_.size(), false);
     varying[k] = true;

@@ -20,6 +20,11 @@ class HostedShader {
 
   /// Null if the host has no shaders of this kind.
   const TmShader* host() const { return code().kind == ShaderKind::Transformation ? nullptr : &host_.shader; }
+  /// Tells whether a light asks where it stands, so that it can be lowered onto the geometry of AreaLightSource.
+  bool canBeOnGeometry() const;
+  void setAreaForm(std::unique_ptr<const HostedShader> form) { area_ = std::move(form); }
+  /// The form of a light that AreaLightSource runs. Null if it has none, or is not a HostedShader's.
+  static const TmShader* areaForm(const TmShader& light);
   const Code& code() const { return uniform_->code(); }
   const Code& lowered() const { return lowered_; }
   /// For a surface that assigns P: what moves its points (passes/moving.cpp). Null if nothing does.
@@ -29,6 +34,8 @@ class HostedShader {
   static void shade(const TmGrid* grid);
   const Program& programFor(const TmGrid& grid) const;
   void declareParameters();
+  void declareExtent();
+  void declareForHost(const char* name, TmRole role, const float* value);
 
   Code lowered_;
   std::unique_ptr<const HostedShader> displacement_;
@@ -41,6 +48,7 @@ class HostedShader {
     TmShader shader{};
     const HostedShader* program = nullptr;
   } host_;  ///< The host knows its first member, by whose address shade() finds the rest.
+  std::unique_ptr<const HostedShader> area_;  ///< areaForm(), or null.
 };
 
 }  // namespace tomales::compiler

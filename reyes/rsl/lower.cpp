@@ -93,8 +93,9 @@ void Lowering::copy(int32_t to, int32_t from) { emit(Op::Copy, {to}, {from}); }
 
 void Lowering::initialise(int32_t to, int32_t from) { emit(Op::Copy, {to}, {from}).masked = false; }
 
-Code lower(const Checked&, const Shader& shader, Messages& messages) {
+Code lower(const Checked&, const Shader& shader, Messages& messages, bool onGeometry) {
   Code code;
+  code.onGeometry = onGeometry;
   Lowering(code, messages).shader(shader);
   return code;
 }

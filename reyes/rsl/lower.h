@@ -7,8 +7,9 @@
 namespace tomales::compiler {
 
 /// check() must have found no errors. Errors that only show here (for instance a variable that this kind of shader does
-/// not have) go to `messages`.
-Code lower(const Checked& checked, const Shader& shader, Messages& messages);
+/// not have) go to `messages`. P and N of a light are the origin and the z axis of its space; with `onGeometry` they
+/// are a point of the geometry of AreaLightSource and its normal, which the host gives.
+Code lower(const Checked& checked, const Shader& shader, Messages& messages, bool onGeometry = false);
 
 /// The greatest number of instructions of one shader, functions inlined; more is an error.
 constexpr int kMostInstructions = 200'000;

@@ -16,7 +16,7 @@ int32_t Lowering::call(const Expr& e) {
     if (e.type.is(Base::Matrix)) return compute(Op::MatrixOf, {number(1)});
     return e.type.isTriple() ? constant(Shape::Triple, {1, 0, 1}) : number(1);
   }
-  return builtin(e, builtins()[static_cast<size_t>(e.builtin)]);
+  return builtin(e, *e.builtin);
 }
 
 namespace {
@@ -147,6 +147,8 @@ int32_t Lowering::builtin(const Expr& e, const Builtin& b) {
       return number(static_cast<float>(std::max(code_.registers[static_cast<size_t>(value(*e.args[0]))].length, 0)));
     case Emit::Number:
       return number(b.number);
+    case Emit::Plugin:
+      return plugin(e, b);
   }
   return number(0);
 }
@@ -156,6 +158,19 @@ int32_t Lowering::setComponent(const Expr& e, const Builtin& b) {
   if (b.number >= 0) in.insert(in.begin() + 1, number(b.number));
   store(*e.args[0], compute(b.op, in));
   return number(0);
+}
+
+int32_t Lowering::plugin(const Expr& e, const Builtin& b) {
+  const std::vector<int32_t> in = arguments(e, b, e.args.size());
+  std::vector<int32_t> out;
+  std::vector<std::pair<const Expr*, int32_t>> after;
+  if (b.result != Base::Void) out.push_back(temporary(shapeOf({b.result})));
+  for (size_t i = 0; i < e.args.size(); ++i)
+    if (b.slots[i].output) out.push_back(target(*e.args[i], after));
+  emit(Op::Plugin, out, in).extra = static_cast<int32_t>(code_.plugins.size());
+  code_.plugins.push_back(&b);
+  for (const auto& [to, from] : after) store(*to, from);
+  return b.result != Base::Void ? out[0] : number(0);
 }
 
 // A surface's normal follows from steps, which the passes derive; for a displacement the host differences its grid.

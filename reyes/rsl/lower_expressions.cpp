@@ -14,8 +14,8 @@ namespace {
 bool changesVariables(const Expr& e) {
   if (e.kind == ExprKind::Assign) return true;
   if (e.kind == ExprKind::Call && e.function) return true;
-  if (e.kind == ExprKind::Call && e.builtin >= 0)
-    for (const Slot& s : builtins()[static_cast<size_t>(e.builtin)].slots)
+  if (e.kind == ExprKind::Call && e.builtin)
+    for (const Slot& s : e.builtin->slots)
       if (s.output) return true;
   return std::any_of(e.args.begin(), e.args.end(), [](const ExprPtr& a) { return changesVariables(*a); });
 }
@@ -24,8 +24,8 @@ bool changesVariables(const Expr& e) {
 bool isCheap(const Expr& e) {
   if (e.kind == ExprKind::Assign) return false;
   if (e.kind == ExprKind::Call) {
-    if (e.function || e.builtin < 0) return false;
-    const Builtin& b = builtins()[static_cast<size_t>(e.builtin)];
+    if (e.function || !e.builtin) return false;
+    const Builtin& b = *e.builtin;
     if (!info(b.op).pure() || b.emit == Emit::Print) return false;
   }
   return std::all_of(e.args.begin(), e.args.end(), [](const ExprPtr& a) { return isCheap(*a); });
@@ -120,10 +120,12 @@ int32_t Lowering::name(const Expr& e) {
   return it != registers_.end() ? it->second : variable(v);
 }
 
-// In a light shader P is where the light is and N where it looks: the origin and the z axis of its space. (RISpec gives
-// the points of an area light there, but the host gives those to built-in shaders only.)
+// In a light shader P is where the light is and N where it looks: a point of the geometry of AreaLightSource, or the
+// origin and the z axis of its space (RISpec 3.2, table 12.2).
 int32_t Lowering::ofLamp(Global g) {
   if (g != Global::P && g != Global::N && g != Global::Ng) return global(g);
+  code_.asksPlace |= g == Global::P;
+  if (code_.onGeometry) return global(g == Global::P ? g : Global::N);
   const auto [it, isNew] = lamp_.try_emplace(g, -1);
   if (!isNew) return it->second;
   const bool position = g == Global::P;

@@ -77,7 +77,9 @@ void Lowering::illuminate(const Stmt& s) {
 
 void Lowering::solar(const Stmt& s) {
   const int32_t L = global(Global::L);
-  if (!s.exprs.empty()) {
+  if (s.exprs.empty()) {
+    copy(L, compute(Op::SkyLight, {}));
+  } else {
     const int32_t axis = value(*s.exprs[0]), angle = value(*s.exprs[1]);
     copy(L, compute(Op::ConeLight, {axis, angle}));
   }

@@ -98,6 +98,7 @@ class Lowering {
   int32_t withList(const Expr& e, const Builtin& b);
   int32_t ask(const Expr& e, const Builtin& b);
   int32_t normalOf(int32_t position);
+  int32_t plugin(const Expr& e, const Builtin& b);
   // --- lower_pictures.cpp
   int32_t texture(const Expr& e, const Builtin& b);
   int32_t environment(const Expr& e, const Builtin& b);

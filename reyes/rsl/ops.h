@@ -69,6 +69,7 @@ namespace tomales::compiler {
   OP(Ambient, "t=", "") OP(Diffuse, "t=t", "") OP(Specular, "t=ttf", "") OP(SpecularScale, "f=", "")                 \
   OP(Illuminance, "tt=sttf", "") /* L, Cl = category, P, axis, angle; settings; body */                              \
   OP(ConeLight, "t=tf", "")      /* a direction in the cone around an axis, half angle: TM_LIGHT_SAMPLED */          \
+  OP(SkyLight, "t=", "")         /* gives L, which the host has chosen: TM_LIGHT_SKY */                                       \
   OP(IndirectDiffuse, "t=ttf", "") OP(Occlusion, "f=ttf", "") /* P, N, samples; settings */                          \
   OP(Shadow, "t=st", "")         /* name, P; settings */                                                             \
   OP(Trace, "t=tt", "") OP(TraceDistance, "f=tt", "") OP(Transmission, "t=tt", "") /* P, direction | target */       \
@@ -83,6 +84,7 @@ namespace tomales::compiler {
   /* Messages; extra: TmWhom. Settings: the one that is filled in. ShaderName: of "surface", "light", ... */           \
   OP(Ask, "f=s", "") OP(ShaderName, "s=s", "") OP(RayInfo, "f=s", "") OP(RayLabel, "s=", "")                          \
   OP(Print, "=s...", "")                                                                                             \
+  OP(Plugin, "=*...", "")        /* result, if any, outputs = arguments; extra: index in Code::plugins */          \
   OP(Report, "=s", "") /* TM_MISSING, once: what the shader needs and nobody has */                                  \
   /* Structure (code.h) */                                                                                           \
   OP(If, "=f", "")      /* body, other */                                                                            \

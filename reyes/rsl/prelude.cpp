@@ -90,7 +90,7 @@ Checked readPrelude() {
   Messages messages;
   File file = parse(preprocessText("prelude", kText, {}, sources, messages), messages);
   Checked out{std::move(file), {}};
-  Checker(out.globals, nullptr, messages).file(out.file);
+  Checker(out, nullptr, nullptr, messages).file(out.file);
   return out;
 }
 

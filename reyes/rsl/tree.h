@@ -32,6 +32,7 @@ std::string name(const Type& type);
 struct Expr;
 struct Stmt;
 struct Function;
+struct Builtin;
 using ExprPtr = std::unique_ptr<Expr>;
 using StmtPtr = std::unique_ptr<Stmt>;
 
@@ -84,7 +85,7 @@ struct Expr {
   Type type{};
   Variable* variable = nullptr;        ///< For a Name.
   const Function* function = nullptr;  ///< For a Call to a function of the file.
-  int32_t builtin = -1;                ///< For a Call to a built-in function: its row of the table (builtins.h).
+  const Builtin* builtin = nullptr;    ///< For a Call to a built-in function, or to one of a plugin.
   bool missing = false;                ///< True for a Call to a function that nobody has.
 };
 

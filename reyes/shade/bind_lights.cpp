@@ -143,7 +143,8 @@ std::shared_ptr<const Sky> Binder::sky(const BoundShader& light) {
 }
 
 std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
-  BoundShaderPtr bound = bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT);
+  BoundShaderPtr bound =
+      bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT, call.area);
   if (!bound) return nullptr;
   auto light = std::make_unique<BoundLight>();
   light->bound = bound, light->index = index;

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "reyes/base/missing_file.h"
+#include "reyes/rsl.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shade/substitute.h"
 #include "reyes/shader_registry.h"
 
@@ -23,10 +25,12 @@ void Binder::prepare() {
   names_.clear();
 }
 
-BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind) {
+BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind,
+                            bool area) {
   const std::string name = call ? call->name : "defaultsurface";
   const std::string beside = call ? nameOf(*call, kind).beside : "";
   const TmShader* shader = registry_.find(name, kind, path_, beside);
+  if (const TmShader* form = shader && area ? rslAreaLight(*shader) : nullptr) shader = form;
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
   if (shader) return bindShader(*shader, call, where, user, currentFromShader, log_);

@@ -59,7 +59,8 @@ class Binder {
     if (isNew) it->second = bind(call.get(), call->where, user, kind);
     return it->second;
   }
-  BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind);
+  BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind,
+                      bool area = false);
   /// The sky of a light with TM_LIGHT_SKY.
   std::shared_ptr<const Sky> sky(const BoundShader& light);
 

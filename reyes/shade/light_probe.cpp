@@ -1,6 +1,7 @@
 // Lights and surfaces as photons see them, and lamps as the eye does: they run alone, not for the shading of an object.
 #include <fmt/format.h>
 
+#include "reyes/rsl_host.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/system.h"
 
@@ -37,6 +38,7 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   if (!probe.Pl.empty())
     for (size_t i = 0; i < n; ++i) set(batch.tm.L, static_cast<int>(i), probe.Pl[i] - probe.P[i]);
   const bool finished = batch.run(shader, batch.tm);
+  if (finished && isMean(*shader.shader)) meanToRadiance(batch.tm, impl_->services, light);
   probe.L.assign(n, vec3(0.0f)), probe.Cl.assign(n, vec3(0.0f));
   for (size_t i = 0; finished && i < n; ++i) {
     const vec3 L = get(batch.tm.L, static_cast<int>(i)), Cl = get(batch.tm.Cl, static_cast<int>(i));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reyes/base/rng.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/light_services.h"
@@ -111,6 +112,7 @@ bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g) {
   }
   const bool ran = batch.run(*light.bound, g);
   g.L = asked;
+  if (ran && isMean(*light.bound->shader)) meanToRadiance(g, batch.scene.services, light.index);
   return ran;
 }
 
@@ -149,6 +151,15 @@ void radianceToSample(const TmGrid& g, const float* density) {
 }
 
 }  // namespace
+
+void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light) {
+  const float area = services ? services->emitterArea(light) : 0.0f;
+  for (int i = 0; i < g.count; ++i) {
+    const vec3 L = get(g.L, i), N = get(g.Nl, i);
+    const float distance2 = dot(L, L), cosine = -dot(L, N) / std::sqrt(distance2);
+    set(g.Cl, i, area > 0 && cosine > 0 ? get(g.Cl, i) * (kPi * distance2 / (cosine * area)) : vec3(0.0f));
+  }
+}
 
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 

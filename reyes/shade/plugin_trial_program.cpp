@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "reyes/base/plugin_trial_socket.h"
+#include "reyes/shader/functions.h"
 #include "reyes/shader_api.h"
 
 using namespace tomales::trial;
@@ -36,6 +37,12 @@ void read(const TmShaderLibrary* library) {
   }
 }
 
+void read(const TmFunctionLibrary* library) {
+  if (!library || library->abi != TM_SHADER_ABI || library->structBytes < sizeof(TmFunctionLibrary)) return;
+  const bool known = library->functionBytes == sizeof(TmFunction);
+  for (int32_t k = 0; known && k < library->count; ++k) read(library->functions[k].prototype);
+}
+
 }  // namespace
 
 int main() {
@@ -49,8 +56,10 @@ int main() {
     path[length] = 0;
     void* handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!handle) handle = dlopen(path, RTLD_LAZY | RTLD_LOCAL);  // procedurals call functions that the renderer has
-    if (handle)
-      if (const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL))) read(function());
+    if (handle) {
+      if (const auto shaders = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL))) read(shaders());
+      if (const auto all = reinterpret_cast<TmFunctionsFunction>(dlsym(handle, TM_FUNCTIONS_SYMBOL))) read(all());
+    }
     say(kLives);
   }
   _exit(0);  // destructors of plugins are not on trial

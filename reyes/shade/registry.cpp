@@ -16,6 +16,7 @@
 #include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
 #include "reyes/base/trust.h"
+#include "reyes/shade/function_plugins.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shade/rsl_shaders.h"
 #include "reyes/shader_registry.h"
@@ -61,6 +62,7 @@ struct ShaderRegistry::Impl {
   std::map<const TmShader*, std::string> origins{};
   std::map<const TmShader*, const TmShader*> displacements{};  ///< by the surfaces that move their points
   std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
+  FunctionPlugins functionPlugins{log};
 
   void refuse(const std::string& origin, const std::string& problem) {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
@@ -72,6 +74,7 @@ struct ShaderRegistry::Impl {
   std::string heldBy(const std::string& path) const;
   std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
   const TmShader* found(const std::string& name, TmKind kind, const std::string& searchPath, const std::string& beside);
+  FunctionsOfFolders functionsAlong(const std::string& searchPath);
   const TmShader* search(const std::string& name, TmKind kind, const std::string& searchPath,
                          const std::string& beside);
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
@@ -216,9 +219,16 @@ std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& se
   return out;
 }
 
+FunctionsOfFolders ShaderRegistry::Impl::functionsAlong(const std::string& searchPath) {
+  std::vector<std::string> folders = foldersOf(trust.folders);
+  if (trust.sceneFolders)
+    for (const std::string& folder : foldersOf(searchPath.empty() ? "." : searchPath)) folders.push_back(folder);
+  return {functionPlugins, std::move(folders)};
+}
+
 const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind kind, const std::string& searchPath,
                                                const std::string& beside) {
-  const RslFound found = findRslShader(name, kind, textFolders(searchPath, beside));
+  const RslFound found = findRslShader(name, kind, textFolders(searchPath, beside), functionsAlong(searchPath));
   const auto tell = [&](const std::string& where, const std::string& what) {
     if (toldOf.insert(where + what).second) refuse(where, what);
   };
@@ -300,11 +310,15 @@ void ShaderRegistry::prepare(const std::vector<ShaderName>& names, const std::st
     if ((own && impl_->comesBeforeTexts(*own)) || !pluginFiles(n.name, impl_->trust.folders).empty()) continue;
     requests.push_back({n.name, impl_->textFolders(searchPath, n.beside)});
   }
-  compileRslShaders(requests);
+  compileRslShaders(requests, impl_->functionsAlong(searchPath));
 }
 
 std::vector<std::string> ShaderRegistry::textFolders(const std::string& searchPath, const std::string& beside) const {
   return impl_->textFolders(searchPath, beside);
+}
+
+std::unique_ptr<const RslFunctions> ShaderRegistry::functions(const std::string& searchPath) const {
+  return std::make_unique<const FunctionsOfFolders>(impl_->functionsAlong(searchPath));
 }
 
 std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kind, const std::string& searchPath,

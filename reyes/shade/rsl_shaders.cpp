@@ -10,6 +10,7 @@
 #include <mutex>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "reyes/base/input_file.h"
 #include "reyes/base/parallel.h"
@@ -44,13 +45,14 @@ struct Compiled {
 
 class Files {
  public:
-  std::shared_ptr<const RslFile> compiled(const std::string& path, const std::vector<std::string>& folders) {
-    const std::pair key(path, folders);
+  std::shared_ptr<const RslFile> compiled(const std::string& path, const std::vector<std::string>& folders,
+                                          const FunctionsOfFolders& functions) {
+    const Key key(path, folders, functions.folders());
     {
       const std::lock_guard lock(mutex_);
       if (const auto it = current_.find(key); it != current_.end() && it->second->isCurrent()) return it->second->file;
     }
-    Compiled made{RslFile::compile(path, {.includeFolders = folders}), {}};
+    Compiled made{RslFile::compile(path, {.includeFolders = folders, .functions = &functions}), {}};
     for (const std::string& file : made.file->files()) made.read.push_back({file, stateOf(file)});
     const std::lock_guard lock(mutex_);
     current_[key] = &all_.emplace_back(std::move(made));
@@ -58,9 +60,11 @@ class Files {
   }
 
  private:
+  /// The file, the folders of headers, and those of functions.
+  using Key = std::tuple<std::string, std::vector<std::string>, std::vector<std::string>>;
   std::mutex mutex_;
   std::deque<Compiled> all_;
-  std::map<std::pair<std::string, std::vector<std::string>>, const Compiled*> current_;
+  std::map<Key, const Compiled*> current_;
 };
 
 Files& files() {
@@ -170,11 +174,12 @@ std::string withoutShaderEnding(const std::string& name) {
   return name;
 }
 
-RslFound findRslShader(const std::string& written, TmKind kind, const std::vector<std::string>& folders) {
+RslFound findRslShader(const std::string& written, TmKind kind, const std::vector<std::string>& folders,
+                       const FunctionsOfFolders& functions) {
   const std::string name = nameInFolders(written), shaderName = fs::path(name).filename().string();
   RslFound out;
   for (const std::string& file : candidates(name, folders)) {
-    const std::shared_ptr<const RslFile> compiled = files().compiled(file, folders);
+    const std::shared_ptr<const RslFile> compiled = files().compiled(file, folders, functions);
     if (compiled->errors() > 0) {
       if (out.file.empty()) out.file = file, out.problem = compiled->messages();
       continue;
@@ -199,13 +204,14 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
   return out;
 }
 
-void compileRslShaders(const std::vector<RslRequest>& requests) {
+void compileRslShaders(const std::vector<RslRequest>& requests, const FunctionsOfFolders& functions) {
   std::set<std::pair<std::string, std::vector<std::string>>> wanted;
   for (const RslRequest& r : requests)
     if (const auto found = candidates(nameInFolders(r.name), r.folders); !found.empty())
       wanted.emplace(found.front(), r.folders);
   const std::vector<std::pair<std::string, std::vector<std::string>>> each(wanted.begin(), wanted.end());
-  parallelFor(each.size(), 1, [&](size_t begin, size_t) { files().compiled(each[begin].first, each[begin].second); });
+  parallelFor(each.size(), 1,
+              [&](size_t begin, size_t) { files().compiled(each[begin].first, each[begin].second, functions); });
 }
 
 }  // namespace tomales

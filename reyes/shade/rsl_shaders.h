@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reyes/rsl.h"
+#include "reyes/shade/function_plugins.h"
 
 namespace tomales {
 
@@ -23,8 +24,10 @@ struct RslFound {
 
 /// `name` is as in RIB: endings of compiled shaders (.slo, .sdr, .slx, ...) stand for the .sl beside them. The file is
 /// NAME.sl in the folders, in their order, or else a .sl file there that holds that shader. #include looks there too. A
-/// file is compiled once for the process, and again when it or a file that it includes has changed.
-RslFound findRslShader(const std::string& name, TmKind kind, const std::vector<std::string>& folders);
+/// file is compiled once for the process, and again when it or a file that it includes has changed. The shader may call
+/// `functions`, which are those of plugins.
+RslFound findRslShader(const std::string& name, TmKind kind, const std::vector<std::string>& folders,
+                       const FunctionsOfFolders& functions);
 
 /// A name, and the folders where it is looked for.
 struct RslRequest {
@@ -33,6 +36,6 @@ struct RslRequest {
 };
 /// Compiles, on all threads, the files that findRslShader() will take first for these names, so that it only has to
 /// look. It reports nothing: findRslShader() reports problems, in the order of its calls.
-void compileRslShaders(const std::vector<RslRequest>& requests);
+void compileRslShaders(const std::vector<RslRequest>& requests, const FunctionsOfFolders& functions);
 
 }  // namespace tomales

@@ -166,6 +166,7 @@ void buildCompile(CLI::App& app, Invocation& in, int& code) {
       ->check(CLI::IsMember({"tokens", "tree", "types", "lowered", "code"}))
       ->type_name("tokens|tree|types|lowered|code");
   c->add_flag("-q", in.compile.quiet, "No warnings");
+  addShaderFolders(*c, in.compile.shaderFolders);
   c->callback([&] { code = compileCommand(in.compile); });
 }
 
@@ -177,6 +178,7 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
       ->type_name("FOLDER")
       ->expected(1)
       ->allow_extra_args(false);
+  addShaderFolders(*c, in.shadetest.shaderFolders);
   c->add_flag("--watch", in.shadetest.watch, "Shade again whenever the .sl or what it includes changes");
   addParsed(
       *c, "--grid", in.shadetest.grid, [](const std::string& t) { return parsePair(t, 2, 4096); }, "NxM",

@@ -5,7 +5,9 @@
 #include <cstdio>
 
 #include "reyes/app/exit_code.h"
+#include "reyes/app/settings.h"
 #include "reyes/base/input_file.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -39,7 +41,10 @@ RslSettings rslSettings(const std::vector<std::string>& folders, const std::vect
 
 int compileCommand(const CompileCommand& command) {
   Log log;
-  const RslSettings settings = rslSettings(command.folders, command.definitions);
+  const ShaderRegistry registry(log, pluginTrust(Trust{.shaderFolders = command.shaderFolders}));
+  const std::unique_ptr<const RslFunctions> functions = registry.functions("");
+  RslSettings settings = rslSettings(command.folders, command.definitions);
+  settings.functions = functions.get();
   for (const std::string& path : command.files) compile(path, settings, command, log);
   return exitCodeOf(log);
 }

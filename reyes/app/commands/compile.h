@@ -13,6 +13,8 @@ struct CompileCommand {
   std::vector<std::string> definitions;  ///< -D NAME or NAME=VALUE
   std::string dump;                      ///< A stage of RslFile::dump(); empty for none.
   bool quiet = false;                    ///< If true, no warnings are printed.
+  /// Folders whose plugins have functions that shaders may call, separated by colons.
+  std::string shaderFolders;
 };
 
 RslSettings rslSettings(const std::vector<std::string>& folders, const std::vector<std::string>& definitions);

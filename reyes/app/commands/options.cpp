@@ -191,7 +191,11 @@ void addTrust(CLI::App& app, Trust& trust) {
                  "Folders of plugins that you trust, separated by colons; they are searched before those of the RIB, "
                  "and followed by TOMALES_PLUGIN_PATH and ~/.config/tomales/plugins")
       ->type_name("FOLDERS");
-  app.add_option("--shaders", trust.shaderFolders,
+  addShaderFolders(app, trust.shaderFolders);
+}
+
+void addShaderFolders(CLI::App& app, std::string& folders) {
+  app.add_option("--shaders", folders,
                  "Folders of shaders, separated by colons, whose plugins you trust; they come before all others")
       ->type_name("FOLDERS");
   addSearchPath(app);

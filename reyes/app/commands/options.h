@@ -39,8 +39,9 @@ void addOutput(CLI::App& app, RenderSettings& s);
 void addCrop(CLI::App& app, RenderSettings& s);
 void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Options of the frame, --crop among them.
 void addLightOptions(CLI::App& app, RenderSettings& s);
-void addTrust(CLI::App& app, Trust& trust);            ///< Options that say whose code may run.
-void addRunOptions(CLI::App& app, RenderSettings& s);  ///< Threads, statistics, memory of textures, verbosity.
-void addWatching(CLI::App& app, RenderSettings& s);    ///< --preview, --pixel
+void addTrust(CLI::App& app, Trust& trust);                  ///< Options that say whose code may run.
+void addShaderFolders(CLI::App& app, std::string& folders);  ///< --shaders, which is one of them.
+void addRunOptions(CLI::App& app, RenderSettings& s);        ///< Threads, statistics, memory of textures, verbosity.
+void addWatching(CLI::App& app, RenderSettings& s);          ///< --preview, --pixel
 
 }  // namespace tomales

@@ -56,6 +56,7 @@ class EmptySpace final : public ShadeServices {
     std::fill_n(out.density, count, 0.0f);
   }
   float emitterReach(int) const override { return 0; }
+  float emitterArea(int) const override { return 1; /* of the square */ }
   void indirectDiffuse(const ShadePoints&, const uint8_t*, TmConstVec3, const IndirectQuery&, const ShadeContext&,
                        IndirectResult) const override {}
 };

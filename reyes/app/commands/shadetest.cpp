@@ -12,6 +12,7 @@
 #include "reyes/app/commands/shader_check.h"
 #include "reyes/app/commands/shader_scene.h"
 #include "reyes/app/exit_code.h"
+#include "reyes/app/settings.h"
 #include "reyes/base/stop.h"
 #include "reyes/dice.h"
 #include "reyes/frame.h"
@@ -41,7 +42,8 @@ Tried findShaders(const ShadetestCommand& command, ShaderRegistry& registry, Log
     return {plugin.all(), {}};
   }
   if (fs::path(name).extension() == ".sl") {
-    const auto file = RslFile::compile(name, {.includeFolders = command.folders});
+    const std::unique_ptr<const RslFunctions> functions = registry.functions("");
+    const auto file = RslFile::compile(name, {.includeFolders = command.folders, .functions = functions.get()});
     Tried out{{}, file->files()};
     if (file->errors() > 0) {
       log.report(Severity::Error, "shadetest-compile", {}, name + " does not compile:\n" + file->messages());
@@ -217,7 +219,9 @@ struct Outcome {
 
 Outcome tryOnce(const ShadetestCommand& command) {
   Log log;
-  ShaderRegistry registry(log, {.folders = "."});  // the user names the shader, not a scene
+  PluginTrust trust = pluginTrust(Trust{.shaderFolders = command.shaderFolders});
+  trust.folders = ".:" + trust.folders;  // the user names the shader, not a scene
+  ShaderRegistry registry(log, trust);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const Tried tried = findShaders(command, registry, log);
   if (tried.shaders.empty()) return {std::max<int>(exitCodeOf(log), kUnreadable), tried.files};

@@ -152,19 +152,25 @@ void coneLight(Run& run, const Step& s) {
   }
 }
 
+/// Turns the host's direction round: L of RSL leads from the light.
+void skyLight(Run& run, const Step& s) {
+  Call call(run, s);
+  const TmVec3 out = call.giveTriple();
+  const TmVec3& L = run.given.L;
+  for (int32_t i = 0; i < run.count; ++i)
+    if (run.mask->on[i]) rsl::set(out, i, -rsl::get(L, i));
+}
+
 void shadow(Run& run, const Step& s) {
   Call call(run, s);
   const TmShadowOptions options = listed(call, tmShadowDefaults());
   call.services.shadow(call.host, call.g, call.text(0), &options, call.triple(1), call.giveTriple());
 }
 
-constexpr Row kRows[] = {{Op::Ambient, ambient},
-                         {Op::Diffuse, diffuse},
-                         {Op::Specular, specular},
-                         {Op::SpecularScale, specularScale},
-                         {Op::Illuminance, illuminance},
-                         {Op::ConeLight, coneLight},
-                         {Op::Shadow, shadow}};
+constexpr Row kRows[] = {{Op::Ambient, ambient},         {Op::Diffuse, diffuse},
+                         {Op::Specular, specular},       {Op::SpecularScale, specularScale},
+                         {Op::Illuminance, illuminance}, {Op::ConeLight, coneLight},
+                         {Op::SkyLight, skyLight},       {Op::Shadow, shadow}};
 
 }  // namespace
 

@@ -40,7 +40,7 @@ void runByComponent(Run& run, const Step& s) {
 std::array<Execute, kOps> made() {
   std::array<Execute, kOps> table{};
   for (const auto rows : {controlRows(), copyRows(), valueRows(), textRows(), surfaceRows(), lightRows(), rayRows(),
-                          pictureRows(), cloudRows(), messageRows()})
+                          pictureRows(), cloudRows(), messageRows(), pluginRows()})
     for (const Row& row : rows) table[static_cast<size_t>(row.op)] = row.execute;
   for (int k = 0; k < kOps; ++k)
     if (!table[static_cast<size_t>(k)] && !info(static_cast<Op>(k)).kernel())

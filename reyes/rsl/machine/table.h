@@ -28,5 +28,6 @@ std::span<const Row> rayRows();
 std::span<const Row> pictureRows();
 std::span<const Row> cloudRows();
 std::span<const Row> messageRows();
+std::span<const Row> pluginRows();
 
 }  // namespace tomales::compiler

@@ -55,11 +55,13 @@ class Analysis {
   }
 
   uint32_t ofLight() const {
-    bool hasDirection = false, solar = false;
+    bool hasDirection = false, solar = false, sky = false;
     forEach(code_.body, [&](const Instruction& i) {
       forEachWrite(i, [&](int32_t r) { hasDirection |= is(r, Global::L); });
       solar |= i.op == Op::ConeLight;
+      sky |= i.op == Op::SkyLight;
     });
+    if (sky) return TM_LIGHT_SOLAR | TM_LIGHT_SKY;
     if (!hasDirection) return TM_LIGHT_AMBIENT;
     return solar ? TM_LIGHT_SOLAR : 0;
   }

@@ -13,6 +13,7 @@ bool hasEffect(const Instruction& i) {
   switch (i.op) {
     case Op::Print:
     case Op::Report:
+    case Op::Plugin:
     case Op::Bake3d:
     case Op::Leave:
     case Op::RandomF:  // later random numbers depend on how many calls were before

@@ -81,6 +81,10 @@ Cases mathematicsCases() {
          return Vec3{std::max(i, 3.0f), std::max(2 * i, 3.0f), 3};
        }},
       {"clamp", "x = clamp(s, 2, 5);", [](float i) { return std::min(5.0f, std::max(2.0f, i)); }},
+      {"clamp between bounds the wrong way round: the lower comes first", "x = clamp(s, 5, 2);",
+       [](float i) { return i < 5 ? 5.0f : 2.0f; }},
+      {"steps that are held to what is left end a march",
+       "float d = 0, step = .4; while (d <= 1) { step = clamp(step, .005, 1 - d); d += step; x += 1; }", 5},
       {"clamp of colors", "c = clamp(color (s, 0, 9), color (1, 1, 1), color (2, 3, 4));",
        [](float i) {
          return Vec3{std::min(2.0f, std::max(1.0f, i)), 1, 4};

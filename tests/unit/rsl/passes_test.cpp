@@ -135,6 +135,7 @@ TEST_F(Passes, KindsOfLightsAreFound) {
   EXPECT_EQ(found("illuminate (point (0, 0, 0)) Cl = 1;", "light"), 0u);
   EXPECT_EQ(found("illuminate (point (0, 0, 0), vector (0, 0, 1), 1) Cl = 1;", "light"), 0u);
   EXPECT_EQ(found("solar (vector (0, 0, 1), 0) Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_SOLAR));
+  EXPECT_EQ(found("solar () Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_SOLAR | TM_LIGHT_SKY));
   EXPECT_EQ(found("if (p > 2) illuminate (point (0, 0, 0)) Cl = 1;", "light"), 0u);
   EXPECT_TRUE(found("illuminate (point (0, 0, 0)) Cl = transmission(Ps, point (0, 0, 0));", "light") & TM_TRACES);
 }

@@ -199,6 +199,7 @@ class Widths : public ShadeServices {
   }
   void meetEmitter(int, int, TmConstVec3, TmConstVec3, const EmitterPoints&) const override {}
   float emitterReach(int) const override { return 0; }
+  float emitterArea(int) const override { return 1; }
   void indirectDiffuse(const ShadePoints&, const uint8_t*, TmConstVec3, const IndirectQuery&, const ShadeContext&,
                        IndirectResult) const override {}
 };

@@ -86,6 +86,7 @@ class FakeServices final : public ShadeServices {
   }
   std::optional<float> interpolated;  ///< What records answer to occlusion(); none: rays must tell.
   float emitterReach(int) const override { return 0; }
+  float emitterArea(int) const override { return 1; }
   bool sampleEmitter(int, int count, TmConstVec3 from, const float* a, const float* b,
                      const EmitterPoints& out) const override {
     if (!emitter) return false;

@@ -1,0 +1,102 @@
+"""Light shaders in RSL with an extent: over the geometry of AreaLightSource (RISpec 3.2, sections 4.6 and 12.2), and
+solar() of the whole sky."""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "image"))
+from pictures import pixels  # noqa: E402
+from program import Suite  # noqa: E402
+
+t = Suite()
+SIZE = 8
+# A floor from -1 to 1, seen from above: x to the right, y up.
+SCENE = """Format 8 8 1
+PixelFilter "box" 1 1
+PixelSamples 4 4
+Translate 0 0 10
+WorldBegin
+%s
+Surface "matte" "Kd" [1] "Ka" [0]
+Patch "bilinear" "P" [-1 1 0  1 1 0  -1 -1 0  1 -1 0]
+WorldEnd
+"""
+# The lamp is a square of side 2, 1.5 before the floor, and looks at it. The camera looks through it.
+LAMP = """AttributeBegin
+Attribute "visibility" "int camera" [0]
+%sAreaLightSource "%s" 1 %s
+Patch "bilinear" "P" [%s]
+AttributeEnd
+Illuminate 1 1"""
+DOWN = "-1 -1 -1.5  1 -1 -1.5  -1 1 -1.5  1 1 -1.5"
+UP = "-1 -1 -1.5  -1 1 -1.5  1 -1 -1.5  1 1 -1.5"
+
+
+def lamp(shader, given='"float __samples" [64]', before="", points=DOWN):
+    return LAMP % (before, shader, given, points)
+
+
+def render(name, requests, code=0, *says):
+    t.write(name + ".rib", SCENE % requests)
+    result = t.expect_run(name, [name + ".rib", "-o", name + ".exr"], code, *says)
+    t.expect(code != 0 or says or not result.stderr, f"  without a message ({result.stderr[:300]})")
+    return pixels(t.folder / (name + ".exr"))
+
+
+def mean_over_lamp(x, y, light):
+    """The mean over the lamp of `light` at a point of it, times the cosine at the floor."""
+    steps, total = 40, 0
+    for i in range(steps):
+        for j in range(steps):
+            px, py = 2 * (i + 0.5) / steps - 1, 2 * (j + 0.5) / steps - 1
+            square = (px - x) ** 2 + (py - y) ** 2 + 1.5 ** 2
+            total += light(px, py, square) * 1.5 / square ** 0.5
+    return total / steps ** 2
+
+
+def expect(name, picture, light, what, tolerance=0.04):
+    """Against an integral: in the mean, and at each pixel as far as samples are noisy."""
+    at = [2 * (k + 0.5) / SIZE - 1 for k in range(SIZE)]
+    wanted = {(x, y): mean_over_lamp(at[x], -at[y], light) for x in range(SIZE) for y in range(SIZE)}
+    whole = sum(p[0] for p in picture.values()) / sum(wanted.values())
+    off = max(abs(picture[k][0] - wanted[k]) for k in wanted) / max(wanted.values())
+    t.expect(abs(whole - 1) < 0.01 and off < tolerance, f"  {what} (mean {whole:.4f} of it, off by {off:.3f})")
+
+
+t.write("even.sl", "light even(float intensity = 2) { illuminate(P) { Cl = intensity / (L . L); } }\n")
+t.write("downward.sl", "light downward() { illuminate(P, N, PI / 2) { Cl = (L . N) / length(L) / (L . L); } }\n")
+t.write("half.sl", 'light half() { point Q = transform("world", P); illuminate(P) { Cl = step(0, xcomp(Q)); } }\n')
+t.write("written.sl", "light written(float __samples = 4) { illuminate(P) { Cl = 1; } }\n")
+t.write("still.sl", 'light still() { illuminate(point "world" (0, 0, -1.5)) { Cl = 1; } }\n')
+t.write("normals.sl", 'light normals() { normal n = ntransform("world", normalize(N)), g = ntransform("world", normalize(Ng));'
+        " illuminate(P) { Cl = color(zcomp(n), zcomp(g), length(N)); } }\n")
+
+even = render("even", lamp("even"))
+expect("even", even, lambda px, py, square: 2 / square, "is the mean of lights all over the lamp")
+expect("downward", render("downward", lamp("downward")), lambda px, py, square: 1.5 / square ** 1.5, "with the cosine at the lamp, by N")
+t.expect(max(p[0] for p in render("upward", lamp("downward", points=UP), 0, "comes to nothing").values()) == 0, "  whose other side looks away")
+expect("half", render("half", lamp("half", '"float __samples" [256]')), lambda px, py, square: float(px > 0), "P tells where on the lamp, in any space", 0.08)
+seen = render("normals", lamp("normals"))[4, 4]
+t.expect(seen[0] == seen[1] > 0.5 and abs(seen[0] - seen[2]) < 1e-4, f"  N and Ng are those of the lamp: towards the floor ({seen[:3]})")
+moved = render("moved", "Translate 0 0 -1.5\n" + lamp("even", points="-1 -1 0  1 -1 0  -1 1 0  1 1 0") + "\nTranslate 0 0 1.5")
+t.expect(all(abs(moved[k][0] - even[k][0]) < 1e-4 for k in even), "  wherever the shader's own space is")
+less = render("written", lamp("written", ""))
+t.expect(max(p[0] for p in less.values()) > 0, '  "__samples" may be a parameter of the shader')
+hidden = render("hidden", lamp("even") + '\nAttributeBegin Surface "constant" Opacity [1 1 1] Attribute "visibility" "int camera" [0]'
+                ' Patch "bilinear" "P" [-9 9 -1  9 9 -1  -9 -9 -1  9 -9 -1] AttributeEnd', 0, "lies in its shadow")
+t.expect(max(p[0] for p in hidden.values()) == 0, "  what is between throws a shadow")
+t.expect_run("a light that stands elsewhere", [t.write("still.rib", SCENE % lamp("still", "")), "-o", "still.exr"], 0, "not an area light; it shines without its geometry")
+
+# solar() of no direction: from everywhere above, E/pi of a sky that is 1 is 1 (RISpec 3.2, section 13.4).
+t.write("sky.sl", "light sky(color shade = 1) { solar() { Cl = shade; } }\n")
+t.write("dome.sl", 'light dome() { solar() { vector way = vtransform("world", -normalize(L)); Cl = -zcomp(way); } }\n')
+samples = '"float __samples" [64]'
+seen = render("sky", f'LightSource "sky" 1 "color shade" [.5 1 2] {samples}')
+mean = [sum(p[c] for p in seen.values()) / len(seen) for c in range(3)]
+t.expect(all(abs(m - w) < 0.01 * w for m, w in zip(mean, (0.5, 1, 2))), f"  an even sky brings its radiance ({mean})")
+seen = render("dome", f'LightSource "dome" 1 {samples}')
+mean = sum(p[0] for p in seen.values()) / len(seen)
+t.expect(abs(mean - 2 / 3) < 0.01, f"  a sky as bright as it is high: 2/3, the mean cosine by cosine ({mean:.4f})")
+ball = 'Translate 0 0 -.5 Surface "constant" Sphere .4 -.4 .4 360 Translate 0 0 .5'
+shade = render("shaded", f'LightSource "sky" 1 {samples} AttributeBegin Attribute "visibility" "int camera" [0] {ball} AttributeEnd')
+t.expect(shade[3, 3][0] < 0.6 < 0.9 < shade[0, 0][0], f"  what stands before the sky throws a shadow ({shade[3, 3][0]:.2f} below, {shade[0, 0][0]:.2f} aside)")
+t.finish()
