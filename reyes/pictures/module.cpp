@@ -46,11 +46,6 @@ class Reader : public PictureReader {
 
 class Library : public PictureLibrary {
  public:
-  Library() {
-    // OpenImageIO 2.4 decompresses the strips of a TIFF itself, in several threads, and does not look whether that
-    // failed: damaged pictures would be taken for whole ones. libtiff, which does the work without it, tells.
-    OIIO::attribute("tiff:multithread", 0);
-  }
   std::unique_ptr<PictureReader> open(const std::string& path, std::string& error) const override {
     auto in = OIIO::ImageInput::open(path);
     if (!in) return error = OIIO::geterror(), nullptr;
