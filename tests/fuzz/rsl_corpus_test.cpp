@@ -27,7 +27,9 @@ TEST(RslCorpus, IsReadWithoutCrashAndEveryComplaintIsLocated) {
       EXPECT_GE(m.place.file, 0) << m.text;
     }
     EXPECT_EQ(messages.rendered(sources).empty(), messages.all().empty());
-    if (!messages.hasErrors()) EXPECT_FALSE(dump(file).empty());
+    if (!messages.hasErrors()) {
+      EXPECT_FALSE(dump(file).empty());
+    }
     ++files;
     wrong += messages.hasErrors() ? 1 : 0;
   }

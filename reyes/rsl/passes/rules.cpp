@@ -194,6 +194,7 @@ int32_t byDifference(RuleContext& c, Rule& rule) {
   int32_t ends[2];
   for (int k = 0; k < 2; ++k) {
     Instruction moved{.op = c.i.op,
+                      .out = {},
                       .in = c.i.in,
                       .extra = c.i.extra,
                       .settings = c.i.settings,
