@@ -1,6 +1,5 @@
 // The standard shaders, written in RSL from their formulas (RISpec 3.2, appendix A): what they give, and what is found
 // of them, is what the built-in ones of the same names give and declare.
-#include <OpenImageIO/imagebuf.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -8,6 +7,7 @@
 
 #include "reyes/rsl.h"
 #include "tests/unit/shade/stage.h"
+#include "tests/unit/shade/written_picture.h"
 
 namespace tomales {
 namespace {
@@ -166,15 +166,9 @@ class Studio : public Stage {
 /// A slope with a ripple.
 std::string picture() {
   constexpr int n = 32;
-  OIIO::ImageBuf out(OIIO::ImageSpec(n, n, 3, OIIO::TypeDesc::FLOAT));
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) {
-      const float texel[3] = {0.02f * static_cast<float>(x), 0.01f * static_cast<float>(y), 0.25f};
-      out.setpixel(x, y, texel);
-    }
-  const std::string path = ownFile(".exr");
-  EXPECT_TRUE(out.write(path));
-  return path;
+  return writePicture(ownFile(".exr"), n, n, "RGB", [](int x, int y) {
+    return std::array{0.02f * static_cast<float>(x), 0.01f * static_cast<float>(y), 0.25f};
+  });
 }
 
 void expectSame(const ShadedPoints& is, const ShadedPoints& should) {

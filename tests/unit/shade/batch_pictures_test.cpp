@@ -1,9 +1,8 @@
 // Pictures, environments and shadow maps as shaders in RSL's manner look them up (reyes/shader/sl_pictures.h).
-#include <OpenImageIO/imagebuf.h>
-
 #include <filesystem>
 
 #include "tests/unit/shade/obedient.h"
+#include "tests/unit/shade/written_picture.h"
 
 namespace tomales {
 namespace {
@@ -14,14 +13,8 @@ class BatchPictures : public BatchServices {};
 
 /// Black, and white from its middle on.
 std::string stepPicture(const std::string& name) {
-  std::string path = ::testing::TempDir() + name;
-  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 1, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 256 * 256; ++k) {
-    const float value = k % 256 < 128 ? 0.0f : 1.0f;
-    picture.setpixel(k % 256, k / 256, &value);
-  }
-  EXPECT_TRUE(picture.write(path));
-  return path;
+  return writePicture(::testing::TempDir() + name, 256, 256, "Y",
+                      [](int x, int) { return std::array{x < 128 ? 0.0f : 1.0f}; });
 }
 
 /// The mean over a quadrilateral of a picture, from s = `from` to `to`.
@@ -41,13 +34,10 @@ TEST_F(BatchPictures, ATextureOfFourCornersIsTheMeanBetweenThem) {
 }
 
 TEST_F(BatchPictures, PicturesAreLookedUpOverRegionsCornersAndChannels) {
-  const std::string path = ::testing::TempDir() + "/tomales_ramp.exr";
-  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 256 * 128; ++k) {
-    const float s = (static_cast<float>(k % 256) + 0.5f) / 256, value[] = {s < 0.5f ? 0.0f : 1.0f, s, 2};
-    picture.setpixel(k % 256, k / 256, value);
-  }
-  ASSERT_TRUE(picture.write(path));
+  const std::string path = writePicture(::testing::TempDir() + "/tomales_ramp.exr", 256, 128, "RGB", [](int x, int) {
+    const float s = (static_cast<float>(x) + 0.5f) / 256;
+    return std::array{s < 0.5f ? 0.0f : 1.0f, s, 2.0f};
+  });
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     FilterRegion wide;
     for (Float& side : wide.sides) side = 0.1;
@@ -72,14 +62,9 @@ TEST_F(BatchPictures, PicturesAreLookedUpOverRegionsCornersAndChannels) {
 
 // Every other column of texels is 1, and one in four so large that an average over it says nothing.
 TEST_F(BatchPictures, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) {
-  const std::string path = ::testing::TempDir() + "/tomales_columns.exr";
-  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 256, 3, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 256 * 256; ++k) {
-    const int column = k % 256;
-    const float value[] = {static_cast<float>(column % 2), column % 4 == 0 ? 1e9f : 2, 1e9f};
-    picture.setpixel(column, k / 256, value);
-  }
-  ASSERT_TRUE(picture.write(path));
+  const std::string path = writePicture(::testing::TempDir() + "/tomales_columns.exr", 256, 256, "RGB", [](int x, int) {
+    return std::array{static_cast<float>(x % 2), x % 4 == 0 ? 1e9f : 2.0f, 1e9f};
+  });
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     FilterRegion region;
     region.s = 128.5 / 256, region.t = 0.5;
@@ -99,17 +84,9 @@ TEST_F(BatchPictures, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) 
 
 // An orthographic map of -1..1: something at depth 1 hides its left half.
 TEST_F(BatchPictures, AShadowOfFourCornersIsTheMeanBetweenThem) {
-  const std::string path = ::testing::TempDir() + "/tomales_half.exr";
-  OIIO::ImageSpec spec(64, 64, 1, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = {"Z"};
-  const mat4 same(1.0f);
-  spec.attribute("worldtocamera", OIIO::TypeMatrix, &same), spec.attribute("worldtoscreen", OIIO::TypeMatrix, &same);
-  OIIO::ImageBuf map(spec);
-  for (int k = 0; k < 64 * 64; ++k) {
-    const float depth = k % 64 < 32 ? 1.0f : 100.0f;
-    map.setpixel(k % 64, k / 64, &depth);
-  }
-  ASSERT_TRUE(map.write(path));
+  const std::string path = writePicture(::testing::TempDir() + "/tomales_half.exr", 64, 64, "Z",
+                                        [](int x, int) { return std::array{x < 32 ? 1.0f : 100.0f}; },
+                                        {{"worldToCamera", mat4(1)}, {"worldToScreen", mat4(1)}});
   const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
     const auto over = [&](double from, double to) {
       const Point corners[4] = {Point(from, -0.5, 5), Point(to, -0.5, 5), Point(from, 0.5, 5), Point(to, 0.5, 5)};
@@ -122,7 +99,7 @@ TEST_F(BatchPictures, AShadowOfFourCornersIsTheMeanBetweenThem) {
 }
 
 TEST_F(BatchPictures, AnOptionScalesAllTextureFilters) {
-  const std::string path = stepPicture("/tomales_step.tif");
+  const std::string path = stepPicture("/tomales_step.exr");
   scene.options.user["texture:width"] = number("width", 2);
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     const auto over = [&](double from, double to) { return meanOver(path, from, to); };
@@ -147,13 +124,9 @@ TEST_F(BatchPictures, AnOptionNamesTheFilterOfLookupsThatNameNone) {
 }
 
 TEST_F(BatchPictures, PicturesAndLightsTellWhatTheyHold) {
-  const std::string path = ::testing::TempDir() + "/tomales_constant.exr";
-  OIIO::ImageBuf picture(OIIO::ImageSpec(64, 32, 3, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 64 * 32; ++k) {
-    const float value[] = {0.25f, 0.5f, 2};
-    picture.setpixel(k % 64, k / 64, value);
-  }
-  ASSERT_TRUE(picture.write(path));
+  const std::string path = writePicture(::testing::TempDir() + "/tomales_constant.exr", 64, 32, "RGB", [](int, int) {
+    return std::array{0.25f, 0.5f, 2.0f};
+  });
   light("distantlight", {number("intensity", 0.625f)});
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     std::vector<float> size;

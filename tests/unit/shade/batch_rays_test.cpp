@@ -1,7 +1,6 @@
 // Rays of shaders in RSL's manner (reyes/shader/sl_light.h): what they are asked, what they tell, how wide they are.
-#include <OpenImageIO/imagebuf.h>
-
 #include "tests/unit/shade/obedient.h"
+#include "tests/unit/shade/written_picture.h"
 
 namespace tomales {
 namespace {
@@ -12,17 +11,11 @@ class BatchRays : public BatchServices {};
 
 /// Of all directions, as latitudes and longitudes: 1 + the direction.
 std::string pictureOfDirections(const std::string& name) {
-  std::string path = ::testing::TempDir() + name;
-  OIIO::ImageBuf picture(OIIO::ImageSpec(256, 128, 3, OIIO::TypeDesc::FLOAT));
-  for (int k = 0; k < 256 * 128; ++k) {
-    const float theta = kPi * (static_cast<float>(k / 256) + 0.5f) / 128,
-                phi = 2 * kPi * (static_cast<float>(k % 256) + 0.5f) / 256;
-    const float value[] = {1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi),
-                           1 + std::cos(theta)};
-    picture.setpixel(k % 256, k / 256, value);
-  }
-  EXPECT_TRUE(picture.write(path));
-  return path;
+  return writePicture(::testing::TempDir() + name, 256, 128, "RGB", [](int x, int y) {
+    const float theta = kPi * (static_cast<float>(y) + 0.5f) / 128,
+                phi = 2 * kPi * (static_cast<float>(x) + 0.5f) / 256;
+    return std::array{1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi), 1 + std::cos(theta)};
+  });
 }
 
 TEST_F(BatchRays, IndirectdiffuseIsTheMeanOfWhatRaysSee) {

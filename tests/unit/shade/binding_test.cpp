@@ -1,10 +1,9 @@
-#include <OpenImageIO/imagebuf.h>
-
 #include <filesystem>
 
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shader.h"
 #include "tests/unit/shade/stage.h"
+#include "tests/unit/shade/written_picture.h"
 
 namespace tomales {
 namespace {
@@ -262,14 +261,9 @@ TEST_F(Binding, ASurfaceForIndirectRaysReplacesTheVisibleOne) {
 }
 
 TEST_F(Binding, PaintedPlasticMultipliesByTheTextureAndAMissingOneIsMagenta) {
-  const std::string path = ::testing::TempDir() + "/tomales_shade_texture.tif";
-  OIIO::ImageBuf picture(OIIO::ImageSpec(8, 8, 3, OIIO::TypeDesc::FLOAT));
-  for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 8; ++x) {
-      const float top[3] = {1, 0.5f, 0.25f}, bottom[3] = {0, 0, 1};
-      picture.setpixel(x, y, y < 4 ? top : bottom);
-    }
-  ASSERT_TRUE(picture.write(path));
+  const std::array top{1.0f, 0.5f, 0.25f}, bottom{0.0f, 0.0f, 1.0f};
+  const std::string path = writePicture(::testing::TempDir() + "/tomales_shade_texture.exr", 8, 8, "RGB",
+                                        [&](int, int y) { return y < 4 ? top : bottom; });
   surface("paintedplastic", {number("Ks", 0), number("Kd", 1), text("texturename", path)});
   light("distantlight");
   ShadePoints p = points({vec3(0, 0, 5), vec3(0, 0, 5)});

@@ -1,10 +1,9 @@
-#include <OpenImageIO/imagebuf.h>
-
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 
 #include "reyes/sl.h"
 #include "tests/unit/shade/stage.h"
+#include "tests/unit/shade/written_picture.h"
 
 namespace tomales {
 namespace {
@@ -113,11 +112,8 @@ TEST_F(Displacement, BeyondItsBoundIsWarnedAboutOnceAnObject) {
 }
 
 TEST_F(Displacement, BumpyRaisesByItsTexture) {
-  const std::string path = ::testing::TempDir() + "/tomales_shade_heights.tif";
-  OIIO::ImageBuf picture(OIIO::ImageSpec(4, 4, 1, OIIO::TypeDesc::FLOAT));
-  const float height = 0.5f;
-  for (int i = 0; i < 16; ++i) picture.setpixel(i % 4, i / 4, &height);
-  ASSERT_TRUE(picture.write(path));
+  const std::string path = writePicture(::testing::TempDir() + "/tomales_shade_heights.exr", 4, 4, "Y",
+                                        [](int, int) { return std::array{0.5f}; });
   displacement("bumpy", {number("Km", 0.5f), text("texturename", path)});
   Grid g = plane();
   system().displace(g);

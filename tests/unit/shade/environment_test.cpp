@@ -1,11 +1,10 @@
 // Light from all around against closed forms: the irradiance of a sky of radiance L(w) over pi is the
 // cosine-weighted mean of L.
-#include <OpenImageIO/imagebuf.h>
-
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/unit/shade/stage.h"
+#include "tests/unit/shade/written_picture.h"
 
 namespace tomales {
 namespace {
@@ -19,18 +18,13 @@ class Environment : public Stage {
   /// A map of the radiance that `sky` gives for world directions.
   std::string writeMap(const std::function<vec3(const vec3&)>& sky) {
     const int w = 256, h = 128;
-    OIIO::ImageBuf picture(OIIO::ImageSpec(w, h, 3, OIIO::TypeDesc::FLOAT));
-    for (int y = 0; y < h; ++y)
-      for (int x = 0; x < w; ++x) {
-        const float theta = kPi * (static_cast<float>(y) + 0.5f) / h,
-                    phi = 2 * kPi * (static_cast<float>(x) + 0.5f) / w;
-        const vec3 L = sky({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
-        picture.setpixel(x, y, &L.x);
-      }
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     path = ::testing::TempDir() + "/tomales_sky_" + test->name() + ".exr";
-    EXPECT_TRUE(picture.write(path));
-    return path;
+    return writePicture(path, w, h, "RGB", [&](int x, int y) {
+      const float theta = kPi * (static_cast<float>(y) + 0.5f) / h, phi = 2 * kPi * (static_cast<float>(x) + 0.5f) / w;
+      const vec3 L = sky({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+      return std::array{L.x, L.y, L.z};
+    });
   }
   /// Radiance of one point with normal N under many samples.
   vec3 litBy(const vec3& N, int samples = 1024) {
