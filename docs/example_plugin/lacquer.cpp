@@ -20,7 +20,8 @@ struct lacquer : sl::Surface {
       // Light is E/pi, so that a BRDF is multiplied by pi.
       const sl::Float f = sl::Float::of([&](int i) {
         const float width = roughness(sl::grid(), i);
-        return rsl::kPi * rsl::Ggx(width * width + 1e-3f).reflection(rsl::clamp(NL[i], 0, 1), rsl::clamp(NV[i], 0, 1), NH[i]);
+        return rsl::kPi *
+               rsl::Ggx(width * width + 1e-3f).reflection(rsl::clamp(NL[i], 0, 1), rsl::clamp(NV[i], 0, 1), NH[i]);
       });
       shine += Cl * NL * f * 0.04f;
     });

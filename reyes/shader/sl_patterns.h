@@ -1,9 +1,8 @@
-// Patterns that know how much of them a shading sample covers: the C++ twins of shaders/include/filterwidth.h, noises.h and
-// patterns.h, with their names and arguments (A. Apodaca and L. Gritz, "Advanced RenderMan", 1999). A test holds each to
-// them. Shaders of reyes/sl.h include this beside it. Widths are in units of what is filtered, and those of 0 are taken as
-// kLeastWidth. filterwidth() asks for derivatives: a surface needs TM_DERIVATIVES for those of s, t, u, v and P, and
-// TM_NEIGHBOURS for others.
-// Threads: as reyes/sl.h.
+// Patterns that know how much of them a shading sample covers: the C++ twins of shaders/include/filterwidth.h, noises.h
+// and patterns.h, with their names and arguments (A. Apodaca and L. Gritz, "Advanced RenderMan", 1999). A test holds
+// each to them. Shaders of reyes/sl.h include this beside it. Widths are in units of what is filtered, and those of 0
+// are taken as kLeastWidth. filterwidth() asks for derivatives: a surface needs TM_DERIVATIVES for those of s, t, u, v
+// and P, and TM_NEIGHBOURS for others. Threads: as reyes/sl.h.
 #pragma once
 #include "reyes/sl.h"
 

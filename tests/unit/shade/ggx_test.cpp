@@ -67,7 +67,8 @@ TEST(Ggx, TheFacetsThatAViewerSeesCoverWhatItSeesOfTheSurface) {
     }
 }
 
-// The weak white furnace test (Heitz 2014, section 5.2): without shadowing, every ray that comes in goes out, up or down.
+// The weak white furnace test (Heitz 2014, section 5.2): without shadowing, every ray that comes in goes out, up or
+// down.
 TEST(Ggx, ReflectedDirectionsAreAllDirections) {
   for (const float alpha : {0.3f, 1.0f})
     for (const double NV : kCosines) {
