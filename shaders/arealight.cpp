@@ -9,13 +9,27 @@ rsl::FloatParam area(
     "0: intensity is a scale of radiance. Else the area of the geometry, and a point at the distance d "
     "gets intensity / d^2, as BMRT has it, however large that is",
     TM_ROLE_AREA);
+rsl::FloatParam coneangle("coneangle", rsl::kPi, "half angle of the cone that it shines into, radians; pi: everywhere");
+rsl::VectorParam axis("axis", {0, 0, 1}, "of that cone");
+rsl::FloatParam conedeltaangle("conedeltaangle", 0, "width of the soft edge inside the cone, radians");
+rsl::FloatParam beamdistribution("beamdistribution", 0, "exponent of the falloff from the axis of the cone");
 rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: camera and specular rays do not see it glow", TM_ROLE_VISIBLE);
+
+/// Of the light that leaves towards the point, as `spotlight` has it; 1 without a cone.
+float share(const TmGrid* g, int i) {
+  if (coneangle(g, i) >= rsl::kPi) return 1;
+  const float outer = std::cos(coneangle(g, i)),
+              cosine = -rsl::dot(rsl::normalize(rsl::get(g->L, i)), rsl::normalize(axis(g, i)));
+  if (!(cosine > outer)) return 0;
+  const float inner = std::cos(std::max(0.0f, coneangle(g, i) - conedeltaangle(g, i)));
+  return rsl::smoothstep(outer, inner, cosine) * std::pow(std::max(0.0f, cosine), beamdistribution(g, i));
+}
 
 void shade(const TmGrid* g) {
   for (int i : rsl::Batch(g)) {
     const float spread = area(g, i) > 0 ? rsl::kPi / area(g, i) : 1;
-    rsl::set(g->Cl, i, spread * intensity(g, i) * lightcolor(g, i));
+    rsl::set(g->Cl, i, share(g, i) * spread * intensity(g, i) * lightcolor(g, i));
   }
 }
 }  // namespace
@@ -23,4 +37,5 @@ void shade(const TmGrid* g) {
 extern const rsl::Shader arealightShader;
 const rsl::Shader arealightShader(TM_LIGHT, "arealight", "geometry that emits light; use with AreaLightSource",
                                   TM_LIGHT_AREA | TM_LIGHT_SHADOWED, shade,
-                                  {&intensity, &lightcolor, &area, &samples, &visible});
+                                  {&intensity, &lightcolor, &area, &samples, &visible, &coneangle, &axis,
+                                   &conedeltaangle, &beamdistribution});

@@ -3,6 +3,7 @@
 // drawn from the lobes. Every parameter may be multiplied by a picture.
 #include <optional>
 
+#include "reyes/shader/ggx.h"
 #include "reyes/shader/shadeops.h"
 #include "shaders/maps.h"
 
@@ -39,20 +40,14 @@ float fresnelWeight(float cosine) {
   const float m = rsl::clamp(1 - cosine, 0, 1);
   return m * m * m * m * m;
 }
-/// Generalised Trowbridge-Reitz distributions, with gamma 2 and 1.
-float gtr2(float nh, float alpha) {
-  const float a2 = alpha * alpha, t = 1 + (a2 - 1) * nh * nh;
-  return a2 / (rsl::kPi * t * t);
-}
+/// The generalised Trowbridge-Reitz distribution with gamma 1, of the coat; that with gamma 2 is GGX.
 float gtr1(float nh, float alpha) {
   if (alpha >= 1) return 1 / rsl::kPi;
   const float a2 = alpha * alpha, t = 1 + (a2 - 1) * nh * nh;
   return (a2 - 1) / (rsl::kPi * std::log(a2) * t);
 }
-float smithGgx(float nv, float alpha) {
-  const float a = alpha * alpha, b = nv * nv;
-  return 1 / (nv + std::sqrt(a + b - a * b));
-}
+/// Burley masks the coat as if it were of this width.
+const rsl::Ggx kMaskOfCoat(0.25f);
 
 /// The parameters of a batch, multiplied by their pictures.
 struct Inputs {
@@ -74,15 +69,17 @@ struct Inputs {
 /// The material of one point, from the parameters.
 struct Material {
   Color base, specular0, sheen;
-  float roughness, alpha, coat, coatAlpha, matte;
+  float roughness, coat, coatAlpha, matte;
+  rsl::Ggx facets;
 
   Material(const TmGrid* g, int i, const Inputs& in)
-      : base(rsl::get(g->Cs, i) * in.paint[i]), roughness(rsl::clamp(in.roughness[i], 0, 1)) {
+      : base(rsl::get(g->Cs, i) * in.paint[i]),
+        roughness(rsl::clamp(in.roughness[i], 0, 1)),
+        facets(std::max(1e-3f, roughness * roughness)) {
     const float bright = luminance(base), metal = rsl::clamp(in.metallic[i], 0, 1);
     const Color tint = bright > 0 ? base / bright : Color{1, 1, 1}, white{1, 1, 1};
     specular0 = rsl::mix(0.08f * in.specular[i] * rsl::mix(white, tint, in.speculartint[i]), base, metal);
     sheen = in.sheen[i] * rsl::mix(white, tint, in.sheentint[i]);
-    alpha = std::max(1e-3f, roughness * roughness);
     coat = 0.25f * in.clearcoat[i], coatAlpha = rsl::mix(0.1f, 0.001f, in.clearcoatgloss[i]);
     matte = 1 - metal;
   }
@@ -93,22 +90,30 @@ struct Material {
     return matte * (retro * base + rsl::kPi * fresnelWeight(lh) * sheen);
   }
   Color glossy(float nl, float nv, float nh, float lh) const {
-    const float F = fresnelWeight(lh), G = smithGgx(nl, alpha) * smithGgx(nv, alpha);
-    const Color lobe = gtr2(nh, alpha) * G * rsl::mix(specular0, Color{1, 1, 1}, F);
-    const float coatLobe =
-        coat * gtr1(nh, coatAlpha) * rsl::mix(0.04f, 1, F) * smithGgx(nl, 0.25f) * smithGgx(nv, 0.25f);
+    const float F = fresnelWeight(lh);
+    const Color lobe = facets.reflection(nl, nv, nh) * rsl::mix(specular0, Color{1, 1, 1}, F);
+    const float coatLobe = coat * gtr1(nh, coatAlpha) * rsl::mix(0.04f, 1, F) * kMaskOfCoat.maskingOverTwiceCosine(nl) *
+                           kMaskOfCoat.maskingOverTwiceCosine(nv);
     return rsl::kPi * (lobe + Color{coatLobe, coatLobe, coatLobe});
   }
 };
 
-/// The two lobes of one point, from which directions are drawn: the half vector H by its distribution times N.H.
+/// A viewer who stands below a surface whose normals a picture has turned looks along it.
+Vec3 aboveSurface(Vec3 N, Vec3 V) {
+  constexpr float kLeast = 1e-4f;
+  const float nv = rsl::dot(N, V);
+  return nv >= kLeast ? V : rsl::normalize(V + (kLeast - nv) * N);
+}
+
+/// The two lobes of one point, from which directions are drawn: the half vector H of the base by what the viewer sees
+/// of its facets, and that of the coat by its distribution times N.H.
 struct Lobes {
-  Vec3 N, V, tangent, bitangent;
+  Vec3 N, V;
   Material material;
   float nv, coatShare;  ///< coatShare is the share of the directions that are drawn from the coat.
 
-  Lobes(Vec3 n, Vec3 v, const Material& m) : N(n), V(v), material(m), nv(std::max(1e-4f, rsl::dot(n, v))) {
-    rsl::orthonormalBasis(N, tangent, bitangent);
+  Lobes(Vec3 n, Vec3 v, const Material& m)
+      : N(n), V(aboveSurface(n, v)), material(m), nv(std::max(1e-4f, rsl::dot(n, V))) {
     const float F = fresnelWeight(nv), coat = m.coat * rsl::mix(0.04f, 1, F),
                 base = luminance(rsl::mix(m.specular0, Color{1, 1, 1}, F));
     coatShare = coat > 0 ? coat / (coat + base) : 0;
@@ -125,16 +130,22 @@ struct Lobes {
     const Vec3 H = rsl::normalize(L + V);
     const float nh = rsl::dot(N, H), vh = rsl::dot(V, H);
     if (nh <= 0 || vh <= 0 || rsl::dot(N, L) <= 0) return 0;
-    return rsl::mix(gtr2(nh, material.alpha), gtr1(nh, material.coatAlpha), coatShare) * nh / (4 * vh);
+    const float ofBase = material.facets.reflectedDensity(nv, nh);
+    return coatShare > 0 ? rsl::mix(ofBase, gtr1(nh, material.coatAlpha) * nh / (4 * vh), coatShare) : ofBase;
   }
   Vec3 draw(float xi0, float xi1) const {
-    const bool ofCoat = xi0 < coatShare;
-    const float xi = ofCoat ? xi0 / coatShare : (xi0 - coatShare) / (1 - coatShare), angle = 2 * rsl::kPi * xi1;
-    const float a2 = ofCoat ? material.coatAlpha * material.coatAlpha : material.alpha * material.alpha;
-    const float c2 = ofCoat ? (1 - std::pow(a2, 1 - xi)) / (1 - a2) : (1 - xi) / (1 + (a2 - 1) * xi);
-    const float c = std::sqrt(rsl::clamp(c2, 0, 1)), s = std::sqrt(1 - c * c);
-    const Vec3 H = (s * std::cos(angle)) * tangent + (s * std::sin(angle)) * bitangent + c * N;
+    const Vec3 H = xi0 < coatShare ? normalOfCoat(xi0 / coatShare, xi1)
+                                   : material.facets.visibleNormal(N, V, (xi0 - coatShare) / (1 - coatShare), xi1);
     return 2 * rsl::dot(V, H) * H - V;
+  }
+
+ private:
+  Vec3 normalOfCoat(float xi0, float xi1) const {
+    const float a2 = material.coatAlpha * material.coatAlpha, c2 = (1 - std::pow(a2, 1 - xi0)) / (1 - a2),
+                c = std::sqrt(rsl::clamp(c2, 0, 1)), s = std::sqrt(1 - c * c), angle = 2 * rsl::kPi * xi1;
+    Vec3 tangent, bitangent;
+    rsl::orthonormalBasis(N, tangent, bitangent);
+    return (s * std::cos(angle)) * tangent + (s * std::sin(angle)) * bitangent + c * N;
   }
 };
 

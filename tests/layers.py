@@ -26,7 +26,8 @@ def is_private(path, unit):
     return path.startswith(unit + "/")
 
 
-SHADER_HEADERS = {"reyes/shader_api", "reyes/shader", "reyes/shader/noise", "reyes/shader/shadeops", "reyes/sl"}
+SHADER_HEADERS = {"reyes/shader_api", "reyes/shader", "reyes/shader/noise", "reyes/shader/ggx", "reyes/shader/shadeops", "reyes/sl",
+                  "reyes/shader/sl_patterns"}
 # Each third-party library is included by the units named here and nowhere else.
 THIRD_PARTY = {
     "embree3/": ["raytrace/embree_"],

@@ -53,7 +53,7 @@ class Pictures(unittest.TestCase):
         self.assertLess(worst, share, name)
 
     def test_lamps_are_as_strong_as_in_cycles(self):
-        for name in ("area", "disk_lamp", "sun", "soft_sun", "point", "spot"):
+        for name in ("area", "disk_lamp", "sun", "soft_sun", "point", "spot", "soft_spot"):
             with self.subTest(name):
                 self.expect_mean(name, 0.03)
                 self.expect_blocks(name, 0.08)
@@ -66,6 +66,10 @@ class Pictures(unittest.TestCase):
 
     def test_pictures_lie_the_same_way(self):
         self.expect_blocks("texture", 0.05)
+
+    def test_every_picture_of_a_principled_material_counts(self):
+        self.expect_mean("pictures_of_all", 0.03)
+        self.expect_blocks("pictures_of_all", 0.06)
 
     def test_skies_are_turned_the_same_way(self):
         self.expect_blocks("panorama", 0.06)

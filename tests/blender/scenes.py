@@ -132,6 +132,17 @@ def spot():
     return scene
 
 
+def soft_spot():
+    """A spot with a radius, between whose light and dark a ball has a soft shadow."""
+    scene = empty_scene()
+    floor()
+    made, _ = material("ball", (0.8, 0.8, 0.8))
+    add(bpy.ops.mesh.primitive_uv_sphere_add, made, radius=0.5, location=(0.2, 0, 1), segments=64, ring_count=32)
+    camera(scene, (0, -6, 4))
+    light(scene, "SPOT", (0.5, 0.5, 3), (0.2, 0, 0), energy=300, shadow_soft_size=0.3, spot_size=1.0, spot_blend=0.4)
+    return scene
+
+
 def camera_shift():
     """Objects that glow by themselves say where the camera stands, and how it is turned, shifted and cut."""
     scene = empty_scene()
@@ -196,6 +207,24 @@ def texture():
     light(scene, "SUN", (0, 0, 5), energy=3, angle=0)
     scene.tomales.bounces = 0
     scene.cycles.max_bounces = 0
+    return scene
+
+
+def pictures_of_all():
+    """Roughness, metal, alpha and what glows by pictures that are no mirror images of themselves, before a floor."""
+    scene = empty_scene()
+    made, shader = material("pictures", (0.8, 0.6, 0.3), "ShaderNodeBsdfPrincipled", **{"Emission Strength": 0.5})
+    for socket, of in (("Roughness", lambda u, v: 0.3 + 0.5 * u), ("Metallic", lambda u, v: 1.0 * (v > 0.6)), ("Alpha", lambda u, v: 1.0 * (u + v < 1.4)), ("Emission", lambda u, v: 1.0 * (u < 0.3))):
+        node = made.node_tree.nodes.new("ShaderNodeTexImage")
+        node.image = picture(socket, 64, 64, lambda u, v, of=of: numpy.stack([of(u, v)] * 3, -1), True)
+        made.node_tree.links.new(node.outputs["Color"], shader.inputs[socket])
+    add(bpy.ops.mesh.primitive_plane_add, made, size=4, location=(0, 0, 0.5))
+    floor()
+    camera(scene, (0.5, -1, 6))
+    light(scene, "AREA", (-1, -1, 3), energy=200, size=2)
+    scene.tomales.bounces = 0
+    scene.cycles.max_bounces = 0
+    scene.cycles.transparent_max_bounces = 8
     return scene
 
 
@@ -455,7 +484,7 @@ def metal():
     return scene
 
 
-SCENES = [area, disk_lamp, sun, soft_sun, point, spot, camera_shift, orthographic, focus, motion, deformation, texture, panorama, turned_sky]
+SCENES = [area, disk_lamp, sun, soft_sun, point, spot, soft_spot, camera_shift, orthographic, focus, motion, deformation, texture, pictures_of_all, panorama, turned_sky]
 SCENES += [instances, room, subdivision, creases, bump, normal_map, displaced, graph, mixture, hair, metal]
 
 

@@ -137,4 +137,35 @@ t.write("sphere.rib", SPHERE + "\n")
 _, whole, _ = room("", SPHERE, "--gi", "gather", "--samples", "64")
 _, procedural, _ = room("", 'Procedural "DelayedReadArchive" ["sphere.rib"] [-2 2 -2 2 -2 2]', "--gi", "gather", "--samples", "64")
 t.expect(abs(whole - procedural) < 0.01 * whole > 0.01 * direct, f"for those of procedurals too: {procedural:.4f}, {whole:.4f}")
+# --- A small lamp with a cone is a spotlight: as strong within it, dark outside, half as strong in the middle of its soft edge.
+BEAM = """Format 64 1 1
+PixelSamples 4 4
+PixelFilter "box" 1 1
+Projection "orthographic"
+ScreenWindow -1 1 -0.01 0.01
+WorldBegin
+{lamp}
+Surface "matte" "Ka" [0]
+Color 1 1 1
+Translate 0 0 5
+Polygon "P" [-2 -2 0 -2 2 0 2 2 0 2 -2 0]
+WorldEnd
+"""
+CONE = '"coneangle" [0.5] "conedeltaangle" [0.2] "beamdistribution" [1]'
+AREA = f'''AttributeBegin
+Translate 0 0 4
+AreaLightSource "arealight" "lamp" "intensity" [100] "visible" [0] "samples" [64] {CONE} "vector axis" [0 0 1]
+Attribute "visibility" "int camera" [0] "int transmission" [0]
+Sphere 0.02 -0.02 0.02 360
+AttributeEnd
+Illuminate "lamp" 1'''
+POINT = f'LightSource "spotlight" "lamp" "intensity" [{100 * 0.02 ** 2}] "point from" [0 0 4] "point to" [0 0 5] {CONE}'
+beams = []
+for name, lamp in (("ball", AREA), ("point", POINT)):
+    t.write(name + ".rib", BEAM.format(lamp=lamp))
+    t.expect_run(f"a beam of a {name}", [name + ".rib", "-o", name + ".exr"], 0)
+    seen = pixels(t.folder / (name + ".exr"))
+    beams.append([seen[x, 0][0] for x in range(64)])
+worst = max(abs(a - b) for a, b in zip(*beams)) / max(beams[1])
+t.expect(worst < 0.03 and max(beams[1]) > 0 and beams[0][2] == 0, f"a lamp with a cone is a spotlight: {worst:.4f} off {beams[0][::8]} {beams[1][::8]}")
 t.finish()

@@ -30,10 +30,10 @@ int statusOf(pid_t child) {
 }
 
 /// The user's own limit (ulimit -t) may be lower.
-rlim_t mostSeconds() {
+rlim_t limitOfChild_s(const model::Settings& settings) {
   rlimit now{};
   getrlimit(RLIMIT_CPU, &now);
-  return std::min<rlim_t>(now.rlim_cur, model::kMostSeconds);
+  return std::min(now.rlim_cur, static_cast<rlim_t>(model::mostSeconds(settings)));
 }
 
 /// Runs the program that reads models. It reports itself what it leaves out; the worst severity of that is returned.
@@ -63,7 +63,7 @@ Severity read(const model::Settings& settings, Log& log) {
     return static_cast<Severity>(answer - model::kFirstAnswer);
   if (!WIFSIGNALED(status)) return fail("tomales_assimp ends without an answer");
   if (WTERMSIG(status) == SIGXCPU)
-    return fail(fmt::format("Assimp has not read it within {} s of CPU time", mostSeconds()));
+    return fail(fmt::format("Assimp has not read it within {} s of CPU time", limitOfChild_s(settings)));
   return fail(fmt::format("Assimp ends while it reads it ({})", strsignal(WTERMSIG(status))));
 }
 

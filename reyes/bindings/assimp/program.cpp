@@ -11,14 +11,14 @@ namespace {
 using namespace tomales;
 
 /// The most that a child may take: CPU time, and the machine's memory, or what the user's own limits leave.
-void limitResources() {
+void limitResources(int most_s) {
   const auto limit = [](auto resource, rlim_t most) {
     rlimit now{};
     getrlimit(resource, &now);
     now.rlim_cur = std::min(now.rlim_cur, most);
     setrlimit(resource, &now);
   };
-  limit(RLIMIT_CPU, model::kMostSeconds);
+  limit(RLIMIT_CPU, static_cast<rlim_t>(most_s));
   limit(RLIMIT_CORE, 0);
 #ifndef TOMALES_SANITIZED  // whose shadow memory is larger than any machine's
   limit(RLIMIT_AS, static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)));
@@ -28,9 +28,9 @@ void limitResources() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  limitResources();
-  Log log;
   const model::Settings settings = model::settingsOf({argv + 1, argv + argc});
+  limitResources(model::mostSeconds(settings));
+  Log log;
   const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
   try {
     model::importModel(settings, log);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
 namespace tomales::model {
 namespace {
@@ -29,6 +31,14 @@ std::vector<std::string> argumentsOf(const Settings& settings) {
   std::vector<std::string> out;
   visitFields(settings, [&](const char* name, const auto& value) { out.push_back(name + ("=" + textOf(value))); });
   return out;
+}
+
+int mostSeconds(const Settings& settings) {
+  constexpr int kLeast = 120, kMost = 3600;  // a small .gltf may name large files
+  constexpr uintmax_t kBytesOfSecond = 1'000'000;
+  std::error_code unknown;
+  const uintmax_t bytes = std::filesystem::file_size(settings.model, unknown);
+  return unknown ? kLeast : kLeast + static_cast<int>(std::min<uintmax_t>(bytes / kBytesOfSecond, kMost));
 }
 
 Settings settingsOf(const std::vector<std::string>& arguments) {

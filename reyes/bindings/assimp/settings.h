@@ -19,8 +19,8 @@ struct Settings {
   std::string camera;         ///< Name of the model's camera to look through; empty: the first.
 };
 
-/// CPU time after which the program is ended.
-constexpr int kMostSeconds = 600;
+/// CPU time after which the program is ended: many times what Assimp takes to read a model of that size, where it ends.
+int mostSeconds(const Settings& settings);
 
 /// The program's exit code, by the worst that it has reported; other codes are those of an accident.
 constexpr int kFirstAnswer = 10;

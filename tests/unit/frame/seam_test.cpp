@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 #include "tests/unit/frame/hidden_body.h"
 
@@ -211,6 +212,37 @@ TEST_P(Seam, LetsNoSampleThroughWhereItMovesOrIsOutOfFocus) {
     const Holes blurred = holes(seen("Rotate 37 1 0 1 " + body, "150", "DepthOfField 4 1 2"), kBlur_px);
     EXPECT_GT(blurred.inside_px, 2500);
     EXPECT_EQ(blurred.samples, 0) << "out of focus, rate " << rate;
+  }
+}
+
+/// What the samples of the pixels of a window see: which of them, and how far.
+std::vector<std::pair<uint64_t, float>> within(const DeepFrame& frame, const PixelRect& window) {
+  std::vector<std::pair<uint64_t, float>> out;
+  for (int y = window.y0; y < window.y1; ++y)
+    for (int x = window.x0; x < window.x1; ++x) {
+      out.emplace_back(~uint64_t{0}, -1.0f);
+      forFragments(frame, x, y, [&](const DeepTile&, const Fragment& f) { out.emplace_back(f.samples, f.z); });
+    }
+  return out;
+}
+
+// Borders are moved onto each other in the order in which pieces come, which none of these may change.
+TEST_P(Seam, IsTheSameForAnyThreadsBucketsAndCrop) {
+  const PixelRect middle{45, 30, 105, 90};
+  for (const std::string blur : {"", "MotionBegin [0 1] Rotate 10 1 0.3 0.2 Rotate 16 1 0.3 0.2 MotionEnd "}) {
+    const std::string body = "Opacity 0.5 0.5 0.5 ShadingRate 1 Rotate 37 0 0 1 " + blur + GetParam().rib;
+    const std::string shutter = "Shutter 0 1 ";
+    const auto of = [&](const std::string& options) {
+      return within(seen(body, "150", (shutter + options).c_str(), "4 4"), middle);
+    };
+    const auto whole = of("");
+    ASSERT_GT(whole.size(), 7000u);
+    for (const char* options :
+         {"CropWindow 0.3 0.7 0.2 0.6", "Option \"limits\" \"integer bucketsize[2]\" [7 13]",
+          "Option \"limits\" \"integer bucketsize[2]\" [150 150]", "Option \"bucket\" \"string order\" \"random\""})
+      EXPECT_EQ(of(options), whole) << options << " " << blur;
+    const ThreadLimit one(1);
+    EXPECT_EQ(of(""), whole) << "one thread " << blur;
   }
 }
 

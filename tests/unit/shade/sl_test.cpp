@@ -288,10 +288,11 @@ TEST_F(Sl, TheExamplesCompileOutOfTree) {
   const fs::path folder = fs::path(::testing::TempDir()) / "tomales_examples", source = TOMALES_SOURCE_DIR;
   fs::remove_all(folder);
   installHeaders(folder / "include");
-  std::vector<fs::path> examples = {source / "docs/example_plugin/kinds.cpp"};
+  std::vector<fs::path> examples = {source / "docs/example_plugin/kinds.cpp",
+                                    source / "docs/example_plugin/lacquer.cpp"};
   for (const auto& entry : fs::directory_iterator(source / "docs/rsl_plugins"))
     if (entry.path().extension() == ".cpp") examples.push_back(entry.path());
-  EXPECT_EQ(examples.size(), 9u);
+  EXPECT_EQ(examples.size(), 10u);
   for (const fs::path& example : examples) {
     const fs::path plugin = folder / example.filename().replace_extension(".so");
     const std::string command = std::string(TOMALES_CXX) +

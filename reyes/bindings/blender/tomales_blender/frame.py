@@ -111,7 +111,7 @@ class Frame:
         for i, (obj, matrix) in enumerate(snapshot.lights.values()):
             ri.AttributeBegin()
             ri.Attribute("identifier", {"string name": obj.name})
-            lights.write_light(ri, obj.evaluated_get(self._depsgraph), matrix, f"light{i}", s.light_samples, self._warn)
+            lights.write_light(ri, obj.evaluated_get(self._depsgraph), matrix, f"light{i}", s.light_samples)
             ri.AttributeEnd()
             ri.Illuminate(f"light{i}", 1)
         if sky and not self._scene.render.film_transparent:

@@ -23,7 +23,7 @@ from .values import is_picture, mean
 Warn = Callable[[str], None]
 
 
-def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: str, samples: int, warn: Warn) -> None:
+def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: str, samples: int) -> None:
     """Within an attribute block of its own; the caller illuminates with the handle."""
     light = obj.data
     ri.Attribute("light", {"string shadows": "on" if light.use_shadow else "off"})
@@ -34,13 +34,9 @@ def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: s
     elif light.type == "AREA":
         _write_area(ri, light, matrix, handle, samples, common)
     elif light.type == "SPOT":
-        _write_spot(ri, obj, handle, common, warn)
-    elif light.shadow_soft_size > 0:
-        radius = light.shadow_soft_size
-        _emit(ri, handle, light.energy / (4 * pi**2 * radius**2), samples, common)
-        ri.Sphere(radius, -radius, radius, 360)
+        _write_point(ri, light, handle, samples, {**common, **_cone(light)})
     else:
-        ri.LightSource("pointlight", handle, {"intensity": light.energy / (4 * pi**2), **common})
+        _write_point(ri, light, handle, samples, common)
 
 
 def group_of(owner: bpy.types.Object | bpy.types.World) -> dict[str, object]:
@@ -71,16 +67,22 @@ def _write_sun(ri: tomales.Ri, light: bpy.types.SunLight, handle: str, samples: 
     ri.Disk(0, 1, 360)
 
 
-def _write_spot(ri: tomales.Ri, obj: bpy.types.Object, handle: str, common: dict[str, object], warn: Warn) -> None:
-    light = obj.data
+def _cone(light: bpy.types.SpotLight) -> dict[str, object]:
     half = light.spot_size / 2
     edge = acos(min(1, cos(half) + (1 - cos(half)) * light.spot_blend))
-    ri.LightSource("spotlight", handle, {
-        "intensity": light.energy / (4 * pi**2), "point from": [0, 0, 0], "point to": [0, 0, -1],
-        "coneangle": half, "conedeltaangle": half - edge, "beamdistribution": 1, **common,
-    })  # fmt: skip
-    if light.shadow_soft_size > 0.05:
-        warn(f"{obj.name}: the spot light has no size here, and its shadows are sharp")
+    return {"coneangle": half, "conedeltaangle": half - edge, "beamdistribution": 1}
+
+
+def _write_point(ri: tomales.Ri, light: bpy.types.PointLight | bpy.types.SpotLight, handle: str, samples: int, common: dict[str, object]) -> None:
+    """A ball of the light's radius; with a cone, one that shines into it along -z."""
+    radius, is_spot = light.shadow_soft_size, "coneangle" in common
+    if radius > 0:
+        axis = {"vector axis": [0, 0, -1]} if is_spot else {}
+        _emit(ri, handle, light.energy / (4 * pi**2 * radius**2), samples, {**common, **axis})
+        ri.Sphere(radius, -radius, radius, 360)
+    else:
+        places = {"point from": [0, 0, 0], "point to": [0, 0, -1]} if is_spot else {}
+        ri.LightSource("spotlight" if is_spot else "pointlight", handle, {"intensity": light.energy / (4 * pi**2), **places, **common})
 
 
 def _write_area(ri: tomales.Ri, light: bpy.types.AreaLight, matrix: Matrix, handle: str, samples: int, common: dict[str, object]) -> None:

@@ -88,9 +88,10 @@ def _override(material: bpy.types.Material) -> Look:
 def _shaded(closure: Closure, textures: Textures, reflections: int, say: Warn) -> Look:
     """The shader that has this closure's parameters."""
     emission = mean(closure.emission)
-    if is_picture(closure.emission):
+    shows_glow = is_picture(closure.emission) and closure.kind == "disney"
+    if is_picture(closure.emission) and not shows_glow:
         say("what glows has the mean of its picture")
-    look = Look(opacity=mean(closure.opacity)[0], emission=emission if max(emission) > 0 else None)
+    look = Look(opacity=mean(closure.opacity)[0], emission=emission if max(emission) > 0 and not shows_glow else None)
     if closure.kind == "null":
         return Look("null")
     if closure.kind == "glow":
@@ -141,6 +142,10 @@ def _disney(look: Look, closure: Closure, textures: Textures, reflections: int, 
         elif is_picture(value):
             say(f"{name} has the mean of its picture, {mean(value)[0]:.3g}")
     if is_picture(closure.opacity):
-        say(f"the opacity has the mean of its picture, {look.opacity:.3g}")
+        look.shader, look.opacity = "disneycutout", 1
+        parameters["string opacitymap"] = textures.file(closure.opacity)
+    if is_picture(closure.emission) and closure.kind == "disney":
+        parameters["color emission"], parameters["string emissionmap"] = [1, 1, 1], textures.file(closure.emission)
+        say("its picture glows, and lights other things by bounces alone")
     if reflections and max(mean(closure.numbers[name])[0] for name in ("metallic", "specular", "clearcoat")) > 0:
         parameters["float reflections"] = reflections
