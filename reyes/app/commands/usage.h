@@ -1,0 +1,37 @@
+// What the command line takes: its commands, their options, and where these are kept.
+#pragma once
+#include "reyes/app/chart/chart.h"
+#include "reyes/app/commands/atlas_commands.h"
+#include "reyes/app/commands/catrib.h"
+#include "reyes/app/commands/compile.h"
+#include "reyes/app/commands/import.h"
+#include "reyes/app/commands/info.h"
+#include "reyes/app/commands/options.h"
+#include "reyes/app/commands/shadetest.h"
+
+namespace tomales {
+
+/// Everything that the arguments may fill.
+struct Invocation {
+  RenderSettings render;
+  CatribSettings catrib;
+  model::Settings import;
+  ShadetestCommand shadetest;
+  CompileCommand compile;
+  IrradianceCommand irradiance;
+  BrickmakeCommand brickmake;
+  ViewCommand view;
+  ConvertCommand convert;
+  ChartSettings chart;
+  bool stability = false;
+  std::string first, second, difference;
+  InfoCommand info;
+  bool json = false;
+};
+
+/// Each adds its commands to `app`. Parsing runs the command that is named, which sets `code` to its exit code.
+void addFrameCommands(CLI::App& app, Invocation& in, int& code);  ///< render, hide, gather, shade, chart
+void addFileCommands(CLI::App& app, Invocation& in, int& code);  ///< For scenes, shaders, models and pictures as files.
+void addAtlasCommands(CLI::App& app, Invocation& in, int& code);  ///< For photons, point clouds and brick maps.
+
+}  // namespace tomales

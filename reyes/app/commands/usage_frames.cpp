@@ -1,0 +1,139 @@
+#include "reyes/app/commands/usage.h"
+
+#include "reyes/app/chart/stability.h"
+#include "reyes/app/chart/sweeps.h"
+#include "reyes/app/commands/render.h"
+#include "reyes/app/commands/shade.h"
+#include "reyes/base/deep_stack.h"
+#include "reyes/base/input_file.h"
+#include "reyes/image.h"
+
+namespace tomales {
+namespace {
+
+void buildRender(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c =
+      app.add_subcommand("render", "Render RIB files, taken as one stream; - is standard input (the default command)");
+  addOutput(*c, in.render);
+  addPictureOptions(*c, in.render);
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  addWatching(*c, in.render);
+  c->add_flag("--resume", in.render.resume,
+              "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
+  c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")
+      ->type_name("SHOT.icf");
+  c->add_flag("--irradiance-append", in.render.appendIrradiance,
+              "Gather where those records leave points uncovered or disagree");
+  c->add_option(
+       "--baked", in.render.bakedFolder,
+       "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
+      ->type_name("FOLDER");
+  c->add_option("--allow-program", in.render.trust.program,
+                "The RIB may start this program, by this very command, and no other")
+      ->type_name("COMMAND");
+  addParsed(
+      *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
+      "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
+  c->add_option("SCENE", in.render.files, "RIB files")->required();
+  c->callback([&] { code = renderCommand(in.render); });
+}
+
+void buildHide(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("hide", "Geometry to a deep frame buffer of visible micropolygons");
+  addParsed(*c, "-o", in.render.output, parseNamed(".dfb"), "SHOT.dfb", "Write here; # stands for the frame number")
+      ->required();
+  addPictureOptions(*c, in.render);
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  c->add_flag("--resume", in.render.resume, "Keep the buckets that an interrupted run has finished");
+  c->add_option("SCENE", in.render.files, "RIB files")->required();
+  c->callback([&] { code = hideCommand(in.render); });
+}
+
+void addShotOptions(CLI::App& app, RenderSettings& s) {
+  app.add_option("--edit", s.edits,
+                 "Changes to shaders, lights and attributes: RIB requests after Attribute \"identifier\" \"name\"")
+      ->expected(1)
+      ->take_all()
+      ->type_name("EDIT.rib");
+  app.add_option("SHOT", s.files, "A deep frame buffer")->required()->expected(1)->type_name("SHOT.dfb");
+}
+
+void buildGather(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("gather", "A shot's irradiance cache, and all else that its rays say");
+  addParsed(*c, "-o", in.render.output, parseNamed(".icf"), "SHOT.icf", "Write here")->required();
+  c->add_option("--irradiance", in.render.irradiance,
+                "Start from these records and add where they leave points uncovered or disagree; with --crop "
+                "those inside are gathered anew")
+      ->type_name("OTHER.icf");
+  addCrop(*c, in.render);
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  addShotOptions(*c, in.render);
+  c->callback([&] { code = gatherCommand(in.render); });
+}
+
+void buildShade(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("shade", "The picture of a shot, without hiding it again");
+  addOutput(*c, in.render);
+  c->add_option("--irradiance", in.render.irradiance,
+                "Indirect light and shadows of tomales gather: no rays are traced")
+      ->type_name("SHOT.icf");
+  addCrop(*c, in.render);
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  addWatching(*c, in.render);
+  addShotOptions(*c, in.render);
+  c->callback([&] { code = shadeCommand(in.render); });
+}
+
+void buildChart(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand(
+      "chart", "A page that shows what error a second and a megabyte buy on a scene, for every method");
+  ChartSettings& s = in.chart;
+  addParsed(*c, "-o", s.output, parseNamed(".html"), "FILE.html", "Write here, and the figures to FILE.json")
+      ->required();
+  CLI::Option* sweep =
+      c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())->check([](const std::string& name) {
+        return chartSweep(name) ? std::string() : "none of " + chartSweepNames();
+      });
+  c->add_flag("--stability", in.stability,
+              "SCENEs are laboratory scenes with a knob (docs/chart.md), or folders of them: error against the knob")
+      ->excludes(sweep);
+  addParsed(*c, "--budget", s.budget_s, parseSeconds, "10m", "Wall time, as 90s, 10m or 2h (default 10m)");
+  addParsed(
+      *c, "--format", s.format, [](const std::string& t) { return parsePair(t, 1, 65536); }, "WxH",
+      "Resolution in pixels");
+  c->add_option("--batches", s.batches, "Most independent pictures that make the reference")
+      ->check(CLI::Range(2, 10000));
+  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
+  c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
+  addTrust(*c, s.trust);
+  c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
+      ->type_name("FOLDER");
+  c->add_option("SCENE", s.files, "RIB files")->required()->check(CLI::ExistingPath);
+  c->callback([&] {
+    if (in.stability) {
+      code = stabilityCommand(in.chart);
+      return;
+    }
+    for (const std::string& file : in.chart.files)
+      if (const std::string problem = inputProblem(file); !problem.empty())
+        throw CLI::ValidationError("SCENE", "\"" + file + "\" cannot be read again and again: " + problem +
+                                                " (only --stability takes folders)");
+    code = chartCommand(in.chart);
+  });
+}
+
+}  // namespace
+
+void addFrameCommands(CLI::App& app, Invocation& in, int& code) {
+  buildRender(app, in, code);
+  buildHide(app, in, code);
+  buildGather(app, in, code);
+  buildShade(app, in, code);
+  buildChart(app, in, code);
+}
+
+}  // namespace tomales
