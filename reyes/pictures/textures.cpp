@@ -90,6 +90,7 @@ class SharedSystem {
   SharedSystem() {
     textures->attribute("automip", 1);  // needed for pictures of a cache folder that cannot be written
     textures->attribute("autotile", 64);
+    textures->attribute("gray_to_rgb", 1);  // the colour of a picture of one channel is grey, not red
   }
 
   std::mutex mutex;

@@ -135,6 +135,10 @@ bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool&
   if (d.reference) list.erase(list.begin());
   const bool classed = take(kStorages, d.storage);
   typed = take(kTypes, d.type);
+  if (d.reference && !typed && !list.empty() && list[0] == "struct") {  // a manifold of PRMan's patterns
+    d.type = ValueType::String, typed = true;
+    list.erase(list.begin());
+  }
   return classed || typed;
 }
 

@@ -176,6 +176,16 @@ class Addon(unittest.TestCase):
         self.assertAlmostEqual(middle["Second.Position.Z"], 0, delta=1e-3)
         self.assertAlmostEqual(layers["light"]["Second.Combined_key.R"], layers["light"]["Second.Combined.R"], delta=0.05)
 
+    def test_mattes_are_those_of_cycles(self):
+        cycles, tomales = (self.of("mattes")[engine] for engine in ("CYCLES", "TOMALES"))
+        self.assertEqual(set(tomales["ranks"]), set(cycles["ranks"]))
+        for name in ("cryptoobject00.r", "cryptomaterial00.r"):
+            self.assertEqual(tomales["ranks"][name], cycles["ranks"][name], name)
+            self.assertAlmostEqual(tomales["ranks"][name.replace(".r", ".g")], 1, delta=0.02)
+        for name in ("ViewLayer.CryptoObject", "ViewLayer.CryptoMaterial"):
+            named = {k: v for k, v in tomales["layers"][name].items() if v in cycles["layers"][name].values()}
+            self.assertTrue(named and named.items() <= cycles["layers"][name].items(), name)
+
     def test_exported_frames_can_be_moved(self):
         moved = self.of("moved")
         self.assertEqual(moved["code"], 0, moved["said"])

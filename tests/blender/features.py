@@ -207,6 +207,26 @@ def layers():
     return {"middle": middle, "light": light}
 
 
+def mattes():
+    """Cryptomatte of Cycles and of Tomales: the first rank of a pixel in the middle of the floor, and the names in the file."""
+    out = {}
+    for engine in ("CYCLES", "TOMALES"):
+        scene = scenes.area()
+        scene.view_layers[0].use_pass_cryptomatte_object = scene.view_layers[0].use_pass_cryptomatte_material = True
+        scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+        scene.cycles.samples = 8
+        scene.render.engine = engine
+        scene.tomales.folder = os.path.join(FOLDER, "mattes")
+        scene.render.filepath = os.path.join(FOLDER, f"mattes_{engine}.exr")
+        bpy.ops.render.render(write_still=True)
+        channels = exr.read(scene.render.filepath)
+        ranks = {name.split(".", 1)[1].lower(): float(values[36, 48]) for name, values in channels.items() if "Crypto" in name and "00." in name}
+        texts = exr.texts(scene.render.filepath)
+        layers = {texts[key]: json.loads(texts[key.replace("/name", "/manifest")]) for key in texts if key.startswith("cryptomatte/") and key.endswith("/name")}
+        out[engine] = {"ranks": ranks, "layers": layers}
+    return out
+
+
 def moved():
     """A frame with pictures that is exported, moved and rendered where it is then; and one without a folder, of which two frames are rendered."""
     scene = scenes.texture()
@@ -229,7 +249,7 @@ def interface():
     return {p.name: [p.kind.split()[-1], p.value()] for p in made.tomales.parameters}
 
 
-FEATURES = (passes, animation, deformation, faults, strands, override, refused, unsupported, cancel, progress, layers, moved, interface)
+FEATURES = (passes, animation, deformation, faults, strands, override, refused, unsupported, cancel, progress, layers, mattes, moved, interface)
 for feature in FEATURES:
     found[feature.__name__] = feature()
     with open(os.path.join(FOLDER, "features.json"), "w") as file:

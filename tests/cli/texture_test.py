@@ -53,6 +53,10 @@ subprocess.run(["oiiotool", "grain.png", "--attrib", "wrapmodes", "periodic,clam
 suite.expect_run("a picture that wraps by what its file says", [scene("wrapping", "grain.tif", coordinates='"st" [3.1 0.2  3.9 0.1  3.2 0.8  3.8 0.9]')], 0)
 suite.expect_run("and one whose file says nothing", [scene("ending", "grain.png", coordinates='"st" [3.1 0.2  3.9 0.1  3.2 0.8  3.8 0.9]')], 0)
 suite.expect(abs(red("wrapping")["mean"] - red("own")["mean"]) < 0.01 and red("ending")["max"] == 0, "goes on beyond its edge, where the other is black")
+subprocess.run(["oiiotool", "--pattern", "constant:color=0.5", "32x32", "1", "-o", "grey.tif"], cwd=suite.folder, check=True)
+suite.expect_run("a picture of one channel", [scene("grey", "grey.tif")], 0)
+means = [c["mean"] for c in json.loads(suite.run("info", "--json", "grey.exr").stdout)["channels"] if c["name"] in "RGB"]
+suite.expect(len(means) == 3 and all(abs(m - 0.5) < 0.01 for m in means), f"is grey where a colour is asked for: {means}")
 suite.expect_run("six faces make an environment", [scene("cube", "cube.env", 'MakeCubeFaceEnvironment '
                  + '"grain.png" ' * 6 + '"cube.env" 90 "box" 1 1')], 0)
 suite.expect_run("a wrong filter and wrap mode are named",

@@ -56,13 +56,17 @@ def run(script):
         done = subprocess.run(command, cwd=script.parent, env=environment, capture_output=True, text=True, errors="replace", timeout=given.timeout, stdin=subprocess.DEVNULL)
     except subprocess.TimeoutExpired:
         return "time", f"not done after {given.timeout:g} s"
-    last = (done.stderr.strip().splitlines() or [""])[-1]
+    lines = done.stderr.strip().splitlines() or [""]
+    last = ([line for line in lines if re.match(r"\w+(Error|Exception)\b", line)] or lines)[-1]
     if done.returncode:
         return "script", last
     if not begins:
         return "module", "imports"
     if not files_of(script.parent, PICTURES, since):
-        for rib in sorted(files_of(script.parent, {".rib"}, since))[:FRAMES]:
+        ribs = sorted(files_of(script.parent, {".rib"}, since))
+        if ribs and not any(b"WorldBegin" in rib.read_bytes() for rib in ribs):
+            return "archive", "writes geometry for other scenes"
+        for rib in ribs[:FRAMES]:
             one = subprocess.run([environment["TOMALES"], "render", rib.name, "-o", rib.stem + ".exr", *small.split()], cwd=rib.parent, env=environment, capture_output=True, text=True, errors="replace", timeout=given.timeout)
             done.stderr += one.stderr
     if not files_of(script.parent, PICTURES, since):
@@ -85,6 +89,6 @@ def all_of(folder):
 folders = sorted({f.parent for f in copy.rglob("*.py")})
 with concurrent.futures.ThreadPoolExecutor(given.j) as pool:
     ends = [end for some in pool.map(all_of, folders) for end in some]
-counts = {kind: ends.count(kind) for kind in ("whole", "missing", "module", "script", "time", "none")}
-print(f"{len(ends)} scripts import prman: {counts['whole']} rendered whole, {counts['missing']} with something missing, {counts['module']} modules imported; "
+counts = {kind: ends.count(kind) for kind in ("whole", "missing", "module", "archive", "script", "time", "none")}
+print(f"{len(ends)} scripts import prman: {counts['whole']} rendered whole, {counts['missing']} with something missing, {counts['module']} modules imported, {counts['archive']} archives written; "
       f"{counts['script']} raised, {counts['time']} took too long, {counts['none']} left no picture")

@@ -71,7 +71,7 @@ TEST(Ris, IntegratorsTurnIndirectLightOn) {
 TEST(Ris, ReferencesAreFollowedToPatternsThatHaveASubstitute) {
   const Reading r(
       inWorld("Pattern \"PxrTexture\" \"wood\" \"string filename\" \"wood.tif\" Pattern \"PxrChecker\" \"board\" "
-              "\"color colorA\" [1 0 0]\n"
+              "\"color colorA\" [1 0 0] \"reference struct manifold\" [\"noise:result\"]\n"
               "Pattern \"PxrPrimvar\" \"own\" \"string varname\" \"Cs\"\nPattern \"PxrFractal\" \"noise\"\n"
               "Bxdf \"PxrDiffuse\" \"a\" \"reference color diffuseColor\" \"wood:resultRGB\" " +
               kSphere + "Bxdf \"PxrDisney\" \"b\" \"reference color baseColor\" [\"board:resultRGB\"] \"int[] x\" [] " +
@@ -83,6 +83,7 @@ TEST(Ris, ReferencesAreFollowedToPatternsThatHaveASubstitute) {
   EXPECT_EQ(r.attributes(1).color, vec3(.5f, 0, 0));
   EXPECT_EQ(r.attributes(2).color, vec3(.2f, .3f, .4f));
   EXPECT_EQ(r.attributes(3).color, vec3(.5f));
+  EXPECT_EQ(r.log.count("rib-undeclared"), 0) << "references to manifolds are those of PRMan";
   EXPECT_EQ(r.log.count("rib-reference"), 1);
   EXPECT_EQ(r.message("rib-reference").where.line, 9);
   // Two Bxdfs and four patterns.

@@ -91,6 +91,7 @@ class TomalesEngine(bpy.types.RenderEngine):
         self.update_stats("", "Rendering")
         if self._run(rib, folder, shlex.split(scene.tomales.options)):
             passes.read(result, numpy.array(scene.camera.matrix_world.normalized()) @ numpy.diag([1, 1, -1, 1]))
+            passes.stamp(depsgraph.view_layer.name, self.get_result())
 
     def _write(self, depsgraph: bpy.types.Depsgraph, folder: Path) -> tuple[Passes, Path]:
         """The current frame."""

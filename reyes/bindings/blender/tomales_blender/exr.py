@@ -83,17 +83,34 @@ def read(path: str | os.PathLike[str]) -> dict[str, numpy.ndarray]:
         raise OSError(f"{os.fspath(path)} is no uncompressed EXR file of one part: {problem}") from None
 
 
-def _read(data: bytes) -> dict[str, numpy.ndarray]:
+def texts(path: str | os.PathLike[str]) -> dict[str, str]:
+    """Attributes of a file that read() takes which are strings. Raises OSError as read() does."""
+    with open(path, "rb") as file:
+        data = file.read()
+    try:
+        return {name: value.decode() for name, (kind, value) in _header(data)[0].items() if kind == "string"}
+    except (ValueError, IndexError, struct.error) as problem:
+        raise OSError(f"{os.fspath(path)} is no EXR file of one part: {problem}") from None
+
+
+def _header(data: bytes) -> tuple[dict[str, tuple[str, bytes]], int]:
+    """Types and values of attributes, and where they end."""
     magic, version = struct.unpack_from("<ii", data)
     if magic != _MAGIC or version & ~0x400 != _VERSION:
         raise ValueError(f"magic {magic}, version {version}")
     at, attributes = 8, {}
     while data[at]:
         name, at = _text(data, at)
-        _, at = _text(data, at)
+        kind, at = _text(data, at)
         (size,) = struct.unpack_from("<i", data, at)
-        attributes[name] = data[at + 4 : at + 4 + size]
+        attributes[name] = kind, data[at + 4 : at + 4 + size]
         at += 4 + size
+    return attributes, at
+
+
+def _read(data: bytes) -> dict[str, numpy.ndarray]:
+    typed, at = _header(data)
+    attributes = {name: value for name, (_, value) in typed.items()}
     if attributes["compression"][0] != _NONE:
         raise ValueError("it is compressed")
     x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"])

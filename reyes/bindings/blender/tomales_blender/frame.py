@@ -29,6 +29,7 @@ class _Part:
 
     archive: str
     look: Look
+    material: str  #: Its name.
     handle: str | int | None = None  #: Of the object that instances show.
 
 
@@ -124,7 +125,7 @@ class Frame:
         uses = Counter(placed.shape for placed in first.placed.values())
         parts: dict[str, list[_Part]] = {}
         for key, shape in first.shapes.items():
-            parts[key] = [_Part(self._archive(key, i, snapshots), self._look(shape.materials, piece.slot)) for i, piece in enumerate(shape.pieces)]
+            parts[key] = [self._part(self._archive(key, i, snapshots), shape.materials, piece.slot) for i, piece in enumerate(shape.pieces)]
             for part in parts[key]:
                 if uses[key] > 1 and not part.look.emission:
                     part.handle = ri.ObjectBegin()
@@ -144,20 +145,21 @@ class Frame:
         for part in parts:
             if part.look.emission:
                 handles.append(ri.AreaLightSource("arealight", {"lightcolor": part.look.emission, "float samples": self._settings.light_samples}))
+            ri.Attribute("identifier", {"string shadinggroup": part.material})
             ri.ArchiveRecord(ri.VERBATIM, part.look.rib)
             ri.ReadArchive(part.archive) if part.handle is None else ri.ObjectInstance(part.handle)
         ri.AttributeEnd()
         for handle in handles:
             ri.Illuminate(handle, 1)
 
-    def _look(self, materials: list[str], slot: int) -> Look:
+    def _part(self, archive: str, materials: list[str], slot: int) -> _Part:
         name = materials[min(slot, len(materials) - 1)] if materials else ""
         looks = self._looks if name in self._changing else self._cache.looks
         if name not in looks:
             material = self._materials.get(name)
             evaluated = material.evaluated_get(self._depsgraph) if material else None
             looks[name] = look_of(evaluated, self._textures, self._settings.reflection_samples, self._warn)
-        return looks[name]
+        return _Part(archive, looks[name], name)
 
     def _archive(self, key: str, i: int, snapshots: list[Snapshot]) -> str:
         """The file of a piece, below the folder. Its name tells its contents, so that it is written once."""

@@ -12,6 +12,9 @@ import tomales
 from . import exr
 
 _FAR = 1e10  #: Blender's depth where nothing is.
+#: Cryptomatte: the renderer's variables with Blender's names of passes, which are those of the file, and its settings.
+_MATTES = {"cryptoobject": ("CryptoObject", "use_pass_cryptomatte_object"), "cryptomaterial": ("CryptoMaterial", "use_pass_cryptomatte_material")}
+_MATTE_PASSES = 3  #: In the file, of two ranks each.
 
 
 @dataclass(frozen=True)
@@ -32,6 +35,8 @@ class Pass:
         """Its channels in the file."""
         if self.variable == "z":
             return ["Z"]
+        if self.variable in _MATTES:
+            return [f"{self.name}.{c}" for c in "RGBA"]
         if self.declared == "float":
             return [self.variable]
         return [f"{self.variable}.{c}" for c in ("XYZ" if self.kind == "VECTOR" and not self.declared else "RGB")]
@@ -57,6 +62,10 @@ def wanted(layer: bpy.types.ViewLayer) -> list[Pass]:
         if aov.is_valid and aov.name.isidentifier():
             color = aov.type == "COLOR"
             out.append(Pass(aov.name, "RGBA" if color else "X", aov.name, "", "COLOR" if color else "VALUE", "color" if color else "float", own=True))
+    for variable, (name, setting) in _MATTES.items():
+        if getattr(layer, setting):
+            passes = min(_MATTE_PASSES, (layer.pass_cryptomatte_depth + 1) // 2)
+            out += [Pass(f"{name}{i:02}", "RGBA", variable, own=True) for i in range(passes)]
     for i, group in enumerate(layer.lightgroups):
         out.append(Pass(f"Combined_{group.name}", "RGB", f"lightgroup{i}", declared="color", source=f"lightgroup:{group.name}", own=True))
     return out
@@ -92,6 +101,15 @@ class Passes:
                 planes = planes_of(p.plane_names()) if p.variable else numpy.ones((3, *channels["A"].shape), "f4")
                 self._fill(layer.passes[p.name], self._converted(p, planes, planes_of, to_world), result)
 
+    def stamp(self, layer: str, result: bpy.types.RenderResult) -> None:
+        """Says which names the numbers of mattes stand for, as Blender's compositor seeks them. `result`: of the engine, with
+        all its layers. Raises OSError."""
+        if not any(p.variable in _MATTES for p in self._passes):
+            return
+        for key, value in exr.texts(self._folder / self._name).items():
+            if key.startswith("cryptomatte/"):
+                result.stamp_data_add_field(key, f"{layer}.{value}" if key.endswith("/name") else value)
+
     def _converted(self, p: Pass, planes: numpy.ndarray, planes_of: Callable[[list[str]], numpy.ndarray], to_world: numpy.ndarray) -> numpy.ndarray:
         """As Blender has the values."""
         if p.variable == "z":
@@ -102,7 +120,7 @@ class Passes:
         if p.is_light:
             color = planes_of(PASSES[3].plane_names())
             return numpy.divide(planes, color, out=numpy.zeros_like(planes), where=color > 0)
-        return numpy.concatenate([planes, planes_of(["A"])]) if p.channels == "RGBA" else planes
+        return numpy.concatenate([planes, planes_of(["A"])]) if p.channels == "RGBA" and p.variable not in _MATTES else planes
 
     @staticmethod
     def _fill(target: bpy.types.RenderPass, planes: numpy.ndarray, result: bpy.types.RenderResult) -> None:
