@@ -44,7 +44,8 @@ RSL_KERNEL_1(Sign, rsl::sign(a))
 RSL_KERNEL_1(Floor, rsl::wholeBelow(a))
 RSL_KERNEL_1(Ceil, -rsl::wholeBelow(-a))
 RSL_KERNEL_1(Round, rsl::wholePart(a) + std::copysign(std::abs(a - rsl::wholePart(a)) < 0.5f ? 0.0f : 1.0f, a))
-RSL_KERNEL_2(Mod, rsl::mod(a, b))
+// This is rsl::mod() without its branch, which GCC does not vectorise.
+RSL_KERNEL_2(Mod, rsl::chosen(b == 0, 0, a - b * rsl::wholeBelow(a / b)))
 RSL_KERNEL_1(Sqrt, rsl::sqrt(a))
 RSL_KERNEL_1(InverseSqrt, rsl::inversesqrt(a))
 
