@@ -31,8 +31,8 @@ inline auto parseNamed(const char* extension) {
 /// Returns the text if it is the name of a picture.
 std::optional<std::string> parseOutput(const std::string& text);
 
-/// Refuses `-o -v` and `--stats -o a.exr` for every command: an option stands where a value is missing. A file whose name
-/// begins with a dash is given as ./-name.
+/// Refuses `-o -v` and `--stats -o a.exr` for every command: an option stands where a value is missing. A file whose
+/// name begins with a dash is given as ./-name.
 void refuseOptionsAsValues(CLI::App& app);
 
 void addOutput(CLI::App& app, RenderSettings& s);
