@@ -69,7 +69,8 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
 /// polygons, however many a patch of enormous coordinates asks for.
 double mostQuads(const Object& o, const Camera& camera, float edge_px) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
-  const double covering = double{camera.xResolution()} * camera.yResolution() / (double{edge_px} * edge_px);
+  const double pixels = 1.0 * camera.xResolution() * camera.yResolution();
+  const double covering = pixels / (double{edge_px} * edge_px);
   return std::clamp(kMostOfPicture * covering, kAlwaysQuads, most);
 }
 
