@@ -11,8 +11,9 @@ namespace {
 constexpr int kProbes = 4;  ///< Number of edges across a patch by which its size is measured.
 /// In an object of more patches each is small, and measured by its corners alone.
 constexpr uint32_t kManyPatches = 4096;
-constexpr int kMostTexels = 2048;       ///< Limit along an edge of a chart.
-constexpr size_t kTexelsPerRun = 1024;  ///< Texels that one thread bakes at a time.
+constexpr int kMostTexels = 2048;                                        ///< Limit along an edge of a chart.
+constexpr int64_t kAlwaysTexels = int64_t{1} << 22, kMostOfPixel = 256;  ///< Limits for all charts, and for a pixel.
+constexpr size_t kTexelsPerRun = 1024;                                   ///< Texels that one thread bakes at a time.
 
 int powerOfTwoNear(float texels) {
   const float clamped = std::clamp(texels, 1.0f, static_cast<float>(kMostTexels));
@@ -60,7 +61,13 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
   return chart;
 }
 
-void halveUntilFew(std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings, Log& log) {
+/// The limit for all maps together. A small picture gets fewer, since it shows little of them.
+int64_t mostTexels(const Camera& camera, const RadiositySettings& settings) {
+  const int64_t ofPicture = kMostOfPixel * camera.xResolution() * camera.yResolution();
+  return std::min(settings.mostTexels, std::max(kAlwaysTexels, ofPicture));
+}
+
+void halveUntilFew(std::vector<SurfaceCharts>& surfaces, int64_t limit, Log& log) {
   const auto forEachChart = [&](const auto& visit) {
     for (SurfaceCharts& s : surfaces)
       for (const bool back : {false, true})
@@ -73,14 +80,14 @@ void halveUntilFew(std::vector<SurfaceCharts>& surfaces, const RadiositySettings
   };
   int64_t most = 0;  // every chart keeps at least one texel
   forEachChart([&](const RadiosityChart&) { ++most; });
-  most = std::max(most, settings.mostTexels);
+  most = std::max(most, limit);
   int halvings = 0;
   for (; count() > most; ++halvings) forEachChart([](RadiosityChart& c) { c.halve(); });
   if (halvings > 0)
     log.report(Severity::Warning, "radiosity-texels", {},
                fmt::format("all radiosity maps together would have more than {} million texels: their edges have 1/{} "
                            "of what was asked",
-                           settings.mostTexels >> 20, 1 << halvings));
+                           limit >> 20, 1 << halvings));
 }
 
 }  // namespace
@@ -124,7 +131,7 @@ std::vector<SurfaceCharts> layOutCharts(const Scene& scene, const std::vector<in
     if (SurfaceCharts& s = surfaces[static_cast<size_t>(object)];
         scene.objects[static_cast<size_t>(object)].attributes->sides == 2)
       s.back = s.front;
-  halveUntilFew(surfaces, settings, log);
+  halveUntilFew(surfaces, mostTexels(camera, settings), log);
   return surfaces;
 }
 

@@ -294,6 +294,21 @@ TEST(RadiosityMaps, HaveNoMoreTexelsTogetherThanTheyMay) {
   EXPECT_GT(least.texelCount(), 0);
 }
 
+TEST(RadiosityMaps, OfASmallPictureAreFewerThanOfALargeOne) {
+  Scene fine = cornell().scene;
+  for (Object& o : fine.objects) {
+    auto a = std::make_shared<Attributes>(*o.attributes);
+    a->radiosity.screen = false, a->radiosity.texelSize = 1e-4f;
+    o.attributes = a;
+  }
+  fine.options.xResolution = fine.options.yResolution = 16;
+  World world(std::move(fine));
+  const auto services = world.use({.mode = GiMode::Radiosity});
+  const RadiosityMaps maps(world.rays, world.shading, world.camera, {}, world.log);
+  EXPECT_LE(maps.texelCount(), int64_t{1} << 22);
+  EXPECT_GT(maps.texelCount(), int64_t{1} << 19);
+}
+
 TEST(RadiosityMaps, AreNotMadeOfWhatMirrorsIsNotOpaqueOrWantsNone) {
   SceneBuilder b = cornell();
   for (const size_t i : {size_t{0}, size_t{1}, size_t{3}}) {
