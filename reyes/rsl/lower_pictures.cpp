@@ -84,7 +84,7 @@ int32_t Lowering::shadow(const Expr& e, const Builtin& b) {
   for (; i < e.args.size() && !e.args[i]->type.is(Base::String); ++i) at.push_back(value(*e.args[i]));
   std::vector<std::pair<const Expr*, int32_t>> after;
   const std::vector<Setting> list = settings(e.args, i, b.name, after);
-  const auto lookUp = [&](int32_t position) {
+  const auto lookUp = [&, file = file](int32_t position) {  // clang 14 captures no structured binding by reference
     const int32_t out = compute(Op::Shadow, {file, position});
     block_->back().settings = list;
     return out;
