@@ -7,12 +7,6 @@
 
 namespace tomales {
 
-/// A capability that belongs to TM_LIGHT_AREA: Cl is not the radiance of the geometry, but what a lamp at that point
-/// alone would bring, and the light is its mean over the area.
-constexpr uint32_t kLightIsMean = 1u << 31;
-
-inline bool isMean(const TmShader& light) { return (light.capabilities & kLightIsMean) != 0; }
-
 /// Added to the type of a parameter that is an array: primitive variables of the same name and length override it.
 /// TmValue::step is 1 then, and element e of component k of point i is c[k][e * components * padded + i].
 constexpr int32_t kArrayVaries = 0x10000;
@@ -20,5 +14,8 @@ constexpr int32_t kArrayVaries = 0x10000;
 /// The form of a light that AreaLightSource runs: its P lies on the geometry. Null if the light is not written in RSL,
 /// or does not read P.
 const TmShader* rslAreaLight(const TmShader& light);
+/// Tells whether the shader is such a form. Its Cl is not the radiance of the geometry, but what a lamp at that point
+/// alone would bring, and the light is the mean of that over the area.
+bool isMean(const TmShader& light);
 
 }  // namespace tomales

@@ -1,5 +1,5 @@
 #include "reyes/shader.h"
-#include "reyes/shader/shadeops.h"
+#include "shaders/cone.h"
 
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale");
@@ -16,14 +16,12 @@ rsl::FloatParam beamdistribution("beamdistribution", 0, "exponent of the falloff
 rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: camera and specular rays do not see it glow", TM_ROLE_VISIBLE);
 
-/// Of the light that leaves towards the point, as `spotlight` has it; 1 without a cone.
+/// The share of the light that leaves towards the point; 1 without a cone.
 float share(const TmGrid* g, int i) {
   if (coneangle(g, i) >= rsl::kPi) return 1;
-  const float outer = std::cos(coneangle(g, i)),
-              cosine = -rsl::dot(rsl::normalize(rsl::get(g->L, i)), rsl::normalize(axis(g, i)));
-  if (!(cosine > outer)) return 0;
-  const float inner = std::cos(std::max(0.0f, coneangle(g, i) - conedeltaangle(g, i)));
-  return rsl::smoothstep(outer, inner, cosine) * std::pow(std::max(0.0f, cosine), beamdistribution(g, i));
+  const float cosine = -rsl::dot(rsl::normalize(rsl::get(g->L, i)), rsl::normalize(axis(g, i)));
+  const ConeShare cone = ConeShare::at(cosine, coneangle(g, i), conedeltaangle(g, i), beamdistribution(g, i));
+  return cone.edge * cone.beam;
 }
 
 void shade(const TmGrid* g) {

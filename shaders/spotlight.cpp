@@ -1,3 +1,4 @@
+#include "shaders/cone.h"
 #include "shaders/shadow.h"
 
 namespace {
@@ -15,14 +16,14 @@ void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   for (int i : b) {
     const rsl::Vec3 L = from(g, i) - b.P(i), axis = rsl::normalize(to(g, i) - from(g, i));
-    const float cosine = -rsl::dot(rsl::normalize(L), axis), outer = std::cos(coneangle(g, i));
-    if (cosine <= outer || cosine <= 0) {
+    const float cosine = -rsl::dot(rsl::normalize(L), axis);
+    const ConeShare cone = ConeShare::at(cosine, coneangle(g, i), conedeltaangle(g, i), beamdistribution(g, i));
+    if (cone.edge <= 0 || cosine <= 0) {
       b.illuminate(i, L, {});
       continue;
     }
-    const float edge = rsl::smoothstep(outer, std::cos(coneangle(g, i) - conedeltaangle(g, i)), cosine);
-    const float beam = std::pow(cosine, beamdistribution(g, i)) / std::max(rsl::dot(L, L), 1e-20f);
-    b.illuminate(i, L, intensity(g, i) * edge * beam * lightcolor(g, i));
+    const float beam = cone.beam / std::max(rsl::dot(L, L), 1e-20f);
+    b.illuminate(i, L, intensity(g, i) * cone.edge * beam * lightcolor(g, i));
   }
 }
 

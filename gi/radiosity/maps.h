@@ -15,8 +15,8 @@ namespace tomales {
 struct RadiositySettings {
   float texels = 1;  ///< Factor on the texels along each edge that Attribute "radiosity" asks for.
   uint32_t seed = 0;
-  /// Limit for all maps together, about 20 bytes a texel. The maps are halved until they keep it. Pictures of fewer
-  /// than 131072 pixels have at most 256 texels a pixel, or 4 million if that is more.
+  /// Limit for all maps together, about 20 bytes a texel. The maps are halved until they keep it. It is lower for small
+  /// pictures (layout.cpp).
   int64_t mostTexels = int64_t{1} << 25;
   std::function<void(float)> progress{};  ///< Is told how far baking is, by any thread.
 };

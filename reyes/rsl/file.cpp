@@ -45,7 +45,16 @@ std::string rslNameOf(const TmFunction& function) {
   return b ? b->name : std::string();
 }
 
-const TmShader* rslAreaLight(const TmShader& light) { return HostedShader::areaForm(light); }
+const TmShader* rslAreaLight(const TmShader& light) {
+  const HostedShader* shader = HostedShader::of(light);
+  const HostedShader* form = shader ? shader->areaForm() : nullptr;
+  return form ? form->host() : nullptr;
+}
+
+bool isMean(const TmShader& light) {
+  const HostedShader* shader = HostedShader::of(light);
+  return shader && shader->lowered().onGeometry;
+}
 
 RslFile::RslFile() : impl_(new Impl) {}
 RslFile::~RslFile() = default;

@@ -96,7 +96,7 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
   host.params = params_.data();
   host.shade = shade, host.name = lowered_.name.c_str(), host.doc = lowered_.doc.c_str();
   if (hasExtent) host.capabilities |= TM_LIGHT_SHADOWED;
-  if (lowered_.onGeometry) host.capabilities |= TM_LIGHT_AREA | kLightIsMean;
+  if (lowered_.onGeometry) host.capabilities |= TM_LIGHT_AREA;
 }
 
 bool HostedShader::canBeOnGeometry() const {
@@ -104,10 +104,8 @@ bool HostedShader::canBeOnGeometry() const {
   return lowered_.asksPlace && !distant;
 }
 
-const TmShader* HostedShader::areaForm(const TmShader& light) {
-  if (light.shade != shade) return nullptr;
-  const HostedShader* form = reinterpret_cast<const Hosted*>(&light)->program->area_.get();
-  return form ? &form->host_.shader : nullptr;
+const HostedShader* HostedShader::of(const TmShader& shader) {
+  return shader.shade == shade ? reinterpret_cast<const Hosted*>(&shader)->program : nullptr;
 }
 
 void HostedShader::declareParameters() {

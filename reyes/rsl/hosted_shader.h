@@ -23,8 +23,10 @@ class HostedShader {
   /// Tells whether a light asks where it stands, so that it can be lowered onto the geometry of AreaLightSource.
   bool canBeOnGeometry() const;
   void setAreaForm(std::unique_ptr<const HostedShader> form) { area_ = std::move(form); }
-  /// The form of a light that AreaLightSource runs. Null if it has none, or is not a HostedShader's.
-  static const TmShader* areaForm(const TmShader& light);
+  /// The form of a light that AreaLightSource runs, or null.
+  const HostedShader* areaForm() const { return area_.get(); }
+  /// Null if the shader is not a HostedShader's.
+  static const HostedShader* of(const TmShader& shader);
   const Code& code() const { return uniform_->code(); }
   const Code& lowered() const { return lowered_; }
   /// For a surface that assigns P: what moves its points (passes/moving.cpp). Null if nothing does.

@@ -50,9 +50,9 @@ struct LightSample {
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
 };
 
-/// For a light with kLightIsMean, after its run: makes of Cl, the light that a lamp at one point of the geometry would
-/// bring, the radiance of the geometry there, so that the mean of Cl over the area arrives. The integral of radiance
-/// times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
+/// For a light of which isMean() is true, after its run: makes of Cl, the light that a lamp at one point of the
+/// geometry would bring, the radiance of the geometry there, so that the mean of Cl over the area arrives. The integral
+/// of radiance times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
 void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light);
 
 /// Unit directions that a surface has drawn itself, one of `samples` for each point. `density` is over solid angle; 0

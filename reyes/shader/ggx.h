@@ -1,15 +1,20 @@
 // Microfacets of the GGX distribution (Trowbridge and Reitz 1975; Walter et al. 2007, "Microfacet Models for Refraction
 // through Rough Surfaces") under Smith's masking, and sampling of those that a viewer sees (Heitz 2018, "Sampling the
 // GGX Distribution of Visible Normals"). Plugins include this beside reyes/shader.h; `disney` is made of it.
-//   Spaces   All directions have unit length and point away from the surface, in any one space. N is the surface's
-//            normal, V leads to the viewer, L to the light, H is a facet's normal. NV, NL, NH, VH are their cosines.
-//   Width    alpha, above 0: the facets' slopes reach alpha in the middle of the distribution; `disney` has
-//   roughness^2. Units    Distributions and densities are 1/sr. reflection() is 1/sr too: a BRDF but for the Fresnel
-//   term. Light of
-//            this renderer's lights is E/pi, so that a sample of a light adds Cl * pi * NL * F * reflection().
-//   Norms    The integral over the hemisphere of distribution(NH) NH is 1, as is that of visibleDensity() over H. A
-//            surface that faces a furnace sends back the integral of reflection() NL, at most 1: light that meets
-//            facets twice is left out.
+//
+// Spaces: all directions have unit length and point away from the surface, in any one space. N is the surface's normal,
+// V leads to the viewer, L to the light, and H is a facet's normal. NV, NL, NH and VH are their cosines.
+//
+// Width: alpha is above 0. The slopes of the facets reach alpha in the middle of the distribution. `disney` takes
+// roughness^2 for it.
+//
+// Units: distributions and densities are 1/sr. reflection() is 1/sr too: it is a BRDF but for the Fresnel term. Light
+// of this renderer's lights is E/pi, so that a sample of a light adds Cl * pi * NL * F * reflection().
+//
+// Norms: the integral over the hemisphere of distribution(NH) NH is 1, as is that of visibleDensity() over H. A surface
+// that faces a furnace sends back the integral of reflection() NL, at most 1: light that meets facets twice is left
+// out.
+//
 // Threads: plain values. No function looks at a batch.
 #pragma once
 #include "reyes/shader/shadeops.h"
@@ -37,13 +42,13 @@ class Ggx {
     return distribution(NH) * (maskingOverTwiceCosine(NL) * maskingOverTwiceCosine(NV));
   }
 
-  /// Density over solid angle of the facets' normals that a viewer sees: G1(V) VH D(H) / NV (Heitz 2018, eq. 3). NV >
-  /// 0.
+  /// Density over solid angle of the facets' normals that a viewer sees: G1(V) VH D(H) / NV (Heitz 2018, eq. 3).
+  /// NV > 0.
   float visibleDensity(float NV, float NH, float VH) const {
     return NH > 0 && VH > 0 ? 2 * maskingOverTwiceCosine(NV) * VH * distribution(NH) : 0;
   }
-  /// Density over solid angle of L = reflect(-V, H), where H is drawn by visibleNormal() (Walter et al., eq. 14). NV >
-  /// 0.
+  /// Density over solid angle of L = reflect(-V, H), where H is drawn by visibleNormal() (Walter et al., eq. 14).
+  /// NV > 0.
   float reflectedDensity(float NV, float NH) const {
     return NH > 0 ? 0.5f * maskingOverTwiceCosine(NV) * distribution(NH) : 0;
   }
