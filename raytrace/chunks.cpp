@@ -23,7 +23,8 @@ constexpr int kChunkPolygons = 64 * 64;  ///< A chunk is full at so many: docs/d
 /// Tiles of a chunk. Embree would build a larger scene with several threads, and the bits would depend on their
 /// number.
 constexpr size_t kChunkTiles = 1024;
-constexpr int kProbes = 8;  ///< Cells along u and v of the lattice over a tile that shows where its bound is too small.
+constexpr int kTileProbes =
+    8;  ///< Cells along u and v of the lattice over a tile that shows where its bound is too small.
 constexpr int kSampled = 4;  ///< Polygons along u and v of the part of a tile whose deviation is measured.
 constexpr size_t index(Level level) { return static_cast<size_t>(level); }
 
@@ -122,7 +123,7 @@ void Chunks::measure(Planned& planned, Piece& piece) const {
     piece.bound.extend(withRounding(met));
     return g;
   };
-  if (displacesForRays(o)) displaced(piece.rect, kProbes, kProbes);
+  if (displacesForRays(o)) displaced(piece.rect, kTileProbes, kTileProbes);
   for (const Level level : {Level::Medium, Level::Fine}) {
     if (levelOf(static_cast<uint32_t>(o.group), level) != level) continue;  // no ray sees it
     const auto [nu, nv] = piece.rate[index(level)];

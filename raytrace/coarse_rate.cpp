@@ -15,7 +15,7 @@ constexpr float kTurn = 15 * kPi / 180;  ///< Greatest angle in radians between 
 /// The limit on that angle for small polygons: half a circle as one polygon would be its diameter, without area.
 constexpr float kMostTurn = 100 * kPi / 180;
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
-constexpr int kProbes = 5;                     ///< Odd, so that a symmetrical wave is not sampled at its zeros.
+constexpr int kLineProbes = 5;                 ///< Odd, so that a symmetrical wave is not sampled at its zeros.
 constexpr double kRounding = 1e-3;  ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
 /// The share of its distance from the eye below which a chord's direction is all rounding error.
 constexpr float kLeastChord = 1e-4f;
@@ -37,11 +37,11 @@ struct LineFigures {
 
 LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int acrossStride) {
   LineFigures out;
-  for (int line = 0; line <= kProbes; ++line) {
+  for (int line = 0; line <= kLineProbes; ++line) {
     LineFigures sum;
     float bend = 0;
     vec3 chord(0);
-    for (int k = 0; k < kProbes; ++k) {
+    for (int k = 0; k < kLineProbes; ++k) {
       const int a = line * acrossStride + k * alongStride, b = a + alongStride;
       const vec3 p = g.position(0, a), q = g.position(0, b);
       // The pixel size by distance is defined all around the eye, unlike raster coordinates. A chord past the eye
@@ -54,7 +54,7 @@ LineFigures linesOf(const Grid& g, const Camera& camera, int alongStride, int ac
       chord = clear ? q - p : vec3(0);
     }
     out.length_px = std::max(out.length_px, sum.length_px);
-    out.turn = std::max({out.turn, sum.turn, bend * kProbes / (kProbes - 1)});
+    out.turn = std::max({out.turn, sum.turn, bend * kLineProbes / (kLineProbes - 1)});
   }
   return out;
 }
@@ -119,8 +119,8 @@ class PatchLines {
  public:
   PatchLines(const Scene& scene, const Camera& camera, int object, uint32_t patch)
       : object_(scene.objects[static_cast<size_t>(object)]), camera_(camera) {
-    const Grid probe = dice(scene, object, patch, UvRect{}, kProbes, kProbes, 1);
-    u_ = linesOf(probe, camera, 1, kProbes + 1), v_ = linesOf(probe, camera, kProbes + 1, 1);
+    const Grid probe = dice(scene, object, patch, UvRect{}, kLineProbes, kLineProbes, 1);
+    u_ = linesOf(probe, camera, 1, kLineProbes + 1), v_ = linesOf(probe, camera, kLineProbes + 1, 1);
     // The turn of displaced normals is not known beforehand, so displaced surfaces keep the pixel rate out of view too.
     byPixels_ = displacesForRays(object_) || mayBeSeen(object_, patch, camera);
   }

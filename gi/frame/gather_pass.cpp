@@ -14,7 +14,7 @@ namespace tomales {
 namespace {
 
 constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in the order of a hash
-constexpr int kPhases = kLatticePhases + kLastPhases;
+constexpr int kGatherPhases = kLatticePhases + kLastPhases;
 constexpr int kPilotPhases = 3;  // bright spots are learnt from the records of these phases
 constexpr size_t kPointsPerSlice = 256;
 // With so many rays or more, all records have the same directions: what those miss changes little between records, and
@@ -44,7 +44,7 @@ class GatherPass {
     cancelled_ = cancelled;
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
     measureUnseenDisplacement();
-    for (phase_ = 0; phase_ < kPhases && !isCancelled(); ++phase_) {
+    for (phase_ = 0; phase_ < kGatherPhases && !isCancelled(); ++phase_) {
       std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
       gatherAt(std::move(sites));
@@ -278,7 +278,7 @@ class GatherPass {
   }
 
   void report(float fractionOfPhase) const {
-    if (*progress_) (*progress_)((static_cast<float>(phase_) + fractionOfPhase) / kPhases);
+    if (*progress_) (*progress_)((static_cast<float>(phase_) + fractionOfPhase) / kGatherPhases);
   }
 
   GiState& state_;

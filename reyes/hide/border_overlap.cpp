@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kRounding = 1e-5f;  ///< Relative error of depth keys.
+constexpr float kDepthRounding = 1e-5f;  ///< Relative error of depth keys.
 
 /// Range of the depth keys of a cell, which begins at vertex a.
 float extentOf(const RasterGrid& raster, int a) {
@@ -79,7 +79,7 @@ BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids,
     const BorderCell mine(entry, camera, cells[s]), theirs(otherEntry, camera, otherCells[s]);
     if (!mine.joins() || !theirs.joins()) continue;
     const float d = layers.depths(layer)[s], otherD = layers.depths(other)[s];
-    if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kRounding * std::abs(d)) continue;
+    if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kDepthRounding * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
     const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);
     // Where both reach over, the nearer sample stays.

@@ -11,7 +11,7 @@ namespace {
 /// Coincident surfaces may be found apart, because vertices are moved to the lattice and depths rounded: by up to this
 /// share of the depth range of a micropolygon, which is about a pixel wide.
 constexpr float kSlackOfCell = 4e-3f;
-constexpr float kRounding = 1e-6f;
+constexpr float kSideRounding = 1e-6f;
 
 /// A sample that a cell covers.
 struct Crossing {
@@ -71,7 +71,7 @@ class SolidResolver {
     // Raster y runs down: a cell that turns clockwise from u to v as seen has dPdu x dPdv towards the eye.
     const bool leaving = (ad.x * bc.y - ad.y * bc.x < 0) != o.flipsNormal;
     const float extent = std::max({s.a.z, s.b.z, s.c.z, s.d.z}) - std::min({s.a.z, s.b.z, s.c.z, s.d.z});
-    const float rounding = kRounding * std::abs(c.d);
+    const float rounding = kSideRounding * std::abs(c.d);
     return {o.solidBlock, leaving, c.d, extent + rounding, kSlackOfCell * extent + rounding};
   }
 

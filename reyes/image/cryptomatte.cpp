@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kBandRows = 16;
+constexpr int kRankedRows = 16;
 
 // A. Appleby's MurmurHash3_x86_32, seed 0 (public domain; the name of the hash is part of the file format).
 uint32_t murmur3(std::string_view text) {
@@ -56,7 +56,7 @@ void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOff
   std::vector<float> ids;
   for (const std::string& name : names) ids.push_back(cryptoId(name));
   const WeightTable weights(positiveFilter(options), samples);
-  parallelFor(static_cast<size_t>(band.height), kBandRows, [&](size_t begin, size_t end) {
+  parallelFor(static_cast<size_t>(band.height), kRankedRows, [&](size_t begin, size_t end) {
     const int y0 = band.originY + static_cast<int>(begin), y1 = band.originY + static_cast<int>(end);
     const LayeredRows rows = layersOf(frame, options, y0 - weights.reachY, y1 + weights.reachY);
     struct Share {

@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kBandRows = 16;
+constexpr int kDeepBandRows = 16;
 constexpr float kNothingLeft = 1e-5f;
 
 /// The share of a layer in the pixel that is being filtered.
@@ -96,11 +96,11 @@ DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOf
                   int y0, int y1) {
   const WeightTable weights(positiveFilter(options), samples);
   const int width = frame.crop.width();
-  const auto bands = static_cast<size_t>((y1 - y0 + kBandRows - 1) / kBandRows);
+  const auto bands = static_cast<size_t>((y1 - y0 + kDeepBandRows - 1) / kDeepBandRows);
   std::vector<DeepRows> parts(bands);
   parallelFor(bands, 1, [&](size_t begin, size_t end) {
     for (size_t band = begin; band < end; ++band) {
-      const int first = y0 + static_cast<int>(band) * kBandRows, last = std::min(first + kBandRows, y1);
+      const int first = y0 + static_cast<int>(band) * kDeepBandRows, last = std::min(first + kDeepBandRows, y1);
       const LayeredRows rows = layersOf(frame, options, first - weights.reachY, last + weights.reachY);
       Merger merger(merge, parts[band]);
       std::vector<Share> shares;

@@ -10,8 +10,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kBlockRows = 16,
-              kBlockColumns = 256;  ///< Pixels that are filtered at a time, whose contributions are in memory.
+constexpr int kFilterBlockRows = 16,
+              kFilterBlockColumns = 256;  ///< Pixels that are filtered at a time, whose contributions are in memory.
 
 /// The floats of a pixel that share a filter.
 struct Pass {
@@ -239,13 +239,13 @@ Image FrameFilter::rows(int y0, int y1) {
   Image image = shape();
   image.originY = y0, image.height = y1 - y0;
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
-  const auto across = static_cast<size_t>((crop.width() + kBlockColumns - 1) / kBlockColumns);
-  const auto down = static_cast<size_t>((image.height + kBlockRows - 1) / kBlockRows);
+  const auto across = static_cast<size_t>((crop.width() + kFilterBlockColumns - 1) / kFilterBlockColumns);
+  const auto down = static_cast<size_t>((image.height + kFilterBlockRows - 1) / kFilterBlockRows);
   impl_->resolved.resolveRows(y0 - impl_->reachY, y1 + impl_->reachY);
   parallelFor(across * down, 1, [&](size_t begin, size_t) {
-    const int x0 = crop.x0 + static_cast<int>(begin % across) * kBlockColumns,
-              top = y0 + static_cast<int>(begin / across) * kBlockRows;
-    const PixelRect block{x0, top, std::min(x0 + kBlockColumns, crop.x1), std::min(top + kBlockRows, y1)};
+    const int x0 = crop.x0 + static_cast<int>(begin % across) * kFilterBlockColumns,
+              top = y0 + static_cast<int>(begin / across) * kFilterBlockRows;
+    const PixelRect block{x0, top, std::min(x0 + kFilterBlockColumns, crop.x1), std::min(top + kFilterBlockRows, y1)};
     for (const Pass& pass : impl_->passes)
       impl_->filter(pass, block, [&](int x, int y) { return image.at(x - crop.x0, y - y0); });
     for (int y = block.y0; y < block.y1; ++y) {

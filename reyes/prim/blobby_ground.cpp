@@ -17,9 +17,9 @@ glm::dvec2 ease(double r) {
 }
 
 /// Quadratic B-spline: smooth, and within the values that it blends.
-struct Weights {
+struct SplineWeights {
   double value[3], slope[3];
-  explicit Weights(double t)
+  explicit SplineWeights(double t)
       : value{0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)},
         slope{t - 0.5, -2 * t, t + 0.5} {}
 };
@@ -79,7 +79,7 @@ FieldPoint BlobGround::at(const dvec3& p) const {
   const double x = h.x / h.w, y = h.y / h.w;
   if (!(h.w > 0 && x >= 0 && y >= 0 && x < map.columns && y < map.rows)) return {};
   const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const Weights across(x - column - 0.5), down(y - row - 0.5);
+  const SplineWeights across(x - column - 0.5), down(y - row - 0.5);
   double depth = 0, byX = 0, byY = 0;
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) {

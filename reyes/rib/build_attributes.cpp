@@ -8,7 +8,7 @@
 namespace tomales::rib {
 namespace {
 
-void reject(GraphicsState& s, const Request& r, const std::string& why) {
+void rejectAttribute(GraphicsState& s, const Request& r, const std::string& why) {
   s.warn(r, "rib-attribute", why + "; the attribute is left as it was");
 }
 
@@ -25,14 +25,14 @@ void setShadingRate(GraphicsState& s, const Request& r) {
 
 void shadingRate(GraphicsState& s, const Request& r) {
   const float rate = r.args[0].number();
-  if (!(rate > 0)) return reject(s, r, fmt::format("{} is no area", rate));
+  if (!(rate > 0)) return rejectAttribute(s, r, fmt::format("{} is no area", rate));
   s.scope.shadingRate = rate;
   setShadingRate(s, r);
 }
 
 // PRMan has factors of ShadingRate, which multiply down the blocks until one is reset.
 void relativeShadingRate(GraphicsState& s, const Request& r, float factor, bool resets) {
-  if (!(factor > 0)) return reject(s, r, fmt::format("{} is no factor", factor));
+  if (!(factor > 0)) return rejectAttribute(s, r, fmt::format("{} is no factor", factor));
   s.scope.relativeShadingRate = std::clamp(resets ? factor : factor * s.scope.relativeShadingRate, 1e-4f, 1e4f);
   setShadingRate(s, r);
 }
@@ -46,20 +46,20 @@ void geometricApproximation(GraphicsState& s, const Request& r) {
                "GeometricApproximation \"" + kind + "\" is not supported: ShadingRate alone says how fine; ignored");
     return;
   }
-  if (!(value >= 0)) return reject(s, r, fmt::format("\"{}\" cannot be {}", kind, value));
+  if (!(value >= 0)) return rejectAttribute(s, r, fmt::format("\"{}\" cannot be {}", kind, value));
   Attributes& a = s.scope.edit();
   (kind == "motionfactor" ? a.motionFactor : a.focusFactor) = value;
 }
 
 void shadingInterpolation(GraphicsState& s, const Request& r) {
   const std::string& kind = r.args[0].strings[0];
-  if (kind != "constant" && kind != "smooth") return reject(s, r, "unknown interpolation \"" + kind + "\"");
+  if (kind != "constant" && kind != "smooth") return rejectAttribute(s, r, "unknown interpolation \"" + kind + "\"");
   s.scope.edit().interpolation = kind == "smooth" ? ShadingInterpolation::Smooth : ShadingInterpolation::Constant;
 }
 
 void sides(GraphicsState& s, const Request& r) {
   const float n = r.args[0].number();
-  if (n != 1 && n != 2) return reject(s, r, fmt::format("a surface has 1 or 2 sides, not {}", n));
+  if (n != 1 && n != 2) return rejectAttribute(s, r, fmt::format("a surface has 1 or 2 sides, not {}", n));
   s.scope.edit().sides = static_cast<int>(n);
 }
 
@@ -74,7 +74,7 @@ void orientation(GraphicsState& s, const Request& r) {
   else if (kind == "lh" || kind == "rh")
     s.scope.edit().insideOut = (kind == "lh") != leftHanded;
   else
-    reject(s, r, "unknown orientation \"" + kind + "\"");
+    rejectAttribute(s, r, "unknown orientation \"" + kind + "\"");
 }
 
 void basis(GraphicsState& s, const Request& r) {
@@ -90,10 +90,10 @@ void basis(GraphicsState& s, const Request& r) {
     } else if (const auto it = kNamed.find(matrix.strings[0]); it != kNamed.end()) {
       b = it->second();
     } else {
-      return reject(s, r, "unknown basis \"" + matrix.strings[0] + "\"");
+      return rejectAttribute(s, r, "unknown basis \"" + matrix.strings[0] + "\"");
     }
     b.step = step.integer();
-    if (b.step < 1 || b.step > 4) return reject(s, r, fmt::format("a basis step of {}", b.step));
+    if (b.step < 1 || b.step > 4) return rejectAttribute(s, r, fmt::format("a basis step of {}", b.step));
     out = b;
   };
   read(r.args[0], r.args[1], s.scope.uBasis);
@@ -103,7 +103,7 @@ void basis(GraphicsState& s, const Request& r) {
 // `sense` names the side that is cut away.
 void trimSense(GraphicsState& s, const Request& r, const std::string& sense) {
   if (sense != "inside" && sense != "outside")
-    return reject(s, r, "the sense of trim curves is \"inside\" or \"outside\"");
+    return rejectAttribute(s, r, "the sense of trim curves is \"inside\" or \"outside\"");
   s.scope.trim = std::make_shared<TrimLoops>(TrimLoops{s.scope.trim->loops, sense == "outside"});
 }
 
@@ -242,7 +242,7 @@ void attribute(GraphicsState& s, const Request& r) {
     const bool empty = text ? p.strings.empty() : p.floats.empty() && p.ints.empty();
     if (category == "render") s.scope.edit().user[key] = p;  // shows that the scene was made for BMRT
     if (empty) {
-      reject(s, r, "\"" + key + "\" has no value");
+      rejectAttribute(s, r, "\"" + key + "\" has no value");
     } else if (const auto it = setters.find(key); it != setters.end()) {
       if (text) checkWord(s, r, key, p.strings[0]);
       it->second(s.scope.edit(), p);

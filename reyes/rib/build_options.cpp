@@ -13,7 +13,7 @@ namespace {
 constexpr float kLargestImage = 32768;  // pixels of a side; readers of OpenEXR and TIFF stop about there
 constexpr float kMostSamples = 256;     // samples along a side of a pixel's lattice
 
-void reject(GraphicsState& s, const Request& r, const std::string& why) {
+void rejectOption(GraphicsState& s, const Request& r, const std::string& why) {
   s.warn(r, "rib-option", why + "; the option is left as it was");
 }
 
@@ -35,20 +35,20 @@ void format(GraphicsState& s, const Request& r) {
 
 void frameAspectRatio(GraphicsState& s, const Request& r) {
   const float aspect = r.args[0].number();
-  if (!(aspect > 1e-4f && aspect < 1e4f)) return reject(s, r, fmt::format("{} is no aspect ratio", aspect));
+  if (!(aspect > 1e-4f && aspect < 1e4f)) return rejectOption(s, r, fmt::format("{} is no aspect ratio", aspect));
   s.globals.options.frameAspect = aspect;
 }
 
 void screenWindow(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
-  if (a[0] == a[1] || a[2] == a[3]) return reject(s, r, "the window is empty");
+  if (a[0] == a[1] || a[2] == a[3]) return rejectOption(s, r, "the window is empty");
   s.globals.options.screenWindow = std::array<float, 4>{a[0], a[1], a[2], a[3]};
 }
 
 void cropWindow(GraphicsState& s, const Request& r) {
   std::array<float, 4> w;
   for (size_t i = 0; i < 4; ++i) w[i] = clamped(s, r, r.args[0].numbers[i], 0, 1);
-  if (w[0] >= w[1] || w[2] >= w[3]) return reject(s, r, "the window is empty");
+  if (w[0] >= w[1] || w[2] >= w[3]) return rejectOption(s, r, "the window is empty");
   s.globals.options.cropWindow = w;
 }
 
@@ -64,7 +64,7 @@ void pxrLens(Options& o, const ParamList& params) {
 }
 
 void projection(GraphicsState& s, const Request& r) {
-  if (s.world) return reject(s, r, "the camera cannot change after WorldBegin");
+  if (s.world) return rejectOption(s, r, "the camera cannot change after WorldBegin");
   const std::string& kind = r.args[0].strings[0];
   Options& o = s.globals.options;
   if (kind == "perspective" || kind == "PxrPerspective" || kind == "PxrCamera")
@@ -74,7 +74,7 @@ void projection(GraphicsState& s, const Request& r) {
   else if (kind == "null")
     o.projection = ProjectionKind::Null;
   else
-    reject(s, r, "unknown projection \"" + kind + "\"");
+    rejectOption(s, r, "unknown projection \"" + kind + "\"");
   const bool camera = kind == "PxrCamera";
   if (camera) pxrLens(o, r.params);
   for (const Param& p : r.params) {
@@ -85,14 +85,14 @@ void projection(GraphicsState& s, const Request& r) {
     else if (fov > 0 && fov < 180)
       o.fov_degrees = fov;
     else
-      reject(s, r, fmt::format("a field of view of {} degrees", fov));
+      rejectOption(s, r, fmt::format("a field of view of {} degrees", fov));
   }
   s.scope.ctm = Motion();
 }
 
 void clipping(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
-  if (!(a[1] > a[0])) return reject(s, r, "the far plane is not beyond the near plane");
+  if (!(a[1] > a[0])) return rejectOption(s, r, "the far plane is not beyond the near plane");
   s.globals.options.nearClip = clamped(s, r, a[0], 1e-6f, 1e30f);  // RI_EPSILON, RI_INFINITY
   s.globals.options.farClip = std::min(a[1], 1e30f);
 }
@@ -103,7 +103,7 @@ void clippingPlane(GraphicsState& s, const Request& r) {
   const RibArg& a = r.args[0];
   const mat4 m = s.cameraFromObject().at(s.globals.options.shutterOpen);
   const mat3 linear(m);
-  if (asVec3(a, 3) == vec3(0) || glm::determinant(linear) == 0) return reject(s, r, "the plane has no normal");
+  if (asVec3(a, 3) == vec3(0) || glm::determinant(linear) == 0) return rejectOption(s, r, "the plane has no normal");
   const vec3 point = transformPoint(m, asVec3(a));
   const vec3 normal = normalizeOr(glm::transpose(glm::inverse(linear)) * asVec3(a, 3), vec3(0, 0, 1));
   s.globals.options.clippingPlanes.emplace_back(normal, -dot(normal, point));
@@ -111,7 +111,7 @@ void clippingPlane(GraphicsState& s, const Request& r) {
 
 void relativeDetail(GraphicsState& s, const Request& r) {
   const float factor = r.args[0].number();
-  if (!(factor >= 0)) return reject(s, r, fmt::format("{} is no factor", factor));
+  if (!(factor >= 0)) return rejectOption(s, r, fmt::format("{} is no factor", factor));
   s.globals.options.relativeDetail = factor;
 }
 
@@ -122,7 +122,7 @@ void depthOfField(GraphicsState& s, const Request& r) {
     return;
   }
   const std::vector<float>& a = r.args[0].numbers;
-  if (!(a[0] > 0 && a[1] > 0 && a[2] > 0)) return reject(s, r, "lens values must be positive");
+  if (!(a[0] > 0 && a[1] > 0 && a[2] > 0)) return rejectOption(s, r, "lens values must be positive");
   o.fStop = a[0];
   o.focalLength = a[1];
   o.focalDistance = a[2];
@@ -130,7 +130,7 @@ void depthOfField(GraphicsState& s, const Request& r) {
 
 void shutter(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
-  if (a[1] < a[0]) return reject(s, r, "the shutter closes before it opens");
+  if (a[1] < a[0]) return rejectOption(s, r, "the shutter closes before it opens");
   s.globals.options.shutterOpen = a[0];
   s.globals.options.shutterClose = a[1];
 }
@@ -143,7 +143,7 @@ void pixelSamples(GraphicsState& s, const Request& r) {
 
 void pixelFilter(GraphicsState& s, const Request& r) {
   const std::vector<float>& width = r.args[1].numbers;
-  if (!(width[0] > 0 && width[1] > 0)) return reject(s, r, "filter widths must be positive");
+  if (!(width[0] > 0 && width[1] > 0)) return rejectOption(s, r, "filter widths must be positive");
   s.globals.options.filter = r.args[0].strings[0];
   s.globals.options.xFilterWidth = clamped(s, r, width[0], 1e-3f, 64);
   s.globals.options.yFilterWidth = clamped(s, r, width[1], 1e-3f, 64);
@@ -151,7 +151,7 @@ void pixelFilter(GraphicsState& s, const Request& r) {
 
 void exposure(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
-  if (!(a[1] > 0)) return reject(s, r, "gamma must be positive");
+  if (!(a[1] > 0)) return rejectOption(s, r, "gamma must be positive");
   s.globals.options.exposureGain = a[0];
   s.globals.options.exposureGamma = a[1];
 }
@@ -161,9 +161,9 @@ void setSearchPath(GraphicsState& s, const Request& r, const std::string& catego
   Globals& g = s.globals;
   const std::string inPlace = mappedPath(path, g.dirMap);
   if (std::max(path.size(), inPlace.size()) > kLongestSearchPath)
-    return reject(s, r,
-                  fmt::format("the search path \"{}\" would be longer than {} bytes", category.substr(0, 80),
-                              kLongestSearchPath));
+    return rejectOption(s, r,
+                        fmt::format("the search path \"{}\" would be longer than {} bytes", category.substr(0, 80),
+                                    kLongestSearchPath));
   g.unmappedPaths[category] = path;
   g.options.searchPaths[category] = inPlace;
 }

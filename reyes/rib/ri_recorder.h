@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 
+#include "reyes/rib/arguments.h"
 #include "reyes/rib/ri_calls.h"
 
 namespace tomales::rib {
@@ -26,19 +27,6 @@ struct ValueCounts {
   }
 };
 inline constexpr ValueCounts kQuadric{1, 4, 4, 4};
-
-// Conversions of arguments.
-inline RibArg number(RtFloat f) { return {RibArg::Kind::Number, {f}}; }
-inline RibArg integer(RtInt i) { return {RibArg::Kind::Integer, {}, {}, {i}}; }
-inline RibArg text(RtToken s) { return {RibArg::Kind::String, {}, {s ? s : ""}}; }
-inline RibArg numbers(const RtFloat* list, size_t n) { return {RibArg::Kind::Numbers, {list, list + n}}; }
-inline RibArg numbers(std::vector<float> list) { return {RibArg::Kind::Numbers, std::move(list)}; }
-inline RibArg integers(const RtInt* list, size_t n) { return {RibArg::Kind::Integers, {}, {}, {list, list + n}}; }
-inline RibArg texts(const RtToken* list, size_t n) {
-  RibArg out{RibArg::Kind::Strings};
-  for (size_t i = 0; i < n; ++i) out.strings.emplace_back(list[i] ? list[i] : "");
-  return out;
-}
 
 class Recorder {
  public:

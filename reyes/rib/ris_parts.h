@@ -1,11 +1,9 @@
 // Private to the translations of RIS requests: what they share.
 #pragma once
+#include "reyes/rib/arguments.h"
 #include "reyes/rib/ris.h"
 
 namespace tomales::rib {
-
-inline RibArg numbers(std::vector<float> n) { return {RibArg::Kind::Numbers, std::move(n)}; }
-inline RibArg string(const std::string& s) { return {RibArg::Kind::String, {}, {s}}; }
 
 inline Param param(const std::string& name, ValueType type, std::vector<float> floats) {
   Param p;

@@ -5,7 +5,7 @@
 namespace tomales::compiler {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string escapedText(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += c == '\n' ? std::string("\\n") : c == '"' ? std::string("\\\"") : std::string(1, c);
   return out + "\"";
@@ -27,7 +27,7 @@ class Printer {
     if (reg < 0) return "-";
     const Register& r = code_.registers[static_cast<size_t>(reg)];
     if (r.origin == Origin::Constant) {
-      if (r.shape == Shape::Text) return quoted(r.texts[0]);
+      if (r.shape == Shape::Text) return escapedText(r.texts[0]);
       std::string out;
       for (const float x : r.floats) out += fmt::format("{}{:g}", out.empty() ? "" : " ", x);
       return r.floats.size() == 1 ? out : "(" + out + ")";

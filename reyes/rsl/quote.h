@@ -6,6 +6,6 @@
 namespace tomales::compiler {
 
 /// 'text', shortened and without bytes that a terminal would obey.
-std::string quoted(std::string_view text);
+std::string inQuotes(std::string_view text);
 
 }  // namespace tomales::compiler

@@ -14,7 +14,7 @@ bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   std::string out = "'";
   for (const char c : text.substr(0, kMostQuoted)) out += isControl(c) ? '?' : c;
   return out + (text.size() > kMostQuoted ? "...'" : "'");

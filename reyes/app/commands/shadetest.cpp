@@ -212,12 +212,12 @@ std::vector<fs::file_time_type> timesOf(const std::vector<std::string>& files) {
   return out;
 }
 
-struct Outcome {
+struct ShadeOutcome {
   int code = 0;
   std::vector<std::string> files;  ///< The files that the result depends on.
 };
 
-Outcome tryOnce(const ShadetestCommand& command) {
+ShadeOutcome tryOnce(const ShadetestCommand& command) {
   Log log;
   PluginTrust trust = pluginTrust(Trust{.shaderFolders = command.shaderFolders});
   trust.folders = ".:" + trust.folders;  // the user names the shader, not a scene
@@ -234,7 +234,7 @@ Outcome tryOnce(const ShadetestCommand& command) {
 
 int shadetestCommand(const ShadetestCommand& command) {
   for (;;) {
-    const Outcome outcome = tryOnce(command);
+    const ShadeOutcome outcome = tryOnce(command);
     if (!command.watch || outcome.files.empty()) return outcome.code;
     std::fflush(stdout);
     constexpr auto kLook = std::chrono::milliseconds(100);

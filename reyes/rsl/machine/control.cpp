@@ -100,12 +100,12 @@ void executeLeave(Run& run, const Step& s) {
   run.mask->any = run.mask->full = false;
 }
 
-constexpr Row kRows[] = {
+constexpr Row kControlRows[] = {
     {Op::If, executeIf}, {Op::Loop, executeLoop}, {Op::Scope, executeScope}, {Op::Leave, executeLeave}};
 
 }  // namespace
 
-std::span<const Row> controlRows() { return kRows; }
+std::span<const Row> controlRows() { return kControlRows; }
 
 void setLoopLimit(int64_t iterations) { loopLimit = iterations; }
 

@@ -140,14 +140,14 @@ void executeSetElement(Run& run, const Step& s) {
           from[c * one + i * step];
 }
 
-constexpr Row kRows[] = {{Op::Copy, executeCopy},        {Op::SetElement, executeSetElement},
-                         {Op::ElementF, executeElement}, {Op::ElementT, executeElement},
-                         {Op::ElementM, executeElement}, {Op::ElementS, executeElementText}};
+constexpr Row kCopyRows[] = {{Op::Copy, executeCopy},        {Op::SetElement, executeSetElement},
+                             {Op::ElementF, executeElement}, {Op::ElementT, executeElement},
+                             {Op::ElementM, executeElement}, {Op::ElementS, executeElementText}};
 
 }  // namespace
 
 Execute componentRunner() { return executeComponent; }
 
-std::span<const Row> copyRows() { return kRows; }
+std::span<const Row> copyRows() { return kCopyRows; }
 
 }  // namespace tomales::compiler

@@ -83,14 +83,14 @@ void subsurface(Run& run, const Step& s) {
   call.services.subsurface(call.host, call.g, call.text(0), &options, call.triple(1), call.giveTriple());
 }
 
-constexpr Row kRows[] = {{Op::Bake3d, bake3d},
-                         {Op::Texture3d, texture3d},
-                         {Op::PhotonMap, photonMap},
-                         {Op::Caustic, caustic},
-                         {Op::Subsurface, subsurface}};
+constexpr Row kCloudRows[] = {{Op::Bake3d, bake3d},
+                              {Op::Texture3d, texture3d},
+                              {Op::PhotonMap, photonMap},
+                              {Op::Caustic, caustic},
+                              {Op::Subsurface, subsurface}};
 
 }  // namespace
 
-std::span<const Row> cloudRows() { return kRows; }
+std::span<const Row> cloudRows() { return kCloudRows; }
 
 }  // namespace tomales::compiler

@@ -167,13 +167,13 @@ void shadow(Run& run, const Step& s) {
   call.services.shadow(call.host, call.g, call.text(0), &options, call.triple(1), call.giveTriple());
 }
 
-constexpr Row kRows[] = {{Op::Ambient, ambient},         {Op::Diffuse, diffuse},
-                         {Op::Specular, specular},       {Op::SpecularScale, specularScale},
-                         {Op::Illuminance, illuminance}, {Op::ConeLight, coneLight},
-                         {Op::SkyLight, skyLight},       {Op::Shadow, shadow}};
+constexpr Row kLightRows[] = {{Op::Ambient, ambient},         {Op::Diffuse, diffuse},
+                              {Op::Specular, specular},       {Op::SpecularScale, specularScale},
+                              {Op::Illuminance, illuminance}, {Op::ConeLight, coneLight},
+                              {Op::SkyLight, skyLight},       {Op::Shadow, shadow}};
 
 }  // namespace
 
-std::span<const Row> lightRows() { return kRows; }
+std::span<const Row> lightRows() { return kLightRows; }
 
 }  // namespace tomales::compiler

@@ -58,11 +58,11 @@ void rayLabel(Run& run, const Step& s) {
   run.variableText(s.of->out[0]) = call.services.rayLabel(call.host, call.g);
 }
 
-constexpr Row kRows[] = {
+constexpr Row kMessageRows[] = {
     {Op::Ask, ask}, {Op::ShaderName, shaderName}, {Op::RayInfo, rayInfo}, {Op::RayLabel, rayLabel}};
 
 }  // namespace
 
-std::span<const Row> messageRows() { return kRows; }
+std::span<const Row> messageRows() { return kMessageRows; }
 
 }  // namespace tomales::compiler

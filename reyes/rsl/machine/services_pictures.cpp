@@ -37,14 +37,14 @@ void textureInfo(Run& run, const Step& s) {
   call.set(told && fill(run, s.of->settings.at(0).value, type, v) ? 1.0f : 0.0f);
 }
 
-constexpr Row kRows[] = {{Op::TextureF, texture},
-                         {Op::TextureT, texture},
-                         {Op::EnvironmentF, environment},
-                         {Op::EnvironmentT, environment},
-                         {Op::TextureInfo, textureInfo}};
+constexpr Row kPictureRows[] = {{Op::TextureF, texture},
+                                {Op::TextureT, texture},
+                                {Op::EnvironmentF, environment},
+                                {Op::EnvironmentT, environment},
+                                {Op::TextureInfo, textureInfo}};
 
 }  // namespace
 
-std::span<const Row> pictureRows() { return kRows; }
+std::span<const Row> pictureRows() { return kPictureRows; }
 
 }  // namespace tomales::compiler

@@ -48,10 +48,10 @@ void plugin(Run& run, const Step& s) {
   function.plugin->call(&c);
 }
 
-constexpr Row kRows[] = {{Op::Plugin, plugin}};
+constexpr Row kPluginRows[] = {{Op::Plugin, plugin}};
 
 }  // namespace
 
-std::span<const Row> pluginRows() { return kRows; }
+std::span<const Row> pluginRows() { return kPluginRows; }
 
 }  // namespace tomales::compiler

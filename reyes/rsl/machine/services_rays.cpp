@@ -93,15 +93,15 @@ void gather(Run& run, const Step& s) {
   }
 }
 
-constexpr Row kRows[] = {{Op::Trace, trace},
-                         {Op::TraceDistance, traceDistance},
-                         {Op::Transmission, transmission},
-                         {Op::IndirectDiffuse, hemisphere},
-                         {Op::Occlusion, hemisphere},
-                         {Op::Gather, gather}};
+constexpr Row kRayRows[] = {{Op::Trace, trace},
+                            {Op::TraceDistance, traceDistance},
+                            {Op::Transmission, transmission},
+                            {Op::IndirectDiffuse, hemisphere},
+                            {Op::Occlusion, hemisphere},
+                            {Op::Gather, gather}};
 
 }  // namespace
 
-std::span<const Row> rayRows() { return kRows; }
+std::span<const Row> rayRows() { return kRayRows; }
 
 }  // namespace tomales::compiler

@@ -101,17 +101,17 @@ void randomGrid(Run& run, const Step& s) {
   call.set(static_cast<float>(rsl::latticeHash(static_cast<int32_t>(hash), run.randoms++, 1) >> 8) * 0x1p-24f);
 }
 
-constexpr Row kRows[] = {{Op::StepU, step<0>},
-                         {Op::StepV, step<1>},
-                         {Op::CalculateNormal, calculateNormal},
-                         {Op::TransformSpace, transformSpace},
-                         {Op::SpaceMatrix, spaceMatrix},
-                         {Op::RandomF, random<1>},
-                         {Op::RandomT, random<3>},
-                         {Op::RandomGrid, randomGrid}};
+constexpr Row kSurfaceRows[] = {{Op::StepU, step<0>},
+                                {Op::StepV, step<1>},
+                                {Op::CalculateNormal, calculateNormal},
+                                {Op::TransformSpace, transformSpace},
+                                {Op::SpaceMatrix, spaceMatrix},
+                                {Op::RandomF, random<1>},
+                                {Op::RandomT, random<3>},
+                                {Op::RandomGrid, randomGrid}};
 
 }  // namespace
 
-std::span<const Row> surfaceRows() { return kRows; }
+std::span<const Row> surfaceRows() { return kSurfaceRows; }
 
 }  // namespace tomales::compiler

@@ -61,11 +61,11 @@ void print(Run& run, const Step& s) {
 
 void report(Run& run, const Step& s) { run.missing(run.text(s.of->in[0])); }
 
-constexpr Row kRows[] = {{Op::TextEqual, textEqual}, {Op::Match, match}, {Op::Concat, concat},
-                         {Op::Format, format},       {Op::Print, print}, {Op::Report, report}};
+constexpr Row kTextRows[] = {{Op::TextEqual, textEqual}, {Op::Match, match}, {Op::Concat, concat},
+                             {Op::Format, format},       {Op::Print, print}, {Op::Report, report}};
 
 }  // namespace
 
-std::span<const Row> textRows() { return kRows; }
+std::span<const Row> textRows() { return kTextRows; }
 
 }  // namespace tomales::compiler

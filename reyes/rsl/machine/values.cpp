@@ -89,10 +89,10 @@ void spline(Run& run, const Step& s) {
     }
 }
 
-constexpr Row kRows[] = {{Op::ColorTransform, colorTransform}, {Op::SplineF, spline}, {Op::SplineT, spline}};
+constexpr Row kValueRows[] = {{Op::ColorTransform, colorTransform}, {Op::SplineF, spline}, {Op::SplineT, spline}};
 
 }  // namespace
 
-std::span<const Row> valueRows() { return kRows; }
+std::span<const Row> valueRows() { return kValueRows; }
 
 }  // namespace tomales::compiler

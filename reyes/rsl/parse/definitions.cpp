@@ -50,7 +50,7 @@ File Parser::run() {
 void Parser::definition(File& file) {
   const Token& t = here();
   if (takeIf(";")) return;
-  if (isRsl2(true)) refuseRsl2(t, quoted(t.text));
+  if (isRsl2(true)) refuseRsl2(t, inQuotes(t.text));
   const auto kind = t.kind == TokenKind::Name ? shaderKindNamed(t.text) : std::nullopt;
   if (kind) {
     take();
@@ -147,7 +147,7 @@ void Parser::parameters(std::vector<std::unique_ptr<Variable>>& out) {
   Specifiers s;
   while (!here().is(")")) {
     if (takeIf(";") || takeIf(",")) continue;
-    if (isRsl2(false)) refuseRsl2(here(), quoted(here().text));
+    if (isRsl2(false)) refuseRsl2(here(), inQuotes(here().text));
     if (const Specifiers own = specifiers(); own.any) s = own;
     if (!s.hasType) fail("expected the type of a parameter", kTypes);
     out.push_back(variable(s));

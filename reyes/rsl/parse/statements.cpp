@@ -43,7 +43,7 @@ StmtPtr Parser::statement() {
   if (t.is("{")) return block();
   if (t.is(";")) return begin(StmtKind::Empty, take());
   if (t.kind != TokenKind::Name) return expressionStatement();
-  if (isRsl2(false)) refuseRsl2(t, quoted(t.text));
+  if (isRsl2(false)) refuseRsl2(t, inQuotes(t.text));
   if (t.text == "if") return ifStatement();
   if (t.text == "while") return whileStatement();
   if (t.text == "for") return forStatement();
@@ -80,7 +80,7 @@ void Parser::failNoStatement() {
   const Token& t = here();
   if (const auto it = kOfOtherLanguages.find(t.text); it != kOfOtherLanguages.end()) failAt(t, it->second);
   const std::vector<std::string> near = nearNames(t.text, kKnown);
-  failAt(t, quoted(t.text) + " is no type" + (near.empty() ? "" : "; did you mean '" + near[0] + "'?"));
+  failAt(t, inQuotes(t.text) + " is no type" + (near.empty() ? "" : "; did you mean '" + near[0] + "'?"));
 }
 
 StmtPtr Parser::declaration() {
@@ -190,7 +190,7 @@ StmtPtr Parser::expressionStatement() {
     static const std::vector<std::string> kKnown{"if", "while", "for", "illuminance", "illuminate", "solar", "gather"};
     const std::vector<std::string> near = nearNames(out->exprs[0]->text, kKnown);
     if (!near.empty())
-      failAt(word, fmt::format("{} begins no statement; did you mean '{}'?", quoted(word.text), near[0]));
+      failAt(word, fmt::format("{} begins no statement; did you mean '{}'?", inQuotes(word.text), near[0]));
   }
   expect(";");
   return out;

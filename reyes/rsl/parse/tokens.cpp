@@ -12,8 +12,8 @@ int32_t lengthOf(const Token& t) { return static_cast<int32_t>(t.text.size()) + 
 
 std::string described(const Token& t) {
   if (t.kind == TokenKind::End) return "the end of the file";
-  if (t.kind == TokenKind::String) return "the string " + quoted(t.text);
-  return quoted(t.text);
+  if (t.kind == TokenKind::String) return "the string " + inQuotes(t.text);
+  return inQuotes(t.text);
 }
 
 bool isOpening(const Token& t) { return t.is("(") || t.is("{") || t.is("["); }
@@ -52,7 +52,7 @@ void Parser::failAt(const Token& token, std::string text) {
 /// Blames the end of the line before, if the token begins a line.
 void Parser::fail(std::string text, const std::vector<std::string>& known) {
   const Token& t = here();
-  if (t.kind == TokenKind::Name && (t.text == "class" || t.text == "struct")) refuseRsl2(t, quoted(t.text));
+  if (t.kind == TokenKind::Name && (t.text == "class" || t.text == "struct")) refuseRsl2(t, inQuotes(t.text));
   if (t.is("->")) refuseRsl2(t, "'->'");
   if (t.is("&") || t.is("|")) failAt(t, fmt::format("RSL has no '{0}'; '{0}{0}' joins conditions", t.text));
   if (t.is("*") && at_ > 0 && tokens_[at_ - 1].is("*")) failAt(t, "RSL has no '**'; pow(x, y) is the power");

@@ -29,7 +29,7 @@ class Evaluator {
   bool run() {
     try {
       const int64_t value = conditional(true);
-      if (at_ < lexemes_.size()) fail("expected an operator before " + quoted(lexemes_[at_].text));
+      if (at_ < lexemes_.size()) fail("expected an operator before " + inQuotes(lexemes_[at_].text));
       return value != 0;
     } catch (const Failed&) {
       return false;
@@ -135,7 +135,7 @@ class Evaluator {
     } else if (l.kind == LexemeKind::Character) {
       value = character(l.text);
     } else if (l.kind != LexemeKind::Name) {
-      fail("expected a value before " + quoted(l.text));
+      fail("expected a value before " + inQuotes(l.text));
     }
     ++at_;
     return value;
@@ -149,13 +149,13 @@ class Evaluator {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
     const std::string_view suffix = digits.substr(static_cast<size_t>(end - digits.data()));
     if (error != std::errc{} || suffix.find_first_not_of("uUlL") != std::string_view::npos)
-      fail(quoted(text) + " is not an integer");
+      fail(inQuotes(text) + " is not an integer");
     return static_cast<int64_t>(value);
   }
 
   int64_t character(std::string_view text) {
     const std::string_view inside = text.substr(1, text.size() - 2);
-    if (inside.size() != 1 || inside == "\\") fail(quoted(text) + " is not one plain character");
+    if (inside.size() != 1 || inside == "\\") fail(inQuotes(text) + " is not one plain character");
     return static_cast<unsigned char>(inside[0]);
   }
 

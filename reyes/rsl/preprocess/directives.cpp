@@ -13,8 +13,6 @@ bool isConditional(std::string_view name) {
   return name == "if" || name == "ifdef" || name == "ifndef" || name == "elif" || name == "else" || name == "endif";
 }
 
-int32_t lengthOf(const Lexeme& l) { return static_cast<int32_t>(l.text.size()); }
-
 }  // namespace
 
 void Preprocessor::skipLine() { files_.back().lexer.restOfLine(); }
@@ -89,7 +87,7 @@ std::vector<Lexeme> Preprocessor::withDefinedDone(Lexer& lexer) {
       const bool inBrackets = name.is("(");
       if (inBrackets) name = lexer.nextInLine();
       if (name.kind != LexemeKind::Name || (inBrackets && !lexer.nextInLine().is(")"))) {
-        messages_.error(l.place, "'defined' needs the name of a macro, or one in brackets", lengthOf(l));
+        messages_.error(l.place, "'defined' needs the name of a macro, or one in brackets", l.length());
         return {};
       }
       l.kind = LexemeKind::Number;
@@ -119,8 +117,8 @@ void Preprocessor::plainDirective(const Lexeme& name, Place place) {
     static const std::vector<std::string> known{"include", "define", "undef", "if",      "ifdef", "ifndef", "elif",
                                                 "else",    "endif",  "error", "warning", "line",  "pragma"};
     const std::vector<std::string> near = nearNames(name.text, known);
-    messages_.error(name.place, quoted(name.text) + " is no directive" + (near.empty() ? "" : "; '" + near[0] + "'?"),
-                    lengthOf(name));
+    messages_.error(name.place, inQuotes(name.text) + " is no directive" + (near.empty() ? "" : "; '" + near[0] + "'?"),
+                    name.length());
   }
 }
 
@@ -151,7 +149,7 @@ void Preprocessor::includeFile(std::string_view name, bool isQuoted, Place place
   bytesIn_ += file.text.size();
   if (bytesIn_ > kMostBytes) return stop(place, fmt::format("more than {} MiB are included", kMostBytes >> 20));
   if (!file.failure.empty())
-    return messages_.error(place, fmt::format("cannot include {}: {}", quoted(name), file.failure),
+    return messages_.error(place, fmt::format("cannot include {}: {}", inQuotes(name), file.failure),
                            static_cast<int32_t>(name.size() + 2));
   skipLine();
   const std::string folder = folderOf(file.path);

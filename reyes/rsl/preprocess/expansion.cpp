@@ -8,8 +8,6 @@ namespace {
 
 constexpr int kMostMacroNesting = 200;
 
-int32_t lengthOf(const Lexeme& l) { return static_cast<int32_t>(l.text.size()); }
-
 }  // namespace
 
 /// Puts a macro's replacement before what is read next. False if the macro takes arguments and none follow.
@@ -72,7 +70,7 @@ bool Preprocessor::readArgument(const Lexeme& name, bool isRest, int& depth, std
     Lexeme l = read();
     if (l.isEnd()) {
       if (!stopped_)
-        messages_.error(name.place, "the arguments of macro " + quoted(name.text) + " are not closed", lengthOf(name));
+        messages_.error(name.place, "the arguments of macro " + inQuotes(name.text) + " are not closed", name.length());
       return false;
     }
     if (l.is("(")) ++depth;
@@ -95,9 +93,9 @@ bool Preprocessor::fits(const Lexeme& name, const Macro& macro, std::vector<Macr
   if (arguments.size() == macro.parameters.size()) return true;
   messages_.error(
       name.place,
-      fmt::format("macro {} takes {} argument{}, and {} {} given", quoted(macro.name), macro.parameters.size(),
+      fmt::format("macro {} takes {} argument{}, and {} {} given", inQuotes(macro.name), macro.parameters.size(),
                   macro.parameters.size() == 1 ? "" : "s", arguments.size(), arguments.size() == 1 ? "is" : "are"),
-      lengthOf(name));
+      name.length());
   if (macro.place.line > 0) messages_.note(macro.place, "it is defined here");
   return false;
 }

@@ -28,6 +28,7 @@ struct Lexeme {
   Place place{};
   bool is(std::string_view punctuator) const { return kind == LexemeKind::Punctuator && text == punctuator; }
   bool isEnd() const { return kind == LexemeKind::End; }
+  int32_t length() const { return static_cast<int32_t>(text.size()); }
 };
 
 /// Holds texts that are in no file, for the views of lexemes.

@@ -49,7 +49,7 @@ class DefinitionReader {
       if (l.is(")")) return true;
       if (!l.is(",") || macro_->isVariadic) break;
     }
-    fail(l.place, "expected ')' after the parameters of macro " + quoted(macro_->name));
+    fail(l.place, "expected ')' after the parameters of macro " + inQuotes(macro_->name));
     messages_.note(open, "to match this '('");
     return false;
   }
@@ -57,10 +57,10 @@ class DefinitionReader {
   bool readParameter(const Lexeme& l) {
     macro_->isVariadic = l.is("...");
     if (!macro_->isVariadic && l.kind != LexemeKind::Name)
-      return fail(l.place, "expected the name of a parameter of macro " + quoted(macro_->name));
+      return fail(l.place, "expected the name of a parameter of macro " + inQuotes(macro_->name));
     std::string name(macro_->isVariadic ? kVariadicName : l.text);
     if (parameterNamed(name) >= 0)
-      return fail(l.place, "macro " + quoted(macro_->name) + " has two parameters " + quoted(name));
+      return fail(l.place, "macro " + inQuotes(macro_->name) + " has two parameters " + inQuotes(name));
     indices_.emplace(name, static_cast<int>(macro_->parameters.size()));
     macro_->parameters.push_back(std::move(name));
     return true;
@@ -131,7 +131,7 @@ MacroTable::MacroTable() {
 void MacroTable::define(const MacroPtr& macro, Messages& messages) {
   if (const Macro* before = find(macro->name)) {
     if (!isSame(*before, *macro)) {
-      messages.warning(macro->place, "macro " + quoted(macro->name) + " is defined anew",
+      messages.warning(macro->place, "macro " + inQuotes(macro->name) + " is defined anew",
                        static_cast<int32_t>(macro->name.size()));
       if (before->place.line > 0) messages.note(before->place, "the definition before is here");
     }

@@ -10,8 +10,6 @@
 namespace tomales::compiler {
 namespace {
 
-int32_t lengthOf(const Lexeme& l) { return static_cast<int32_t>(l.text.size()); }
-
 /// The character that an escape stands for; `at` moves behind it. Unknown escapes stand for their letter.
 char unescaped(std::string_view text, size_t& at) {
   const char c = text[at++];
@@ -59,11 +57,12 @@ void Preprocessor::put(const Lexeme& l) {
     case LexemeKind::String:
       return putString(l, std::move(token));
     case LexemeKind::Character:
-      messages_.error(l.place, quoted(l.text) + " is not of the language: strings stand in double quotes", lengthOf(l));
+      messages_.error(l.place, inQuotes(l.text) + " is not of the language: strings stand in double quotes",
+                      l.length());
       return;
     default:
       messages_.error(l.place,
-                      fmt::format("a stray byte {:#04x}: {}", static_cast<unsigned char>(l.text[0]), quoted(l.text)));
+                      fmt::format("a stray byte {:#04x}: {}", static_cast<unsigned char>(l.text[0]), inQuotes(l.text)));
       return;
   }
   out_.push_back(std::move(token));
@@ -81,13 +80,13 @@ void Preprocessor::putNumber(const Lexeme& l, Token& token) {
   if (hex) value = static_cast<double>(integer);
   const std::string_view suffix(stop, static_cast<size_t>(end - stop));
   if (error == std::errc::invalid_argument || (!suffix.empty() && suffix != "f" && suffix != "F")) {
-    messages_.error(l.place, quoted(text) + " is not a number", lengthOf(l));
+    messages_.error(l.place, inQuotes(text) + " is not a number", l.length());
     return;
   }
   if (error == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
   if (value > static_cast<double>(std::numeric_limits<float>::max())) {
-    messages_.warning(l.place, quoted(text) + " is more than a float can be: the largest, 3.40282347e38, is used",
-                      lengthOf(l));
+    messages_.warning(l.place, inQuotes(text) + " is more than a float can be: the largest, 3.40282347e38, is used",
+                      l.length());
     value = static_cast<double>(std::numeric_limits<float>::max());
   }
   token.number = static_cast<float>(value);
@@ -95,7 +94,7 @@ void Preprocessor::putNumber(const Lexeme& l, Token& token) {
 
 /// Joins strings beside each other, as in C.
 void Preprocessor::putString(const Lexeme& l, Token token) {
-  if (l.isOpen) messages_.error(l.place, "this string is not closed on its line", lengthOf(l));
+  if (l.isOpen) messages_.error(l.place, "this string is not closed on its line", l.length());
   token.kind = TokenKind::String;
   token.text = withoutEscapes(l.text.substr(1, l.text.size() - (l.isOpen ? 1 : 2)));
   if (!out_.empty() && out_.back().kind == TokenKind::String) {

@@ -122,7 +122,7 @@ std::string dump(const std::vector<Token>& tokens, const Sources& sources) {
   std::string out;
   for (const Token& t : tokens) {
     const char* kind = kNames[static_cast<size_t>(t.kind)];
-    out += fmt::format("{} {} {}\n", sources.text(t.place), kind, t.kind == TokenKind::End ? "" : quoted(t.text));
+    out += fmt::format("{} {} {}\n", sources.text(t.place), kind, t.kind == TokenKind::End ? "" : inQuotes(t.text));
   }
   return out;
 }

@@ -63,7 +63,7 @@ class Substitution {
     Lexer lexer(-1, both, made_, unheard);
     const Lexeme word = lexer.next();
     if (word.isEnd() || !lexer.next().isEnd() || unheard.hasErrors()) {
-      messages_.error(left.place, "'##' makes " + quoted(both) + ", which is not one word");
+      messages_.error(left.place, "'##' makes " + inQuotes(both) + ", which is not one word");
       return false;
     }
     left.kind = word.kind;

@@ -7,7 +7,6 @@ namespace tomales {
 namespace {
 using namespace test;
 
-constexpr const char* kSphere = "Sphere 1 -1 1 360";
 constexpr const char* kTorus = "Torus 0.75 0.3 0 360 360";
 constexpr const char* kCube =
     "Rotate 20 1 1 0 SubdivisionMesh \"catmull-clark\" [4 4 4 4 4 4] [0 1 3 2 4 6 7 5 0 4 5 1 2 3 7 6 0 2 6 "

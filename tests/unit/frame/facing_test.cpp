@@ -6,8 +6,7 @@ namespace tomales {
 namespace {
 using namespace test;
 
-constexpr const char* kSphere = "Sphere 1 -1 1 360";
-constexpr const char* kBumpy =
+constexpr const char* kBumpyBall =
     "Attribute \"displacementbound\" \"float sphere\" [0.12] "
     "Displacement \"noisybump\" \"float Km\" [0.1] \"float frequency\" [5] \"float octaves\" [3] Sphere 0.9 "
     "-0.9 0.9 360";
@@ -53,7 +52,7 @@ TEST_P(Outline, OfWhatMovesByIsLitOnTheOutsideToo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, Outline,
-    ::testing::Combine(::testing::Values(kSphere, kBumpy),
+    ::testing::Combine(::testing::Values(kSphere, kBumpyBall),
                        ::testing::Values("ShadingInterpolation \"constant\"", "ShadingInterpolation \"smooth\"",
                                          "Projection \"orthographic\" ScreenWindow -1.3 1.3 -1.3 1.3")));
 

@@ -12,6 +12,8 @@ extern const TmShaderLibrary* tomales_builtin_shaders(void);
 
 namespace tomales::test {
 
+constexpr const char* kSphere = "Sphere 1 -1 1 360";
+
 // Sides 1: else what shows through a crack is the far side of the body, not the background.
 constexpr const char* kSeenAskew = "Sides 1 Translate 0 0 3.2 Rotate 25 1 0.3 0.1 ";
 

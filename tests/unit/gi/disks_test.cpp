@@ -34,14 +34,14 @@ PointCloud wall(int n, float size) {
     N = {-1, 0, 0}, light = {0, 3, 0};
   });
 }
-const vec3 kUp{0, 0, 1};
+const vec3 kAxis{0, 0, 1};
 
 TEST(Disks, ASphereHidesItsFormFactorAndSendsThatMuchLight) {
   for (const float height : {1.5f, 3.0f, 8.0f})
     for (const float tilt : {0.0f, 0.5f}) {
       const Disks disks(sphere(5000, height * vec3(std::sin(tilt), 0, std::cos(tilt))), "_radiosity");
       const float truth = std::cos(tilt) / (height * height);  // of a sphere that is wholly above the horizon
-      const HemisphereView seen = disks.seenFrom(vec3(0), kUp, {});
+      const HemisphereView seen = disks.seenFrom(vec3(0), kAxis, {});
       EXPECT_NEAR(seen.covered, truth, 0.03f * truth + 0.005f) << height << " " << tilt;
       EXPECT_NEAR(seen.radiance.x, 2 * truth, 0.06f * truth + 0.01f) << "fronts alone shine, and only they are seen";
       EXPECT_NEAR(seen.radiance.y, truth, 0.03f * truth + 0.005f);
@@ -50,7 +50,7 @@ TEST(Disks, ASphereHidesItsFormFactorAndSendsThatMuchLight) {
 
 TEST(Disks, AWallHidesHalfAndTheFloorBelowNothing) {
   const Disks disks(wall(300, 60), "_radiosity");
-  EXPECT_NEAR(disks.seenFrom(vec3(0), kUp, {}).covered, 0.5f, 0.02f);
+  EXPECT_NEAR(disks.seenFrom(vec3(0), kAxis, {}).covered, 0.5f, 0.02f);
   EXPECT_EQ(disks.seenFrom(vec3(0), {-1, 0, 0}, {}).covered, 0);
   EXPECT_EQ(disks.seenFrom({1, 0.03f, 0.07f}, {-1, 0, 0}, {}).covered, 0) << "a point of the wall itself";
   EXPECT_NEAR(disks.seenFrom(vec3(0), {1, 0, 0}, {}).covered, 1, 0.02f);
@@ -65,11 +65,11 @@ TEST(Disks, WhatIsBehindCountsUnlessClamped) {
   }
   const Disks disks(both, "_radiosity");
   DisksQuery query;
-  const vec3 clamped = disks.seenFrom(vec3(0), kUp, query).radiance;
+  const vec3 clamped = disks.seenFrom(vec3(0), kAxis, query).radiance;
   EXPECT_LT(clamped.x, 0.1f) << "what is behind the wall";
   EXPECT_NEAR(clamped.y, 3 * 0.48f, 0.1f);
   query.clamp = false;
-  const vec3 all = disks.seenFrom(vec3(0), kUp, query).radiance;
+  const vec3 all = disks.seenFrom(vec3(0), kAxis, query).radiance;
   EXPECT_NEAR(all.x, 7 * 0.46f, 0.3f);
   EXPECT_NEAR(all.y, 3 * 0.48f, 0.1f);
 }
@@ -95,7 +95,7 @@ TEST(Disks, CoarserIsNearlyTheSame) {
   const Disks disks(sphere(20000, {0, 0, 2}), "_radiosity");
   DisksQuery coarse, fine;
   coarse.maxSolidAngle = 0.01f, fine.maxSolidAngle = 0.0005f;
-  EXPECT_NEAR(disks.seenFrom(vec3(0), kUp, coarse).covered, disks.seenFrom(vec3(0), kUp, fine).covered, 0.02f);
+  EXPECT_NEAR(disks.seenFrom(vec3(0), kAxis, coarse).covered, disks.seenFrom(vec3(0), kAxis, fine).covered, 0.02f);
 }
 
 TEST(Disks, ANarrowConeSeesWhatItHolds) {
@@ -112,7 +112,7 @@ TEST(Disks, ANarrowConeSeesWhatItHolds) {
 TEST(Disks, WithoutTheChannelNothingIsSent) {
   EXPECT_FALSE(Disks(wall(2, 1), "_colour").sends());
   EXPECT_TRUE(Disks(wall(2, 1), "_radiosity").sends());
-  EXPECT_EQ(Disks(PointCloud{}, "").seenFrom(vec3(0), kUp, {}).covered, 0);
+  EXPECT_EQ(Disks(PointCloud{}, "").seenFrom(vec3(0), kAxis, {}).covered, 0);
 }
 
 }  // namespace

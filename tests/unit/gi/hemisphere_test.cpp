@@ -82,7 +82,7 @@ Seen patchBelowCeiling(const vec3& o, const vec3& d) {
   return {vec3(0.0f), 4 / d.z};
 }
 
-constexpr vec3 kUp{0, 0, 1};
+constexpr vec3 kPole{0, 0, 1};
 
 TEST(Hemisphere, CellsAreCloseToTheNumberAskedForAndNearlySquare) {
   for (const int asked : {1, 7, 50, 256, 600, 1000, 4000}) {
@@ -111,7 +111,7 @@ TEST(Hemisphere, EveryCellHoldsExactlyOneUnitDirection) {
 }
 
 TEST(Hemisphere, UniformRadianceGivesExactlyItself) {
-  const auto r = look([](const vec3&, const vec3&) { return Seen{{1, 2, 0.5f}, kInfinity}; }, vec3(0), kUp, 600);
+  const auto r = look([](const vec3&, const vec3&) { return Seen{{1, 2, 0.5f}, kInfinity}; }, vec3(0), kPole, 600);
   EXPECT_EQ(r.E, vec3(1, 2, 0.5f));
   for (int c = 0; c < 3; ++c) {
     EXPECT_LT(glm::length(r.rotationGradient[c]), 1e-5f);
@@ -133,7 +133,7 @@ TEST(Hemisphere, HalfADarkHemisphereGivesOneHalf) {
       [](const vec3&, const vec3& d) {
         return Seen{vec3(d.x > 0 ? 1.0f : 0.0f), 1};
       },
-      vec3(0), kUp, 2000);
+      vec3(0), kPole, 2000);
   EXPECT_NEAR(r.E.x, 0.5f, 0.01f);
   EXPECT_NEAR(r.dominant[0].x, r.dominant[0].z / kPi * 2,
               0.02f);  // mean of x against mean of z: 4/(3 pi) to 2/3
@@ -144,10 +144,10 @@ TEST(Hemisphere, DistancesAreHarmonicMeanAndLeast) {
       [](const vec3&, const vec3& d) {
         return Seen{vec3(0), d.x > 0 ? 2.0f : kInfinity};
       },
-      vec3(0), kUp, 4000);
+      vec3(0), kPole, 4000);
   EXPECT_EQ(r.closest, 2);
   EXPECT_NEAR(r.harmonicMean, 4, 0.05f);
-  EXPECT_EQ(r.dominant[0], kUp);  // black: the normal
+  EXPECT_EQ(r.dominant[0], kPole);  // black: the normal
 }
 
 TEST(Hemisphere, DominantDirectionsAreThoseOfTheirChannel) {
@@ -155,7 +155,7 @@ TEST(Hemisphere, DominantDirectionsAreThoseOfTheirChannel) {
       [](const vec3&, const vec3& d) {
         return Seen{{d.x > 0.3f, d.y > 0.3f, 1}, 1};
       },
-      vec3(0), kUp, 1000);
+      vec3(0), kPole, 1000);
   EXPECT_GT(r.dominant[0].x, 0.5f);
   EXPECT_NEAR(r.dominant[0].y, 0, 0.03f);
   EXPECT_GT(r.dominant[1].y, 0.5f);
@@ -179,7 +179,7 @@ TEST(Hemisphere, RotationGradientIsExactForALinearField) {
 
 TEST(Hemisphere, RotationGradientMatchesFiniteDifferences) {
   for (const World& world : {World(smoothCeiling), World(patchBelowCeiling)}) {
-    const auto r = look(world, vec3(0), kUp, 4000);
+    const auto r = look(world, vec3(0), kPole, 4000);
     const vec3 turned = glm::normalize(vec3(0.02f, 0, 1)), back = glm::normalize(vec3(-0.02f, 0, 1));
     const double slope = exactE(world, vec3(0), turned) - exactE(world, vec3(0), back);
     EXPECT_NEAR(dot(cross(back, turned), r.rotationGradient[0]), slope, 0.03 * std::abs(slope));
@@ -191,8 +191,8 @@ TEST(Hemisphere, TranslationGradientMatchesFiniteDifferences) {
     vec3 mean(0);
     constexpr int kRecords = 16;
     for (uint32_t seed = 0; seed < kRecords; ++seed)
-      mean += look(world, vec3(0), kUp, 4000, seed).translationGradient[0] / static_cast<float>(kRecords);
-    const double slope = (exactE(world, {0.05f, 0, 0}, kUp) - exactE(world, {-0.05f, 0, 0}, kUp)) / 0.1;
+      mean += look(world, vec3(0), kPole, 4000, seed).translationGradient[0] / static_cast<float>(kRecords);
+    const double slope = (exactE(world, {0.05f, 0, 0}, kPole) - exactE(world, {-0.05f, 0, 0}, kPole)) / 0.1;
     EXPECT_NEAR(mean.x, slope, 0.05 * std::abs(slope));
     EXPECT_NEAR(mean.y, 0, 0.05 * std::abs(slope));
     EXPECT_EQ(mean.z, 0);
@@ -203,7 +203,7 @@ TEST(Hemisphere, GradientsTurnWithTheFrame) {
   // The same world about another axis: magnitudes agree.
   const mat3 turn{vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 0, 0)};
   const World turned = [&](const vec3&, const vec3& d) { return smoothCeiling(vec3(0), glm::transpose(turn) * d); };
-  const auto a = look(smoothCeiling, vec3(0), kUp, 8000), b = look(turned, vec3(0), turn * kUp, 8000);
+  const auto a = look(smoothCeiling, vec3(0), kPole, 8000), b = look(turned, vec3(0), turn * kPole, 8000);
   const vec3 back = glm::transpose(turn) * b.translationGradient[0];
   EXPECT_LT(glm::length(back - a.translationGradient[0]), 0.1f * glm::length(a.translationGradient[0]));
   EXPECT_LT(glm::length(glm::transpose(turn) * b.rotationGradient[0] - a.rotationGradient[0]),
@@ -212,7 +212,7 @@ TEST(Hemisphere, GradientsTurnWithTheFrame) {
 
 // Second differences of the exact E/pi.
 vec3 exactHessian(const World& world, float step) {
-  const auto E = [&](float x, float y) { return exactE(world, {x, y, 0}, kUp); };
+  const auto E = [&](float x, float y) { return exactE(world, {x, y, 0}, kPole); };
   const double h2 = static_cast<double>(step) * static_cast<double>(step), middle = E(0, 0);
   return {(E(step, 0) + E(-step, 0) - 2 * middle) / h2,
           (E(step, step) + E(-step, -step) - E(step, -step) - E(-step, step)) / (4 * h2),
@@ -258,7 +258,7 @@ TEST(Hemisphere, TheHessianIsThatOfTheClosedFormWhereASheetHidesTheLight) {
     const double xx = (E(x + h, y) + E(x - h, y) - middle) / (h * h),
                  yy = (E(x, y + h) + E(x, y - h) - middle) / (h * h);
     const double xy = (E(x + h, y + h) + E(x - h, y - h) - E(x + h, y - h) - E(x - h, y + h)) / (4 * h * h);
-    const IrradianceCurvature seen = lookTwice(world, at, kUp, 8000, i).curvature;
+    const IrradianceCurvature seen = lookTwice(world, at, kPole, 8000, i).curvature;
     const double size = std::abs(xx) + std::abs(xy) + std::abs(yy);
     EXPECT_NEAR(seen.xx.x, xx, 0.25 * size) << at.x << " " << at.y;
     EXPECT_NEAR(seen.xy.x, xy, 0.25 * size) << at.x << " " << at.y;

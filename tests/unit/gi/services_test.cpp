@@ -12,13 +12,14 @@ using namespace test;
 
 // Inside a sphere every point sees every other with the same form factor: one bounce gives E/pi = rho I / R^2
 // everywhere, wherever the point light is, and each further bounce rho times the last.
-constexpr float kRadius = 2, kAlbedo = 0.5f, kIntensity = 3, kOneBounce = kAlbedo * kIntensity / (kRadius * kRadius);
+constexpr float kBallRadius = 2, kBallAlbedo = 0.5f, kBallIntensity = 3,
+                kOneBounce = kBallAlbedo * kBallIntensity / (kBallRadius * kBallRadius);
 
-Scene insideOfASphere(const vec3& light, int resolution = 64) {
+Scene litBall(const vec3& light, int resolution = 64) {
   SceneBuilder b(resolution);
-  b.light("pointlight", {floatParam("intensity", kIntensity), pointParam("from", light)});
+  b.light("pointlight", {floatParam("intensity", kBallIntensity), pointParam("from", light)});
   b.light("indirectlight", {});
-  b.sphere(kRadius, vec3(kAlbedo), {0, 0, 0.5f});
+  b.sphere(kBallRadius, vec3(kBallAlbedo), {0, 0, 0.5f});
   return b.scene;
 }
 
@@ -27,20 +28,20 @@ ShadePoints pointsInside() {
   for (uint32_t i = 0; i < 4; ++i) {
     const vec3 d = glm::normalize(vec3(static_cast<float>(i) - 1.5f, 0.5f, 1));
     const int k = points.add(i + 1);
-    points.set3(kPx, k, vec3(0, 0, 0.5f) + kRadius * d);
+    points.set3(kPx, k, vec3(0, 0, 0.5f) + kBallRadius * d);
     points.set3(kNx, k, d), points.set3(kNgx, k, d), points.set3(kIx, k, d);
   }
   return points;
 }
 
 TEST(GiServices, ModeNoneGivesNoIndirectLight) {
-  World world(insideOfASphere({0, 0, 0.5f}));
+  World world(litBall({0, 0, 0.5f}));
   const auto services = world.use({.mode = GiMode::None});
   for (const vec3& E : indirectAt(*services, pointsInside(), {})) EXPECT_EQ(E, vec3(0));
 }
 
 TEST(GiServices, AGatheredFurnaceIsUniform) {
-  World world(insideOfASphere({0, 0, 0.5f}));
+  World world(litBall({0, 0, 0.5f}));
   const auto services = world.use({.mode = GiMode::Gather});
   IndirectQuery query;
   query.samples = 200;
@@ -48,7 +49,7 @@ TEST(GiServices, AGatheredFurnaceIsUniform) {
 }
 
 TEST(GiServices, GatherAndReferenceAgreeWithTheIntegratingSphereForALightOffCentre) {
-  World world(insideOfASphere({0.6f, -0.5f, 1.0f}));
+  World world(litBall({0.6f, -0.5f, 1.0f}));
   IndirectQuery query;
   query.samples = 4000;
   for (const GiMode mode : {GiMode::Gather, GiMode::Reference}) {
@@ -58,12 +59,12 @@ TEST(GiServices, GatherAndReferenceAgreeWithTheIntegratingSphereForALightOffCent
 }
 
 TEST(GiServices, ReferenceBouncesAddUpAsAGeometricSeries) {
-  World world(insideOfASphere({0, 0, 0.5f}));
+  World world(litBall({0, 0, 0.5f}));
   IndirectQuery query;
   query.samples = 256;
   float expected = 0;
   for (int bounces = 1; bounces <= 4; ++bounces) {
-    expected += kOneBounce * std::pow(kAlbedo, static_cast<float>(bounces - 1));
+    expected += kOneBounce * std::pow(kBallAlbedo, static_cast<float>(bounces - 1));
     const auto services = world.use({.mode = GiMode::Reference, .bounces = bounces});
     const int64_t before = world.stats.rays.reference;
     for (const vec3& E : indirectAt(*services, pointsInside(), query))
@@ -76,11 +77,11 @@ TEST(GiServices, ReferenceBouncesAddUpAsAGeometricSeries) {
 }
 
 TEST(GiServices, GatheredBouncesAddUpAsAGeometricSeries) {
-  World world(insideOfASphere({0.6f, -0.5f, 1.0f}, 48));
+  World world(litBall({0.6f, -0.5f, 1.0f}, 48));
   const DeepFrame frame = frameOf(world, 16);
   IndirectQuery query;
   for (const auto& [bounces, cached] : {std::pair(2, false), std::pair(2, true), std::pair(4, true)}) {
-    const float expected = kOneBounce * (1 - std::pow(kAlbedo, static_cast<float>(bounces))) / (1 - kAlbedo);
+    const float expected = kOneBounce * (1 - std::pow(kBallAlbedo, static_cast<float>(bounces))) / (1 - kBallAlbedo);
     const auto services = world.use({.mode = GiMode::Gather, .samples = 400, .bounces = bounces});
     if (cached) gatherFrame(*services, frame);  // else hits find no record and go on as paths
     const int64_t before = world.stats.rays.reference;
@@ -93,7 +94,7 @@ TEST(GiServices, GatheredBouncesAddUpAsAGeometricSeries) {
 }
 
 TEST(GiServices, BeyondTheLastBounceThereIsNothing) {
-  World world(insideOfASphere({0, 0, 0.5f}));
+  World world(litBall({0, 0, 0.5f}));
   const ShadeContext hit{RayKind::Diffuse, 1};
   for (const GiMode mode : {GiMode::Gather, GiMode::Reference}) {
     const auto services = world.use({.mode = mode});
@@ -102,9 +103,9 @@ TEST(GiServices, BeyondTheLastBounceThereIsNothing) {
 }
 
 TEST(GiServices, MaxdistEndsRays) {
-  World world(insideOfASphere({0, 0, 0.5f}));
+  World world(litBall({0, 0, 0.5f}));
   IndirectQuery query;
-  query.samples = 300, query.maxDistance = kRadius;  // cos(theta) > 1/2 is farther: E = (3/4 missing)
+  query.samples = 300, query.maxDistance = kBallRadius;  // cos(theta) > 1/2 is farther: E = (3/4 missing)
   for (const GiMode mode : {GiMode::Gather, GiMode::Reference}) {
     const auto services = world.use({.mode = mode});
     for (const vec3& E : indirectAt(*services, pointsInside(), query))

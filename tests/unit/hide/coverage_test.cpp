@@ -6,7 +6,7 @@
 namespace tomales::test {
 namespace {
 
-constexpr PixelRect kFrame{0, 0, 64, 64};
+constexpr PixelRect kCoveredFrame{0, 0, 64, 64};
 
 TEST(Coverage, OfAHalfPlaneIsItsAreaWithinTheErrorOfStratification) {
   World w;
@@ -18,7 +18,7 @@ TEST(Coverage, OfAHalfPlaneIsItsAreaWithinTheErrorOfStratification) {
     return at(lerp(-1, edge(y), u), y);
   });
   const SamplePattern pattern(8, 8, true, 5);
-  const DeepTile t = hide(w, pattern, kFrame, {raster(w, g)});
+  const DeepTile t = hide(w, pattern, kCoveredFrame, {raster(w, g)});
   double squares = 0, bias = 0;
   int crossed = 0;
   for (int y = 0; y < 64; ++y)
@@ -55,7 +55,7 @@ Surface wobbly(int n, float wobble, float lo, float hi) {
 
 void expectOneHitInside(const DeepTile& t, const SamplePattern& pattern, float lo, float hi) {
   int inside = 0, wrong = 0;
-  forSamples(pattern, kFrame, [&](int x, int y, int s, vec2 p, float) {
+  forSamples(pattern, kCoveredFrame, [&](int x, int y, int s, vec2 p, float) {
     if (p.x == lo || p.x == hi || p.y == lo || p.y == hi) return;
     const bool in = p.x > lo && p.x < hi && p.y > lo && p.y < hi;
     inside += in;
@@ -74,7 +74,7 @@ TEST_P(Tessellation, EverySampleInsideIsHitOnceAndNoneOutside) {
   const int n = GetParam();
   const SamplePattern pattern(4, 4, true, 5);
   const auto g = makeGrid(0, 1, n, n, wobbly(n, 0.2f, 4.25f, 59.5f));
-  expectOneHitInside(hide(w, pattern, kFrame, {raster(w, g, false)}), pattern, 4.25f, 59.5f);
+  expectOneHitInside(hide(w, pattern, kCoveredFrame, {raster(w, g, false)}), pattern, 4.25f, 59.5f);
 }
 INSTANTIATE_TEST_SUITE_P(FineAndCoarse, Tessellation, testing::Values(1, 3, 11, 40, 150));
 
@@ -85,7 +85,7 @@ TEST(Tessellation, OfRegularSamplesOnVerticesAndEdgesHitsEachOnce) {
   const SamplePattern centres(1, 1, false, 0);
   // Every sample is a vertex shared by four cells.
   const auto g = makeGrid(0, 1, 60, 60, rectangle(1.5f, 1.5f, 61.5f, 61.5f));
-  const DeepTile t = hide(w, centres, kFrame, {raster(w, g, false)});
+  const DeepTile t = hide(w, centres, kCoveredFrame, {raster(w, g, false)});
   for (int y = 2; y < 61; ++y)
     for (int x = 2; x < 61; ++x) ASSERT_EQ(hits(t, x, y, 0), 1) << x << "," << y;
 }
@@ -101,7 +101,7 @@ TEST(Tessellation, GridsWithBitEqualBordersLeaveNoGapAndHitNoSampleTwice) {
   const auto right = makeGrid(0, 2, 13, 31, [&](float u, float v, int) {
     return at(u == 0 ? border(v) : lerp(border(v), 59.5f, u), lerp(4.25f, 59.5f, v));
   });
-  expectOneHitInside(hide(w, pattern, kFrame, {raster(w, left, false), raster(w, right, false)}), pattern, 4.25f,
+  expectOneHitInside(hide(w, pattern, kCoveredFrame, {raster(w, left, false), raster(w, right, false)}), pattern, 4.25f,
                      59.5f);
 }
 
@@ -211,7 +211,7 @@ TEST(Coverage, OfCellsThatFitTheLatticeAndOthersIsTheSameInBucketsOfAnySize) {
       w.freeze();
       const SamplePattern pattern(columns, rows, true, 3);
       const Rasters grids = {raster(w, makeGrid(0, 1, n, n, wobbly(n, 0.2f, 0, 64)), false)};
-      const DeepTile whole = hide(w, pattern, kFrame, grids);
+      const DeepTile whole = hide(w, pattern, kCoveredFrame, grids);
       expectOneHitInside(whole, pattern, 0, 64);
       for (const int size : {32, 16})
         for (int y0 = 0; y0 < 64; y0 += size)
@@ -244,7 +244,7 @@ TEST(Coverage, OfStackedPiecesIsThatOfTheirCells) {
       }
       size_t cells = 0;
       for (int number = 0; number < g->cellNumbers(); ++number) cells += g->isCell(number);
-      EXPECT_EQ(hide(w, SamplePattern(4, 4, true, 1), kFrame, {raster(w, g)}).facets.size(), cells)
+      EXPECT_EQ(hide(w, SamplePattern(4, 4, true, 1), kCoveredFrame, {raster(w, g)}).facets.size(), cells)
           << nu << " x " << nv;
     }
 }

@@ -5,7 +5,7 @@
 namespace tomales::test {
 namespace {
 
-constexpr PixelRect kRect{0, 0, 16, 16};
+constexpr PixelRect kDepthRect{0, 0, 16, 16};
 
 TEST(Depth, TransparentLayersBecomeFragmentsNearestFirst) {
   World w;
@@ -15,7 +15,7 @@ TEST(Depth, TransparentLayersBecomeFragmentsNearestFirst) {
   Rasters layers;
   for (const float z : {5.0f, 2.0f, 7.0f, 3.0f, 6.0f, 4.0f})
     layers.push_back(raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 17, 20, z)), false));
-  const DeepTile t = hide(w, pattern, kRect, layers);
+  const DeepTile t = hide(w, pattern, kDepthRect, layers);
   for (const DeepPixel& p : t.pixels) {
     float z = 2;
     uint64_t samples[6] = {};
@@ -38,7 +38,7 @@ TEST(Depth, AnOpaqueSurfaceEndsTheListOfLayers) {
     return raster(w, makeGrid(0, static_cast<uint32_t>(z), 1, 1, rectangle(-1, -1, 40, 40, z)), opaque);
   };
   const DeepTile t =
-      hide(w, pattern, kRect, {sheet(6, false), sheet(2, false), sheet(4, true), sheet(5, true), sheet(3, false)});
+      hide(w, pattern, kDepthRect, {sheet(6, false), sheet(2, false), sheet(4, true), sheet(5, true), sheet(3, false)});
   for (const DeepPixel& p : t.pixels) {
     ASSERT_EQ(p.count, 3U);
     for (uint32_t k = 0; k < 3; ++k) ASSERT_EQ(begin(t, p)[k].z, 2 + static_cast<float>(k));
@@ -54,8 +54,8 @@ TEST(Depth, InterpenetratingSurfacesAreSortedSampleBySample) {
   const auto a = makeGrid(0, 1, 3, 3, [](float u, float v, int) { return at(16 * u, 16 * v, 1 + u); });
   const auto b = makeGrid(1, 2, 5, 2, [](float u, float v, int) { return at(16 * u, 16 * v, 2 - u); });
   const SamplePattern pattern(4, 4, true, 1);
-  const DeepTile t = hide(w, pattern, kRect, {raster(w, a), raster(w, b)});
-  forSamples(pattern, kRect, [&](int x, int y, int s, vec2 p, float) {
+  const DeepTile t = hide(w, pattern, kDepthRect, {raster(w, a), raster(w, b)});
+  forSamples(pattern, kDepthRect, [&](int x, int y, int s, vec2 p, float) {
     if (std::abs(p.x - 8) < 0.001f) return;
     const DeepPixel& pixel = t.pixel(x, y);
     for (uint32_t k = 0; k < pixel.count; ++k) {
@@ -87,9 +87,9 @@ TEST(Depth, LayersThatCrossAreInOrderForEverySample) {
     sheets.push_back(raster(w, makeGrid(k, static_cast<uint32_t>(k), 12, 11, sheet, k == 2 ? 2 : 1), k == 3));
   }
   const SamplePattern pattern(9, 9, true, 1);
-  const DeepTile t = hide(w, pattern, kRect, sheets);
+  const DeepTile t = hide(w, pattern, kDepthRect, sheets);
   int changes = 0;
-  forSamples(pattern, kRect, [&](int x, int y, int s, vec2 p, float time) {
+  forSamples(pattern, kDepthRect, [&](int x, int y, int s, vec2 p, float time) {
     const DeepPixel& pixel = t.pixel(x, y);
     float last = 0;
     for (uint32_t k = 0; k < pixel.count; ++k) {
@@ -123,7 +123,7 @@ TEST(Depth, UnderPerspectiveIsThatOfThePlane) {
   });
   const Camera camera(o);
   const SamplePattern centres(1, 1, false, 0);
-  const DeepTile t = hide(w, centres, kRect, {raster(w, g)});
+  const DeepTile t = hide(w, centres, kDepthRect, {raster(w, g)});
   int seenPixels = 0;
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) {
@@ -152,7 +152,7 @@ TEST(Depth, MatteHidesWhatIsBehindAndStaysVisible) {
   const auto front = raster(w, makeGrid(1, 2, 2, 2, rectangle(0, 0, 16, 16, 1)));
   EXPECT_TRUE(front->matte);
   EXPECT_FALSE(back->matte);
-  const DeepTile t = hide(w, SamplePattern(2, 2, true, 1), kRect, {back, front});
+  const DeepTile t = hide(w, SamplePattern(2, 2, true, 1), kDepthRect, {back, front});
   ASSERT_EQ(t.batches.size(), 1U);
   EXPECT_TRUE(w.scene.groups[static_cast<size_t>(t.batches[0].group())].attributes->matte);
 }
@@ -162,7 +162,7 @@ TEST(Hider, KnowsWhatIsHidden) {
   w.add();
   w.freeze();
   const SamplePattern pattern(2, 2, true, 1);
-  Hider h(w.scene, Camera(w.scene.options), pattern, kRect);
+  Hider h(w.scene, Camera(w.scene.options), pattern, kDepthRect);
   const auto box = [](float x0, float y0, float x1, float y1) { return Bound2{{x0, y0}, {x1, y1}}; };
   EXPECT_FALSE(h.hidden(box(4, 4, 6, 6), 100));
   EXPECT_TRUE(h.hidden(box(40, 4, 60, 6), 1));  // Not in this bucket.

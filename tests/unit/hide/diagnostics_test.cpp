@@ -6,11 +6,11 @@
 namespace tomales::test {
 namespace {
 
-constexpr PixelRect kRect{0, 0, 32, 32};
+constexpr PixelRect kDiagnosed{0, 0, 32, 32};
 
 HideDiagnostics diagnosticsOf(const World& w, const Rasters& rasters) {
   const SamplePattern pattern(4, 4, true, 1);
-  Hider hider(w.scene, Camera(w.scene.options), pattern, kRect);
+  Hider hider(w.scene, Camera(w.scene.options), pattern, kDiagnosed);
   for (const auto& r : rasters) hider.insert(r);
   HideDiagnostics diagnostics;
   hider.resolve(&diagnostics);

@@ -23,7 +23,7 @@ struct Moving {
   }
 };
 
-constexpr PixelRect kRect{8, 8, 24, 14};
+constexpr PixelRect kMovingRect{8, 8, 24, 14};
 
 TEST(Motion, ASquareThatCrossesPixelsCoversThemAsLongAsItIsThere) {
   Moving m({0, 1}, {0, 4}, 32);
@@ -47,9 +47,9 @@ TEST(Motion, EverySampleMeetsTheSquareWhereItIsAtItsTime) {
   const SamplePattern pattern(8, 8, true, 3);
   const auto r = raster(m.world, m.grid, false);
   EXPECT_EQ(r->bound.hi.x, 17);
-  const DeepTile t = hide(m.world, pattern, kRect, {r});
+  const DeepTile t = hide(m.world, pattern, kMovingRect, {r});
   int covered = 0;
-  forSamples(pattern, kRect, [&](int x, int y, int s, vec2 p, float time) {
+  forSamples(pattern, kMovingRect, [&](int x, int y, int s, vec2 p, float time) {
     const float x0 = 10 + (time < 0.25f ? 24 * time : lerp(6, 2, (time - 0.25f) / 0.75f));
     const float margin = std::min(std::min(std::abs(p.x - x0), std::abs(p.x - x0 - 1)),
                                   std::min(std::abs(p.y - 10), std::abs(p.y - 11)));
@@ -65,10 +65,10 @@ TEST(Motion, OfNothingGivesTheStillPicture) {
   Moving m({0, 1}, {0.3f, 0.3f});
   const auto still = makeGrid(0, 1, 3, 3, rectangle(10.3f, 10, 11.3f, 11));
   const SamplePattern pattern(8, 8, true, 3);
-  const DeepTile a = hide(m.world, pattern, kRect, {raster(m.world, m.grid)});
-  const DeepTile b = hide(m.world, pattern, kRect, {raster(m.world, still)});
-  for (int y = kRect.y0; y < kRect.y1; ++y)
-    for (int x = kRect.x0; x < kRect.x1; ++x) EXPECT_EQ(seen(a, x, y), seen(b, x, y));
+  const DeepTile a = hide(m.world, pattern, kMovingRect, {raster(m.world, m.grid)});
+  const DeepTile b = hide(m.world, pattern, kMovingRect, {raster(m.world, still)});
+  for (int y = kMovingRect.y0; y < kMovingRect.y1; ++y)
+    for (int x = kMovingRect.x0; x < kMovingRect.x1; ++x) EXPECT_EQ(seen(a, x, y), seen(b, x, y));
 }
 
 TEST(Motion, InDepthChangesWhoIsInFront) {

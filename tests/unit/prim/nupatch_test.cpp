@@ -4,7 +4,7 @@ namespace tomales {
 namespace {
 using namespace test;
 
-float noise(uint32_t i) { return 2 * unitFloat(hash32(i + 1234)) - 1; }
+float bump(uint32_t i) { return 2 * unitFloat(hash32(i + 1234)) - 1; }
 
 ParamList rationalControls(std::vector<float> pw) {
   return {floats("Pw", Storage::Vertex, ValueType::HPoint, std::move(pw))};
@@ -16,8 +16,8 @@ std::vector<float> randomControls(int nu, int nv) {
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i) {
       const uint32_t k = static_cast<uint32_t>(4 * (j * nu + i));
-      const float w = 1 + 0.5f * noise(k);
-      pw.insert(pw.end(), {w * (i + 0.3f * noise(k + 1)), w * (j + 0.3f * noise(k + 2)), w * noise(k + 3), w});
+      const float w = 1 + 0.5f * bump(k);
+      pw.insert(pw.end(), {w * (i + 0.3f * bump(k + 1)), w * (j + 0.3f * bump(k + 2)), w * bump(k + 3), w});
     }
   return pw;
 }

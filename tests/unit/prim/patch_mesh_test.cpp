@@ -4,14 +4,14 @@ namespace tomales {
 namespace {
 using namespace test;
 
-float noise(uint32_t i) { return 2 * unitFloat(hash32(i + 77)) - 1; }
+float jitter(uint32_t i) { return 2 * unitFloat(hash32(i + 77)) - 1; }
 
 std::vector<float> randomPoints(int nu, int nv) {
   std::vector<float> p;
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i)
       for (int axis = 0; axis < 3; ++axis)
-        p.push_back((axis == 0 ? i : axis == 1 ? j : 0) + noise(static_cast<uint32_t>((j * nu + i) * 3 + axis)));
+        p.push_back((axis == 0 ? i : axis == 1 ? j : 0) + jitter(static_cast<uint32_t>((j * nu + i) * 3 + axis)));
   return p;
 }
 

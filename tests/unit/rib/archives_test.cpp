@@ -11,8 +11,6 @@
 namespace tomales {
 namespace {
 
-const std::string kSphere = "Sphere 1 -1 1 360\n";
-
 /// As Reading, but programs are allowed and must answer at once.
 struct Trusting {
   std::vector<Scene> scenes;

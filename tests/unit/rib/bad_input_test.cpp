@@ -4,8 +4,6 @@
 namespace tomales {
 namespace {
 
-const std::string kSphere = "Sphere 1 -1 1 360\n";
-
 TEST(BadInput, WithoutAnyRequestIsAnError) {
   for (const std::string& text :
        {std::string(), std::string("# only a comment\n"), std::string("hello world, 1 2 3"),

@@ -12,8 +12,6 @@
 namespace tomales {
 namespace {
 
-const std::string kSphere = "Sphere 1 -1 1 360\n";
-
 bool isTrue(const std::string& expression) {
   const std::map<std::string, std::string> values = {{"n", "3"}, {"name", "hero"}, {"Option:user:empty", ""}};
   return rib::holds(expression, [&](const std::string& name) {

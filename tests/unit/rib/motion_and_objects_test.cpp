@@ -10,8 +10,6 @@
 namespace tomales {
 namespace {
 
-const std::string kSphere = "Sphere 1 -1 1 360\n";
-
 TEST(Motion, MovesTransformations) {
   const Reading r("Shutter 0 1" +
                   inWorld("MotionBegin [0 1] Translate 0 0 0 Translate 4 0 0 MotionEnd Scale 2 2 2 " + kSphere));

@@ -4,14 +4,7 @@
 namespace tomales {
 namespace {
 
-const std::string kSphere = "Sphere 1 -1 1 360\n";
-
 vec3 inWorldSpace(const Object& o, const vec3& p) { return transformPoint(o.worldFromObject.at(0), p); }
-
-void expectNear(const vec3& a, const vec3& b, float tolerance = 1e-5f) {
-  EXPECT_LT(glm::length(a - b), tolerance)
-      << a.x << " " << a.y << " " << a.z << " against " << b.x << " " << b.y << " " << b.z;
-}
 
 TEST(Options, OfTheHiderShapeTheLensAndTheOffsetShiftsMotion) {
   const Reading r(R"(

@@ -47,6 +47,13 @@ struct Reading {
   }
 };
 
+inline const std::string kSphere = "Sphere 1 -1 1 360\n";
+
+inline void expectNear(const vec3& a, const vec3& b, float tolerance = 1e-5f) {
+  EXPECT_LT(glm::length(a - b), tolerance)
+      << a.x << " " << a.y << " " << a.z << " against " << b.x << " " << b.y << " " << b.z;
+}
+
 inline std::string inWorld(const std::string& text) { return " WorldBegin\n" + text + "\nWorldEnd\n"; }
 
 /// The requests of a text.

@@ -4,8 +4,6 @@
 namespace tomales {
 namespace {
 
-const std::string kSphere = "Sphere 1 -1 1 360\n";
-
 TEST(Ris, BxdfsBecomeStandardShaders) {
   const Reading r(
       inWorld("Bxdf \"PxrDiffuse\" \"d\" \"color diffuseColor\" [.1 .2 .3] " + kSphere + "Bxdf \"PxrDiffuse\" \"e\" " +

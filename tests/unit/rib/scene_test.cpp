@@ -6,13 +6,6 @@
 namespace tomales {
 namespace {
 
-const std::string kSphere = "Sphere 1 -1 1 360\n";
-
-void expectNear(const vec3& a, const vec3& b, float tolerance = 1e-5f) {
-  EXPECT_LT(glm::length(a - b), tolerance)
-      << a.x << " " << a.y << " " << a.z << " against " << b.x << " " << b.y << " " << b.z;
-}
-
 TEST(Attributes, OfRaysAreRead) {
   const Reading r(R"(
     Option "trace" "int maxdepth" [3]

@@ -41,6 +41,9 @@ struct Case {
   std::function<Vec3(float)> triple;
 };
 
+/// A point of the grid that the cases run on.
+inline Vec3 at(float i) { return {i, 2 * i, 3}; }
+
 using Cases = std::span<const Case>;
 Cases operatorCases();
 Cases conversionCases();

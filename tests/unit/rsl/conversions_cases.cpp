@@ -4,10 +4,6 @@
 #include "tests/unit/rsl/cases.h"
 
 namespace tomales::compiler {
-namespace {
-Vec3 at(float i) { return {i, 2 * i, 3}; }
-}  // namespace
-
 Cases conversionCases() {
   static const Case kCases[] = {
       {"a number becomes a grey", "c = s;",

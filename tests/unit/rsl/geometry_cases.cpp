@@ -6,7 +6,6 @@
 
 namespace tomales::compiler {
 namespace {
-Vec3 at(float i) { return {i, 2 * i, 3}; }
 const Vec3 kDown = rsl::normalize({1, -1, 0});
 #define REFRACTED "vector i = normalize(vector (1, -1, 0)); normal n = (0, 1, 0); "
 }  // namespace

@@ -4,7 +4,6 @@
 
 namespace tomales::compiler {
 namespace {
-Vec3 at(float i) { return {i, 2 * i, 3}; }
 #define MOVED "matrix m = matrix (1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0, 4, 5, 6, 1); "
 }  // namespace
 

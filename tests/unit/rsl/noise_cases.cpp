@@ -6,7 +6,7 @@
 
 namespace tomales::compiler {
 namespace {
-Vec3 at(float i) { return {i * 0.37f, i * 0.21f, 0.5f}; }
+Vec3 noiseAt(float i) { return {i * 0.37f, i * 0.21f, 0.5f}; }
 #define AT "point q = point (s * 0.37, s * 0.21, 0.5); "
 constexpr float kNear = 2e-5f;
 }  // namespace
@@ -21,10 +21,10 @@ Cases noiseCases() {
        "x = noise(s * 0.37, s * 0.21);",
        [](float i) { return rsl::noise(i * 0.37f, i * 0.21f); },
        {.tolerance = kNear}},
-      {"noise of a point", AT "x = noise(q);", [](float i) { return rsl::noise(at(i)); }, {.tolerance = kNear}},
+      {"noise of a point", AT "x = noise(q);", [](float i) { return rsl::noise(noiseAt(i)); }, {.tolerance = kNear}},
       {"noise of a point and a number",
        AT "x = noise(q, s * 0.1);",
-       [](float i) { return rsl::noise(at(i), i * 0.1f); },
+       [](float i) { return rsl::noise(noiseAt(i), i * 0.1f); },
        {.tolerance = kNear}},
       {"a color's noise of a number",
        "c = noise(s * 0.37);",
@@ -36,22 +36,25 @@ Cases noiseCases() {
        {.tolerance = kNear}},
       {"a color's noise of a point",
        AT "c = noise(q);",
-       [](float i) { return rsl::noise3(at(i)); },
+       [](float i) { return rsl::noise3(noiseAt(i)); },
        {.tolerance = kNear}},
       {"a color's noise of a point and a number",
        AT "c = noise(q, s * 0.1);",
-       [](float i) { return rsl::noise3(at(i), i * 0.1f); },
+       [](float i) { return rsl::noise3(noiseAt(i), i * 0.1f); },
        {.tolerance = kNear}},
-      {"a vector's noise", AT "w = noise(q);", [](float i) { return rsl::noise3(at(i)); }, {.tolerance = kNear}},
+      {"a vector's noise", AT "w = noise(q);", [](float i) { return rsl::noise3(noiseAt(i)); }, {.tolerance = kNear}},
       {"a point's noise",
        AT "point a = noise(q); w = vector a;",
-       [](float i) { return rsl::noise3(at(i)); },
+       [](float i) { return rsl::noise3(noiseAt(i)); },
        {.tolerance = kNear}},
       {"a vector cast of noise",
        AT "w = vector noise(q);",
-       [](float i) { return rsl::noise3(at(i)); },
+       [](float i) { return rsl::noise3(noiseAt(i)); },
        {.tolerance = kNear}},
-      {"noise of a vector", AT "x = noise(vector q);", [](float i) { return rsl::noise(at(i)); }, {.tolerance = kNear}},
+      {"noise of a vector",
+       AT "x = noise(vector q);",
+       [](float i) { return rsl::noise(noiseAt(i)); },
+       {.tolerance = kNear}},
       {"noise is in [0, 1]", AT "float a = noise(q * 3.7); if (a >= 0 && a <= 1) x = 1;", 1},
       {"noise has a half for its mean",
        "float k, a = 0; for (k = 0; k < 400; k += 1) a += noise(point (k * 0.731, k * 0.297, s * 0.13)); x = a / 400;",
@@ -71,19 +74,19 @@ Cases noiseCases() {
       {"pnoise of a point",
        AT "x = pnoise(q, point (4, 3, 2));",
        [](float i) {
-         return rsl::pnoise(at(i), Vec3{4, 3, 2});
+         return rsl::pnoise(noiseAt(i), Vec3{4, 3, 2});
        },
        {.tolerance = kNear}},
       {"pnoise of a point and a number",
        AT "x = pnoise(q, s * 0.1, point (4, 3, 2), 5);",
        [](float i) {
-         return rsl::pnoise(at(i), i * 0.1f, {4, 3, 2}, 5);
+         return rsl::pnoise(noiseAt(i), i * 0.1f, {4, 3, 2}, 5);
        },
        {.tolerance = kNear}},
       {"a color's pnoise of a point",
        AT "c = pnoise(q, point (4, 3, 2));",
        [](float i) {
-         return rsl::pnoise3(at(i), {4, 3, 2});
+         return rsl::pnoise3(noiseAt(i), {4, 3, 2});
        },
        {.tolerance = kNear}},
       {"cellnoise of a number", "x = cellnoise(s / 2);", [](float i) { return rsl::cellnoise(i / 2); }},
@@ -92,15 +95,15 @@ Cases noiseCases() {
        "x = cellnoise(s / 2, s / 3);",
        [](float i) { return rsl::cellnoise(i / 2, i / 3); },
        {.tolerance = kNear}},
-      {"cellnoise of a point", AT "x = cellnoise(q);", [](float i) { return rsl::cellnoise(at(i)); }},
+      {"cellnoise of a point", AT "x = cellnoise(q);", [](float i) { return rsl::cellnoise(noiseAt(i)); }},
       {"cellnoise of a point and a number", AT "x = cellnoise(q, s);",
-       [](float i) { return rsl::cellnoise(at(i), i); }},
-      {"a color's cellnoise", AT "c = cellnoise(q);", [](float i) { return rsl::cellnoise3(at(i)); }},
+       [](float i) { return rsl::cellnoise(noiseAt(i), i); }},
+      {"a color's cellnoise", AT "c = cellnoise(q);", [](float i) { return rsl::cellnoise3(noiseAt(i)); }},
       {"cellnoise is in [0, 1)", "float a = cellnoise(s); if (a >= 0 && a < 1) x = 1;", 1},
       {"wnoise without a width is noise", AT "if (abs(wnoise(q, 0)) < 10) x = 1;", 1},
       {"a sum of octaves",
        AT "float k, f = 1; for (k = 0; k < 3; k += 1) { x += noise(q * f) / f; f *= 2; }",
-       [](float i) { return rsl::noise(at(i)) + rsl::noise(2 * at(i)) / 2 + rsl::noise(4 * at(i)) / 4; },
+       [](float i) { return rsl::noise(noiseAt(i)) + rsl::noise(2 * noiseAt(i)) / 2 + rsl::noise(4 * noiseAt(i)) / 4; },
        {.tolerance = 5e-5f}},
   };
   return kCases;

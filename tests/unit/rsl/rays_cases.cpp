@@ -4,10 +4,6 @@
 #include "tests/unit/rsl/cases.h"
 
 namespace tomales::compiler {
-namespace {
-Vec3 at(float i) { return {i, 2 * i, 3}; }
-}  // namespace
-
 Cases rayCases() {
   static const Case kCases[] = {
       {"trace gives a color", "c = trace(P, vector (0, 0, 1));",

@@ -6,11 +6,7 @@
 namespace tomales::compiler {
 namespace {
 
-struct Case {
-  const char *text, *expected;
-};
-
-void expectAll(std::initializer_list<Case> cases) {
+void expectErrors(std::initializer_list<Case> cases) {
   for (const Case& c : cases) {
     Front front(c.text);
     EXPECT_EQ(messagesOf(front.parsed()), c.expected) << c.text;
@@ -26,7 +22,7 @@ void expectInBody(std::initializer_list<Case> cases) {
 }
 
 TEST(Errors, OfWords) {
-  expectAll(
+  expectErrors(
       {{"surface a() {} \"b",
         "1:16: this string is not closed on its line\n1:16: expected a shader or a function before the string 'b'"},
        {"surface a() {}\n/* b\n\n", "2:1: this comment is not closed: there is no '*/' after it"},
@@ -37,7 +33,7 @@ TEST(Errors, OfWords) {
 }
 
 TEST(Errors, OfMacros) {
-  expectAll(
+  expectErrors(
       {{"#define", "1:1: '#define' needs a name"},
        {"#define 1 2", "1:9: '#define' needs a name"},
        {"#define defined 1", "1:9: 'defined' cannot be a macro"},
@@ -57,49 +53,51 @@ TEST(Errors, OfMacros) {
 }
 
 TEST(Errors, OfConditions) {
-  expectAll({{"\n#if 1\n#if 0\n#endif", "2:1: this condition is not closed: there is no '#endif' after it"},
-             {"#endif", "1:1: '#endif' without an '#if' before it"},
-             {"#else", "1:1: '#else' without an '#if' before it"},
-             {"#if 0\n#else\n#else\n#endif",
-              "3:1: '#else' after the '#else' of the same '#if'\n1:1: note: the '#if' is here"},
-             {"#if 0\n#else\n#elif 1\n#endif",
-              "3:1: '#elif' after the '#else' of the same '#if'\n1:1: note: the '#if' is here"},
-             {"#if\n#endif", "1:1: expected a value in this condition"},
-             {"#if 1 +\n#endif", "1:1: expected a value in this condition"},
-             {"#if (1\n#endif", "1:1: expected ')' in this condition"},
-             {"#if 1 2\n#endif", "1:7: expected an operator before '2' in this condition"},
-             {"#if 1 / 0\n#endif", "1:7: division by zero in this condition"},
-             {"#if 1.5\n#endif", "1:5: '1.5' is not an integer in this condition"},
-             {"#if \"a\"\n#endif", "1:5: expected a value before '\"a\"' in this condition"},
-             {"#if 1 ? 2\n#endif", "1:1: expected ':' in this condition"},
-             {"#if defined 1\n#endif", "1:5: 'defined' needs the name of a macro, or one in brackets"},
-             {"#if defined(a\n#endif", "1:5: 'defined' needs the name of a macro, or one in brackets"},
-             {"#ifdef\n#endif", "1:1: '#ifdef' needs the name of a macro"},
-             {"#includ \"a\"", "1:2: 'includ' is no directive; 'include'?"},
-             {"#include a", "1:1: '#include' needs \"NAME\" or <NAME>"},
-             {"#include \"none.h\"",
-              "1:10: cannot include 'none.h': there is no such file beside the file or in the folders for headers"}});
+  expectErrors(
+      {{"\n#if 1\n#if 0\n#endif", "2:1: this condition is not closed: there is no '#endif' after it"},
+       {"#endif", "1:1: '#endif' without an '#if' before it"},
+       {"#else", "1:1: '#else' without an '#if' before it"},
+       {"#if 0\n#else\n#else\n#endif",
+        "3:1: '#else' after the '#else' of the same '#if'\n1:1: note: the '#if' is here"},
+       {"#if 0\n#else\n#elif 1\n#endif",
+        "3:1: '#elif' after the '#else' of the same '#if'\n1:1: note: the '#if' is here"},
+       {"#if\n#endif", "1:1: expected a value in this condition"},
+       {"#if 1 +\n#endif", "1:1: expected a value in this condition"},
+       {"#if (1\n#endif", "1:1: expected ')' in this condition"},
+       {"#if 1 2\n#endif", "1:7: expected an operator before '2' in this condition"},
+       {"#if 1 / 0\n#endif", "1:7: division by zero in this condition"},
+       {"#if 1.5\n#endif", "1:5: '1.5' is not an integer in this condition"},
+       {"#if \"a\"\n#endif", "1:5: expected a value before '\"a\"' in this condition"},
+       {"#if 1 ? 2\n#endif", "1:1: expected ':' in this condition"},
+       {"#if defined 1\n#endif", "1:5: 'defined' needs the name of a macro, or one in brackets"},
+       {"#if defined(a\n#endif", "1:5: 'defined' needs the name of a macro, or one in brackets"},
+       {"#ifdef\n#endif", "1:1: '#ifdef' needs the name of a macro"},
+       {"#includ \"a\"", "1:2: 'includ' is no directive; 'include'?"},
+       {"#include a", "1:1: '#include' needs \"NAME\" or <NAME>"},
+       {"#include \"none.h\"",
+        "1:10: cannot include 'none.h': there is no such file beside the file or in the folders for headers"}});
 }
 
 TEST(Errors, OfDefinitions) {
-  expectAll({{"surfce a() {}", "1:1: expected a shader or a function before 'surfce'; did you mean 'surface'?"},
-             {"dispalcement a() {}",
-              "1:1: expected a shader or a function before 'dispalcement'; did you mean 'displacement'?"},
-             {"surface () {}", "1:9: expected the name of a shader before '('"},
-             {"surface a {}", "1:11: expected '(' before '{'"},
-             {"surface a(\n", "1:11: expected the type of a parameter before the end of the file"},
-             {"surface a(float) {}", "1:16: expected a name before ')'"},
-             {"surface a(flaot x) {}", "1:11: expected the type of a parameter before 'flaot'; did you mean 'float'?"},
-             {"surface a(float x y) {}", "1:19: expected ')' before 'y'\n1:10: note: to match this '('"},
-             {"surface a(float x = ) {}", "1:21: expected an expression before ')'"},
-             {"surface a(float x[0]) {}", "1:19: the length of an array is a whole number from 1 to 1048576"},
-             {"surface a(float x[1.5]) {}", "1:19: the length of an array is a whole number from 1 to 1048576"},
-             {"surface a(float x[n]) {}", "1:19: expected the length of the array, a number, before 'n'"},
-             {"surface a()\n", "1:12: expected '{' before the end of the file"},
-             {"surface a() {\n", "1:14: expected '}' before the end of the file\n1:13: note: to match this '{'"},
-             {"surface a() {} }", "1:16: expected a shader or a function before '}'"},
-             {"float x = 1;", "1:9: expected '(' before '='"},
-             {"uniform x() {}", "1:9: expected a type before 'x'"}});
+  expectErrors(
+      {{"surfce a() {}", "1:1: expected a shader or a function before 'surfce'; did you mean 'surface'?"},
+       {"dispalcement a() {}",
+        "1:1: expected a shader or a function before 'dispalcement'; did you mean 'displacement'?"},
+       {"surface () {}", "1:9: expected the name of a shader before '('"},
+       {"surface a {}", "1:11: expected '(' before '{'"},
+       {"surface a(\n", "1:11: expected the type of a parameter before the end of the file"},
+       {"surface a(float) {}", "1:16: expected a name before ')'"},
+       {"surface a(flaot x) {}", "1:11: expected the type of a parameter before 'flaot'; did you mean 'float'?"},
+       {"surface a(float x y) {}", "1:19: expected ')' before 'y'\n1:10: note: to match this '('"},
+       {"surface a(float x = ) {}", "1:21: expected an expression before ')'"},
+       {"surface a(float x[0]) {}", "1:19: the length of an array is a whole number from 1 to 1048576"},
+       {"surface a(float x[1.5]) {}", "1:19: the length of an array is a whole number from 1 to 1048576"},
+       {"surface a(float x[n]) {}", "1:19: expected the length of the array, a number, before 'n'"},
+       {"surface a()\n", "1:12: expected '{' before the end of the file"},
+       {"surface a() {\n", "1:14: expected '}' before the end of the file\n1:13: note: to match this '{'"},
+       {"surface a() {} }", "1:16: expected a shader or a function before '}'"},
+       {"float x = 1;", "1:9: expected '(' before '='"},
+       {"uniform x() {}", "1:9: expected a type before 'x'"}});
 }
 
 TEST(Errors, OfStatements) {
@@ -166,7 +164,7 @@ TEST(Errors, OfRsl2AreOneEach) {
 }
 
 TEST(Errors, AreFoundInSeveralPlaces) {
-  expectAll(
+  expectErrors(
       {{"surface a() {\n  b = ;\n  c = (1, 2);\n  if (x { y = 1; }\n  d = 1;\n}\nsurface e( {}\nsurfac f() {}\nlight "
         "g() { h = ]; }",
         "2:7: expected an expression before ';'\n"

@@ -6,11 +6,7 @@
 namespace tomales::compiler {
 namespace {
 
-struct Case {
-  const char *text, *expected;
-};
-
-void expectAll(std::initializer_list<Case> cases) {
+void expectTrees(std::initializer_list<Case> cases) {
   for (const Case& c : cases) EXPECT_EQ(expressionOf(c.text), c.expected) << c.text;
 }
 
@@ -34,81 +30,81 @@ TEST(Precedence, OfEveryPairOfBinaryOperatorsIsThatOfTheSpecification) {
 }
 
 TEST(Precedence, OfUnaryOperatorsIsAboveAllBinaryOnes) {
-  expectAll({{"-a . b", "(. (- a) b)"},
-             {"-a * b", "(* (- a) b)"},
-             {"a - -b", "(- a (- b))"},
-             {"a--b", "(- a (- b))"},
-             {"!a && b", "(&& (! a) b)"},
-             {"!(a && b)", "(! (&& a b))"},
-             {"- - +a", "(- (- (+ a)))"},
-             {"-a[1]", "(- ([ a 1))"}});
+  expectTrees({{"-a . b", "(. (- a) b)"},
+               {"-a * b", "(* (- a) b)"},
+               {"a - -b", "(- a (- b))"},
+               {"a--b", "(- a (- b))"},
+               {"!a && b", "(&& (! a) b)"},
+               {"!(a && b)", "(! (&& a b))"},
+               {"- - +a", "(- (- (+ a)))"},
+               {"-a[1]", "(- ([ a 1))"}});
 }
 
 TEST(Precedence, OfCastsIsAsTightAsOfUnaryOperators) {
-  expectAll({{"color noise(P) * 2", "(* (color (noise P)) 2)"},
-             {"float noise(P) . b", "(. (float (noise P)) b)"},
-             {"color -a + b", "(+ (color (- a)) b)"},
-             {"-float a", "(- (float a))"},
-             {"vector \"world\" v * 2", "(* (vector \"world\" v) 2)"},
-             {"x = color float a", "(= x (color (float a)))"},
-             {"x = color a[1]", "(= x (color ([ a 1)))"},
-             {"(float a) + 1", "(+ (float a) 1)"}});
+  expectTrees({{"color noise(P) * 2", "(* (color (noise P)) 2)"},
+               {"float noise(P) . b", "(. (float (noise P)) b)"},
+               {"color -a + b", "(+ (color (- a)) b)"},
+               {"-float a", "(- (float a))"},
+               {"vector \"world\" v * 2", "(* (vector \"world\" v) 2)"},
+               {"x = color float a", "(= x (color (float a)))"},
+               {"x = color a[1]", "(= x (color ([ a 1)))"},
+               {"(float a) + 1", "(+ (float a) 1)"}});
 }
 
 TEST(Precedence, OfTheConditionalIsAboveAssignmentAlone) {
-  expectAll({{"a = b || c ? d : e", "(= a (? (|| b c) d e))"},
-             {"a ? b : c ? d : e", "(? a b (? c d e))"},
-             {"a ? b ? c : d : e", "(? a (? b c d) e)"},
-             {"x = a == 1 ? b + 1 : c * 2", "(= x (? (== a 1) (+ b 1) (* c 2)))"}});
+  expectTrees({{"a = b || c ? d : e", "(= a (? (|| b c) d e))"},
+               {"a ? b : c ? d : e", "(? a b (? c d e))"},
+               {"a ? b ? c : d : e", "(? a (? b c d) e)"},
+               {"x = a == 1 ? b + 1 : c * 2", "(= x (? (== a 1) (+ b 1) (* c 2)))"}});
 }
 
 TEST(Precedence, AssignmentsGroupToTheRight) {
-  expectAll({{"a = b = c", "(= a (= b c))"},
-             {"a += b -= c", "(+= a (-= b c))"},
-             {"a *= b /= c", "(*= a (/= b c))"},
-             {"a[i] = b", "(= ([ a i) b)"},
-             {"a ^= b", "(^= a b)"},
-             {"(a = b) > c", "(> (= a b) c)"}});
+  expectTrees({{"a = b = c", "(= a (= b c))"},
+               {"a += b -= c", "(+= a (-= b c))"},
+               {"a *= b /= c", "(*= a (/= b c))"},
+               {"a[i] = b", "(= ([ a i) b)"},
+               {"a ^= b", "(^= a b)"},
+               {"(a = b) > c", "(> (= a b) c)"}});
 }
 
 TEST(Expressions, HaveAllPrimaries) {
-  expectAll({{"1.5", "1.5"},
-             {"\"a\"", "\"a\""},
-             {"PI", "PI"},
-             {"f()", "(f)"},
-             {"f(a, b + 1)", "(f a (+ b 1))"},
-             {"f(a = 1)", "(f (= a 1))"},
-             {"(a)", "a"},
-             {"(1, 2, 3)", "(tuple 1 2 3)"},
-             {"(1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16)", "(tuple 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16)"},
-             {"a = {1, 2, 3,}", "(= a (tuple 1 2 3))"},
-             {"a = {{1, 2}, {3}}", "(= a (tuple (tuple 1 2) (tuple 3)))"},
-             {"a[i + 1]", "([ a (+ i 1))"},
-             {"a[1][2]", "([ ([ a 1) 2)"},
-             {"f(a)[1]", "([ (f a) 1)"},
-             {"texture(\"x\"[2], s, t)", "(texture ([ \"x\" 2) s t)"},
-             {"texture(name[ch])", "(texture ([ name ch))"}});
+  expectTrees({{"1.5", "1.5"},
+               {"\"a\"", "\"a\""},
+               {"PI", "PI"},
+               {"f()", "(f)"},
+               {"f(a, b + 1)", "(f a (+ b 1))"},
+               {"f(a = 1)", "(f (= a 1))"},
+               {"(a)", "a"},
+               {"(1, 2, 3)", "(tuple 1 2 3)"},
+               {"(1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16)", "(tuple 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16)"},
+               {"a = {1, 2, 3,}", "(= a (tuple 1 2 3))"},
+               {"a = {{1, 2}, {3}}", "(= a (tuple (tuple 1 2) (tuple 3)))"},
+               {"a[i + 1]", "([ a (+ i 1))"},
+               {"a[1][2]", "([ ([ a 1) 2)"},
+               {"f(a)[1]", "([ (f a) 1)"},
+               {"texture(\"x\"[2], s, t)", "(texture ([ \"x\" 2) s t)"},
+               {"texture(name[ch])", "(texture ([ name ch))"}});
 }
 
 TEST(Expressions, HaveAllCasts) {
-  expectAll({{"color \"hsv\" (0, .5, 1)", "(color \"hsv\" (tuple 0 0.5 1))"},
-             {"point \"shader\" (0, 0, 0)", "(point \"shader\" (tuple 0 0 0))"},
-             {"vector \"world\" v", "(vector \"world\" v)"},
-             {"normal (0, 0, 1)", "(normal (tuple 0 0 1))"},
-             {"matrix \"shader\" 1", "(matrix \"shader\" 1)"},
-             {"color \"\" a", "(color \"\" a)"},
-             {"point \"a\" \"b\" p", "(point \"ab\" p)"},
-             {"float texture(\"x\")", "(float (texture \"x\"))"},
-             {"float \"x\"", "(float \"x\")"},
-             {"string \"x\"", "(string \"x\")"},
-             {"color \"x\" [0]", "(color ([ \"x\" 0))"}});
+  expectTrees({{"color \"hsv\" (0, .5, 1)", "(color \"hsv\" (tuple 0 0.5 1))"},
+               {"point \"shader\" (0, 0, 0)", "(point \"shader\" (tuple 0 0 0))"},
+               {"vector \"world\" v", "(vector \"world\" v)"},
+               {"normal (0, 0, 1)", "(normal (tuple 0 0 1))"},
+               {"matrix \"shader\" 1", "(matrix \"shader\" 1)"},
+               {"color \"\" a", "(color \"\" a)"},
+               {"point \"a\" \"b\" p", "(point \"ab\" p)"},
+               {"float texture(\"x\")", "(float (texture \"x\"))"},
+               {"float \"x\"", "(float \"x\")"},
+               {"string \"x\"", "(string \"x\")"},
+               {"color \"x\" [0]", "(color ([ \"x\" 0))"}});
 }
 
 TEST(Expressions, NumbersBesidePointsAreNoDotProducts) {
-  expectAll({{"a.b", "(. a b)"}, {"a . .5", "(. a 0.5)"}, {"1.5 . a", "(. 1.5 a)"}, {"1. . a", "(. 1 a)"}});
+  expectTrees({{"a.b", "(. a b)"}, {"a . .5", "(. a 0.5)"}, {"1.5 . a", "(. 1.5 a)"}, {"1. . a", "(. 1 a)"}});
 }
 
-TEST(Expressions, MayHaveCommas) { expectAll({{"a = 1, b = 2", "(, (= a 1) (= b 2))"}}); }
+TEST(Expressions, MayHaveCommas) { expectTrees({{"a = 1, b = 2", "(, (= a 1) (= b 2))"}}); }
 
 TEST(Expressions, NamesAreAllThatTheLanguageDoesNotReserve) {
   for (const char* name : {"int", "double", "class", "struct", "new", "this", "do", "switch", "static", "light",

@@ -6,6 +6,11 @@
 
 namespace tomales::compiler {
 
+/// A text, and what is made of it.
+struct Case {
+  const char *text, *expected;
+};
+
 /// A text as a file "a.sl", read as far as asked.
 struct Front {
   Sources sources;

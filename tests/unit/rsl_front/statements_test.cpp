@@ -6,11 +6,7 @@
 namespace tomales::compiler {
 namespace {
 
-struct Case {
-  const char *text, *expected;
-};
-
-void expectAll(std::initializer_list<Case> cases) {
+void expectBodies(std::initializer_list<Case> cases) {
   // Trees are those of a body; its own two levels are left out of what is expected.
   for (const Case& c : cases) {
     std::string tree = treeOf(c.text), out;
@@ -30,7 +26,7 @@ std::string fileOf(const std::string& text) {
 }
 
 TEST(Statements, AreThoseOfTheLanguage) {
-  expectAll(
+  expectBodies(
       {{";", "empty|"},
        {"{ ; { } }", "block|  empty|  block|"},
        {"a;", "expression|  name a|"},
@@ -48,22 +44,23 @@ TEST(Statements, AreThoseOfTheLanguage) {
 }
 
 TEST(Statements, OfLightAndRaysHaveListsInTheirBrackets) {
-  expectAll({{"illuminance(P) ;", "illuminance|  name P|  empty|"},
-             {"illuminance(\"c\", P, N, PI / 2, \"send:x\", y) { }",
-              "illuminance|  string \"c\"|  name P|  name N|  binary /|    name PI|    number 2|  string \"send:x\"|  "
-              "name y|  block|"},
-             {"illuminate(P) ;", "illuminate|  name P|  empty|"},
-             {"solar() ;", "solar|  empty|"},
-             {"solar(A, 0) ;", "solar|  name A|  number 0|  empty|"},
-             {"gather(\"\", P, N, 1, 4) a; else b;",
-              "gather|  string \"\"|  name P|  name N|  number 1|  number 4|  expression|    name a|  expression|    "
-              "name b|"},
-             {"illuminance = solar + gather;",
-              "expression|  assign =|    name illuminance|    binary +|      name solar|      name gather|"}});
+  expectBodies(
+      {{"illuminance(P) ;", "illuminance|  name P|  empty|"},
+       {"illuminance(\"c\", P, N, PI / 2, \"send:x\", y) { }",
+        "illuminance|  string \"c\"|  name P|  name N|  binary /|    name PI|    number 2|  string \"send:x\"|  "
+        "name y|  block|"},
+       {"illuminate(P) ;", "illuminate|  name P|  empty|"},
+       {"solar() ;", "solar|  empty|"},
+       {"solar(A, 0) ;", "solar|  name A|  number 0|  empty|"},
+       {"gather(\"\", P, N, 1, 4) a; else b;",
+        "gather|  string \"\"|  name P|  name N|  number 1|  number 4|  expression|    name a|  expression|    "
+        "name b|"},
+       {"illuminance = solar + gather;",
+        "expression|  assign =|    name illuminance|    binary +|      name solar|      name gather|"}});
 }
 
 TEST(Statements, DeclareVariables) {
-  expectAll(
+  expectBodies(
       {{"float a;", "declare|  variable float a|"},
        {"float a, b = 2, c[3];", "declare|  variable float a|  variable float b|    number 2|  variable float[3] c|"},
        {"uniform color a; varying string b;",
@@ -80,24 +77,25 @@ TEST(Statements, DeclareVariables) {
 }
 
 TEST(Statements, ThatBeginWithATypeMayBeCasts) {
-  expectAll({{"float f(x);", "expression|  cast float|    call f|      name x|"},
-             {"color \"hsv\" a;", "expression|  cast color \"hsv\"|    name a|"}});
+  expectBodies({{"float f(x);", "expression|  cast float|    call f|      name x|"},
+                {"color \"hsv\" a;", "expression|  cast color \"hsv\"|    name a|"}});
 }
 
 TEST(Statements, DeclareTheVariableOfALoopInABlockAroundIt) {
-  expectAll({{"for (uniform float i = 0; i < 2; i += 1) ;",
-              "block|  declare|    variable uniform float i|      number 0|  for|    none|    binary <|      name i|   "
-              "   number 2|"
-              "    assign +=|      name i|      number 1|    empty|"}});
+  expectBodies(
+      {{"for (uniform float i = 0; i < 2; i += 1) ;",
+        "block|  declare|    variable uniform float i|      number 0|  for|    none|    binary <|      name i|   "
+        "   number 2|"
+        "    assign +=|      name i|      number 1|    empty|"}});
 }
 
 TEST(Statements, DefineFunctions) {
-  expectAll({{"float f(float x) { return x; }",
-              "define|  function float f|    variable float x|    block|      return|        name x|"},
-             {"void f() { }", "define|  function void f|    block|"},
-             {"f(float x) { }", "define|  function void f|    variable float x|    block|"},
-             {"float f() { float g() { } }",
-              "define|  function float f|    block|      define|        function float g|          block|"}});
+  expectBodies({{"float f(float x) { return x; }",
+                 "define|  function float f|    variable float x|    block|      return|        name x|"},
+                {"void f() { }", "define|  function void f|    block|"},
+                {"f(float x) { }", "define|  function void f|    variable float x|    block|"},
+                {"float f() { float g() { } }",
+                 "define|  function float f|    block|      define|        function float g|          block|"}});
 }
 
 TEST(Definitions, AreShadersOfAllKinds) {

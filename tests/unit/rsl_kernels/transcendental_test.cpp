@@ -8,7 +8,7 @@
 namespace tomales::compiler {
 namespace {
 
-constexpr int kBlocks = 64, kPoints = kBlocks * kBlock;
+constexpr int kExactBlocks = 64, kExactPoints = kExactBlocks * kBlock;
 
 /// How far a float is from the exact value, in units of the last place of the float that is nearest to it; infinite
 /// where one of them is infinite, no number or a zero of its sign and the other is not.
@@ -25,13 +25,13 @@ double errorOf(float got, double exact) {
 /// The largest error in ulps where `at` gives point i of n.
 template <class At, class Exact>
 double largestError(Op op, int n, const At& at, const Exact& exact, float* worst = nullptr) {
-  Values in(1, kBlocks, true), out(1, kBlocks, true);
+  Values in(1, kExactBlocks, true), out(1, kExactBlocks, true);
   double largest = 0;
-  for (int first = 0; first < n; first += kPoints) {
-    for (int i = 0; i < kPoints; ++i) in.data[static_cast<size_t>(i)] = at(std::min(first + i, n - 1));
+  for (int first = 0; first < n; first += kExactPoints) {
+    for (int i = 0; i < kExactPoints; ++i) in.data[static_cast<size_t>(i)] = at(std::min(first + i, n - 1));
     const Lanes from = in.lanes();
-    kernelOf(op)(kBlocks, out.lanes(), &from);
-    for (size_t i = 0; i < kPoints; ++i) {
+    kernelOf(op)(kExactBlocks, out.lanes(), &from);
+    for (size_t i = 0; i < kExactPoints; ++i) {
       const double error = errorOf(out.data[i], exact(static_cast<double>(in.data[i])));
       if (!(error <= largest)) {
         largest = error;
@@ -95,13 +95,13 @@ TEST(TranscendentalKernels, SinAndCosAreTheNearestFloatsWhereTheWayOfReducingCha
 /// The largest error of a kernel of two numbers, over n pairs.
 template <class At, class Exact>
 double largestErrorOfPairs(Op op, int n, const At& at, const Exact& exact, std::pair<float, float>& worst) {
-  Values a(1, kBlocks, true), b(1, kBlocks, true), out(1, kBlocks, true);
+  Values a(1, kExactBlocks, true), b(1, kExactBlocks, true), out(1, kExactBlocks, true);
   double largest = 0;
-  for (int first = 0; first < n; first += kPoints) {
-    for (size_t i = 0; i < kPoints; ++i) std::tie(a.data[i], b.data[i]) = at();
+  for (int first = 0; first < n; first += kExactPoints) {
+    for (size_t i = 0; i < kExactPoints; ++i) std::tie(a.data[i], b.data[i]) = at();
     const Lanes from[] = {a.lanes(), b.lanes()};
-    kernelOf(op)(kBlocks, out.lanes(), from);
-    for (size_t i = 0; i < kPoints; ++i) {
+    kernelOf(op)(kExactBlocks, out.lanes(), from);
+    for (size_t i = 0; i < kExactPoints; ++i) {
       const double error = errorOf(out.data[i], exact(static_cast<double>(a.data[i]), static_cast<double>(b.data[i])));
       if (!(error <= largest)) largest = error, worst = {a.data[i], b.data[i]};
     }

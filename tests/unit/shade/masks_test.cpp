@@ -18,8 +18,8 @@ struct Asked {
   std::function<void(const TmServices&, void* host, const TmGrid*, TmVec3 out, uint8_t* flags)> call;
 };
 
-rsl::Vec3Array* axis = nullptr;  ///< (0, 0, -1) everywhere.
-rsl::Array* number = nullptr;    ///< 0.1 everywhere.
+rsl::Vec3Array* axis = nullptr;   ///< (0, 0, -1) everywhere.
+rsl::Array* oneNumber = nullptr;  ///< 0.1 everywhere.
 
 const std::vector<Asked>& calls() {
 #define TM_CALL(name, ...)                                                                       \
@@ -29,7 +29,7 @@ const std::vector<Asked>& calls() {
   }
   static const std::vector<Asked> all = {
       TM_CALL("diffuse", call.diffuse(h, g, TM_ALL_LIGHT, *axis, out)),
-      TM_CALL("specular", call.specular(h, g, *axis, *axis, number->data(), out)),
+      TM_CALL("specular", call.specular(h, g, *axis, *axis, oneNumber->data(), out)),
       TM_CALL("ambient", call.ambient(h, g, out)),
       TM_CALL("transform", call.transform(h, g, TM_AS_POINT, "current", "world", *axis, out)),
       TM_CALL("texture", call.texture(h, g, "absent.tif", nullptr, g->s, g->t, out)),
@@ -48,7 +48,7 @@ const std::vector<Asked>& calls() {
               }),
       TM_CALL("rayInfo", call.rayInfo(h, g, "origin", out)),
       TM_CALL("lightDensity", call.lightDensity(h, g, 0, out.x)),
-      TM_CALL("lightAlong", call.lightAlong(h, g, *axis, number->data(), 0, 1, out)),
+      TM_CALL("lightAlong", call.lightAlong(h, g, *axis, oneNumber->data(), 0, 1, out)),
       TM_CALL("stratified", call.stratified(h, g, 0, 1, out.x, out.y)),
       TM_CALL("derivative", call.derivative(h, g, 0, g->s, out.x)),
       TM_CALL("illuminance",
@@ -68,7 +68,7 @@ const std::vector<Asked>& calls() {
       TM_CALL("texture",
               {
                 TmTextureOptions options = tmTextureDefaults();
-                for (const float*& side : options.region) side = number->data();
+                for (const float*& side : options.region) side = oneNumber->data();
                 call.texture(h, g, "absent.tif", &options, g->s, g->t, out);
               }),
       TM_CALL("texture3d", call.texture3d(h, g, "absent.ptc", nullptr, rsl::view(g->P), *axis, nullptr, 0, out.x)),
@@ -91,7 +91,7 @@ void maskedRun(const TmGrid* g) {
   rsl::Vec3Array toEye(g);
   rsl::Array tenth(g);
   for (int i = 0; i < g->count; ++i) toEye.set(i, {0, 0, -1}), tenth[i] = 0.1f;
-  axis = &toEye, number = &tenth;
+  axis = &toEye, oneNumber = &tenth;
   for (const Asked& asked : calls()) {
     rsl::Vec3Array out(g);
     std::vector<uint8_t> flags(static_cast<size_t>(g->padded), 0);

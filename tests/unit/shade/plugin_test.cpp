@@ -23,7 +23,7 @@ void dividing(const TmGrid* g) {
 }
 
 // Asks every service with point 1 switched off; Ci.x tells whether anything was written there.
-constexpr float kUntouched = -42;
+constexpr float kUnwritten = -42;
 void masked(const TmGrid* g) {
   TmGrid some = *g;
   std::vector<uint8_t> active(static_cast<size_t>(g->padded), 1);
@@ -35,7 +35,7 @@ void masked(const TmGrid* g) {
                                   rsl::Vec3Array(g), rsl::Vec3Array(g), rsl::Vec3Array(g)};
   for (int i : rsl::Batch(g)) {
     N.set(i, {0, 0, -1}), roughness[i] = 0.1f;
-    for (auto& out : outs) out.set(i, {kUntouched, kUntouched, kUntouched});
+    for (auto& out : outs) out.set(i, {kUnwritten, kUnwritten, kUnwritten});
   }
   call.diffuse(g->host, &some, TM_ALL_LIGHT, N, outs[0]);
   call.specular(g->host, &some, N, N, roughness.data(), outs[1]);
@@ -46,7 +46,7 @@ void masked(const TmGrid* g) {
   call.indirectDiffuse(g->host, &some, N, outs[6], nullptr);
   for (int i : rsl::Batch(g)) {
     int touched = 0;
-    for (const auto& out : outs) touched += out[i].x != kUntouched;
+    for (const auto& out : outs) touched += out[i].x != kUnwritten;
     rsl::set(g->Oi, i, {1, 1, 1}), rsl::set(g->Ci, i, {static_cast<float>(touched), 0, 0});
   }
 }

@@ -9,7 +9,7 @@ namespace {
 using namespace sl;
 
 constexpr double kCone = 0.6;
-rsl::FloatParam samples("samples", 256, "", TM_ROLE_SAMPLES), skySamples("samples", 256, "", TM_ROLE_SAMPLES),
+rsl::FloatParam sunSamples("samples", 256, "", TM_ROLE_SAMPLES), skySamples("samples", 256, "", TM_ROLE_SAMPLES),
     intensity("intensity", 4, "");
 rsl::StringParam map("map", "", "", TM_ROLE_SKY_MAP);
 
@@ -42,7 +42,7 @@ struct curious : sl::Surface {
   void main() { Ci = Color(time, dtime, xcomp(dPdtime)), Oi = Color(xcomp(E), ycomp(E), ncomps); }
 };
 const rsl::Shader hazysunShader(TM_LIGHT, "hazysun", "", TM_LIGHT_SOLAR | TM_LIGHT_SAMPLED, sl::shade<hazysun>,
-                                {&samples});
+                                {&sunSamples});
 const rsl::Shader gradedskyShader(TM_LIGHT, "gradedsky", "", TM_LIGHT_SOLAR | TM_LIGHT_SKY, sl::shade<gradedsky>,
                                   {&map, &skySamples});
 const rsl::Shader panelShader(TM_LIGHT, "panel", "", TM_LIGHT_AREA, sl::shade<panel>, {&intensity});
