@@ -34,7 +34,8 @@ constexpr float kDot = 3.5f;
 /// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
-constexpr float kDeepest = 2;  ///< A coarse piece's far end is at most so many times as far away as its near end.
+constexpr float kDeepest = 2;        ///< A coarse piece's far end is at most so many times as far away as its near end.
+constexpr double kLeastSeen = 0.25;  ///< Share of a coarse piece's width in the picture, and of its height.
 
 double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
 
@@ -192,7 +193,8 @@ class Splitter {
                        .crossesEye = crossesEye,
                        .depth = depth});
     } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
-               isOfOneScale(bare) && glm::length(bare.size()) <= kSlack * reach) {
+               isOfOneScale(bare) && isLargelySeen(rasterOf(bound, reach_px)) &&
+               glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that the number of its grids can be estimated.
       out.push_back({.object = index_,
                      .patch = patch,
@@ -268,6 +270,13 @@ class Splitter {
 
   /// Is all of it seen at about the same scale? If not, the cost of its near end says nothing about most of it.
   bool isOfOneScale(const Bound3& bare) const { return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z; }
+
+  /// Is much of its bound in the window? If not, halving soon culls most of it, and the visits that it takes until then
+  /// have little to do with its grids: a strip that runs past the eye is thousands of windows wide.
+  bool isLargelySeen(const Bound2& raster) const {
+    const glm::dvec2 size = raster.hi - raster.lo, seen = sizeInView_px(raster);
+    return seen.x >= kLeastSeen * size.x && seen.y >= kLeastSeen * size.y;
+  }
 
   int64_t visitsOfBlur(const Bound2& raster) const {
     const double keys = 1 + static_cast<double>(object_.keyTimes.size()) / kKeysOfBlur;
