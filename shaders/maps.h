@@ -29,7 +29,7 @@ class Coordinates {
       : first_{b.g->s, b.g->t}, second_{of.s.values(b.g), of.t.values(b.g)}, maps_(of.maps(b.g)) {
     if (!second_.s || !second_.t) second_ = first_;
   }
-  /// Of the parameter `map`.
+  /// The coordinates that the picture of the parameter `map` is looked up at.
   Pair of(std::string_view map) const {
     for (size_t at = maps_.find(map); at != maps_.npos; at = maps_.find(map, at + 1))
       if ((at == 0 || maps_[at - 1] == ' ') && (at + map.size() == maps_.size() || maps_[at + map.size()] == ' '))
@@ -107,7 +107,7 @@ struct NormalMap {
   rsl::StringParam map{"normalmap", "", "picture of normals in tangent space, its green upwards"};
   rsl::FloatParam scale{"normalscale", 1, "how far they turn; negative: against what the picture says"};
 
-  /// Of unit length, towards the viewer, as rsl::Batch::facingNormals().
+  /// Normals of unit length, towards the viewer, as rsl::Batch::facingNormals() gives them.
   rsl::Vec3Array facingNormals(const rsl::Batch& b, Coordinates::Pair at) const {
     rsl::Vec3Array N = b.facingNormals(), texel(b.g);
     const TmTextureOptions options = tmTextureDefaults();

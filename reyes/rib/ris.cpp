@@ -80,7 +80,7 @@ Note standsIn(const Request& r, const std::string& substitute, Severity severity
   return note(r, "is not available: " + substitute + " stands in for it", severity);
 }
 
-// Of requests that are older than RIS, those belong here that name something of RIS.
+// Requests that are older than RIS belong here if they name something of RIS.
 bool isRis(const Request& r) {
   if (r.name == "Option" || r.name == "Attribute") return r.args[0].strings[0] == "Ri";
   if (r.name == "AreaLightSource") return r.args[0].strings[0].find("PxrStd") != std::string::npos;

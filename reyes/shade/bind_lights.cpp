@@ -21,14 +21,14 @@ int countOf(const BoundShader& light, TmRole role, int fallback, int least, int 
   const float asked = light.number(role, static_cast<float>(fallback));
   const auto used = static_cast<int>(std::clamp(asked, static_cast<float>(least), static_cast<float>(most)));
   if (asked < static_cast<float>(least) || asked > static_cast<float>(most))
-    log.report(Severity::Warning, fmt::format("light-{}", roleName(role)), light.where,
+    log.report(Severity::Warning, "light-value", light.where,
                fmt::format("{}: {} {} is out of range; {} is used", light.user, light.find(role)->name, asked, used));
   return used;
 }
 
 void warnOfValue(const BoundShader& light, TmRole role, const std::string& value, const std::string& consequence,
                  Log& log) {
-  log.report(Severity::Warning, fmt::format("light-{}", roleName(role)), light.where,
+  log.report(Severity::Warning, "light-value", light.where,
              fmt::format("{}: {} \"{}\" is not supported; {}", light.user, light.find(role)->name, value, consequence));
 }
 

@@ -23,7 +23,7 @@ namespace {
 rsl::FloatParam Kd("Kd", 0.6f, "weight of diffuse light"), Ks("Ks", 0.5f, "weight of highlights"), roughness("roughness", 0.15f, "width of highlights");
 rsl::UniformFloatParam samples("samples", 256, "rays");
 
-/// Of light from all sides the cosine-weighted mean is diffuse(); a highlight counts the light of each ray over its cosine, as specular() has none.
+/// The cosine-weighted mean of the light from all sides is diffuse(). A highlight divides the light of each ray by its cosine, because specular() has none.
 struct wholeplastic : Surface {
   void main() {
     Normal Nf = faceforward(normalize(N), I);

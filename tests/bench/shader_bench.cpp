@@ -68,7 +68,7 @@ void handLoop(const ShadePoints& p, std::vector<float>& sum, ShadedPoints& out) 
   }
 }
 
-/// Of the processor, so that what else runs on the machine counts little.
+/// The processor time of the call, so that what else runs on the machine counts little.
 template <class Call>
 double secondsOf(const Call& call) {
   const std::clock_t start = std::clock();

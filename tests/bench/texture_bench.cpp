@@ -15,7 +15,7 @@ namespace {
 using namespace tomales;
 constexpr int kEdge = 1024, kBatch = 256;
 
-/// Of the processor, so that what else runs on the machine counts little.
+/// The processor time of the call, so that what else runs on the machine counts little.
 template <class Call>
 double secondsOf(const Call& call) {
   const std::clock_t start = std::clock();

@@ -1,10 +1,14 @@
 """Runs the renderer in a folder of its own and collects what did not go as a test expects."""
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import sys
 import tempfile
+
+PAGE = (pathlib.Path(__file__).parents[2] / "docs/messages.md").read_text()
+REPORT = re.compile(r": (?:info|note|warning|missing|error|output error): .* \[([a-z0-9-]+)\]$", re.M)
 
 GOOD = """Display "good.exr" "file" "rgba"
 Format 24 24 1
@@ -37,10 +41,14 @@ class Suite:
     def run(self, *arguments, stdin=None, cpu_s=None):
         """With `cpu_s`, the program and its children may each take that much CPU time."""
         limit = cpu_s and (lambda: resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, resource.RLIM_INFINITY)))
-        return subprocess.run([self.program, *arguments], cwd=self.folder, input=stdin, capture_output=True,
+        result = subprocess.run([self.program, *arguments], cwd=self.folder, input=stdin, capture_output=True,
                               timeout=60, text=True, errors="replace", preexec_fn=limit,
                               env={"XDG_CONFIG_HOME": str(self.folder / "config"), **os.environ,
                                    "TOMALES_TEXTURE_CACHE": str(self.folder / "textures")})
+        for code in REPORT.findall(result.stderr):
+            if f"`{code}`" not in PAGE:
+                self.expect(False, f"docs/messages.md explains {code}")
+        return result
 
     def expect(self, condition, message):
         print(("ok      " if condition else "FAILED  ") + message)

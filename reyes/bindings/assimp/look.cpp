@@ -23,8 +23,8 @@ std::optional<vec3> color(const aiMaterial& m, const char* key, unsigned type, u
   return of(value);
 }
 
-/// Of a highlight cos^n as of Beckmann's distribution of the same width near its middle: alpha^2 = 2 / (n + 2) (Walter
-/// et al. 2007, section 5.1), and disney's alpha is the square of its roughness.
+/// The roughness of a highlight cos^n is that of Beckmann's distribution of the same width near its middle:
+/// alpha^2 = 2 / (n + 2) (Walter et al. 2007, section 5.1), and disney's alpha is the square of its roughness.
 float roughnessOfExponent(float n) { return std::pow(2 / (std::max(n, 0.0f) + 2), 0.25f); }
 
 float roughnessOf(const aiMaterial& m) {

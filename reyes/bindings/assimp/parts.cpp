@@ -10,7 +10,7 @@
 namespace tomales::model {
 namespace {
 
-/// Of what a stranger's file calls something: letters, digits, - and _.
+/// Makes a name of letters, digits, - and _ from what a stranger's file calls something.
 std::string fileName(const std::string& stem) {
   constexpr size_t kLongest = 48;
   std::string out;

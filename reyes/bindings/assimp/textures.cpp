@@ -72,7 +72,7 @@ std::string Textures::file(const std::string& name, aiTextureMapMode sWrap, aiTe
   return made->second;
 }
 
-/// Of a picture within the model: a file that holds it, below the folder of parts.
+/// Gives the file of a picture. One within the model is written below the folder of parts first.
 std::string Textures::pictureOf(const std::string& name) const {
   const aiTexture* inside = scene_.GetEmbeddedTexture(name.c_str());
   if (!inside || !inside->pcData) return foundBeside(settings_.model, name);

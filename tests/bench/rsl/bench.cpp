@@ -18,7 +18,7 @@ using namespace tomales::bench;
 
 constexpr int kRuns = 60, kCalls = 40;
 
-/// Of this thread's processor time, so that what else runs on the machine counts little.
+/// The processor time of this thread, so that what else runs on the machine counts little.
 double now_ns() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);

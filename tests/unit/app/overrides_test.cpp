@@ -59,7 +59,7 @@ TEST(Overrides, ASceneWithoutDisplayGetsTheDefaultOne) {
   EXPECT_EQ(scene.options.displays.size(), 1u);
 }
 
-/// Of a scene with these requests in its world, by the choice.
+/// The mode that a scene with these requests in its world has under this choice of --gi.
 GiMode modeOf(const std::string& lights, const char* choice) {
   const Scene scene = sceneOf("WorldBegin\n" + lights + "Sphere 1 -1 1 360\nWorldEnd\n");
   Log log(Log::Verbosity::Quiet);

@@ -7,7 +7,7 @@ namespace tomales {
 namespace {
 using namespace test;
 
-/// Of a disk of the ball's outline, what its samples cover; 0: in focus.
+/// The share of a disk with the ball's outline that samples cover. An fStop of 0 means that the ball is in focus.
 double share(float radius, int fStop, int degrees, float x) {
   const std::string options = fStop ? fmt::format("DepthOfField {} 1 5", fStop) : "";
   const DeepFrame f = hide(fmt::format("Translate {} {} 10 Rotate {} 1 0.3 0 Sphere {} {} {} 360", x, 0.7f * x, degrees,

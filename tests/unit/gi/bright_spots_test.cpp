@@ -80,7 +80,7 @@ TEST(SpotAim, WhatIsHiddenIsAimedAtLess) {
 }
 
 TEST(Gather, SpotsBehindAScreenTakeNoRaysFromWhatCanBeSeen) {
-  // Of two glows the nearer and larger is behind a screen; the noise is that of the other one, aimed at.
+  // The nearer and larger of two glows is behind a screen, so the noise is that of the other one, which rays aim at.
   SceneBuilder b;
   b.light("distantlight", {pointParam("from", {0, 0, 0}), pointParam("to", {0, 0, 1})});
   b.quad({-0.15f, 1.75f, 5}, {0.15f, 1.75f, 5}, {0.15f, 2.05f, 5}, {-0.15f, 2.05f, 5}, vec3(0.8f));

@@ -360,7 +360,7 @@ TEST(IrradianceCache, AQuadraticFieldIsReproducedByRecordsThatKnowTheirSecondDer
     for (vec3& g : record.translationGradient) g = {0.3f + 1.6f * p.x - 0.6f * p.y, 0.8f * p.y - 0.6f * p.x, 0};
     record.smoothRadius = 0.3f;
     record.tangent = normalizeOr(vec3(1, 2, 0), vec3(0));
-    // Of 0.8 xx - 0.6 xy + 0.4 yy, along (1, 2) and (-2, 1).
+    // This is the Hessian of 0.8 xx - 0.6 xy + 0.4 yy, whose axes are (1, 2) and (-2, 1).
     record.hessian[0] = vec3(0.48f), record.hessian[1] = vec3(0.04f), record.hessian[2] = vec3(1.92f);
     cache.insert(record);
   }
@@ -385,7 +385,7 @@ TEST(IrradianceCache, AmongRecordsOnAllSidesGradientsAloneSayHowLightBends) {
 }
 
 TEST(IrradianceCache, ASecondDerivativeHoldsAsFarAsItsRecordReaches) {
-  // Of two records on one side the nearer one is beside an edge, where light bends a lot for a short way.
+  // The nearer of two records on one side is beside an edge, where light bends a lot for a short way.
   IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
   for (const bool edge : {false, true}) {
     auto r = recordAt({edge ? -0.015f : -0.25f, 0, 0}, vec3(1));

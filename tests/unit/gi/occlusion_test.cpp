@@ -82,8 +82,8 @@ struct Error {
   int points = 0;
 };
 
-/// Of shading with the services of `world` against the form factor of the ball, over the floor as far as the eye sees
-/// it up to z = 6.
+/// The error of shading with the services of `world` against the form factor of the ball, over the part of the floor
+/// that the eye sees up to z = 6.
 Error errorOnFloor(const World& world, const DeepFrame& frame) {
   Error error;
   for (const DeepTile& tile : frame.tiles)

@@ -292,7 +292,7 @@ TEST(PhotonIrradiance, ABallThatABorderCutsIsKnownByItsCentroid) {
   EXPECT_LT(coveredShareOfBall(0.9f), 0.02f);
 }
 
-/// Of the inside of the sphere, by the atlas.
+/// The light that the atlas gives to points on the inside of the sphere.
 std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation, bool storesDirect = true) {
   World world(insideOfASphere("matte", tessellation));
   const auto services = world.use({.mode = GiMode::Atlas, .storesDirect = storesDirect});

@@ -255,7 +255,7 @@ TEST(RayCalls, OcclusionInARightAngledCorner) {
   std::vector<float> expected;
   for (const float x : {0.01f, 0.1f, 0.5f, 1.0f, 2.0f, 5.0f}) {
     addPoint(points, {x, 0, 5}, {0, 1, 0}, {0, -1, 0});
-    // Of an endless wall: half the sine of the angle that it rises to, measured from the horizon's normal.
+    // An endless wall covers half of 1 less the sine of the angle between its top and the vertical.
     expected.push_back(1 - 0.5f * (1 - x / std::hypot(x, height)));
   }
   const std::vector<vec3> is = shaded(world, points);

@@ -22,7 +22,7 @@ std::shared_ptr<const RasterGrid> turned(World& world, float angle, float turn) 
   return project(makeGrid(0, 1, kCells, kCells, surface, 2), world.scene, Camera(world.scene.options), true);
 }
 
-/// Of a box, in square pixels.
+/// The area of a box in square pixels.
 float areaOf(const BlurBounds& b, const BlurBox& box) {
   const vec2 s = b.segments[0].slant;
   return 4 * box.xReach * box.yReach / (1 - s.x * s.y);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr PixelRect kRect{0, 0, 32, 32};
 
-/// Of a pixel, how many layers its samples see, added.
+/// The sum over the samples of a pixel of the layers that each sees.
 int layersOf(const DeepTile& t, const DeepPixel& p) {
   int n = 0;
   for (uint32_t k = 0; k < p.count; ++k) n += std::popcount(begin(t, p)[k].samples);

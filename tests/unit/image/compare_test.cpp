@@ -37,7 +37,7 @@ TEST(Compare, AnImageIsPerfectlyLikeItself) {
   EXPECT_TRUE(std::isinf(c.psnr_dB));
 }
 
-// Of two constant images only the luminance term of SSIM is left.
+// SSIM of two constant images is its luminance term alone.
 TEST(Compare, SsimOfConstantsIsTheLuminanceTerm) {
   const std::vector<float> one(400, 1.0f), zero(400, 0.0f);
   EXPECT_NEAR(compare(grey(20, 20, zero), grey(20, 20, one)).ssim, 1e-4 / (1 + 1e-4), 1e-5);

@@ -40,7 +40,8 @@ void atRandomPoints(const Prim& prim, const Check& check) {
     check(sampleAt(prim, k % prim.patchCount(), unitFloat(hashCombine(k, 1u)), unitFloat(hashCombine(k, 2u))));
 }
 
-/// Of what the diced quadrilaterals enclose (Gauss), and whether they enclose anything: the sum of area vectors.
+/// The volume that the diced quadrilaterals enclose (Gauss), and the sum of their area vectors, which is 0 if they
+/// enclose anything.
 struct Enclosed {
   double volume = 0;
   glm::dvec3 gap{0};

@@ -18,7 +18,7 @@ struct Measured {
   double area = 0, volume = 0;
 };
 
-/// Of two triangles a cell; the volume by the divergence theorem.
+/// The area and volume of a mesh of two triangles a cell; the volume is by the divergence theorem.
 Measured diced(const Prim& prim, int side) {
   Measured out;
   const int row = side + 1;

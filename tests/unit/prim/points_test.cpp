@@ -27,7 +27,7 @@ TEST(Points, AreDisksOfTheirWidth) {
   }
 }
 
-/// Of the polygons that a lattice over a patch makes.
+/// The area of the polygons that a lattice over a patch makes.
 double latticeArea(const Prim& prim, uint32_t patch, int nu, int nv) {
   std::vector<float> u, v;
   for (int j = 0; j <= nv; ++j)

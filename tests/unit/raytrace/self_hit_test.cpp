@@ -39,7 +39,7 @@ Counts leaveOutwards(const World& world, float leastCosine) {
   return counts;
 }
 
-/// Of radius 1, five away, with lumps of up to 0.05.
+/// The sphere has radius 1, lies five units away, and has lumps of up to 0.05.
 struct BumpySphere : World {
   BumpySphere(bool hitList, bool displacedRays) {
     attributes.trace.displacements = displacedRays;

@@ -13,7 +13,7 @@ void expectErrors(std::initializer_list<Case> cases) {
   }
 }
 
-/// Of lines in the body of a shader that begins on line 0.
+/// The cases are lines in the body of a shader that begins on line 0.
 void expectInBody(std::initializer_list<Case> cases) {
   for (const Case& c : cases) {
     Front front(std::string("surface x() {\n") + c.text + "\n}");

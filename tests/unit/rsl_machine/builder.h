@@ -84,7 +84,7 @@ class Builder {
   }
   void scope(int32_t label, const Body& body) { nest(Op::Scope, {}, label, {body}); }
   void leave(int32_t label) { emit(Op::Leave, {}, {}, label); }
-  /// Of an instruction with blocks, such as Illuminance.
+  /// Adds an instruction with blocks, such as Illuminance.
   void nest(Op op, std::vector<int32_t> in, int32_t extra, const std::vector<Body>& bodies,
             std::vector<int32_t> out = {}, std::vector<Setting> settings = {}) {
     Instruction i{op, std::move(out), std::move(in), extra, std::move(settings)};

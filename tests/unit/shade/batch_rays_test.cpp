@@ -9,7 +9,7 @@ using namespace sl;
 
 class BatchRays : public BatchServices {};
 
-/// Of all directions, as latitudes and longitudes: 1 + the direction.
+/// A latitude-longitude picture whose texels hold 1 + their direction.
 std::string pictureOfDirections(const std::string& name) {
   return writePicture(::testing::TempDir() + name, 256, 128, "RGB", [](int x, int y) {
     const float theta = kPi * (static_cast<float>(y) + 0.5f) / 128,

@@ -30,7 +30,7 @@ struct Estimate {
   double mean = 0, error = 0;  ///< error: rms of a single sample.
 };
 
-/// Of the integral of f cos / pi over the hemisphere about N.
+/// An estimate of the integral of f cos / pi over the hemisphere about N.
 template <class F>
 Estimate integrate(const Sky& sky, const vec3& P, const vec3& N, const F& f) {
   double sum = 0, squares = 0;

@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-// Of the one test shader, which runs on the test's thread.
+// These are settings of the one test shader, which runs on the test's thread.
 TmRayOptions options = tmRayDefaults();
 TmOcclusion falloff = tmOcclusionDefaults();
 enum class Ask { Occlusion, Trace, Gather, Info } ask;
