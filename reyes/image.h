@@ -49,9 +49,10 @@ struct SampleOffsets {
   std::function<int(int x, int y)> patternOf;
 };
 
-/// The camera of a picture, kept by shadow maps and deep files. Screen space has x and y in [-1, 1], y up.
+/// The camera of a picture, which files keep that have room for it. Screen space has x and y in [-1, 1], y up.
 struct View {
   mat4 cameraFromWorld{1.0f}, screenFromWorld{1.0f};
+  float near = 0, far = kInfinity;  ///< Distances of the clipping planes.
 };
 
 /// Names for Cryptomatte, indexed as Scene::groups.
@@ -120,6 +121,14 @@ void expose(Image& image, const Options& options);
 /// along Option "searchpath" "display".
 std::string driverOf(const DisplayCall& display, const Options& options, const PluginTrust& trust);
 
+/// The path of a Display's file: its name, with an extension where type and name leave the format open (RISpec's
+/// "ri.pic" does). Pre: no driver takes the Display.
+std::string fileOf(const DisplayCall& display);
+/// The name, without its folder, of a file that stands in for a picture that is not whole: a.partial.exr for a.exr.
+std::string partialName(const std::string& path);
+/// Adds a named text to the header of a Display's file if its format has room for texts.
+void addHeader(DisplayCall& display, const std::string& name, const std::string& text);
+
 /// The file of one Display, or the display driver that takes its picture. It picks the Display's floats, encodes,
 /// quantises and writes band after band to an UnfinishedFile; the last step renames. The format is given by
 /// `display.type` or the name's extension (.exr .tif .png); 8-bit types are sRGB only where the Display's "string
@@ -137,7 +146,9 @@ class DisplayFile {
   /// A deep Display uses these instead of write(Image); deep() is empty if the Display is not deep.
   std::optional<DeepMerge> deep() const;
   bool write(const DeepRows& rows);
-  bool close();
+  /// Gives the file its name. A picture that is not `whole` leaves what has that name alone: it becomes
+  /// NAME.partial.exr, which is reported.
+  bool close(bool whole = true);
 
  private:
   struct Impl;

@@ -29,6 +29,8 @@ class PictureReader {
   virtual bool deep() const = 0;
   /// Reads 16 floats as the file stores them. Returns false if the file has no such matrix.
   virtual bool matrix(const char* name, float* out) const = 0;
+  /// Reads a text of the header. Empty if there is none of that name.
+  virtual std::string text(const char* name) const = 0;
   /// Reads two floats in the same way.
   virtual bool pair(const char* name, float* out) const = 0;
   /// Reads channels [first, end) of all pixels, interleaved. Returns false on failure, and error() says why.

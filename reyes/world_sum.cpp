@@ -36,7 +36,8 @@ void addPicture(WorldSum& sum, const std::string& name) {
 
 void fields(WorldSum& a, ShaderCall& x) {
   each(a, x.name, x.params, x.worldFromShader);
-  addFile(a, x.name + ".so", "shader");
+  for (const char* ending : {".so", ".sl"}) addFile(a, x.name + ending, "shader");
+  if (x.where.file) addFile(a, (fs::path(*x.where.file).parent_path() / (x.name + ".sl")).string(), "shader");
   for (const Param& p : x.params)
     for (const std::string& s : p.strings) addPicture(a, s);
 }

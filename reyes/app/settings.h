@@ -18,6 +18,7 @@ struct RenderSettings {
   std::vector<std::string> files;  ///< The files of one RIB stream; "-" is standard input.
   std::string output;              ///< Empty for the scene's Displays.
   bool onePicture = false;         ///< Displays other than `output` are left out.
+  bool overwrite = false;          ///< A crop may take the place of a picture that holds more.
   int threads = 0;                 ///< 0 for as many as the machine has.
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
@@ -47,6 +48,7 @@ struct RenderSettings {
   std::string irradiance;          ///< An .icf to shade with.
   bool appendIrradiance = false;   ///< True to gather too, where that has no records.
   bool resume = false;
+  bool skipFinished = false;             ///< Frames whose pictures hold what would be rendered are left as they are.
   std::optional<int64_t> memoryLimit;    ///< In bytes.
   std::optional<int64_t> textureMemory;  ///< In bytes.
   std::string textureCache;

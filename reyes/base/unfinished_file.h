@@ -42,6 +42,8 @@ class UnfinishedFile {
   std::FILE* stream();
   /// Gives the file its name. Returns false on failure: `error` says why, and the file is removed unless resumable.
   bool finish(std::string& error);
+  /// Has finish() give it this name beside its target instead.
+  void finishAs(const std::string& name) { target_.replace_filename(name); }
   /// Takes its name away: the file can still be written and read, and nothing is left at the end.
   void discard();
 

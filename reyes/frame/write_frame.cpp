@@ -85,10 +85,10 @@ class DisplayFiles {
     rows_.reset();
     deep_.clear();
   }
-  void close() {
+  void close(bool whole) {
     write();
     const StageTimer timer(stats_, "write", threadCpuSeconds);
-    for (const auto& file : files_) file->close();
+    for (const auto& file : files_) file->close(whole);
   }
 
  private:
@@ -140,7 +140,7 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
     if (control.progress)
       control.progress(static_cast<float>(end - frame.crop.y0) / static_cast<float>(frame.crop.height()));
   }
-  files.close();
+  files.close(!(control.cancelled && *control.cancelled));
   warnOfNoise(filter.noise(), options, log);
   shading.warnOfLightNoise();
 }

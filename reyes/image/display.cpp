@@ -69,6 +69,17 @@ Metadata matrix(const char* name, const mat4& m) {
   return {name, "", std::vector<float>(&m[0][0], &m[0][0] + 16)};
 }
 
+/// Attributes of OpenEXR's standard (ImfStandardAttributes.h): world to NDC gives (0, 0) at the top left of the display
+/// window and (1, 1) at the bottom right.
+std::vector<Metadata> cameraOf(const View& view) {
+  mat4 ndcFromScreen(1.0f);
+  ndcFromScreen[0][0] = 0.5f, ndcFromScreen[1][1] = -0.5f, ndcFromScreen[3] = {0.5f, 0.5f, 0, 1};
+  return {matrix("worldtocamera", view.cameraFromWorld),
+          matrix("worldToNDC", ndcFromScreen * view.screenFromWorld),
+          {"near", "", {view.near}},
+          {"far", "", {view.far}}};
+}
+
 struct DisplayFile::Impl {
   Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l, const View& view,
        const MatteNames& names, const PluginTrust& trust)
@@ -77,7 +88,7 @@ struct DisplayFile::Impl {
     if (driver.empty()) {
       warnOfRefusedDriver(display, options, trust, log);
       warnAboutParams(display, log);
-      format = formatOf(display, path, log);
+      path = fileOf(display), format = formatOf(display, log);
     } else {
       format = {&driverFormat(), SampleType::Float};
       format.driver = {driver, display, view};
@@ -86,10 +97,9 @@ struct DisplayFile::Impl {
     shape = whole;
     shape.channels.clear(), shape.pixels.clear();
     if (writesDeep(display)) openDeep();
-    if (writesDeep(display) || writesShadowMap(display)) {
-      format.metadata.push_back(matrix("worldtocamera", view.cameraFromWorld));
+    for (Metadata& m : cameraOf(view)) format.metadata.push_back(std::move(m));
+    if (writesDeep(display) || writesShadowMap(display))
       format.metadata.push_back(matrix("worldtoscreen", view.screenFromWorld));
-    }
     if (writesDeep(display)) {
       const PixelFilter filter = positiveFilter(options);
       format.metadata.push_back(
@@ -203,6 +213,14 @@ struct DisplayFile::Impl {
 
   bool write(const DeepRows& rows) { return file && (file->write(rows) || report()); }
 
+  bool close(bool whole) {
+    if (!file || !(file->close(whole) || report())) return false;
+    if (!whole && !format.driver)
+      log.report(Severity::Warning, "output-partial", display.where,
+                 "\"" + path + "\" would not be whole: what is finished is in \"" + partialName(path) + "\" beside it");
+    return true;
+  }
+
   bool report() {
     log.report(Severity::Output, "image-write", display.where,
                "\"" + path + "\" could not be written: " + file->error());
@@ -234,7 +252,7 @@ bool DisplayFile::write(const DeepRows& rows) { return impl_->write(rows); }
 std::optional<DeepMerge> DisplayFile::deep() const {
   return writesDeep(impl_->display) ? std::optional(impl_->merge) : std::nullopt;
 }
-bool DisplayFile::close() { return impl_->file && (impl_->file->close() || impl_->report()); }
+bool DisplayFile::close(bool whole) { return impl_->close(whole); }
 
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log) {
   Options one = options;
@@ -253,7 +271,7 @@ View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
   screenFromCamera[last][0] = origin.x, screenFromCamera[last][1] = origin.y;
   if (camera.perspective())
     screenFromCamera[2][3] = 1, screenFromCamera[3][3] = 0, screenFromCamera[3][2] = -camera.nearClip();
-  return {cameraFromWorld, screenFromCamera * cameraFromWorld};
+  return {cameraFromWorld, screenFromCamera * cameraFromWorld, camera.nearClip(), camera.farClip()};
 }
 
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log) {

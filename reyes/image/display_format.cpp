@@ -64,6 +64,17 @@ bool namesDriver(const DisplayCall& display) {
   return !writesPass(display) && display.type != "file" && display.type != "null" && !formatOfType(display.type);
 }
 
+/// The format that the type of a Display asks for; null if it leaves that to the file's name.
+const PictureFormat* formatOfItsType(const DisplayCall& display) {
+  return writesPass(display) ? pictureFormats().front() : formatOfType(display.type);
+}
+
+const PictureFormat& formatOf(const DisplayCall& display) {
+  const PictureFormat* kind = formatOfItsType(display);
+  if (!kind) kind = formatOfExtension(display.name);
+  return kind ? *kind : *pictureFormats().front();
+}
+
 void setCompression(const DisplayCall& display, FileFormat& format, Log& log) {
   const std::string asked = compressionOf(display);
   if (asked.empty()) return;
@@ -130,17 +141,28 @@ void warnOfRefusedDriver(const DisplayCall& display, const Options& options, con
     log.report(Severity::Missing, "display-plugin", display.where, file + " " + kPluginRefusal);
 }
 
-FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log) {
-  const PictureFormat* kind = writesPass(display) ? pictureFormats().front() : formatOfType(display.type);
-  const bool unknown = !kind && display.type != "file";
-  if (!kind) kind = formatOfExtension(path);
-  if (!kind) {
-    kind = pictureFormats().front();
-    path = std::filesystem::path(path).replace_extension(kind->extensions.front()).string();
-  }
-  if (unknown)
+std::string fileOf(const DisplayCall& display) {
+  if (formatOfItsType(display) || formatOfExtension(display.name)) return display.name;
+  return std::filesystem::path(display.name).replace_extension(formatOf(display).extensions.front()).string();
+}
+
+std::string partialName(const std::string& path) {
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  return name.stem().string() + ".partial" + name.extension().string();
+}
+
+void addHeader(DisplayCall& display, const std::string& name, const std::string& text) {
+  if (!formatOf(display).carriesNames) return;
+  Param p;
+  p.name = std::string(kHeader) + name, p.type = ValueType::String, p.strings = {text};
+  display.params.push_back(std::move(p));
+}
+
+FileFormat formatOf(const DisplayCall& display, Log& log) {
+  const PictureFormat* kind = &formatOf(display);
+  if (!formatOfItsType(display) && display.type != "file")
     log.report(Severity::Warning, "display-type", display.where,
-               "Display \"" + display.name + "\": no display type \"" + display.type + "\"; \"" + path +
+               "Display \"" + display.name + "\": no display type \"" + display.type + "\"; \"" + fileOf(display) +
                    "\" is written, of type " + kind->name);
   FileFormat format{kind, kind->usualType()};
   setCompression(display, format, log);

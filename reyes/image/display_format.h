@@ -12,7 +12,7 @@ void warnAboutParams(const DisplayCall& display, Log& log);
 void warnOfUnreadParams(const DisplayCall& display, const std::vector<std::string>& unread, Log& log);
 /// Reports a driver that would be taken if it were trusted.
 void warnOfRefusedDriver(const DisplayCall& display, const Options& options, const PluginTrust& trust, Log& log);
-/// Decides the file format, and the name where the Display leaves it open (RISpec's "ri.pic" names no format).
-FileFormat formatOf(const DisplayCall& display, std::string& path, Log& log);
+/// Decides the file format, and reports what of the Display it has no use for.
+FileFormat formatOf(const DisplayCall& display, Log& log);
 
 }  // namespace tomales

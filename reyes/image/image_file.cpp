@@ -38,8 +38,9 @@ std::vector<std::byte> packed(const Image& rows, SampleType type) {
 void FormatWriter::write(const DeepRows&) { throw std::runtime_error("only OpenEXR holds deep pixels"); }
 
 struct PictureFile::Impl {
-  Impl(const std::string& path, const Image& whole, const FileFormat& f)
-      : file(f.driver ? nullptr : UnfinishedFile::create(path, UnfinishedKind::Scratch, problem)),
+  Impl(const std::string& target, const Image& whole, const FileFormat& f)
+      : path(target),
+        file(f.driver ? nullptr : UnfinishedFile::create(path, UnfinishedKind::Scratch, problem)),
         shape(whole),
         format(f) {
     const bool ready = f.driver || file;
@@ -51,9 +52,10 @@ struct PictureFile::Impl {
     return guarded([&] { writer->write(rows); });
   }
 
-  bool close() {
+  bool close(bool whole) {
     if (failed || !guarded([&] { writer->close(); })) return false;
     std::string why;
+    if (file && !whole) file->finishAs(partialName(path));
     return !file || file->finish(why) || fail(why);
   }
 
@@ -72,6 +74,7 @@ struct PictureFile::Impl {
     return false;
   }
 
+  const std::string path;
   std::string problem;                         // before `file`: opening that writes the problem here
   const std::unique_ptr<UnfinishedFile> file;  // null if a driver takes the picture
   const Image shape;
@@ -87,7 +90,7 @@ PictureFile::~PictureFile() = default;
 
 bool PictureFile::write(const Image& rows) { return !impl_->failed && impl_->write(rows); }
 bool PictureFile::write(const DeepRows& rows) { return !impl_->failed && impl_->write(rows); }
-bool PictureFile::close() { return impl_->close(); }
+bool PictureFile::close(bool whole) { return impl_->close(whole); }
 const std::string& PictureFile::error() const { return impl_->problem; }
 std::vector<std::string> PictureFile::unread() const {
   return impl_->writer ? impl_->writer->unread() : std::vector<std::string>();

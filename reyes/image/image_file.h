@@ -49,7 +49,8 @@ class PictureFile {
   /// says why.
   bool write(const Image& rows);
   bool write(const DeepRows& rows);
-  bool close();
+  /// A picture that is not whole gets the name of partialName().
+  bool close(bool whole = true);
   const std::string& error() const;
   /// Parameters of a Display that its driver has not read.
   std::vector<std::string> unread() const;

@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
 #include <OpenEXR/ImfVecAttribute.h>
 
@@ -58,6 +59,10 @@ class ExrReader : public PictureReader {
     const auto* found = header().findTypedAttribute<Imf::M44fAttribute>(exrAttributeName(name));
     if (found) std::copy_n(&found->value().x[0][0], 16, out);
     return found;
+  }
+  std::string text(const char* name) const override {
+    const auto* found = header().findTypedAttribute<Imf::StringAttribute>(name);
+    return found ? found->value() : std::string();
   }
   bool pair(const char* name, float* out) const override {
     const auto* found = header().findTypedAttribute<Imf::V2fAttribute>(name);

@@ -21,6 +21,7 @@ class Reader : public PictureReader {
   bool matrix(const char* name, float* out) const override {
     return in_->spec().getattribute(name, OIIO::TypeMatrix44, out);
   }
+  std::string text(const char* name) const override { return std::string(in_->spec().get_string_attribute(name)); }
   bool pair(const char* name, float* out) const override {
     return in_->spec().getattribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::VEC2), out);
   }

@@ -1,7 +1,7 @@
 """Pictures do not care where the world stands, how large it is, which hand it has, in what order and pieces it is told, or how it is rendered: each
 scene of the gallery.
 
-    symmetry_test.py tomales repository [--all] [part of a scene's name]
+    symmetry_test.py tomales repository [--all] [--share=K/N] [part of a scene's name]
 
 Threads and buckets must leave no trace, crops only in records of indirect light.
 What only rounding tells apart (turned, far away, scaled) must agree in almost every pixel. What draws other random numbers or dices otherwise
@@ -23,8 +23,10 @@ from pictures import pixels
 from rewrite import merged, reordered, split
 
 tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-only = next((a for a in sys.argv[3:] if a != "--all"), "")
+only = next((a for a in sys.argv[3:] if not a.startswith("--")), "")
 every_check = "--all" in sys.argv
+# Every Nth scene, from the Kth on: one process for all of them would be the last of ctest's to end.
+share, shares = map(int, next((a.split("=")[1] for a in sys.argv if a.startswith("--share=")), "0/1").split("/"))
 WIDTH, HEIGHT, BLOCK = (96, 72, 8) if every_check else (64, 48, 8)
 failures = []
 
@@ -174,7 +176,7 @@ def check_means(scene, mean):
         scene.verdict(what, good, f"blocks differ by {rms / mean:.4f} of the mean, two seeds by {noise / mean:.4f}; means by {of_mean / mean:.4f}")
 
 
-for path in sorted((root / "scenes").rglob("*.rib")):
+for path in sorted((root / "scenes").rglob("*.rib"))[share::shares]:
     if only not in str(path) or not every_check and not only and path.parent.name in SLOW:
         continue
     for picture in pictures_of(path, root):

@@ -1,6 +1,8 @@
 #include "reyes/app/commands/render.h"
 #include "reyes/app/exit_code.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -10,7 +12,9 @@
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/hide.h"
 #include "reyes/app/frame/limits.h"
+#include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/render_frame.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/progress.h"
@@ -81,7 +85,10 @@ class RenderRun {
       const OrderlyEnd orderly;
       ++rendered_;
       applyOverrides(scene, settings_);
-      dropDisplays(scene.options, pluginTrust(settings_), log_);
+      nameOutputs(scene.options, settings_, log_);
+      const std::string contents = contentsOf(scene, settings_);
+      if (settings_.skipFinished && isFinished(scene.options, contents, settings_, log_)) return skip(scene);
+      describeOutputs(scene.options, contents, settings_);
       warnAboutOverwriting(scene);
       warnOfFloatRange(scene, log_);
       if (!settings_.draft) warnOfCoarseDicing(scene, log_);
@@ -98,6 +105,14 @@ class RenderRun {
       flush();
       throwIfStopped();
     }
+    beginReading();
+  }
+
+  void skip(const Scene& scene) {
+    log_.report(Severity::Note, "frame-skipped", scene.where,
+                fmt::format("frame {} is finished: its pictures hold what would be rendered", scene.options.frame));
+    for (const DisplayCall& display : scene.options.displays)
+      outputUsed_ |= display.name == withFrameNumber(settings_.output, scene.options.frame);
     beginReading();
   }
 

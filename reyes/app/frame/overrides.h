@@ -5,11 +5,9 @@
 
 namespace tomales {
 
-/// Applies format, crop, rates, buckets and output; asks for an indirect light where the mode wants one.
+/// Applies format, crop, rates and buckets; asks for an indirect light where the mode wants one. A frame that writes
+/// nothing but maps for later frames keeps its own format and all of its view.
 void applyOverrides(Scene& scene, const RenderSettings& settings);
-
-/// Leaves out, with a message, Displays that would write over an earlier one's file, and windows beside files.
-void dropDisplays(Options& options, const PluginTrust& trust, Log& log);
 
 /// Returns settings with the memory for geometry that Option "limits" "geocachememory" and --geometry-cache allow.
 RaySettings raySettings(const RenderSettings& settings, const Options& options);

@@ -2,7 +2,9 @@
 
 #include <atomic>
 
+#include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/provenance.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/rib.h"
 
@@ -35,7 +37,8 @@ ShotJob::ShotJob(std::unique_ptr<DfbFile> file, const RenderSettings& settings, 
 bool ShotJob::edit() {
   if (!settings_.edits.empty() && !editScene(settings_.edits, shot_.scene, log_)) return false;
   applyOverrides(shot_.scene, settings_);
-  dropDisplays(shot_.scene.options, pluginTrust(settings_), log_);
+  nameOutputs(shot_.scene.options, settings_, log_);
+  describeOutputs(shot_.scene.options, "", settings_);
   if (settings_.crop) {
     const PixelRect asked = Camera(shot_.scene.options).crop(), &whole = shot_.frame.crop;
     shot_.frame.crop = {std::max(asked.x0, whole.x0), std::max(asked.y0, whole.y0), std::min(asked.x1, whole.x1),

@@ -41,24 +41,6 @@ TEST(Overrides, ShadingRateReachesEveryObjectAndSharingStays) {
   EXPECT_EQ(scene.objects[0].attributes, scene.objects[1].attributes);
 }
 
-TEST(Overrides, OutputReplacesTheFirstDisplayAlone) {
-  Scene scene = sceneOf(kTwoSpheres);
-  RenderSettings settings;
-  settings.output = "shot.##.png";
-  scene.options.frame = 5;
-  applyOverrides(scene, settings);
-  ASSERT_EQ(scene.options.displays.size(), 2u);
-  EXPECT_EQ(scene.options.displays[0].name, "shot.05.png");
-  EXPECT_EQ(scene.options.displays[0].mode, "rgb");
-  EXPECT_EQ(scene.options.displays[1].type, "openexr");
-}
-
-TEST(Overrides, ASceneWithoutDisplayGetsTheDefaultOne) {
-  Scene scene = sceneOf("WorldBegin\nSphere 1 -1 1 360\nWorldEnd\n");
-  applyOverrides(scene, {});
-  EXPECT_EQ(scene.options.displays.size(), 1u);
-}
-
 /// The mode that a scene with these requests in its world has under this choice of --gi.
 GiMode modeOf(const std::string& lights, const char* choice) {
   const Scene scene = sceneOf("WorldBegin\n" + lights + "Sphere 1 -1 1 360\nWorldEnd\n");
@@ -112,6 +94,16 @@ TEST(Overrides, ADraftIsCoarseButForWhatIsAskedBesides) {
   EXPECT_EQ(scene.options.indirectSamples, 50);
 }
 
+TEST(Overrides, AFrameOfMapsKeepsItsSizeAndAllOfItsView) {
+  Scene scene = sceneOf("Display \"lamp.z\" \"shadow\" \"z\" Format 64 64 1 WorldBegin\nSphere 1 -1 1 360\nWorldEnd\n");
+  RenderSettings settings;
+  settings.format = {{320, 200}};
+  settings.crop = {{0.25f, 0.5f, 0, 1}};
+  applyOverrides(scene, settings);
+  EXPECT_EQ(scene.options.xResolution, 64);
+  EXPECT_EQ(scene.options.cropWindow[1], 1.0f);
+}
+
 TEST(Overrides, PictureSizesComeFromTheCommandLine) {
   Scene scene = sceneOf(kTwoSpheres);
   RenderSettings settings;
@@ -124,27 +116,6 @@ TEST(Overrides, PictureSizesComeFromTheCommandLine) {
   EXPECT_EQ(scene.options.cropWindow[1], 0.5f);
   EXPECT_EQ(scene.options.ySamples, 5);
   EXPECT_EQ(scene.options.bucketHeight, 7);
-}
-
-TEST(Overrides, ADisplayNeverWritesOverAnotherOfItsFrame) {
-  Options options;
-  for (const auto& [name, type] : std::vector<std::pair<std::string, std::string>>{
-           {"a.tif", "file"}, {"a.tif", "framebuffer"}, {"./a.tif", "tiff"}, {"b", "openexr"}, {"b", "zfile"}}) {
-    options.displays.emplace_back();
-    options.displays.back().name = name, options.displays.back().type = type;
-  }
-  Log log(Log::Verbosity::Quiet);
-  dropDisplays(options, {}, log);
-  ASSERT_EQ(options.displays.size(), 3u);
-  EXPECT_EQ(options.displays[1].type, "openexr");
-  EXPECT_EQ(log.count("display-window"), 1);
-  EXPECT_EQ(log.count("display-twice"), 1);
-
-  Options window;
-  window.displays.emplace_back();
-  window.displays.back().type = "framebuffer";
-  dropDisplays(window, {}, log);
-  EXPECT_EQ(window.displays.size(), 1u);  // else there would be no picture at all
 }
 
 }  // namespace

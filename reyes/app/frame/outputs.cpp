@@ -1,0 +1,130 @@
+#include "reyes/app/frame/outputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <set>
+
+#include "reyes/base/output_root.h"
+#include "reyes/camera.h"
+#include "reyes/image.h"
+#include "reyes/pictures.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A picture to be looked at has no alpha, and is sRGB unless the scene's Exposure encodes already.
+void writeForScreens(DisplayCall& display, const Options& options) {
+  display.mode = "rgb";
+  if (options.exposureGamma != 1 || findParam(display.params, "transfer")) return;
+  Param transfer;
+  transfer.name = "transfer", transfer.type = ValueType::String, transfer.strings = {"sRGB"};
+  display.params.push_back(std::move(transfer));
+}
+
+/// The name of another Display's file beside `output`, which takes the place of `first`.
+std::string beside(const std::string& output, const std::string& first, const std::string& other) {
+  const fs::path to(output), from(other);
+  const std::string replaced = fs::path(first).stem().string(), stem = from.stem().string();
+  const std::string rest = stem.starts_with(replaced) ? stem.substr(replaced.size()) : "_" + stem;
+  return (to.parent_path() / (to.stem().string() + rest + from.extension().string())).string();
+}
+
+/// Returns the names that it gives.
+std::set<std::string> replaceByOutput(Options& options, const RenderSettings& settings) {
+  std::vector<DisplayCall>& displays = options.displays;
+  const auto first = std::find_if_not(displays.begin(), displays.end(), writesMap);
+  if (first == displays.end()) return {};
+  if (settings.onePicture)
+    displays.erase(std::remove_if(first + 1, displays.end(), std::not_fn(writesMap)), displays.end());
+  const std::string output = withFrameNumber(settings.output, options.frame);
+  std::set<std::string> names{output};
+  const PluginTrust trust = pluginTrust(settings);
+  for (auto other = first + 1; other != displays.end(); ++other) {
+    if (writesMap(*other) || !driverOf(*other, options, trust).empty()) continue;
+    other->name = beside(output, first->name, other->name);
+    names.insert(other->name);
+  }
+  first->name = output, first->type = "file";
+  if (isForScreens(settings.output)) writeForScreens(*first, options);
+  return names;
+}
+
+/// Keeps files that the scene writes below the root, and where they are read again, but not those that the user named.
+/// A .dfb or .icf as output stands for all Displays, and the scene writes none.
+void keepBelow(const RenderSettings& settings, const std::set<std::string>& named, Options& options) {
+  const std::string& root = settings.outputRoot;
+  const bool writesDisplays = settings.output.empty() || namesPicture(settings.output);
+  for (DisplayCall& d : options.displays)
+    if (writesDisplays && !named.contains(d.name)) d.name = placeBelow(root, d.name);
+  std::string& textures = options.searchPaths["texture"];
+  textures = root + ":" + textures;
+  std::string& converted = options.searchPaths["texturecache"];
+  if (!converted.empty()) converted = placeBelow(root, converted);
+}
+
+void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
+  const auto isWindow = [&](const DisplayCall& d) {
+    if (!driverOf(d, options, trust).empty()) return false;
+    return d.type == "framebuffer" || d.type == "it" || d.type == "windows" || d.type == "x11";
+  };
+  const bool someFile =
+      std::any_of(options.displays.begin(), options.displays.end(), [&](const DisplayCall& d) { return !isWindow(d); });
+  std::set<std::string> files;
+  std::erase_if(options.displays, [&](const DisplayCall& d) {
+    if (someFile && isWindow(d)) {
+      log.report(Severity::Note, "display-window", d.where,
+                 "Display \"" + d.name + "\" of type " + d.type + ": there are no windows; left out beside the file");
+      return true;
+    }
+    const std::string path = fs::path(d.name).lexically_normal().string();
+    const bool isPicture = namesPicture(path) && driverOf(d, options, trust).empty();
+    if (files.insert(isPicture ? path : path + " " + d.type).second) return false;
+    log.report(Severity::Warning, "display-twice", d.where,
+               "Display \"" + d.name + "\" would write over an earlier Display of this frame; left out");
+    return true;
+  });
+}
+
+/// Does a file hold pixels outside of the rectangle? A file that cannot be read may.
+bool holdsMore(const std::string& file, const PixelRect& crop) {
+  std::error_code failed;
+  if (!fs::is_regular_file(file, failed)) return false;
+  std::string error;
+  const auto picture = openPicture(file, error);
+  if (!picture) return true;
+  const PictureShape& shape = picture->shape();
+  return int64_t{shape.width} * shape.height > int64_t{crop.width()} * crop.height();
+}
+
+void keepLargerFiles(Options& options, const std::set<std::string>& named, const PluginTrust& trust, Log& log) {
+  const PixelRect crop = Camera(options).crop();
+  for (DisplayCall& d : options.displays) {
+    if (named.contains(d.name) || !driverOf(d, options, trust).empty() || !holdsMore(fileOf(d), crop)) continue;
+    const fs::path kept(fileOf(d));
+    d.name = (kept.parent_path() / (kept.stem().string() + "_crop" + kept.extension().string())).string();
+    log.report(Severity::Note, "output-kept", d.where,
+               "\"" + kept.string() + "\" holds more than the crop and is kept; the crop goes to \"" + d.name +
+                   "\" (--overwrite replaces it)");
+  }
+}
+
+}  // namespace
+
+bool writesMapsAlone(const Options& options) {
+  return !options.displays.empty() && std::all_of(options.displays.begin(), options.displays.end(), writesMap);
+}
+
+void nameOutputs(Options& options, const RenderSettings& settings, Log& log) {
+  if (options.displays.empty()) options.displays.emplace_back();
+  const PluginTrust trust = pluginTrust(settings);
+  std::set<std::string> named;
+  if (namesPicture(settings.output)) named = replaceByOutput(options, settings);
+  if (!settings.outputRoot.empty()) keepBelow(settings, named, options);
+  dropDisplays(options, trust, log);
+  if (settings.crop && !settings.overwrite && !writesMapsAlone(options)) keepLargerFiles(options, named, trust, log);
+}
+
+}  // namespace tomales

@@ -1,0 +1,97 @@
+#include "reyes/app/frame/provenance.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "reyes/base/file_stamp.h"
+#include "reyes/image.h"
+#include "reyes/pictures.h"
+#include "reyes/state_fields.h"
+#include "reyes/world_sum.h"
+
+namespace tomales {
+namespace {
+
+constexpr const char *kContents = "tomales:contents", *kVersionOf = "tomales:version", *kScene = "tomales:scene",
+                     *kFrame = "tomales:frame", *kSettings = "tomales:settings";
+
+/// The options of the command line that pictures depend on and that no option of the scene keeps, where they are not
+/// the defaults.
+std::string settingsText(const RenderSettings& s) {
+  const RenderSettings usual;
+  std::string out;
+  const auto add = [&](const char* option, const auto& value, const auto& unasked) {
+    if (value != unasked) out += fmt::format("{}{} {}", out.empty() ? "" : " ", option, value);
+  };
+  add("--gi", std::string_view(s.gi ? s.gi->name : "scene"), std::string_view("scene"));
+  add("--samples", s.samples, usual.samples), add("--bounces", s.bounces, usual.bounces);
+  add("--max-error", s.maxError, usual.maxError);
+  add("--error-function", s.errorFunction ? static_cast<int>(*s.errorFunction) : -1, -1);
+  add("--light-samples", s.lightSamples, usual.lightSamples), add("--indirect-only", !s.direct, false);
+  add("--seed", s.seed, usual.seed), add("--light-seed", lightSeedOf(s), s.seed);
+  add("--photons", s.photons, usual.photons), add("--atlas-direct", s.atlasDirect, usual.atlasDirect);
+  add("--brick-maxerror", s.brickMaxError, usual.brickMaxError);
+  add("--radiosity-texels", s.radiosityTexels, usual.radiosityTexels);
+  add("--atlas", s.atlasFolder, usual.atlasFolder), add("--baked", s.bakedFolder, usual.bakedFolder);
+  add("--irradiance", s.irradiance, usual.irradiance);
+  add("--irradiance-append", s.appendIrradiance, usual.appendIrradiance);
+  add("--no-hit-list", !s.hitList, false), add("--ray-geometry full", s.fullGeometry.value_or(false), false);
+  add("--standard-shaders files", s.standardFromFiles, usual.standardFromFiles);
+  return out;
+}
+
+std::string sceneText(const RenderSettings& settings) {
+  std::string out;
+  for (const std::string& file : settings.files)
+    out += (out.empty() ? "" : " ") + std::filesystem::path(file).filename().string();
+  return out;
+}
+
+bool holds(const DisplayCall& display, const std::string& contents) {
+  std::string error;
+  const auto picture = openPicture(fileOf(display), error);
+  return picture && picture->text(kContents) == contents;
+}
+
+}  // namespace
+
+std::string contentsOf(const Scene& scene, const RenderSettings& settings) {
+  if (!scene.procedurals.empty()) return {};
+  uint64_t files = 0;
+  for (const std::string& folder : {settings.atlasFolder, settings.bakedFolder, settings.irradiance})
+    files = contentSum(files, folder.empty() ? uint64_t{0} : fileStamp(folder));
+  Options options = scene.options;
+  for (DisplayCall& d : options.displays) d.where = {};
+  Motion camera = scene.cameraFromWorld;
+  const std::string version = kVersion, text = settingsText(settings);
+  return fmt::format("{:016x}", contentSum(worldSum(scene, false), files, options, camera, version, text));
+}
+
+void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {
+  for (DisplayCall& d : options.displays) {
+    if (!driverOf(d, options, pluginTrust(settings)).empty()) continue;
+    addHeader(d, kVersionOf, kVersion), addHeader(d, kScene, sceneText(settings));
+    addHeader(d, kFrame, std::to_string(options.frame)), addHeader(d, kSettings, settingsText(settings));
+    if (!contents.empty()) addHeader(d, kContents, contents);
+  }
+}
+
+bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log) {
+  const auto rendered = [&](const SourceLoc& where, const std::string& why) {
+    log.report(Severity::Note, "frame-unknown", where, "--skip-finished: " + why + ", so its frames are rendered");
+    return false;
+  };
+  if (contents.empty()) return rendered({}, "procedurals of the scene are read while it is rendered");
+  for (const DisplayCall& d : options.displays) {
+    const bool isFile = driverOf(d, options, pluginTrust(settings)).empty();
+    DisplayCall described = d;
+    if (isFile) addHeader(described, kContents, contents);
+    if (described.params.size() == d.params.size())
+      return rendered(d.where, "\"" + d.name + "\" has no header that tells what it holds");
+    if (!holds(d, contents)) return false;
+  }
+  return true;
+}
+
+}  // namespace tomales

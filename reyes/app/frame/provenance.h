@@ -1,0 +1,21 @@
+// What the headers of pictures say about where they come from, and whether a picture on the disk is that of a frame.
+// OpenEXR alone has room for it (docs/displays.md).
+#pragma once
+#include "reyes/app/settings.h"
+#include "reyes/scene.h"
+
+namespace tomales {
+
+/// Names what the frame's pictures will show: a checksum of the scene, of the size and time of the files that its
+/// shaders name, and of the settings that pictures depend on. Two frames of one checksum have the same pixels. Empty if
+/// procedurals are unopened, because nobody knows what they will bring.
+std::string contentsOf(const Scene& scene, const RenderSettings& settings);
+
+/// Adds program, scene, frame, settings and, unless it is empty, contents to the headers of the frame's pictures.
+void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings);
+
+/// Do all files of the frame's Displays hold these contents? Formats without such headers cannot tell, which is
+/// reported, and neither can display drivers.
+bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log);
+
+}  // namespace tomales

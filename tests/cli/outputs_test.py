@@ -1,0 +1,162 @@
+"""Which files a command writes, and what they say of themselves: -o, --crop and --overwrite with five Displays, frames that
+are finished, and frames that are interrupted."""
+import hashlib
+import itertools
+import os
+import re
+import signal
+import subprocess
+import time
+
+import OpenImageIO as oiio
+
+from program import Suite
+
+t = Suite()
+WORLD = """Format 64 48 1
+Projection "perspective" "fov" [40]
+Clipping 0.5 100
+ScreenWindow -1.2 1 -0.7 0.8
+Rotate 10 0 1 0
+Translate 0.1 0 4
+WorldBegin
+LightSource "distantlight" 1
+Surface "ours"
+Color [1 0.5 0.2]
+Attribute "identifier" "name" ["ball"]
+Sphere 0.8 -0.8 0.8 360
+WorldEnd
+"""
+MAP = """FrameBegin 1
+Display "ball.map" "shadow" "z"
+Format 32 32 1
+Projection "perspective" "fov" [40]
+Translate 0 0 4
+WorldBegin
+Sphere 0.8 -0.8 0.8 360
+WorldEnd
+FrameEnd
+"""
+DISPLAYS = """Display "beauty.exr" "file" "rgba"
+Display "+beauty_n.exr" "file" "N"
+DisplayChannel "varying normal N"
+Display "+depth.exr" "file" "z"
+Display "+ids.exr" "cryptomatte" "object"
+Display "+deep.exr" "deepexr" "rgba"
+"""
+t.write("ours.sl", "surface ours() { Oi = Os; Ci = Cs * diffuse(faceforward(normalize(N), I)); }")
+t.write("shot.rib", MAP + "FrameBegin 2\n" + DISPLAYS + WORLD + "FrameEnd\n")
+t.write("beauty.rib", DISPLAYS + WORLD)
+PICTURES = ["beauty.exr", "beauty_n.exr", "depth.exr", "ids.exr", "deep.exr"]
+
+
+def contents():
+    return {p.name: hashlib.md5(p.read_bytes()).hexdigest() for p in t.folder.iterdir() if p.suffix in (".exr", ".map")}
+
+
+def window(name):
+    spec = oiio.ImageInput.open(str(t.folder / name)).spec()
+    return spec.x, spec.y, spec.width, spec.height
+
+
+first = t.expect_run("five Displays and a map", ["shot.rib"], 0)
+whole = contents()
+t.expect(sorted(whole) == sorted(PICTURES + ["ball.map"]), f"are all there ({sorted(whole)})")
+t.run("hide", "beauty.rib", "-o", "beauty.dfb")
+CROP = ["--crop", "0.25,0.5,0.25,0.75"]
+for command, output, crop, one in itertools.product((["render", "shot.rib"], ["shade", "beauty.dfb"]), (None, "look.exr", "beauty.exr"), (False, True), (False, True)):
+    if one and not output:
+        continue
+    before = contents()
+    line = [*command, *(["-o", output] if output else []), *(CROP if crop else []), *(["--one-picture"] if one else []), "-q"]
+    what = " ".join(line)
+    t.expect_run(what, line, 0)
+    after = contents()
+    changed = {name for name in before if before[name] != after[name]}
+    named = {output, output.replace(".exr", "_n.exr")} if output else set()  # beauty_n.exr is look_n.exr
+    named |= {output.replace(".exr", f"_{p}") for p in PICTURES[2:]} if output else set()
+    if output and one:
+        named = {output}
+    if not output and not crop:
+        named = set(PICTURES)
+    t.expect(changed <= named, f"    changes nothing but what it names ({changed - named})")
+    t.expect(output is None or not crop or window(output)[2:] == (16, 24), "    and -o is what it says")
+    t.expect(output != "look.exr" or one or {"look_n.exr", "look_depth.exr", "look_ids.exr", "look_deep.exr"} <= set(after), "    others go beside it")
+    for made in set(after) - {*PICTURES, "ball.map"}:
+        (t.folder / made).unlink()
+    t.run("shot.rib", "-q")
+    t.expect(contents() == whole, "    and a render without options has the same bits as the first")
+t.expect(window("ball.map")[2:] == (32, 32), "a map for later frames keeps its own size")
+said = t.expect_run("a crop beside a whole picture", ["shot.rib", *CROP], 0, '"depth.exr" holds more than the crop', "depth_crop.exr", "output-kept")
+t.expect(window("beauty_crop.exr") == (16, 12, 16, 24) and contents()["beauty.exr"] == whole["beauty.exr"], "goes to a file of its own")
+t.expect_run("--overwrite", ["shot.rib", *CROP, "--overwrite", "-q"], 0)
+t.expect(window("beauty.exr") == (16, 12, 16, 24), "takes its place")
+t.expect_run("a crop over a smaller one", ["shot.rib", "--crop", "0,0.75,0,0.75", "-q"], 0)
+t.expect(window("beauty.exr") == (0, 0, 48, 36), "takes its place too")
+t.expect_run("--overwrite alone", ["shot.rib", "--overwrite"], 1, "--crop")
+t.run("shot.rib", "-q")
+
+# Headers: points of the world are projected to where they are seen.
+ids = oiio.ImageBuf(str(t.folder / "beauty.exr")).get_pixels()
+seen = [(x, y) for y in range(48) for x in range(64) if ids[y][x][3] > 0.99]
+middle = (sum(x for x, _ in seen) / len(seen) + 0.5, sum(y for _, y in seen) / len(seen) + 0.5)
+
+
+def projected(matrix, p):
+    row = [sum(v * matrix[4 * i + k] for i, v in enumerate((*p, 1))) for k in range(4)]  # rows from the left
+    return 64 * row[0] / row[3], 48 * row[1] / row[3]
+
+
+for name in PICTURES:
+    spec = oiio.ImageInput.open(str(t.folder / name)).spec()
+    t.expect(abs(spec.get_float_attribute("near") - 0.5) < 1e-6 and spec.get_float_attribute("far") == 100, f"{name} has the clipping planes")
+    matrix = spec.getattribute("worldToNDC") or spec.getattribute("worldtoNDC") or spec.getattribute("worldtoscreen")
+    at = projected(matrix, (0, 0, 0))
+    # A sphere's outline is an ellipse whose middle is a little farther out than the projected middle of the sphere.
+    t.expect(abs(at[0] - middle[0]) < 0.8 and abs(at[1] - middle[1]) < 0.8, f"{name}: worldToNDC leads to the ball ({at}, {middle})")
+    for key, value in (("scene", "shot.rib"), ("frame", "2"), ("settings", "")):
+        t.expect(spec.get_string_attribute(f"tomales:{key}") == value, f"{name} tells {key}")
+    t.expect(re.fullmatch(r"\d+\.\d+\.\d+", spec.get_string_attribute("tomales:version")), f"{name} tells the version")
+t.run("beauty.rib", "-o", "set.exr", "--gi", "gather", "--samples", "16", "-q")
+settings = oiio.ImageInput.open(str(t.folder / "set.exr")).spec().get_string_attribute("tomales:settings")
+t.expect(settings == "--gi gather --samples 16", f"settings of the command line are told ({settings})")
+
+# Finished frames are left out, by what they hold.
+SKIP = ["shot.rib", "--skip-finished"]
+
+
+def rendered(what, line, expected):
+    stamps = {name: (t.folder / name).stat().st_mtime_ns for name in PICTURES}
+    t.expect_run(what, line, 0, *([] if expected else ["frame 2 is finished"]))
+    new = {name for name in PICTURES if (t.folder / name).stat().st_mtime_ns != stamps[name]}
+    t.expect(new == (set(PICTURES) if expected else set()), f"{'is' if expected else 'is not'} rendered ({new})")
+
+
+rendered("a frame that is finished", SKIP, False)
+rendered("with another seed", [*SKIP, "--seed", "7"], True)
+rendered("with that seed again", [*SKIP, "--seed", "7"], False)
+rendered("with more threads", [*SKIP, "--seed", "7", "-t", "3"], False)
+t.write("ours.sl", "surface ours() { Oi = Os; Ci = Cs * 0.5; }")
+rendered("with a shader that has changed", [*SKIP, "--seed", "7"], True)
+t.write("shot.rib", MAP + "FrameBegin 2\n" + DISPLAYS + WORLD.replace("0.8 360", "0.8 350") + "FrameEnd\n")
+rendered("with geometry that has changed", [*SKIP, "--seed", "7"], True)
+t.write("shot.rib", MAP + "FrameBegin 2\n" + DISPLAYS + WORLD.replace("0.1 0 4", "0.2 0 4") + "FrameEnd\n")
+rendered("with a camera that has moved", [*SKIP, "--seed", "7"], True)
+(t.folder / "depth.exr").write_bytes((t.folder / "depth.exr").read_bytes()[:200])
+t.expect_run("a file that is damaged", [*SKIP, "--seed", "7"], 0)
+t.expect(window("depth.exr")[2:] == (64, 48), "is rendered again")
+t.expect_run("a format without headers", ["beauty.rib", "-o", "look.png", "--one-picture", "--skip-finished"], 0, "no header that tells", "frame-unknown")
+
+# An interrupted frame does not take the place of a finished one.
+t.run("beauty.rib", "-o", "long.exr", "--one-picture", "-q")
+before = contents()["long.exr"]
+line = ["beauty.rib", "-o", "long.exr", "--one-picture", "--format", "900x700", "--pixel-samples", "12x12", "--progress"]
+process = subprocess.Popen([t.program, *line], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "TOMALES_TEXTURE_CACHE": str(t.folder / "textures")})
+for _ in range(4):
+    process.stdout.readline()
+process.send_signal(signal.SIGTERM)
+_, errors = process.communicate(timeout=200)
+t.expect(process.returncode == 143 and "long.partial.exr" in errors, f"an interrupted frame tells its file ({process.returncode}, {errors[:300]})")
+t.expect(contents()["long.exr"] == before, "the finished one is kept")
+t.expect(window("long.partial.exr")[2:] == (900, 700), "and what is finished is beside it")
+t.finish()
