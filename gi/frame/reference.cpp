@@ -1,6 +1,7 @@
 // indirectDiffuse() by path tracing: for the reference, and for hits that no cache of their bounce serves.
 #include "gi/frame/state.h"
 #include "gi/gather/layers.h"
+#include "gi/gather/polygon_start.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/base/stop.h"
@@ -45,6 +46,7 @@ class PathBatches {
     // The hits of one record share a key and continue each other's sequence.
     const SampleName name = points_.name(i);
     const uint32_t pointKey = hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
+    const PolygonStart start = startOn(i, normal);
     for (int path = 0; path < paths; ++path) {
       const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
       Ray ray;
@@ -52,7 +54,8 @@ class PathBatches {
       ray.tMax = maxDistance_;
       if (!filter_.passesAll()) ray.filter = &filter_;
       const vec3 local = cosineHemisphere(sobol2(number, pointKey));
-      ray.direction = local.x * tangent + local.y * bitangent + local.z * normal;
+      ray.origin += start.lift;
+      ray.direction = start.above(local.x * tangent + local.y * bitangent + local.z * normal);
       ray.offset = slantedOffset(ray.offset, local.z);
       layers_.add(static_cast<int>(sums_.size()), ray, {hashCombine(pointKey, number), 0});
       sums_.push_back(&sum), directions_.push_back(ray.direction);
@@ -77,6 +80,13 @@ class PathBatches {
   }
 
  private:
+  PolygonStart startOn(int i, const vec3& normal) const {
+    Ray first;
+    first.direction = normal;
+    places_.aim(*tools_.rays, i, 0, first);
+    return polygonStart(*tools_.rays, first, kMaskDiffuse);
+  }
+
   const GiState& state_;
   const RayTools& tools_;
   const ShadePoints& points_;

@@ -39,6 +39,8 @@ GatherRays::GatherRays(const RayScene& scene, const ShadingSystem& shading, cons
   if (occlusion) filter_.sides = occlusion->sides;
   if (occlusion && occlusion->bias >= 0) first_.offset = 0, first_.bias = occlusion->bias;
   if (!filter_.passesAll()) first_.filter = &filter_;
+  start_ = polygonStart(scene, first_, kMaskDiffuse);
+  first_.origin += start_.lift;
   if (first_.offset > 0) {
     scene.lookAround(first_, slantedOffset(first_.offset, 0), kMaskDiffuse, scratch_.surroundings);
     first_.surroundings = &scratch_.surroundings;
@@ -55,10 +57,10 @@ vec3 GatherRays::toLocal(const vec3& direction) const {
 
 vec3 GatherRays::add(int element, int cell, const vec3& local, size_t raysOfHemisphere) {
   Ray r = first_;
-  r.direction = toWorld(local);
+  r.direction = start_.above(toWorld(local));
   r.offset = slantedOffset(first_.offset, local.z);
   r.time = times_(static_cast<size_t>(cell));
-  if (r.time > 0) r.origin = scene_.placeAt(point_.group, point_.position, point_.drift, r.time);
+  if (r.time > 0) r.origin = scene_.placeAt(point_.group, point_.position, point_.drift, r.time) + start_.lift;
   // A cell of a cosine-weighted hemisphere has the solid angle pi / (n cos).
   r.spread = 1 / std::sqrt(static_cast<float>(raysOfHemisphere) * std::max(local.z, 0.05f));
   scratch_.layers.add(element, r, {key_, number_++});

@@ -4,6 +4,7 @@
 #pragma once
 #include "gi/gather.h"
 #include "gi/gather/hit_radiance.h"
+#include "gi/gather/polygon_start.h"
 #include "gi/gather/ray_strata.h"
 
 namespace tomales {
@@ -52,6 +53,7 @@ class GatherRays {
   const RayTimes times_;
   RayFilter filter_;
   Ray first_;
+  PolygonStart start_;
   vec3 tangent_, bitangent_;
   uint32_t number_ = 0;
   Scratch& scratch_;

@@ -56,6 +56,17 @@ TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out
   }
 }
 
+StartNumbers startNumbers(uint32_t first, uint32_t stream, size_t count) {
+  std::vector<uint32_t> number(count);
+  std::iota(number.begin(), number.end(), first);
+  const auto pairs = [&](uint32_t name) {
+    std::vector<vec2> xi(count);
+    sobol2(number, std::vector(count, name), xi);
+    return xi;
+  };
+  return {pairs(stream), pairs(hashCombine(stream, kSecondPair))};
+}
+
 PhotonTarget::PhotonTarget(const Scene& scene) {
   for (const Object& o : scene.objects) {
     if (!o.attributes->visibility.photon) continue;
@@ -68,7 +79,7 @@ PhotonTarget::PhotonTarget(const Scene& scene) {
   if (bound.empty()) bound = {vec3(-1), vec3(1)};
 }
 
-PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
+LightPhotons::LightPhotons(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
     : light_(light),
       shading_(shading),
       rays_(rays),
@@ -83,7 +94,7 @@ PhotonSource::PhotonSource(int light, const ShadingSystem& shading, const RaySce
   power_ = sky_->power();
 }
 
-void PhotonSource::surveyPoint() {
+void LightPhotons::surveyPoint() {
   middle_ = askedFromMiddle({vec2(0.5f)}).L[0];
   float spread = 0;
   for (const vec3& place : askedFromMiddle(fewSamples()).L)
@@ -104,16 +115,16 @@ void PhotonSource::surveyPoint() {
   if (power_ > 0) cells_ = withFloor(weights);
 }
 
-void PhotonSource::askAlong(const vec3& local, const vec3& offset, LightProbe& probe) const {
+void LightPhotons::askAlong(const vec3& local, const vec3& offset, LightProbe& probe) const {
   probe.P.push_back(cone_.place(local, cone_.askingDistance()) + offset), probe.N.push_back(-cone_.direction(local));
 }
 
 /// Radiant intensity over pi: Cl r^2, where Cl is E/pi at the distance r.
-vec3 PhotonSource::intensity(const LightProbe& probe, size_t i) const {
+vec3 LightPhotons::intensity(const LightProbe& probe, size_t i) const {
   return probe.Cl[i] * (cone_.askingDistance() * cone_.askingDistance());
 }
 
-void PhotonSource::surveyDistant(const PhotonTarget& target) {
+void LightPhotons::surveyDistant(const PhotonTarget& target) {
   const LightProbe probe = askedFromMiddle(fewSamples());
   direction_ = normalizeOr(-std::accumulate(probe.L.begin(), probe.L.end(), vec3(0)), vec3(0, 0, 1));
   // Shadows along any of its directions lie near those along the middle one (emitFromDistance).
@@ -145,30 +156,21 @@ void PhotonSource::surveyDistant(const PhotonTarget& target) {
   power_ = double{brightness} * double{kPi} * cellArea * cells_.total();
 }
 
-void PhotonSource::surveyArea() {
+void LightPhotons::surveyArea() {
   std::vector<EmittedPhoton> photons(256);
   emit(0, 0, photons);
   for (const EmittedPhoton& p : photons) power_ += double{luminance(p.power)} / static_cast<double>(photons.size());
 }
 
-void PhotonSource::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
-  // Two pairs of one photon: each stratified over all photons of the light, unrelated to the other.
-  const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(light_));
-  std::vector<uint32_t> number(out.size());
-  std::iota(number.begin(), number.end(), first);
-  const auto pairs = [&](uint32_t name) {
-    std::vector<vec2> xi(out.size());
-    sobol2(number, std::vector(out.size(), name), xi);
-    return xi;
-  };
-  const std::vector<vec2> a = pairs(stream), b = pairs(hashCombine(stream, kSecondPair));
+void LightPhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
+  const auto [a, b] = startNumbers(first, hashCombine(seed, static_cast<uint32_t>(light_)), out.size());
   if (kind_ == LightKind::Point) emitFromPoint(a, b, out);
   if (kind_ == LightKind::Distant) emitFromDistance(a, b, out);
   if (kind_ == LightKind::Sky) sky_->emit(a, b, out);
   if (kind_ == LightKind::Area) emitFromArea(a, b, out);
 }
 
-LightProbe PhotonSource::askedFromMiddle(const std::vector<vec2>& xi) const {
+LightProbe LightPhotons::askedFromMiddle(const std::vector<vec2>& xi) const {
   LightProbe probe;
   probe.P.assign(xi.size(), center_), probe.N.assign(xi.size(), vec3(0, 0, 1)), probe.xi = xi;
   shading_.probe(light_, probe);
@@ -176,7 +178,7 @@ LightProbe PhotonSource::askedFromMiddle(const std::vector<vec2>& xi) const {
   return probe;
 }
 
-void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b,
+void LightPhotons::emitFromPoint(const std::vector<vec2>& a, const std::vector<vec2>& b,
                                  std::vector<EmittedPhoton>& out) const {
   const LightProbe place = isDrawn_ ? askedFromMiddle(b) : LightProbe();
   LightProbe probe;
@@ -197,7 +199,7 @@ void PhotonSource::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
   for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
 }
 
-void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
+void LightPhotons::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,
                                     std::vector<EmittedPhoton>& out) const {
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
@@ -222,7 +224,7 @@ void PhotonSource::emitFromDistance(const std::vector<vec2>& a, const std::vecto
   for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] * kPi * area;
 }
 
-void PhotonSource::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,
+void LightPhotons::emitFromArea(const std::vector<vec2>& a, const std::vector<vec2>& b,
                                 std::vector<EmittedPhoton>& out) const {
   const size_t n = out.size();
   std::vector<float> xi0(n), xi1(n), area(n), place[3], normal[3];

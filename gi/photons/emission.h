@@ -34,16 +34,31 @@ struct PhotonTarget {
 
 class SkyPhotons;
 
+/// Two pairs of random numbers for each photon, each pair stratified over all photons of a source and unrelated to the
+/// other. `stream` names the source.
+struct StartNumbers {
+  std::vector<vec2> a, b;
+};
+StartNumbers startNumbers(uint32_t first, uint32_t stream, size_t count);
+
 class PhotonSource {
  public:
-  PhotonSource(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target);
+  virtual ~PhotonSource() = default;
+  /// Index of the light; -1: surfaces that glow by their shaders.
+  virtual int light() const = 0;
+  /// Estimated emitted power in W, by which photons are shared out; 0: none is emitted.
+  virtual double power() const = 0;
+  /// Emits photons `first` .. first + out.size() - 1 of this source.
+  virtual void emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const = 0;
+};
 
-  int light() const { return light_; }
-  /// Estimated emitted power in W, by which photons are shared out; 0: the light emits none.
-  double power() const { return power_; }
+class LightPhotons : public PhotonSource {
+ public:
+  LightPhotons(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target);
 
-  /// Emits photons `first` .. first + out.size() - 1 of this light.
-  void emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const;
+  int light() const override { return light_; }
+  double power() const override { return power_; }
+  void emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const override;
 
  private:
   void surveyPoint();

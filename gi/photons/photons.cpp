@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "gi/photons/glow.h"
 #include "gi/photons/tracer.h"
 #include "reyes/base/parallel.h"
 
@@ -11,9 +12,14 @@ namespace {
 constexpr size_t kPhotonsPerTask = 2048,
                  kTasksPerThread = 8;  ///< A task's photons are stored while they are in the processor's cache.
 
-std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, Log& log) {
+std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays, const ShadingSystem& shading,
+                                                           uint32_t seed, Log& log) {
+  const Scene& scene = rays.scene();
   const PhotonTarget target(scene);
-  std::vector<PhotonSource> sources;
+  std::vector<std::unique_ptr<const PhotonSource>> sources;
+  const auto add = [&](std::unique_ptr<const PhotonSource> source) {
+    if (source->power() > 0) sources.push_back(std::move(source));
+  };
   for (const auto& light : scene.lights) {
     const LightKind kind = shading.lightKind(light->index);
     const bool isOn = std::any_of(scene.groups.begin(), scene.groups.end(),
@@ -24,9 +30,9 @@ std::vector<PhotonSource> sourcesOf(const Scene& scene, const RayScene& rays, co
                  "light \"" + light->handle + "\" comes from nowhere: it emits no photons");
       continue;
     }
-    PhotonSource source(light->index, shading, rays, target);
-    if (source.power() > 0) sources.push_back(std::move(source));
+    add(std::make_unique<LightPhotons>(light->index, shading, rays, target));
   }
+  add(std::make_unique<GlowPhotons>(rays, shading, seed, log));
   return sources;
 }
 
@@ -46,19 +52,19 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
                            const PhotonSettings& settings,
                            const std::function<void(std::span<const StoredPhoton>)>& store,
                            const std::function<void(float)>& progress, Stats& stats, Log& log) {
-  const std::vector<PhotonSource> sources = sourcesOf(scene, rays, shading, log);
-  const double total = std::accumulate(sources.begin(), sources.end(), 0.0,
-                                       [](double sum, const PhotonSource& s) { return sum + s.power(); });
+  const auto sources = sourcesOf(rays, shading, settings.seed, log);
+  const double total =
+      std::accumulate(sources.begin(), sources.end(), 0.0, [](double sum, const auto& s) { return sum + s->power(); });
   if (sources.empty())
     log.report(Severity::Warning, "photons-no-light", scene.where,
-               "no light of the scene emits photons: indirect light is black");
+               "nothing in the scene emits photons, neither lights nor surfaces: indirect light is black");
   const PhotonTracer tracer(scene, rays, shading, settings, log);
   PhotonFigures figures;
   std::vector<std::vector<StoredPhoton>> stored;
   const size_t photonsPerWave = kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
-  for (const PhotonSource& source : sources) {
+  for (const auto& source : sources) {
     const auto count =
-        static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source.power() / total)));
+        static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source->power() / total)));
     const float share = 1 / static_cast<float>(count);
     for (size_t wave = 0; wave < count; wave += photonsPerWave) {
       const size_t end = std::min(count, wave + photonsPerWave);
@@ -67,7 +73,7 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
         for (size_t task = begin; task < last; ++task) {
           const size_t first = wave + task * kPhotonsPerTask;
           stored[task].clear();
-          tracer.trace(source, static_cast<uint32_t>(first), std::min(kPhotonsPerTask, end - first), share,
+          tracer.trace(*source, static_cast<uint32_t>(first), std::min(kPhotonsPerTask, end - first), share,
                        stored[task]);
         }
       });

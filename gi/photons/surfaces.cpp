@@ -1,5 +1,7 @@
 #include "gi/photons/surfaces.h"
 
+#include "gi/photons/glow.h"
+
 namespace tomales {
 namespace {
 
@@ -44,9 +46,7 @@ std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& 
     return shading_.emits(rays_.scene().objects[static_cast<size_t>(h.object)].group);
   };
   if (std::any_of(hits.begin(), hits.end(), emits)) {
-    context.light = Illumination::None;
-    std::vector<vec3> dark;
-    rays_.shadeHits(rays, hits, names, shading_, context, dark);
+    const std::vector<vec3> dark = emittedRadiance(rays_, shading_, rays, hits, names, seed_);
     for (size_t i = 0; i < dark.size(); ++i) lit.color[i] -= dark[i];
   }
   std::vector<Answer> out(hits.size());

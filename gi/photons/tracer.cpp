@@ -63,6 +63,8 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
     scratch.flying.push_back(static_cast<uint32_t>(paths.size()));
     paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
     paths.back().lift = liftOf(e.ray, e.normal);
+    // Gather rays see what glows themselves: its photons have left a surface, as all others do once they have arrived.
+    if (source.light() < 0) paths.back().depth = 1, paths.back().specular = false;
   }
   while (!scratch.flying.empty()) {
     throwIfStopped();

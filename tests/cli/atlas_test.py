@@ -94,6 +94,23 @@ t.write("foreign.ptc", bricks)
 t.expect_run("a brick map that calls itself a cloud", ["brickmake", "foreign.ptc", "-o", "foreign.bkm"], 2, "another kind")
 t.expect_run("irradiance of what is no photon map", ["irradiance", "byhand_points", "-o", "again"], 2, "no photon map")
 
+# What glows by its shader and is no light: the wall of a closed ball sends 1 / (1 - albedo) of what it adds.
+t.write("glow.sl", "surface glow() { Oi = Os; Ci = Os * (1 + Cs * diffuse(faceforward(normalize(N), I))); }")
+t.write("glow.rib", """Format 16 16 1
+Projection "perspective" "fov" [90]
+Translate 0.3 0 0.5
+WorldBegin
+LightSource "indirectlight" 1 "samples" [64]
+Sides 2
+Color 0.8 0.8 0.8
+Surface "glow"
+Sphere 2 -2 2 360
+WorldEnd
+""")
+result = t.run("glow.rib", "--gi", "atlas", "--photons", "100000", "--bounces", "60", "-o", "glow.exr")
+glow = json.loads(t.run("info", "--json", "glow.exr").stdout)["channels"][0]["mean"]
+t.expect(result.stderr == "" and abs(glow - 5) < 0.1, f"a closed ball that glows is as bright as the series of its albedo: {glow:.3f}, {result.stderr}")
+
 # What was gathered as brick maps, with which another camera shades at the cost of direct light (irradiance-atlas 6.3).
 def lit(scene, *arguments):
     """Exit code, gather rays, and what was said."""

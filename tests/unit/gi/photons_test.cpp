@@ -197,6 +197,52 @@ TEST(Photons, ASceneWithoutLightSaysSo) {
   EXPECT_EQ(world.log.count("photons-no-light"), 1);
 }
 
+// A glowing sheet of 2 x 2 in a large black ball.
+SceneBuilder glowingSheet(const ParamList& primvars = {}) {
+  SceneBuilder b;
+  b.sphere(5, vec3(0), {0, 0, 4});
+  Problems problems;
+  Param P{"P", Storage::Vertex, ValueType::Point, 1, {-1, -1, 4, 1, -1, 4, 1, 1, 4, -1, 1, 4}, {}, {}};
+  ParamList params = primvars;
+  params.push_back(P);
+  b.add(makePolygons({4}, {0, 1, 2, 3}, params, problems), vec3(0.5f));
+  auto glowing = std::make_shared<Attributes>(*b.scene.objects[1].attributes);
+  glowing->surface = std::make_shared<ShaderCall>(call("constant"));
+  b.scene.objects[1].attributes = glowing;
+  return b;
+}
+
+TEST(Photons, OfASurfaceThatGlowsCarryWhatItsShaderAddsOnBothSides) {
+  World world(glowingSheet().scene);
+  const auto photons = traced(world, {20000, 2, 0, false});
+  EXPECT_NEAR(powerOf(photons), 2 * 4 * double{kPi} * 0.5, 1e-3 * 4 * double{kPi});
+  for (const StoredPhoton& p : photons) ASSERT_EQ(p.depth, 1) << "gather rays see the sheet themselves";
+  EXPECT_EQ(world.log.count("photons-no-light"), 0);
+}
+
+TEST(Photons, OfASurfaceThatGlowsHereAndThereComeFromWhereItIsBright) {
+  Param Cs{"Cs", Storage::Vertex, ValueType::Color, 1, {0, 0, 0, 0, 0, 0, 2, 2, 2, 0, 0, 0}, {}, {}};
+  World world(glowingSheet({Cs}).scene);
+  const auto photons = traced(world, {50000, 2, 0, false});
+  EXPECT_NEAR(powerOf(photons), 2 * 4 * double{kPi} * 0.5, 0.01 * 4 * double{kPi});  // the mean of u v 2
+  double largest = 0;
+  for (const StoredPhoton& p : photons) largest = std::max(largest, double{p.power.y});
+  EXPECT_LT(largest, 2 * powerOf(photons) / static_cast<double>(photons.size()));
+}
+
+TEST(Photons, OfAGlowThatCannotBeSampledAreSaidToBeMissing) {
+  SceneBuilder b = glowingSheet();
+  b.scene.objects.push_back(b.scene.objects[1]);
+  for (size_t i = 1; i < 3; ++i) {
+    auto faded = std::make_shared<Attributes>(*b.scene.objects[i].attributes);
+    faded->detail = {0, 0.5f};
+    b.scene.objects[i].attributes = faded;
+  }
+  World world(b.scene);
+  EXPECT_TRUE(traced(world, {1000, 5}).empty());
+  EXPECT_EQ(world.log.count("photons-glow"), 1);
+}
+
 struct Atlas : ::testing::Test {
   const fs::path folder = fs::temp_directory_path() / ("tomales_atlas_test_" + std::to_string(::getpid()));
   ~Atlas() override { fs::remove_all(folder); }

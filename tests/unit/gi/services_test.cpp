@@ -48,6 +48,20 @@ TEST(GiServices, AGatheredFurnaceIsUniform) {
   for (const vec3& E : indirectAt(*services, pointsInside(), query)) EXPECT_NEAR(E.x, kOneBounce, 0.02f * kOneBounce);
 }
 
+// The true surface lies behind the polygons that rays see: flat rays must not pass behind these.
+TEST(GiServices, NoRayLeavesAClosedSphere) {
+  Scene scene = insideOfASphere({0, 0, 0.5f});
+  auto glowing = std::make_shared<Attributes>(*scene.objects[0].attributes);
+  glowing->surface = std::make_shared<ShaderCall>(call("constant"));
+  scene.objects[0].attributes = glowing;
+  World world(std::move(scene));
+  IndirectQuery query;
+  query.samples = 4000;
+  for (const GiMode mode : {GiMode::Gather, GiMode::Reference})
+    for (const vec3& E : indirectAt(*world.use({.mode = mode}), pointsInside(), query))
+      EXPECT_NEAR(E.x, kAlbedo, 2e-3f * kAlbedo);
+}
+
 TEST(GiServices, GatherAndReferenceAgreeWithTheIntegratingSphereForALightOffCentre) {
   World world(litBall({0.6f, -0.5f, 1.0f}));
   IndirectQuery query;

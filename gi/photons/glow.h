@@ -1,0 +1,50 @@
+// Private to gi: photons of surfaces that glow, by what their shaders add where no light is (TM_EMITS). Gather rays see
+// such surfaces themselves, so a photon counts as one that a surface sends on. Photons leave the coarse polygons, as
+// gather rays see them. Space: current. Power: W. Threads: const members may be called concurrently.
+#pragma once
+#include "gi/photons/emission.h"
+#include "raytrace/tessellate.h"
+
+namespace tomales {
+
+/// What surfaces send back along rays where there is no light.
+std::vector<vec3> emittedRadiance(const RayScene& rays, const ShadingSystem& shading, const std::vector<Ray>& from,
+                                  const std::vector<Hit>& hits, const std::vector<SampleName>& names, uint32_t seed);
+
+class GlowPhotons : public PhotonSource {
+ public:
+  /// Samples of each object that may glow and that diffuse rays see tell where it is how bright. Warns of those on
+  /// which no photon can start.
+  GlowPhotons(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log);
+
+  int light() const override { return -1; }
+  double power() const override { return choice_.total(); }
+  void emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const override;
+
+ private:
+  /// One side of an object.
+  struct Surface {
+    std::shared_ptr<const CoarseGroup> mesh;
+    bool back = false;   ///< The side away from the RISpec normal.
+    int columns = 1;     ///< Cells along each edge of a polygon.
+    Distribution cells;  ///< Power of the cells of the first polygon, of the second, ...
+  };
+  struct Start {
+    vec3 P;
+    Hit hit;      ///< As a ray would meet it.
+    vec3 normal;  ///< Unit normal of the polygon on the side that glows.
+    float area;   ///< Area for each unit of the pair of numbers that chose the place in its cell; 0: trimmed away.
+  };
+  void survey(Surface& surface, size_t mostProbes) const;
+  static Start startIn(const Surface& surface, size_t cell, vec2 at);
+  std::vector<vec3> radianceAlong(const std::vector<Start>& starts, const std::vector<vec3>& directions,
+                                  const std::vector<SampleName>& names) const;
+
+  const RayScene& rays_;
+  const ShadingSystem& shading_;
+  const uint32_t seed_;
+  std::vector<Surface> surfaces_;
+  Distribution choice_;  ///< Power of each surface.
+};
+
+}  // namespace tomales
