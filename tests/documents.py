@@ -46,6 +46,11 @@ for page in pages:
         check_paths(page, quoted)
     check_links(page, text)
 
+index = (root / "docs/README.md").read_text()
+for page in sorted((root / "docs").glob("*.md")):
+    if page.name != "README.md" and f"]({page.name})" not in index:
+        bad.append(f"docs/README.md does not list {page.name}")
+
 texts = {".h", ".cpp", ".py", ".txt", ".rib", ".c", ".md"}
 files = [*root.glob("*.*"), *(file for folder in top.split("|") for file in (root / folder).rglob("*.*"))]
 for file in files:

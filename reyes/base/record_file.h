@@ -1,4 +1,4 @@
-// Files of compressed, checksummed records, such as .dfb and .icf (docs/dfb.md has the bytes).
+// Files of compressed, checksummed records, such as .dfb and .icf (docs/formats.md has the bytes).
 //   header     magic, version, schema of the contents
 //   record*    32 bytes that say its name and length, then zstd; in the order of finishing
 //   directory  the last record: where every other one starts

@@ -1,6 +1,6 @@
 // RSL's built-in functions: one table of their names and types, and of the instructions that they become. The checker
-// chooses among its rows, the lowering reads what to emit, and a test compares docs/rsl.md with it. Functions that are
-// simpler to write in RSL itself are in the prelude (prelude.cpp).
+// chooses among its rows, the lowering reads what to emit, and a test compares docs/rsl_reference.md with it. Functions
+// that are simpler to write in RSL itself are in the prelude (prelude.cpp).
 #pragma once
 #include <span>
 #include <string>
