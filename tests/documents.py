@@ -51,6 +51,13 @@ for page in sorted((root / "docs").glob("*.md")):
     if page.name != "README.md" and f"]({page.name})" not in index:
         bad.append(f"docs/README.md does not list {page.name}")
 
+# A guide that nobody can read whole helps nobody. What it measures and why it is so have folders of their own.
+most_words = 30000
+guide = [root / "README.md", *(root / "docs").glob("*.md")]
+words = sum(bool(re.search(r"\w", word)) for page in guide for word in page.read_text().split())
+if words > most_words:
+    bad.append(f"README.md and docs/*.md have {words} words; {most_words} are the limit")
+
 texts = {".h", ".cpp", ".py", ".txt", ".rib", ".c", ".md"}
 files = [*root.glob("*.*"), *(file for folder in top.split("|") for file in (root / folder).rglob("*.*"))]
 for file in files:

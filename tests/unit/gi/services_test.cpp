@@ -50,7 +50,7 @@ TEST(GiServices, AGatheredFurnaceIsUniform) {
 
 // The true surface lies behind the polygons that rays see: flat rays must not pass behind these.
 TEST(GiServices, NoRayLeavesAClosedSphere) {
-  Scene scene = insideOfASphere({0, 0, 0.5f});
+  Scene scene = litBall({0, 0, 0.5f});
   auto glowing = std::make_shared<Attributes>(*scene.objects[0].attributes);
   glowing->surface = std::make_shared<ShaderCall>(call("constant"));
   scene.objects[0].attributes = glowing;
@@ -59,7 +59,7 @@ TEST(GiServices, NoRayLeavesAClosedSphere) {
   query.samples = 4000;
   for (const GiMode mode : {GiMode::Gather, GiMode::Reference})
     for (const vec3& E : indirectAt(*world.use({.mode = mode}), pointsInside(), query))
-      EXPECT_NEAR(E.x, kAlbedo, 2e-3f * kAlbedo);
+      EXPECT_NEAR(E.x, kBallAlbedo, 2e-3f * kBallAlbedo);
 }
 
 TEST(GiServices, GatherAndReferenceAgreeWithTheIntegratingSphereForALightOffCentre) {
