@@ -56,6 +56,8 @@ struct PictureFile::Impl {
     if (failed || !guarded([&] { writer->close(); })) return false;
     std::string why;
     if (file && !whole) file->finishAs(partialName(path));
+    std::error_code none;  // there may be no such file
+    if (file && whole) fs::remove(fs::path(path).replace_filename(partialName(path)), none);
     return !file || file->finish(why) || fail(why);
   }
 

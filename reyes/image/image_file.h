@@ -49,7 +49,7 @@ class PictureFile {
   /// says why.
   bool write(const Image& rows);
   bool write(const DeepRows& rows);
-  /// A picture that is not whole gets the name of partialName().
+  /// A picture that is not whole gets the name of partialName(); a whole one removes the file of that name.
   bool close(bool whole = true);
   const std::string& error() const;
   /// Parameters of a Display that its driver has not read.

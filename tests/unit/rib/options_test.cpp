@@ -88,6 +88,16 @@ TEST(Options, SearchPathsKeepThePreviousValueForAnAmpersand) {
   EXPECT_EQ(r.scene().options.searchPaths.at("texture"), "b:a");
 }
 
+TEST(SearchPaths, CountRelativeFoldersFromTheWorkingFolderAndThenFromTheFile) {
+  Log log(Log::Verbosity::Quiet);
+  std::string path;
+  RibSettings settings;
+  settings.onScene = [&](Scene&& s) { path = s.options.searchPaths.at("shader"); };
+  readRibText("Option \"searchpath\" \"shader\" [\"mine:.:/abs\"]\n" + inWorld(kSphere), "shots/far/test.rib", settings,
+              log);
+  EXPECT_EQ(path, "mine:shots/far/mine:.:/abs");
+}
+
 TEST(Options, FrameEndRestoresOptionsAndAttributes) {
   const Reading r("Format 10 10 1 FrameBegin 1 Format 20 20 1 Color 1 0 0 LightSource \"ambientlight\" 1 " +
                   inWorld(kSphere) + "FrameEnd " + inWorld(kSphere));
