@@ -111,8 +111,8 @@ def distance(a, b):
 
 
 def has_records(text):
-    """Of indirect light; RIS scenes ask for it by their integrator."""
-    return "indirectlight" in text or "PxrPathTracer" in text
+    """Of indirect light or of what covers a point; RIS scenes ask for it by their integrator."""
+    return any(word in text for word in ("indirectlight", "PxrPathTracer", "maxvariation", '"irradiance" "float maxerror"'))
 
 
 def check(scene):

@@ -1,0 +1,38 @@
+/* What the shaders of this scene share: how a surface mirrors the room. */
+#ifndef ROOM_H
+#define ROOM_H
+
+#include "noises.h"
+
+/* What a glossy surface mirrors along R. The eye's points take many rays in a cone, what is seen in a mirror takes one, and
+ * what is seen in that, or by gathered light, takes a mean of the room instead: rays would multiply otherwise.
+ */
+color mirror(point from; vector R; float cone, samples) {
+  color seen = color(0.055, 0.05, 0.045);
+  if (raydepth() == 0)
+    seen = trace(from, normalize(R), "samplecone", cone, "samples", samples);
+  else if (raydepth() == 1)
+    seen = trace(from, normalize(R));
+  return seen;
+}
+
+/* Light at a matte point: that of the lamps, and what the room sends back where it is not covered, cooler and paler from
+ * above than from the table below. The eye's points ask how much is covered, those in mirrors take a mean.
+ */
+color received(normal Nf) {
+  float up = 0.5 + 0.5 * ycomp(normalize(ntransform("room", Nf)));
+  color room = mix(color(0.13, 0.092, 0.058), color(0.10, 0.105, 0.112), up);
+  float open = 0.6;
+  if (raydepth() == 0)
+    open = 1 - occlusion(P, Nf, 64, "maxdist", 7);
+  return diffuse(Nf) + open * room;
+}
+
+/* The share that a polished surface of index eta mirrors towards the eye. */
+float polish(vector In; normal Nf; float eta) {
+  float Kr, Kt;
+  fresnel(In, Nf, 1 / eta, Kr, Kt);
+  return Kr;
+}
+
+#endif

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Writes teapots.rib: twelve teapots on three steps, each painted by another pattern of shaders/include.
+
+    make_teapots.py > teapots.rib
+
+Units are those of the teapot, which is 3.15 high: x to the right, y up, z away from the eye.
+"""
+ACROSS, RISE, TREAD = 6.8, 3.1, 5.2  # from pot to pot, and from step to step
+STEPS = (("marble", "harlequin", "crackle", "terrazzo"), ("copper", "breton", "walnut", "bricks"), ("gingham", "malachite", "stoneware", "dots"))
+WIDE = 60
+
+
+def box(y0, y1, z0, z1):
+    """The riser and the tread of one step, with an edge that is rounded off."""
+    edge = 0.12
+    rows = [(y0, z0), (y1 - edge, z0), (y1 - 0.3 * edge, z0 + 0.3 * edge), (y1, z0 + edge), (y1, z1)]
+    points = " ".join(f"{x:g} {y:g} {z:g}" for y, z in rows for x in (-WIDE, WIDE))
+    return f'PatchMesh "bilinear" 2 "nonperiodic" {len(rows)} "nonperiodic" "P" [{points}]'
+
+
+print('''##RenderMan RIB-Structure 1.1
+# Twelve teapots in soft light. make_teapots.py has written this file; README.md tells about it.
+version 3.04
+Format 1600 900 1
+PixelSamples 4 4
+PixelFilter "mitchell" 4 4
+ShadingRate 1
+Projection "perspective" "fov" [18.5]
+DepthOfField 16 2 46
+Clipping 1 500
+Imager "print"
+Display "teapots.exr" "openexr" "rgba"
+Display "+teapots.png" "png" "rgb" "string transfer" ["sRGB"]
+Rotate -13.7 1 0 0
+Translate 0 -16 44
+WorldBegin
+  Attribute "light" "string shadows" ["on"]
+  LightSource "occlusionlight" "room" "float samples" [128] "float maxdist" [18] "float maxvariation" [0.02] "lightcolor" [0.24 0.245 0.265]
+  AttributeBegin
+    AreaLightSource "arealight" "softbox" "float intensity" [7] "lightcolor" [1.0 0.93 0.84] "float samples" [48]
+    Polygon "P" [-34 12 -26  -34 40 -26  -26 40 2  -26 12 2]
+  AttributeEnd
+  AttributeBegin
+    AreaLightSource "arealight" "rim" "float intensity" [2.4] "lightcolor" [0.72 0.84 1.0] "float samples" [8]
+    Polygon "P" [36 8 -16  36 8 6  36 30 6  36 30 -16]
+  AttributeEnd
+  Illuminate "softbox" 1
+  Illuminate "rim" 1
+  AttributeBegin
+    Attribute "identifier" "string name" ["steps"]
+    Surface "plaster"''')
+for k in range(len(STEPS)):
+    print("    " + box((k - 1) * RISE if k else -12, k * RISE, k * TREAD - 2.7, (k + 1) * TREAD - 2.7 if k < 2 else 20))
+print('''  AttributeEnd
+  AttributeBegin
+    Attribute "identifier" "string name" ["wall"]
+    Surface "plaster" "color pale" [0.30 0.335 0.34]
+    Polygon "P" [-90 -20 20  -90 90 20  90 90 20  90 -20 20]
+  AttributeEnd''')
+for k, step in enumerate(STEPS):
+    for n, shader in enumerate(step):
+        x = (n - 1.5) * ACROSS + (0.8 if k == 1 else 0)
+        print(f'  AttributeBegin\n    Attribute "identifier" "string name" ["{shader}"]\n    Surface "{shader}"')
+        if shader == "copper":
+            print('    Attribute "displacementbound" "float sphere" [0.08]\n    Displacement "dimples"')
+        print(f'    Translate {x:g} {k * RISE:g} {k * TREAD:g}\n    Rotate {(-24, -36, -18, -30)[(n + k) % 4]} 0 1 0\n    Rotate -90 1 0 0\n    Geometry "teapot"\n  AttributeEnd')
+print("WorldEnd")

@@ -1,0 +1,6 @@
+/* The steps and the wall: pale plaster. */
+surface plaster(color pale = color(0.60, 0.56, 0.51)) {
+  normal Nf = faceforward(normalize(N), I);
+  Oi = Os;
+  Ci = Os * pale * (diffuse(Nf) + ambient());
+}
