@@ -15,8 +15,8 @@ constexpr Group kGroups[] = {
     {"Picture", " -o --format --frames --crop --pixel-samples --shading-rate --draft "},
     {"Light", " --gi --samples --bounces --irradiance "},
     {"Scene", " --edit --shaders --plugin-path --allow-plugins --allow-system "},
-    {"Run", " -t --progress --stats -q -v --resume --skip-finished --memory-limit --json -h --help --help-all "},
-    {"Picture, in detail", " --one-picture --overwrite --seed --bucket-size --preview --pixel ", false},
+    {"Run", " -t --progress --stats -q -v --resume --memory-limit --json -h --help --help-all "},
+    {"Picture, in detail", " --one-picture --overwrite --skip-finished --seed --bucket-size --preview --pixel ", false},
     {"Light, in detail",
      " --max-error --error-function --indirect-only --light-samples --light-seed --photons --atlas-direct --atlas "
      "--radiosity-texels --radiosity-maps --brick-cache --brick-maxerror --geometry-cache --ray-geometry --no-hit-list "

@@ -61,8 +61,8 @@ std::optional<std::string> parseOutput(const std::string& text) {
 
 void addOutput(CLI::App& app, RenderSettings& s) {
   addParsed(app, "-o", s.output, parseOutput, pictureNames(),
-            "Write here instead of to the first Display, and other pictures beside it: a_z.exr beside a.exr; # stands "
-            "for the frame number. PNG: rgb, "
+            "Write here instead of to the first Display, other pictures beside it; # stands for the frame number. "
+            "PNG: rgb, "
             "in sRGB unless the scene's Exposure has a gamma (.tif and .exr are linear, and so is the PNG of a Display "
             "without -o, as classic renderers wrote it). A scene without Display writes ri.exr");
   app.add_flag("--one-picture", s.onePicture, "With -o: leave out the scene's other Displays, shadow maps excepted")
@@ -71,9 +71,12 @@ void addOutput(CLI::App& app, RenderSettings& s) {
 
 void addCrop(CLI::App& app, RenderSettings& s) {
   addParsed(app, "--crop", s.crop, parseCrop, "X0,X1,Y0,Y1",
-            "Part of the frame, 0..1 from the top left (default: the scene's CropWindow, or all). Pictures of the "
-            "scene that hold more are kept, and the crop of a.exr goes to a_crop.exr");
-  app.add_flag("--overwrite", s.overwrite, "With --crop: write over pictures that hold more")->needs("--crop");
+            "Part of the frame, 0..1 from the top left (default: the scene's CropWindow, or all)");
+  app.add_flag(
+         "--overwrite", s.overwrite,
+         "With --crop: write over pictures of the scene that hold more. Without it they are kept, and the crop of "
+         "a.exr goes to a_crop.exr")
+      ->needs("--crop");
 }
 
 void addPictureOptions(CLI::App& app, RenderSettings& s) {

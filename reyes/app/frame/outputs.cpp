@@ -42,7 +42,8 @@ std::set<std::string> replaceByOutput(Options& options, const RenderSettings& se
   const std::string output = withFrameNumber(settings.output, options.frame);
   std::set<std::string> names{output};
   const PluginTrust trust = pluginTrust(settings);
-  for (auto other = first + 1; other != displays.end(); ++other) {
+  const bool staysBelowRoot = !settings.outputRoot.empty();  // what the RIB names does, by its own name
+  for (auto other = first + 1; other != displays.end() && !staysBelowRoot; ++other) {
     if (writesMap(*other) || !driverOf(*other, options, trust).empty()) continue;
     other->name = beside(output, first->name, other->name);
     names.insert(other->name);

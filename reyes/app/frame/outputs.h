@@ -8,7 +8,8 @@ namespace tomales {
 /// Gives a scene without Display the default one, and decides on the names of all files:
 /// - `-o` takes the place of the first Display that is no map for later frames. Other pictures go beside it, so that
 ///   nothing is written over that the command does not name: with `-o look.exr` the Displays "m.exr" and "m_id.exr"
-///   write look.exr and look_id.exr, and "z.exr" writes look_z.exr.
+///   write look.exr and look_id.exr, and "z.exr" writes look_z.exr. With `--output-root` they keep their names below
+///   it.
 /// - What the RIB names is written below `--output-root`.
 /// - Displays that would write over an earlier one's file, and windows beside files, are left out with a message.
 /// - A picture on the disk that holds more than `--crop` is kept, with a message, unless `-o` names it or `--overwrite`
