@@ -5,6 +5,7 @@
 
 #include "raytrace/embree_scene.h"
 #include "raytrace/emitters.h"
+#include "raytrace/moving_bounds.h"
 #include "raytrace/solid_hits.h"
 
 namespace tomales {
@@ -45,7 +46,7 @@ struct RayScene::Impl {
   const EmbreeScene embree;
   const SolidHits solids;
   const Emitters emitters;
-  bool moves = false;  ///< Some polygon moves.
+  MovingBounds moving;
   mutable std::mutex subsetsMutex;
   mutable std::map<std::pair<std::string, std::string>, std::vector<uint8_t>> subsets;
   mutable std::mutex startsMutex;

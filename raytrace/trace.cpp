@@ -81,7 +81,8 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
       float& bound = displacementBounds[static_cast<size_t>(o.group)];
       bound = std::max(bound, o.displacementBound);
     }
-  moves = std::any_of(groups.begin(), groups.end(), [](const CoarseGroup& g) { return !g.laterP.empty(); });
+  for (const CoarseGroup& g : groups)
+    if (!g.laterP.empty()) moving.add(g);
   for (const Object& o : scene.objects)
     if (const int light = o.attributes->areaLight; light >= 0 && !emitters.shines(light))
       log.report(Severity::Warning, "light-no-area", o.where,
@@ -263,13 +264,15 @@ const std::vector<uint8_t>* RayScene::groupsIn(const std::string& subset, const 
 }
 
 bool RayScene::samplesTime(int group) const {
-  return impl_->moves && impl_->scene.groups[static_cast<size_t>(group)].attributes->trace.sampleMotion;
+  return impl_->moving.any() && impl_->scene.groups[static_cast<size_t>(group)].attributes->trace.sampleMotion;
 }
+
+bool RayScene::mayMeetMotion(const Ray& ray) const { return impl_->moving.mayMeet(ray); }
 
 vec3 RayScene::placeAt(int group, const vec3& atOpen, const vec3& drift, float time) const {
   const ShadeGroup& g = impl_->scene.groups[static_cast<size_t>(group)];
   const vec3 drifted = atOpen + time * drift;
-  if (!impl_->moves || time == 0 || !g.currentFromOpen.moving()) return drifted;
+  if (!impl_->moving.any() || time == 0 || !g.currentFromOpen.moving()) return drifted;
   const Options& o = impl_->scene.options;
   return transformPoint(g.currentFromOpen.at(lerp(o.shutterOpen, o.shutterClose, time)), drifted);
 }

@@ -5,8 +5,8 @@
 //   3 the recorded hit closest to the origin, if any, is the new origin
 //   4 the next hit after that is the answer
 // One traversal: an Embree filter function records and rejects hits inside the offset and accepts the first beyond.
-// Motion: rays see objects move, but not the camera, and area lights stand where they are when the shutter opens. Only
-// rays from objects with Attribute "trace" "samplemotion" 1 are given times; all others see the scene at shutter open.
+// Motion: rays see objects move, but not the camera, and area lights stand where they are when the shutter opens. Rays
+// from objects with Attribute "trace" "samplemotion" 0 see the scene at shutter open.
 // Space: current (camera space at shutter open). Threads: const members may be called concurrently.
 #pragma once
 #include <map>
@@ -120,6 +120,8 @@ class RayScene {
 
   /// Tells whether rays from points of this group may meet anything that moves.
   bool samplesTime(int group) const;
+  /// Tells the same of one ray.
+  bool mayMeetMotion(const Ray& ray) const;
   /// Position of a point of this group at a time of the shutter, from its position at shutter open and its drift
   /// (kDriftX).
   vec3 placeAt(int group, const vec3& atOpen, const vec3& drift, float time) const;

@@ -96,8 +96,8 @@ struct Scene {
   /// attributes.
   void freeze();
 
-  /// Is the shutter open for some time? Otherwise nothing is blurred.
-  bool shutterIsOpen() const { return options.shutterClose > options.shutterOpen; }
+  /// Is the shutter open for some time, and motion wanted? Otherwise nothing is blurred.
+  bool shutterIsOpen() const { return options.sampleMotion && options.shutterClose > options.shutterOpen; }
   /// Opens a procedural. The result has its derived fields except for its groups. The scene does not change.
   Expansion opened(const Procedural& procedural) const;
   /// Adds the objects of opened(), and their solids, and finds their groups. Returns their indices.

@@ -182,7 +182,7 @@ struct Attributes {
   struct Trace {
     std::optional<float> bias, offset;
     bool displacements = false;
-    bool sampleMotion = false;  ///< Rays from this object see motion.
+    bool sampleMotion = true;  ///< Rays from this object see motion.
     int maxDiffuseDepth = 1,
         maxSpecularDepth = 2;  ///< Bounces that may follow one at this object; an earlier object's limit still applies.
     std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; if empty, they see all

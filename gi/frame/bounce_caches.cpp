@@ -79,7 +79,7 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
                                                   .pixelSize = pixelSize(camera, P),
                                                   .edgeLength = 0,
                                                   .drift = vec3(0),
-                                                  .time = 0};
+                                                  .time = -1};
       }
     }
   });

@@ -56,22 +56,28 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
   const RayTools* tools = context.rehearsal ? nullptr : impl_->rays();
   if (!tools) return;
   const RayScene& scene = *tools->rays;
-  const Attributes& own = *impl_->scene.groups[static_cast<size_t>(points.group())].attributes;
-  const int times = scene.samplesTime(points.group()) && context.kind == RayKind::Camera
-                        ? std::max(1, kTimesOfLight / rays.samples)
-                        : 1;
+  const ShadeGroup& group = impl_->scene.groups[static_cast<size_t>(points.group())];
+  const Attributes& own = *group.attributes;
+  const bool samplesTime = scene.samplesTime(points.group()) && context.kind == RayKind::Camera;
   const RayFilter filter = rays.query ? filterOf(scene, *rays.query, own) : filterOf(scene, {}, own);
   std::vector<Ray> shadowRays;
   std::vector<SampleName> names;
-  std::vector<int> pointOf;
+  struct Lit {
+    int point, times;
+  };
+  std::vector<Lit> lit;
   for (int i = 0; i < points.count(); ++i) {
     const vec3 arriving{light.x[i], light.y[i], light.z[i]}, path{toward.x[i], toward.y[i], toward.z[i]};
     const float length = glm::length(path);
     if (!active[i] || arriving == vec3(0.0f) || !(length > 0)) continue;
-    pointOf.push_back(i);
+    const Ray atOpen{points.position(i), path / length, rays.solar ? kInfinity : length};
+    const bool changes = samplesTime && (group.currentFromOpen.moving() || points.get3(kDriftX, i) != vec3(0) ||
+                                         scene.mayMeetMotion(atOpen));
+    const int times = changes ? std::max(1, kTimesOfLight / rays.samples) : 1;
+    lit.push_back({i, times});
     for (int k = 0; k < times; ++k) {
       const int strata = rays.samples * times, stratum = rays.sample * times + k;
-      Ray ray{points.position(i), path / length, rays.solar ? kInfinity : length};
+      Ray ray = atOpen;
       aim(scene, points, i, rayTime(scene, points, i, stratum, strata, context.seed), ray);
       ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
       if (rays.query) setBias(*rays.query, ray);
@@ -81,10 +87,10 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
   }
   int64_t adjusted = 0;
   const std::vector<vec3> clear = scene.transmission(shadowRays, names, *tools->shading, context, adjusted);
-  for (size_t p = 0; p < pointOf.size(); ++p) {
-    const auto first = clear.begin() + static_cast<ptrdiff_t>(p) * times;
+  auto first = clear.begin();
+  for (const auto [i, times] : lit) {
     const vec3 share = std::accumulate(first, first + times, vec3(0)) / static_cast<float>(times);
-    const int i = pointOf[p];
+    first += times;
     light.x[i] *= share.x, light.y[i] *= share.y, light.z[i] *= share.z;
   }
   impl_->stats.rays.transmission += static_cast<int64_t>(shadowRays.size());

@@ -71,8 +71,11 @@ PhotonTarget::PhotonTarget(const Scene& scene) {
   for (const Object& o : scene.objects) {
     if (!o.attributes->visibility.photon) continue;
     for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) {
-      objects.push_back(
-          transformBound(o.cameraFromObject.keys.front(), o.shape().bound(patch, {})).grown(o.displacementBound));
+      Bound3 swept;
+      for (const PrimPtr& shape : o.shapes)
+        for (const mat4& currentFromObject : o.currentFromObject.keys)
+          swept.extend(transformBound(currentFromObject, shape->bound(patch, {})));
+      objects.push_back(swept.grown(o.displacementBound));
       bound.extend(objects.back());
     }
   }

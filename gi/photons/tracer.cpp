@@ -10,7 +10,8 @@
 namespace tomales {
 namespace {
 
-constexpr uint32_t kBounceStream = randomStream("boun"), kMediumStream = randomStream("medi");
+constexpr uint32_t kBounceStream = randomStream("boun"), kMediumStream = randomStream("medi"),
+                   kTimeStream = randomStream("time");
 /// The spread of a gather ray of about a hundred; irradiance is estimated over more.
 constexpr float kDiffuseSpread = 0.1f;
 constexpr uint32_t kMostPasses =
@@ -46,6 +47,7 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
   for (int g = 0; g < static_cast<int>(scene.groups.size()); ++g) {
     media_.push_back({mediumOf(shading.medium(g, true), worldUnit_), mediumOf(shading.medium(g, false), worldUnit_)});
     anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
+    samplesTime_ |= rays.samplesTime(g);
   }
 }
 
@@ -61,7 +63,9 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
     const EmittedPhoton& e = emitted[i];
     if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
     scratch.flying.push_back(static_cast<uint32_t>(paths.size()));
-    paths.push_back({e.ray, e.power * share, first + static_cast<uint32_t>(i), source.light()});
+    const uint32_t number = first + static_cast<uint32_t>(i);
+    paths.push_back({e.ray, e.power * share, number, source.light()});
+    paths.back().ray.time = timeOf(number, stream);
     paths.back().lift = liftOf(e.ray, e.normal);
     // Gather rays see what glows themselves: its photons have left a surface, as all others do once they have arrived.
     if (source.light() < 0) paths.back().depth = 1, paths.back().specular = false;
@@ -70,6 +74,11 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
     throwIfStopped();
     step(paths, stream, scratch, out);
   }
+}
+
+/// All of a path happens at one time of the shutter.
+float PhotonTracer::timeOf(uint32_t number, uint32_t stream) const {
+  return samplesTime_ ? sobol1(number, hashCombine(stream, kTimeStream)) : 0.0f;
 }
 
 /// Moves every path to its next surface; paths that end there are removed from `flying`.
@@ -167,7 +176,9 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
   }
   if (!isLit || ++path.depth >= settings_.maxDepth) return false;
   path.specular = false;
+  const float time = path.ray.time;
   path.ray = {P, directionOnSphere(sobol2(path.number, hashCombine(name, 2u)))};
+  path.ray.time = time;
   return true;
 }
 
@@ -214,8 +225,8 @@ bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const
   const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
   const bool lands = passing < 1 && landsOn(path, group);
   if (lands && (settings_.direct || path.depth > 0)) {
-    const vec3 P = path.ray.origin + hit.t * path.ray.direction, Ng = hit.geometricNormal;
-    out.push_back({P, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth,
+    const vec3 Ng = hit.geometricNormal;
+    out.push_back({hit.atOpen, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth,
                    path.specular && path.depth > 0});
   }
   if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)

@@ -71,6 +71,7 @@ class PhotonTracer {
   void leave(Path& path, const Hit& hit, const vec3& direction) const;
   static bool survives(Path& path, const vec3& left, float xi);
   static uint32_t nameOf(const Path& path, uint32_t stream);
+  float timeOf(uint32_t number, uint32_t stream) const;
   int groupOf(const Hit& hit) const { return groups_[static_cast<size_t>(hit.object)]; }
 
   const Scene& scene_;
@@ -81,6 +82,7 @@ class PhotonTracer {
   std::vector<int> groups_;   ///< Shade group of each object.
   std::vector<Media> media_;  ///< Media on both sides of the surfaces of each group.
   bool anyMedium_ = false;
+  bool samplesTime_ = false;  ///< Something moves, and some object wants its motion seen.
 };
 
 }  // namespace tomales

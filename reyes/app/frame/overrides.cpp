@@ -82,6 +82,8 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (settings.shadingRate) changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
   if (tracesFullGeometry(settings))
     changeAttributes(scene, [](Attributes& a) { a.trace.displacements = true, a.trace.rate = TessellationMode::Full; });
+  if (settings.gi && settings.gi->mode == GiMode::Reference && scene.shutterIsOpen())
+    changeAttributes(scene, [](Attributes& a) { a.trace.sampleMotion = true; });
 }
 
 }  // namespace tomales
