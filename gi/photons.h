@@ -12,9 +12,14 @@
 
 namespace tomales {
 
+/// Surfaces at which a photon may arrive where nobody says a number. Roulette ends its path before that, as the albedo
+/// of what it meets has it: at a mean albedo of 0.93 there is 1 % of the light left then.
+constexpr int kEnoughBounces = 64;
+
 struct PhotonSettings {
   int64_t emit = 1'000'000;  ///< Photons of all lights together.
-  int maxDepth = 10;         ///< Most surfaces that a photon may arrive at; collisions in media count as well.
+  /// Most surfaces that a photon may arrive at; collisions in media count as well. 0: kEnoughBounces.
+  int maxDepth = 0;
   uint32_t seed = 0;
   /// Store photons that come straight from a light, too. Without them, whoever looks the irradiance up has to sample
   /// the lights.
@@ -32,6 +37,9 @@ struct StoredPhoton {
 
 struct PhotonFigures {
   int64_t emitted = 0, stored = 0;
+  /// The share of what surfaces send each other that comes after maxDepth and is missing, as the powers of the last two
+  /// arrivals tell. It is reported as "photons-bounces".
+  double left = 0;
 };
 
 /// One thread at a time calls `store`, in an order that does not depend on threads. A scene without light gives no

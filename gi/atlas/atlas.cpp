@@ -40,7 +40,7 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Has to be increased when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 10;
+constexpr uint32_t kMethod = 11;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed, direct] = settings.photons;

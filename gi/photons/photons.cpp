@@ -1,5 +1,7 @@
 #include "gi/photons.h"
 
+#include <fmt/format.h>
+
 #include <numeric>
 
 #include "gi/photons/glow.h"
@@ -36,6 +38,48 @@ std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays,
   return sources;
 }
 
+/// The powers of all arrivals, by their number on the path.
+class Series {
+ public:
+  explicit Series(int length) : power_(static_cast<size_t>(length), 0.0) {}
+  void add(std::span<const StoredPhoton> photons) {
+    for (const StoredPhoton& p : photons) power_[static_cast<size_t>(p.depth)] += double{luminance(p.power)};
+  }
+
+  /// What each arrival is of the one before, at the end. `emitted`: all power, in place of first arrivals.
+  double ratio(double emitted) const {
+    const size_t n = power_.size();
+    if (n < 2 || !(power_[n - 1] > 0)) return 0;
+    return std::min(power_[n - 1] / (n == 2 ? emitted : power_[n - 2]), kLargestRatio);
+  }
+  /// The share of reflected light that would arrive later if it went on as a geometric series.
+  double left(double emitted) const {
+    const double r = ratio(emitted), rest = power_.back() * r / (1 - r),
+                 reflected = std::accumulate(power_.begin() + 1, power_.end(), 0.0);
+    return r > 0 ? rest / (reflected + rest) : 0;
+  }
+
+ private:
+  static constexpr double kLargestRatio = 0.999;
+  std::vector<double> power_;
+};
+
+/// Says how much is left after the last arrival, and how many more would leave a hundredth.
+void tellLeft(double left, double ratio, int depth, bool isAsked, const SourceLoc& where, Log& log) {
+  constexpr double kLittle = 0.01;
+  const Severity severity = left < kLittle ? Severity::Info : isAsked ? Severity::Note : Severity::Warning;
+  std::string message = fmt::format(
+      "after {} bounces {:.1f} % of the light that surfaces send each other is left, "
+      "and is missing",
+      depth, 100 * left);
+  if (left >= kLittle)
+    message += fmt::format(
+        ": each bounce has {:.0f} % of the one before, and --bounces {} or \"bounces\" of the "
+        "indirect light would leave 1 %",
+        100 * ratio, depth + static_cast<int>(std::ceil(std::log(kLittle / left) / std::log(ratio))));
+  log.report(severity, "photons-bounces", where, message);
+}
+
 }  // namespace
 
 std::optional<PhotonModel> photonModel(const std::string& name) {
@@ -49,9 +93,10 @@ std::optional<PhotonModel> photonModel(const std::string& name) {
 }
 
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                           const PhotonSettings& settings,
-                           const std::function<void(std::span<const StoredPhoton>)>& store,
+                           const PhotonSettings& given, const std::function<void(std::span<const StoredPhoton>)>& store,
                            const std::function<void(float)>& progress, Stats& stats, Log& log) {
+  PhotonSettings settings = given;
+  if (given.maxDepth <= 0) settings.maxDepth = kEnoughBounces;
   const auto sources = sourcesOf(rays, shading, settings.seed, log);
   const double total =
       std::accumulate(sources.begin(), sources.end(), 0.0, [](double sum, const auto& s) { return sum + s->power(); });
@@ -60,9 +105,12 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
                "nothing in the scene emits photons, neither lights nor surfaces: indirect light is black");
   const PhotonTracer tracer(scene, rays, shading, settings, log);
   PhotonFigures figures;
+  Series series(settings.maxDepth);
   std::vector<std::vector<StoredPhoton>> stored;
   const size_t photonsPerWave = kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
   for (const auto& source : sources) {
+    // What glows is the first surface of its photons.
+    if (source->light() < 0 && settings.maxDepth < 2) continue;
     const auto count =
         static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source->power() / total)));
     const float share = 1 / static_cast<float>(count);
@@ -79,6 +127,7 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
       });
       for (const auto& photons : stored) {
         store(photons);
+        series.add(photons);
         figures.stored += static_cast<int64_t>(photons.size());
       }
       if (progress)
@@ -87,6 +136,9 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
     figures.emitted += static_cast<int64_t>(count);
   }
   stats.rays.photon += figures.emitted;
+  figures.left = series.left(total);
+  if (!sources.empty() && settings.maxDepth > 1)
+    tellLeft(figures.left, series.ratio(total), settings.maxDepth, given.maxDepth > 0, scene.where, log);
   return figures;
 }
 

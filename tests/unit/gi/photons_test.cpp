@@ -44,6 +44,31 @@ TEST(Photons, StoredPowerIsTheGeometricSeriesOfTheAlbedo) {
               0.005 * kPower / (1 - double{kAlbedo}));
 }
 
+// Half of it is left after the first bounce, a quarter after the second.
+TEST(Photons, AreEnoughOrItIsSaidHowMuchLightIsLeft) {
+  World world(insideOfASphere());
+  for (const auto& [bounces, left] : {std::pair(2, 0.5), {3, 0.25}, {5, 0.0625}}) {
+    const PhotonFigures figures = tracePhotons(
+        world.scene, world.rays, world.shading, {100000, bounces, 0, false}, [](auto) {}, {}, world.stats, world.log);
+    EXPECT_NEAR(figures.left, left, 0.1 * left) << bounces;
+  }
+  EXPECT_EQ(world.log.count("photons-bounces"), 3);
+  EXPECT_EQ(world.log.worst(), Severity::Note) << "somebody asked for so few";
+  const double all = kPower * double{kAlbedo} / (1 - double{kAlbedo});
+  EXPECT_NEAR(powerOf(traced(world, {100000, 0, 0, false})), all, 0.01 * all) << "without a number they go on";
+}
+
+TEST(Photons, InARoomThatKeepsItsLightEndWithAWarning) {
+  Scene scene = insideOfASphere();
+  auto white = std::make_shared<Attributes>(*scene.objects[0].attributes);
+  white->color = vec3(0.98f);
+  scene.objects[0].attributes = white;
+  World world(std::move(scene));
+  traced(world, {2000, 0, 0, false});
+  EXPECT_EQ(world.log.worst(), Severity::Warning);
+  EXPECT_EQ(world.log.count("photons-bounces"), 1);
+}
+
 TEST(Photons, WithoutThoseStraightFromLightsAreWhatSurfacesSendOn) {
   World world(insideOfASphere());
   const double expected = kPower * double{kAlbedo} / (1 - double{kAlbedo});
@@ -217,6 +242,7 @@ TEST(Photons, OfASurfaceThatGlowsCarryWhatItsShaderAddsOnBothSides) {
   const auto photons = traced(world, {20000, 2, 0, false});
   EXPECT_NEAR(powerOf(photons), 2 * 4 * double{kPi} * 0.5, 1e-3 * 4 * double{kPi});
   for (const StoredPhoton& p : photons) ASSERT_EQ(p.depth, 1) << "gather rays see the sheet themselves";
+  EXPECT_TRUE(traced(world, {1000, 1}).empty()) << "one bounce is what gather rays see";
   EXPECT_EQ(world.log.count("photons-no-light"), 0);
 }
 
