@@ -16,7 +16,7 @@ constexpr float kTurn = 15 * kPi / 180;  ///< Greatest angle in radians between 
 constexpr float kMostTurn = 100 * kPi / 180;
 constexpr float kEmitterTurn = 5 * kPi / 180;  ///< Brings the area of a sphere light within 0.5 %.
 constexpr int kLineProbes = 5;                 ///< Odd, so that a symmetrical wave is not sampled at its zeros.
-constexpr double kRounding = 1e-3;  ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
+constexpr double kRateRounding = 1e-3;  ///< Half a circle is twelve polygons, whatever its sum of angles rounds to.
 /// The share of its distance from the eye below which a chord's direction is all rounding error.
 constexpr float kLeastChord = 1e-4f;
 /// Limits for one patch; levels are diced only where rays come.
@@ -136,7 +136,7 @@ class PatchLines {
     if (fineness.least_px > 0) n = std::min(n, double{f.length_px} / fineness.least_px);
     n = std::max(n, double{f.turn} / kMostTurn);
     if (byPixels_) n = std::max(n, double{f.length_px} / fineness.edge_px);
-    return std::isfinite(n) ? std::max(1.0, std::ceil(n - kRounding)) : 1.0;
+    return std::isfinite(n) ? std::max(1.0, std::ceil(n - kRateRounding)) : 1.0;
   }
 
   const Object& object_;

@@ -10,7 +10,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kFullTurn = 2 * 3.14159265358979323846;
 // Below this solid angle (that of a lamp of 1 m at 30 km) the formula gives rounding errors only, and all points of a
 // shape are equally far.
 constexpr double kLeastSolidAngle = 1e-9;
@@ -37,7 +37,7 @@ class SphericalRectangle {
     }
     const auto angle = [&](size_t a, size_t b) { return std::acos(std::clamp(-dot(n[a], n[b]), -1.0, 1.0)); };
     b0_ = n[0].z, b1_ = n[2].z;
-    k_ = kTurn - angle(2, 3) - angle(3, 0);
+    k_ = kFullTurn - angle(2, 3) - angle(3, 0);
     solidAngle_ = angle(0, 1) + angle(1, 2) - k_;
   }
 
@@ -108,7 +108,7 @@ class EllipticalCone {
 
  private:
   static constexpr size_t kSteps = 16;  ///< Steps of a quadrant.
-  static constexpr double kStep = kTurn / 4 / static_cast<double>(kSteps);
+  static constexpr double kStep = kFullTurn / 4 / static_cast<double>(kSteps);
 
   /// One less the cosine of the angle from the axis to the rim.
   double versineAt(double phi) const {
@@ -140,7 +140,7 @@ SeenPoint sampleSphere(const EmitterShape& sphere, const vec3& from, const vec2&
   const double cone = coneOf(sphere, d);
   if (!(cone > 0)) return {};
   const double distance = glm::length(d), r = glm::length(dvec3(sphere.u));
-  const double versine = xi.x * cone, sine2 = versine * (2 - versine), phi = kTurn * static_cast<double>(xi.y);
+  const double versine = xi.x * cone, sine2 = versine * (2 - versine), phi = kFullTurn * static_cast<double>(xi.y);
   // Along the ray, from the point nearest to the centre to the point where it enters.
   const double miss2 = distance * distance * sine2,
                t = (1 - versine) * distance - std::sqrt(std::max(0.0, r * r - miss2));
@@ -150,7 +150,7 @@ SeenPoint sampleSphere(const EmitterShape& sphere, const vec3& from, const vec2&
   const dvec3 direction =
       std::sqrt(sine2) * (std::cos(phi) * dvec3(tangent) + std::sin(phi) * dvec3(bitangent)) + (1 - versine) * axis;
   const dvec3 N = glm::normalize(t * direction - d);
-  return {vec3(dvec3(sphere.center) + r * N), vec3(N), static_cast<float>(1 / (kTurn * cone))};
+  return {vec3(dvec3(sphere.center) + r * N), vec3(N), static_cast<float>(1 / (kFullTurn * cone))};
 }
 
 SeenPoint meetSphere(const EmitterShape& sphere, const vec3& from, const dvec3& direction) {
@@ -160,7 +160,7 @@ SeenPoint meetSphere(const EmitterShape& sphere, const vec3& from, const dvec3& 
   const double inside = r * r - dot(miss, miss);
   if (!(cone > 0) || along <= 0 || inside <= 0) return {};
   const dvec3 N = glm::normalize((along - std::sqrt(inside)) * direction - d);
-  return {vec3(dvec3(sphere.center) + r * N), vec3(N), static_cast<float>(1 / (kTurn * cone))};
+  return {vec3(dvec3(sphere.center) + r * N), vec3(N), static_cast<float>(1 / (kFullTurn * cone))};
 }
 
 /// The point where a direction meets a flat shape's plane, relative to the shape's centre and in units of u and v.

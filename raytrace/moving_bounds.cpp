@@ -5,7 +5,7 @@ namespace {
 
 /// Each ray is tested against all boxes. That costs less than the rays that it saves while they are few.
 constexpr size_t kMostBoxes = 64;
-constexpr float kRounding = 1e-5f;  ///< Share of a box's distance and size.
+constexpr float kBoxRounding = 1e-5f;  ///< Share of a box's distance and size.
 
 bool meets(const Ray& ray, const Bound3& box) {
   float from = 0, to = ray.tMax;
@@ -29,7 +29,7 @@ void MovingBounds::add(const CoarseGroup& group) {
   for (const std::vector<vec3>& key : group.laterP)
     for (const vec3& p : key) box.extend(p);
   if (box.empty()) return;
-  boxes_.push_back(box.grown(kRounding * (glm::length(box.size()) + glm::length(box.center()))));
+  boxes_.push_back(box.grown(kBoxRounding * (glm::length(box.size()) + glm::length(box.center()))));
   if (boxes_.size() <= kMostBoxes) return;
   for (const Bound3& b : boxes_) boxes_.front().extend(b);
   boxes_.resize(1);

@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kTile = 64;  ///< Quads of one lattice along u or v; it limits what is diced at once.
+constexpr int kLatticeTile = 64;  ///< Quads of one lattice along u or v; it limits what is diced at once.
 
 class Tessellator {
  public:
@@ -23,9 +23,9 @@ class Tessellator {
   void addPatch(int object, uint32_t patch, CoarseGroup& out) const {
     const auto [nu, nv] = coarseRate(scene_, camera_, object, patch, log_);
     const auto at = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
-    for (int j = 0; j < nv; j += kTile)
-      for (int i = 0; i < nu; i += kTile) {
-        const int i1 = std::min(i + kTile, nu), j1 = std::min(j + kTile, nv);
+    for (int j = 0; j < nv; j += kLatticeTile)
+      for (int i = 0; i < nu; i += kLatticeTile) {
+        const int i1 = std::min(i + kLatticeTile, nu), j1 = std::min(j + kLatticeTile, nv);
         addTile(object, patch, {at(i, nu), at(i1, nu), at(j, nv), at(j1, nv)}, i1 - i, j1 - j, out);
       }
   }

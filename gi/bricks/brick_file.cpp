@@ -5,8 +5,8 @@
 namespace tomales {
 namespace {
 
-constexpr char kKind[9] = "TMBRICKS";
-constexpr uint32_t kVersion = 4;
+constexpr char kBrickKind[9] = "TMBRICKS";
+constexpr uint32_t kBrickVersion = 4;
 
 bool sound(const BrickTree& tree) {
   const auto count = static_cast<int32_t>(tree.nodes.size());
@@ -19,7 +19,7 @@ bool sound(const BrickTree& tree) {
 
 }  // namespace
 
-BrickFile::BrickFile(const std::string& path) : file_(path, kKind, kVersion) {
+BrickFile::BrickFile(const std::string& path) : file_(path, kBrickKind, kBrickVersion) {
   const Bytes header = file_.takeHeader();
   ByteReader r(header, path);
   channels_ = getChannels(r, path);
@@ -39,7 +39,7 @@ Brick BrickFile::brick(int32_t node) const {
   return std::move(*brick);
 }
 
-BrickFileWriter::BrickFileWriter(const std::string& path) : file_(path, kKind, kVersion) {}
+BrickFileWriter::BrickFileWriter(const std::string& path) : file_(path, kBrickKind, kBrickVersion) {}
 
 void BrickFileWriter::add(const Brick& brick) { file_.add(brick.bytes()); }
 

@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-constexpr uint32_t kLeaf = 8;
+constexpr uint32_t kPointLeaf = 8;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ uint32_t Diffusion::build(uint32_t begin, uint32_t end) {
                         // the area of a flat square equals half its squared diagonal, however few points it has
                         0.5f * dot(size, size));
   groups_.push_back(group);
-  if (end - begin <= kLeaf) return node;
+  if (end - begin <= kPointLeaf) return node;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(entries_.begin() + begin, entries_.begin() + middle, entries_.begin() + end,

@@ -14,10 +14,10 @@ namespace {
 
 constexpr uint32_t kGlowStream = randomStream("phot");
 /// Places that are asked how bright they are: in all, and at least and at most on one side of an object.
-constexpr size_t kProbes = 1 << 17, kFewestOfSide = 16, kMostOfSide = 8192;
+constexpr size_t kGlowProbes = 1 << 17, kFewestOfSide = 16, kMostOfSide = 8192;
 constexpr int kMostColumns = 32;
 /// Every cell counts as at least this share of the mean brightness, so that what the probes have missed still glows.
-constexpr double kFloor = 0.1;
+constexpr double kUnseenGlow = 0.1;
 constexpr size_t kProbesPerTask = 1024;
 
 /// Tells whether rays of every width see the coarse polygons of the object.
@@ -63,7 +63,8 @@ GlowPhotons::GlowPhotons(const RayScene& rays, const ShadingSystem& shading, uin
     else
       leftOut.push_back(&o);
   }
-  const size_t mostProbes = std::clamp(kProbes / (2 * std::max<size_t>(glowing.size(), 1)), kFewestOfSide, kMostOfSide);
+  const size_t mostProbes =
+      std::clamp(kGlowProbes / (2 * std::max<size_t>(glowing.size(), 1)), kFewestOfSide, kMostOfSide);
   for (const int i : glowing) {
     const auto mesh = std::make_shared<const CoarseGroup>(tessellateObject(scene, camera, shading, i, log));
     for (const bool back : {false, true}) {
@@ -115,7 +116,7 @@ void GlowPhotons::survey(Surface& out, size_t mostProbes) const {
   for (size_t c = 0; c < cells; ++c) sum += areas[c] * brightness[c / run], area += areas[c];
   if (!(sum > 0)) return;
   for (size_t c = 0; c < cells; ++c)
-    out.cells.add(double{kPi} * areas[c] * (brightness[c / run] + kFloor * sum / area));
+    out.cells.add(double{kPi} * areas[c] * (brightness[c / run] + kUnseenGlow * sum / area));
 }
 
 GlowPhotons::Start GlowPhotons::startIn(const Surface& surface, size_t cell, vec2 at) {

@@ -11,13 +11,13 @@
 namespace tomales {
 namespace {
 
-constexpr char kKind[9] = "TMPOINTS";
-constexpr uint32_t kVersion = 2;
+constexpr char kPointKind[9] = "TMPOINTS";
+constexpr uint32_t kPointVersion = 2;
 
 }  // namespace
 
 PointFileWriter::PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels)
-    : file_(path, kKind, kVersion) {
+    : file_(path, kPointKind, kPointVersion) {
   pending_.channels = channels;
   if (pending_.width() > kMostWidth)
     throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
@@ -60,7 +60,7 @@ void PointFileWriter::finish(const MadeFrom& madeFrom) {
   file_.finish(header.bytes);
 }
 
-PointFile::PointFile(const std::string& path) : file_(path, kKind, kVersion) {
+PointFile::PointFile(const std::string& path) : file_(path, kPointKind, kPointVersion) {
   const Bytes header = file_.takeHeader();
   ByteReader r(header, path);
   channels_ = getChannels(r, path);

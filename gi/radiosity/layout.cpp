@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kProbes = 4;  ///< Number of edges across a patch by which its size is measured.
+constexpr int kLayoutProbes = 4;  ///< Number of edges across a patch by which its size is measured.
 /// In an object of more patches each is small, and measured by its corners alone.
 constexpr uint32_t kManyPatches = 4096;
 constexpr int kMostTexels = 2048;                                        ///< Limit along an edge of a chart.
@@ -32,8 +32,8 @@ const char* refusal(const ShadingSystem& shading, const Object& o) {
 }
 
 RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uint32_t patch, float texels) {
-  const int probes = scene.objects[static_cast<size_t>(object)].shape().patchCount() > kManyPatches ? 1 : kProbes;
-  vec3 at[kProbes + 1][kProbes + 1];
+  const int probes = scene.objects[static_cast<size_t>(object)].shape().patchCount() > kManyPatches ? 1 : kLayoutProbes;
+  vec3 at[kLayoutProbes + 1][kLayoutProbes + 1];
   vec3 middle(0);
   for (int j = 0; j <= probes; ++j)
     for (int i = 0; i <= probes; ++i) {

@@ -14,18 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kOverlap = 0.8f;      ///< Radius of a point's disk over the edge of its texel: neighbours meet.
-constexpr size_t kRunsPerWave = 256;  ///< Runs that are baked before they are written.
-constexpr uint32_t kMethod = 1;       ///< Has to be increased when the same inputs begin to make other files.
+constexpr float kTexelOverlap = 0.8f;  ///< Radius of a point's disk over the edge of its texel: neighbours meet.
+constexpr size_t kRunsPerWave = 256;   ///< Runs that are baked before they are written.
+constexpr uint32_t kBricksMethod = 1;  ///< Has to be increased when the same inputs begin to make other files.
 
 uint64_t inputsOf(const MapNames& names, const RadiositySettings& s) {
-  return contentSum(kMethod, names.world, names.global, names.surface, s.texels, s.seed, s.mostTexels);
+  return contentSum(kBricksMethod, names.world, names.global, names.surface, s.texels, s.seed, s.mostTexels);
 }
 
-class Baking {
+class RadiosityBaking {
  public:
-  Baking(const RayScene& rays, const ShadingSystem& shading, const MapNames& names,
-         const std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings)
+  RadiosityBaking(const RayScene& rays, const ShadingSystem& shading, const MapNames& names,
+                  const std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings)
       : bake_{rays, shading, settings}, scene_(rays.scene()), names_(names), surfaces_(surfaces), world_(scene_) {}
 
   void run(std::map<std::string, PointFileWriter>& files) const {
@@ -63,7 +63,7 @@ class Baking {
       const std::array values{B.x, B.y, B.z, static_cast<float>(names_.surface[group])};
       if (N != vec3(0))
         file.add(transformPoint(world_.points, surface.P), run.back ? -N : N,
-                 kOverlap * world_.scale * charts[patch].texelSize, values.data());
+                 kTexelOverlap * world_.scale * charts[patch].texelSize, values.data());
     });
   }
 
@@ -97,7 +97,7 @@ RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, c
       files.try_emplace(name, atlasFile(own, name, ".ptc").string(),
                         std::vector<CloudChannel>{{"radiosity", 3}, kSurfaceChannel});
     const std::vector<SurfaceCharts> surfaces = layOutCharts(scene_, objects, camera, settings.points, log);
-    Baking(rays, shading, names, surfaces, settings.points).run(files);
+    RadiosityBaking(rays, shading, names, surfaces, settings.points).run(files);
     for (auto& [name, file] : files) file.finish({names.world, inputs});
   }
   for (const std::string& name : maps)

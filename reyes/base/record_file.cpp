@@ -17,7 +17,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are stored as they are in memory");
 
-constexpr int kCompression = 1;                         ///< Faster than most disks, and half the size of memory.
+constexpr int kRecordCompression = 1;                   ///< Faster than most disks, and half the size of memory.
 constexpr uint64_t kLargestRecord = uint64_t{1} << 32;  ///< A damaged length must not ask for all memory.
 constexpr uint32_t kDirectory = ~uint32_t{0};
 constexpr char kTrailerMagic[] = "TomalEND";
@@ -181,7 +181,7 @@ bool RecordWriter::write(RecordName name, BytesView content) {
   Bytes record(sizeof(RecordHeader) + ZSTD_compressBound(content.size()));
   std::byte* stored = record.data() + sizeof(RecordHeader);
   const size_t size = ZSTD_compressCCtx(context.get(), stored, record.size() - sizeof(RecordHeader), content.data(),
-                                        content.size(), kCompression);
+                                        content.size(), kRecordCompression);
   RecordHeader h{name.kind, name.index, size, content.size(), static_cast<uint32_t>(sumOf(stored, size)), 0};
   h.sum = sealOf(h);
   std::memcpy(record.data(), &h, sizeof(h));

@@ -20,7 +20,7 @@ std::vector<int> colorChannels(const Image& image) {
 }
 
 /// An image with one float for each pixel.
-struct Plane {
+struct ComparedPlane {
   int width, height;
   std::vector<float> v;
   float at(int x, int y) const {
@@ -29,23 +29,23 @@ struct Plane {
 };
 
 template <class F>
-Plane planeOf(const Image& image, F&& value) {
-  Plane out{image.width, image.height, {}};
+ComparedPlane planeOf(const Image& image, F&& value) {
+  ComparedPlane out{image.width, image.height, {}};
   out.v.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) out.v.push_back(value(image.at(x, y)));
   return out;
 }
 
-Plane product(const Plane& a, const Plane& b) {
-  Plane out = a;
+ComparedPlane product(const ComparedPlane& a, const ComparedPlane& b) {
+  ComparedPlane out = a;
   for (size_t i = 0; i < out.v.size(); ++i) out.v[i] *= b.v[i];
   return out;
 }
 
 /// One pass of a Gaussian along (stepX, stepY), renormalised at the border.
-Plane blurAlong(const Plane& in, float sigma, int radius, int stepX, int stepY) {
-  Plane out = in;
+ComparedPlane blurAlong(const ComparedPlane& in, float sigma, int radius, int stepX, int stepY) {
+  ComparedPlane out = in;
   for (int y = 0; y < in.height; ++y)
     for (int x = 0; x < in.width; ++x) {
       float sum = 0, total = 0;
@@ -59,7 +59,7 @@ Plane blurAlong(const Plane& in, float sigma, int radius, int stepX, int stepY) 
     }
   return out;
 }
-Plane blur(const Plane& in, float sigma, int radius) {
+ComparedPlane blur(const ComparedPlane& in, float sigma, int radius) {
   return blurAlong(blurAlong(in, sigma, radius, 1, 0), sigma, radius, 0, 1);
 }
 
@@ -75,10 +75,10 @@ double ssim(const Image& test, const Image& reference) {
     const std::vector<int> channels = colorChannels(image);
     return planeOf(image, [&](const float* p) { return encodeSrgb(luminance(colorAt(p, channels))); });
   };
-  const Plane a = shown(test), b = shown(reference);
-  const Plane ma = blur(a, sigma, 5), mb = blur(b, sigma, 5);
-  const Plane aa = blur(product(a, a), sigma, 5), bb = blur(product(b, b), sigma, 5),
-              ab = blur(product(a, b), sigma, 5);
+  const ComparedPlane a = shown(test), b = shown(reference);
+  const ComparedPlane ma = blur(a, sigma, 5), mb = blur(b, sigma, 5);
+  const ComparedPlane aa = blur(product(a, a), sigma, 5), bb = blur(product(b, b), sigma, 5),
+                      ab = blur(product(a, b), sigma, 5);
   double sum = 0;
   for (size_t i = 0; i < a.v.size(); ++i) {
     const float x = ma.v[i], y = mb.v[i];
@@ -100,7 +100,7 @@ float hyab(const vec3& a, const vec3& b) {
   return std::abs(a.x - b.x) + std::sqrt((a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
 }
 
-std::array<Plane, 3> seenPlanes(const Image& image) {
+std::array<ComparedPlane, 3> seenPlanes(const Image& image) {
   const std::vector<int> channels = colorChannels(image);
   const auto plane = [&](int axis) {
     return blur(planeOf(image, [&](const float* p) { return std::clamp(colorAt(p, channels)[axis], 0.0f, 1.0f); }),
@@ -114,7 +114,7 @@ std::array<Plane, 3> seenPlanes(const Image& image) {
 // 0.7 and scaled so that green against blue is 1. It has none of FLIP's edge and point detection, so its
 // numbers are not to be held against FLIP's.
 double flipLike(const Image& test, const Image& reference) {
-  const std::array<Plane, 3> a = seenPlanes(test), b = seenPlanes(reference);
+  const std::array<ComparedPlane, 3> a = seenPlanes(test), b = seenPlanes(reference);
   const float scale = std::pow(hyab(lab({0, 1, 0}), lab({0, 0, 1})), 0.7f);
   double sum = 0;
   for (size_t i = 0; i < a[0].v.size(); ++i) {

@@ -148,7 +148,7 @@ constexpr int kPatches[][16] = {
     {68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83},              // spout
     {80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95},              // spout
 };
-constexpr int kRound = 6;  ///< So many patches are quarters.
+constexpr int kRoundPatch = 6;  ///< So many patches are quarters.
 
 /// A patch reflected at x = 0, at y = 0 or both, with the outside out.
 BezierPatch reflected(const int (&controls)[16], bool atX, bool atY) {
@@ -182,7 +182,7 @@ class Teapot : public Prim {
     for (int k = 0; k < static_cast<int>(std::size(kPatches)); ++k)
       for (const bool atY : {false, true}) {
         patches_.push_back(reflected(kPatches[k], false, atY));
-        if (k < kRound) patches_.push_back(reflected(kPatches[k], true, atY));
+        if (k < kRoundPatch) patches_.push_back(reflected(kPatches[k], true, atY));
       }
     for (const BezierPatch& patch : patches_) openEdges_.push_back(openEdges(patch));
   }

@@ -7,9 +7,9 @@ namespace tomales::rib {
 namespace {
 
 /// Takes the arrays of the request apart, in order. Throws PrimError where one is too short.
-class Arrays {
+class TrimArrays {
  public:
-  explicit Arrays(const Request& r) : request_(r) {}
+  explicit TrimArrays(const Request& r) : request_(r) {}
 
   /// Returns the next `n` values of array k.
   std::vector<float> take(size_t k, size_t n) { return take(request_.args[k].numbers, k, n); }
@@ -39,7 +39,7 @@ class Arrays {
 };
 
 // The arrays are: curves of each loop; order, knots, min, max, controls of each curve; u w, v w, w of each control.
-TrimCurve takeCurve(Arrays& arrays) {
+TrimCurve takeCurve(TrimArrays& arrays) {
   const size_t order = arrays.takeCount(1), controls = arrays.takeCount(5);
   TrimCurve curve;
   curve.line = {static_cast<int>(controls), static_cast<int>(order), arrays.take(2, controls + order),
@@ -53,7 +53,7 @@ TrimCurve takeCurve(Arrays& arrays) {
 
 void trimCurve(GraphicsState& s, const Request& r) {
   TrimLoops trim{{}, s.scope.trim->keepsInside};
-  Arrays arrays(r);
+  TrimArrays arrays(r);
   try {
     trim.loops.resize(r.args[0].integers.size());
     for (auto& loop : trim.loops)

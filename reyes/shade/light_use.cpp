@@ -8,9 +8,9 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kMostNamed = 3;    ///< One message names no more surfaces.
-constexpr int64_t kFewPoints = 10;  ///< Fewer counted points say nothing about a picture.
-constexpr double kShareOfPoints = 0.5;
+constexpr size_t kMostNamed = 3;       ///< One message names no more surfaces.
+constexpr int64_t kFewLitPoints = 10;  ///< Fewer counted points say nothing about a picture.
+constexpr double kShareOfLitPoints = 0.5;
 constexpr int kCounted =
     16;  ///< One point of so many is counted, which tells a share of the picture as well as all do.
 constexpr int kGlare_stops = 4;  ///< No film of any time shows white paper at sixteen times its white.
@@ -157,10 +157,10 @@ void LightUse::warnOfUseless(const BoundScene& scene) const {
 }
 
 void LightUse::warnOfGlare(const BoundScene& scene) const {
-  if (points_ < kFewPoints) return;
+  if (points_ < kFewLitPoints) return;
   const int gain_stops = static_cast<int>(std::floor(std::log2(std::max(scene.scene.options.exposureGain, 1e-6f))));
   for (size_t k = 0; k < lamps_.size(); ++k) {
-    const double half = kShareOfPoints * static_cast<double>(points_);
+    const double half = kShareOfLitPoints * static_cast<double>(points_);
     int64_t brighter = 0;
     int stop = kStops;
     while (stop > 0 && static_cast<double>(brighter) <= half) brighter += lamps_[k].stops[static_cast<size_t>(--stop)];

@@ -207,6 +207,14 @@ suite.expect_run("a memory limit is obeyed and said so", ["render", "direct.rib"
 expect_same("a frame that is shaded bucket by bucket has the same bits", "direct.exr", "small.exr")
 suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--stats", "given.json", "-q")
 expect_same("a render with records from a file has the same bits", "indirect.exr", "given.exr")
+# Records keep what an edited light has bounced.
+suite.write("dim.rib", 'LightSource "pointlight" "key" "intensity" [3]\n')
+suite.write("exposure.rib", "Exposure 2 1\n")
+suite.expect_run("a dimmed light with records of the old one", ["shade", "indirect.dfb", "--irradiance", "indirect.icf", "--edit", "dim.rib", "-o", "dim.exr"], 0,
+                 "keeps the bounced light of light", "light-stale")
+quiet = suite.expect_run("an edit that bounces no light", ["shade", "indirect.dfb", "--irradiance", "indirect.icf", "--edit", "exposure.rib", "-o", "dim.exr"], 0)
+suite.expect("light-stale" not in quiet.stderr, "is not told")
+
 # One region is gathered anew, after an edit; the rest of the picture stays as it is.
 suite.write("region.rib", 'Attribute "identifier" "name" ["floor"] Color [0.9 0.1 0.1]')
 suite.run("gather", "indirect.dfb", "-o", "region.icf", "--irradiance", "indirect.icf", "--crop", "0,0.4,0,1", "--edit", "region.rib", "--stats", "region.json", "-q")

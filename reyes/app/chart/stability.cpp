@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
-constexpr int kPictureSize = 128;
+constexpr int kStabilitySize = 128;
 constexpr float kMapRange = 0.3f;  ///< Relative error that has the full colour.
 
 std::vector<std::string> scenesOf(const std::vector<std::string>& given) {
@@ -102,7 +102,7 @@ class Laboratory {
     }
     out.noiseFloor = std::max(out.noiseFloor, truth.noiseFloor());
     out.truths.back() = stem + ".truth.png";
-    writeImage(out.truths.back(), thumbnail(truth.mean(), kPictureSize), true, log_);
+    writeImage(out.truths.back(), thumbnail(truth.mean(), kStabilitySize), true, log_);
     Lab runs({settings_.folder, {rib}, common(scene), secondsLeft()});
     for (size_t m = 0; m < scene.methods.size(); ++m) measure(out, value, m, truth, runs, rib);
   }
@@ -126,7 +126,7 @@ class Laboratory {
         limit && std::find(run->warnings.begin(), run->warnings.end(), limit->warning) != run->warnings.end();
     StabilityPoint point{method, value, truth.errorOf(*image), *run, joined(command), run->picture + ".error.png",
                          warned};
-    writeImage(point.errorMap, thumbnail(truth.errorMap(*image, kMapRange), kPictureSize), true, log_);
+    writeImage(point.errorMap, thumbnail(truth.errorMap(*image, kMapRange), kStabilitySize), true, log_);
     fmt::print(stderr, "{}, {}, {} {}: {:.3g} %{}{}{}\n", fs::path(out.scene.file).stem().string(), m.name,
                out.scene.knob, value, 100 * point.error.mean, notFiniteNote(point.error), warned ? ", warned" : "",
                run->recalled ? " (recalled)" : "");

@@ -16,7 +16,7 @@ constexpr const char* kOwnStyle = R"(
 .strip img{width:96px}.strip span{color:#555}
 )";
 
-class Page : Markup {
+class StabilityPage : Markup {
  public:
   std::string write(const std::vector<StabilityCurve>& curves, const std::string& commandLine,
                     const std::string& json) {
@@ -121,7 +121,7 @@ bool writeStabilityPage(const std::string& path, const std::vector<StabilityCurv
                         const std::string& commandLine) {
   const std::string json = std::filesystem::path(path).filename().replace_extension(".json").string();
   std::string why;
-  return writeFile(path, Page().write(curves, commandLine, json), why);
+  return writeFile(path, StabilityPage().write(curves, commandLine, json), why);
 }
 
 }  // namespace tomales

@@ -1,5 +1,7 @@
 #include "reyes/app/frame/shot.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 
 #include "reyes/app/frame/outputs.h"
@@ -35,6 +37,8 @@ ShotJob::ShotJob(std::unique_ptr<DfbFile> file, const RenderSettings& settings, 
 }
 
 bool ShotJob::edit() {
+  lightsOfFile_ = shot_.scene.lights;
+  for (const ShadeGroup& g : shot_.scene.groups) attributesOfFile_.push_back(g.attributes);
   if (!settings_.edits.empty() && !editScene(settings_.edits, shot_.scene, log_)) return false;
   applyOverrides(shot_.scene, settings_);
   nameOutputs(shot_.scene.options, settings_, log_);
@@ -78,6 +82,26 @@ void ShotJob::prepareLight() {
   job_->services()->useCaches(std::move(given.caches), anew);
 }
 
+void ShotJob::warnOfStaleLight() const {
+  if (!irradiance_ || irradiance_->shot().settings.mode == GiMode::None) return;
+  std::set<std::string> changed;
+  for (size_t l = 0; l < lightsOfFile_.size(); ++l) {
+    const LightKind kind = job_->shading().lightKind(static_cast<int>(l));
+    const bool bounces = kind != LightKind::None && kind != LightKind::Indirect && kind != LightKind::Ambient;
+    if (bounces && shot_.scene.lights[l] != lightsOfFile_[l])
+      changed.insert("light \"" + shot_.scene.lights[l]->handle + "\"");
+  }
+  for (size_t g = 0; g < attributesOfFile_.size(); ++g)
+    if (shot_.scene.groups[g].attributes != attributesOfFile_[g])
+      changed.insert("\"" + shot_.scene.groups[g].attributes->name + "\"");
+  if (changed.empty()) return;
+  log_.report(
+      Severity::Warning, "light-stale", wholeFile(settings_.irradiance),
+      fmt::format("keeps the bounced light of {} as it was when it was gathered: direct light is that of the edit; "
+                  "gather again for the rest",
+                  fmt::join(changed, ", ")));
+}
+
 std::optional<DeepTile> ShotJob::load(size_t index) {
   std::string error;
   auto tile = file_->tile(index, error);
@@ -102,6 +126,7 @@ void ShotJob::shadePicture() {
   prepareLight();
   const auto load = [this](size_t index) { return this->load(index); };
   if (!job_->gathers() || (irradiance_ && !settings_.appendIrradiance)) {
+    warnOfStaleLight();
     if (irradiance_) job_->checkRecords(irradiance_->shot().settings, settings_.irradiance);
     job_->write(shot_.frame, load);
   } else {

@@ -24,6 +24,8 @@ class ShotJob {
   bool edit();
   bool openIrradiance();
   void prepareLight();
+  /// Warns of edits that change bounced light, which records keep as it was when they were gathered.
+  void warnOfStaleLight() const;
   /// Returns nothing if the bucket is damaged, which is reported.
   std::optional<DeepTile> load(size_t index);
   /// Drops the records gathered before where --crop asks for new ones.
@@ -38,6 +40,8 @@ class ShotJob {
   Log& log_;
   Shot shot_;
   std::unique_ptr<IcfFile> irradiance_;
+  std::vector<std::shared_ptr<LightCall>> lightsOfFile_;               ///< Before edits; likewise,
+  std::vector<std::shared_ptr<const Attributes>> attributesOfFile_{};  ///< indexed by shade group.
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
   std::unique_ptr<RayWorld> world_;
   std::unique_ptr<FrameJob> job_;

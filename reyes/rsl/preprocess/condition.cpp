@@ -10,13 +10,13 @@ namespace {
 
 constexpr int kMostDepth = 200;
 
-struct Operator {
+struct ConditionOperator {
   std::string_view text;
   int level;  ///< Higher binds tighter.
 };
-constexpr Operator kOperators[] = {{"||", 1}, {"&&", 2}, {"|", 3}, {"^", 4},  {"&", 5},  {"==", 6},
-                                   {"!=", 6}, {"<", 7},  {">", 7}, {"<=", 7}, {">=", 7}, {"<<", 8},
-                                   {">>", 8}, {"+", 9},  {"-", 9}, {"*", 10}, {"/", 10}, {"%", 10}};
+constexpr ConditionOperator kConditionOperators[] = {{"||", 1}, {"&&", 2}, {"|", 3}, {"^", 4},  {"&", 5},  {"==", 6},
+                                                     {"!=", 6}, {"<", 7},  {">", 7}, {"<=", 7}, {">=", 7}, {"<<", 8},
+                                                     {">>", 8}, {"+", 9},  {"-", 9}, {"*", 10}, {"/", 10}, {"%", 10}};
 
 struct Failed {};
 
@@ -65,16 +65,16 @@ class Evaluator {
     return value;
   }
 
-  const Operator* operatorHere(int lowest) const {
+  const ConditionOperator* operatorHere(int lowest) const {
     if (at_ < lexemes_.size() && lexemes_[at_].kind == LexemeKind::Punctuator)
-      for (const Operator& o : kOperators)
+      for (const ConditionOperator& o : kConditionOperators)
         if (o.text == lexemes_[at_].text) return o.level >= lowest ? &o : nullptr;
     return nullptr;
   }
 
   int64_t binary(int lowest, bool counts) {
     int64_t left = unary(counts);
-    while (const Operator* o = operatorHere(lowest)) {
+    while (const ConditionOperator* o = operatorHere(lowest)) {
       const size_t sign = at_++;
       const bool decided = (o->text == "||" && left != 0) || (o->text == "&&" && left == 0);
       const bool rightCounts = counts && !decided;
