@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "gi/atlas/limits.h"
+#include "gi/atlas/thin_walls.h"
 #include "gi/atlas/world_from_current.h"
 #include "gi/bricks/point_tiles.h"
 #include "gi/photons/medium.h"
@@ -275,6 +276,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   }
   stats.photons.groupsKept += kept;
   warnOfEstimates(scene, names, made, log);
+  warnOfThinWalls(folder, scene, rays, names, log);
 }
 
 }  // namespace tomales

@@ -111,6 +111,36 @@ result = t.run("glow.rib", "--gi", "atlas", "--photons", "100000", "-o", "glow.e
 glow = json.loads(t.run("info", "--json", "glow.exr").stdout)["channels"][0]["mean"]
 t.expect(result.stderr == "" and abs(glow - 5) < 0.1, f"a closed ball that glows is as bright as the series of its albedo: {glow:.3f}, {result.stderr}")
 
+# Two rooms that share floor and ceiling, with a wall of 2 cm between a bright and a dim lamp.
+def rooms(name, dim, wall):
+    def sheet(*corners):
+        return 'Polygon "P" [' + "  ".join(f"{x} {y} {z}" for x, y, z in corners) + "]\n"
+    x, y, z = 3, 2.5, 1.5
+    t.write(name, f"""Format 8 8 1
+Projection "perspective" "fov" [80]
+Translate -2.6 -1.2 1.2
+WorldBegin
+LightSource "indirectlight" 1 "samples" [16]
+Attribute "light" "shadows" ["on"]
+LightSource "pointlight" 2 "from" [-1.5 2 0] "intensity" [8]
+LightSource "pointlight" 3 "from" [1.5 2 0] "intensity" [{dim}]
+Sides 2
+Surface "matte"
+Color 0.7 0.7 0.7
+Attribute "identifier" "name" ["room"]
+""" + sheet((-x, 0, -z), (x, 0, -z), (x, 0, z), (-x, 0, z)) + sheet((-x, y, -z), (-x, y, z), (x, y, z), (x, y, -z))
+        + sheet((-x, 0, -z), (-x, y, -z), (x, y, -z), (x, 0, -z)) + sheet((-x, 0, z), (x, 0, z), (x, y, z), (-x, y, z))
+        + sheet((-x, 0, -z), (-x, 0, z), (-x, y, z), (-x, y, -z)) + sheet((x, 0, -z), (x, y, -z), (x, y, z), (x, 0, z))
+        + 'Attribute "identifier" "name" ["thin wall"]\n'
+        + "".join(sheet((a, 0, -z), (a, y, -z), (a, y, z), (a, 0, z)) for a in (-0.01, 0.01) if wall) + "WorldEnd\n")
+    return t.run(name, "--gi", "atlas", "--photons", "50000", "-o", "rooms.exr").stderr
+
+
+said = rooms("thin.rib", 0.05, True)
+t.expect("thin.rib:21" in said and '"thin wall"' in said and "[photon-walls]" in said, f"a thin wall before much more light is named: {said}")
+t.expect("photon-walls" not in rooms("alike.rib", 8, True), "one between rooms that are alike is not")
+t.expect("photon-walls" not in rooms("open.rib", 0.05, False), "nor a room without a wall")
+
 # What was gathered as brick maps, with which another camera shades at the cost of direct light (irradiance-atlas 6.3).
 def lit(scene, *arguments):
     """Exit code, gather rays, and what was said."""
