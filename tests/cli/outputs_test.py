@@ -154,6 +154,10 @@ t.expect_run("a file that is damaged", [*SKIP, "--seed", "7"], 0)
 t.expect(window("depth.exr")[2:] == (64, 48), "is rendered again")
 t.expect_run("a format without headers", ["beauty.rib", "-o", "look.png", "--one-picture", "--skip-finished"], 0, "no header that tells", "frame-unknown")
 
+t.run("beauty.rib", "-o", "one.exr", "--one-picture", "-t", "1", "-q")
+t.run("beauty.rib", "-o", "two.exr", "--one-picture", "-t", "2", "--bucket-size", "9", "--memory-limit", "100M", "--texture-memory", "50M", "-q")
+t.expect(contents()["one.exr"] == contents()["two.exr"], "a file has the same bytes by any name, for any threads, buckets and limits of memory")
+
 # An interrupted frame does not take the place of a finished one.
 t.run("beauty.rib", "-o", "long.exr", "--one-picture", "-q")
 before = contents()["long.exr"]

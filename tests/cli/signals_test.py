@@ -1,5 +1,6 @@
 """Signals: every pass ends soon, keeps what is finished, and leaves nothing else behind."""
 import os
+import re
 import signal
 import subprocess
 import time
@@ -39,7 +40,7 @@ def wait_for(condition):
 
 
 def parts(folder=None):
-    return [p for p in (folder or t.folder).rglob("*") if ".part" in p.name]
+    return [p for p in (folder or t.folder).rglob("*") if re.search(r"\.part(?!ial)", p.name)]
 
 
 def expect_soon(what, process, code, number=signal.SIGTERM):

@@ -62,7 +62,11 @@ std::string contentsOf(const Scene& scene, const RenderSettings& settings) {
   for (const std::string& folder : {settings.atlasFolder, settings.bakedFolder, settings.irradiance})
     files = contentSum(files, folder.empty() ? uint64_t{0} : fileStamp(folder));
   Options options = scene.options;
-  for (DisplayCall& d : options.displays) d.where = {};
+  const Options usual;
+  options.bucketWidth = usual.bucketWidth, options.bucketHeight = usual.bucketHeight;
+  options.bucketOrder = usual.bucketOrder;
+  options.searchPaths.clear(), options.user.clear();  // worldSum() has what counts of them
+  for (DisplayCall& d : options.displays) d.where = {}, d.name.clear();
   Motion camera = scene.cameraFromWorld;
   const std::string version = kVersion, text = settingsText(settings);
   return fmt::format("{:016x}", contentSum(worldSum(scene, false), files, options, camera, version, text));
