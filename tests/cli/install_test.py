@@ -51,10 +51,10 @@ said = do("the module of Python finds the program", ["env", "-u", "TOMALES", f"P
 t.expect(said.stdout.strip() == str(prefix / "bin/tomales"), "that was installed with it: " + said.stdout)
 
 page = (docs / "shader_writing.md").read_text()
-first = re.search(r"```cpp\n(#include.*?)```", page, re.DOTALL)[1]
+first = re.search(r"```cpp\n(// dots.cpp\n#include.*?)```", page, re.DOTALL)[1]
 t.write("dots.cpp", first)
 (t.folder / "plugins").mkdir()
-line = re.search(r"^(g\+\+ .* -o dots\.so dots\.cpp)$", page, re.MULTILINE)[1].replace("PREFIX", str(prefix))
+line = re.search(r"^(g\+\+ .* -o plugins/dots\.so dots\.cpp)$", page, re.MULTILINE)[1].replace("PREFIX", str(prefix))
 do("the first shader of the page compiles by the line below it", line.split())
 example = t.folder / "example"
 do("and by CMake", ["cmake", "-S", docs / "example_plugin", "-B", example, f"-DTOMALES_INCLUDE={prefix}/include/tomales", "-DCMAKE_BUILD_TYPE=Release"])
@@ -72,5 +72,5 @@ for name, (options, attributes) in KINDS.items():
     t.expect(not said, f"{name}: without a word")
 pictures = {name: (t.folder / (name + ".exr")).read_bytes() for name in KINDS}
 t.expect(len(set(pictures.values())) == len(KINDS), "each shader shows")
-t.expect_run("the installed program tries one shader alone", ["shadetest", t.folder / "dots.so", "--grid", "64x64", "-o", "ci.png"], 0, "nanoseconds a point")
+t.expect_run("the installed program tries one shader alone", ["shadetest", t.folder / "plugins/dots.so", "--grid", "64x64", "-o", "ci.png"], 0, "nanoseconds a point")
 t.finish()

@@ -47,7 +47,7 @@ for x, y in ((1, 1), (158, 1), (1, 118), (158, 118)):
     t.expect(0.3 < sum(seen[x, y][:3]) / sum(plain[x, y][:3]) < 0.7, f"and darkens the corner {x}, {y}")
 clear = without('Atmosphere "dust"', '# "dust"')
 t.expect(sum(mean(20, 20, 60, 36)) > 1.2 * sum(mean(20, 20, 60, 36, clear)), "light shows in the air")
-parts = {c["name"]: c for c in json.loads(t.run("info", "--json", "still_life_parts.exr").stdout)["channels"]}
+parts = {c["name"]: c for c in json.loads(t.run("info", "--json", "small_parts.exr").stdout)["channels"]}
 t.expect(set(parts) == {"brick", "which", "vein"}, f"outputs of the shaders are a picture of their own ({sorted(parts)})")
 t.expect(abs(parts["brick"]["mean"] - 0.384) < 0.01 and parts["brick"]["max"] <= 1.001, f"with the bricks' share of the picture ({parts['brick']['mean']:.3f})")
 t.expect(0.003 < parts["vein"]["mean"] < 0.01 and 0.2 < parts["which"]["mean"] < 0.3, "and what else they tell")

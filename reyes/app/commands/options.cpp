@@ -63,8 +63,8 @@ void addOutput(CLI::App& app, RenderSettings& s) {
   addParsed(app, "-o", s.output, parseOutput, pictureNames(),
             "Write here instead of to the first Display, other pictures beside it; # stands for the frame number. "
             "PNG: rgb, "
-            "in sRGB unless the scene's Exposure has a gamma (.tif and .exr are linear, and so is the PNG of a Display "
-            "without -o, as classic renderers wrote it). A scene without Display writes ri.exr");
+            "in sRGB unless the scene's Exposure has a gamma (all else is linear, a Display's own PNG too). A scene "
+            "without Display writes ri.exr");
   app.add_flag("--one-picture", s.onePicture, "With -o: leave out the scene's other Displays, shadow maps excepted")
       ->needs("-o");
 }

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "reyes/base/file_stamp.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
 #include "reyes/state_fields.h"
@@ -57,10 +56,7 @@ bool holds(const DisplayCall& display, const std::string& contents) {
 }  // namespace
 
 std::string contentsOf(const Scene& scene, const RenderSettings& settings) {
-  if (!scene.procedurals.empty()) return {};
-  uint64_t files = 0;
-  for (const std::string& folder : {settings.atlasFolder, settings.bakedFolder, settings.irradiance})
-    files = contentSum(files, folder.empty() ? uint64_t{0} : fileStamp(folder));
+  if (!scene.procedurals.empty() || !settings.irradiance.empty() || !settings.bakedFolder.empty()) return {};
   Options options = scene.options;
   const Options usual;
   options.bucketWidth = usual.bucketWidth, options.bucketHeight = usual.bucketHeight;
@@ -69,7 +65,7 @@ std::string contentsOf(const Scene& scene, const RenderSettings& settings) {
   for (DisplayCall& d : options.displays) d.where = {}, d.name.clear();
   Motion camera = scene.cameraFromWorld;
   const std::string version = kVersion, text = settingsText(settings);
-  return fmt::format("{:016x}", contentSum(worldSum(scene, false), files, options, camera, version, text));
+  return fmt::format("{:016x}", contentSum(worldSum(scene, false), options, camera, version, text));
 }
 
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {
@@ -86,7 +82,8 @@ bool isFinished(const Options& options, const std::string& contents, const Rende
     log.report(Severity::Note, "frame-unknown", where, "--skip-finished: " + why + ", so its frames are rendered");
     return false;
   };
-  if (contents.empty()) return rendered({}, "procedurals of the scene are read while it is rendered");
+  if (contents.empty())
+    return rendered({}, "procedurals, or gathered light of other frames, are read while the scene is rendered");
   for (const DisplayCall& d : options.displays) {
     const bool isFile = driverOf(d, options, pluginTrust(settings)).empty();
     DisplayCall described = d;
