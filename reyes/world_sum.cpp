@@ -49,7 +49,9 @@ uint64_t worldSum(const Scene& scene, bool photonsOnly) {
   sum.searchPaths = scene.options.searchPaths;
   Options options = scene.options;
   options.searchPaths.erase("texturecache");
-  std::erase_if(options.user, [](const auto& o) { return o.first.starts_with("limits:"); });  // of memory
+  std::erase_if(options.user, [](const auto& o) {  // of memory, and the order of work
+    return o.first.starts_with("limits:") || o.first.starts_with("bucket:");
+  });
   std::map<std::string, mat4> spaces = scene.worldFromNamed;
   each(sum, options.searchPaths, options.user, options.shutterOpen, options.shutterClose, options.maxRayDepth, spaces);
   for (std::shared_ptr<LightCall> light : scene.lights) field(sum, light);

@@ -5,12 +5,13 @@ from program import Suite
 t = Suite()
 t.write("room.rib", """Format 24 24 1
 Projection "perspective" "fov" [60]
-Translate 0 0 3
+Translate 0 0 1
 WorldBegin
 LightSource "indirectlight" 1 "samples" [16]
 LightSource "pointlight" 2 "from" [0 0 0] "intensity" [2]
 Sides 2
 Surface "matte"
+Color [0.7 0.7 0.7]
 Sphere 2 -2 2 360
 WorldEnd
 """)

@@ -32,8 +32,6 @@ std::string settingsText(const RenderSettings& s) {
   add("--photons", s.photons, usual.photons), add("--atlas-direct", s.atlasDirect, usual.atlasDirect);
   add("--brick-maxerror", s.brickMaxError, usual.brickMaxError);
   add("--radiosity-texels", s.radiosityTexels, usual.radiosityTexels);
-  add("--atlas", s.atlasFolder, usual.atlasFolder), add("--baked", s.bakedFolder, usual.bakedFolder);
-  add("--irradiance", s.irradiance, usual.irradiance);
   add("--irradiance-append", s.appendIrradiance, usual.appendIrradiance);
   add("--no-hit-list", !s.hitList, false), add("--ray-geometry full", s.fullGeometry.value_or(false), false);
   add("--standard-shaders files", s.standardFromFiles, usual.standardFromFiles);
@@ -56,7 +54,8 @@ bool holds(const DisplayCall& display, const std::string& contents) {
 }  // namespace
 
 std::string contentsOf(const Scene& scene, const RenderSettings& settings) {
-  if (!scene.procedurals.empty() || !settings.irradiance.empty() || !settings.bakedFolder.empty()) return {};
+  const std::string given = settings.irradiance + settings.bakedFolder + settings.atlasFolder;
+  if (!scene.procedurals.empty() || !given.empty()) return {};
   Options options = scene.options;
   const Options usual;
   options.bucketWidth = usual.bucketWidth, options.bucketHeight = usual.bucketHeight;
@@ -82,8 +81,7 @@ bool isFinished(const Options& options, const std::string& contents, const Rende
     log.report(Severity::Note, "frame-unknown", where, "--skip-finished: " + why + ", so its frames are rendered");
     return false;
   };
-  if (contents.empty())
-    return rendered({}, "procedurals, or gathered light of other frames, are read while the scene is rendered");
+  if (contents.empty()) return rendered({}, "procedurals, or files of light, are read while the scene is rendered");
   for (const DisplayCall& d : options.displays) {
     const bool isFile = driverOf(d, options, pluginTrust(settings)).empty();
     DisplayCall described = d;
