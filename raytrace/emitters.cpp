@@ -12,11 +12,6 @@ using Corners = std::array<vec3, 4>;
 /// Directions are tested against at most so many facets, which costs as much as a ray; larger emitters are not met.
 constexpr size_t kMostFacets = 256;
 
-float areaOf(const Corners& q) {
-  const auto& [a, b, c, d] = q;
-  return 0.5f * (glm::length(cross(b - a, d - a)) + glm::length(cross(d - c, b - c)));
-}
-
 /// Position and d/du x d/dv of the bilinear quad.
 void bilinear(const Corners& q, float u, float v, vec3& P, vec3& normal) {
   const auto& [a, b, c, d] = q;

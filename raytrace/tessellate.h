@@ -65,6 +65,12 @@ struct CoarseGroup {
   size_t bytes() const;
 };
 
+/// Area of the two triangles that rays meet of a polygon, cut from corner 1 to 3.
+inline float areaOf(const std::array<vec3, 4>& corners) {
+  const auto& [a, b, c, d] = corners;
+  return 0.5f * (glm::length(cross(b - a, d - a)) + glm::length(cross(d - c, b - c)));
+}
+
 /// Rays keep away from a coarse surface by its deviation times this: docs/decisions/0006
 constexpr float kOffsetFactor = 1.5f;
 

@@ -62,6 +62,8 @@ class ShaderRegistry {
   std::vector<const TmShader*> all() const;
   /// The origin that addLibrary() was given for a shader, or the file that it is from.
   std::string originOf(const TmShader& shader) const;
+  /// All files that a shader is made of: its text with those that it includes, or its plugin; none of a built-in one.
+  std::vector<std::string> filesOf(const TmShader& shader) const;
 
  private:
   struct Impl;

@@ -16,10 +16,11 @@ struct WorldSum : ContentSum {
   std::map<std::string, std::string> searchPaths{};
 };
 
-/// Adds every file that the name may stand for.
-void addFile(WorldSum& sum, const std::string& name, const char* kind) {
+/// Adds every file that the name may stand for, along the search path and in `beside`.
+void addFile(WorldSum& sum, const std::string& name, const char* kind, const std::string& beside = ".") {
   std::vector<std::string> folders = foldersOf(pathOf(sum.searchPaths, kind));
   folders.insert(folders.begin(), ".");
+  if (beside != ".") folders.push_back(beside);
   for (const fs::path folder : folders) {
     uint64_t stamp = name.empty() ? 0 : fileStamp(folder / name);
     if (stamp != 0) each(sum, stamp);
@@ -36,8 +37,8 @@ void addPicture(WorldSum& sum, const std::string& name) {
 
 void fields(WorldSum& a, ShaderCall& x) {
   each(a, x.name, x.params, x.worldFromShader);
-  for (const char* ending : {".so", ".sl"}) addFile(a, x.name + ending, "shader");
-  if (x.where.file) addFile(a, (fs::path(*x.where.file).parent_path() / (x.name + ".sl")).string(), "shader");
+  const std::string beside = x.where.file ? fs::path(*x.where.file).parent_path().string() : ".";
+  for (const char* ending : {".so", ".sl"}) addFile(a, x.name + ending, "shader", beside.empty() ? "." : beside);
   for (const Param& p : x.params)
     for (const std::string& s : p.strings) addPicture(a, s);
 }

@@ -6,9 +6,9 @@
 namespace tomales {
 
 /// Sums the objects that photons may meet, their attributes, transformations and shaders, the lights, named spaces and
-/// the files that shaders name (by size and time of change), but not limits of memory and the order of buckets. It does
-/// not depend on the camera and the frame, on line numbers, or on the order of objects. Pre: procedurals that photons
-/// meet are open. Without `photonsOnly` it sums all objects.
+/// the files that shaders name and that have their names (by size and time of change), but not limits of memory and the
+/// order of buckets. It does not depend on the camera and the frame, on line numbers, or on the order of objects. Pre:
+/// procedurals that photons meet are open. Without `photonsOnly` it sums all objects.
 uint64_t worldSum(const Scene& scene, bool photonsOnly = true);
 
 }  // namespace tomales

@@ -15,13 +15,13 @@ namespace fs = std::filesystem;
 
 constexpr size_t kPlaces = 2048;  ///< In all maps together.
 constexpr int kDirections = 8;
-/// The distance of the farthest photons of an estimate, in radii of the disk that it stands for: it is of fifty photons
-/// and stands for four, with disks that overlap.
+/// The distance of the farthest photons of an estimate, in radii of the disk that it stands for. An estimate is made of
+/// fifty photons and stands for the place of four, with disks that overlap.
 constexpr float kReach = 2.2f;
 constexpr float kLift = 0.1f;  ///< Height of the rays over the surface, in reaches.
-constexpr float kMuchMore =
-    8;  ///< So many times as much light comes through; less is no more than a smudge at an edge.
-constexpr double kMostArea = 0.002;  ///< Share of the area that may be wrong.
+/// A place leaks if there is so many times as much light behind the wall; less makes a smudge at an edge.
+constexpr float kMuchMore = 8;
+constexpr double kMostArea = 0.002;  ///< The share of all area that may leak without a warning.
 
 /// A place where an estimate was made, in world space.
 struct Place {
@@ -73,7 +73,7 @@ class WallTest {
       if (wall.object < 0 || hitOf(start, -along, reach).object >= 0) continue;
       const vec3 beyond = start + reach * along;
       const Hit floor = hitOf(beyond, -N, 2 * kLift * reach);
-      // photons of other surfaces hardly count
+      // An estimate hardly counts photons of other surfaces.
       if (floor.object < 0 || surfaces_[static_cast<size_t>(rays_.groupOf(floor))] != place.surface) continue;
       const float here = std::min(light(P, place), light(P - reach * along, place));
       if (light(P + reach * along, place) > kMuchMore * here) return wall.object;

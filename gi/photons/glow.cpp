@@ -27,11 +27,6 @@ bool hasStarts(const Object& o) {
   return o.solid < 0 && o.attributes->detail.whole();
 }
 
-double areaOf(const CoarseGroup& mesh, uint32_t quad) {
-  const auto [a, b, c, d] = mesh.corners(quad);
-  return 0.5 * double{glm::length(cross(b - a, d - a)) + glm::length(cross(d - c, b - c))};
-}
-
 vec3 towards(const vec3& normal, const vec3& local) {
   vec3 tangent, bitangent;
   orthonormalBasis(normal, tangent, bitangent);
@@ -100,7 +95,8 @@ void GlowPhotons::survey(Surface& out, size_t mostProbes) const {
     for (size_t k = begin; k < end; ++k) {
       const size_t first = k * run, last = std::min(cells, first + run);
       for (size_t c = first; c < last; ++c)
-        areas[c] = areaOf(*out.mesh, static_cast<uint32_t>(c / perPolygon)) / static_cast<double>(perPolygon);
+        areas[c] =
+            double{areaOf(out.mesh->corners(static_cast<uint32_t>(c / perPolygon)))} / static_cast<double>(perPolygon);
       const uint32_t name = hashCombine(kGlowStream, static_cast<uint32_t>(k));
       const size_t one =
           first +

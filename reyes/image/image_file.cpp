@@ -57,7 +57,7 @@ struct PictureFile::Impl {
     std::string why;
     if (file && !whole) file->finishAs(partialName(path));
     std::error_code none;  // there may be no such file
-    if (file && whole) fs::remove(fs::path(path).replace_filename(partialName(path)), none);
+    if (file && whole) fs::remove(throughLinks(path).replace_filename(partialName(path)), none);
     return !file || file->finish(why) || fail(why);
   }
 

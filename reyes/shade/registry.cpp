@@ -344,6 +344,13 @@ std::string ShaderRegistry::originOf(const TmShader& shader) const {
   return it == impl_->origins.end() ? "" : it->second;
 }
 
+std::vector<std::string> ShaderRegistry::filesOf(const TmShader& shader) const {
+  const std::string origin = originOf(shader);
+  std::vector<std::string> read = filesOfRslFile(origin);
+  if (read.empty() && fs::is_regular_file(origin)) read.push_back(origin);
+  return read;
+}
+
 std::vector<const TmShader*> ShaderRegistry::all() const {
   const std::lock_guard lock(impl_->mutex);
   std::vector<const TmShader*> out;

@@ -59,6 +59,13 @@ class Files {
     return current_[key]->file;
   }
 
+  std::vector<std::string> readFor(const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, made] : current_)
+      if (std::get<0>(key) == path && made->isCurrent()) return made->file->files();
+    return {};
+  }
+
  private:
   /// The file, the folders of headers, and those of functions.
   using Key = std::tuple<std::string, std::vector<std::string>, std::vector<std::string>>;
@@ -173,6 +180,8 @@ std::string withoutShaderEnding(const std::string& name) {
       return name.substr(0, name.size() - std::char_traits<char>::length(ending));
   return name;
 }
+
+std::vector<std::string> filesOfRslFile(const std::string& file) { return files().readFor(file); }
 
 RslFound findRslShader(const std::string& written, TmKind kind, const std::vector<std::string>& folders,
                        const FunctionsOfFolders& functions) {

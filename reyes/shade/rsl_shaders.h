@@ -29,6 +29,9 @@ struct RslFound {
 RslFound findRslShader(const std::string& name, TmKind kind, const std::vector<std::string>& folders,
                        const FunctionsOfFolders& functions);
 
+/// The file itself and all that it includes, if findRslShader() has compiled it as it is now; else none.
+std::vector<std::string> filesOfRslFile(const std::string& file);
+
 /// A name, and the folders where it is looked for.
 struct RslRequest {
   std::string name;

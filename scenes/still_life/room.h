@@ -4,8 +4,8 @@
 
 #include "noises.h"
 
-/* What a glossy surface mirrors along R. The eye's points take many rays in a cone, what is seen in a mirror takes one, and
- * what is seen in that, or by gathered light, takes a mean of the room instead: rays would multiply otherwise.
+/* Returns what a glossy surface mirrors along R. Points that the eye sees take many rays in a cone, and points that are
+ * seen in a mirror take one. Further points take a mean of the room instead, because rays would multiply otherwise.
  */
 color mirror(point from; vector R; float cone, samples) {
   color seen = color(0.055, 0.05, 0.045);
@@ -16,15 +16,15 @@ color mirror(point from; vector R; float cone, samples) {
   return seen;
 }
 
-/* Light at a matte point: that of the lamps, and what the room sends back where it is not covered, cooler and paler from
- * above than from the table below. The eye's points ask how much is covered, those in mirrors take a mean.
+/* Returns the light at a matte point: that of the lamps, and what the room sends back where it is not covered, which is
+ * cooler and paler from above than from the table below. Points that the eye sees ask how much is covered; points in
+ * mirrors take a mean.
  */
 color received(normal Nf) {
   float up = 0.5 + 0.5 * ycomp(normalize(ntransform("room", Nf)));
   color room = mix(color(0.13, 0.092, 0.058), color(0.10, 0.105, 0.112), up);
   float open = 0.6;
-  if (raydepth() == 0)
-    open = 1 - occlusion(P, Nf, 64, "maxdist", 7);
+  if (raydepth() == 0) open = 1 - occlusion(P, Nf, 64, "maxdist", 7);
   return diffuse(Nf) + open * room;
 }
 

@@ -2,8 +2,8 @@
 #ifndef STUDIO_H
 #define STUDIO_H
 
-#include "patterns.h"
 #include "noises.h"
+#include "patterns.h"
 #include "rmannotes.h"
 
 /* Coordinates on the pot: turns around its axis, height over its foot, and the point itself. Units are those of the

@@ -66,6 +66,7 @@ void keepBelow(const RenderSettings& settings, const std::set<std::string>& name
   if (!converted.empty()) converted = placeBelow(root, converted);
 }
 
+/// Leaves out, with a message, Displays that would write over an earlier one's file, and windows beside files.
 void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
   const auto isWindow = [&](const DisplayCall& d) {
     if (!driverOf(d, options, trust).empty()) return false;
@@ -89,7 +90,7 @@ void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
   });
 }
 
-/// Does a file hold pixels outside of the rectangle? A file that cannot be read may.
+/// Does a file hold more pixels than the rectangle? It counts as if it did where it cannot be read.
 bool holdsMore(const std::string& file, const PixelRect& crop) {
   std::error_code failed;
   if (!fs::is_regular_file(file, failed)) return false;

@@ -3,14 +3,20 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <set>
 
+#include "reyes/base/file_stamp.h"
+#include "reyes/base/search_path.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
+#include "reyes/shader_registry.h"
 #include "reyes/state_fields.h"
 #include "reyes/world_sum.h"
 
 namespace tomales {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char *kContents = "tomales:contents", *kVersionOf = "tomales:version", *kScene = "tomales:scene",
                      *kFrame = "tomales:frame", *kSettings = "tomales:settings";
@@ -40,9 +46,35 @@ std::string settingsText(const RenderSettings& s) {
 
 std::string sceneText(const RenderSettings& settings) {
   std::string out;
-  for (const std::string& file : settings.files)
-    out += (out.empty() ? "" : " ") + std::filesystem::path(file).filename().string();
+  for (const std::string& file : settings.files) out += (out.empty() ? "" : " ") + fs::path(file).filename().string();
   return out;
+}
+
+/// Sums size and time of change of all files that the scene's shaders are made of.
+uint64_t shaderSum(const Scene& scene, const RenderSettings& settings) {
+  Log unheard(Log::Verbosity::Quiet);  // The frame itself reports what is wrong with shaders.
+  ShaderRegistry registry(unheard, pluginTrust(settings), settings.standardFromFiles);
+  registry.addLibrary(tomales_builtin_shaders(), "built-in");
+  const std::string path = pathOf(scene.options.searchPaths, "shader");
+  std::set<const ShaderCall*> seen;
+  std::set<std::string> files;
+  const auto add = [&](const ShaderCall* call, TmKind kind) {
+    if (!call || !seen.insert(call).second) return;
+    const std::string beside = call->where.file ? fs::path(*call->where.file).parent_path().string() : "";
+    const TmShader* shader = registry.find(call->name, kind, path, beside);
+    if (shader)
+      for (std::string& file : registry.filesOf(*shader)) files.insert(std::move(file));
+  };
+  for (const auto& light : scene.lights) add(&light->shader, TM_LIGHT);
+  if (scene.options.imager) add(&*scene.options.imager, TM_IMAGER);
+  for (const ShadeGroup& group : scene.groups) {
+    const Attributes& a = *group.attributes;
+    add(a.surface.get(), TM_SURFACE), add(a.displacement.get(), TM_DISPLACEMENT);
+    for (const auto& volume : {a.atmosphere, a.interior, a.exterior}) add(volume.get(), TM_VOLUME);
+  }
+  uint64_t sum = 0;
+  for (const std::string& file : files) sum = contentSum(sum, fileStamp(file));
+  return sum;
 }
 
 bool holds(const DisplayCall& display, const std::string& contents) {
@@ -64,7 +96,8 @@ std::string contentsOf(const Scene& scene, const RenderSettings& settings) {
   for (DisplayCall& d : options.displays) d.where = {}, d.name.clear();
   Motion camera = scene.cameraFromWorld;
   const std::string version = kVersion, text = settingsText(settings);
-  return fmt::format("{:016x}", contentSum(worldSum(scene, false), options, camera, version, text));
+  return fmt::format("{:016x}",
+                     contentSum(worldSum(scene, false), shaderSum(scene, settings), options, camera, version, text));
 }
 
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {

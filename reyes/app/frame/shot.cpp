@@ -91,9 +91,11 @@ void ShotJob::warnOfStaleLight() const {
     if (bounces && shot_.scene.lights[l] != lightsOfFile_[l])
       changed.insert("light \"" + shot_.scene.lights[l]->handle + "\"");
   }
-  for (size_t g = 0; g < attributesOfFile_.size(); ++g)
-    if (shot_.scene.groups[g].attributes != attributesOfFile_[g])
-      changed.insert("\"" + shot_.scene.groups[g].attributes->name + "\"");
+  for (size_t g = 0; g < attributesOfFile_.size(); ++g) {
+    const Attributes &now = *shot_.scene.groups[g].attributes, &then = *attributesOfFile_[g];
+    if (now.surface != then.surface || now.color != then.color || now.opacity != then.opacity)
+      changed.insert(now.name.empty() ? "objects without a name" : "\"" + now.name + "\"");
+  }
   if (changed.empty()) return;
   log_.report(
       Severity::Warning, "light-stale", wholeFile(settings_.irradiance),
