@@ -1,5 +1,5 @@
 /* Dusty air: the way from the eye is walked in steps, and where the sun is seen from, the air glows. */
-volume dust(float density = 0.014, steps = 90, glow = 0.42; color air = color(0.045, 0.045, 0.05);) {
+volume dust(float density = 0.014, steps = 120, glow = 0.42; color air = color(0.045, 0.045, 0.05);) {
   float way = length(I);
   vector along = normalize(I);
   point eye = P - I;

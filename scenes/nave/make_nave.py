@@ -118,8 +118,9 @@ for side in (-1, 1):
 end = BAYS * BAY
 wall_points = [(-9, 0), (-9, 11.6), (9, 11.6), (9, 0)]
 window = arch(0, 1.25, 7.2, 3.2)
-points = [c for x, y in wall_points + window for c in (x, y, end)]
-print(f'    PointsGeneralPolygons [2] [4 {len(window)}] [{numbers(range(4 + len(window)))}] "P" [{numbers(points)}]')
+for z in (end, end + 0.6):
+    points = [c for x, y in wall_points + window for c in (x, y, z)]
+    print(f'    PointsGeneralPolygons [2] [4 {len(window)}] [{numbers(range(4 + len(window)))}] "P" [{numbers(points)}]')
 print('    Polygon "P" [-9 0 -6  -9 11.6 -6  9 11.6 -6  9 0 -6]')
 print("  AttributeEnd")
 
