@@ -35,8 +35,17 @@ std::string beginning(const std::string& message) {
 Log::~Log() { printRepeated(); }
 
 bool Log::isWanted(Severity severity) const {
-  return verbosity_ == Verbosity::Verbose || severity > Severity::Warning ||
-         (verbosity_ == Verbosity::Normal && severity >= Severity::Note);
+  switch (verbosity_) {
+    case Verbosity::Silent:
+      return false;
+    case Verbosity::Quiet:
+      return severity > Severity::Warning;
+    case Verbosity::Normal:
+      return severity >= Severity::Note;
+    case Verbosity::Verbose:
+      return true;
+  }
+  return true;
 }
 
 void Log::printRepeated() const {

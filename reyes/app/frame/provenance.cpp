@@ -52,7 +52,7 @@ std::string sceneText(const RenderSettings& settings) {
 
 /// Sums size and time of change of all files that the scene's shaders are made of.
 uint64_t shaderSum(const Scene& scene, const RenderSettings& settings) {
-  Log unheard(Log::Verbosity::Quiet);  // The frame itself reports what is wrong with shaders.
+  Log unheard(Log::Verbosity::Silent);  // The frame itself reports what is wrong with shaders.
   ShaderRegistry registry(unheard, pluginTrust(settings), settings.standardFromFiles);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   const std::string path = pathOf(scene.options.searchPaths, "shader");
