@@ -10,6 +10,7 @@
 #include "gi/point_picture.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/frame/atlas_job.h"
+#include "reyes/app/frame/frame_shaders.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/watch/stats_json.h"
 #include "reyes/area_lights.h"
@@ -19,7 +20,6 @@
 #include "reyes/base/unfinished_folder.h"
 #include "reyes/moving_surfaces.h"
 #include "reyes/rib.h"
-#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -85,12 +85,11 @@ std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
 
 void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log) {
   applyOverrides(scene, settings);
-  ShaderRegistry registry(log, pluginTrust(settings), settings.standardFromFiles);
-  registry.addLibrary(tomales_builtin_shaders(), "built-in");
-  measureAreaLights(scene, registry);
-  displaceByMovingSurfaces(scene, registry, log);
+  const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
+  measureAreaLights(scene, *shaders);
+  displaceByMovingSurfaces(scene, *shaders, log);
   scene.open([](const Attributes& a) { return a.visibility.photon; });
-  ShadingSystem shading(scene, registry, nullptr, log, stats);
+  ShadingSystem shading(scene, *shaders, nullptr, log, stats);
   const Camera camera(scene.options);
   const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
   const StageTimer timer(stats, "photons");

@@ -10,6 +10,7 @@
 #include "reyes/app/commands/foreign_file.h"
 #include "reyes/app/commands/make.h"
 #include "reyes/app/frame/empty_frame.h"
+#include "reyes/app/frame/frame_shaders.h"
 #include "reyes/app/frame/hide.h"
 #include "reyes/app/frame/limits.h"
 #include "reyes/app/frame/outputs.h"
@@ -30,7 +31,7 @@ namespace {
 class RenderRun {
  public:
   /// A job takes a frame and the number of its scene in the stream.
-  using Job = std::function<void(Scene&, int world, const RenderSettings&, Stats&, Log&,
+  using Job = std::function<void(Scene&, ShaderRegistry&, int world, const RenderSettings&, Stats&, Log&,
                                  const std::function<void()>& afterStage)>;
 
   RenderRun(const RenderSettings& settings, Job job)
@@ -86,7 +87,8 @@ class RenderRun {
       ++rendered_;
       applyOverrides(scene, settings_);
       nameOutputs(scene.options, settings_, log_);
-      const std::string contents = contentsOf(scene, settings_);
+      const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings_, log_);
+      const std::string contents = contentsOf(scene, *shaders, settings_);
       if (settings_.skipFinished && isFinished(scene.options, contents, settings_, log_)) return skip(scene);
       describeOutputs(scene.options, contents, settings_);
       warnAboutOverwriting(scene);
@@ -95,7 +97,7 @@ class RenderRun {
       const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
       const int errorsBefore = errors();
       try {
-        job_(scene, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
+        job_(scene, *shaders, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
       } catch (const std::exception& e) {  // later frames may be smaller, and finished ones keep their statistics
         log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
       }
@@ -176,8 +178,8 @@ class RenderRun {
 int renderCommand(const RenderSettings& settings) { return RenderRun(settings, renderFrame).run(); }
 
 int hideCommand(const RenderSettings& settings) {
-  const auto job = [](Scene& scene, int world, const RenderSettings& s, Stats& stats, Log& log,
-                      const std::function<void()>&) { hideToFile(scene, world, s, stats, log); };
+  const auto job = [](Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& s, Stats& stats, Log& log,
+                      const std::function<void()>&) { hideToFile(scene, shaders, world, s, stats, log); };
   return RenderRun(settings, job).run();
 }
 

@@ -25,19 +25,17 @@ constexpr int kMostReferenceLightSamples = 256, kReferenceLightSamples = 64;
 
 }  // namespace
 
-FrameJob::FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log)
+FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log)
     : scene_(scene),
       settings_(settings),
       stats_(stats),
       log_(log),
       camera_(scene.options),
-      registry_(log, pluginTrust(settings), settings.standardFromFiles),
       meter_(settings.progress, "preparing"),
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
-  registry_.addLibrary(tomales_builtin_shaders(), "built-in");
-  measureAreaLights(scene, registry_);
-  if (!settings.draft) displaceByMovingSurfaces(scene, registry_, log);
-  shading_ = std::make_unique<ShadingSystem>(scene, registry_, nullptr, log, stats);
+  measureAreaLights(scene, shaders);
+  if (!settings.draft) displaceByMovingSurfaces(scene, shaders, log);
+  shading_ = std::make_unique<ShadingSystem>(scene, shaders, nullptr, log, stats);
   shading_->setClouds(&clouds_);
   method_ = &methodOf(settings, *shading_);
   if (traces())

@@ -14,8 +14,9 @@ class Preview;
 
 class FrameJob {
  public:
-  /// Pre: overrides have been applied to the scene. Everything that goes wrong is in the log.
-  FrameJob(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log);
+  /// Pre: overrides have been applied to the scene. `shaders` outlives the job. Everything that goes wrong is in the
+  /// log.
+  FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log);
   ~FrameJob();
 
   /// Reads all procedurals that are still closed. Call it before `hide` if tiles leave that one by one, to a file or
@@ -72,7 +73,6 @@ class FrameJob {
   Log& log_;
   bool gathers_ = false;
   const Camera camera_;
-  ShaderRegistry registry_;
   ProgressMeter meter_;
   CloudFiles clouds_;
   std::unique_ptr<ShadingSystem> shading_;

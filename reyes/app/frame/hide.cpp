@@ -34,7 +34,8 @@ std::vector<SourceFile> sourcesOf(const std::vector<std::string>& files) {
   return out;
 }
 
-void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log) {
+void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& settings, Stats& stats,
+                Log& log) {
   const std::string path = withFrameNumber(settings.output, scene.options.frame);
   const auto unwritten = [&](const std::string& why) {
     log.report(Severity::Output, "dfb-write", {}, "\"" + path + "\" could not be written: " + why);
@@ -44,7 +45,7 @@ void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& 
   if (int64_t{crop.width()} * crop.height() / (int64_t{scene.options.bucketWidth} * scene.options.bucketHeight) >=
       kMostTiles)
     return unwritten("there are too many buckets; use --bucket-size or --crop");
-  FrameJob job(scene, settings, stats, log);
+  FrameJob job(scene, shaders, settings, stats, log);
   job.openAll();
   Shot shot{
       scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),

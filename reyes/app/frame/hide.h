@@ -3,11 +3,13 @@
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"
 #include "reyes/dfb.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
 /// Writes to settings.output, bucket by bucket; with settings.resume, it hides those that an interrupted run left out.
-void hideToFile(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log);
+void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& settings, Stats& stats,
+                Log& log);
 
 /// Makes paths absolute and computes checksums. Standard input has no checksum.
 std::vector<SourceFile> sourcesOf(const std::vector<std::string>& files);

@@ -9,7 +9,6 @@
 #include "reyes/base/search_path.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
-#include "reyes/shader_registry.h"
 #include "reyes/state_fields.h"
 #include "reyes/world_sum.h"
 
@@ -51,19 +50,14 @@ std::string sceneText(const RenderSettings& settings) {
 }
 
 /// Sums size and time of change of all files that the scene's shaders are made of.
-uint64_t shaderSum(const Scene& scene, const RenderSettings& settings) {
-  Log unheard(Log::Verbosity::Silent);  // The frame itself reports what is wrong with shaders.
-  ShaderRegistry registry(unheard, pluginTrust(settings), settings.standardFromFiles);
-  registry.addLibrary(tomales_builtin_shaders(), "built-in");
+uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
   const std::string path = pathOf(scene.options.searchPaths, "shader");
   std::set<const ShaderCall*> seen;
-  std::set<std::string> files;
+  std::vector<ShaderName> names;
   const auto add = [&](const ShaderCall* call, TmKind kind) {
     if (!call || !seen.insert(call).second) return;
     const std::string beside = call->where.file ? fs::path(*call->where.file).parent_path().string() : "";
-    const TmShader* shader = registry.find(call->name, kind, path, beside);
-    if (shader)
-      for (std::string& file : registry.filesOf(*shader)) files.insert(std::move(file));
+    names.push_back({call->name, kind, beside});
   };
   for (const auto& light : scene.lights) add(&light->shader, TM_LIGHT);
   if (scene.options.imager) add(&*scene.options.imager, TM_IMAGER);
@@ -72,6 +66,11 @@ uint64_t shaderSum(const Scene& scene, const RenderSettings& settings) {
     add(a.surface.get(), TM_SURFACE), add(a.displacement.get(), TM_DISPLACEMENT);
     for (const auto& volume : {a.atmosphere, a.interior, a.exterior}) add(volume.get(), TM_VOLUME);
   }
+  shaders.prepare(names, path);
+  std::set<std::string> files;
+  for (const ShaderName& n : names)
+    if (const TmShader* shader = shaders.find(n.name, n.kind, path, n.beside))
+      for (std::string& file : shaders.filesOf(*shader)) files.insert(std::move(file));
   uint64_t sum = 0;
   for (const std::string& file : files) sum = contentSum(sum, fileStamp(file));
   return sum;
@@ -85,7 +84,7 @@ bool holds(const DisplayCall& display, const std::string& contents) {
 
 }  // namespace
 
-std::string contentsOf(const Scene& scene, const RenderSettings& settings) {
+std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings) {
   const std::string given = settings.irradiance + settings.bakedFolder + settings.atlasFolder;
   if (!scene.procedurals.empty() || !given.empty()) return {};
   Options options = scene.options;
@@ -97,7 +96,7 @@ std::string contentsOf(const Scene& scene, const RenderSettings& settings) {
   Motion camera = scene.cameraFromWorld;
   const std::string version = kVersion, text = settingsText(settings);
   return fmt::format("{:016x}",
-                     contentSum(worldSum(scene, false), shaderSum(scene, settings), options, camera, version, text));
+                     contentSum(worldSum(scene, false), shaderSum(scene, shaders), options, camera, version, text));
 }
 
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {

@@ -3,13 +3,14 @@
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/scene.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
 /// Names what the frame's pictures will show: a checksum of the scene, of the size and time of the files that its
 /// shaders are made of and name, and of the settings that pictures depend on. Two frames of one checksum have the same
 /// pixels. Empty if procedurals are unopened or files of light are given, because nobody knows what they will bring.
-std::string contentsOf(const Scene& scene, const RenderSettings& settings);
+std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings);
 
 /// Adds program, scene, frame, settings and, unless it is empty, contents to the headers of the frame's pictures.
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings);

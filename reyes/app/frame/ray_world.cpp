@@ -8,16 +8,15 @@
 namespace tomales {
 
 struct RayWorld::Built {
-  Built(Scene s, const RenderSettings& settings, const ShadeServices* services, Stats& stats, Log& log)
-      : scene(std::move(s)), camera(scene.options), registry(log, pluginTrust(settings)) {
-    registry.addLibrary(tomales_builtin_shaders(), "built-in");
-    shading = std::make_unique<ShadingSystem>(scene, registry, services, log, stats);
+  Built(Scene s, ShaderRegistry& shaders, const RenderSettings& settings, const ShadeServices* services, Stats& stats,
+        Log& log)
+      : scene(std::move(s)), camera(scene.options) {
+    shading = std::make_unique<ShadingSystem>(scene, shaders, services, log, stats);
     rays = std::make_unique<RayScene>(scene, camera, *shading, raySettings(settings, scene.options), stats, log);
     tools = {rays.get(), shading.get()};
   }
   const Scene scene;
   const Camera camera;
-  ShaderRegistry registry;
   std::unique_ptr<ShadingSystem> shading;
   std::unique_ptr<RayScene> rays;
   RayTools tools;
@@ -37,8 +36,8 @@ bool sameGroups(const Scene& a, const Scene& b) {
 
 }  // namespace
 
-RayWorld::RayWorld(const Shot& shot, const RenderSettings& settings, Stats& stats, Log& log)
-    : shot_(shot), settings_(settings), stats_(stats), log_(log) {}
+RayWorld::RayWorld(const Shot& shot, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log)
+    : shot_(shot), shaders_(shaders), settings_(settings), stats_(stats), log_(log) {}
 RayWorld::~RayWorld() = default;
 
 const RayTools* RayWorld::tools() {
@@ -96,7 +95,7 @@ std::unique_ptr<RayWorld::Built> RayWorld::build() {
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
   dress(*scene);
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
-  return std::make_unique<Built>(std::move(*scene), settings_, services_, stats_, log_);
+  return std::make_unique<Built>(std::move(*scene), shaders_, settings_, services_, stats_, log_);
 }
 
 }  // namespace tomales

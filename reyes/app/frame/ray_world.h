@@ -6,13 +6,14 @@
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"
 #include "reyes/dfb.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 
 class RayWorld {
  public:
   /// `shot` has the attributes, lights and options that are shaded, also where rays meet them.
-  RayWorld(const Shot& shot, const RenderSettings& settings, Stats& stats, Log& log);
+  RayWorld(const Shot& shot, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log);
   ~RayWorld();
 
   /// Returns null if the RIB is gone or has changed, which is reported. Threads: any; all wait for the first.
@@ -28,6 +29,7 @@ class RayWorld {
   void dress(Scene& scene) const;
 
   const Shot& shot_;
+  ShaderRegistry& shaders_;
   const RenderSettings& settings_;
   Stats& stats_;
   Log& log_;

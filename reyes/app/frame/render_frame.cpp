@@ -87,13 +87,13 @@ bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob&
 
 }  // namespace
 
-void renderFrame(Scene& scene, int world, const RenderSettings& settings, Stats& stats, Log& log,
-                 const std::function<void()>& afterStage) {
+void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& settings, Stats& stats,
+                 Log& log, const std::function<void()>& afterStage) {
   if (!cropHasPixels(scene, log)) return;
   const DeepFrame layout = layOutFrame(scene);
   if (!displaysHaveFolders(scene.options, pluginTrust(settings), log) || !fitsMemory(scene, layout, log)) return;
   checkDisplays(scene.options, log);
-  FrameJob job(scene, settings, stats, log);
+  FrameJob job(scene, shaders, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
   if (!settings.bakedFolder.empty() && !gathers && !job.method().usesBaked)
     log.report(Severity::Warning, "baked-unused", {},

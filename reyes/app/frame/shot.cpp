@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "reyes/app/frame/frame_shaders.h"
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
@@ -69,8 +70,9 @@ bool ShotJob::openIrradiance() {
 }
 
 void ShotJob::prepareLight() {
-  world_ = std::make_unique<RayWorld>(shot_, settings_, stats_, log_);
-  job_ = std::make_unique<FrameJob>(shot_.scene, settings_, stats_, log_);
+  shaders_ = frameShaders(settings_, log_);
+  world_ = std::make_unique<RayWorld>(shot_, *shaders_, settings_, stats_, log_);
+  job_ = std::make_unique<FrameJob>(shot_.scene, *shaders_, settings_, stats_, log_);
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
   if (!irradiance_) return;

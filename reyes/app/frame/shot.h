@@ -43,6 +43,7 @@ class ShotJob {
   std::vector<std::shared_ptr<LightCall>> lightsOfFile_;               ///< Before edits; likewise,
   std::vector<std::shared_ptr<const Attributes>> attributesOfFile_{};  ///< indexed by shade group.
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
+  std::unique_ptr<ShaderRegistry> shaders_;
   std::unique_ptr<RayWorld> world_;
   std::unique_ptr<FrameJob> job_;
 };
