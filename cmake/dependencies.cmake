@@ -36,3 +36,26 @@ find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 get_target_property(_oiio_include OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
 list(FILTER _oiio_include EXCLUDE REGEX opencv)
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${_oiio_include}")
+
+# What `tomales --version` tells of each library: its name, version and licence (SPDX).
+set(_osd_version "${OpenSubdiv_VERSION}")
+if(NOT _osd_version)
+  file(STRINGS ${OSD_INCLUDE_DIR}/opensubdiv/version.h _osd_version REGEX "define OPENSUBDIV_VERSION v")
+  string(REGEX REPLACE ".*VERSION v([0-9]+)_([0-9]+)_([0-9]+).*" "\\1.\\2.\\3" _osd_version "${_osd_version}")
+endif()
+set(TOMALES_LIBRARIES
+  "OpenSubdiv|${_osd_version}|Apache-2.0 with changes" "Embree|${embree_VERSION}|Apache-2.0"
+  "OpenImageIO|${OpenImageIO_VERSION}|BSD-3-Clause" "OpenEXR|${OpenEXR_VERSION}|BSD-3-Clause"
+  "Imath|${Imath_VERSION}|BSD-3-Clause" "oneTBB|${TBB_VERSION}|Apache-2.0" "GLM|${glm_VERSION}|MIT"
+  "Highway|${hwy_VERSION}|Apache-2.0" "fmt|${fmt_VERSION}|MIT" "CLI11|${CLI11_VERSION}|BSD-3-Clause"
+  "JSON for Modern C++|${nlohmann_json_VERSION}|MIT" "Assimp|${assimp_VERSION}|BSD-3-Clause"
+  "LibTIFF|${TIFF_VERSION_STRING}|libtiff" "libpng|${PNG_VERSION_STRING}|libpng-2.0" "zlib|${ZLIB_VERSION_STRING}|Zlib"
+  "libzip|${zip_VERSION}|BSD-3-Clause" "Zstandard|${zstd_VERSION}|BSD-3-Clause" "libdeflate|${deflate_VERSION}|MIT"
+  "xxHash|${xxhash_VERSION}|BSD-2-Clause")
+foreach(_library IN LISTS TOMALES_LIBRARIES)
+  string(REPLACE "|" ";" _row "${_library}")
+  list(GET _row 0 _name)
+  list(GET _row 1 _version)
+  list(GET _row 2 _licence)
+  string(APPEND TOMALES_LIBRARY_TEXT "  ${_name} ${_version} (${_licence})\n")
+endforeach()

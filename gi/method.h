@@ -68,9 +68,9 @@ constexpr const GiMethod& giMethodOf(GiMode mode) {
 }
 
 /// The names for help texts: "none, gather".
-inline std::string giMethodNames() {
+inline std::string giMethodNames(const char* between = ", ") {
   std::string out;
-  for (const GiMethod& m : kGiMethods) out += (out.empty() ? "" : ", ") + std::string(m.name);
+  for (const GiMethod& m : kGiMethods) out += (out.empty() ? "" : between) + std::string(m.name);
   return out;
 }
 

@@ -12,8 +12,6 @@
 
 namespace tomales {
 
-constexpr const char* kVersion = "0.1.0";
-
 struct RenderSettings {
   std::vector<std::string> files;  ///< The files of one RIB stream; "-" is standard input.
   std::string output;              ///< Empty for the scene's Displays.

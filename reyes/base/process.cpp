@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> besideProgram(const std::string& name) {
   std::error_code none;
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
   std::vector<std::filesystem::path> out;
-  for (const auto& path : {folder / name, folder / ".." / "lib" / name})
+  for (const auto& path : {folder / name, folder / ".." / "lib" / "tomales" / name})
     if (std::filesystem::exists(path, none)) out.push_back(path);
   return out;
 }

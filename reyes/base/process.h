@@ -15,7 +15,7 @@ int64_t peakResidentBytes();
 void returnFreeMemory();
 
 /// Returns the paths where a file of this name that belongs to the program exists: beside the program, as it is built,
-/// or in lib, as it is installed.
+/// or in lib/tomales, as it is installed.
 std::vector<std::filesystem::path> besideProgram(const std::string& name);
 
 }  // namespace tomales

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reyes/app/build_info.h"
 #include "reyes/app/chart/html.h"
 #include "reyes/app/settings.h"
 #include "reyes/base/unfinished_file.h"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "reyes/app/build_info.h"
 #include "reyes/app/chart/html.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/settings.h"

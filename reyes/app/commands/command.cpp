@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "reyes/app/build_info.h"
 #include "reyes/app/commands/help.h"
 #include "reyes/app/commands/usage.h"
 #include "reyes/app/exit_code.h"
@@ -22,7 +23,7 @@ bool namesCommand(const CLI::App& app, const std::string& text) {
 
 int parseAndRun(int argc, char** argv) {
   CLI::App app("A Reyes renderer with global illumination", "tomales");
-  app.set_version_flag("--version", std::string("tomales ") + kVersion);
+  app.set_version_flag("--version", describeBuild());
   app.footer(exitCodeHelp());
   app.require_subcommand(1);
   setHelp(app);

@@ -45,7 +45,7 @@ Severity read(const model::Settings& settings, Log& log) {
   };
   const auto programs = besideProgram("tomales_assimp");
   if (programs.empty())
-    return fail("the program tomales_assimp, which reads models, is neither beside this one nor in ../lib");
+    return fail("the program tomales_assimp, which reads models, is neither beside this one nor in ../lib/tomales");
   std::vector<std::string> arguments = model::argumentsOf(settings);
   arguments.insert(arguments.begin(), programs.front().string());
   int problem = 0, status = 0;

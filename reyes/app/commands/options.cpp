@@ -105,8 +105,8 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light: scene (the default: as the RIB says), " + giMethodNames())
-      ->type_name("MODE");
+         "Indirect light (default: scene, which is as the RIB says; docs/light.md tells when to use which)")
+      ->type_name("scene|" + giMethodNames("|"));
   app.add_option(
          "--samples", s.samples,
          "Gather rays of an irradiance sample, or paths of a point for the reference (default: as the scene asks)")

@@ -1,5 +1,6 @@
 #include "reyes/app/commands/usage.h"
 
+#include "reyes/app/commands/completion.h"
 #include "reyes/app/commands/list.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
@@ -113,6 +114,11 @@ void buildRequests(CLI::App& app) {
       ->callback([] { std::fputs(ribRequests().c_str(), stdout); });
 }
 
+void buildCompletion(CLI::App& app) {
+  app.add_subcommand("completion", "A script that completes this command line in bash and zsh")
+      ->callback([&app] { std::fputs(completionScript(app).c_str(), stdout); });
+}
+
 }  // namespace
 
 void addFileCommands(CLI::App& app, Invocation& in, int& code) {
@@ -124,6 +130,7 @@ void addFileCommands(CLI::App& app, Invocation& in, int& code) {
   buildCatrib(app, in, code);
   buildImport(app, in, code);
   buildRequests(app);
+  buildCompletion(app);
 }
 
 }  // namespace tomales

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "reyes/app/build_info.h"
 #include "reyes/base/file_stamp.h"
 #include "reyes/base/search_path.h"
 #include "reyes/image.h"
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kContents = "tomales:contents", *kVersionOf = "tomales:version", *kScene = "tomales:scene",
+constexpr const char *kContents = "tomales:contents", *kVersionOf = "tomales:version", *kCommit = "tomales:commit", *kScene = "tomales:scene",
                      *kFrame = "tomales:frame", *kSettings = "tomales:settings";
 
 /// The options of the command line that pictures depend on and that no option of the scene keeps, where they are not
@@ -94,7 +95,7 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
   options.searchPaths.clear(), options.user.clear();  // worldSum() has what counts of them
   for (DisplayCall& d : options.displays) d.where = {}, d.name.clear();
   Motion camera = scene.cameraFromWorld;
-  const std::string version = kVersion, text = settingsText(settings);
+  const std::string version = std::string(kVersion) + sourceCommit(), text = settingsText(settings);
   return fmt::format("{:016x}",
                      contentSum(worldSum(scene, false), shaderSum(scene, shaders), options, camera, version, text));
 }
@@ -102,7 +103,7 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {
   for (DisplayCall& d : options.displays) {
     if (!driverOf(d, options, pluginTrust(settings)).empty()) continue;
-    addHeader(d, kVersionOf, kVersion), addHeader(d, kScene, sceneText(settings));
+    addHeader(d, kVersionOf, kVersion), addHeader(d, kCommit, sourceCommit()), addHeader(d, kScene, sceneText(settings));
     addHeader(d, kFrame, std::to_string(options.frame)), addHeader(d, kSettings, settingsText(settings));
     if (!contents.empty()) addHeader(d, kContents, contents);
   }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "reyes/app/build_info.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
 #include "reyes/base/unfinished_file.h"

@@ -1,0 +1,14 @@
+# Writes OUTPUT with the commit of the sources, and leaves it alone if that is what it says already. An archive made by
+# `git archive` has the commit here instead of the first line (.gitattributes).
+set(commit "$Format:%H$")
+if(commit MATCHES "Format")
+  execute_process(COMMAND git rev-parse HEAD WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE commit RESULT_VARIABLE problem
+                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  execute_process(COMMAND git status --porcelain --untracked-files=no WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE changes ERROR_QUIET)
+  if(problem)
+    set(commit "unknown")
+  elseif(changes)
+    string(APPEND commit " with changes")
+  endif()
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "extern const char* const tomales_commit;\nconst char* const tomales_commit = \"@commit@\";\n" @ONLY)

@@ -1,0 +1,60 @@
+# What an installation has besides programs and headers, and the packages for Debian that CPack makes of it
+# (`./dev package`): tomales to render, tomales-dev to write plugins, tomales-doc to read.
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+# For plugins: find_package(tomales) has the target tomales::headers, and so has pkg-config tomales.
+if(TARGET tomales)
+  add_library(tomales_headers INTERFACE)
+  set_target_properties(tomales_headers PROPERTIES EXPORT_NAME headers)
+  target_include_directories(tomales_headers INTERFACE $<INSTALL_INTERFACE:include/tomales>)
+  install(TARGETS tomales_headers EXPORT tomales)
+  install(EXPORT tomales NAMESPACE tomales:: FILE tomalesConfig.cmake DESTINATION share/tomales/cmake COMPONENT dev)
+  write_basic_package_version_file(${CMAKE_BINARY_DIR}/tomalesConfigVersion.cmake COMPATIBILITY SameMajorVersion ARCH_INDEPENDENT)
+  install(FILES ${CMAKE_BINARY_DIR}/tomalesConfigVersion.cmake DESTINATION share/tomales/cmake COMPONENT dev)
+  configure_file(cmake/tomales.pc.in ${CMAKE_BINARY_DIR}/tomales.pc @ONLY)
+  install(FILES ${CMAKE_BINARY_DIR}/tomales.pc DESTINATION share/pkgconfig COMPONENT dev)
+endif()
+
+# The manual and the completion are made by the program itself.
+option(TOMALES_MANUAL "Make and install pages of the manual, and the completion for bash (needs help2man)" OFF)
+if(TOMALES_MANUAL)
+  set(manual ${CMAKE_BINARY_DIR}/manual)
+  add_custom_command(OUTPUT ${manual}/tomales.1 COMMAND ${CMAKE_SOURCE_DIR}/cmake/manual.sh $<TARGET_FILE:tomales> ${manual} DEPENDS tomales cmake/manual.sh)
+  add_custom_target(tomales_manual ALL DEPENDS ${manual}/tomales.1)
+  install(DIRECTORY ${manual}/ DESTINATION share/man/man1 COMPONENT runtime FILES_MATCHING PATTERN *.1)
+  install(FILES ${manual}/tomales.bash DESTINATION share/bash-completion/completions COMPONENT runtime RENAME tomales)
+endif()
+
+install(FILES README.md CHANGELOG.md DESTINATION share/doc/tomales COMPONENT doc)
+install(DIRECTORY docs DESTINATION share/doc/tomales COMPONENT doc)
+install(DIRECTORY scenes DESTINATION share/doc/tomales/examples COMPONENT doc)
+install(FILES LICENSE DESTINATION share/doc/tomales COMPONENT runtime RENAME copyright)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL runtime dev doc)
+set(CPACK_PACKAGE_CONTACT "The Tomales maintainers <maintainers@tomales.invalid>")
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME tomales)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "python3")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "tomales-doc, tomales-dev, blender")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "RenderMan-style Reyes renderer with global illumination
+ Renders RIB scenes with shaders in RSL or C++, and with indirect light.")
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME tomales-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "g++, tomales")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "Headers for plugins of Tomales
+ What shaders, display drivers and procedurals in C and C++ include.")
+set(CPACK_DEBIAN_DOC_PACKAGE_NAME tomales-doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_DOC_DESCRIPTION "Guide and scenes of Tomales
+ The documents of the renderer, and the scenes that they speak of.")
+set(CPACK_SOURCE_GENERATOR TXZ)
+include(CPack)

@@ -1,0 +1,16 @@
+// What the program was built from.
+#pragma once
+#include <string>
+
+namespace tomales {
+
+extern const char* const kVersion;  ///< As CMakeLists.txt has it: "0.1.0".
+
+/// The commit of the sources, as git names it, with " with changes" behind it if they had been changed since; "unknown"
+/// if they were in no repository.
+const char* sourceCommit();
+
+/// The text of --version: version, commit, compiler, and a line for each library with its version and licence.
+std::string describeBuild();
+
+}  // namespace tomales
