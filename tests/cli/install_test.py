@@ -57,7 +57,7 @@ t.write("dots.cpp", first)
 line = re.search(r"^(g\+\+ .* -o plugins/dots\.so dots\.cpp)$", page, re.MULTILINE)[1].replace("PREFIX", str(prefix))
 do("the first shader of the page compiles by the line below it", line.split())
 example = t.folder / "example"
-do("and by CMake", ["cmake", "-S", docs / "example_plugin", "-B", example, f"-DTOMALES_INCLUDE={prefix}/include/tomales", "-DCMAKE_BUILD_TYPE=Release"])
+do("and by CMake", ["cmake", "-S", docs / "example_plugin", "-B", example, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"])
 do("which builds", ["cmake", "--build", example])
 for source, names in ((docs / "example_plugin/kinds.cpp", ("ripple", "flame", "panel", "murk", "scanlines")), (docs / "rsl_plugins/toon.cpp", ("toon",))):
     library = t.folder / (source.stem + ".so")
