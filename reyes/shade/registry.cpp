@@ -1,25 +1,15 @@
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <set>
-#include <tuple>
 
-#include "reyes/base/crash_note.h"
-#include "reyes/base/input_file.h"
-#include "reyes/base/loaded_plugins.h"
 #include "reyes/base/missing_file.h"
 #include "reyes/base/near_names.h"
-#include "reyes/base/plugin_trial.h"
 #include "reyes/base/plugin_trust.h"
 #include "reyes/base/search_path.h"
 #include "reyes/base/trust.h"
-#include "reyes/shade/function_plugins.h"
-#include "reyes/shade/roles.h"
-#include "reyes/shade/rsl_shaders.h"
-#include "reyes/shader_registry.h"
+#include "reyes/shade/registry_impl.h"
 
 namespace tomales {
 
@@ -30,156 +20,11 @@ const char* kindName(TmKind kind) {
   return kNames[kind];
 }
 
-namespace {
-
-/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which tests hold against it.
 bool isOfSpecification(std::string_view name) {
   static constexpr std::string_view kNames[] = {
       "constant",     "matte",      "metal",     "shinymetal", "plastic", "paintedplastic", "ambientlight",
       "distantlight", "pointlight", "spotlight", "depthcue",   "fog",     "bumpy",          "background"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
-}
-
-}  // namespace
-
-struct ShaderRegistry::Impl {
-  Log& log;
-  const PluginTrust trust;
-  const bool standardFromFiles;
-  std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
-  std::map<std::pair<int, std::string>, const TmShader*> shaders;
-  struct Plugin {
-    bool loaded = false;
-    std::vector<const TmShader*> shaders;
-  };
-  std::map<std::string, Plugin> plugins;  // by path
-  PluginTrial trial;
-  bool untriedSaid = false;
-  std::set<std::string> distrusted;  // plugins that have been reported as such
-  std::set<std::string> toldOf;      // problems of shaders' texts that have been reported
-  std::vector<std::shared_ptr<const RslFile>> texts{};
-  std::set<const TmShader*> builtIn{};
-  std::map<const TmShader*, std::string> origins{};
-  std::map<const TmShader*, const TmShader*> displacements{};  ///< by the surfaces that move their points
-  std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
-  FunctionPlugins functionPlugins{log};
-
-  void refuse(const std::string& origin, const std::string& problem) {
-    const SourceLoc where{std::make_shared<const std::string>(origin), 0};
-    log.report(Severity::Missing, "shader-plugin", where, origin + ": " + problem);
-  }
-  bool add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added = nullptr);
-  bool load(const std::string& path);
-  std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
-  std::string heldBy(const std::string& path) const;
-  std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
-  const TmShader* found(const std::string& name, TmKind kind, const std::string& searchPath, const std::string& beside);
-  FunctionsOfFolders functionsAlong(const std::string& searchPath);
-  const TmShader* search(const std::string& name, TmKind kind, const std::string& searchPath,
-                         const std::string& beside);
-  const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
-                           const std::string& beside);
-  bool comesBeforeTexts(const TmShader& s) const {
-    return !builtIn.count(&s) || (!standardFromFiles && isOfSpecification(s.name));
-  }
-  void tellOfStandardName(const TmShader& used, const std::string& searchPath, const std::string& beside);
-  const TmShader* known(const std::string& name, TmKind kind) const {
-    const auto it = shaders.find({kind, name});
-    return it == shaders.end() ? nullptr : it->second;
-  }
-};
-
-namespace {
-
-/// Tells what is wrong with the version of a plugin's struct; empty if nothing is. A later release only appends fields
-/// (shader_api.h), so a larger struct of the same ABI starts with ours.
-template <class Versioned>
-std::string otherVersion(const Versioned* v) {
-  if (!v) return "is NULL";
-  if (v->abi == TM_SHADER_ABI && v->structBytes >= sizeof(Versioned)) return {};
-  return fmt::format(
-      "is built for shader ABI {}, {} bytes; this renderer has ABI {}, {} bytes: compile it against the headers of "
-      "this "
-      "version",
-      v->abi, v->structBytes, TM_SHADER_ABI, sizeof(Versioned));
-}
-
-/// Tells what a shader of our ABI lacks; empty if it lacks nothing.
-std::string lackOf(const TmShader& s) {
-  if (!s.name || !*s.name) return "a name";
-  if (!s.shade) return "a function";
-  if (s.kind < TM_SURFACE || s.kind > TM_IMAGER) return "a kind that there is";
-  if (s.paramCount < 0 || (s.paramCount > 0 && !s.params)) return "its parameters";
-  if (s.paramCount > 0 && s.paramBytes != sizeof(TmParamDecl))
-    return fmt::format("parameters of {} bytes each, and has them of {}", sizeof(TmParamDecl), s.paramBytes);
-  for (int32_t k = 0; k < s.paramCount; ++k) {
-    const TmParamDecl& p = s.params[k];
-    if (!p.name || p.arrayLength < 1 || TM_TYPE_OF(p.type) > TM_MATRIX)
-      return fmt::format("a name, length or type of parameter {}", k + 1);
-    if (p.role == TM_ROLE_NONE) continue;
-    const RoleInfo* role = roleInfo(p.role);
-    if (!role) return fmt::format("a role that there is of parameter \"{}\"", p.name);
-    if (role->type != TM_TYPE_OF(p.type) || role->kind != s.kind)
-      return fmt::format("a type or kind that fits the role {} of parameter \"{}\"", role->name, p.name);
-  }
-  return {};
-}
-
-}  // namespace
-
-bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin,
-                               std::vector<const TmShader*>* added) {
-  if (const std::string problem = otherVersion(library); !problem.empty())
-    return refuse(origin, "the shader library " + problem), false;
-  if (library->fault) return refuse(origin, library->fault), false;
-  for (int32_t i = 0; i < library->count; ++i) {
-    const TmShader* shader = library->shaders[i];
-    if (const std::string problem = otherVersion(shader); !problem.empty())
-      refuse(origin, fmt::format("shader number {} {}", i + 1, problem));
-    else if (const std::string lack = lackOf(*shader); !lack.empty())
-      refuse(origin, fmt::format("shader number {} lacks {}", i + 1, lack));
-    else if (shader->fault)
-      refuse(origin, fmt::format("shader \"{}\" {}", shader->name, shader->fault));
-    else if (shaders[{shader->kind, shader->name}] = shader, origins[shader] = origin; added)
-      added->push_back(shader);
-  }
-  return true;
-}
-
-std::string ShaderRegistry::Impl::heldBy(const std::string& path) const {
-  std::string out;
-  for (const TmShader* s : plugins.at(path).shaders)
-    out += fmt::format("{}{} \"{}\"", out.empty() ? "" : ", ", kindName(static_cast<TmKind>(s->kind)), s->name);
-  return out.empty() ? "no shader at all" : out;
-}
-
-// Plugins are never closed: a bound shader may outlive the registry.
-bool ShaderRegistry::Impl::load(const std::string& path) {
-  if (const auto it = plugins.find(path); it != plugins.end()) return it->second.loaded;
-  Plugin& plugin = plugins[path];
-  if (const std::string problem = inputProblem(path); !problem.empty()) {
-    refuse(path, "cannot be loaded: " + problem);
-    return false;
-  }
-  if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
-  if (!trial.works() && !untriedSaid)
-    untriedSaid = true,
-    log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
-               "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
-  noteLoadedPlugin(path);
-  const CrashNote note({"shader plugin", path.c_str(), "while plugins are loaded", nullptr, nullptr, 0});
-  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
-  const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
-  if (!function) return refuse(path, "is not a shader plugin: it does not export " TM_SHADERS_SYMBOL), false;
-  return plugin.loaded = add(function(), path, &plugin.shaders);
-}
-
-std::vector<std::string> ShaderRegistry::Impl::trustedFiles(const std::string& name, const std::string& searchPath) {
-  PluginFiles found = findPlugins(name, searchPath, trust);
-  for (const std::string& file : found.refused)
-    if (distrusted.insert(file).second) refuse(file, kPluginRefusal);
-  return std::move(found.trusted);
 }
 
 ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust, bool standardFromFiles)
@@ -203,7 +48,7 @@ bool ShaderRegistry::loadPlugin(const std::string& path) {
 
 bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::string& path) {
   const std::lock_guard lock(impl_->mutex);
-  if (file->errors() > 0) return impl_->refuse(path, "does not compile:\n" + file->messages()), false;
+  if (file->errors() > 0) return impl_->refuseText(path, "does not compile:\n" + file->messages()), false;
   impl_->texts.push_back(file);
   impl_->answers.clear();
   return impl_->add(file->library(), path);
@@ -230,7 +75,7 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
                                                const std::string& beside) {
   const RslFound found = findRslShader(name, kind, textFolders(searchPath, beside), functionsAlong(searchPath));
   const auto tell = [&](const std::string& where, const std::string& what) {
-    if (toldOf.insert(where + what).second) refuse(where, what);
+    if (toldOf.insert(where + what).second) refuseText(where, what);
   };
   if (!found.problem.empty())
     tell(found.file, (found.problem.starts_with("has no") ? "" : "does not compile:\n") + found.problem);

@@ -305,6 +305,7 @@ scene("many", requests)
 told = [t.run("many.rib", "-t", threads) for threads in ("1", "4", "4")]
 t.expect(all(r.returncode == 3 for r in told), "24 shaders, of which three do not compile: exit code 3")
 t.expect([line.split(":")[0].split("/")[-1] for line in told[0].stderr.splitlines() if "does not compile" in line] == ["many3.sl", "many10.sl", "many17.sl"], f"each is named, in the order of the scene ({told[0].stderr[:400]})")
+t.expect(told[0].stderr.count("[shader-text]") == 3, "as texts, not as plugins")
 t.expect(all(r.stderr == told[0].stderr for r in told), "with any number of threads alike")
 
 # A shader that changes between two frames of one process, which waits for the second in a pipe when the first is done.

@@ -1,0 +1,68 @@
+// What the registry of shaders keeps. Its ways to shaders are in registry.cpp, the loading of plugins and the checks of
+// what they bring in registry_plugins.cpp. Private to the registry. Threads: only with `mutex` held.
+#pragma once
+#include <map>
+#include <mutex>
+#include <set>
+#include <tuple>
+
+#include "reyes/base/plugin_trial.h"
+#include "reyes/shade/function_plugins.h"
+#include "reyes/shade/rsl_shaders.h"
+#include "reyes/shader_registry.h"
+
+namespace tomales {
+
+/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which tests hold against it.
+bool isOfSpecification(std::string_view name);
+
+struct ShaderRegistry::Impl {
+  Log& log;
+  const PluginTrust trust;
+  const bool standardFromFiles;
+  std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
+  std::map<std::pair<int, std::string>, const TmShader*> shaders;
+  struct Plugin {
+    bool loaded = false;
+    std::vector<const TmShader*> shaders;
+  };
+  std::map<std::string, Plugin> plugins;  // by path
+  PluginTrial trial;
+  bool untriedSaid = false;
+  std::set<std::string> distrusted;  // plugins that have been reported as such
+  std::set<std::string> toldOf;      // problems of shaders' texts that have been reported
+  std::vector<std::shared_ptr<const RslFile>> texts{};
+  std::set<const TmShader*> builtIn{};
+  std::map<const TmShader*, std::string> origins{};
+  std::map<const TmShader*, const TmShader*> displacements{};  ///< by the surfaces that move their points
+  std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
+  FunctionPlugins functionPlugins{log};
+
+  /// Reports that the file `origin` is not used.
+  void refuse(const std::string& origin, const std::string& problem, const char* code = "shader-plugin") {
+    const SourceLoc where{std::make_shared<const std::string>(origin), 0};
+    log.report(Severity::Missing, code, where, origin + ": " + problem);
+  }
+  void refuseText(const std::string& file, const std::string& problem) { refuse(file, problem, "shader-text"); }
+  bool add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added = nullptr);
+  bool load(const std::string& path);
+  std::vector<std::string> trustedFiles(const std::string& name, const std::string& searchPath);
+  std::string heldBy(const std::string& path) const;
+  std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
+  const TmShader* found(const std::string& name, TmKind kind, const std::string& searchPath, const std::string& beside);
+  FunctionsOfFolders functionsAlong(const std::string& searchPath);
+  const TmShader* search(const std::string& name, TmKind kind, const std::string& searchPath,
+                         const std::string& beside);
+  const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
+                           const std::string& beside);
+  bool comesBeforeTexts(const TmShader& s) const {
+    return !builtIn.count(&s) || (!standardFromFiles && isOfSpecification(s.name));
+  }
+  void tellOfStandardName(const TmShader& used, const std::string& searchPath, const std::string& beside);
+  const TmShader* known(const std::string& name, TmKind kind) const {
+    const auto it = shaders.find({kind, name});
+    return it == shaders.end() ? nullptr : it->second;
+  }
+};
+
+}  // namespace tomales
