@@ -41,10 +41,12 @@ class IcfFile {
   /// Checks that the answers of every bucket are as they were written.
   bool intact(std::string& error) const;
   uint64_t size() const { return records_->size(); }
+  uint64_t sum() const { return sum_; }  ///< Names the records and their settings.
 
  private:
   IcfFile() = default;
   std::unique_ptr<RecordFile> records_;
+  uint64_t sum_ = 0;
   IrradianceShot shot_;
 };
 

@@ -126,6 +126,9 @@ std::string driverOf(const DisplayCall& display, const Options& options, const P
 std::string fileOf(const DisplayCall& display);
 /// The name, without its folder, of a file that stands in for a picture that is not whole: a.partial.exr for a.exr.
 std::string partialName(const std::string& path);
+/// Names of texts in headers that say which picture it is: what all of it depends on, the shot that it was shaded from,
+/// and the crop window that light was gathered for (docs/formats.md).
+inline constexpr const char *kContents = "tomales:contents", *kShot = "tomales:shot", *kGathered = "tomales:gathered";
 /// Adds a named text to the header of a Display's file if its format has room for texts.
 void addHeader(DisplayCall& display, const std::string& name, const std::string& text);
 
@@ -156,6 +159,11 @@ class DisplayFile {
 };
 /// Serves MakeShadow: the file of a Display needs no change, so it is checked and copied.
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log);
+/// Puts OpenEXR pictures of crop windows of one frame together, to the file that would have been written of the whole
+/// frame, whose own crop window is `crop`: parts, channels, deep pixels and headers. Throws FileError if they are not
+/// of one frame, leave pixels out or differ where they overlap, and WriteError.
+void joinPictures(const std::vector<std::string>& tiles, const std::string& output,
+                  const std::optional<std::array<float, 4>>& crop);
 /// Writes a whole picture at once.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
 /// Colours are encoded as sRGB if `srgb` is set and the format holds integers.

@@ -145,6 +145,7 @@ std::unique_ptr<IcfFile> IcfFile::open(const std::string& path, std::string& err
   file->records_ = RecordFile::open(path, icfKind(), error);
   const auto packed = file->records_ ? file->records_->read(kShotRecord, error) : std::nullopt;
   if (!packed) return nullptr;
+  file->sum_ = checksum(*packed);
   StoredShot stored;
   if (!unpack(*packed, stored) || !consistent(stored)) {
     error = "its description is damaged";

@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -115,7 +116,7 @@ std::unique_ptr<RecordWriter> RecordWriter::create(const std::string& path, cons
   auto file = UnfinishedFile::create(
       path, unfinished == Unfinished::Removed ? UnfinishedKind::Scratch : UnfinishedKind::Resumable, error);
   if (!file) return nullptr;
-  std::unique_ptr<RecordWriter> writer(new RecordWriter(std::move(file), kind));
+  std::unique_ptr<RecordWriter> writer(new RecordWriter(path, std::move(file), kind));
   if (unfinished == Unfinished::Resumed) writer->keepWholeRecords();
   if (writer->end_ > 0 || writer->restart()) return writer;
   error = writer->error_;
@@ -195,6 +196,32 @@ bool RecordWriter::write(RecordName name, BytesView content) {
 }
 
 bool RecordWriter::finish() {
+  std::vector<uint64_t> places;
+  for (const auto& [name, offset] : offsets_) places.push_back(offset);
+  if (std::is_sorted(places.begin(), places.end())) return finishInOrder();
+  std::string why;
+  const auto sorted = create(path_, kind_, Unfinished::Removed, why);
+  if (!sorted) return fail(why);
+  if (!copyTo(*sorted) || !sorted->finishInOrder()) return fail(sorted->error());
+  discard();
+  return true;
+}
+
+bool RecordWriter::copyTo(RecordWriter& other) {
+  Bytes record;
+  for (const auto& [name, offset] : offsets_) {
+    RecordHeader h{};
+    if (!readBlock(file_->descriptor(), offset, h)) return other.fail("what was written cannot be read again");
+    record.resize(sizeof(h) + h.stored);
+    if (!readExactly(file_->descriptor(), offset, record.data(), record.size()))
+      return other.fail("what was written cannot be read again");
+    other.offsets_[name] = other.end_;
+    if (!other.append(record.data(), record.size())) return false;
+  }
+  return true;
+}
+
+bool RecordWriter::finishInOrder() {
   std::vector<DirectoryEntry> entries;
   for (const auto& [name, offset] : offsets_) entries.push_back({name, offset});
   const uint64_t directory = end_;

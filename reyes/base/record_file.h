@@ -1,9 +1,10 @@
 // Files of compressed, checksummed records, such as .dfb and .icf (docs/formats.md has the bytes).
 //   header     magic, version, schema of the contents
-//   record*    32 bytes that say its name and length, then zstd; in the order of finishing
+//   record*    32 bytes that say its name and length, then zstd; in the order of their names
 //   directory  the last record: where every other one starts
 //   trailer    where the directory starts
-// A file that is not finished may stay as NAME.part with whole records in it, also after the program is killed.
+// A file that is not finished may stay as NAME.part with whole records in it, also after the program is killed. There
+// records stand in the order of their writing, which depends on threads; a finished file has the same bytes always.
 // Every byte is under a checksum. Numbers are little-endian.
 // Threads: write() and read() may be called concurrently; records are compressed by the caller's thread.
 #pragma once
@@ -48,7 +49,9 @@ class RecordWriter {
   std::optional<Bytes> read(RecordName name) const;
   /// Returns false once writing has failed (a full disk): error() says why, and what was written stays.
   bool write(RecordName name, BytesView content);
-  /// Writes the directory and gives the file its name. Returns false on failure, and error() says why.
+  /// Puts records in the order of their names, writes the directory and gives the file its name. Where records were
+  /// written in another order they are copied, which takes room for a second file meanwhile. Returns false on failure,
+  /// and error() says why; a file that may stay does, as it was.
   bool finish();
   /// Removes all records from the file.
   bool restart();
@@ -59,12 +62,15 @@ class RecordWriter {
   uint64_t bytesWritten() const { return end_; }
 
  private:
-  RecordWriter(std::unique_ptr<UnfinishedFile> file, const RecordFileKind& kind)
-      : file_(std::move(file)), kind_(kind) {}
+  RecordWriter(std::string path, std::unique_ptr<UnfinishedFile> file, const RecordFileKind& kind)
+      : path_(std::move(path)), file_(std::move(file)), kind_(kind) {}
+  bool finishInOrder();
+  bool copyTo(RecordWriter& other);
   bool append(const void* data, size_t size);
   bool fail(const std::string& what);
   void keepWholeRecords();
 
+  const std::string path_;
   const std::unique_ptr<UnfinishedFile> file_;
   const RecordFileKind kind_;
   uint64_t end_ = 0;

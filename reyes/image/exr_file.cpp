@@ -24,6 +24,7 @@
 #include <system_error>
 
 #include "reyes/base/parallel.h"
+#include "reyes/image/exr_headers.h"
 #include "reyes/image/exr_rows.h"
 #include "reyes/pictures.h"
 
@@ -43,16 +44,16 @@ std::string layerOf(const std::string& channel) {
 }
 
 /// The channels of a picture that one part of the file holds.
-struct Part {
+struct ExrLayer {
   std::string name;
   std::vector<size_t> channels;
 };
 
-std::vector<Part> partsOf(const std::vector<std::string>& channels, bool multipart) {
-  std::vector<Part> parts;
+std::vector<ExrLayer> exrLayersOf(const std::vector<std::string>& channels, bool multipart) {
+  std::vector<ExrLayer> parts;
   for (size_t c = 0; c < channels.size(); ++c) {
     const std::string layer = multipart ? layerOf(channels[c]) : "";
-    auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.name == layer; });
+    auto part = std::find_if(parts.begin(), parts.end(), [&](const ExrLayer& p) { return p.name == layer; });
     if (part == parts.end()) part = parts.insert(part, {layer, {}});
     part->channels.push_back(c);
   }
@@ -98,7 +99,7 @@ Imf::PixelType typeOf(const FileFormat& format, const std::string& channel) {
   return format.type == SampleType::Half && !precise ? Imf::HALF : Imf::FLOAT;
 }
 
-Imf::Header headerOf(const Image& image, const FileFormat& format, const Part& part) {
+Imf::Header headerOf(const Image& image, const FileFormat& format, const ExrLayer& part) {
   const int width = image.displayWidth > 0 ? image.displayWidth : image.width;
   const int height = image.displayHeight > 0 ? image.displayHeight : image.height;
   const Imath::V2i origin(image.originX, image.originY);
@@ -106,7 +107,6 @@ Imf::Header headerOf(const Image& image, const FileFormat& format, const Part& p
                      {origin, origin + Imath::V2i(image.width - 1, image.height - 1)});
   header.pixelAspectRatio() = format.pixelAspect;
   header.compression() = compressionOf(format);
-  header.zipCompressionLevel() = kZipLevel;
   for (const size_t c : part.channels)
     header.channels().insert(image.channels[c], Imf::Channel(typeOf(format, image.channels[c])));
   if (!part.name.empty()) header.setName(part.name);
@@ -149,14 +149,15 @@ class Plane {
 
 class ExrFile : public FormatWriter {
  public:
-  ExrFile(const std::string& path, const Image& image, const FileFormat& f)
-      : shape(image), format(f), parts(partsOf(shape.channels, format.multipart)) {
+  ExrFile(const std::string& path, const Image& image, const std::vector<Imf::Header>& headers) : shape(image) {
+    for (const Imf::Header& header : headers) parts.push_back({header, {}});
+    for (Part& part : parts)
+      for (auto c = part.header.channels().begin(); c != part.header.channels().end(); ++c)
+        part.channels.push_back({static_cast<size_t>(shape.channelIndex(c.name())), c.channel().type});
     errno = 0;
     stream.open(path, std::ios::binary);
     check();
     out = std::make_unique<Imf::StdOFStream>(stream, path.c_str());
-    std::vector<Imf::Header> headers;
-    for (const Part& part : parts) headers.push_back(headerOf(shape, format, part));
     const int helpers = threadCount() > 1 ? threadCount() : 0;  // they compress; if there are none, the caller does
     if (Imf::globalThreadCount() < helpers) Imf::setGlobalThreadCount(helpers);
     file = std::make_unique<Imf::MultiPartOutputFile>(*out, headers.data(), static_cast<int>(headers.size()), false,
@@ -169,12 +170,13 @@ class ExrFile : public FormatWriter {
     for (size_t p = 0; p < parts.size(); ++p) {
       std::vector<Plane> planes;
       Imf::FrameBuffer buffer;
-      for (const size_t c : parts[p].channels) {
-        Plane& plane = planes.emplace_back(typeOf(format, shape.channels[c]), pixels);
+      planes.reserve(parts[p].channels.size());
+      for (const auto& [c, type] : parts[p].channels) {
+        Plane& plane = planes.emplace_back(type, pixels);
         for (size_t i = 0; i < pixels; ++i) plane.set(i, rows.pixels[i * channels + c]);
         buffer.insert(shape.channels[c], Imf::Slice::Make(plane.type(), plane.data(), window));
       }
-      if (format.tile > 0)
+      if (parts[p].header.hasTileDescription())
         writeTiles(static_cast<int>(p), buffer, rows.originY, rows.height);
       else
         writeRows(static_cast<int>(p), buffer, rows.height);
@@ -193,17 +195,15 @@ class ExrFile : public FormatWriter {
     const size_t row = static_cast<size_t>(shape.width);
     const ptrdiff_t back =
         static_cast<ptrdiff_t>(shape.originX) + static_cast<ptrdiff_t>(rows.y0) * static_cast<ptrdiff_t>(row);
-    for (size_t c = 0; c < channels; ++c) {
+    planes.reserve(channels);
+    for (const auto& [c, type] : parts[0].channels) {
       // one more, so that there is an end to point at
-      Plane& plane = planes.emplace_back(typeOf(format, shape.channels[c]), samples + 1);
+      Plane& plane = planes.emplace_back(type, samples + 1);
       for (size_t i = 0; i < samples; ++i) plane.set(i, rows.values[i * channels + c]);
-    }
-    for (size_t c = 0; c < channels; ++c) {
       size_t first = 0;
-      for (const unsigned count : counts) pointers[c].push_back(planes[c].at(first)), first += count;
-      buffer.insert(shape.channels[c],
-                    Imf::DeepSlice(planes[c].type(), reinterpret_cast<char*>(pointers[c].data() - back), sizeof(char*),
-                                   sizeof(char*) * row, planes[c].valueBytes()));
+      for (const unsigned count : counts) pointers[c].push_back(plane.at(first)), first += count;
+      buffer.insert(shape.channels[c], Imf::DeepSlice(type, reinterpret_cast<char*>(pointers[c].data() - back),
+                                                      sizeof(char*), sizeof(char*) * row, plane.valueBytes()));
     }
     Imf::DeepScanLineOutputPart part(*file, 0);
     part.setFrameBuffer(buffer);
@@ -218,6 +218,15 @@ class ExrFile : public FormatWriter {
   }
 
  private:
+  struct Channel {
+    size_t index;  ///< Among the channels of the picture.
+    Imf::PixelType type;
+  };
+  struct Part {
+    Imf::Header header;
+    std::vector<Channel> channels;
+  };
+
   void check() const {
     if (!stream) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category());
   }
@@ -235,27 +244,35 @@ class ExrFile : public FormatWriter {
   void writeTiles(int p, const Imf::FrameBuffer& buffer, int y0, int height) {
     Imf::TiledOutputPart part(*file, p);
     part.setFrameBuffer(buffer);
-    const int first = (y0 - shape.originY) / format.tile, last = (y0 - shape.originY + height - 1) / format.tile;
+    const int side = static_cast<int>(parts[static_cast<size_t>(p)].header.tileDescription().ySize);
+    const int first = (y0 - shape.originY) / side, last = (y0 - shape.originY + height - 1) / side;
     part.writeTiles(0, part.numXTiles() - 1, first, last);
   }
 
   const Image shape;
-  const FileFormat format;
-  const std::vector<Part> parts;
+  std::vector<Part> parts;
   std::ofstream stream;
   std::unique_ptr<Imf::StdOFStream> out;
   std::unique_ptr<Imf::MultiPartOutputFile> file;
 };
 
 std::unique_ptr<FormatWriter> openExr(const std::string& path, const Image& shape, const FileFormat& format) {
-  const std::vector<Part> parts = partsOf(shape.channels, format.multipart);
-  const bool rows =
-      parts.size() == 1 && !format.deep && format.tile == 0 && compressionOf(format) == Imf::ZIP_COMPRESSION;
-  if (rows) return openExrRows(path, shape, headerOf(shape, format, parts[0]));
-  return std::make_unique<ExrFile>(path, shape, format);
+  std::vector<Imf::Header> headers;
+  for (const ExrLayer& layer : exrLayersOf(shape.channels, format.multipart))
+    headers.push_back(headerOf(shape, format, layer));
+  return openExrOf(path, shape, std::move(headers));
 }
 
 }  // namespace
+
+std::unique_ptr<FormatWriter> openExrOf(const std::string& path, const Image& shape, std::vector<Imf::Header> headers) {
+  for (Imf::Header& header : headers) header.zipCompressionLevel() = kZipLevel;
+  const Imf::Header& first = headers.front();
+  const bool rows =
+      headers.size() == 1 && first.type() == Imf::SCANLINEIMAGE && first.compression() == Imf::ZIP_COMPRESSION;
+  if (rows) return openExrRows(path, shape, first);
+  return std::make_unique<ExrFile>(path, shape, headers);
+}
 
 const PictureFormat& exrFormat() {
   static const PictureFormat row = {

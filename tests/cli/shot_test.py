@@ -84,6 +84,12 @@ for name, text in (("direct", DIRECT), ("indirect", INDIRECT), ("occluded", OCCL
     expect_same(f"{name}: hide, gather and shade give the bits of render", f"{name}.exr", f"{name}.cached.exr")
     suite.expect(rays("cached.json") == 0, f"{name}: no ray is traced when the cache is given")
 
+suite.run("hide", "indirect.rib", "-o", "one.dfb", "-t", "1", "--bucket-size", "11", "-q")
+suite.run("gather", "one.dfb", "-o", "one.icf", "-t", "1", "-q")
+suite.run("gather", "one.dfb", "-o", "two.icf", "-t", "2", "-q")
+for one, two in (("one.dfb", "indirect.dfb"), ("one.icf", "two.icf")):
+    suite.expect((suite.folder / one).read_bytes() == (suite.folder / two).read_bytes(), f"{one} has the same bytes for any number of threads")
+
 suite.write("levels.rib", 'Attribute "trace" "int displacements" [1] "string tessellationmode" ["multiresolution"]\n' + DIRECT)
 suite.run("hide", "levels.rib", "-o", "levels.dfb", "-q")
 suite.run("shade", "levels.dfb", "-o", "levels.exr", "--stats", "levels.json", "-q")

@@ -58,6 +58,7 @@ constexpr Example kExamples[] = {
     {"compile", "  tomales compile marble.sl                  says what is wrong with it"},
     {"shadetest", "  tomales shadetest marble.sl Kd=.5 -o marble.png"},
     {"photons", "  tomales photons scene.rib -o photons       then: tomales irradiance photons -o points"},
+    {"join", "  tomales join tile_*.exr -o frame.exr"},
     {"irradiance", "  tomales irradiance photons -o points       then: tomales brickmake points -o bricks"},
     {"brickmake", "  tomales brickmake points -o bricks         then: tomales scene.rib --gi atlas --atlas bricks"},
     {"view", "  tomales view points/room.ptc -o points.png --camera scene.rib"},

@@ -6,6 +6,7 @@
 #include "reyes/app/commands/compile.h"
 #include "reyes/app/commands/import.h"
 #include "reyes/app/commands/info.h"
+#include "reyes/app/commands/join.h"
 #include "reyes/app/commands/options.h"
 #include "reyes/app/commands/shadetest.h"
 
@@ -26,6 +27,7 @@ struct Invocation {
   bool stability = false;
   std::string first, second, difference;
   InfoCommand info;
+  JoinCommand join;
   bool json = false;
 };
 

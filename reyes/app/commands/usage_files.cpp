@@ -36,6 +36,15 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = compareCommand(in.first, in.second, in.difference, in.json); });
 }
 
+void buildJoin(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("join", "Tiles of one frame to the file that the whole frame would have been");
+  addParsed(*c, "-o", in.join.output, parseNamed(".exr"), "FILE.exr", "Write here")->required();
+  addParsed(*c, "--crop", in.join.crop, parseCrop, "XMIN,XMAX,YMIN,YMAX",
+            "The window of the frame that the tiles make (default: all of it)");
+  c->add_option("TILE.exr", in.join.tiles, "OpenEXR pictures of crop windows, in any order")->required();
+  c->callback([&] { code = joinCommand(in.join); });
+}
+
 void buildCompile(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("compile", "Check shaders in the RenderMan Shading Language");
   c->add_option("SHADER.sl", in.compile.files)->required();
@@ -125,6 +134,7 @@ void addFileCommands(CLI::App& app, Invocation& in, int& code) {
   buildInfo(app, in, code);
   buildList(app, in, code);
   buildCompare(app, in, code);
+  buildJoin(app, in, code);
   buildCompile(app, in, code);
   buildShadetest(app, in, code);
   buildCatrib(app, in, code);

@@ -8,6 +8,7 @@
 #include "reyes/app/build_info.h"
 #include "reyes/base/file_stamp.h"
 #include "reyes/base/search_path.h"
+#include "reyes/camera.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
 #include "reyes/state_fields.h"
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kContents = "tomales:contents", *kVersionOf = "tomales:version", *kCommit = "tomales:commit", *kScene = "tomales:scene",
+constexpr const char *kVersionOf = "tomales:version", *kCommit = "tomales:commit", *kScene = "tomales:scene",
                      *kFrame = "tomales:frame", *kSettings = "tomales:settings";
 
 /// The options of the command line that pictures depend on and that no option of the scene keeps, where they are not
@@ -77,10 +78,17 @@ uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
   return sum;
 }
 
-bool holds(const DisplayCall& display, const std::string& contents) {
+bool holds(const DisplayCall& display, const std::string& contents, const PixelRect& crop) {
   std::string error;
   const auto picture = openPicture(fileOf(display), error);
-  return picture && picture->text(kContents) == contents;
+  if (!picture || picture->text(kContents) != contents) return false;
+  const PictureShape& s = picture->shape();
+  return s.x == crop.x0 && s.y == crop.y0 && s.width == crop.width() && s.height == crop.height();
+}
+
+void addToPictures(Options& options, const char* name, const std::string& text, const RenderSettings& settings) {
+  for (DisplayCall& d : options.displays)
+    if (driverOf(d, options, pluginTrust(settings)).empty()) addHeader(d, name, text);
 }
 
 }  // namespace
@@ -93,6 +101,7 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
   options.bucketWidth = usual.bucketWidth, options.bucketHeight = usual.bucketHeight;
   options.bucketOrder = usual.bucketOrder;
   options.searchPaths.clear(), options.user.clear();  // worldSum() has what counts of them
+  options.cropWindow = usual.cropWindow;              // pictures have windows of their own
   for (DisplayCall& d : options.displays) d.where = {}, d.name.clear();
   Motion camera = scene.cameraFromWorld;
   const std::string version = std::string(kVersion) + sourceCommit(), text = settingsText(settings);
@@ -101,12 +110,29 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
 }
 
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {
-  for (DisplayCall& d : options.displays) {
-    if (!driverOf(d, options, pluginTrust(settings)).empty()) continue;
-    addHeader(d, kVersionOf, kVersion), addHeader(d, kCommit, sourceCommit()), addHeader(d, kScene, sceneText(settings));
-    addHeader(d, kFrame, std::to_string(options.frame)), addHeader(d, kSettings, settingsText(settings));
-    if (!contents.empty()) addHeader(d, kContents, contents);
-  }
+  addToPictures(options, kVersionOf, kVersion, settings), addToPictures(options, kCommit, sourceCommit(), settings);
+  addToPictures(options, kScene, sceneText(settings), settings);
+  addToPictures(options, kFrame, std::to_string(options.frame), settings);
+  addToPictures(options, kSettings, settingsText(settings), settings);
+  if (!contents.empty()) addToPictures(options, kContents, contents, settings);
+}
+
+std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<SourceFile>& edits) {
+  uint64_t sum = irradiance;
+  int world = shot.world;
+  uint32_t seed = shot.seed;
+  for (const auto* files : {&shot.sources, &edits})
+    for (const SourceFile& file : *files) sum = contentSum(sum, uint64_t{file.sum});
+  return fmt::format("{:016x}", contentSum(sum, world, seed));
+}
+
+void describeShot(Options& options, const std::string& sum, const RenderSettings& settings) {
+  addToPictures(options, kShot, sum, settings);
+}
+
+void describeGather(Options& options, const RenderSettings& settings) {
+  if (options.cropWindow != Options().cropWindow)
+    addToPictures(options, kGathered, fmt::format("{}", fmt::join(options.cropWindow, ",")), settings);
 }
 
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log) {
@@ -121,7 +147,7 @@ bool isFinished(const Options& options, const std::string& contents, const Rende
     if (isFile) addHeader(described, kContents, contents);
     if (described.params.size() == d.params.size())
       return rendered(d.where, "\"" + d.name + "\" has no header that tells what it holds");
-    if (!holds(d, contents)) return false;
+    if (!holds(d, contents, Camera(options).crop())) return false;
   }
   return true;
 }

@@ -2,6 +2,7 @@
 // OpenEXR alone has room for it (docs/displays.md).
 #pragma once
 #include "reyes/app/settings.h"
+#include "reyes/dfb.h"
 #include "reyes/scene.h"
 #include "reyes/shader_registry.h"
 
@@ -9,11 +10,20 @@ namespace tomales {
 
 /// Names what the frame's pictures will show: a checksum of the scene, of the size and time of the files that its
 /// shaders are made of and name, and of the settings that pictures depend on. Two frames of one checksum have the same
-/// pixels. Empty if procedurals are unopened or files of light are given, because nobody knows what they will bring.
+/// pixels; the crop window is not in it. Empty if procedurals are unopened or files of light are given, because nobody
+/// knows what they will bring.
 std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings);
 
 /// Adds program, scene, frame, settings and, unless it is empty, contents to the headers of the frame's pictures.
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings);
+
+/// Names what a picture of a shot depends on beside settings: its RIB files, `irradiance`, which is the sum of the
+/// cache that it is shaded with, and the files of edits.
+std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<SourceFile>& edits);
+void describeShot(Options& options, const std::string& sum, const RenderSettings& settings);
+/// Says, in the headers of a crop, that light was gathered for this crop alone: beside another such crop there is a
+/// seam.
+void describeGather(Options& options, const RenderSettings& settings);
 
 /// Do all files of the frame's Displays hold these contents? Formats without such headers cannot tell, which is
 /// reported, and neither can display drivers.

@@ -7,6 +7,7 @@
 #include "reyes/app/frame/bucket_file.h"
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/tile_store.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/process.h"
@@ -95,6 +96,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
   checkDisplays(scene.options, log);
   FrameJob job(scene, shaders, settings, stats, log);
   const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
+  if (gathers) describeGather(scene.options, settings);
   if (!settings.bakedFolder.empty() && !gathers && !job.method().usesBaked)
     log.report(Severity::Warning, "baked-unused", {},
                "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "reyes/app/frame/frame_shaders.h"
+#include "reyes/app/frame/hide.h"
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
@@ -127,6 +128,8 @@ std::optional<DeepTile> ShotJob::load(size_t index) {
 void ShotJob::shadePicture() {
   if (!displaysHaveFolders(shot_.scene.options, pluginTrust(settings_), log_)) return;
   checkDisplays(shot_.scene.options, log_);
+  describeShot(shot_.scene.options, sumOfShot(shot_, irradiance_ ? irradiance_->sum() : 0, sourcesOf(settings_.edits)),
+               settings_);
   prepareLight();
   const auto load = [this](size_t index) { return this->load(index); };
   if (!job_->gathers() || (irradiance_ && !settings_.appendIrradiance)) {

@@ -62,6 +62,27 @@ TEST_F(RecordFiles, GiveBackWhatWasWrittenAndLeaveNoTemporaryFile) {
   EXPECT_FALSE(fs::exists(path_ + ".part"));
 }
 
+TEST_F(RecordFiles, HaveTheSameBytesInWhateverOrderRecordsWereWritten) {
+  writeThree();
+  const std::string written = content();
+  {
+    const auto w = writer(Unfinished::Removed);
+    for (const uint32_t i : {0u, 1u, 2u}) w->write({7, i}, bytesOf(std::string(40, static_cast<char>('a' + i))));
+    ASSERT_TRUE(w->finish());
+  }
+  EXPECT_EQ(content(), written);
+  fs::remove(path_);
+  { writer()->write({7, 1}, bytesOf(std::string(40, 'b'))); }
+  {
+    const auto resumed = writer(Unfinished::Resumed);
+    ASSERT_TRUE(resumed->has({7, 1}));
+    for (const uint32_t i : {2u, 0u}) resumed->write({7, i}, bytesOf(std::string(40, static_cast<char>('a' + i))));
+    ASSERT_TRUE(resumed->finish());
+  }
+  EXPECT_EQ(content(), written);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
 TEST_F(RecordFiles, NoticeEveryFlippedByte) {
   writeThree();
   const std::string good = content();
