@@ -25,6 +25,8 @@ class CloudFiles final : public CloudServices {
   bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) override;
   bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) override;
 
+  /// Has anything been baked yet?
+  bool hasBaked() const;
   /// Writes all baked points as FILE.ptc. The points of a file are sorted by their contents, so that no bit depends on
   /// threads or buckets.
   void write(Log& log);
@@ -48,7 +50,7 @@ class CloudFiles final : public CloudServices {
                                   const Make& make);
 
   const std::string searchPath_, outputRoot_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::string, Baked> baked_;
   std::map<std::tuple<std::string, int, float>, Opened<BrickMap>>
       opened_;  ///< The keys are file, estimator and greatest distance.

@@ -6,6 +6,7 @@
 #include "gi/gather/hit_radiance.h"
 #include "gi/method.h"
 #include "raytrace/emitters.h"
+#include "reyes/base/kept_work.h"
 #include "reyes/deep.h"
 
 #include <atomic>
@@ -66,6 +67,9 @@ class GiServices final : public ShadeServices {
   /// makes FOLDER/NAME.bkm from them, for GiMode::Baked. `world`: worldSum() of the scene. Throws FileError.
   void bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,
             const MapNames& names, uint64_t world) const;
+
+  /// Has the gather pass keep what it has made, and take over what an interrupted run has. Null: nothing is kept.
+  void keepWork(KeptWork* kept);
 
   /// Sets the maps that gather rays look up in GiMode::Atlas, before the gather pass, and shaded points in
   /// GiMode::Baked.

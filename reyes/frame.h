@@ -36,7 +36,8 @@ struct TileSink {
 
 /// Provides the tiles for the shaders and receives them, from any thread.
 struct ShadeSteps {
-  std::function<bool(size_t index, DeepTile& tile)> load;   ///< Returns false if the tile is to be skipped.
+  std::function<bool(size_t index, DeepTile& tile)> load;   ///< Returns false if the tile is to be skipped. One
+                                                            ///< that has colours keeps them.
   std::function<void(size_t index, DeepTile&& tile)> take;  ///< The tile is shaded, and its points are still there.
 };
 

@@ -226,6 +226,11 @@ bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurfaceOptions& give
   return true;
 }
 
+bool CloudFiles::hasBaked() const {
+  const std::lock_guard lock(mutex_);
+  return !baked_.empty();
+}
+
 void CloudFiles::write(Log& log) {
   for (const auto& [file, baked] : baked_) {
     const SourceLoc where{std::make_shared<const std::string>(file), 0};

@@ -90,13 +90,15 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
 }
 
 std::vector<IrradianceRecord> BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
-                                                      const GatherSettings& settings, const Run& run) const {
-  std::vector<IrradianceRecord> records(points.size());
-  parallelFor(points.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end && !run.isCancelled(); ++i)
-      records[i] = gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats);
-  });
-  return records;
+                                                      const GatherSettings& settings, const Run& run) {
+  RecordSlice made;
+  slices_.make(
+      points,
+      {.gather = [&](size_t i,
+                     BrightFind*) { return gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats); },
+       .isCancelled = [&] { return run.isCancelled(); }},
+      made);
+  return std::move(made.records);
 }
 
 void BounceCaches::insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records) {
@@ -133,6 +135,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   levels_.clear();
   light_.assign(1, 0.0);
   points_.clear();
+  slices_ = RecordSlices(run.kept, KeptKind::BounceRecords);
   float distance = 0;
   for (const GatherPoint& p : from) distance += glm::length(p.position) / static_cast<float>(from.size());
   leastDistance_ = 0.5f * distance;

@@ -4,6 +4,7 @@
 #pragma once
 #include <atomic>
 
+#include "gi/frame/record_slices.h"
 #include "gi/gather.h"
 #include "gi/services.h"
 
@@ -14,6 +15,7 @@ class BounceCaches {
   struct Run {
     Stats& stats;
     const std::atomic<bool>* cancelled;  ///< May be null.
+    KeptWork* kept;                      ///< May be null.
     bool isCancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
   };
   /// Fills levels for `bounces` of light. `gather` gives the settings of the points that look them up. Records lie
@@ -31,7 +33,7 @@ class BounceCaches {
   void cover(const RayTools& tools, const std::vector<GatherPoint>& candidates, const GatherSettings& gather,
              const Run& run);
   std::vector<IrradianceRecord> recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
-                                          const GatherSettings& gather, const Run& run) const;
+                                          const GatherSettings& gather, const Run& run);
   void insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records);
   bool settled() const;
   float pixelSize(const Camera& camera, const vec3& P) const;
@@ -40,6 +42,7 @@ class BounceCaches {
   std::vector<double> light_;            ///< Sum of the records of each level.
   std::vector<GatherPoint> points_;      ///< The points of the records, the same on all levels.
   float leastDistance_ = 0;
+  RecordSlices slices_{nullptr, KeptKind::BounceRecords};
 };
 
 }  // namespace tomales

@@ -5,6 +5,8 @@
 
 #include "gi/frame/frame_survey.h"
 #include "gi/frame/occluder_search.h"
+#include "gi/frame/record_fields.h"
+#include "gi/frame/record_slices.h"
 #include "gi/frame/state.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
@@ -16,7 +18,6 @@ namespace {
 constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in the order of a hash
 constexpr int kGatherPhases = kLatticePhases + kLastPhases;
 constexpr int kPilotPhases = 3;  // bright spots are learnt from the records of these phases
-constexpr size_t kPointsPerSlice = 256;
 // With so many rays or more, all records have the same directions: what those miss changes little between records, and
 // is no more than other directions miss (docs/decisions/0095).
 constexpr int kManyRays = 512;
@@ -32,11 +33,17 @@ struct Site {
   int x, y;  ///< The pixel that sees it.
 };
 
+template <class A>
+void fields(A& a, Site& x) {
+  auto& [point, cache, pixelX, pixelY] = x;
+  each(a, point, cache, pixelX, pixelY);
+}
+
 /// It goes over the tiles once in every phase, so that they need not be in memory.
 class GatherPass {
  public:
   GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles)
-      : state_(state), layout_(layout), tiles_(tiles) {}
+      : state_(state), layout_(layout), tiles_(tiles), slices_(state.kept, KeptKind::GatherRecords) {}
 
   void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
            const std::function<void(int stride)>& covered) {
@@ -141,13 +148,14 @@ class GatherPass {
       gather.samples = std::max(gather.samples, c.plan.gather.samples);
       gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
     }
-    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_});
+    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_, state_.kept});
   }
 
   // Returns the points of this phase that no earlier record serves, in the order of pixels, whatever the buckets are. A
   // point that several pixels or buckets see counts where it comes first.
   std::vector<Site> uncovered() {
     std::vector<Site> sites;
+    if (takeSites(sites)) return sites;
     std::mutex merging;
     parallelFor(layout_.tileCount(), 1, [&](size_t t, size_t) {
       const auto tile = isCancelled() ? nullptr : tiles_(t);
@@ -159,10 +167,23 @@ class GatherPass {
     });
     std::stable_sort(sites.begin(), sites.end(),
                      [](const Site& a, const Site& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
-    std::erase_if(sites, [&](const Site& s) {
-      return !sites_[s.cache].insert(static_cast<uint64_t>(s.point.group) << 32 | s.point.key).second;
-    });
+    std::erase_if(sites, [&](const Site& s) { return !sites_[s.cache].insert(keyOf(s)).second; });
+    if (state_.kept && !isCancelled()) state_.kept->keep(KeptKind::GatherSites, static_cast<size_t>(phase_), sites);
     return sites;
+  }
+
+  static uint64_t keyOf(const Site& s) { return static_cast<uint64_t>(s.point.group) << 32 | s.point.key; }
+
+  // Takes over what an interrupted run has found. Points that were seen in this phase are not marked: no later phase
+  // asks about them.
+  bool takeSites(std::vector<Site>& sites) {
+    const auto fits = [&](const Site& s) {
+      return s.cache < sites_.size() && static_cast<size_t>(s.point.group) < cachesOfGroup_.size();
+    };
+    if (!state_.kept || !state_.kept->take(KeptKind::GatherSites, static_cast<size_t>(phase_), sites)) return false;
+    if (!std::ranges::all_of(sites, fits)) return sites.clear(), false;
+    for (const Site& s : sites) sites_[s.cache].insert(keyOf(s));
+    return true;
   }
 
   void collectTile(size_t t, const DeepTile& tile, std::vector<Site>& out) {
@@ -250,18 +271,22 @@ class GatherPass {
   size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records,
                      std::vector<BrightFind>& finds) {
     const bool isFirst = phase_ >= kPilotPhases || !finds.empty();
-    size_t done = 0;
-    for (; done < sites.size() && !isCancelled(); done = std::min(done + kPointsPerSlice, sites.size())) {
-      if (isFirst) report(static_cast<float>(done) / static_cast<float>(sites.size()));
-      const size_t count = std::min(kPointsPerSlice, sites.size() - done);
-      parallelFor(count, 1, [&](size_t begin, size_t end) {
-        for (size_t i = done + begin; i < done + end; ++i)
-          if (!isCancelled() && (isFirst || isPilotRecord(sites[i].cache)))
-            records[i] = gatherAt(sites[i], finds.empty() || !isLight(sites[i].cache) ? nullptr : &finds[i]);
-      });
-      if (isCancelled()) break;  // some records of this slice are missing
-    }
-    return done;
+    std::vector<size_t> asked;
+    std::vector<GatherPoint> points;
+    for (size_t i = 0; i < sites.size(); ++i)
+      if (isFirst || isPilotRecord(sites[i].cache)) asked.push_back(i), points.push_back(sites[i].point);
+    RecordMaking making{!finds.empty(),
+                        [&](size_t k, BrightFind* find) {
+                          const Site& site = sites[asked[k]];
+                          return gatherAt(site, isLight(site.cache) ? find : nullptr);
+                        },
+                        [this] { return isCancelled(); }};
+    if (isFirst) making.progress = [this](float share) { report(share); };
+    RecordSlice made;
+    const size_t done = slices_.make(points, making, made);
+    for (size_t k = 0; k < asked.size(); ++k) records[asked[k]] = made.records[k];
+    if (!finds.empty()) finds = std::move(made.finds);  // then all were asked
+    return done < asked.size() ? asked[done] : sites.size();
   }
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
@@ -284,6 +309,7 @@ class GatherPass {
   GiState& state_;
   const DeepFrame& layout_;
   const TileReader& tiles_;
+  RecordSlices slices_;
   const RayTools* tools_ = nullptr;
   std::vector<std::vector<size_t>> cachesOfGroup_;
   std::vector<float> unseenDisplacementOfGroup_;  ///< Displacement that rays do not see, in current space.

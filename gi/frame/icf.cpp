@@ -1,19 +1,12 @@
 #include "gi/icf.h"
 
+#include "gi/frame/record_fields.h"
 #include "reyes/base/pack.h"
 
 namespace tomales {
 
 // Found by the structures' namespace, so they cannot stand in the unnamed one. The structured bindings stop the
 // compiler at a structure that has gained a field which its list lacks.
-template <class A>
-void fields(A& a, IrradianceRecord& x) {
-  auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-         noise, limit, pixelSize, unseenDisplacement] = x;
-  each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-       noise, limit, pixelSize, unseenDisplacement);
-}
-
 template <class A>
 void fields(A& a, OcclusionQuery& x) {
   auto& [samples, maxDistance, bias, falloff, falloffMode, maxVariation, subset, excludeSubset, sides] = x;

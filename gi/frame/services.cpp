@@ -38,6 +38,8 @@ void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
   if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
 }
 
+void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }
+
 void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,
                       const MapNames& names, uint64_t world) const {
   bakeLight(*impl_, layout, tiles, folder, names, world);

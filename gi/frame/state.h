@@ -21,6 +21,7 @@ struct GiState {
   BounceCaches bounces{};                                ///< Written by fillCaches().
   /// Queries of each group; written by learnOcclusionQueries() alone.
   mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};
+  KeptWork* kept = nullptr;                                  ///< Null if nothing is kept for a later run.
   bool cachesGiven = false;                                  ///< The caches were not gathered for this very frame.
   std::optional<PixelRect> anew{};                           ///< Pixels whose given records have been taken out.
   AtlasSource atlasSource{};                                 ///< May be empty.

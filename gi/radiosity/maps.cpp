@@ -8,6 +8,27 @@
 
 namespace tomales {
 
+template <class A>
+void fields(A& a, BakedTexel& x) {
+  auto& [radiance, coverage] = x;
+  each(a, radiance, coverage);
+}
+
+namespace {
+
+/// Bakes a run of texels, or takes over what an interrupted run has baked.
+std::vector<BakedTexel> keptTexels(const RadiosityBake& bake, std::span<const RadiosityChart> charts,
+                                   const TexelRun& run, size_t index) {
+  KeptWork* kept = bake.settings.kept;
+  std::vector<BakedTexel> out;
+  if (kept && kept->take(KeptKind::RadiosityTexels, index, out) && out.size() == run.count) return out;
+  out = bakeTexels(bake, charts, run);
+  if (kept) kept->keep(KeptKind::RadiosityTexels, index, out);
+  return out;
+}
+
+}  // namespace
+
 int RadiosityChart::levels() const {
   int n = 1;
   for (int size = std::max(width, height); size > 1; size /= 2) ++n;
@@ -93,7 +114,7 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
   parallelFor(runs.size(), 1, [&](size_t r, size_t) {
     throwIfStopped();
     std::vector<RadiosityChart>& of = surfaces_[static_cast<size_t>(runs[r].object)].side(runs[r].back);
-    const std::vector<BakedTexel> baked = bakeTexels(bake, of, runs[r]);
+    const std::vector<BakedTexel> baked = keptTexels(bake, of, runs[r], r);
     size_t k = 0;
     forEachTexel(of, runs[r], [&](uint32_t patch, size_t t) {
       of[patch].texels[t] = baked[k].radiance, of[patch].coverage[t] = baked[k].coverage, ++k;

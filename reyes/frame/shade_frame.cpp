@@ -62,7 +62,7 @@ bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const 
     if (isCancelled()) return;
     DeepTile tile;
     if (steps.load(tiles[i], tile)) {
-      shadeTile(tile, scene, shading, context);
+      if (tile.shaded.empty()) shadeTile(tile, scene, shading, context);
       if (isCancelled()) return;
       steps.take(tiles[i], std::move(tile));
     }

@@ -20,7 +20,8 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
   c->add_flag("--resume", in.render.resume,
-              "Keep finished buckets beside the picture until it is written, and use those of an interrupted run");
+              "Keep what is hidden, gathered and shaded beside the picture until it is written, and use that of an "
+              "interrupted run");
   c->add_flag("--skip-finished", in.render.skipFinished,
               "Leave out frames whose pictures hold what would be rendered, by their OpenEXR headers");
   c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")

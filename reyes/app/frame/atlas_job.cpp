@@ -78,7 +78,8 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading) 
 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    const AtlasProgress& progress, Stats& stats, Log& log) {
+                                                    const AtlasProgress& progress, KeptWork* kept, Stats& stats,
+                                                    Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene, shading);
   const std::string given = atlasFolder(settings, shading);
   const bool points = asksPoints(settings, shading);
@@ -89,8 +90,8 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
   }
   std::optional<TemporaryFolder> temporary;  // an open map keeps its file readable
   try {
-    if (given.empty() || points) temporary.emplace(fs::temp_directory_path());
-    const fs::path folder = temporary ? temporary->path() : fs::path(given);
+    if (points || (given.empty() && !kept)) temporary.emplace(fs::temp_directory_path());
+    const fs::path folder = temporary ? temporary->path() : given.empty() ? kept->folder() : fs::path(given);
     const MapNames names = mapNames(scene, shading, atlas);
     makeAtlasFolder(folder);
     std::optional<FolderLock> lock;

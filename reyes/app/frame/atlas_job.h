@@ -18,7 +18,8 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading);
 /// reported.
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    const AtlasProgress& progress, Stats& stats, Log& log);
+                                                    const AtlasProgress& progress, KeptWork* kept, Stats& stats,
+                                                    Log& log);
 
 /// Opens the light of settings.bakedFolder, for GiMode::Baked. Returns null after an error, which has been reported.
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,

@@ -96,9 +96,10 @@ void FrameJob::prepareRays() {
 void FrameJob::prepareRays(RaySource rays) {
   raySource_ = std::move(rays);
   services_ = std::make_unique<GiServices>(scene_, camera_, raySource_, *shading_, giSettings(), stats_);
+  services_->keepWork(kept_);
   shading_->setServices(services_.get());
   setLightSources(*services_, *method_,
-                  {raySource_, scene_, *shading_, camera_, settings_, lightProgress(), stats_, log_});
+                  {raySource_, scene_, *shading_, camera_, settings_, lightProgress(), kept_, stats_, log_});
 }
 
 GiSettings FrameJob::giSettings() const {
@@ -167,10 +168,15 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
     };
     const ShadeSteps steps{[&](size_t index, DeepTile& tile) {
                              auto loaded = load(index);
-                             if (loaded) tile = std::move(*loaded);
-                             return loaded.has_value();
+                             if (!loaded) return false;
+                             tile = std::move(*loaded);
+                             takeShaded(kept_, index, tile);
+                             return true;
                            },
-                           [&](size_t index, DeepTile&& tile) { place(index, std::move(tile), put); }};
+                           [&](size_t index, DeepTile&& tile) {
+                             if (!cut) keepShaded(index, tile);
+                             place(index, std::move(tile), put);
+                           }};
     const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())),
                                cut ? nullptr : &interrupted(), settings_.seed};
     complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
@@ -192,11 +198,13 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
                         [&](size_t index, DeepTile&& tile) {
                           keep(index, tile);
                           const TurnsTimer::Turn turn(timer);
-                          tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+                          if (!takeShaded(kept_, index, tile))
+                            tomales::shadeTile(tile, scene_, *shading_, shadeContext());
                           if (interrupted()) {  // as shadeTiles() does
                             dropped = true;
                             return;
                           }
+                          keepShaded(index, tile);
                           place(index, std::move(tile), put);
                         },
                         find};

@@ -2,6 +2,7 @@
 // asks for them.
 #pragma once
 #include "gi/clouds.h"
+#include "reyes/app/frame/kept_frame.h"
 #include "reyes/app/settings.h"
 #include "reyes/app/watch/progress.h"
 #include "reyes/base/stats.h"
@@ -24,6 +25,9 @@ class FrameJob {
   void openAll();
   /// Hides all buckets and opens what it needs. Returns false if it was interrupted.
   bool hide(const DeepFrame& layout, const TileSink& sink);
+  /// Keeps what is gathered and shaded for a later run, and takes over what an interrupted one has. Call it before rays
+  /// are prepared. Null: nothing is kept.
+  void keepWork(KeptWork* kept) { kept_ = kept; }
   /// Prepares rays against the scene itself.
   void prepareRays();
   /// Prepares rays against what `rays` provides when the first ray is wanted: for scenes without geometry.
@@ -61,6 +65,11 @@ class FrameJob {
   void open(const std::function<bool(const Attributes&)>& wanted);
   int referenceLightSamples() const;
   ShadeContext shadeContext() const;
+  /// Keeps the colours of a tile that is shaded as the finished picture has it. What shaders bake is lost with its
+  /// tile, so a tile stays to be shaded again once anything has been baked.
+  void keepShaded(size_t index, const DeepTile& tile) const {
+    if (!clouds_.hasBaked()) tomales::keepShaded(kept_, index, tile);
+  }
   /// Puts a shaded tile where the rows of the picture find it.
   void place(size_t index, DeepTile&& tile, const TilePlace& put) const;
   void finish(DeepFrame& frame, const TileFill& fill);
@@ -75,6 +84,7 @@ class FrameJob {
   const Camera camera_;
   ProgressMeter meter_;
   CloudFiles clouds_;
+  KeptWork* kept_ = nullptr;
   std::unique_ptr<ShadingSystem> shading_;
   const GiMethod* method_ = nullptr;  ///< The method that the lights ask for, once they are bound.
   std::unique_ptr<RayScene> rays_;

@@ -10,7 +10,7 @@ void setAtlas(GiServices& services, const FrameOfLight& frame) {
   services.setAtlasSource([frame]() -> std::unique_ptr<const IrradianceAtlas> {
     const RayTools* tools = frame.rays();
     if (!tools) return nullptr;
-    return prepareAtlas(tools->rays->scene(), *tools->rays, *tools->shading, frame.settings, frame.progress,
+    return prepareAtlas(tools->rays->scene(), *tools->rays, *tools->shading, frame.settings, frame.progress, frame.kept,
                         frame.stats, frame.log);
   });
 }
@@ -19,7 +19,7 @@ void setRadiosity(GiServices& services, const FrameOfLight& frame) {
   services.setHitRadianceSource([frame]() -> std::unique_ptr<const HitRadiance> {
     const RayTools* tools = frame.rays();
     if (!tools) return nullptr;
-    return prepareRadiosity(*tools, frame.camera, frame.settings, frame.progress, frame.stats, frame.log);
+    return prepareRadiosity(*tools, frame.camera, frame.settings, frame.progress, frame.kept, frame.stats, frame.log);
   });
 }
 

@@ -82,12 +82,13 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
 
 std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
                                                     const RenderSettings& settings,
-                                                    const std::function<void(float)>& progress, Stats& stats,
-                                                    Log& log) {
+                                                    const std::function<void(float)>& progress, KeptWork* kept,
+                                                    Stats& stats, Log& log) {
   const StageTimer timer(stats, "radiosity");
   const Scene& scene = tools.rays->scene();
   RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
   radiosity.progress = progress;
+  radiosity.kept = kept;
   if (const std::string folder = atlasFolder(settings, *tools.shading); !folder.empty())
     return bricksIn(folder, tools, camera, radiosity, settings, stats, log);
   std::unique_ptr<const RadiosityMaps> maps;

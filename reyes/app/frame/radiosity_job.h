@@ -12,6 +12,7 @@ namespace tomales {
 /// the progress of baking.
 std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
                                                     const RenderSettings& settings,
-                                                    const std::function<void(float)>& progress, Stats& stats, Log& log);
+                                                    const std::function<void(float)>& progress, KeptWork* kept,
+                                                    Stats& stats, Log& log);
 
 }  // namespace tomales

@@ -107,6 +107,8 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
 
   if (streams || given || settings.resume) job.openAll();
   BucketFile file(scene, layout, world, settings, log);
+  const std::unique_ptr<KeptWork> kept = keptWorkOf(scene, shaders, layout, settings, log);
+  job.keepWork(kept.get());
   const std::function<std::optional<DeepTile>(size_t)> find = [&](size_t i) { return file.tile(i); };
   if (streams || given) job.prepareRays();
   if (given && job.services() && !useIrradiance(scene, settings, job, log)) return;
@@ -142,7 +144,9 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
                  streams ? "the picture was made row by row, and the buckets of earlier rows were dropped"
                          : fmt::format("{} of {} buckets rested in a file", file.spilled(), layout.tileCount()),
                  stats, log);
-  if (!interrupted() && log.worst() != Severity::Output) file.forget();
+  if (interrupted() || log.worst() == Severity::Output) return;
+  file.forget();
+  if (kept) kept->forget();
 }
 
 }  // namespace tomales

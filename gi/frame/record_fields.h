@@ -1,0 +1,34 @@
+// Private to gi: what files keep of a record, of the light that its rays found, and of the point that it is made at.
+#pragma once
+#include "gi/gather.h"
+#include "reyes/base/pack.h"
+
+namespace tomales {
+
+template <class A>
+void fields(A& a, IrradianceRecord& x) {
+  auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
+         noise, limit, pixelSize, unseenDisplacement] = x;
+  each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
+       noise, limit, pixelSize, unseenDisplacement);
+}
+
+template <class A>
+void fields(A& a, BrightHit& x) {
+  auto& [position, radiance, normal] = x;
+  each(a, position, radiance, normal);
+}
+
+template <class A>
+void fields(A& a, BrightFind& x) {
+  auto& [irradiance, hits] = x;
+  each(a, irradiance, hits);
+}
+
+template <class A>
+void fields(A& a, GatherPoint& x) {
+  auto& [group, position, normal, key, pixelSize, edgeLength, drift, time] = x;
+  each(a, group, position, normal, key, pixelSize, edgeLength, drift, time);
+}
+
+}  // namespace tomales

@@ -1,0 +1,40 @@
+// Private to gi: makes records at many points in parallel, slice by slice, and takes over the slices that an
+// interrupted run has made (KeptWork). All slices of a frame have the same order in every run, so their number names
+// them.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "gi/gather.h"
+#include "reyes/base/kept_work.h"
+
+namespace tomales {
+
+/// Records, and the bright light that they have found if it was searched.
+struct RecordSlice {
+  std::vector<IrradianceRecord> records;
+  std::vector<BrightFind> finds;
+};
+
+struct RecordMaking {
+  bool findsLight = false;  ///< `gather` gets a place for the bright light.
+  std::function<IrradianceRecord(size_t point, BrightFind* find)> gather;  ///< Called by any thread.
+  std::function<bool()> isCancelled;
+  std::function<void(float)> progress{};  ///< May be empty. Called by any thread.
+};
+
+class RecordSlices {
+ public:
+  /// kept: may be null.
+  RecordSlices(KeptWork* kept, KeptKind kind) : kept_(kept), kind_(kind) {}
+  /// Makes a record at every point, in the order of the points. Returns how many of the first records are there: fewer
+  /// than there are points if it was cancelled.
+  size_t make(const std::vector<GatherPoint>& points, const RecordMaking& making, RecordSlice& out);
+
+ private:
+  KeptWork* kept_;
+  KeptKind kind_;
+  size_t made_ = 0;  ///< Slices so far.
+};
+
+}  // namespace tomales

@@ -1,0 +1,64 @@
+// What a run has finished of its dear work, in a file beside the picture, so that a later run takes it over (--resume).
+// Results are kept by name, as soon as they are there, and survive whatever ends the program.
+// Threads: take() and keep() may be called concurrently.
+#pragma once
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "reyes/base/log.h"
+#include "reyes/base/pack.h"
+
+namespace tomales {
+
+/// Everything that is kept; the second number of a name counts results of its kind.
+enum class KeptKind : uint32_t { Identity, GatherSites, GatherRecords, BounceRecords, RadiosityTexels, ShadedTile };
+
+class KeptWork {
+ public:
+  /// `identity` names everything that the results depend on: what was kept under another one is dropped. The file is
+  /// called PATH.part. Returns null if it cannot be written, which is reported.
+  static std::unique_ptr<KeptWork> create(const std::string& path, const std::string& identity, Log& log);
+
+  bool has(KeptKind kind, size_t index) const { return records_->has(nameOf(kind, index)); }
+  /// Sets `out` to a result of an earlier run or of this one. Returns false if there is none.
+  template <class T>
+  bool take(KeptKind kind, size_t index, T& out) const {
+    const auto bytes = records_->read(nameOf(kind, index));
+    uint64_t schema = 0;
+    Unpacker unpacker{bytes ? BytesView(*bytes) : BytesView()};
+    field(unpacker, schema);
+    if (unpacker.damaged || schema != schemaOf<T>()) return false;
+    T result{};
+    field(unpacker, result);
+    if (unpacker.damaged || !unpacker.bytes.empty()) return false;
+    out = std::move(result);
+    return true;
+  }
+  template <class T>
+  void keep(KeptKind kind, size_t index, const T& result) {
+    Packer packer;
+    uint64_t schema = schemaOf<T>();               // builds whose structures differ do not read each other's results
+    each(packer, schema, const_cast<T&>(result));  // packing changes nothing
+    write(nameOf(kind, index), packer.bytes);
+  }
+  /// PATH.maps, a folder for maps that a method of light makes in files. It is there after the first call.
+  std::filesystem::path folder();
+  /// Tells that the picture is written: nothing is left to resume.
+  void forget();
+
+ private:
+  KeptWork(const std::string& path, std::unique_ptr<RecordWriter> records, Log& log)
+      : folder_(path + ".maps"), records_(std::move(records)), log_(log) {}
+  static RecordName nameOf(KeptKind kind, size_t index) {
+    return {static_cast<uint32_t>(kind), static_cast<uint32_t>(index)};
+  }
+  void write(RecordName name, const Bytes& bytes);
+
+  const std::filesystem::path folder_;
+  const std::unique_ptr<RecordWriter> records_;
+  Log& log_;
+};
+
+}  // namespace tomales
