@@ -40,6 +40,9 @@ constexpr Example kExamples[] = {
     {"hide", "  tomales hide scene.rib -o shot.dfb         then: tomales shade shot.dfb -o shot.exr"},
     {"gather", "  tomales gather shot.dfb -o shot.icf        then: tomales shade shot.dfb --irradiance shot.icf"},
     {"shade", "  tomales shade shot.dfb --edit brighter.rib -o shot.exr"},
+    {"batch",
+     "  tomales batch shot.rib --frames 1-24 -o f.####.exr        here, or with --engine slurm on a cluster\n"
+     "  tomales batch status shot.batch"},
     {"info",
      "  tomales info scene.rib                     frames, and which files and shaders are missing\n"
      "  tomales info plastic                       a shader and its parameters\n"

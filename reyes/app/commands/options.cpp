@@ -79,27 +79,31 @@ void addCrop(CLI::App& app, RenderSettings& s) {
       ->needs("--crop");
 }
 
-void addPictureOptions(CLI::App& app, RenderSettings& s) {
+void addFrameSize(CLI::App& app, RenderSettings& s) {
   const auto format = [](const std::string& t) { return parsePair(t, 1, 65536); };
   const Options unasked;  // the options of a scene that sets none
   const auto pixelSamples = [](const std::string& t) { return parsePair(t, 1, 64); };
   addParsed(
       app, "--format", s.format, format, "WxH",
       fmt::format("Resolution in pixels (default: the scene's, or {}x{})", unasked.xResolution, unasked.yResolution));
-  addCrop(app, s);
   addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM",
             fmt::format("Samples of a pixel (default: the scene's, or {}x{})", unasked.xSamples, unasked.ySamples));
   app.add_option("--shading-rate", s.shadingRate,
                  "Area of a micropolygon in pixels, for all objects (default: as they ask, or 1)")
       ->check(between(1e-3, 1e6));
-  app.add_flag("--draft", s.draft,
-               "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the "
-               "area, 2x2 samples");
-  addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
   app.add_option("--seed", s.seed, fmt::format("Of all random numbers (default {})", s.seed));
   app.add_option("--bucket-size", s.bucketSize,
                  fmt::format("Edge of a bucket in pixels (default: the scene's, or {})", unasked.bucketWidth))
       ->check(CLI::Range(1, 4096));
+}
+
+void addPictureOptions(CLI::App& app, RenderSettings& s) {
+  addFrameSize(app, s);
+  addCrop(app, s);
+  app.add_flag("--draft", s.draft,
+               "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the "
+               "area, 2x2 samples");
+  addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
 }
 
 void addLightOptions(CLI::App& app, RenderSettings& s) {

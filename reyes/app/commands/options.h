@@ -37,6 +37,7 @@ void refuseOptionsAsValues(CLI::App& app);
 
 void addOutput(CLI::App& app, RenderSettings& s);
 void addCrop(CLI::App& app, RenderSettings& s);
+void addFrameSize(CLI::App& app, RenderSettings& s);       ///< Options of size, samples and seeds.
 void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Options of the frame, --crop among them.
 void addLightOptions(CLI::App& app, RenderSettings& s);
 void addTrust(CLI::App& app, Trust& trust);                  ///< Options that say whose code may run.

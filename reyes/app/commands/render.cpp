@@ -11,6 +11,7 @@
 #include "reyes/app/commands/make.h"
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_shaders.h"
+#include "reyes/app/frame/granted.h"
 #include "reyes/app/frame/hide.h"
 #include "reyes/app/frame/limits.h"
 #include "reyes/app/frame/outputs.h"
@@ -35,10 +36,10 @@ class RenderRun {
                                  const std::function<void()>& afterStage)>;
 
   RenderRun(const RenderSettings& settings, Job job)
-      : settings_(settings),
+      : log_(settings.verbosity),
+        settings_(asGranted(settings, log_)),
         job_(std::move(job)),
-        threads_(settings.threads),
-        log_(settings.verbosity),
+        threads_(settings_.threads),
         start_(std::chrono::steady_clock::now()) {}
 
   int run() {
@@ -159,10 +160,10 @@ class RenderRun {
   }
   void flush() { writeStats(settings_, stats_, secondsSoFar(), log_); }
 
-  const RenderSettings& settings_;
+  Log log_;
+  const RenderSettings settings_;
   const Job job_;
   const ThreadLimit threads_;
-  Log log_;
   Stats stats_;
   const std::chrono::steady_clock::time_point start_;
   std::optional<StageTimer> parse_;     // while the scene is read

@@ -1,6 +1,7 @@
 #include "reyes/app/commands/shade.h"
 
 #include "reyes/app/exit_code.h"
+#include "reyes/app/frame/granted.h"
 #include "reyes/app/frame/shot.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/stats_json.h"
@@ -9,11 +10,12 @@
 namespace tomales {
 namespace {
 
-int runOnShot(const RenderSettings& settings, void (ShotJob::*work)()) {
+int runOnShot(const RenderSettings& asked, void (ShotJob::*work)()) {
   const OrderlyEnd orderly;
   const auto start = std::chrono::steady_clock::now();
+  Log log(asked.verbosity);
+  const RenderSettings settings = asGranted(asked, log);
   const ThreadLimit threads(settings.threads);
-  Log log(settings.verbosity);
   Stats stats;
   if (const auto job = ShotJob::open(settings, stats, log)) (job.get()->*work)();
   const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;

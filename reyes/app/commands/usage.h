@@ -1,5 +1,6 @@
 // What the command line takes: its commands, their options, and where these are kept.
 #pragma once
+#include "reyes/app/batch/batch.h"
 #include "reyes/app/chart/chart.h"
 #include "reyes/app/commands/atlas_commands.h"
 #include "reyes/app/commands/catrib.h"
@@ -24,6 +25,7 @@ struct Invocation {
   ViewCommand view;
   ConvertCommand convert;
   ChartSettings chart;
+  BatchCommand batch;
   bool stability = false;
   std::string first, second, difference;
   InfoCommand info;
@@ -32,7 +34,7 @@ struct Invocation {
 };
 
 /// Each adds its commands to `app`. Parsing runs the command that is named, which sets `code` to its exit code.
-void addFrameCommands(CLI::App& app, Invocation& in, int& code);  ///< render, hide, gather, shade, chart
+void addFrameCommands(CLI::App& app, Invocation& in, int& code);  ///< render, hide, gather, shade, batch, chart
 void addFileCommands(CLI::App& app, Invocation& in, int& code);  ///< For scenes, shaders, models and pictures as files.
 void addAtlasCommands(CLI::App& app, Invocation& in, int& code);  ///< For photons, point clouds and brick maps.
 

@@ -91,6 +91,70 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = shadeCommand(in.render); });
 }
 
+/// What the user gave of some options, as it would be written again.
+std::vector<std::string> givenOf(const std::vector<CLI::Option*>& options) {
+  std::vector<std::string> out;
+  for (const CLI::Option* o : options) {
+    if (o->count() == 0) continue;
+    const bool isFlag = o->get_items_expected_max() == 0;
+    for (const std::string& value : o->results()) {
+      out.push_back(o->get_name());
+      if (!isFlag) out.push_back(value);
+    }
+  }
+  return out;
+}
+
+/// The options that `add` gives to the command.
+template <class Add>
+std::vector<CLI::Option*> added(CLI::App& app, const Add& add) {
+  const auto before = app.get_options();
+  add();
+  std::vector<CLI::Option*> out;
+  for (CLI::Option* o : app.get_options())
+    if (std::find(before.begin(), before.end(), o) == before.end()) out.push_back(o);
+  return out;
+}
+
+void buildBatch(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("batch", "Frames as tasks of a plan, by processes here or on a Slurm cluster");
+  BatchCommand& b = in.batch;
+  RenderSettings& s = b.plan.render;
+  addParsed(*c, "-o", s.output, parseOutput, pictureNames(), "As of render; # stands for the number of the frame");
+  addParsed(*c, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
+  addParsed(
+      *c, "--tiles", b.plan.tiles, [](const std::string& t) { return parsePair(t, 1, 64); }, "NxM",
+      "Hide and gather each frame once, shade it in tiles, and join them")
+      ->needs("-o");
+  c->add_option("--plan", b.folder, "Folder of the plan, its states and logs (default: SCENE.batch)")
+      ->type_name("FOLDER");
+  c->add_option_function<std::string>(
+       "--engine", [&b](const std::string& name) { b.onSlurm = name == "slurm"; },
+       "Where tasks run: local (here, the default) or slurm")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->type_name("local|slurm");
+  c->add_option("-j", b.processes, "Most tasks at a time (default: one on each processor; slurm: no limit)")
+      ->check(CLI::Range(1, 100000));
+  c->add_option("-t", b.slurm.cpus, "Threads of each task (default 1)")->check(CLI::Range(1, 4096));
+  c->add_option("--partition", b.slurm.partition, "Of Slurm (default: the cluster's)");
+  c->add_option("--time", b.slurm.time, "Most time of a task, as sbatch takes it (default: the partition's)");
+  c->add_option("--mem", b.slurm.memory, "Memory of a task, as sbatch takes it (default: the partition's)");
+  c->add_flag("--json", b.json, "Report as JSON");
+  addParsed(*c, "--html", b.page, parseNamed(".html"), "FILE.html", "Write the report as a page with small pictures");
+  const auto picture = added(*c, [&] { addFrameSize(*c, s); });
+  const auto light = added(*c, [&] { addLightOptions(*c, s), addTrust(*c, s.trust); });
+  c->add_option("SCENE", b.what,
+                "RIB files, or a plan to go on with; or status, cancel, retry, log with a PLAN (log PLAN FRAME)")
+      ->required();
+  c->callback([&, picture, light] {
+    b.plan.pictureArguments = givenOf(picture);
+    b.plan.lightArguments = givenOf(light);
+    b.plan.lightArguments.insert(b.plan.lightArguments.end(), {"-t", std::to_string(b.slurm.cpus)});
+    b.slurm.atOnce = b.processes;
+    code = batchCommand(b);
+  });
+}
+
 void buildChart(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand(
       "chart", "A page that shows what error a second and a megabyte buy on a scene, for every method");
@@ -136,6 +200,7 @@ void addFrameCommands(CLI::App& app, Invocation& in, int& code) {
   buildHide(app, in, code);
   buildGather(app, in, code);
   buildShade(app, in, code);
+  buildBatch(app, in, code);
   buildChart(app, in, code);
 }
 

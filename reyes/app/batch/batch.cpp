@@ -1,0 +1,177 @@
+#include "reyes/app/batch/batch.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "reyes/app/batch/local.h"
+#include "reyes/app/batch/report.h"
+#include "reyes/app/batch/task.h"
+#include "reyes/app/exit_code.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/chunk_file.h"
+#include "reyes/base/folder_lock.h"
+#include "reyes/base/unfinished_file.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlanName = "plan.json";
+
+/// A plan is given by its file or its folder.
+fs::path planFile(const std::string& given) {
+  std::error_code none;
+  return fs::is_directory(given, none) ? fs::path(given) / kPlanName : fs::path(given);
+}
+
+/// The number of the process that works on a plan here, for `batch cancel`.
+fs::path ownerFile(const BatchPlan& plan) { return plan.folder() / "owner"; }
+
+class BatchRun {
+ public:
+  explicit BatchRun(BatchCommand& command) : command_(command) {}
+
+  int run() {
+    guarded(log_, [this] { code_ = act(); });
+    const int interrupt = interruptExitCode();
+    return interrupt ? interrupt : std::max<int>(code_, exitCodeOf(log_));
+  }
+
+ private:
+  using Action = int (BatchRun::*)(const BatchPlan&);
+
+  int act() {
+    static constexpr std::pair<const char*, Action> kActions[] = {{"status", &BatchRun::status},
+                                                                  {"cancel", &BatchRun::cancel},
+                                                                  {"retry", &BatchRun::submit},
+                                                                  {"log", &BatchRun::showLog},
+                                                                  {"task", &BatchRun::task}};
+    const std::vector<std::string>& what = command_.what;
+    for (const auto& [name, action] : kActions)
+      if (what.front() == name) {
+        if (what.size() < 2) throw FileError(fmt::format("batch {} needs a plan: its file or its folder", name));
+        return (this->*action)(readPlan(planFile(what[1])));
+      }
+    if (what.size() == 1 && (what.front().ends_with(".json") || fs::is_directory(what.front())))
+      return submit(readPlan(planFile(what.front())));
+    const auto plan = planned();
+    return plan ? submit(*plan) : exitCodeOf(log_);
+  }
+
+  /// Makes the plan. One that is there already is kept if it is the same, and else refused: it may be under way.
+  std::optional<BatchPlan> planned() {
+    if (command_.folder.empty()) command_.folder = fs::path(command_.what.front()).stem().string() + ".batch";
+    command_.plan.file = fs::path(command_.folder) / kPlanName;
+    command_.plan.render.files = command_.what;
+    auto plan = makePlan(command_.plan, log_);
+    if (!plan) return std::nullopt;
+    if (command_.onSlurm) checkSlurm(*plan, command_.slurm);
+    if (!fs::exists(plan->file)) {
+      writePlan(*plan);
+      return plan;
+    }
+    if (planText(readPlan(plan->file)) != planText(*plan))
+      throw FileError(
+          fmt::format("\"{}\" is another plan: go on with it by tomales batch {}, or give a new one a folder "
+                      "by --plan",
+                      plan->file.string(), command_.folder));
+    return plan;
+  }
+
+  int submit(const BatchPlan& plan) {
+    const FolderLock lock(plan.folder(), [&] {
+      throw FileError(fmt::format("another process works on the plan \"{}\"", plan.file.string()));
+    });
+    makeFolders(plan);
+    if (command_.onSlurm) {
+      checkSlurm(plan, command_.slurm);
+      std::puts(fmt::format("{} tasks are on the cluster; tomales batch status {}", submitToSlurm(plan, command_.slurm),
+                            plan.folder().string())
+                    .c_str());
+      return kDone;
+    }
+    const OrderlyEnd orderly;
+    std::string why;
+    if (!writeFile(ownerFile(plan).string(), std::to_string(::getpid()) + "\n", why)) throw WriteError(why);
+    const int processes = command_.processes > 0 ? command_.processes
+                                                 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    int shown = -1;
+    const auto states = runLocally(plan, processes, [&](const std::vector<TaskState>& now) {
+      const BatchReport report = reportOf(plan, now);
+      const int percent = static_cast<int>(100 * report.finished.size() / std::max<size_t>(1, report.frames()));
+      if (percent == shown) return;
+      shown = percent;
+      std::puts(fmt::format("R90000 {:>4}%", percent).c_str());
+      std::fflush(stdout);
+    });
+    fs::remove(ownerFile(plan));
+    return show(plan, states);
+  }
+
+  /// Returns the exit code: that of missing output if tasks have failed.
+  int show(const BatchPlan& plan, const std::vector<TaskState>& states) {
+    const BatchReport report = reportOf(plan, states);
+    std::fputs((command_.json ? jsonOf(plan, states) + "\n" : textOf(plan, report)).c_str(), stdout);
+    std::string why;
+    if (!command_.page.empty() && !writeFile(command_.page, pageOf(plan, states), why))
+      throw WriteError(fmt::format("\"{}\" could not be written: {}", command_.page, why));
+    if (!report.failures.empty())
+      log_.report(Severity::Output, "batch-failed", {},
+                  fmt::format("{} of {} frames have failed, each tried {} times; tomales batch retry {} tries again",
+                              report.failed.size(), report.frames(), kMostAttempts, plan.folder().string()));
+    return kDone;
+  }
+
+  int status(const BatchPlan& plan) { return show(plan, statesOf(plan)); }
+
+  int cancel(const BatchPlan& plan) {
+    if (fs::exists(plan.folder() / "jobs") && hasJobs(plan)) {
+      cancelJobs(plan);
+      return kDone;
+    }
+    bool free = true;
+    try {
+      const FolderLock lock(plan.folder(), [] { throw FileError(""); });
+    } catch (const FileError&) {
+      free = false;
+    }
+    std::ifstream in(ownerFile(plan));
+    pid_t owner = 0;
+    if (free || !(in >> owner) || ::kill(owner, SIGTERM) != 0)
+      throw FileError(fmt::format("nothing works on the plan \"{}\" here", plan.file.string()));
+    return kDone;
+  }
+
+  int showLog(const BatchPlan& plan) {
+    if (command_.what.size() < 3) throw FileError("batch log needs the number of a frame");
+    bool any = false;
+    for (const BatchTask& t : plan.tasks) {
+      if (std::to_string(t.frame) != command_.what[2]) continue;
+      any = true;
+      std::puts(fmt::format("{}:\n{}", t.name, lastLines(plan.logOf(t), 1000)).c_str());
+    }
+    if (!any) throw FileError(fmt::format("the plan has no frame {}", command_.what[2]));
+    return kDone;
+  }
+
+  int task(const BatchPlan& plan) {
+    if (command_.what.size() < 3) throw FileError("batch task needs the name of a task");
+    return runTask(plan, command_.what[2]);
+  }
+
+  BatchCommand& command_;
+  Log log_;
+  int code_ = kDone;
+};
+
+}  // namespace
+
+int batchCommand(BatchCommand command) { return BatchRun(command).run(); }
+
+}  // namespace tomales

@@ -1,0 +1,21 @@
+// Verb: scene and command line -> plan. Threads: one caller.
+#pragma once
+#include "reyes/app/batch/plan.h"
+#include "reyes/app/settings.h"
+
+namespace tomales {
+
+struct PlanOptions {
+  RenderSettings render;                      ///< As `render` takes them; `frames` are those of the batch.
+  std::array<int, 2> tiles{1, 1};             ///< Columns and rows of tiles of each frame.
+  std::vector<std::string> pictureArguments;  ///< What the user gave of these options: they go to the passes that
+  std::vector<std::string> lightArguments;    ///< take them.
+  std::filesystem::path file;                 ///< The plan.
+};
+
+/// Reads the scene once, without rendering, to find its frames and what they write. Without tiles each frame is one run
+/// of `render`; with tiles it is hidden and gathered once, shaded in tiles and joined. Frames that make maps come
+/// before all others. Returns nothing if the scene does not suit a batch, which is reported.
+std::optional<BatchPlan> makePlan(const PlanOptions& options, Log& log);
+
+}  // namespace tomales

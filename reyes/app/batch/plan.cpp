@@ -1,0 +1,208 @@
+#include "reyes/app/batch/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "reyes/base/checksum.h"
+#include "reyes/base/chunk_file.h"
+#include "reyes/base/unfinished_file.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kPlanVersion = 1;
+constexpr const char* kStates[] = {"waiting", "running", "done", "failed"};
+
+[[noreturn]] void refusePlan(const BatchPlan& plan, const std::string& why) {
+  throw FileError(fmt::format("the plan \"{}\" cannot be run: {}", plan.file.string(), why));
+}
+
+std::optional<std::string> contentOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+bool isPlainName(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; };
+  return !name.empty() && name.front() != '.' && name.front() != '-' && std::all_of(name.begin(), name.end(), plain);
+}
+
+/// Kahn's order; tasks that are ready at the same time keep their order.
+std::vector<BatchTask> inOrder(const BatchPlan& plan) {
+  std::map<std::string, std::vector<size_t>> followers;
+  std::vector<size_t> missing(plan.tasks.size());
+  for (size_t i = 0; i < plan.tasks.size(); ++i) {
+    missing[i] = plan.tasks[i].needs.size();
+    for (const std::string& n : plan.tasks[i].needs) followers[n].push_back(i);
+  }
+  std::deque<size_t> ready;
+  for (size_t i = 0; i < missing.size(); ++i)
+    if (missing[i] == 0) ready.push_back(i);
+  std::vector<BatchTask> out;
+  for (; !ready.empty(); ready.pop_front()) {
+    const BatchTask& task = out.emplace_back(plan.tasks[ready.front()]);
+    for (const size_t i : followers[task.name])
+      if (--missing[i] == 0) ready.push_back(i);
+  }
+  for (size_t i = 0; i < missing.size(); ++i)
+    if (missing[i] > 0)
+      refusePlan(plan,
+                 fmt::format("task \"{}\" waits for itself by way of the tasks that it needs", plan.tasks[i].name));
+  return out;
+}
+
+}  // namespace
+
+const BatchTask* BatchPlan::find(const std::string& name) const {
+  const auto it = std::find_if(tasks.begin(), tasks.end(), [&](const BatchTask& t) { return t.name == name; });
+  return it == tasks.end() ? nullptr : &*it;
+}
+
+void checkPlan(BatchPlan& plan) {
+  std::set<std::string> names;
+  std::map<std::string, std::string> makers;
+  for (const BatchTask& t : plan.tasks) {
+    if (!isPlainName(t.name))
+      refusePlan(plan, fmt::format("\"{}\" is no name of a task: letters, digits, - _ and . make one", t.name));
+    if (!names.insert(t.name).second) refusePlan(plan, fmt::format("two tasks are called \"{}\"", t.name));
+    if (t.arguments.empty()) refusePlan(plan, fmt::format("task \"{}\" has no arguments", t.name));
+    for (const std::string& file : t.makes)
+      if (const auto [at, isNew] = makers.emplace(fs::path(file).lexically_normal().string(), t.name); !isNew)
+        refusePlan(plan, fmt::format("\"{}\" and \"{}\" both make \"{}\"", at->second, t.name, file));
+  }
+  for (const BatchTask& t : plan.tasks)
+    for (const std::string& n : t.needs)
+      if (!names.contains(n)) refusePlan(plan, fmt::format("task \"{}\" needs \"{}\", which is not there", t.name, n));
+  plan.tasks = inOrder(plan);
+}
+
+BatchPlan readPlan(const fs::path& file) {
+  BatchPlan plan;
+  plan.file = fs::absolute(file).lexically_normal();
+  const auto text = contentOf(plan.file);
+  if (!text) throw FileError(fmt::format("there is no plan \"{}\"", file.string()));
+  try {
+    const Json json = Json::parse(*text);
+    if (json.at("version").get<int>() != kPlanVersion)
+      refusePlan(plan, fmt::format("its version is {}, and this program reads version {}", json["version"].dump(),
+                                   kPlanVersion));
+    json.at("working_folder").get_to(plan.workingFolder);
+    json.at("pictures").get_to(plan.pictures);
+    for (const Json& t : json.at("tasks"))
+      plan.tasks.push_back({t.at("name"), t.at("stage"), t.at("frame"), t.at("arguments"), t.at("needs"), t.at("makes"),
+                            t.value("removes", std::vector<std::string>())});
+  } catch (const Json::exception& e) {
+    refusePlan(plan, e.what());
+  }
+  checkPlan(plan);
+  return plan;
+}
+
+std::string planText(const BatchPlan& plan) {
+  Json tasks = Json::array();
+  for (const BatchTask& t : plan.tasks) {
+    Json task{{"name", t.name},           {"stage", t.stage}, {"frame", t.frame},
+              {"arguments", t.arguments}, {"needs", t.needs}, {"makes", t.makes}};
+    if (!t.removes.empty()) task["removes"] = t.removes;
+    tasks.push_back(std::move(task));
+  }
+  const Json json{{"version", kPlanVersion},
+                  {"working_folder", plan.workingFolder},
+                  {"pictures", plan.pictures},
+                  {"tasks", std::move(tasks)}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void makeFolders(const BatchPlan& plan) {
+  std::error_code problem;
+  for (const char* name : {"log", "state", "work"}) {
+    fs::create_directories(plan.folder() / name, problem);
+    if (problem)
+      throw WriteError(fmt::format("\"{}\" could not be made: {}", (plan.folder() / name).string(), problem.message()));
+  }
+}
+
+void writePlan(const BatchPlan& plan) {
+  makeFolders(plan);
+  std::string why;
+  if (!writeFile(plan.file.string(), planText(plan), why))
+    throw WriteError(fmt::format("\"{}\" could not be written: {}", plan.file.string(), why));
+}
+
+uint64_t taskSum(const BatchTask& task) {
+  std::string text;
+  for (const std::string& a : task.arguments) text += a + '\0';
+  return checksum(std::as_bytes(std::span(text)));
+}
+
+TaskState readState(const BatchPlan& plan, const BatchTask& task) {
+  TaskState out;
+  const auto text = contentOf(plan.stateOf(task));
+  const Json json = text ? Json::parse(*text, nullptr, false) : Json();
+  try {
+    const auto kind = std::find(std::begin(kStates), std::end(kStates), json.at("state").get<std::string>());
+    if (kind == std::end(kStates)) return {};
+    out.kind = static_cast<TaskState::Kind>(kind - std::begin(kStates));
+    out.attempts = json.at("attempts"), out.code = json.at("exit_code"), out.wall_s = json.at("wall_s");
+    out.cpu_s = json.at("cpu_s"), out.peak_bytes = json.at("peak_bytes"), out.host = json.at("host");
+    out.sum = json.at("sum");
+  } catch (const Json::exception&) {
+    return {};
+  }
+  if (out.sum != taskSum(task)) return {};
+  return out;
+}
+
+std::vector<TaskState> statesOf(const BatchPlan& plan) {
+  std::map<std::string, bool> stillNeeded;
+  std::vector<TaskState> out(plan.tasks.size());
+  std::error_code none;
+  const auto isThere = [&](const std::string& file) { return fs::exists(fs::path(plan.workingFolder) / file, none); };
+  for (size_t i = plan.tasks.size(); i-- > 0;) {
+    const BatchTask& task = plan.tasks[i];
+    const auto needed = stillNeeded.find(task.name);
+    out[i] = readState(plan, task);
+    if (needed != stillNeeded.end() && !needed->second)
+      out[i].kind = TaskState::Done;
+    else if (out[i].kind == TaskState::Done && !std::all_of(task.makes.begin(), task.makes.end(), isThere))
+      out[i].kind = TaskState::Waiting;
+    for (const std::string& n : task.needs) stillNeeded[n] |= out[i].kind != TaskState::Done;
+  }
+  return out;
+}
+
+void writeState(const BatchPlan& plan, const BatchTask& task, const TaskState& state) {
+  const Json json{{"state", kStates[state.kind]}, {"attempts", state.attempts}, {"exit_code", state.code},
+                  {"wall_s", state.wall_s},       {"cpu_s", state.cpu_s},       {"peak_bytes", state.peak_bytes},
+                  {"host", state.host},           {"sum", taskSum(task)}};
+  std::string why;
+  if (!writeFile(plan.stateOf(task).string(), json.dump(1) + "\n", why))
+    throw WriteError(fmt::format("\"{}\" could not be written: {}", plan.stateOf(task).string(), why));
+}
+
+std::string lastLines(const fs::path& log, size_t lines) {
+  std::ifstream in(log);
+  std::deque<std::string> kept;
+  for (std::string line; std::getline(in, line);) {
+    kept.push_back(line);
+    if (kept.size() > lines) kept.pop_front();
+  }
+  std::string out;
+  for (const std::string& line : kept) out += "    " + line + "\n";
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,66 @@
+// Noun: the plan of a batch, which is a graph of tasks in a JSON file (docs/batch.md). Each task runs this program
+// once. Threads: plain object.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tomales {
+
+struct BatchTask {
+  std::string name;   ///< Names its files beside the plan: letters, digits, - _ and . alone.
+  std::string stage;  ///< maps, render, hide, gather, shade, join: for people, and for arrays of jobs.
+  int frame = 0;
+  std::vector<std::string> arguments;  ///< Of this program.
+  std::vector<std::string> needs;      ///< Names of tasks that come before.
+  std::vector<std::string> makes;      ///< Files that exist when the task is finished; they are gone with `removes`.
+  std::vector<std::string> removes;    ///< Files that nobody needs after the task.
+};
+
+struct BatchPlan {
+  std::filesystem::path file;         ///< The plan itself; its folder has states and logs.
+  std::string workingFolder;          ///< Relative names start there.
+  std::vector<std::string> pictures;  ///< For people: the first picture of each frame.
+  std::vector<BatchTask> tasks;       ///< A task stands after those that it needs.
+
+  std::filesystem::path folder() const { return file.parent_path(); }
+  std::filesystem::path logOf(const BatchTask& task) const { return folder() / "log" / (task.name + ".log"); }
+  std::filesystem::path stateOf(const BatchTask& task) const { return folder() / "state" / (task.name + ".json"); }
+  /// Returns null if there is none.
+  const BatchTask* find(const std::string& name) const;
+};
+
+/// Throws FileError if the file is no plan, names a task twice or one that it lacks, has two tasks that make one file,
+/// or if tasks wait for each other in a circle. Tasks come in an order in which they can run.
+BatchPlan readPlan(const std::filesystem::path& file);
+/// Checks likewise, and puts the tasks in order. Throws FileError.
+void checkPlan(BatchPlan& plan);
+std::string planText(const BatchPlan& plan);
+/// Makes the folders of states, logs and files between beside the plan. Throws WriteError.
+void makeFolders(const BatchPlan& plan);
+/// Throws WriteError.
+void writePlan(const BatchPlan& plan);
+
+/// What is known of a task: the contents of its file of state.
+struct TaskState {
+  enum Kind { Waiting, Running, Done, Failed } kind = Waiting;
+  int attempts = 0;  ///< Number of runs since the task was last started anew.
+  int code = 0;      ///< Exit code, or 128 plus the signal.
+  double wall_s = 0, cpu_s = 0;
+  int64_t peak_bytes = 0;
+  std::string host;
+  uint64_t sum = 0;  ///< taskSum() of the task that ran.
+};
+uint64_t taskSum(const BatchTask& task);
+/// Waiting if there is none, or if the task has been edited since.
+TaskState readState(const BatchPlan& plan, const BatchTask& task);
+/// The states of all tasks. A task is done only if what it made is still there, or if all tasks that need it are done.
+std::vector<TaskState> statesOf(const BatchPlan& plan);
+/// Throws WriteError.
+void writeState(const BatchPlan& plan, const BatchTask& task, const TaskState& state);
+/// The last lines of a task's log.
+std::string lastLines(const std::filesystem::path& log, size_t lines);
+
+}  // namespace tomales

@@ -1,0 +1,26 @@
+// What is known of a batch, for people and for farms. Threads: plain functions.
+#pragma once
+#include "reyes/app/batch/plan.h"
+
+namespace tomales {
+
+struct BatchReport {
+  /// Numbers of frames. A frame is finished when all of its tasks are, and fails if one of them does.
+  std::vector<int> finished, running, failed, waiting;
+  std::vector<std::string> failures;  ///< Names of the tasks that failed.
+  double cpu_s = 0;
+  int64_t peak_bytes = 0;
+  double left_s =
+      -1;  ///< Estimated from the tasks that are done, by as many at a time as run now; negative: not known.
+
+  size_t frames() const { return finished.size() + running.size() + failed.size() + waiting.size(); }
+};
+
+BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states);
+/// A line for each state, and the last lines of what failed.
+std::string textOf(const BatchPlan& plan, const BatchReport& report);
+std::string jsonOf(const BatchPlan& plan, const std::vector<TaskState>& states);
+/// A page that needs no other files: figures of each frame and small pictures of the finished ones.
+std::string pageOf(const BatchPlan& plan, const std::vector<TaskState>& states);
+
+}  // namespace tomales

@@ -1,0 +1,112 @@
+#include "reyes/app/batch/task.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <thread>
+
+#include "reyes/app/exit_code.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/chunk_file.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kPause{20};
+constexpr std::chrono::seconds kBeforeRetry{2};
+
+std::string hostName() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
+}
+
+double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+
+/// A picture with a substitute in it is finished: its log and `batch status` tell of it.
+bool succeeded(int code) { return code == kDone || code == kIncomplete; }
+
+}  // namespace
+
+RunningTask::RunningTask(const BatchPlan& plan, const BatchTask& task, int attempt)
+    : plan_(plan), task_(task), start_(std::chrono::steady_clock::now()) {
+  const fs::path log = plan.logOf(task);
+  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666),
+            in = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const auto closeBoth = [&] {
+    for (const int file : {in, out})
+      if (file >= 0) ::close(file);
+  };
+  if (out < 0) {
+    const std::string why = std::strerror(errno);
+    closeBoth();
+    throw WriteError(fmt::format("\"{}\" could not be written: {}", log.string(), why));
+  }
+  state_.kind = TaskState::Running, state_.attempts = attempt, state_.host = hostName();
+  writeState(plan, task, state_);
+  ChildProgram program{"/proc/self/exe", {"tomales"}, {{in, 0}, {out, 1}, {out, 2}}};
+  program.arguments.insert(program.arguments.end(), task.arguments.begin(), task.arguments.end());
+  int problem = 0;
+  child_ = startChild(program, problem);
+  closeBoth();
+  if (child_ < 0)
+    throw WriteError(fmt::format("task \"{}\" could not be started: {}", task.name, std::strerror(problem)));
+  guard_ = std::make_unique<ChildGuard>(child_);
+}
+
+bool RunningTask::ended() {
+  if (state_.kind != TaskState::Running) return true;
+  int status = 0;
+  // The guard goes before the process is waited for: another may have its number afterwards.
+  siginfo_t info{};
+  if (::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == 0)
+    return false;
+  guard_.reset();
+  rusage used{};
+  ::wait4(child_, &status, 0, &used);
+  state_.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  state_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  state_.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
+  state_.peak_bytes = int64_t{used.ru_maxrss} * 1024;
+  state_.kind = succeeded(state_.code) ? TaskState::Done : stopped_ ? TaskState::Waiting : TaskState::Failed;
+  std::error_code none;
+  for (const std::string& file : task_.makes)
+    if (state_.kind == TaskState::Done && !fs::exists(fs::path(plan_.workingFolder) / file, none))
+      state_.kind = TaskState::Failed;
+  writeState(plan_, task_, state_);
+  if (state_.kind == TaskState::Done)
+    for (const std::string& file : task_.removes) fs::remove(fs::path(plan_.workingFolder) / file, none);
+  return true;
+}
+
+void RunningTask::stop() {
+  if (!stopped_ && state_.kind == TaskState::Running) ::kill(child_, SIGTERM);
+  stopped_ = true;
+}
+
+int runTask(const BatchPlan& plan, const std::string& name) {
+  const BatchTask* task = plan.find(name);
+  if (!task) throw FileError(fmt::format("the plan \"{}\" has no task \"{}\"", plan.file.string(), name));
+  const std::vector<TaskState> states = statesOf(plan);
+  if (states[static_cast<size_t>(task - plan.tasks.data())].kind == TaskState::Done) return kDone;
+  fs::current_path(plan.workingFolder);
+  const OrderlyEnd orderly;
+  for (int attempt = 1;; ++attempt) {
+    RunningTask run(plan, *task, attempt);
+    while (!run.ended()) {
+      if (interrupted()) run.stop();
+      std::this_thread::sleep_for(kPause);
+    }
+    if (run.state().kind == TaskState::Done) return kDone;
+    if (interrupted()) return kRequeue;
+    if (attempt == kMostAttempts) return kUnwritable;
+    std::this_thread::sleep_for(kBeforeRetry);
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,42 @@
+// Runs one task of a plan as a process of its own, and keeps its state on the disk. Threads: plain object.
+#pragma once
+#include <sys/types.h>
+
+#include <chrono>
+#include <memory>
+
+#include "reyes/app/batch/plan.h"
+#include "reyes/base/child_process.h"
+
+namespace tomales {
+
+constexpr int kMostAttempts = 3;
+/// The end of a task that was stopped and shall begin again elsewhere: EX_TEMPFAIL of sysexits.h.
+constexpr int kRequeue = 75;
+
+class RunningTask {
+ public:
+  /// Starts the program on it; messages go to the end of its log. Throws WriteError.
+  RunningTask(const BatchPlan& plan, const BatchTask& task, int attempt);
+  /// True when it has ended; its state has been written then, and files that nobody needs any more are gone.
+  bool ended();
+  /// Asks it to end, as a farm does.
+  void stop();
+  const TaskState& state() const { return state_; }
+  const BatchTask& task() const { return task_; }
+
+ private:
+  const BatchPlan& plan_;
+  const BatchTask& task_;
+  TaskState state_;
+  std::chrono::steady_clock::time_point start_;
+  pid_t child_ = -1;
+  std::unique_ptr<ChildGuard> guard_;
+  bool stopped_ = false;
+};
+
+/// Runs a task until it has succeeded or has failed as often as tasks may; does nothing if it is done. Returns
+/// an exit code: kRequeue after SIGTERM.
+int runTask(const BatchPlan& plan, const std::string& name);
+
+}  // namespace tomales

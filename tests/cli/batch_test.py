@@ -1,0 +1,138 @@
+"""A batch is frames as tasks of a plan: the same bits as one run, in spite of tasks that fail, of runs that are killed, and of plans
+that are edited; what cannot work is told before anything begins."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+from program import Suite
+
+FRAME = """FrameBegin %d
+WorldBegin
+LightSource "pointlight" 1 "from" [3 3 -3] "intensity" [20]
+LightSource "indirectlight" "gi" "float samples" [32]
+Surface "plastic"
+Translate %g 0 0
+Sphere 1 -1 1 360
+Polygon "P" [-4 -1 -4 -4 -1 4 4 -1 4 4 -1 -4]
+WorldEnd
+FrameEnd
+"""
+HEAD = 'Format 64 48 1\nProjection "perspective" "fov" [40]\nTranslate 0 0 5\nPixelSamples 2 2\n'
+SCENE = HEAD + "".join(FRAME % (i, 0.2 * i) for i in range(1, 5))
+t = Suite()
+t.folder = t.folder / "a folder's name"  # paths with blanks and quotes
+t.folder.mkdir()
+t.write("my shot.rib", SCENE)
+t.run("my shot.rib", "-o", "one.####.exr", "-q")
+
+
+def same(prefix, frames=range(1, 5)):
+    return all(json.loads(t.run("compare", f"{prefix}.{f:04}.exr", f"one.{f:04}.exr", "--json").stdout or "{}").get("different_pixels") == 0
+               for f in frames)
+
+
+def status(plan):
+    return json.loads(t.run("batch", "status", plan, "--json").stdout)
+
+
+t.expect_run("frames", ["batch", "my shot.rib", "-o", "f.####.exr", "-j", "2"], 0, "R90000  100%", "finished 4 of 4 frames")
+t.expect(same("f"), "have the bits of one run")
+t.expect_run("tiles", ["batch", "my shot.rib", "-o", "t.####.exr", "--tiles", "3x2", "--plan", "tiles", "-j", "2", "--html", "page.html"], 0)
+t.expect(same("t"), "have the bits of one run, indirect light included")
+t.expect(not list((t.folder / "tiles/work").iterdir()), "what nobody needs any more is gone")
+page = (t.folder / "page.html").read_text()
+t.expect(page.count("data:image/png") == 4 and "http" not in page.replace("http://www.w3.org", ""), "the page holds the pictures itself")
+before = (t.folder / "t.0001.exr").stat().st_mtime_ns
+(t.folder / "t.0003.exr").unlink()
+t.expect_run("the plan once more", ["batch", "tiles"], 0, "finished 4 of 4")
+t.expect(same("t") and (t.folder / "t.0001.exr").stat().st_mtime_ns == before, "makes what is missing, and nothing else")
+t.expect(status("tiles")["finished"] == 4, "status tells so")
+t.expect_run("the log of a frame", ["batch", "log", "tiles", "3"], 0, "0003.hide:", "0003.join:")
+
+# What cannot work is told before anything begins.
+for what, arguments, code, says in (
+        ("one file for all frames", ["my shot.rib", "-o", "x.exr"], 2, "batch-same-file"),
+        ("no frame", ["my shot.rib", "-o", "x.#.exr", "--frames", "77"], 2, "there is no frame"),
+        ("tiles of PNG", ["my shot.rib", "-o", "x.#.png", "--tiles", "2x2"], 2, "batch-tiles"),
+        ("tiles without -o", ["my shot.rib", "--tiles", "2x2"], 1, "-o"),
+        ("no scene", ["nowhere.rib", "-o", "x.#.exr"], 2, "nowhere.rib"),
+        ("no plan", ["status", "nowhere"], 2, "there is no plan"),
+        ("another plan of the name", ["my shot.rib", "-o", "x.#.exr", "--plan", "tiles"], 2, "is another plan")):
+    t.expect_run(what, ["batch", *arguments, *(["--plan", "no"] if "--plan" not in arguments and what != "no plan" else [])], code, says)
+path, os.environ["PATH"] = os.environ["PATH"], "/nowhere"
+t.expect_run("no Slurm", ["batch", "my shot.rib", "-o", "x.#.exr", "--plan", "slurm", "--engine", "slurm"], 2, 'there is no "sinfo" here')
+os.environ["PATH"] = path
+t.expect(not (t.folder / "no").exists() and not (t.folder / "slurm").exists() and not list(t.folder.glob("x.*")), "and nothing was begun")
+
+# Plans are edited.
+plan = json.loads((t.folder / "tiles/plan.json").read_text())
+
+
+def edited(name, change):
+    copy = json.loads(json.dumps(plan))
+    change(copy["tasks"])
+    (t.folder / name).mkdir(exist_ok=True)
+    t.write(f"{name}/plan.json", json.dumps(copy))
+
+
+edited("circle", lambda all: all[0]["needs"].append("0001.join"))
+t.expect_run("a circle", ["batch", "circle"], 2, "waits for itself")
+edited("unknown", lambda all: all[0]["needs"].append("nobody"))
+t.expect_run("a need that is not there", ["batch", "unknown"], 2, 'needs "nobody"')
+edited("twice", lambda all: all.append(dict(all[0])))
+t.expect_run("a task twice", ["batch", "twice"], 2, "two tasks are called")
+edited("outside", lambda all: all[0].update(name="../x"))
+t.expect_run("a name that leads elsewhere", ["batch", "outside"], 2, "is no name of a task")
+t.write("circle/plan.json", "{ this is no plan")
+t.expect_run("no JSON", ["batch", "circle"], 2, "cannot be run")
+
+# A task that fails is tried three times; the others finish, and it is tried again later.
+(t.folder / "closed").write_text("a file where a folder must be")
+t.write("two.rib", HEAD + 'Display "ok.exr" "file" "rgba"\n' + FRAME % (1, 0.2) + 'Display "closed/no.exr" "file" "rgba"\n' + FRAME % (2, 0.4))
+t.expect_run("a frame fails", ["batch", "two.rib"], 4, "finished 1 of 2", "failed 1: 2", "task 0002.render failed", "output-folder", "tried 3 times")
+t.expect(len(status("two.batch")["failures"]) == 1 and status("two.batch")["by_frame"][1]["state"] == "failed", "status names it")
+(t.folder / "closed").unlink()
+(t.folder / "closed").mkdir()
+t.expect_run("and is tried again", ["batch", "retry", "two.batch"], 0, "finished 2 of 2")
+
+# What Slurm grants.
+grant = {"SLURM_JOB_ID": "1", "SLURM_CPUS_PER_TASK": "1", "SLURM_MEM_PER_CPU": "500"}
+os.environ.update(grant)
+t.expect_run("a job takes what it was granted", ["two.rib", "-o", "grant.#.exr", "-v", "--stats", "grant.json"], 0, "makes -t 1 and --memory-limit 400M")
+t.expect(json.loads((t.folder / "grant.json").read_text())["threads"] == 1, "its threads are as many")
+t.expect_run("or what is asked for", ["two.rib", "-o", "grant.#.exr", "-v", "-t", "2", "--memory-limit", "900M"], 0)
+t.expect("slurm-grant" not in t.run("two.rib", "-o", "grant.#.exr", "-v", "-t", "2", "--memory-limit", "900M").stderr, "which is not told")
+for name in grant:
+    del os.environ[name]
+
+# The process that works on a plan is killed, cancelled, or met by another one.
+t.write("slow.rib", (HEAD + "".join(FRAME % (i, 0.2 * i) for i in range(1, 5))).replace("64 48", "200 150").replace("[32]", "[300]"))
+t.run("slow.rib", "-o", "one.####.exr", "-q")
+
+
+def begin():
+    run = subprocess.Popen([t.program, "batch", "slow.rib", "-o", "s.####.exr", "--plan", "slow", "-j", "1"], cwd=t.folder,
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while not list(t.folder.glob("slow/state/*.json")) and run.poll() is None:
+        time.sleep(0.01)
+    return run
+
+
+run = begin()
+t.expect_run("two runs of a plan", ["batch", "slow"], 2, "another process works on the plan")
+t.expect_run("cancel", ["batch", "cancel", "slow"], 0)
+run.communicate(timeout=60)
+t.expect(run.returncode == 128 + signal.SIGTERM, "ends the run")
+t.expect_run("cancel again", ["batch", "cancel", "slow"], 2, "nothing works on the plan")
+shutil.rmtree(t.folder / "slow")
+for file in t.folder.glob("s.*"):
+    file.unlink()
+run = begin()
+run.send_signal(signal.SIGKILL)
+run.communicate(timeout=60)
+t.expect_run("after a kill the plan goes on", ["batch", "slow"], 0, "finished 4 of 4")
+t.expect(same("s"), "to the bits of one run")
+t.finish()

@@ -1,0 +1,92 @@
+"""A moving scene with indirect light, in tiles, on a real Slurm cluster of two nodes: one node is killed while it works, a task is killed,
+and the pictures have the bits of one run on one machine. A node that is lost holds its tasks up for about two and a half minutes."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from cluster import Cluster, missing
+
+FRAMES, TILES = 24, "2x2"
+FRAME = """FrameBegin %d
+WorldBegin
+LightSource "pointlight" 1 "from" [3 3 -3] "intensity" [20]
+LightSource "indirectlight" "gi" "float samples" [64]
+Surface "plastic"
+Translate %g 0 0
+Sphere 1 -1 1 360
+Polygon "P" [-4 -1 -4 -4 -1 4 4 -1 4 4 -1 -4]
+WorldEnd
+FrameEnd
+"""
+HEAD = 'Format 160 120 1\nProjection "perspective" "fov" [40]\nTranslate 0 0 5\nPixelSamples 2 2\n'
+
+if lost := missing():
+    print("skipped: " + lost)
+    sys.exit(77)
+program = pathlib.Path(sys.argv[1]).resolve()
+failures = 0
+
+
+def expect(condition, message):
+    global failures
+    print(("ok      " if condition else "FAILED  ") + message, flush=True)
+    failures += not condition
+
+
+def run(*arguments):
+    return subprocess.run([program, *arguments], cwd=work, capture_output=True, text=True)
+
+
+def status():
+    return json.loads(run("batch", "status", "shot.batch", "--json").stdout)
+
+
+def wait_for(condition, patience_s):
+    end = time.monotonic() + patience_s
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.5)
+    return condition()
+
+
+with tempfile.TemporaryDirectory() as folder:
+    cluster = Cluster(pathlib.Path(folder) / "cluster")
+    work = pathlib.Path(folder) / "a shot's folder"
+    work.mkdir()
+    (work / "shot.rib").write_text(HEAD + "".join(FRAME % (i, 0.03 * i) for i in range(1, FRAMES + 1)))
+    try:
+        cluster.start()
+        run("shot.rib", "-o", "one.####.exr", "-q", "-t", "1")
+        submit = ["batch", "shot.rib", "-o", "s.####.exr", "--tiles", TILES, "--engine", "slurm"]
+        wrong = run(*submit, "--partition", "nowhere")
+        expect(wrong.returncode == 2 and 'no partition "nowhere"; it has render' in wrong.stderr, "a wrong partition is told before anything begins")
+        expect(not (work / "shot.batch").exists(), "and leaves no plan")
+        begun = time.monotonic()
+        sent = run(*submit, "--partition", "render", "--mem", "150M")
+        expect(sent.returncode == 0 and "tasks are on the cluster" in sent.stdout, "the plan is submitted " + sent.stderr)
+        print(f"        {sent.stdout.strip()} after {time.monotonic() - begun:.1f} s", flush=True)
+        again = run(*submit)
+        expect(again.returncode == 2 and "on the cluster already" in again.stderr, "and not submitted twice")
+        expect(wait_for(lambda: status()["finished"] >= 3, 120), "frames are finished")
+        victims = cluster.steps_of("n2")
+        cluster.kill_node("n2")
+        expect(bool(victims), f"a node is killed while it works on {len(victims)} processes")
+        renderers = [p for p in cluster.steps_of("n1") if pathlib.Path(f"/proc/{p}/comm").read_text().startswith(("tomales", "exe"))]
+        for process in renderers[-1:]:
+            os.kill(process, signal.SIGKILL)
+        expect(bool(renderers), "and a task on the other one")
+        done = wait_for(lambda: status()["finished"] == FRAMES, 600)
+        expect(done, f"all frames are finished after {time.monotonic() - begun:.0f} s")
+        if not done:
+            print(run("batch", "status", "shot.batch").stdout, cluster.say("squeue"), sep="\n")
+        different = [f for f in range(1, FRAMES + 1) if json.loads(run("compare", f"s.{f:04}.exr", f"one.{f:04}.exr", "--json").stdout or "{}").get("different_pixels") != 0]
+        expect(not different, f"with the bits of one run on one machine {different or ''}")
+        jobs = cluster.say("sdiag")
+        print("        " + " ".join(line.strip() for line in jobs.splitlines() if "Jobs submitted" in line or "Jobs completed" in line))
+    finally:
+        cluster.stop()
+sys.exit(bool(failures))
