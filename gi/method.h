@@ -12,7 +12,9 @@ enum class GiMode {
   Atlas,      ///< All bounces: gather rays look up the irradiance of photons in brick maps; irradiance caching.
   Radiosity,  ///< One bounce from baked direct light, in textures or brick maps; irradiance caching.
   Baked,      ///< All light from brick maps that were gathered for earlier frames (irradiance-atlas 6.3): no rays.
-  Reference,  ///< Brute-force path tracing of the same transport: unbiased for diffuse surfaces.
+  /// Brute-force path tracing of the same transport: unbiased for diffuse surfaces. Photons bring caustics.
+  Reference,
+  Progressive,  ///< All bounces: photons are counted where the eye looks, on disks that shrink.
 };
 
 struct GiMethod {
@@ -26,6 +28,8 @@ struct GiMethod {
   bool usesBaked = false;          ///< Light comes from the maps of --baked.
   bool fullGeometry = false;       ///< Rays see micropolygons unless --ray-geometry says otherwise.
   bool isReference = false;        ///< Direct light has as many samples as there are paths.
+  bool countsPhotons = false;      ///< Photons are counted at visible points before the frame is shaded,
+  bool causticsAlone = false;      ///< those alone that come by mirrors and glass, and only if there are any.
 };
 
 inline constexpr GiMethod kGiMethods[] = {
@@ -46,7 +50,13 @@ inline constexpr GiMethod kGiMethods[] = {
      .byPointClouds = true},
     {.name = "radiosity", .mode = GiMode::Radiosity, .radiance = "radiosity", .caches = true, .hitsHoldAll = true},
     {.name = "baked", .mode = GiMode::Baked, .usesBaked = true},
-    {.name = "reference", .mode = GiMode::Reference, .fullGeometry = true, .isReference = true},
+    {.name = "progressive", .mode = GiMode::Progressive, .radiance = "progressive", .countsPhotons = true},
+    {.name = "reference",
+     .mode = GiMode::Reference,
+     .fullGeometry = true,
+     .isReference = true,
+     .countsPhotons = true,
+     .causticsAlone = true},
 };
 
 /// Returns null if there is no such method.

@@ -24,15 +24,25 @@ struct PhotonSettings {
   /// Store photons that come straight from a light, too. Without them, whoever looks the irradiance up has to sample
   /// the lights.
   bool direct = true;
+  /// Only the paths whose first surface, beside transparent ones, is mirror or glass: all others end at their first
+  /// diffuse surface.
+  bool focusedOnly = false;
+  int mostBounces = 1 << 20;  ///< Photons that have bounced more often (StoredPhoton::bounces) are not traced.
 };
 
 struct StoredPhoton {
   /// Unit normal of the polygon that P lies on, towards the side that the photon came from; zero in a medium.
   vec3 P, N;
-  vec3 power;    ///< In a medium it is multiplied by the free path in lengths of the world: W m.
-  int group;     ///< Index into Scene::groups; -1: in a medium.
-  int depth;     ///< 0: straight from a light.
-  bool caustic;  ///< Its path has at least one mirror or glass surface, and no diffuse one.
+  vec3 power;  ///< In a medium it is multiplied by the free path in lengths of the world: W m.
+  int group;   ///< Index into Scene::groups; -1: in a medium.
+  int depth;   ///< 0: straight from a light.
+  /// The diffuse surfaces and collisions on its path, and one more if mirrors or glass come before the first of them. A
+  /// path tracer finds the same light after as many diffuse rays (docs/gi.md).
+  int bounces;
+  bool focused;  ///< Mirrors or glass come before the first diffuse surface of its path.
+
+  /// Its path has at least one mirror or glass surface, and no diffuse one.
+  bool caustic() const { return focused && bounces == 1; }
 };
 
 struct PhotonFigures {
@@ -60,5 +70,12 @@ enum class PhotonModel {
 };
 /// Empty if there is no model of this name.
 std::optional<PhotonModel> photonModel(const std::string& name);
+/// Tells whether photons are mirrored or refracted by surfaces of this model.
+constexpr bool isMirrorOrGlass(PhotonModel m) {
+  return m == PhotonModel::Chrome || m == PhotonModel::Glass || m == PhotonModel::Water;
+}
+
+/// Tells whether photons are mirrored or refracted by objects with these attributes.
+bool focusesPhotons(const Attributes& attributes);
 
 }  // namespace tomales

@@ -41,6 +41,18 @@ struct PreparedCache {
   std::vector<uint64_t> frames{};
 };
 
+/// Photons that are counted where the frame's shaders ask for indirect light.
+struct PhotonPasses {
+  int64_t photons = 1'000'000;  ///< The most that are sent.
+  double noise = 0;             ///< The noise at which no more are sent (PhotonMeasurement::noise).
+  uint32_t seed = 0;
+  bool focusedOnly = false;  ///< Only the light that comes from lamps by mirrors or glass first.
+  bool shrinks = false;      ///< Disks on which photons count shrink from pass to pass; else they are micropolygons.
+  Log* log = nullptr;
+  /// Gets the number of photons sent, that of the points, and their noise.
+  std::function<void(int64_t sent, size_t points, double noise)> tell;
+};
+
 /// The objects that answer a ray.
 struct RayTools {
   const RayScene* rays;
@@ -78,6 +90,8 @@ class GiServices final : public ShadeServices {
   void setAtlasSource(AtlasSource source);
   /// The same for what gather rays meet in GiMode::Radiosity.
   void setHitRadianceSource(HitRadianceSource source);
+  /// Lets gatherPass() count photons, in GiMode::Reference and Progressive.
+  void setPhotonPasses(PhotonPasses passes);
   void reportAtlas(Stats& stats) const;  ///< Adds statistics; called after the last lookup.
 
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one

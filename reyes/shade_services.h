@@ -56,6 +56,8 @@ struct ShadeContext {
   bool lampsGlow = true;        ///< That ray sees area lights.
   /// Specular rays bring lamps and skies. False where photons have brought that light by mirrors.
   bool mirrored = true;
+  /// Indexed by group: 1 if the same holds for specular rays from it, and for its highlights. Null: for none.
+  const std::vector<uint8_t>* focusing = nullptr;
   bool highlights = false;  ///< Diffuse rays bring highlights too, as those of the reference path tracer do.
   RayAnswers* answers =
       nullptr;             ///< For this batch, asked before shadow and gather rays are traced. Null: all are traced.
@@ -63,6 +65,13 @@ struct ShadeContext {
   bool rehearsal = false;  ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
   float importance = 1;    ///< The weight of what is seen here in the eye's picture.
   int chunk = 0;           ///< The part of the batch that is being shaded, set by ShadingSystem.
+
+  /// Tells whether lamps have highlights on surfaces of a group.
+  bool highlightsLamps(int group) const {
+    return (kind != RayKind::Diffuse || highlights) && !(focusing && (*focusing)[static_cast<size_t>(group)]);
+  }
+  /// Tells whether lamps and skies are seen in mirrors and glass of a group.
+  bool mirrorsLamps(int group) const { return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]); }
 };
 
 /// The options of one set of rays of a shader's call.

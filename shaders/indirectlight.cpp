@@ -8,7 +8,8 @@ rsl::FloatParam maxerror("maxerror", 1, "kappa of the error function; 0 computes
 rsl::StringParam errorfunction("errorfunction", "screen",
                                "screen, ward, hessian; split and plain: ward and screen as published, to compare with",
                                TM_ROLE_ERROR_FUNCTION);
-rsl::StringParam radiance("radiance", "shader", "what a gather ray sees: shader, radiosity, atlas or points",
+rsl::StringParam radiance("radiance", "shader",
+                          "what a gather ray sees: shader, radiosity, atlas, points or progressive",
                           TM_ROLE_HIT_RADIANCE);
 rsl::StringParam atlas("atlas", "", "directory of brick maps; of radiance \"points\" one of point clouds",
                        TM_ROLE_ATLAS);

@@ -44,7 +44,7 @@ std::vector<double> boxAreas(const Scene& scene) {
 constexpr uint32_t kMethod = 11;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
-  const auto& [emit, maxDepth, seed, direct] = settings.photons;
+  const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] = settings.photons;  // the last two as usual
   return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed, direct);
 }
 
@@ -171,7 +171,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
     const auto group = static_cast<size_t>(p.group);
     const std::array values{power.x, power.y, power.z, static_cast<float>(names.surface[group])};
     global[group]->add(P, N, 0, values.data());
-    if (p.caustic && caustic[group]) caustic[group]->add(P, N, 0, values.data());
+    if (p.caustic() && caustic[group]) caustic[group]->add(P, N, 0, values.data());
   };
   const PhotonFigures figures = tracePhotons(
       scene, rays, shading, settings.photons,

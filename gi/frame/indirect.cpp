@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "gi/frame/state.h"
+#include "gi/photons.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/rng.h"
 
@@ -120,8 +121,11 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
 }
 
 int bouncesFor(const GiState& state, const IndirectQuery& query) {
-  const int asked = state.settings.bounces > 0 ? state.settings.bounces : query.bounces;
   const GiMode mode = state.settings.mode;
+  const int usual = mode == GiMode::Progressive
+                        ? state.shading.indirectRequest().value_or(IndirectRequest{}).bounces.value_or(kEnoughBounces)
+                        : query.bounces;
+  const int asked = state.settings.bounces > 0 ? state.settings.bounces : usual;
   return mode == GiMode::None ? 0 : giMethodOf(mode).hitsHoldAll ? std::min(asked, 1) : asked;
 }
 

@@ -9,11 +9,12 @@ namespace {
 
 /// Returns the context of the points that such rays meet: their depths and limits. An object's limit counts from its
 /// own depth, and never lifts an earlier one.
-ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const ShadeContext& context, GiMode mode) {
+ShadeContext contextOfHits(const Attributes& own, int group, const RayQuery& query, const ShadeContext& context,
+                           GiMode mode) {
   ShadeContext hit = context;
   hit.highlights = mode == GiMode::Reference;
   hit.kind = query.kind;
-  hit.label = query.label, hit.lampsGlow = query.lampsGlow && context.mirrored;
+  hit.label = query.label, hit.lampsGlow = query.lampsGlow && context.mirrorsLamps(group);
   hit.importance *= query.importance;
   hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
   hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
@@ -149,7 +150,7 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
   clearResult(points, active, result);
   if (context.rehearsal) return;
   const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
-  const ShadeContext hitContext = contextOfHits(own, query, context, state.settings.mode);
+  const ShadeContext hitContext = contextOfHits(own, points.group(), query, context, state.settings.mode);
   if (context.kind == RayKind::Transmission || isTooDeep(hitContext, state.scene.options)) return;
   const RayTools* tools = state.rays();
   if (!tools) return;

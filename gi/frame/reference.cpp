@@ -115,6 +115,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   hitContext.diffuseLimit =
       bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
   hitContext.highlights = true;
+  if (!state.focusing.empty()) hitContext.focusing = &state.focusing;
   PathBatches batches(state, *tools, points, N, query, hitContext);
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)

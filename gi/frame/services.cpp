@@ -35,6 +35,7 @@ GiServices::~GiServices() = default;
 void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
                             const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
                             const std::function<void(int stride)>& covered) {
+  measureLight(*impl_, layout, tiles, progress, cancelled);
   if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
 }
 
@@ -122,6 +123,12 @@ void GiServices::setAtlasSource(AtlasSource source) { impl_->atlasSource = std::
 
 void GiServices::setHitRadianceSource(HitRadianceSource source) { impl_->hitRadianceSource = std::move(source); }
 
+void GiServices::setPhotonPasses(PhotonPasses passes) {
+  impl_->passes = std::move(passes);
+  if (!impl_->passes->focusedOnly) return;
+  for (const ShadeGroup& g : impl_->scene.groups) impl_->focusing.push_back(focusesPhotons(*g.attributes));
+}
+
 void GiServices::reportAtlas(Stats& stats) const {
   if (impl_->atlas) impl_->atlas->report(stats);
   if (impl_->hitRadiance) impl_->hitRadiance->report(stats);
@@ -157,16 +164,19 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
                                  const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const {
   if (impl_->settings.mode == GiMode::Baked) return bakedIndirect(*impl_, points, active, out);
   const int bounces = bouncesFor(*impl_, query);
-  if (context.depth < bounces) {
+  if (noteMeasured(*impl_, points, active, N, bounces, context, out)) return;
+  if (context.depth < bounces && impl_->settings.mode != GiMode::Progressive) {
     const bool cached = interpolatesIndirect(*impl_);
     if (cached && context.depth > 0) return bounceIndirect(*impl_, points, active, N, query, context, bounces, out);
     if (cached) return interpolateIndirect(*impl_, points, active, N, query, context, out);
-    return traceIndirect(*impl_, points, active, N, query, context, bounces, out);
+    traceIndirect(*impl_, points, active, N, query, context, bounces, out);
+    return addMeasured(*impl_, points, active, N, bounces, context, out);
   }
   for (int i = 0; i < points.count(); ++i) {
     const vec3 n = points.facingNormal(i), dominant[3] = {n, n, n};
     if (active[i]) store(out, i, vec3(0.0f), dominant);
   }
+  addMeasured(*impl_, points, active, N, bounces, context, out);
 }
 
 }  // namespace tomales

@@ -1,6 +1,7 @@
 // Private to gi: the members of GiServices, and the parts that it is made of.
 #pragma once
 #include "gi/frame/bounce_caches.h"
+#include "gi/frame/measured_light.h"
 #include "gi/services.h"
 
 #include <mutex>
@@ -28,6 +29,10 @@ struct GiState {
   HitRadianceSource hitRadianceSource{};                     ///< May be empty.
   mutable std::unique_ptr<const HitRadiance> hitRadiance{};  ///< Set in GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
+  std::optional<PhotonPasses> passes{};       ///< Empty: no photons are counted.
+  std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.
+  /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.
+  std::vector<uint8_t> focusing{};
 };
 
 /// Returns what gathering needs, atlas and radiosity maps included; null in the case that RaySource describes.
@@ -103,6 +108,17 @@ void bakeLight(const GiState&, const DeepFrame& layout, const TileReader&, const
 /// Implements GiServices::gatherPass().
 void fillCaches(GiState&, const DeepFrame& layout, const TileReader&, const std::function<void(float)>& progress,
                 const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered);
+
+/// Notes where shaders ask for indirect light, and counts photons there, if state.passes says how many.
+void measureLight(GiState&, const DeepFrame& layout, const TileReader&, const std::function<void(float)>& progress,
+                  const std::atomic<bool>* cancelled);
+/// Notes the places while measureLight() asks for them, and answers that they are dark. Returns false at any other
+/// time.
+bool noteMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, int bounces,
+                  const ShadeContext&, const IndirectResult& out);
+/// Adds what has been measured to E, where the eye looks and by mirrors and glass.
+void addMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, int bounces,
+                 const ShadeContext&, const IndirectResult& out);
 
 /// Time of ray `number` of the `count` that leave a point: the point's own time, or a stratified one if the point is
 /// seen over the whole shutter and its object samples motion. Successive points of one SampleName continue each other's

@@ -4,39 +4,13 @@
 
 #include <numeric>
 
-#include "gi/photons/glow.h"
-#include "gi/photons/tracer.h"
+#include "gi/photons/stream.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {
 namespace {
 
-constexpr size_t kPhotonsPerTask = 2048,
-                 kTasksPerThread = 8;  ///< A task's photons are stored while they are in the processor's cache.
-
-std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays, const ShadingSystem& shading,
-                                                           uint32_t seed, Log& log) {
-  const Scene& scene = rays.scene();
-  const PhotonTarget target(scene);
-  std::vector<std::unique_ptr<const PhotonSource>> sources;
-  const auto add = [&](std::unique_ptr<const PhotonSource> source) {
-    if (source->power() > 0) sources.push_back(std::move(source));
-  };
-  for (const auto& light : scene.lights) {
-    const LightKind kind = shading.lightKind(light->index);
-    const bool isOn = std::any_of(scene.groups.begin(), scene.groups.end(),
-                                  [&](const ShadeGroup& g) { return isOnFor(g, light->index); });
-    if (!isOn || kind == LightKind::None || kind == LightKind::Indirect) continue;
-    if (kind == LightKind::Ambient) {
-      log.report(Severity::Warning, "photons-ambient", light->shader.where,
-                 "light \"" + light->handle + "\" comes from nowhere: it emits no photons");
-      continue;
-    }
-    add(std::make_unique<LightPhotons>(light->index, shading, rays, target));
-  }
-  add(std::make_unique<GlowPhotons>(rays, shading, seed, log));
-  return sources;
-}
+constexpr size_t kTasksPerThread = 8;
 
 /// The powers of all arrivals, by their number on the path.
 class Series {
@@ -92,39 +66,26 @@ std::optional<PhotonModel> photonModel(const std::string& name) {
   return std::nullopt;
 }
 
+bool focusesPhotons(const Attributes& attributes) {
+  const auto model = photonModel(attributes.photon.shadingModel);
+  return attributes.visibility.photon && model && isMirrorOrGlass(*model);
+}
+
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const PhotonSettings& given, const std::function<void(std::span<const StoredPhoton>)>& store,
                            const std::function<void(float)>& progress, Stats& stats, Log& log) {
-  PhotonSettings settings = given;
-  if (given.maxDepth <= 0) settings.maxDepth = kEnoughBounces;
-  const auto sources = sourcesOf(rays, shading, settings.seed, log);
-  const double total =
-      std::accumulate(sources.begin(), sources.end(), 0.0, [](double sum, const auto& s) { return sum + s->power(); });
-  if (sources.empty())
-    log.report(Severity::Warning, "photons-no-light", scene.where,
-               "nothing in the scene emits photons, neither lights nor surfaces: indirect light is black");
-  const PhotonTracer tracer(scene, rays, shading, settings, log);
+  const PhotonStream stream(rays, shading, given, log);
+  const PhotonSettings& settings = stream.settings();
   PhotonFigures figures;
   Series series(settings.maxDepth);
   std::vector<std::vector<StoredPhoton>> stored;
-  const size_t photonsPerWave = kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
-  for (const auto& source : sources) {
-    // What glows is the first surface of its photons.
-    if (source->light() < 0 && settings.maxDepth < 2) continue;
-    const auto count =
-        static_cast<size_t>(std::max(1.0, std::round(static_cast<double>(settings.emit) * source->power() / total)));
-    const float share = 1 / static_cast<float>(count);
-    for (size_t wave = 0; wave < count; wave += photonsPerWave) {
-      const size_t end = std::min(count, wave + photonsPerWave);
-      stored.resize((end - wave + kPhotonsPerTask - 1) / kPhotonsPerTask);
-      parallelFor(stored.size(), 1, [&](size_t begin, size_t last) {
-        for (size_t task = begin; task < last; ++task) {
-          const size_t first = wave + task * kPhotonsPerTask;
-          stored[task].clear();
-          tracer.trace(*source, static_cast<uint32_t>(first), std::min(kPhotonsPerTask, end - first), share,
-                       stored[task]);
-        }
-      });
+  const size_t photonsPerWave = PhotonStream::kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
+  for (const PhotonStream::Sent& sent : stream.sources()) {
+    for (size_t wave = 0; wave < sent.count; wave += photonsPerWave) {
+      const size_t end = std::min(sent.count, wave + photonsPerWave);
+      stored.assign((end - wave + PhotonStream::kPhotonsPerTask - 1) / PhotonStream::kPhotonsPerTask, {});
+      stream.trace(sent, settings.seed, wave, end,
+                   [&](size_t task, std::vector<StoredPhoton>&& photons) { stored[task] = std::move(photons); });
       for (const auto& photons : stored) {
         store(photons);
         series.add(photons);
@@ -133,12 +94,12 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
       if (progress)
         progress(static_cast<float>(figures.emitted + static_cast<int64_t>(end)) / static_cast<float>(settings.emit));
     }
-    figures.emitted += static_cast<int64_t>(count);
+    figures.emitted += static_cast<int64_t>(sent.count);
   }
   stats.rays.photon += figures.emitted;
-  figures.left = series.left(total);
-  if (!sources.empty() && settings.maxDepth > 1)
-    tellLeft(figures.left, series.ratio(total), settings.maxDepth, given.maxDepth > 0, scene.where, log);
+  figures.left = series.left(stream.power());
+  if (!stream.sources().empty() && settings.maxDepth > 1)
+    tellLeft(figures.left, series.ratio(stream.power()), settings.maxDepth, given.maxDepth > 0, scene.where, log);
   return figures;
 }
 

@@ -20,9 +20,7 @@ class PhotonSurfaces {
   PhotonSurfaces(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log);
 
   PhotonModel model(int group) const { return models_[static_cast<size_t>(group)]; }
-  bool isDiffuse(int group) const {
-    return model(group) == PhotonModel::Matte || model(group) == PhotonModel::Translucent;
-  }
+  bool isDiffuse(int group) const { return !isMirrorOrGlass(model(group)) && model(group) != PhotonModel::Transparent; }
   /// The answer of a group that is the same everywhere, or never needed; null: call ask().
   const Answer* even(int group) const {
     const auto& answer = even_[static_cast<size_t>(group)];

@@ -51,11 +51,11 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
   }
 }
 
-void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t count, float share,
+void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t first, size_t count, float share,
                          std::vector<StoredPhoton>& out) const {
   std::vector<EmittedPhoton> emitted(count);
-  source.emit(first, settings_.seed, emitted);
-  const uint32_t stream = hashCombine(settings_.seed, static_cast<uint32_t>(source.light()), kBounceStream);
+  source.emit(first, seed, emitted);
+  const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(source.light()), kBounceStream);
   std::vector<Path> paths;
   Scratch scratch;
   paths.reserve(count), scratch.flying.reserve(count);
@@ -68,7 +68,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t first, size_t coun
     paths.back().ray.time = timeOf(number, stream);
     paths.back().lift = liftOf(e.ray, e.normal);
     // Gather rays see what glows themselves: its photons have left a surface, as all others do once they have arrived.
-    if (source.light() < 0) paths.back().depth = 1, paths.back().specular = false;
+    if (source.light() < 0) paths.back().depth = paths.back().bounces = 1, paths.back().specular = false;
   }
   while (!scratch.flying.empty()) {
     throwIfStopped();
@@ -164,7 +164,8 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
                             std::vector<StoredPhoton>& out) const {
   const vec3 P = path.ray.origin + flight * path.ray.direction;
   if (isLit)
-    out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, false});
+    out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, path.bounces,
+                   path.focused});
   const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
   if (collision.event == Collision::Absorbed) return false;
   path.power = collision.power;
@@ -174,8 +175,7 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
     path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
     return true;
   }
-  if (!isLit || ++path.depth >= settings_.maxDepth) return false;
-  path.specular = false;
+  if (!isLit || ++path.depth >= settings_.maxDepth || !scatters(path)) return false;
   const float time = path.ray.time;
   path.ray = {P, directionOnSphere(sobol2(path.number, hashCombine(name, 2u)))};
   path.ray.time = time;
@@ -226,8 +226,8 @@ bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const
   const bool lands = passing < 1 && landsOn(path, group);
   if (lands && (settings_.direct || path.depth > 0)) {
     const vec3 Ng = hit.geometricNormal;
-    out.push_back({hit.atOpen, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth,
-                   path.specular && path.depth > 0});
+    out.push_back({hit.atOpen, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth, path.bounces,
+                   path.focused});
   }
   if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)
     return passes(path, hit, transmitted / passing, xi.survival);
@@ -242,8 +242,7 @@ bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, f
 }
 
 bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const {
-  path.specular = false;
-  if (++path.depth >= settings_.maxDepth || !survives(path, reflected, xi.survival)) return false;
+  if (++path.depth >= settings_.maxDepth || !scatters(path) || !survives(path, reflected, xi.survival)) return false;
   // Around the interpolated normal some photons would start into the polygon, and be caught in the body that it bounds.
   const bool through = surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
   const vec3 axis =
@@ -259,6 +258,7 @@ bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float 
   const PhotonModel model = surfaces_.model(groupOf(hit));
   const vec3& tint = scene_.groups[static_cast<size_t>(groupOf(hit))].attributes->color;
   if (++path.depth >= settings_.maxDepth || !survives(path, tint, survival)) return false;
+  if (path.specular && !path.focused) path.focused = true, ++path.bounces;
   const vec3 d = path.ray.direction;
   const bool front = dot(d, hit.geometricNormal) < 0;
   const vec3 N = front ? hit.normal : -hit.normal;
@@ -266,6 +266,12 @@ bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float 
   const float index = model == PhotonModel::Water ? 1.33f : 1.5f;
   leave(path, hit, normalizeOr(model == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
   return true;
+}
+
+/// Counts a diffuse surface or a collision. Returns false if no later arrival would count.
+bool PhotonTracer::scatters(Path& path) const {
+  path.specular = false;
+  return ++path.bounces <= settings_.mostBounces && (path.focused || !settings_.focusedOnly);
 }
 
 /// Surviving photons keep the power that they came with, so that all stored photons have about the same power.

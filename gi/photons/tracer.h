@@ -17,8 +17,8 @@ class PhotonTracer {
                Log& log);
 
   /// Traces photons `first` .. first + count - 1 of a source, each with this share of its power; stored photons are
-  /// added to `out`.
-  void trace(const PhotonSource& source, uint32_t first, size_t count, float share,
+  /// added to `out`. Other seeds give independent photons.
+  void trace(const PhotonSource& source, uint32_t seed, uint32_t first, size_t count, float share,
              std::vector<StoredPhoton>& out) const;
 
  private:
@@ -30,8 +30,10 @@ class PhotonTracer {
     int depth = 0;
     uint32_t passes = 0;      ///< Surfaces that it has passed as if they were not there.
     uint32_t collisions = 0;  ///< Collisions with media.
-    bool specular = true;     ///< It has met no diffuse surface so far.
-    vec3 lift{0.0f};          ///< Offset from the origin to just before the polygon that it leaves.
+    int bounces = 0;          ///< The same as StoredPhoton::bounces, and the next:
+    bool focused = false;
+    bool specular = true;  ///< It has met no diffuse surface so far.
+    vec3 lift{0.0f};       ///< Offset from the origin to just before the polygon that it leaves.
   };
   using Answer = PhotonSurfaces::Answer;
   struct Draw {
@@ -69,6 +71,7 @@ class PhotonTracer {
   bool isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const;
   bool isMirrored(Path& path, const Hit& hit, float survival, float xi) const;
   void leave(Path& path, const Hit& hit, const vec3& direction) const;
+  bool scatters(Path& path) const;
   static bool survives(Path& path, const vec3& left, float xi);
   static uint32_t nameOf(const Path& path, uint32_t stream);
   float timeOf(uint32_t number, uint32_t stream) const;

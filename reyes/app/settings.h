@@ -31,7 +31,9 @@ struct RenderSettings {
   bool direct = true;    ///< If false, the picture shows what indirect lights bring, and nothing else.
   uint32_t seed = 0;
   std::optional<uint32_t> lightSeed;  ///< Seed of the random numbers of light alone; if not given, `seed`.
-  int64_t photons = 1'000'000;        ///< Number to emit for --gi atlas.
+  int64_t photons = 1'000'000;        ///< Number to emit for --gi atlas and the caustics of the reference; the most for
+                                      ///< --gi progressive.
+  double photonNoise = 0;             ///< Counted photons end when their noise is less than this share of their light.
   bool atlasDirect = false;  ///< Maps of --gi atlas hold direct light; else gather rays sample lights where they hit.
   float brickMaxError =
       0.03f;  ///< Brick maps of --gi atlas leave out bricks whose voxels vary by less of the map's mean.

@@ -48,6 +48,7 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"aspe", "directions through them"},
     {"phot", "the second pair of numbers of a photon's start"},
     {"medi", "collisions of photons in media"},
+    {"pass", "passes of photons that are counted at points"},
 };
 
 consteval bool randomStreamsDiffer() {

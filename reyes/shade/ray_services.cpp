@@ -53,8 +53,8 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
   result.distance = batch.arena.floats(g->count);
   if (color.x) result.color = batch.arena.vec3(g->count), result.opacity = batch.arena.vec3(g->count);
   // Diffuse rays bring no sky, as they bring no area lights: diffuse() has asked for that light.
-  if (color.x && query.kind == RayKind::Specular && query.lampsGlow && batch.context.mirrored &&
-      query.maxDistance >= kFarAway)
+  if (color.x && query.kind == RayKind::Specular && query.lampsGlow &&
+      batch.context.mirrorsLamps(batch.points->group()) && query.maxDistance >= kFarAway)
     result.leaves = batch.arena.bytes(g->count);
   for (int ray = 0; ray < options.samples; ++ray, ++query.number) {
     const Batch::Scratch scratch(batch);

@@ -128,8 +128,14 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
                  "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")
       ->check(CLI::Range(1, 4096));
   app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone (default: that of --seed)");
-  app.add_option("--photons", s.photons, fmt::format("Photons to emit for --gi atlas (default {})", s.photons))
+  app.add_option("--photons", s.photons,
+                 fmt::format("Photons to emit for --gi atlas, progressive and the caustics of reference (default {})",
+                             s.photons))
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
+  app.add_option("--photon-noise", s.photonNoise,
+                 "--gi progressive, and the caustics of reference: send no more photons once the noise of their light "
+                 "is less than this share of it, as 0.01 (default: send all of --photons)")
+      ->check(between(0.0, 1.0));
   app.add_option_function<std::string>(
          "--atlas-direct", [&s](const std::string& t) { s.atlasDirect = t == "stored"; },
          "Direct light where gather rays of --gi atlas hit: stored in the maps that are made, or sampled "

@@ -44,6 +44,7 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
       return v.diffuse || v.specular || v.transmission || v.photon;
     });
   gathers_ = method_->caches;
+  counts_ = countsPhotons(*method_, scene);
   for (size_t g = 0; g < scene.groups.size() && mode() == GiMode::None && keepsOcclusion(giSettings()); ++g)
     gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
   warnAboutPixels();
@@ -113,7 +114,7 @@ GiSettings FrameJob::giSettings() const {
 }
 
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
-  if (!gathers() || interrupted()) return;
+  if (!(gathers() || counts_) || interrupted()) return;
   const StageTimer timer(stats_, "gather");
   meter_.begin("gathering");
   openPreview(layout);
@@ -128,7 +129,7 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
                         show);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
-  if (!settings_.bakedFolder.empty() && !interrupted())
+  if (!settings_.bakedFolder.empty() && gathers() && !interrupted())
     bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);
 }
 

@@ -43,6 +43,8 @@ class FrameJob {
                     const std::function<void(size_t tile, const DeepTile&)>& keep);
 
   bool gathers() const { return gathers_; }
+  /// Tells whether gather() has to run, where records are given or not.
+  bool gathersBeside(bool recordsGiven) const { return counts_ || (gathers_ && !recordsGiven); }
   /// Warns if records that stand in for a gather pass were made without one. `file` is where they come from.
   void checkRecords(const GiSettings& gathered, const std::string& file) const;
   const GiMethod& method() const { return *method_; }
@@ -81,6 +83,7 @@ class FrameJob {
   Stats& stats_;
   Log& log_;
   bool gathers_ = false;
+  bool counts_ = false;  ///< Photons are counted at visible points.
   const Camera camera_;
   ProgressMeter meter_;
   CloudFiles clouds_;

@@ -1,5 +1,7 @@
 #include "reyes/app/frame/light_sources.h"
 
+#include <fmt/format.h>
+
 #include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/radiosity_job.h"
 
@@ -31,12 +33,32 @@ void openMapsOfBaked(GiServices& services, const FrameOfLight& frame) {
   services.setAtlas(openBaked(frame.scene, frame.shading, frame.settings, frame.log));
 }
 
+/// Counts photons at visible points: in the reference those of caustics, where mirrors or glass make any.
+void setPhotons(GiServices& services, const FrameOfLight& frame) {
+  if (!countsPhotons(methodOf(frame.settings, frame.shading), frame.scene)) return;
+  const bool causticsAlone = methodOf(frame.settings, frame.shading).causticsAlone;
+  PhotonPasses passes;
+  passes.photons = frame.settings.photons, passes.noise = frame.settings.photonNoise;
+  passes.seed = lightSeedOf(frame.settings);
+  passes.focusedOnly = causticsAlone, passes.shrinks = !causticsAlone;
+  passes.log = &frame.log;
+  passes.tell = [log = &frame.log](int64_t sent, size_t points, double noise) {
+    std::string text = fmt::format("{} photons were counted at {} points", sent, points);
+    if (noise >= 0) text += fmt::format("; the noise of what they bring is {:.2g} %", 100 * noise);
+    log->report(Severity::Info, "photons-counted", {}, text);
+  };
+  services.setPhotonPasses(std::move(passes));
+}
+
 struct Source {
   GiMode mode;
   void (*set)(GiServices& services, const FrameOfLight& frame);
 };
-constexpr Source kSources[] = {
-    {GiMode::Atlas, setAtlas}, {GiMode::Radiosity, setRadiosity}, {GiMode::Baked, openMapsOfBaked}};
+constexpr Source kSources[] = {{GiMode::Atlas, setAtlas},
+                               {GiMode::Radiosity, setRadiosity},
+                               {GiMode::Baked, openMapsOfBaked},
+                               {GiMode::Progressive, setPhotons},
+                               {GiMode::Reference, setPhotons}};
 
 }  // namespace
 
@@ -44,6 +66,12 @@ const GiMethod& methodOf(const RenderSettings& settings, const ShadingSystem& sh
   if (settings.gi) return *settings.gi;
   const auto request = shading.indirectRequest();
   return request ? *request->method : giMethodOf(GiMode::None);
+}
+
+bool countsPhotons(const GiMethod& method, const Scene& scene) {
+  const auto focuses = [](const ShadeGroup& g) { return focusesPhotons(*g.attributes); };
+  return method.countsPhotons &&
+         (!method.causticsAlone || std::any_of(scene.groups.begin(), scene.groups.end(), focuses));
 }
 
 void setLightSources(GiServices& services, const GiMethod& method, const FrameOfLight& frame) {

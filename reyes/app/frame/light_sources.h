@@ -8,6 +8,9 @@ namespace tomales {
 /// Returns the method of the command line or, if that leaves it to the scene, of its indirect lights.
 const GiMethod& methodOf(const RenderSettings& settings, const ShadingSystem& shading);
 
+/// Tells whether photons are counted at visible points before this scene is shaded.
+bool countsPhotons(const GiMethod& method, const Scene& scene);
+
 /// All that it refers to must outlive the services.
 struct FrameOfLight {
   const RaySource& rays;

@@ -36,7 +36,8 @@ std::string settingsText(const RenderSettings& s) {
   add("--error-function", s.errorFunction ? static_cast<int>(*s.errorFunction) : -1, -1);
   add("--light-samples", s.lightSamples, usual.lightSamples), add("--indirect-only", !s.direct, false);
   add("--seed", s.seed, usual.seed), add("--light-seed", lightSeedOf(s), s.seed);
-  add("--photons", s.photons, usual.photons), add("--atlas-direct", s.atlasDirect, usual.atlasDirect);
+  add("--photons", s.photons, usual.photons), add("--photon-noise", s.photonNoise, usual.photonNoise);
+  add("--atlas-direct", s.atlasDirect, usual.atlasDirect);
   add("--brick-maxerror", s.brickMaxError, usual.brickMaxError);
   add("--radiosity-texels", s.radiosityTexels, usual.radiosityTexels);
   add("--irradiance-append", s.appendIrradiance, usual.appendIrradiance);

@@ -95,9 +95,9 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
   if (!displaysHaveFolders(scene.options, pluginTrust(settings), log) || !fitsMemory(scene, layout, log)) return;
   checkDisplays(scene.options, log);
   FrameJob job(scene, shaders, settings, stats, log);
-  const bool given = !settings.irradiance.empty(), gathers = job.gathers() && (!given || settings.appendIrradiance);
+  const bool given = !settings.irradiance.empty(), gathers = job.gathersBeside(given && !settings.appendIrradiance);
   if (gathers) describeGather(scene.options, settings);
-  if (!settings.bakedFolder.empty() && !gathers && !job.method().usesBaked)
+  if (!settings.bakedFolder.empty() && !(gathers && job.gathers()) && !job.method().usesBaked)
     log.report(Severity::Warning, "baked-unused", {},
                "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
   const int64_t budget_bytes = tileBudget(settings, 0);

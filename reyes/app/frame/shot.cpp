@@ -132,7 +132,7 @@ void ShotJob::shadePicture() {
                settings_);
   prepareLight();
   const auto load = [this](size_t index) { return this->load(index); };
-  if (!job_->gathers() || (irradiance_ && !settings_.appendIrradiance)) {
+  if (!job_->gathersBeside(irradiance_ && !settings_.appendIrradiance)) {
     warnOfStaleLight();
     if (irradiance_) job_->checkRecords(irradiance_->shot().settings, settings_.irradiance);
     job_->write(shot_.frame, load);

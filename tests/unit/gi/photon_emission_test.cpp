@@ -275,7 +275,7 @@ TEST(PhotonEmission, WhatASheetLetsPassArrivesStraightFromTheLight) {
   World world(b.scene);
   vec3 onWall(0), onSheet(0);
   for (const StoredPhoton& p : traced(world, {50000, 1})) {
-    EXPECT_TRUE(p.depth == 0 && !p.caustic);
+    EXPECT_TRUE(p.depth == 0 && !p.caustic());
     (p.P.z > 6 ? onWall : onSheet) += p.power / (4 * kPi);
   }
   for (int c = 0; c < 3; ++c) {
@@ -316,7 +316,7 @@ TEST(PhotonEmission, TransparentObjectsAreNoBounceAndMakeNoCaustic) {
   World world(b.scene);
   vec3 onWall(0);
   for (const StoredPhoton& p : traced(world, {50000, 1})) {
-    EXPECT_TRUE(p.P.z > 7 && p.depth == 0 && !p.caustic);
+    EXPECT_TRUE(p.P.z > 7 && p.depth == 0 && !p.caustic());
     onWall += p.power / (4 * kPi);
   }
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(onWall[c], c == 0 ? 1 : c == 1 ? 0.5f : 0.25f, 0.02f) << c;

@@ -1,0 +1,40 @@
+// Private to gi: light that photons bring to the points at which the frame's shaders ask for indirect light, by which
+// they are found: the frame is shaded once without light to note these places, and asks at the same places again when
+// it is shaded. Places where rays of mirrors and glass arrive are among them. Irradiance: E/pi. Space: current.
+#pragma once
+#include <mutex>
+#include <unordered_map>
+
+#include "gi/photons/measurement.h"
+#include "gi/services.h"
+
+namespace tomales {
+
+class MeasuredLight {
+ public:
+  /// True until measure(). Threads: note() may be called concurrently.
+  bool isNoting() const { return !measurement_; }
+  void note(const MeasurementPoint& point);
+
+  struct Pass {
+    float scale;  ///< Factor on the radii.
+    uint32_t seed;
+  };
+  /// Counts passes of photons at what has been noted, until as many as asked for have been sent or the noise is low
+  /// enough.
+  void measure(const RayTools& tools, const PhotonPasses& passes, const std::function<void(float)>& progress,
+               Stats& stats);
+
+  /// E/pi at a point that is equal to a noted one, and 0 at any other. Threads: may be called concurrently.
+  vec3 overPi(const MeasurementPoint& point) const;
+
+ private:
+  static uint64_t nameOf(const MeasurementPoint& point);
+
+  std::mutex noting_;
+  std::unordered_map<uint64_t, uint32_t> index_;  ///< Of each point, by its name.
+  std::vector<MeasurementPoint> points_;
+  std::unique_ptr<PhotonMeasurement> measurement_;
+};
+
+}  // namespace tomales

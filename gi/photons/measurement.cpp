@@ -1,0 +1,130 @@
+#include "gi/photons/measurement.h"
+
+#include <bit>
+#include <numeric>
+
+#include "reyes/base/parallel.h"
+
+namespace tomales {
+namespace {
+
+/// Surfaces that face more differently than this are others.
+constexpr float kSameFacing = 0.7071f;
+/// Sums may become 2^23 times the power of a pass, and a photon in a million still has 20 bits.
+constexpr double kUnitsOfPower = 0x1p40;
+constexpr size_t kNumbers = 6, kColors = 3;
+
+uint64_t mixed(uint64_t x) {  // splitmix64 (Steele, Lea and Flood 2014)
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ x >> 27) * 0x94d049bb133111ebU;
+  return x ^ x >> 31;
+}
+
+}  // namespace
+
+uint64_t PhotonMeasurement::Cube::name() const {
+  uint64_t out = mixed(static_cast<uint32_t>(level));
+  for (const int c : {at.x, at.y, at.z}) out = mixed(out ^ static_cast<uint32_t>(c));
+  return out;
+}
+
+PhotonMeasurement::PhotonMeasurement(std::vector<MeasurementPoint> points, double power)
+    : points_(std::move(points)),
+      unit_(power > 0 ? power / kUnitsOfPower : 1),
+      sums_(new std::atomic<int64_t>[kNumbers * points_.size()]) {
+  for (size_t i = 0; i < kNumbers * points_.size(); ++i) sums_[i] = 0;
+}
+
+void PhotonMeasurement::beginPass(float scale) {
+  ++passes_;
+  if (scale == scale_) return;
+  scale_ = scale;
+  build();
+}
+
+/// A point lies in one cube, at least twice as wide as its reach: whatever it reaches lies in that cube or nearer to it
+/// than half its width.
+void PhotonMeasurement::build() {
+  const size_t count = points_.size();
+  std::vector<uint64_t> cube(count);
+  std::vector<int> level(count);
+  parallelFor(count, 4096, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      level[i] = std::ilogb(2 * reach(points_[i])) + 1;
+      cube[i] = Cube{level[i], glm::ivec3(glm::floor(points_[i].P * std::ldexp(1.0f, -level[i])))}.name();
+    }
+  });
+  levels_ = level;
+  std::sort(levels_.begin(), levels_.end());
+  levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+  const size_t slots = std::bit_ceil(std::max<size_t>(count, 1));
+  slots_.assign(slots + 1, 0);
+  for (const uint64_t c : cube) ++slots_[(c & (slots - 1)) + 1];
+  std::partial_sum(slots_.begin(), slots_.end(), slots_.begin());
+  std::vector<uint32_t> next(slots_.begin(), slots_.end() - 1);
+  entries_.resize(count);
+  for (size_t i = 0; i < count; ++i) entries_[next[cube[i] & (slots - 1)]++] = {cube[i], static_cast<uint32_t>(i)};
+}
+
+std::span<const PhotonMeasurement::Entry> PhotonMeasurement::slotOf(uint64_t cube) const {
+  const size_t slot = cube & (slots_.size() - 2);
+  return std::span(entries_).subspan(slots_[slot], slots_[slot + 1] - slots_[slot]);
+}
+
+bool PhotonMeasurement::holds(const MeasurementPoint& p, const StoredPhoton& photon) const {
+  if (photon.bounces > p.bounces || dot(photon.N, p.N) < kSameFacing) return false;
+  const vec3 off = photon.P - p.P;
+  const float along = dot(off, p.N), radius = scale_ * p.radius;
+  return std::abs(along) < radius + p.beside && dot(off, off) - along * along < radius * radius;
+}
+
+void PhotonMeasurement::count(std::span<const StoredPhoton> photons) {
+  for (const StoredPhoton& photon : photons) {
+    if (photon.group < 0) continue;
+    for (const int level : levels_) {
+      const vec3 at = photon.P * std::ldexp(1.0f, -level);
+      const glm::ivec3 first(glm::floor(at - 0.5f));
+      for (int k = 0; k < 8; ++k) {
+        const uint64_t cube = Cube{level, first + glm::ivec3(k & 1, k >> 1 & 1, k >> 2)}.name();
+        for (const Entry& e : slotOf(cube))
+          if (e.cube == cube && holds(points_[e.point], photon)) add(e.point, photon.power);
+      }
+    }
+  }
+}
+
+void PhotonMeasurement::add(uint32_t point, const vec3& power) {
+  const double units = 1 / (unit_ * double{scale_} * double{scale_});
+  std::atomic<int64_t>* const sums = &sums_[kNumbers * point + kColors * static_cast<size_t>(passes_ & 1)];
+  for (int c = 0; c < 3; ++c) sums[c].fetch_add(std::llround(double{power[c]} * units), std::memory_order_relaxed);
+}
+
+vec3 PhotonMeasurement::half(size_t point, size_t parity) const {
+  const int64_t passes = (passes_ + static_cast<int64_t>(parity)) / 2;  // the first pass is an odd one
+  if (passes == 0) return vec3(0.0f);
+  const double r = double{points_[point].radius};
+  const double scale = unit_ / (double{kPi} * double{kPi} * r * r * static_cast<double>(passes));
+  vec3 out;
+  for (int c = 0; c < 3; ++c)
+    out[c] = static_cast<float>(
+        static_cast<double>(sums_[kNumbers * point + kColors * parity + static_cast<size_t>(c)]) * scale);
+  return out;
+}
+
+vec3 PhotonMeasurement::overPi(size_t point) const {
+  if (passes_ == 0) return vec3(0.0f);
+  const float odd = static_cast<float>((passes_ + 1) / 2) / static_cast<float>(passes_);
+  return half(point, 1) * odd + half(point, 0) * (1 - odd);
+}
+
+double PhotonMeasurement::noise() const {
+  double difference = 0, mean = 0;
+  for (size_t i = 0; i < points_.size(); ++i) {
+    const double even = double{luminance(half(i, 0))}, odd = double{luminance(half(i, 1))};
+    difference += std::abs(even - odd) / 2, mean += (even + odd) / 2;
+  }
+  return passes_ > 1 && mean > 0 ? difference / mean : -1;
+}
+
+}  // namespace tomales

@@ -1,0 +1,78 @@
+#include "gi/photons/stream.h"
+
+#include "gi/photons/glow.h"
+#include "reyes/base/parallel.h"
+
+namespace tomales {
+namespace {
+
+std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays, const ShadingSystem& shading,
+                                                           const PhotonSettings& settings, Log& log) {
+  const Scene& scene = rays.scene();
+  const PhotonTarget target(scene);
+  std::vector<std::unique_ptr<const PhotonSource>> sources;
+  const auto add = [&](std::unique_ptr<const PhotonSource> source) {
+    if (source->power() > 0) sources.push_back(std::move(source));
+  };
+  for (const auto& light : scene.lights) {
+    const LightKind kind = shading.lightKind(light->index);
+    const bool isOn = std::any_of(scene.groups.begin(), scene.groups.end(),
+                                  [&](const ShadeGroup& g) { return isOnFor(g, light->index); });
+    if (!isOn || kind == LightKind::None || kind == LightKind::Indirect) continue;
+    if (kind == LightKind::Ambient) {
+      log.report(Severity::Warning, "photons-ambient", light->shader.where,
+                 "light \"" + light->handle + "\" comes from nowhere: it emits no photons");
+      continue;
+    }
+    add(std::make_unique<LightPhotons>(light->index, shading, rays, target));
+  }
+  // What glows is the first surface of its photons, and a diffuse one.
+  if (settings.maxDepth > 1 && !settings.focusedOnly)
+    add(std::make_unique<GlowPhotons>(rays, shading, settings.seed, log));
+  return sources;
+}
+
+PhotonSettings withDepth(PhotonSettings settings) {
+  if (settings.maxDepth <= 0) settings.maxDepth = kEnoughBounces;
+  return settings;
+}
+
+}  // namespace
+
+PhotonStream::PhotonStream(const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log)
+    : settings_(withDepth(settings)), tracer_(rays.scene(), rays, shading, settings_, log) {
+  auto sources = sourcesOf(rays, shading, settings_, log);
+  for (const auto& s : sources) power_ += s->power();
+  for (auto& s : sources) {
+    const double share = std::round(static_cast<double>(settings_.emit) * s->power() / power_);
+    sources_.push_back({std::move(s), static_cast<size_t>(std::max(1.0, share))});
+  }
+  if (sources_.empty())
+    log.report(Severity::Warning, "photons-no-light", rays.scene().where,
+               "nothing in the scene emits photons, neither lights nor surfaces: indirect light is black");
+}
+
+void PhotonStream::trace(const Sent& from, uint32_t seed, size_t first, size_t end,
+                         const std::function<void(size_t, std::vector<StoredPhoton>&&)>& taken) const {
+  const float share = 1 / static_cast<float>(from.count);
+  const size_t tasks = (end - first + kPhotonsPerTask - 1) / kPhotonsPerTask;
+  parallelFor(tasks, 1, [&](size_t begin, size_t last) {
+    for (size_t task = begin; task < last; ++task) {
+      const size_t at = first + task * kPhotonsPerTask;
+      std::vector<StoredPhoton> photons;
+      tracer_.trace(*from.source, seed, static_cast<uint32_t>(at), std::min(kPhotonsPerTask, end - at), share, photons);
+      taken(task, std::move(photons));
+    }
+  });
+}
+
+int64_t PhotonStream::pass(uint32_t seed, const std::function<void(std::span<const StoredPhoton>)>& count) const {
+  int64_t sum = 0;
+  for (const Sent& s : sources_) {
+    trace(s, seed, 0, s.count, [&](size_t, std::vector<StoredPhoton>&& photons) { count(photons); });
+    sum += static_cast<int64_t>(s.count);
+  }
+  return sum;
+}
+
+}  // namespace tomales

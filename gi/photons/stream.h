@@ -1,0 +1,37 @@
+// Private to gi: all that sends photons in a scene, and their paths. Threads: const members may be called concurrently;
+// pass() uses the pool.
+#pragma once
+#include "gi/photons/tracer.h"
+
+namespace tomales {
+
+class PhotonStream {
+ public:
+  /// maxDepth 0 becomes kEnoughBounces.
+  PhotonStream(const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log);
+  PhotonStream(const PhotonStream&) = delete;
+
+  struct Sent {
+    std::unique_ptr<const PhotonSource> source;
+    size_t count;  ///< Photons of settings().emit that are its share by power, at least one.
+  };
+  const std::vector<Sent>& sources() const { return sources_; }
+  double power() const { return power_; }  ///< Of all sources together, in W.
+  const PhotonSettings& settings() const { return settings_; }
+
+  /// A task's photons fit into the processor's cache.
+  static constexpr size_t kPhotonsPerTask = 2048;
+  /// Traces photons `first` .. `end` - 1 of a source, in tasks; taken(k, photons) is called concurrently for task k.
+  void trace(const Sent& from, uint32_t seed, size_t first, size_t end,
+             const std::function<void(size_t task, std::vector<StoredPhoton>&& photons)>& taken) const;
+  /// Traces settings().emit photons. `count` is called concurrently, in any order. Returns the number of photons.
+  int64_t pass(uint32_t seed, const std::function<void(std::span<const StoredPhoton>)>& count) const;
+
+ private:
+  PhotonSettings settings_;
+  std::vector<Sent> sources_;
+  double power_ = 0;
+  PhotonTracer tracer_;
+};
+
+}  // namespace tomales
