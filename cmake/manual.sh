@@ -22,4 +22,5 @@ page tomales "renders RIB scenes with global illumination" ""
     title=$("$program" "$command" --help | head -n 1)
     page "tomales-$command" "${title%%.*}" "$command"
   done
+gzip -9nf "$folder"/*.1
 "$program" completion > "$folder/tomales.bash"
