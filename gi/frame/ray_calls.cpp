@@ -11,7 +11,7 @@ namespace {
 /// own depth, and never lifts an earlier one.
 ShadeContext contextOfHits(const Attributes& own, const RayQuery& query, const ShadeContext& context, GiMode mode) {
   ShadeContext hit = context;
-  hit.highlights = mode == GiMode::Reference;
+  hit.highlights = mode == GiMode::Reference || context.auditPaths > 0;
   hit.kind = query.kind;
   hit.label = query.label, hit.lampsGlow = query.lampsGlow && context.mirrored;
   hit.importance *= query.importance;

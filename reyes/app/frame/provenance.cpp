@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kContents = "tomales:contents", *kVersionOf = "tomales:version", *kScene = "tomales:scene",
-                     *kFrame = "tomales:frame", *kSettings = "tomales:settings";
+                     *kFrame = "tomales:frame", *kSettings = "tomales:settings", *kAudit = "tomales:audit";
 
 /// The options of the command line that pictures depend on and that no option of the scene keeps, where they are not
 /// the defaults.
@@ -106,6 +106,11 @@ void describeOutputs(Options& options, const std::string& contents, const Render
     addHeader(d, kFrame, std::to_string(options.frame)), addHeader(d, kSettings, settingsText(settings));
     if (!contents.empty()) addHeader(d, kContents, contents);
   }
+}
+
+void describeAudit(Options& options, const std::string& sentence, const RenderSettings& settings) {
+  for (DisplayCall& d : options.displays)
+    if (driverOf(d, options, pluginTrust(settings)).empty()) addHeader(d, kAudit, sentence);
 }
 
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log) {

@@ -15,6 +15,9 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
 /// Adds program, scene, frame, settings and, unless it is empty, contents to the headers of the frame's pictures.
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings);
 
+/// Adds what an audit has found to the same headers.
+void describeAudit(Options& options, const std::string& sentence, const RenderSettings& settings);
+
 /// Do all files of the frame's Displays hold these contents? Formats without such headers cannot tell, which is
 /// reported, and neither can display drivers.
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log);
