@@ -48,9 +48,9 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"aspe", "directions through them"},
     {"phot", "the second pair of numbers of a photon's start"},
     {"medi", "collisions of photons in media"},
-    {"audi", "samples of the picture that are audited"},
+    {"audi", "pixels that are audited"},
     {"sets", "light that an audit finds there, set by set"},
-    {"boot", "samples that are drawn again to know how certain an audit is"},
+    {"boot", "pixels that are drawn again to know how certain an audit is"},
 };
 
 consteval bool randomStreamsDiffer() {

@@ -42,7 +42,7 @@ struct Stats {
     Counter lookups{0}, tileRequests{0}, tileMisses{0}, bytesRead{0};
   } textures;
   struct {
-    Counter samples{0}, paths{0};
+    Counter pixels{0}, paths{0};
   } audit;
   struct {
     Counter grids{0}, geometry{0}, deepFrame{0};

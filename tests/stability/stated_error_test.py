@@ -12,7 +12,7 @@ with tempfile.TemporaryDirectory() as folder:
     for room, paths in {"box_ball": 1024, "random1": 1024}.items():
         truth = rooms.truth(room, paths)
         for settings in (["--samples", "100"], ["--samples", "400", "--max-error", "3"]):
-            picture, audit = rooms.render(room, "--gi", "gather", "--audit=200", *settings)
+            picture, audit = rooms.render(room, "--audit=200", *settings)
             true, _ = true_error(picture, truth)
             stated = audit["indirect"]["mean"]
             good = 1 / 1.5 < stated / true < 1.5

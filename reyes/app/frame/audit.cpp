@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "reyes/app/frame/audit_samples.h"
+#include "reyes/app/frame/audit_pixels.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
@@ -10,30 +10,32 @@ namespace tomales {
 namespace {
 
 constexpr float kAuditFloor = 0.01f;  ///< Added to the colour that errors are shares of, as in `tomales chart`.
-/// Paths of each of the two sets: so many at first, then as many again until their noise is a third of the error.
-constexpr int kFewestPaths = 128, kMostPaths = 8192;
+/// Paths at each point, of which a pixel sees several, in each of the two sets: so many at first, then as many again
+/// until their noise is a third of the error.
+constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 1.0 / 3;
 constexpr int kTimesLightSamples = 16;
 
-/// What a kind of light brings to each sample: in the picture, and by two independent sets of many rays.
+/// What a kind of light brings to each pixel: in the picture, and by two independent sets of many rays.
 struct FoundLight {
   std::vector<vec3> picture, sets[2];
   int rays = 0;  ///< Of each set.
 
   /// What is missing in the picture.
-  vec3 missing(size_t s) const { return 0.5f * (sets[0][s] + sets[1][s]) - picture[s]; }
-  vec3 noise(size_t s) const { return 0.5f * (sets[0][s] - sets[1][s]); }
+  vec3 missing(size_t p) const { return 0.5f * (sets[0][p] + sets[1][p]) - picture[p]; }
+  vec3 noise(size_t p) const { return 0.5f * (sets[0][p] - sets[1][p]); }
 };
 
 class Audit {
  public:
   Audit(const Scene& scene, const ShadingSystem& shading, const ShadeContext& context, const AuditPlan& plan,
-        std::vector<AuditSample> samples, const std::atomic<bool>& cancelled)
+        std::vector<AuditPixel> pixels, int samplesPerPixel, const std::atomic<bool>& cancelled)
       : scene_(scene),
         shading_(shading),
         context_(context),
         plan_(plan),
-        samples_(std::move(samples)),
+        pixels_(std::move(pixels)),
+        samplesPerPixel_(samplesPerPixel),
         cancelled_(cancelled) {
     context_.sketch = true;
   }
@@ -61,14 +63,14 @@ class Audit {
     if (context_.direct) out.direct = estimateError(errorsOf({&direct_}));
     if (plan_.indirect) out.indirect = estimateError(errorsOf({&indirect_}));
     const std::vector<AuditedError> errors = errorsOf({&direct_, &indirect_});
-    out.samples = errors.size();
+    out.pixels = errors.size();
     out.picture = estimateError(errors);
     return out;
   }
 
  private:
   std::vector<vec3> shade(const ShadeContext& context) const {
-    return shadeSamples(samples_, scene_, shading_, context);
+    return shadeAuditPixels(pixels_, samplesPerPixel_, scene_, shading_, context);
   }
 
   /// Adds `rays` to each of the two sets.
@@ -78,22 +80,22 @@ class Audit {
     for (uint32_t set = 0; set < 2; ++set) {
       context.seed = hashCombine(plan_.seed, randomStream("sets"), 2 * static_cast<uint32_t>(light.rays) + set);
       std::vector<vec3>& mean = light.sets[set];
-      mean.resize(samples_.size(), vec3(0.0f));
+      mean.resize(pixels_.size(), vec3(0.0f));
       const std::vector<vec3> more = shade(context);
-      for (size_t s = 0; s < mean.size(); ++s) mean[s] += share * (more[s] - mean[s]);
+      for (size_t p = 0; p < mean.size(); ++p) mean[p] += share * (more[p] - mean[p]);
     }
     light.rays += rays;
   }
 
-  /// The errors that these kinds of light make together, at the samples that are lit.
+  /// The errors that these kinds of light make together, at the pixels that are lit.
   std::vector<AuditedError> errorsOf(std::initializer_list<const FoundLight*> kinds) const {
     std::vector<AuditedError> out;
-    for (size_t s = 0; s < samples_.size(); ++s) {
-      vec3 right = picture_[s], off(0.0f), noise(0.0f);
+    for (size_t p = 0; p < pixels_.size(); ++p) {
+      vec3 right = picture_[p], off(0.0f), noise(0.0f);
       for (const FoundLight* light : {&direct_, &indirect_})
-        if (light->rays > 0) right += light->missing(s);
+        if (light->rays > 0) right += light->missing(p);
       for (const FoundLight* light : kinds)
-        if (light->rays > 0) off += light->missing(s), noise += light->noise(s);
+        if (light->rays > 0) off += light->missing(p), noise += light->noise(p);
       if (right == vec3(0.0f)) continue;
       AuditedError& e = out.emplace_back();
       for (int c = 0; c < 3; ++c) {
@@ -108,7 +110,8 @@ class Audit {
   const ShadingSystem& shading_;
   ShadeContext context_;
   const AuditPlan plan_;
-  const std::vector<AuditSample> samples_;
+  const std::vector<AuditPixel> pixels_;
+  const int samplesPerPixel_;
   const std::atomic<bool>& cancelled_;
   std::vector<vec3> picture_;
   FoundLight direct_, indirect_;
@@ -123,8 +126,8 @@ std::string percentOf(const ErrorEstimate& e) {
 AuditReport auditFrame(const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
                        const ShadingSystem& shading, const ShadeContext& context, const AuditPlan& plan,
                        const std::atomic<bool>& cancelled) {
-  return Audit(scene, shading, context, plan, chooseSamples(layout, tiles, plan.samples, plan.seed, cancelled),
-               cancelled)
+  return Audit(scene, shading, context, plan, chooseAuditPixels(layout, tiles, plan.pixels, plan.seed, cancelled),
+               layout.samplesPerPixel, cancelled)
       .run();
 }
 
@@ -132,22 +135,23 @@ void recordAudit(const AuditReport& r, Stats& stats) {
   const auto add = [&](const char* light, const ErrorEstimate& e) {
     stats.addAudit(light, {e.mean, e.low, e.high, e.noise, e.p99});
   };
-  stats.audit.samples += static_cast<int64_t>(r.samples), stats.audit.paths += r.paths;
+  stats.audit.pixels = static_cast<int64_t>(r.pixels), stats.audit.paths = r.paths;
   add("picture", r.picture);
   if (r.indirect) add("indirect", *r.indirect);
   if (r.direct) add("direct", *r.direct);
 }
 
 std::string sentenceOf(const AuditReport& r) {
-  if (r.samples == 0) return "nothing to audit: no sample of the picture sees a lit surface";
+  if (r.pixels == 0) return "nothing to audit: no pixel sees a lit surface";
   std::string parts;
-  if (r.indirect) parts += fmt::format("; indirect light {}, by {} paths at each", percentOf(*r.indirect), r.paths);
+  if (r.indirect)
+    parts += fmt::format("; indirect light {}, by {} paths at each point", percentOf(*r.indirect), r.paths);
   if (r.direct) parts += fmt::format("; direct light {}", percentOf(*r.direct));
   if (!r.indirect) parts += "; there is no indirect light to audit";
   return fmt::format(
-      "mean error {}, 90 % confidence, {} samples of the picture{}; 99 % of them err by less than {:.2g} %, "
+      "mean error {}, 90 % confidence, {} pixels{}; 99 % of them err by less than {:.2g} %, "
       "which is an estimate",
-      percentOf(r.picture), r.samples, parts, 100 * r.picture.p99);
+      percentOf(r.picture), r.pixels, parts, 100 * r.picture.p99);
 }
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// The audit of a picture: at some of its samples light is found again, by many rays and without records and maps, and
+// The audit of a picture: light is found again in some of its pixels, by many rays and without records and maps, and
 // compared with what the picture has there. Noise of the picture's own rays cannot tell how wrong it is, because
 // interpolation errs alike with every seed (docs/decisions/0145).
 #pragma once
@@ -13,15 +13,15 @@
 namespace tomales {
 
 struct AuditPlan {
-  size_t samples = 300;  ///< Of the picture.
+  size_t pixels = 300;
   uint32_t seed = 0;     ///< Decides which, and the rays there.
   bool indirect = true;  ///< The frame has indirect light.
 };
 
 struct AuditReport {
-  size_t samples = 0;     ///< Those that the errors are of: they see something that is lit.
-  int paths = 0;          ///< At each sample, for indirect light; 0 if that was not audited.
-  int lightSamples = 0;   ///< At each sample, of each light; 0 if direct light was not audited.
+  size_t pixels = 0;      ///< Those that the errors are of: they see something that is lit.
+  int paths = 0;          ///< At each point that they see, for indirect light; 0 if that was not audited.
+  int lightSamples = 0;   ///< At each of them, of each light; 0 if direct light was not audited.
   ErrorEstimate picture;  ///< Of all light together. All errors are shares of the picture's colour,
   std::optional<ErrorEstimate> indirect, direct;  ///< those of one kind of light too.
 };

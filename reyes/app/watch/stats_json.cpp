@@ -45,7 +45,7 @@ Json warningsOf(const Log& log) {
 }
 
 Json auditOf(const Stats& stats) {
-  Json out{{"samples", stats.audit.samples.load()}, {"paths", stats.audit.paths.load()}};
+  Json out{{"pixels", stats.audit.pixels.load()}, {"paths", stats.audit.paths.load()}};
   for (const auto& [light, f] : stats.audits())
     out[light] = {{"mean", f.mean}, {"low", f.low}, {"high", f.high}, {"noise", f.noise}, {"p99", f.p99}};
   return out;

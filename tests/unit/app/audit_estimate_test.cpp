@@ -50,20 +50,20 @@ TEST(ErrorEstimate, IsZeroWhereNoiseIsAllThatIsSeen) {
   EXPECT_EQ(estimateError(places).mean, 0);
 }
 
-// 500 audits of errors with a long tail. With 500 trials the share has a standard error of 1.3 %.
+// 200 audits of errors with a long tail: the share has a standard error of 2.1 %.
 TEST(ErrorEstimate, HasAnIntervalThatHoldsTheTruthInNineOfTenCases) {
   std::mt19937 random(11);
   std::exponential_distribution<float> error(1 / 0.02f);
   int held = 0;
-  constexpr int kTrials = 500;
+  constexpr int kTrials = 200;
   for (int t = 0; t < kTrials; ++t) {
     std::vector<AuditedError> places;
     for (size_t i = 0; i < kPlaces; ++i) places.push_back({error(random), 0});
     const ErrorEstimate e = estimateError(places);
     held += e.low <= 0.02 && 0.02 <= e.high;
   }
-  EXPECT_GT(held, 0.85 * kTrials);
-  EXPECT_LT(held, 0.95 * kTrials);
+  EXPECT_GT(held, 0.83 * kTrials);
+  EXPECT_LT(held, 0.96 * kTrials);
 }
 
 TEST(ErrorEstimate, NamesTheErrorThatOneInAHundredExceeds) {
