@@ -61,10 +61,13 @@ struct ShadeContext {
   bool highlights = false;  ///< Diffuse rays bring highlights too, as those of the reference path tracer do.
   RayAnswers* answers =
       nullptr;             ///< For this batch, asked before shadow and gather rays are traced. Null: all are traced.
-  bool sketch = false;     ///< Shaders run for a preview: nothing is baked or printed.
+  bool sketch = false;     ///< Shaders run for no picture that is kept: nothing is baked, printed or counted.
   bool rehearsal = false;  ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
   float importance = 1;    ///< The weight of what is seen here in the eye's picture.
-  int chunk = 0;           ///< The part of the batch that is being shaded, set by ShadingSystem.
+  /// Paths that find indirect light at each point, past all records and maps: to know how wrong those are. 0: light
+  /// comes as the frame's method has it.
+  int auditPaths = 0;
+  int chunk = 0;  ///< The part of the batch that is being shaded, set by ShadingSystem.
 
   /// Tells whether lamps have highlights on surfaces of a group.
   bool highlightsLamps(int group) const {

@@ -19,6 +19,8 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
 // Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
+/// For photons that nobody limits. What is left after so many surfaces of reflectance 0.75 is a hundredth.
+constexpr int kAuditBounces = 16;
 
 /// E/pi of light that came by mirrors and glass, which gather rays do not find.
 vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, float pixelSize) {
@@ -127,6 +129,12 @@ int bouncesFor(const GiState& state, const IndirectQuery& query) {
                         : query.bounces;
   const int asked = state.settings.bounces > 0 ? state.settings.bounces : usual;
   return mode == GiMode::None ? 0 : giMethodOf(mode).hitsHoldAll ? std::min(asked, 1) : asked;
+}
+
+int auditBouncesFor(const GiState& state, const IndirectQuery& query) {
+  if (state.settings.mode != GiMode::Atlas) return bouncesFor(state, query);
+  const std::optional<int> asked = state.shading.indirectRequest().value_or(IndirectRequest{}).bounces;
+  return state.settings.bounces > 0 ? state.settings.bounces : asked.value_or(kAuditBounces);
 }
 
 vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {

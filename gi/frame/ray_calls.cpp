@@ -12,7 +12,7 @@ namespace {
 ShadeContext contextOfHits(const Attributes& own, int group, const RayQuery& query, const ShadeContext& context,
                            GiMode mode) {
   ShadeContext hit = context;
-  hit.highlights = mode == GiMode::Reference;
+  hit.highlights = mode == GiMode::Reference || context.auditPaths > 0;
   hit.kind = query.kind;
   hit.label = query.label, hit.lampsGlow = query.lampsGlow && context.mirrorsLamps(group);
   hit.importance *= query.importance;

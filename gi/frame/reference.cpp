@@ -45,12 +45,12 @@ class PathBatches {
     orthonormalBasis(normal, tangent, bitangent);
     // The hits of one record share a key and continue each other's sequence.
     const SampleName name = points_.name(i);
-    const uint32_t pointKey = hashCombine(name.key, state_.settings.seed, static_cast<uint32_t>(context_.depth));
+    const uint32_t pointKey = hashCombine(name.key, context_.seed, static_cast<uint32_t>(context_.depth));
     const PolygonStart start = startOn(i, normal);
     for (int path = 0; path < paths; ++path) {
       const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
       Ray ray;
-      places_.aim(*tools_.rays, i, rayTime(*tools_.rays, points_, i, path, paths, state_.settings.seed), ray);
+      places_.aim(*tools_.rays, i, rayTime(*tools_.rays, points_, i, path, paths, context_.seed), ray);
       ray.tMax = maxDistance_;
       if (!filter_.passesAll()) ray.filter = &filter_;
       const vec3 local = cosineHemisphere(sobol2(number, pointKey));
@@ -109,13 +109,16 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   if (!tools) return;
   // Paths branch at the eye's points alone; a hit continues because its own shader asks for indirect light
   // again.
-  const int paths = context.depth > 0 ? 1 : planFor(state, points.group(), query).gather.samples;
+  const int paths = context.depth > 0        ? 1
+                    : context.auditPaths > 0 ? context.auditPaths
+                                             : planFor(state, points.group(), query).gather.samples;
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit =
       bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
   hitContext.highlights = true;
   if (!state.focusing.empty()) hitContext.focusing = &state.focusing;
+  hitContext.auditPaths = context.auditPaths;
   PathBatches batches(state, *tools, points, N, query, hitContext);
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)

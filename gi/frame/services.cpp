@@ -147,7 +147,7 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
 
 bool GiServices::interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                        const OcclusionQuery& query, const ShadeContext& context, float* covered) const {
-  return interpolateOcclusion(*impl_, points, active, N, query, context, covered);
+  return context.auditPaths == 0 && interpolateOcclusion(*impl_, points, active, N, query, context, covered);
 }
 
 float GiServices::emitterReach(int light) const {
@@ -162,15 +162,17 @@ float GiServices::emitterArea(int light) const {
 
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                  const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const {
-  if (impl_->settings.mode == GiMode::Baked) return bakedIndirect(*impl_, points, active, out);
-  const int bounces = bouncesFor(*impl_, query);
+  const bool audit = context.auditPaths > 0, counted = impl_->settings.mode == GiMode::Progressive;
+  if (impl_->settings.mode == GiMode::Baked && !audit) return bakedIndirect(*impl_, points, active, out);
+  const int bounces = audit ? auditBouncesFor(*impl_, query) : bouncesFor(*impl_, query);
   if (noteMeasured(*impl_, points, active, N, bounces, context, out)) return;
-  if (context.depth < bounces && impl_->settings.mode != GiMode::Progressive) {
-    const bool cached = interpolatesIndirect(*impl_);
+  if (context.depth < bounces && (audit || !counted)) {
+    const bool cached = interpolatesIndirect(*impl_) && !audit;
     if (cached && context.depth > 0) return bounceIndirect(*impl_, points, active, N, query, context, bounces, out);
     if (cached) return interpolateIndirect(*impl_, points, active, N, query, context, out);
     traceIndirect(*impl_, points, active, N, query, context, bounces, out);
-    return addMeasured(*impl_, points, active, N, bounces, context, out);
+    if (!counted) addMeasured(*impl_, points, active, N, bounces, context, out);
+    return;
   }
   for (int i = 0; i < points.count(); ++i) {
     const vec3 n = points.facingNormal(i), dominant[3] = {n, n, n};

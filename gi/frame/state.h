@@ -52,6 +52,8 @@ void learnOcclusionQueries(GiState&, const DeepFrame& layout, const TileReader&,
 
 /// The number of diffuse bounces of a light.
 int bouncesFor(const GiState&, const IndirectQuery&);
+/// The same for paths that stand for all light that the method brings, by maps or otherwise.
+int auditBouncesFor(const GiState&, const IndirectQuery&);
 
 /// Root of the area that a pixel projects onto the plane through P with unit normal n (approximate-gi
 /// section 4.5).

@@ -47,6 +47,7 @@ struct RenderSettings {
   std::vector<std::string> edits;  ///< RIB files of changes to a shot.
   std::string irradiance;          ///< An .icf to shade with.
   bool appendIrradiance = false;   ///< True to gather too, where that has no records.
+  int audit = 0;                   ///< Pixels at which the error of the picture is measured; 0: it is not.
   bool resume = false;
   bool skipFinished = false;             ///< Frames whose pictures hold what would be rendered are left as they are.
   std::optional<int64_t> memoryLimit;    ///< In bytes.

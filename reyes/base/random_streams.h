@@ -49,6 +49,9 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"phot", "the second pair of numbers of a photon's start"},
     {"medi", "collisions of photons in media"},
     {"pass", "passes of photons that are counted at points"},
+    {"audi", "pixels that are audited"},
+    {"sets", "light that an audit finds there, set by set"},
+    {"boot", "pixels that are drawn again to know how certain an audit is"},
 };
 
 consteval bool randomStreamsDiffer() {

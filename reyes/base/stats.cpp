@@ -18,6 +18,16 @@ void Stats::addStage(const std::string& name, double wall_s, double cpu_s) {
   f.cpu_s += cpu_s;
 }
 
+void Stats::addAudit(const std::string& light, const AuditFigures& figures) {
+  const std::lock_guard lock(mutex_);
+  audits_[light] = figures;
+}
+
+std::map<std::string, Stats::AuditFigures> Stats::audits() const {
+  const std::lock_guard lock(mutex_);
+  return audits_;
+}
+
 std::map<std::string, Stats::ShaderFigures> Stats::byShader() const {
   const std::lock_guard lock(mutex_);
   return shaders_;

@@ -42,6 +42,9 @@ struct Stats {
     Counter lookups{0}, tileRequests{0}, tileMisses{0}, bytesRead{0};
   } textures;
   struct {
+    Counter pixels{0}, paths{0};
+  } audit;
+  struct {
     Counter grids{0}, geometry{0}, deepFrame{0};
   } memoryBytes;
 
@@ -49,6 +52,13 @@ struct Stats {
   void addShader(const std::string& name, int64_t vertices, double time_s);
   /// Adds wall and CPU time to a stage of the frame ("parse", "hide", "gather", "shade", "image", "write").
   void addStage(const std::string& name, double wall_s, double cpu_s);
+
+  /// Mean relative error of a kind of light in the last frame that was audited, its 90 % interval, the noise of the
+  /// audit itself, and the 99th percentile.
+  struct AuditFigures {
+    double mean = 0, low = 0, high = 0, noise = 0, p99 = 0;
+  };
+  void addAudit(const std::string& light, const AuditFigures&);
 
   struct ShaderFigures {
     int64_t vertices = 0;
@@ -59,11 +69,13 @@ struct Stats {
   };
   std::map<std::string, ShaderFigures> byShader() const;
   std::map<std::string, StageFigures> stages() const;
+  std::map<std::string, AuditFigures> audits() const;
 
  private:
   mutable std::mutex mutex_;
   std::map<std::string, ShaderFigures> shaders_;
   std::map<std::string, StageFigures> stages_;
+  std::map<std::string, AuditFigures> audits_;
 };
 
 /// CPU seconds that all threads of this process have used, and those of the calling thread.

@@ -239,6 +239,10 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
 }
 
 void addWatching(CLI::App& app, RenderSettings& s) {
+  app.add_flag("--audit{300}", s.audit,
+               "Say how far the picture is off: light is found again by many rays in 300 of its pixels, or in N of "
+               "them (--audit=N)")
+      ->check(CLI::Range(20, 1'000'000));
   app.add_flag("--preview{127.0.0.1:14158}", s.preview,
                "Show rows as they are made, in a tev viewer that listens there (--preview=HOST:PORT)");
   app.add_option_function<std::vector<std::string>>(

@@ -6,9 +6,11 @@
 #include <filesystem>
 
 #include "reyes/app/frame/atlas_job.h"
+#include "reyes/app/frame/audit.h"
 #include "reyes/app/frame/light_sources.h"
 #include "reyes/app/frame/limits.h"
 #include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/turns_timer.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/pixel_report.h"
@@ -131,6 +133,21 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && gathers() && !interrupted())
     bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);
+}
+
+void FrameJob::audit(const DeepFrame& layout, const TileReader& tiles) {
+  if (settings_.audit == 0 || interrupted()) return;
+  const StageTimer timer(stats_, "audit");
+  meter_.begin("auditing");
+  AuditPlan plan{static_cast<size_t>(settings_.audit), lightSeedOf(settings_), false};
+  for (size_t g = 0; g < scene_.groups.size() && mode() != GiMode::None; ++g)
+    plan.indirect |= shading_->indirectQuery(static_cast<int>(g)) != nullptr;
+  const AuditReport report = auditFrame(layout, tiles, scene_, *shading_, shadeContext(), plan, interrupted());
+  if (interrupted()) return;
+  const std::string sentence = sentenceOf(report);
+  log_.report(Severity::Note, "audit", {}, sentence);
+  describeAudit(scene_.options, sentence, settings_);
+  recordAudit(report, stats_);
 }
 
 ShadeContext FrameJob::shadeContext() const {

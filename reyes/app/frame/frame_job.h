@@ -33,6 +33,9 @@ class FrameJob {
   /// Prepares rays against what `rays` provides when the first ray is wanted: for scenes without geometry.
   void prepareRays(RaySource rays);
   void gather(const DeepFrame& layout, const TileReader& tiles);
+  /// Measures the error of the picture that write() will make, if the command line asks for it: a message, the headers
+  /// of the Displays and the statistics tell it. The tiles are read once.
+  void audit(const DeepFrame& layout, const TileReader& tiles);
   /// Shades some tiles. Returns false if it was interrupted.
   bool shade(std::span<const uint32_t> tiles, const ShadeSteps& steps);
   /// Writes the picture, from tiles that are shaded as its rows need them. If hiding was interrupted, it is not again.

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kVersionOf = "tomales:version", *kCommit = "tomales:commit", *kScene = "tomales:scene",
-                     *kFrame = "tomales:frame", *kSettings = "tomales:settings";
+                     *kFrame = "tomales:frame", *kSettings = "tomales:settings", *kAudit = "tomales:audit";
 
 /// The options of the command line that pictures depend on and that no option of the scene keeps, where they are not
 /// the defaults.
@@ -134,6 +134,10 @@ void describeShot(Options& options, const std::string& sum, const RenderSettings
 void describeGather(Options& options, const RenderSettings& settings) {
   if (options.cropWindow != Options().cropWindow)
     addToPictures(options, kGathered, fmt::format("{}", fmt::join(options.cropWindow, ",")), settings);
+}
+
+void describeAudit(Options& options, const std::string& sentence, const RenderSettings& settings) {
+  addToPictures(options, kAudit, sentence, settings);
 }
 
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log) {

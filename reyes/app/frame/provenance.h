@@ -24,6 +24,8 @@ void describeShot(Options& options, const std::string& sum, const RenderSettings
 /// Says, in the headers of a crop, that light was gathered for this crop alone: beside another such crop there is a
 /// seam.
 void describeGather(Options& options, const RenderSettings& settings);
+/// Adds what an audit has found to the same headers.
+void describeAudit(Options& options, const std::string& sentence, const RenderSettings& settings);
 
 /// Do all files of the frame's Displays hold these contents? Formats without such headers cannot tell, which is
 /// reported, and neither can display drivers.

@@ -102,8 +102,9 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
                "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
   const int64_t budget_bytes = tileBudget(settings, 0);
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
-  const bool streams =
-      !gathers && (large || !settings.preview.empty() || mayStream(scene));  // a preview wants the first rows first
+  // A preview wants the first rows first. An audit looks at all rows before the first one is written, because the
+  // pictures' headers tell what it has found.
+  const bool streams = !gathers && settings.audit == 0 && (large || !settings.preview.empty() || mayStream(scene));
 
   if (streams || given || settings.resume) job.openAll();
   BucketFile file(scene, layout, world, settings, log);
@@ -136,6 +137,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
       returnFreeMemory();
     }
     if (gathers) job.gather(layout, store.reader());
+    job.audit(layout, store.reader());
     afterStage();
     job.write(layout, [&](size_t i) { return store.take(i); });
   }

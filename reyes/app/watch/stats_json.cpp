@@ -45,6 +45,13 @@ Json warningsOf(const Log& log) {
   return out;
 }
 
+Json auditOf(const Stats& stats) {
+  Json out{{"pixels", stats.audit.pixels.load()}, {"paths", stats.audit.paths.load()}};
+  for (const auto& [light, f] : stats.audits())
+    out[light] = {{"mean", f.mean}, {"low", f.low}, {"high", f.high}, {"noise", f.noise}, {"p99", f.p99}};
+  return out;
+}
+
 double hitRate(int64_t lookups, int64_t misses) {
   return lookups > 0 ? 1 - static_cast<double>(misses) / static_cast<double>(lookups) : 0.0;
 }
@@ -113,6 +120,7 @@ Json statsJson(const RenderSettings& settings, const Stats& stats, double total_
              {"deep_frame", stats.memoryBytes.deepFrame.load()},
              {"raytrace", stats.raytrace.bytes.load()}}}};
   out.update(countersOf(stats));
+  if (settings.audit > 0) out["audit"] = auditOf(stats);
   out["warnings"] = warningsOf(log);
   return out;
 }

@@ -1,0 +1,142 @@
+#include "reyes/app/frame/audit_pixels.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <tuple>
+
+#include "reyes/base/parallel.h"
+#include "reyes/base/random_streams.h"
+#include "reyes/base/rng.h"
+#include "reyes/frame.h"
+
+namespace tomales {
+namespace {
+
+auto placeOf(const AuditPixel& p) { return std::tuple(p.order, p.y, p.x); }
+bool isEarlier(const AuditPixel& a, const AuditPixel& b) { return placeOf(a) < placeOf(b); }
+
+/// Keeps the `count` pixels of the least order.
+void keepFirst(std::vector<AuditPixel>& pixels, size_t count) {
+  if (pixels.size() <= count) return;
+  std::nth_element(pixels.begin(), pixels.begin() + static_cast<ptrdiff_t>(count), pixels.end(), isEarlier);
+  pixels.erase(pixels.begin() + static_cast<ptrdiff_t>(count), pixels.end());
+}
+
+/// Copies what one pixel of a tile needs.
+class PixelCopy {
+ public:
+  PixelCopy(const DeepTile& from, int x, int y) : from_(from) {
+    const DeepPixel& pixel = from.pixel(x, y);
+    to_.rect = {x, y, x + 1, y + 1};
+    to_.pixels.push_back({0, pixel.count});
+    for (uint32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
+      Fragment fragment = from.fragments[f];
+      to_.facets.push_back(copy(from.facets[fragment.facet]));
+      fragment.facet = static_cast<uint32_t>(to_.facets.size() - 1);
+      to_.fragments.push_back(fragment);
+    }
+  }
+  DeepTile take() { return std::move(to_); }
+
+ private:
+  Facet copy(Facet facet) {
+    const ShadePoints& points = from_.batches[static_cast<size_t>(facet.batch)];
+    const auto [batch, isNew] = batches_.try_emplace(facet.batch, static_cast<int>(to_.batches.size()));
+    if (isNew) to_.batches.emplace_back(points.group(), points.primvarFloats(), points.hasSteps());
+    ShadePoints& copies = to_.batches[static_cast<size_t>(batch->second)];
+    for (int& point : facet.point) {
+      const auto [known, isFirst] = points_.try_emplace(std::pair(facet.batch, point), copies.count());
+      if (isFirst) {
+        copies.add(points.name(point));
+        for (int c = 0; c < points.channelCount(); ++c) copies.channel(c)[known->second] = points.channel(c)[point];
+      }
+      point = known->second;
+    }
+    facet.batch = batch->second;
+    return facet;
+  }
+
+  const DeepTile& from_;
+  DeepTile to_;
+  std::map<int, int> batches_;
+  std::map<std::pair<int, int>, int> points_;
+};
+
+std::vector<AuditPixel> pixelsOfTile(const DeepTile& tile, const PixelRect& seen, size_t count, uint32_t seed) {
+  std::vector<AuditPixel> out;
+  for (int y = std::max(seen.y0, tile.rect.y0); y < std::min(seen.y1, tile.rect.y1); ++y)
+    for (int x = std::max(seen.x0, tile.rect.x0); x < std::min(seen.x1, tile.rect.x1); ++x)
+      if (tile.pixel(x, y).count > 0) {
+        const uint32_t place = hashCombine(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+        out.push_back({hashCombine(place, seed, randomStream("audi")), x, y, {}});
+      }
+  keepFirst(out, count);
+  for (AuditPixel& p : out) p.tile = PixelCopy(tile, p.x, p.y).take();
+  return out;
+}
+
+/// Colour and opacity where the samples of a fragment see its facet.
+struct Seen {
+  vec3 color{0.0f}, opacity{0.0f};
+  Seen(const DeepTile& tile, const Fragment& fragment) {
+    const Facet& facet = tile.facets[fragment.facet];
+    const ShadedPoints& shaded = tile.shaded[static_cast<size_t>(facet.batch)];
+    const float u = static_cast<float>(fragment.u) / 255, v = static_cast<float>(fragment.v) / 255;
+    const float weight[4] = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+    for (int corner = 0; corner < 4; ++corner) {
+      if (!facet.matte) color += weight[corner] * shaded.color(facet.point[corner]);
+      opacity += weight[corner] * shaded.opacity(facet.point[corner]);
+    }
+  }
+};
+
+/// The mean of what the samples of a shaded tile of one pixel see.
+vec3 colorOf(const DeepTile& tile, int samplesPerPixel) {
+  std::vector<vec3> clear(static_cast<size_t>(samplesPerPixel), vec3(1.0f));
+  vec3 sum(0.0f);
+  for (const Fragment& fragment : tile.fragments) {
+    const Seen seen(tile, fragment);
+    for (size_t bit = 0; bit < 64; ++bit) {
+      const size_t s = size_t{64} * fragment.word + bit;
+      if (!(fragment.samples >> bit & 1) || s >= clear.size()) continue;
+      sum += clear[s] * seen.color;
+      clear[s] *= vec3(1.0f) - seen.opacity;
+    }
+  }
+  return sum / static_cast<float>(samplesPerPixel);
+}
+
+}  // namespace
+
+std::vector<AuditPixel> chooseAuditPixels(const DeepFrame& layout, const TileReader& tiles, size_t count, uint32_t seed,
+                                          const std::atomic<bool>& cancelled) {
+  std::vector<AuditPixel> out;
+  std::mutex merging;
+  parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
+    const PixelRect r = layout.rectOf(t), &crop = layout.crop;
+    const bool seen = r.x0 < crop.x1 && r.x1 > crop.x0 && r.y0 < crop.y1 && r.y1 > crop.y0;
+    const auto tile = seen && !cancelled ? tiles(t) : nullptr;
+    if (!tile) return;
+    std::vector<AuditPixel> here = pixelsOfTile(*tile, crop, count, seed);
+    const std::lock_guard lock(merging);
+    std::move(here.begin(), here.end(), std::back_inserter(out));
+    keepFirst(out, count);
+  });
+  std::sort(out.begin(), out.end(),
+            [](const AuditPixel& a, const AuditPixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  return out;
+}
+
+std::vector<vec3> shadeAuditPixels(const std::vector<AuditPixel>& pixels, int samplesPerPixel, const Scene& scene,
+                                   const ShadingSystem& shading, const ShadeContext& context) {
+  std::vector<vec3> out(pixels.size());
+  parallelFor(pixels.size(), 1, [&](size_t p, size_t) {
+    DeepTile tile = pixels[p].tile;
+    shadeTile(tile, scene, shading, context);
+    out[p] = colorOf(tile, samplesPerPixel);
+  });
+  return out;
+}
+
+}  // namespace tomales

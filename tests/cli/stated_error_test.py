@@ -1,0 +1,93 @@
+"""--audit states the error of a picture and changes nothing of it, whatever the threads, the buckets and the way to the picture."""
+import json
+import pathlib
+import subprocess
+import sys
+
+from program import Suite
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "image"))
+from pictures import pixels  # noqa: E402
+
+t = Suite()
+ROOM = """Display "room.exr" "file" "rgba"
+Format 20 16 1
+Projection "perspective" "fov" [60]
+Translate 0 0 2.5
+WorldBegin
+LightSource "indirectlight" "gi" "float samples" [64]
+LightSource "spotlight" "spot" "from" [0 0.5 0] "to" [0.3 -1 0.2] "intensity" [4] "coneangle" [0.7]
+AttributeBegin
+AreaLightSource "arealight" "lamp" "intensity" [2] "samples" [2]
+Surface "constant"
+Polygon "P" [-0.3 0.9 -0.3  0.3 0.9 -0.3  0.3 0.9 0.3  -0.3 0.9 0.3]
+AttributeEnd
+Illuminate "lamp" 1
+Surface "matte"
+Polygon "P" [-1 -1 -1  -1 -1 1  1 -1 1  1 -1 -1]
+Color 0.8 0.3 0.3
+Polygon "P" [-1 -1 1  -1 1 1  1 1 1  1 -1 1]
+Polygon "P" [-1 -1 -1  -1 1 -1  -1 1 1  -1 -1 1]
+Opacity 0.5 0.5 0.5
+Translate 0.2 -0.4 0
+Sphere 0.4 -0.4 0.4 360
+WorldEnd
+"""
+t.write("room.rib", ROOM)
+t.write("dark.rib", ROOM.replace('"intensity" [4]', '"intensity" [0]').replace('"intensity" [2]', '"intensity" [0]').replace('Surface "constant"', 'Surface "matte"'))
+
+
+def render(out, *arguments, command=("room.rib",)):
+    """What the audit says in the message, in the header and in the statistics."""
+    result = t.run(*command, "-o", out, "--stats", "stats.json", *arguments)
+    said = [line for line in result.stderr.splitlines() if line.endswith("[audit]")]
+    header = subprocess.run(["oiiotool", "--info", "-v", t.folder / out], capture_output=True, text=True).stdout
+    return result, said, header, json.loads((t.folder / "stats.json").read_text()).get("audit")
+
+
+result, said, header, nothing = render("plain.exr")
+t.expect(not said and nothing is None and "tomales:audit" not in header, "without --audit nothing is said")
+plain = pixels(t.folder / "plain.exr")
+
+result, said, header, figures = render("audited.exr", "--audit=30", "-t", "1")
+t.expect(result.returncode == 0 and len(said) == 1, "one line says the error, and the exit code is 0")
+sentence = said[0].split("note: ")[1].removesuffix(" [audit]")
+t.expect(f'tomales:audit: "{sentence}"' in header, "the header of the picture has it too")
+t.expect("indirect light" in sentence and "direct light" in sentence and "30 pixels" in sentence, f"it names its sources: {sentence}")
+t.expect(pixels(t.folder / "audited.exr") == plain, "the picture is the same bit for bit")
+t.expect(all(0 < figures[k]["low"] <= figures[k]["mean"] <= figures[k]["high"] < 1 for k in ("picture", "indirect", "direct")),
+         f"the statistics have figures with intervals: {figures}")
+for what, arguments in {"four threads": ("-t", "4"), "other buckets": ("--bucket-size", "7"), "little memory": ("--memory-limit", "1M")}.items():
+    t.expect(render("again.exr", "--audit=30", *arguments)[1] == said, f"{what}: the same line")
+t.expect(render("seed.exr", "--audit=30", "--light-seed", "9")[1] != said, "another seed looks at other pixels")
+
+t.run("hide", "room.rib", "-o", "room.dfb")
+t.run("gather", "room.dfb", "-o", "room.icf")
+t.expect(render("shot.exr", "--audit=30", command=("shade", "room.dfb"))[1] == said, "a shot that is shaded has the same line")
+t.expect(render("shot.exr", "--audit=30", "--irradiance", "room.icf", command=("shade", "room.dfb"))[1] == said,
+         "and with the records of a file")
+t.expect(pixels(t.folder / "shot.exr") == plain, "which has the same picture, audited or not")
+
+rough = render("rough.exr", "--audit=30", "--samples", "4", "--max-error", "5", "--light-samples", "1")[3]
+fine = render("fine.exr", "--audit=30", "--samples", "600", "--max-error", "0.2", "--light-samples", "64")[3]
+for light in ("indirect", "direct", "picture"):
+    t.expect(rough[light]["low"] > fine[light]["high"], f"{light}: few rays err by {rough[light]['mean']:.3f}, many by {fine[light]['mean']:.3f}")
+traced = render("traced.exr", "--audit=30", "--gi", "reference", "--samples", "256", "--ray-geometry", "scene")[3]
+t.expect(traced["indirect"]["high"] < rough["indirect"]["low"] / 3, f"path tracing errs little: {traced['indirect']['mean']:.4f}")
+
+for method in ("radiosity", "atlas"):
+    figures = render("method.exr", "--audit=30", "--gi", method, "--photons", "20000", "--bounces", "1")[3]
+    t.expect(0 < figures["indirect"]["mean"] < 0.3, f"--gi {method} is audited: {figures['indirect']['mean']:.3f}")
+t.run("room.rib", "--baked", "light", "-o", "bake.exr")
+figures = render("baked.exr", "--audit=30", "--gi", "baked", "--baked", "light")[3]
+t.expect(0 < figures["indirect"]["mean"] < 0.3, f"so is baked light: {figures['indirect']['mean']:.3f}")
+t.run("room.rib", "--gi", "none", "-o", "other.exr")
+_, said, _, figures = render("none.exr", "--audit", "--gi", "none")
+t.expect("there is no indirect light to audit" in said[0] and "indirect" not in figures, "--gi none has no indirect light to audit")
+t.expect(pixels(t.folder / "none.exr") == pixels(t.folder / "other.exr"), "a frame that would leave in rows has the same picture")
+_, said, header, _ = render("dark.exr", "--audit", command=("dark.rib",))
+t.expect("nothing to audit" in said[0], "a dark picture has nothing to audit")
+
+for bad in ("--audit=0", "--audit=-3", "--audit=some", "--audit=1e9"):
+    t.expect_run(f"{bad} is refused", ["room.rib", bad], 1, "--audit")
+t.finish()
