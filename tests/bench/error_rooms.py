@@ -22,7 +22,7 @@ LABORATORY = ROOT / "tests/stability/irradiance_cache"
 sys.path.insert(0, str(ROOT / "tests/image"))
 from pictures import pixels  # noqa: E402
 
-ROOMS = ["box_ball", "lamp_slot", "thin_blades", "contact", "hot_spot"] + [f"random{i}" for i in range(1, 9)]
+ROOMS = ["box_ball", "lamp_slot", "thin_blades", "contact", "hot_spot"] + [f"random{i}" for i in range(1, 7)]
 SETTINGS = ["--samples 150", "--samples 600 --max-error 2"]
 MORE_PATHS = {"hot_spot": 4}
 FLOOR = 0.01
