@@ -126,6 +126,9 @@ std::string driverOf(const DisplayCall& display, const Options& options, const P
 std::string fileOf(const DisplayCall& display);
 /// The name, without its folder, of a file that stands in for a picture that is not whole: a.partial.exr for a.exr.
 std::string partialName(const std::string& path);
+/// The header's text that tells which share of its buckets a picture holds: kAllFinished, or less where the frame was
+/// interrupted. DisplayFile::close() writes the share over it.
+constexpr const char *kFinishedShare = "tomales:finished", *kAllFinished = "1.000";
 /// Adds a named text to the header of a Display's file if its format has room for texts.
 void addHeader(DisplayCall& display, const std::string& name, const std::string& text);
 
@@ -146,9 +149,9 @@ class DisplayFile {
   /// A deep Display uses these instead of write(Image); deep() is empty if the Display is not deep.
   std::optional<DeepMerge> deep() const;
   bool write(const DeepRows& rows);
-  /// Gives the file its name. A picture that is not `whole` leaves what has that name alone: it becomes
-  /// NAME.partial.exr, which is reported.
-  bool close(bool whole = true);
+  /// Gives the file its name. `finished`: the share of the buckets that it holds. A picture with less than 1 leaves
+  /// what has that name alone: it becomes NAME.partial.exr, which is reported.
+  bool close(float finished = 1);
 
  private:
   struct Impl;

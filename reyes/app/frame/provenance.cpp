@@ -79,7 +79,7 @@ uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
 bool holds(const DisplayCall& display, const std::string& contents) {
   std::string error;
   const auto picture = openPicture(fileOf(display), error);
-  return picture && picture->text(kContents) == contents;
+  return picture && picture->text(kContents) == contents && picture->text(kFinishedShare) == kAllFinished;
 }
 
 }  // namespace
@@ -103,6 +103,7 @@ void describeOutputs(Options& options, const std::string& contents, const Render
   for (DisplayCall& d : options.displays) {
     if (!driverOf(d, options, pluginTrust(settings)).empty()) continue;
     addHeader(d, kVersionOf, kVersion), addHeader(d, kScene, sceneText(settings));
+    addHeader(d, kFinishedShare, kAllFinished);
     addHeader(d, kFrame, std::to_string(options.frame)), addHeader(d, kSettings, settingsText(settings));
     if (!contents.empty()) addHeader(d, kContents, contents);
   }
