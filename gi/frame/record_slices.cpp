@@ -1,7 +1,7 @@
 #include "gi/frame/record_slices.h"
 
 #include <algorithm>
-#include <atomic>
+#include <mutex>
 #include <span>
 
 #include "gi/frame/record_fields.h"
@@ -29,7 +29,8 @@ size_t RecordSlices::make(const std::vector<GatherPoint>& points, const RecordMa
   out.records.resize(points.size()), out.finds.resize(making.findsLight ? points.size() : 0);
   const size_t slices = (points.size() + kPointsPerSlice - 1) / kPointsPerSlice, firstName = made_;
   made_ += slices;
-  std::atomic<size_t> done{0};
+  size_t done = 0;
+  std::mutex reporting;  // it guards `done`
   std::vector<uint8_t> whole(slices, 0);
   const auto makeSlice = [&](size_t s) {
     const size_t begin = s * kPointsPerSlice, end = std::min(begin + kPointsPerSlice, points.size());
@@ -58,6 +59,7 @@ size_t RecordSlices::make(const std::vector<GatherPoint>& points, const RecordMa
   parallelFor(slices, 1, [&](size_t s, size_t) {
     if (making.isCancelled()) return;
     makeSlice(s);
+    const std::lock_guard lock(reporting);
     if (making.progress) making.progress(static_cast<float>(++done) / static_cast<float>(slices));
   });
   const auto missing = static_cast<size_t>(std::ranges::find(whole, 0) - whole.begin());

@@ -20,7 +20,7 @@ struct RecordMaking {
   bool findsLight = false;  ///< `gather` gets a place for the bright light.
   std::function<IrradianceRecord(size_t point, BrightFind* find)> gather;  ///< Called by any thread.
   std::function<bool()> isCancelled;
-  std::function<void(float)> progress{};  ///< May be empty. Called by any thread.
+  std::function<void(float)> progress{};  ///< May be empty. Called by any thread, one at a time, with growing shares.
 };
 
 class RecordSlices {

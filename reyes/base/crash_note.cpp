@@ -13,6 +13,10 @@ namespace tomales {
 namespace {
 
 constinit thread_local const CrashNote::Text* current = nullptr;
+struct Pixels {
+  int x0, y0, x1, y1;
+};
+constinit thread_local Pixels bucket{};  // empty: no bucket is worked on
 std::atomic<bool> reports{false};
 
 // The code below runs in a signal handler: no allocation, no streams.
@@ -22,9 +26,18 @@ void put(const char* text) {
 }
 
 void put(int number) {
+  if (number < 0) put("-");
   char digits[12] = {}, *at = digits + sizeof digits - 1;
-  for (; number > 0; number /= 10) *--at = static_cast<char>('0' + number % 10);
+  unsigned left = number < 0 ? 0u - static_cast<unsigned>(number) : static_cast<unsigned>(number);
+  do *--at = static_cast<char>('0' + left % 10);
+  while (left /= 10);
   put(at);
+}
+
+void putBucket() {
+  if (bucket.x0 == bucket.x1) return;
+  put(", in the bucket of the pixels "), put(bucket.x0), put(","), put(bucket.y0);
+  put(" to "), put(bucket.x1 - 1), put(","), put(bucket.y1 - 1);
 }
 
 const char* nameOf(int signal) {
@@ -48,6 +61,7 @@ extern "C" void onCrash(int signal) {
     if (t->file) put(t->file), put(":"), put(t->line), put(": ");
     put(t->user);
     if (t->other) put(", on "), put(t->other);
+    putBucket();
     put(": "), put(t->kind), put(" \""), put(t->name), put("\" crashes ("), put(nameOf(signal));
     put("); this ends the program\n");
   } else if (loadedPlugin(0)) {
@@ -87,6 +101,9 @@ CrashNote::CrashNote(const Text& text) : text_(text), outer_(current) {
 }
 
 CrashNote::~CrashNote() { current = outer_; }
+
+CrashBucket::CrashBucket(int x0, int y0, int x1, int y1) { bucket = {x0, y0, x1, y1}; }
+CrashBucket::~CrashBucket() { bucket = {}; }
 
 void reportCrashes() {
 #ifndef TOMALES_SANITIZED  // sanitizers tell more than a note does

@@ -22,6 +22,15 @@ class CrashNote {
   const Text* const outer_;
 };
 
+/// While it lives, a crash of this thread is said to be in the bucket of the pixels [x0, x1) x [y0, y1). They do not
+/// nest.
+class CrashBucket {
+ public:
+  CrashBucket(int x0, int y0, int x1, int y1);
+  ~CrashBucket();
+  CrashBucket(const CrashBucket&) = delete;
+};
+
 /// From now on, SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, if it has one, to standard
 /// error before they end the program as they always do.
 void reportCrashes();

@@ -1,3 +1,4 @@
+#include "reyes/base/crash_note.h"
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
 #include "reyes/frame/bucket_order.h"
@@ -84,7 +85,11 @@ struct FrameHider::Impl {
     if (!sink.has || !sink.has(index)) {
       std::optional<DeepTile> tile;
       if (sink.find && !context.isCancelled()) tile = sink.find(index);
-      if (!tile) tile = hideBucket(index, layout.rectOf(index), nodes, context, pattern, warnings);
+      if (!tile) {
+        const PixelRect rect = layout.rectOf(index);
+        const CrashBucket here(rect.x0, rect.y0, rect.x1, rect.y1);
+        tile = hideBucket(index, rect, nodes, context, pattern, warnings);
+      }
       if (!tile) return false;
       context.stats.geometry.micropolygonsVisible += static_cast<int64_t>(tile->facets.size());
       context.stats.memoryBytes.deepFrame += static_cast<int64_t>(tile->bytes());

@@ -1,3 +1,4 @@
+#include "reyes/base/crash_note.h"
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
 #include "reyes/frame/bucket_order.h"
@@ -23,6 +24,7 @@ void leaveBlack(int count, ShadedPoints& out) {
 }  // namespace
 
 void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context) {
+  const CrashBucket here(tile.rect.x0, tile.rect.y0, tile.rect.x1, tile.rect.y1);
   const bool wantsColor = outputOf(scene.options).shades;
   tile.shaded.resize(tile.batches.size());
   for (size_t b = 0; b < tile.batches.size(); ++b) {

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <atomic>
+#include <cmath>
+
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
 #include "reyes/frame/sampling.h"
@@ -34,6 +37,11 @@ class MovingBand {
     frame.hold(0, 0);
   }
 
+  /// The share of the tiles of the whole picture that have been filled.
+  float finished() const {
+    return needed_.empty() ? 1.0f : static_cast<float>(finished_) / static_cast<float>(needed_.size());
+  }
+
   void moveTo(int y0, int y1) {
     const int first = frame_.rowOf(std::max(y0 - reach_, frame_.padded.y0));
     const int last = frame_.rowOf(std::min(y1 + reach_, frame_.padded.y1) - 1) + 1;
@@ -46,6 +54,7 @@ class MovingBand {
     const auto columns = static_cast<uint32_t>(frame_.columns);
     std::stable_sort(from, to, [columns](uint32_t a, uint32_t b) { return a % columns < b % columns; });
     fill_({from, to}, [this](size_t index, DeepTile&& tile) {
+      ++finished_;
       // resolves it now, while it is in the cache
       filter_.resolve(index, tile);
       if (!filter_.needsTiles()) return;
@@ -61,6 +70,7 @@ class MovingBand {
   const int reach_;
   std::vector<uint32_t> needed_;
   size_t filled_ = 0;
+  std::atomic<size_t> finished_{0};
 };
 
 /// The files of the Displays, and the rows to be written to them.
@@ -85,10 +95,10 @@ class DisplayFiles {
     rows_.reset();
     deep_.clear();
   }
-  void close(bool whole) {
+  void close(float finished) {
     write();
     const StageTimer timer(stats_, "write", threadCpuSeconds);
-    for (const auto& file : files_) file->close(whole);
+    for (const auto& file : files_) file->close(finished);
   }
 
  private:
@@ -140,7 +150,8 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
     if (control.progress)
       control.progress(static_cast<float>(end - frame.crop.y0) / static_cast<float>(frame.crop.height()));
   }
-  files.close(!(control.cancelled && *control.cancelled));
+  const bool cut = control.cancelled && *control.cancelled;
+  files.close(cut ? std::min(tiles.finished(), std::nextafter(1.0f, 0.0f)) : 1.0f);
   warnOfNoise(filter.noise(), options, log);
   shading.warnOfLightNoise();
 }

@@ -213,9 +213,9 @@ struct DisplayFile::Impl {
 
   bool write(const DeepRows& rows) { return file && (file->write(rows) || report()); }
 
-  bool close(bool whole) {
-    if (!file || !(file->close(whole) || report())) return false;
-    if (!whole && !format.driver)
+  bool close(float finished) {
+    if (!file || !(file->close(finished) || report())) return false;
+    if (finished < 1 && !format.driver)
       log.report(Severity::Warning, "output-partial", display.where,
                  "\"" + path + "\" would not be whole: what is finished is in \"" + partialName(path) + "\" beside it");
     return true;
@@ -252,7 +252,7 @@ bool DisplayFile::write(const DeepRows& rows) { return impl_->write(rows); }
 std::optional<DeepMerge> DisplayFile::deep() const {
   return writesDeep(impl_->display) ? std::optional(impl_->merge) : std::nullopt;
 }
-bool DisplayFile::close(bool whole) { return impl_->close(whole); }
+bool DisplayFile::close(float finished) { return impl_->close(finished); }
 
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log) {
   Options one = options;

@@ -1,5 +1,8 @@
 #include "reyes/image/image_file.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -37,6 +40,24 @@ std::vector<std::byte> packed(const Image& rows, SampleType type) {
 
 void FormatWriter::write(const DeepRows&) { throw std::runtime_error("only OpenEXR holds deep pixels"); }
 
+namespace {
+
+/// Writes the share over kAllFinished in the headers of an OpenEXR file. A header is written before the pixels, when
+/// nobody knows yet how many come. An attribute is its name, its type, the number of its bytes, and these.
+void tellShare(int file, float finished) {
+  constexpr size_t kMostHeaderBytes = 16 << 20;
+  std::string head(kMostHeaderBytes, '\0');
+  const ssize_t size = ::pread(file, head.data(), head.size(), 0);
+  head.resize(size > 0 ? static_cast<size_t>(size) : 0);
+  const std::string all = kAllFinished;
+  const std::string before = kFinishedShare + std::string("\0string\0", 8) + std::string("\5\0\0\0", 4);
+  const std::string share = fmt::format("{:.3f}", std::min(finished, 0.999f));
+  for (size_t at = head.find(before + all); at != std::string::npos; at = head.find(before + all, at + 1))
+    if (::pwrite(file, share.data(), share.size(), static_cast<off_t>(at + before.size())) < 0) return;
+}
+
+}  // namespace
+
 struct PictureFile::Impl {
   Impl(const std::string& target, const Image& whole, const FileFormat& f)
       : path(target),
@@ -52,10 +73,11 @@ struct PictureFile::Impl {
     return guarded([&] { writer->write(rows); });
   }
 
-  bool close(bool whole) {
+  bool close(float finished) {
     if (failed || !guarded([&] { writer->close(); })) return false;
+    const bool whole = finished >= 1;
     std::string why;
-    if (file && !whole) file->finishAs(partialName(path));
+    if (file && !whole) tellShare(file->descriptor(), finished), file->finishAs(partialName(path));
     std::error_code none;  // there may be no such file
     if (file && whole) fs::remove(throughLinks(path).replace_filename(partialName(path)), none);
     return !file || file->finish(why) || fail(why);
@@ -92,7 +114,7 @@ PictureFile::~PictureFile() = default;
 
 bool PictureFile::write(const Image& rows) { return !impl_->failed && impl_->write(rows); }
 bool PictureFile::write(const DeepRows& rows) { return !impl_->failed && impl_->write(rows); }
-bool PictureFile::close(bool whole) { return impl_->close(whole); }
+bool PictureFile::close(float finished) { return impl_->close(finished); }
 const std::string& PictureFile::error() const { return impl_->problem; }
 std::vector<std::string> PictureFile::unread() const {
   return impl_->writer ? impl_->writer->unread() : std::vector<std::string>();

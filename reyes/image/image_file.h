@@ -49,8 +49,9 @@ class PictureFile {
   /// says why.
   bool write(const Image& rows);
   bool write(const DeepRows& rows);
-  /// A picture that is not whole gets the name of partialName(); a whole one removes the file of that name.
-  bool close(bool whole = true);
+  /// A picture of which a share of less than 1 is finished gets the name of partialName(), and its header says so; a
+  /// whole one removes the file of that name.
+  bool close(float finished = 1);
   const std::string& error() const;
   /// Parameters of a Display that its driver has not read.
   std::vector<std::string> unread() const;

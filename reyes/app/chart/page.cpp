@@ -3,8 +3,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "reyes/app/chart/html.h"
 #include "reyes/app/build_info.h"
+#include "reyes/app/chart/html.h"
 #include "reyes/app/chart/plot.h"
 #include "reyes/app/chart/report.h"
 #include "reyes/app/settings.h"

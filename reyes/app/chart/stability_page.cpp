@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "reyes/app/chart/html.h"
 #include "reyes/app/build_info.h"
+#include "reyes/app/chart/html.h"
 #include "reyes/app/chart/plot.h"
 #include "reyes/app/chart/stability.h"
 #include "reyes/app/settings.h"

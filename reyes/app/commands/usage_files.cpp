@@ -124,8 +124,9 @@ void buildRequests(CLI::App& app) {
 }
 
 void buildCompletion(CLI::App& app) {
-  app.add_subcommand("completion", "A script that completes this command line in bash and zsh")
-      ->callback([&app] { std::fputs(completionScript(app).c_str(), stdout); });
+  app.add_subcommand("completion", "A script that completes this command line in bash and zsh")->callback([&app] {
+    std::fputs(completionScript(app).c_str(), stdout);
+  });
 }
 
 }  // namespace
