@@ -126,15 +126,12 @@ std::string driverOf(const DisplayCall& display, const Options& options, const P
 std::string fileOf(const DisplayCall& display);
 /// The name, without its folder, of a file that stands in for a picture that is not whole: a.partial.exr for a.exr.
 std::string partialName(const std::string& path);
-<<<<<<< HEAD
 /// Names of texts in headers that say which picture it is: what all of it depends on, the shot that it was shaded from,
 /// and the crop window that light was gathered for (docs/formats.md).
 inline constexpr const char *kContents = "tomales:contents", *kShot = "tomales:shot", *kGathered = "tomales:gathered";
-=======
 /// The header's text that tells which share of its buckets a picture holds: kAllFinished, or less where the frame was
 /// interrupted. DisplayFile::close() writes the share over it.
 constexpr const char *kFinishedShare = "tomales:finished", *kAllFinished = "1.000";
->>>>>>> 3b57146b263a249fabe35a4dd91b552358323e74
 /// Adds a named text to the header of a Display's file if its format has room for texts.
 void addHeader(DisplayCall& display, const std::string& name, const std::string& text);
 

@@ -82,8 +82,7 @@ uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
 bool holds(const DisplayCall& display, const std::string& contents, const PixelRect& crop) {
   std::string error;
   const auto picture = openPicture(fileOf(display), error);
-<<<<<<< HEAD
-  if (!picture || picture->text(kContents) != contents) return false;
+  if (!picture || picture->text(kContents) != contents || picture->text(kFinishedShare) != kAllFinished) return false;
   const PictureShape& s = picture->shape();
   return s.x == crop.x0 && s.y == crop.y0 && s.width == crop.width() && s.height == crop.height();
 }
@@ -91,9 +90,6 @@ bool holds(const DisplayCall& display, const std::string& contents, const PixelR
 void addToPictures(Options& options, const char* name, const std::string& text, const RenderSettings& settings) {
   for (DisplayCall& d : options.displays)
     if (driverOf(d, options, pluginTrust(settings)).empty()) addHeader(d, name, text);
-=======
-  return picture && picture->text(kContents) == contents && picture->text(kFinishedShare) == kAllFinished;
->>>>>>> 3b57146b263a249fabe35a4dd91b552358323e74
 }
 
 }  // namespace
@@ -115,10 +111,10 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
 }
 
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {
-<<<<<<< HEAD
   addToPictures(options, kVersionOf, kVersion, settings), addToPictures(options, kCommit, sourceCommit(), settings);
   addToPictures(options, kScene, sceneText(settings), settings);
   addToPictures(options, kFrame, std::to_string(options.frame), settings);
+  addToPictures(options, kFinishedShare, kAllFinished, settings);
   addToPictures(options, kSettings, settingsText(settings), settings);
   if (!contents.empty()) addToPictures(options, kContents, contents, settings);
 }
@@ -143,15 +139,6 @@ void describeGather(Options& options, const RenderSettings& settings) {
 
 void describeAudit(Options& options, const std::string& sentence, const RenderSettings& settings) {
   addToPictures(options, kAudit, sentence, settings);
-=======
-  for (DisplayCall& d : options.displays) {
-    if (!driverOf(d, options, pluginTrust(settings)).empty()) continue;
-    addHeader(d, kVersionOf, kVersion), addHeader(d, kScene, sceneText(settings));
-    addHeader(d, kFinishedShare, kAllFinished);
-    addHeader(d, kFrame, std::to_string(options.frame)), addHeader(d, kSettings, settingsText(settings));
-    if (!contents.empty()) addHeader(d, kContents, contents);
-  }
->>>>>>> 3b57146b263a249fabe35a4dd91b552358323e74
 }
 
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log) {
