@@ -64,10 +64,12 @@ for at, number in ((40, signal.SIGKILL), (60, signal.SIGTERM), (85, signal.SIGKI
         redone = (rays("cut.json") + rays("rest.json") - rays("whole.json")) / rays("cut.json")
         t.expect(redone < 0.1, f"    of which {redone:.3f} had been traced before")
 
-cut(60, signal.SIGKILL, "room.rib")
-t.run("room.rib", "-o", "whole.exr", "--seed", "3", "-q")
-t.run("room.rib", "--resume", "--seed", "3", "-q")
-t.expect((t.folder / "room.exr").read_bytes() == (t.folder / "whole.exr").read_bytes(), "another seed takes nothing over")
+for option, value in (("--seed", "3"), ("--crop", "0,0.5,0,1")):
+    cut(60, signal.SIGKILL, "room.rib")
+    t.run("room.rib", "-o", "whole.exr", option, value, "-q")
+    t.run("room.rib", "--resume", option, value, "-q")
+    t.expect((t.folder / "room.exr").read_bytes() == (t.folder / "whole.exr").read_bytes(), f"another {option[2:]} takes nothing over")
+    (t.folder / "room.exr").unlink()
 cut(60, signal.SIGKILL, "bright.rib")
 t.expect(resumed("room.rib") > 0.99, "nor does another light")
 

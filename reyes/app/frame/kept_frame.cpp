@@ -35,7 +35,9 @@ std::unique_ptr<KeptWork> keptWorkOf(const Scene& scene, ShaderRegistry& shaders
                "rendered and might change between runs");
     return nullptr;
   }
-  const std::string identity = fmt::format("{} {} {}", contents, layout.bucketWidth, layout.bucketHeight);
+  const PixelRect& crop = layout.crop;  // records lie where it shows something
+  const std::string identity = fmt::format("{} {} {} {} {} {} {}", contents, layout.bucketWidth, layout.bucketHeight,
+                                           crop.x0, crop.y0, crop.x1, crop.y1);
   return KeptWork::create(scene.options.displays.front().name + ".kept", identity, log);
 }
 
