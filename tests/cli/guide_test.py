@@ -13,6 +13,7 @@ from program import GOOD, Suite
 t = Suite()
 # A session has small pictures and few rays, so that it takes seconds. Later options would be refused, so those of the page go first.
 SMALL = {"render": "--format 32x32 --samples 16 --pixel-samples 2x2 -t 2", "hide": "--format 32x32 --pixel-samples 2x2", "gather": "--samples 16",
+         "batch": "--format 32x32 --samples 16 --pixel-samples 2x2",
          "photons": "--photons 5000", "chart": "--format 16x16 --budget 30s --batches 2 -t 2"}
 SHIM = f"""#!{sys.executable}
 import subprocess, sys

@@ -11,6 +11,7 @@
 #include <map>
 #include <sstream>
 
+#include "reyes/app/batch/task.h"
 #include "reyes/base/child_process.h"
 #include "reyes/base/chunk_file.h"
 #include "reyes/base/unfinished_file.h"
@@ -134,9 +135,17 @@ std::string scriptOf(const BatchPlan& plan, const JobArray& array, const SlurmOp
     if (!value.empty()) out += fmt::format("#SBATCH --{}={}\n", option, value);
   out += "tasks=(";
   for (const BatchTask* t : array.tasks) out += (t == array.tasks.front() ? "" : " ") + t->name;
-  // exec: the signal that comes before the end of the time reaches the program.
-  return out + fmt::format(")\nexec {} batch task {} \"${{tasks[$SLURM_ARRAY_TASK_ID]}}\"\n",
-                           quoted(fs::read_symlink("/proc/self/exe").string()), quoted(plan.file.string()));
+  return out + fmt::format(R"()
+trap 'kill -TERM $child' TERM  # comes a minute before the end of the time
+{} batch task {} "${{tasks[$SLURM_ARRAY_TASK_ID]}}" &
+child=$!
+wait $child; code=$?
+while kill -0 $child 2>/dev/null; do wait $child; code=$?; done  # the trap has ended the first wait
+if [ $code -gt 128 ] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {} ]; then code={}; fi  # it was killed: once more
+exit $code
+)",
+                           quoted(fs::read_symlink("/proc/self/exe").string()), quoted(plan.file.string()),
+                           kMostAttempts, kRequeue);
 }
 
 /// What sbatch shall wait for; empty for nothing.
