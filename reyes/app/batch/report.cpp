@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "reyes/app/chart/html.h"
 #include "reyes/base/temporary_folder.h"
@@ -58,11 +56,11 @@ std::string rangesOf(const std::vector<int>& numbers) {
   return out;
 }
 
-/// Returns a small picture as a PNG file's bytes; empty if there is none.
-std::string thumbnail(const std::string& picture, const fs::path& folder) {
+/// Writes a small picture to a PNG file. Returns false if there is no picture.
+bool writeThumbnail(const std::string& picture, const std::string& file) {
   std::string error;
   const auto whole = readImage(picture, error);
-  if (!whole || whole->width <= 0 || whole->height <= 0) return {};
+  if (!whole || whole->width <= 0 || whole->height <= 0) return false;
   const int step = std::max(1, (std::max(whole->width, whole->height) + kThumbnail - 1) / kThumbnail);
   Image small{std::max(1, whole->width / step), std::max(1, whole->height / step), {"R", "G", "B"}, {}};
   small.pixels.resize(static_cast<size_t>(small.width) * static_cast<size_t>(small.height) * 3);
@@ -79,10 +77,7 @@ std::string thumbnail(const std::string& picture, const fs::path& folder) {
       }
   }
   Log log(Log::Verbosity::Quiet);
-  const std::string file = (folder / "small.png").string();
-  if (!writeImage(file, small, true, log)) return {};
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return writeImage(file, small, true, log);
 }
 
 std::string escaped(const std::string& text) {
@@ -174,9 +169,9 @@ std::string pageOf(const BatchPlan& plan, const std::vector<TaskState>& states) 
                 "figure{display:inline-block;margin:4px;font-size:small}.failed{color:#c00}td,th{padding:0 8px}");
   page.put("<pre>{}</pre>\n", escaped(textOf(plan, report)));
   const TemporaryFolder folder(fs::temp_directory_path());
+  const std::string png = (folder.path() / "small.png").string();
   for (const std::string& picture : plan.pictures) {
-    const std::string png = thumbnail((fs::path(plan.workingFolder) / picture).string(), folder.path());
-    if (!png.empty())
+    if (writeThumbnail((fs::path(plan.workingFolder) / picture).string(), png))
       page.put("<figure><img src=\"{}\"><figcaption>{}</figcaption></figure>\n", embedded(png),
                escaped(fs::path(picture).filename().string()));
   }
