@@ -188,8 +188,8 @@ TEST(Photons, WhatComesByAMirrorAloneIsACaustic) {
   World world(b.scene);
   double caustic = 0;
   for (const StoredPhoton& p : traced(world, {200000, 6})) {
-    EXPECT_TRUE(!p.caustic || (p.P.y > 1.9f && p.P.y < 4.1f && p.P.z > 1.9f && p.P.z < 4.1f));
-    caustic += p.caustic ? double{p.power.y} : 0.0;
+    EXPECT_TRUE(!p.caustic() || (p.P.y > 1.9f && p.P.y < 4.1f && p.P.z > 1.9f && p.P.z < 4.1f));
+    caustic += p.caustic() ? double{p.power.y} : 0.0;
   }
   const double onMirror = 2 * double{kPi} * 4 * std::sqrt(0.5);
   EXPECT_NEAR(caustic, onMirror, 0.02 * onMirror);
