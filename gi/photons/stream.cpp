@@ -27,8 +27,13 @@ std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays,
     add(std::make_unique<LightPhotons>(light->index, shading, rays, target));
   }
   // What glows is the first surface of its photons, and a diffuse one.
-  if (settings.maxDepth > 1 && !settings.focusedOnly)
-    add(std::make_unique<GlowPhotons>(rays, shading, settings.seed, log));
+  const bool glows = settings.maxDepth > 1 && !settings.focusedOnly;
+  if (!glows && !sources.empty()) return sources;
+  auto glow = std::make_unique<GlowPhotons>(rays, shading, settings.seed, log);
+  if (sources.empty() && glow->power() <= 0)
+    log.report(Severity::Warning, "photons-no-light", scene.where,
+               "nothing in the scene emits photons, neither lights nor surfaces: indirect light is black");
+  if (glows) add(std::move(glow));
   return sources;
 }
 
@@ -47,9 +52,6 @@ PhotonStream::PhotonStream(const RayScene& rays, const ShadingSystem& shading, c
     const double share = std::round(static_cast<double>(settings_.emit) * s->power() / power_);
     sources_.push_back({std::move(s), static_cast<size_t>(std::max(1.0, share))});
   }
-  if (sources_.empty())
-    log.report(Severity::Warning, "photons-no-light", rays.scene().where,
-               "nothing in the scene emits photons, neither lights nor surfaces: indirect light is black");
 }
 
 void PhotonStream::trace(const Sent& from, uint32_t seed, size_t first, size_t end,

@@ -35,17 +35,8 @@ std::string beginning(const std::string& message) {
 Log::~Log() { printRepeated(); }
 
 bool Log::isWanted(Severity severity) const {
-  switch (verbosity_) {
-    case Verbosity::Silent:
-      return false;
-    case Verbosity::Quiet:
-      return severity > Severity::Warning;
-    case Verbosity::Normal:
-      return severity >= Severity::Note;
-    case Verbosity::Verbose:
-      return true;
-  }
-  return true;
+  return verbosity_ == Verbosity::Verbose || severity > Severity::Warning ||
+         (verbosity_ == Verbosity::Normal && severity >= Severity::Note);
 }
 
 void Log::printRepeated() const {

@@ -39,7 +39,7 @@ struct LogEntry {
 
 class Log {
  public:
-  enum class Verbosity { Silent, Quiet, Normal, Verbose };
+  enum class Verbosity { Quiet, Normal, Verbose };
   static constexpr int kMostLinesOfCode = 100;
   static constexpr size_t kMostPlaces = 4;
   static constexpr size_t kMostRepeated = 10;  ///< Messages whose places the destructor prints.

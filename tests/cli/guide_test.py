@@ -52,7 +52,7 @@ def run(block, folder):
     lines = [line for line in block.text.splitlines() if not any(word in line for word in LEFT_OUT)]
     for verb in re.findall(r"^\./dev (\w+)", block.text, re.M):
         t.expect(f"verb_{verb}()" in (ROOT / "dev").read_text(), f"{block.place}: ./dev {verb} exists")
-    script = "\n".join(lines).replace("PREFIX/include/tomales", str(ROOT))
+    script = "\n".join(lines).replace("PREFIX", str(prefix))
     environment = {**os.environ, "PATH": f"{folder / 'bin'}:/usr/bin:{os.environ['PATH']}", "TOMALES": str(folder / "bin/tomales"),
                    "PYTHONPATH": str(ROOT / "reyes/bindings/python"), "TOMALES_RENDER_OPTIONS": "--format 32x32 --samples 16",
                    "TOMALES_TEXTURE_CACHE": str(t.folder / "textures"), "XDG_CACHE_HOME": str(t.folder / "cache")}
@@ -68,6 +68,9 @@ def parse(block, folder):
     result = subprocess.run([t.program, "catrib", "fragment.rib"], cwd=folder, capture_output=True, text=True)
     t.expect(result.returncode == 0 and ": warning" not in result.stderr, f"{block.place}: its requests are RIB" + result.stderr[:300])
 
+
+prefix = t.folder / "prefix"  # of an installation, for who writes plugins
+subprocess.run(["cmake", "--install", t.program.parent, "--prefix", prefix, "--component", "dev"], check=True, stdout=subprocess.DEVNULL)
 
 only = sys.argv[3:]  # such as docs/light.md, for who writes that page
 for page in [page for page in pages() if not only or page in only]:

@@ -108,7 +108,7 @@ for name, (code, status, says) in CRASHES.items():
     for threads in ("1", "4"):
         t.write("scene.rib", SCENE % name)
         t.expect_run(f"a shader that ends by {says}: {name}, {threads} threads", ["scene.rib", "-t", threads], status,
-                     f'scene.rib:8: "ball": surface shader "{name}" crashes ({says}')
+                     f'scene.rib:8: "ball", in the bucket of the pixels -1,-1 to 16,16: surface shader "{name}" crashes ({says}')
 t.write("scene.rib", (SCENE % "good").replace('LightSource "distantlight" 1', 'LightSource "segv" "lamp"'))
 build("segv", "#include <csignal>\n" + (SHADER % ("0.5f", "segv", "")).replace("TM_SURFACE", "TM_LIGHT").replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  *(volatile int*)8 = 1;"))
 build("lit", (SHADER % ("0.5f", "lit", "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  rsl::Batch(g).diffuse(g->Ng);"))

@@ -58,7 +58,7 @@ constexpr Example kExamples[] = {
      "  tomales import model.glb -o scene.rib      then: tomales scene.rib\n"
      "  tomales import cage.obj -o smooth.rib --subdivide"},
     {"requests", "  tomales requests"},
-    {"completion", "  source <(tomales completion)                for this shell"},
+    {"completion", "  tomales completion > ~/.local/share/bash-completion/completions/tomales"},
     {"compile", "  tomales compile marble.sl                  says what is wrong with it"},
     {"shadetest", "  tomales shadetest marble.sl Kd=.5 -o marble.png"},
     {"photons", "  tomales photons scene.rib -o photons       then: tomales irradiance photons -o points"},

@@ -109,7 +109,7 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.gi = giOrUsageError(t); },
-         "Indirect light (default: scene, which is as the RIB says; docs/light.md tells when to use which)")
+         "Indirect light (default: scene, as the RIB says)")
       ->type_name("scene|" + giMethodNames("|"));
   app.add_option(
          "--samples", s.samples,

@@ -20,8 +20,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
   c->add_flag("--resume", in.render.resume,
-              "Keep what is hidden, gathered and shaded beside the picture until it is written, and use that of an "
-              "interrupted run");
+              "Keep finished work beside the picture until it is written, and use that of a run before");
   c->add_flag("--skip-finished", in.render.skipFinished,
               "Leave out frames whose pictures hold what would be rendered, by their OpenEXR headers");
   c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")

@@ -79,7 +79,7 @@ TEST(Closest, EndsBeforeTMax) {
   world.add(parallelogram({-1, -1, 2}, {2, 0, 0}, {0, 2, 0}));
   world.build();
   for (const float offset : {0.0f, 0.1f, 5.0f}) {
-    Ray ray{vec3(0.1f, 0.2f, 0), vec3(0, 0, 1), 2};
+    Ray ray{vec3(0.1f, 0.2f, 0), vec3(0, 0, 1), 1.999f};
     ray.offset = offset;
     // An offset that reaches the sheet makes it the origin: nothing follows.
     EXPECT_EQ(world.rays->closest(ray, kMaskDiffuse).object, -1);
