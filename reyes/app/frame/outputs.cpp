@@ -66,8 +66,9 @@ void keepBelow(const RenderSettings& settings, const std::set<std::string>& name
   if (!converted.empty()) converted = placeBelow(root, converted);
 }
 
-/// Leaves out, with a message, Displays that would write over an earlier one's file, and windows beside files.
-void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
+/// Leaves out, with a message, Displays that would write over an earlier one's file, and windows beside files. A user
+/// who names a file wants that picture there, so it is no fault of the scene then.
+void dropDisplays(Options& options, const std::set<std::string>& named, const PluginTrust& trust, Log& log) {
   const auto isWindow = [&](const DisplayCall& d) {
     if (!driverOf(d, options, trust).empty()) return false;
     return d.type == "framebuffer" || d.type == "it" || d.type == "windows" || d.type == "x11";
@@ -84,7 +85,7 @@ void dropDisplays(Options& options, const PluginTrust& trust, Log& log) {
     const std::string path = fs::path(d.name).lexically_normal().string();
     const bool isPicture = namesPicture(path) && driverOf(d, options, trust).empty();
     if (files.insert(isPicture ? path : path + " " + d.type).second) return false;
-    log.report(Severity::Warning, "display-twice", d.where,
+    log.report(named.contains(d.name) ? Severity::Note : Severity::Warning, "display-twice", d.where,
                "Display \"" + d.name + "\" would write over an earlier Display of this frame; left out");
     return true;
   });
@@ -125,7 +126,7 @@ void nameOutputs(Options& options, const RenderSettings& settings, Log& log) {
   std::set<std::string> named;
   if (namesPicture(settings.output)) named = replaceByOutput(options, settings);
   if (!settings.outputRoot.empty()) keepBelow(settings, named, options);
-  dropDisplays(options, trust, log);
+  dropDisplays(options, named, trust, log);
   if (settings.crop && !settings.overwrite && !writesMapsAlone(options)) keepLargerFiles(options, named, trust, log);
 }
 

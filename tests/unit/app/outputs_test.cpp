@@ -67,6 +67,18 @@ TEST(Outputs, NeverWriteOverAnotherOfTheirFrame) {
   EXPECT_EQ(window.displays.size(), 1u) << "else there would be no picture at all";
 }
 
+TEST(Outputs, ThatTheUserNamesComeBeforeOthersOfThatNameWithoutAWarning) {
+  Options o = displaysOf({{"box.exr", "openexr"}, {"box.png", "png"}});
+  Log log(Log::Verbosity::Quiet);
+  RenderSettings settings;
+  settings.output = "look.png";
+  nameOutputs(o, settings, log);
+  ASSERT_EQ(o.displays.size(), 1u);
+  EXPECT_EQ(o.displays[0].name, "look.png");
+  EXPECT_EQ(log.count("display-twice"), 1);
+  EXPECT_EQ(log.worst(), Severity::Note);
+}
+
 TEST(Outputs, AreMapsAloneWhereEveryDisplayIsOne) {
   EXPECT_TRUE(writesMapsAlone(displaysOf({{"a.z", "shadow"}, {"b.z", "zfile"}})));
   EXPECT_FALSE(writesMapsAlone(displaysOf({{"a.z", "shadow"}, {"b.exr", "file"}})));
