@@ -52,7 +52,7 @@ def run(block, folder):
     lines = [line for line in block.text.splitlines() if not any(word in line for word in LEFT_OUT)]
     for verb in re.findall(r"^\./dev (\w+)", block.text, re.M):
         t.expect(f"verb_{verb}()" in (ROOT / "dev").read_text(), f"{block.place}: ./dev {verb} exists")
-    script = "\n".join(lines).replace("PREFIX", str(prefix))
+    script = "\n".join(lines); script = re.sub(r"\bPREFIX\b", str(prefix), script)
     environment = {**os.environ, "PATH": f"{folder / 'bin'}:/usr/bin:{os.environ['PATH']}", "TOMALES": str(folder / "bin/tomales"),
                    "PYTHONPATH": str(ROOT / "reyes/bindings/python"), "TOMALES_RENDER_OPTIONS": "--format 32x32 --samples 16",
                    "TOMALES_TEXTURE_CACHE": str(t.folder / "textures"), "XDG_CACHE_HOME": str(t.folder / "cache")}

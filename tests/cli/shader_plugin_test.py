@@ -113,5 +113,5 @@ t.write("scene.rib", (SCENE % "good").replace('LightSource "distantlight" 1', 'L
 build("segv", "#include <csignal>\n" + (SHADER % ("0.5f", "segv", "")).replace("TM_SURFACE", "TM_LIGHT").replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  *(volatile int*)8 = 1;"))
 build("lit", (SHADER % ("0.5f", "lit", "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  rsl::Batch(g).diffuse(g->Ng);"))
 t.write("scene.rib", (SCENE % "lit").replace('LightSource "distantlight" 1', 'LightSource "segv" "lamp"'))
-t.expect_run("a light that crashes", ["scene.rib"], -signal.SIGSEGV, 'scene.rib:6: light "lamp", on "ball": light shader "segv" crashes')
+t.expect_run("a light that crashes", ["scene.rib"], -signal.SIGSEGV, 'scene.rib:6: light "lamp", on "ball", in the bucket of the pixels -1,-1 to 16,16: light shader "segv" crashes')
 t.finish()
