@@ -19,7 +19,8 @@ std::string environment(const char* name) {
 std::string Trust::pluginFolders() const {
   std::string out = pluginPath;
   for (const std::string& more : {environment("TOMALES_PLUGIN_PATH"), userFolder("plugins")}) out += ":" + more;
-  for (const std::filesystem::path& installed : besideProgram("../lib/tomales/plugins")) out += ":" + installed.string();
+  for (const std::filesystem::path& installed : besideProgram("../lib/tomales/plugins"))
+    out += ":" + installed.string();
   return out;
 }
 

@@ -71,7 +71,7 @@ with tempfile.TemporaryDirectory() as folder:
         print(f"        {sent.stdout.strip()} after {time.monotonic() - begun:.1f} s", flush=True)
         again = run(*submit)
         expect(again.returncode == 2 and "on the cluster already" in again.stderr, "and not submitted twice")
-        expect(wait_for(lambda: len(list(work.glob("shot.batch/work/*.icf"))) >= 3, 120), "frames are gathered")
+        expect(wait_for(lambda: len(list((work / "shot.batch" / "work").glob("*.icf"))) >= 3, 120), "frames are gathered")
         wait_for(lambda: cluster.steps_of("n2") and cluster.steps_of("n1"), 30)
         victims = cluster.steps_of("n2")
         cluster.kill_node("n2")
