@@ -52,10 +52,5 @@ set(TOMALES_LIBRARIES
   "LibTIFF|${TIFF_VERSION_STRING}|libtiff" "libpng|${PNG_VERSION_STRING}|libpng-2.0" "zlib|${ZLIB_VERSION_STRING}|Zlib"
   "libzip|${zip_VERSION}|BSD-3-Clause" "Zstandard|${zstd_VERSION}|BSD-3-Clause" "libdeflate|${deflate_VERSION}|MIT"
   "xxHash|${xxhash_VERSION}|BSD-2-Clause")
-foreach(_library IN LISTS TOMALES_LIBRARIES)
-  string(REPLACE "|" ";" _row "${_library}")
-  list(GET _row 0 _name)
-  list(GET _row 1 _version)
-  list(GET _row 2 _licence)
-  string(APPEND TOMALES_LIBRARY_TEXT "  ${_name} ${_version} (${_licence})\n")
-endforeach()
+list(TRANSFORM TOMALES_LIBRARIES REPLACE "(.*)\\|(.*)\\|(.*)" "  \\1 \\2 (\\3)\n")
+list(JOIN TOMALES_LIBRARIES "" TOMALES_LIBRARY_TEXT)

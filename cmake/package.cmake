@@ -1,7 +1,6 @@
 # What an installation has besides programs and headers, and the packages for Debian that CPack makes of it
 # (`./dev package`): tomales to render, tomales-dev to write plugins, tomales-doc to read.
 include(CMakePackageConfigHelpers)
-include(GNUInstallDirs)
 
 # For plugins: find_package(tomales) has the target tomales::headers, and so has pkg-config tomales.
 if(TARGET tomales)
@@ -31,9 +30,8 @@ install(DIRECTORY docs DESTINATION share/doc/tomales COMPONENT doc)
 install(DIRECTORY scenes DESTINATION share/doc/tomales/examples COMPONENT doc)
 
 # Debian wants these in every package.
-find_program(GZIP gzip)
 if(TOMALES_MANUAL)
-  add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/changelog.gz COMMAND ${GZIP} -9nc ${CMAKE_SOURCE_DIR}/CHANGELOG.md > ${CMAKE_BINARY_DIR}/changelog.gz DEPENDS CHANGELOG.md)
+  add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/changelog.gz COMMAND gzip -9nc ${CMAKE_SOURCE_DIR}/CHANGELOG.md > ${CMAKE_BINARY_DIR}/changelog.gz DEPENDS CHANGELOG.md)
   add_custom_target(tomales_changelog ALL DEPENDS ${CMAKE_BINARY_DIR}/changelog.gz)
   foreach(part runtime dev doc)
     set(folder share/doc/tomales-${part})
@@ -48,7 +46,6 @@ endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL runtime dev doc)
 set(CPACK_PACKAGE_CONTACT "The Tomales maintainers <maintainers@tomales.invalid>")
-set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -67,5 +64,4 @@ set(CPACK_COMPONENT_DEV_DESCRIPTION "Headers for plugins: what shaders, display 
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME tomales-doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_DOC_DESCRIPTION "The guide of the renderer, and the scenes that it speaks of.")
-set(CPACK_SOURCE_GENERATOR TXZ)
 include(CPack)

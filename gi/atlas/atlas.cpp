@@ -44,7 +44,8 @@ std::vector<double> boxAreas(const Scene& scene) {
 constexpr uint32_t kMethod = 11;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
-  const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] = settings.photons;  // the last two as usual
+  const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] =
+      settings.photons;  // The last two keep their defaults here.
   return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed, direct);
 }
 

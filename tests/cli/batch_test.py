@@ -9,21 +9,11 @@ import signal
 import subprocess
 import time
 
+from moving_ball import frame, head
 from program import Suite
 
-FRAME = """FrameBegin %d
-WorldBegin
-LightSource "pointlight" 1 "from" [3 3 -3] "intensity" [20]
-LightSource "indirectlight" "gi" "float samples" [32]
-Surface "plastic"
-Translate %g 0 0
-Sphere 1 -1 1 360
-Polygon "P" [-4 -1 -4 -4 -1 4 4 -1 4 4 -1 -4]
-WorldEnd
-FrameEnd
-"""
-HEAD = 'Format 64 48 1\nProjection "perspective" "fov" [40]\nTranslate 0 0 5\nPixelSamples 2 2\n'
-SCENE = HEAD + "".join(FRAME % (i, 0.2 * i) for i in range(1, 5))
+HEAD = head(64, 48)
+SCENE = HEAD + "".join(frame(i, 32, 0.2) for i in range(1, 5))
 t = Suite()
 t.folder = t.folder / "a folder's name"  # paths with blanks and quotes
 t.folder.mkdir()
@@ -94,7 +84,7 @@ t.expect_run("no JSON", ["batch", "circle"], 2, "cannot be run")
 
 # A task that fails is tried three times; the others finish, and it is tried again later.
 (t.folder / "closed").write_text("a file where a folder must be")
-t.write("two.rib", HEAD + 'Display "ok.exr" "file" "rgba"\n' + FRAME % (1, 0.2) + 'Display "closed/no.exr" "file" "rgba"\n' + FRAME % (2, 0.4))
+t.write("two.rib", HEAD + 'Display "ok.exr" "file" "rgba"\n' + frame(1, 32, 0.2) + 'Display "closed/no.exr" "file" "rgba"\n' + frame(2, 32, 0.2))
 t.expect_run("a frame fails", ["batch", "two.rib"], 4, "finished 1 of 2", "failed 1: 2", "task 0002.render failed", "output-folder", "tried 3 times")
 t.expect(len(status("two.batch")["failures"]) == 1 and status("two.batch")["by_frame"][1]["state"] == "failed", "status names it")
 (t.folder / "closed").unlink()
@@ -112,7 +102,7 @@ for name in grant:
     del os.environ[name]
 
 # The process that works on a plan is killed, cancelled, or met by another one.
-t.write("slow.rib", (HEAD + "".join(FRAME % (i, 0.2 * i) for i in range(1, 5))).replace("64 48", "200 150").replace("[32]", "[300]"))
+t.write("slow.rib", head(200, 150) + "".join(frame(i, 300, 0.2) for i in range(1, 5)))
 t.run("slow.rib", "-o", "one.####.exr", "-q")
 
 

@@ -9,21 +9,11 @@ import sys
 import tempfile
 import time
 
-from cluster import Cluster, missing
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
+from moving_ball import frame, head  # noqa: E402
+from cluster import Cluster, missing  # noqa: E402
 
 FRAMES, TILES = 24, "2x2"
-FRAME = """FrameBegin %d
-WorldBegin
-LightSource "pointlight" 1 "from" [3 3 -3] "intensity" [20]
-LightSource "indirectlight" "gi" "float samples" [400]
-Surface "plastic"
-Translate %g 0 0
-Sphere 1 -1 1 360
-Polygon "P" [-4 -1 -4 -4 -1 4 4 -1 4 4 -1 -4]
-WorldEnd
-FrameEnd
-"""
-HEAD = 'Format 160 120 1\nProjection "perspective" "fov" [40]\nTranslate 0 0 5\nPixelSamples 2 2\n'
 
 if lost := missing():
     print("skipped: " + lost)
@@ -57,7 +47,7 @@ with tempfile.TemporaryDirectory() as folder:
     cluster = Cluster(pathlib.Path(folder) / "cluster")
     work = pathlib.Path(folder) / "a shot's folder"
     work.mkdir()
-    (work / "shot.rib").write_text(HEAD + "".join(FRAME % (i, 0.03 * i) for i in range(1, FRAMES + 1)))
+    (work / "shot.rib").write_text(head(160, 120) + "".join(frame(i, 400, 0.03) for i in range(1, FRAMES + 1)))
     try:
         cluster.start()
         run("shot.rib", "-o", "one.####.exr", "-q", "-t", "1")

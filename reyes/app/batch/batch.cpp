@@ -6,7 +6,6 @@
 
 #include <cstdio>
 #include <fstream>
-#include <thread>
 
 #include "reyes/app/batch/local.h"
 #include "reyes/app/batch/report.h"
@@ -15,6 +14,7 @@
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/chunk_file.h"
 #include "reyes/base/folder_lock.h"
+#include "reyes/base/parallel.h"
 #include "reyes/base/unfinished_file.h"
 
 namespace tomales {
@@ -99,8 +99,7 @@ class BatchRun {
     const OrderlyEnd orderly;
     std::string why;
     if (!writeFile(ownerFile(plan).string(), std::to_string(::getpid()) + "\n", why)) throw WriteError(why);
-    const int processes = command_.processes > 0 ? command_.processes
-                                                 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const int processes = command_.processes > 0 ? command_.processes : threadCount();
     int shown = -1;
     const auto states = runLocally(plan, processes, [&](const std::vector<TaskState>& now) {
       const BatchReport report = reportOf(plan, now);
