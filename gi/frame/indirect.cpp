@@ -132,7 +132,8 @@ int bouncesFor(const GiState& state, const IndirectQuery& query) {
 }
 
 int auditBouncesFor(const GiState& state, const IndirectQuery& query) {
-  if (state.settings.mode != GiMode::Atlas) return bouncesFor(state, query);
+  const GiMode mode = state.settings.mode;
+  if (mode != GiMode::Atlas && mode != GiMode::Progressive) return bouncesFor(state, query);
   const std::optional<int> asked = state.shading.indirectRequest().value_or(IndirectRequest{}).bounces;
   return state.settings.bounces > 0 ? state.settings.bounces : asked.value_or(kAuditBounces);
 }

@@ -75,7 +75,7 @@ for light in ("indirect", "direct", "picture"):
 traced = render("traced.exr", "--audit=30", "--gi", "reference", "--samples", "256", "--ray-geometry", "scene")[3]
 t.expect(traced["indirect"]["high"] < rough["indirect"]["low"] / 3, f"path tracing errs little: {traced['indirect']['mean']:.4f}")
 
-for method in ("radiosity", "atlas"):
+for method in ("radiosity", "atlas", "progressive"):
     figures = render("method.exr", "--audit=30", "--gi", method, "--photons", "20000", "--bounces", "1")[3]
     t.expect(0 < figures["indirect"]["mean"] < 0.3, f"--gi {method} is audited: {figures['indirect']['mean']:.3f}")
 t.run("room.rib", "--baked", "light", "-o", "bake.exr")
