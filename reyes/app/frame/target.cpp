@@ -19,6 +19,7 @@ constexpr double kTolerance = 1.1;    ///< A picture that errs by so many times 
 constexpr double kShareToPlan = 0.9;  ///< Of the time that is left is planned: models of time are off by a tenth.
 /// A frame whose gathering has taken less than this share of its time is lit again, better.
 constexpr double kLittleUsed = 0.5;
+constexpr double kBrief_s = 60;  ///< With less time, trials are brief.
 
 uint32_t seedOf(const RenderSettings& settings) { return hashCombine(lightSeedOf(settings), randomStream("targ")); }
 
@@ -34,7 +35,7 @@ class TargetSearch {
       : job_(job), layout_(layout), tiles_(tiles), settings_(settings), stats_(stats), log_(log) {}
 
   void run() {
-    TrialsResult trials = makeTrials(job_, layout_, tiles_, CostUnit::Rays, seedOf(settings_), stats_);
+    TrialsResult trials = makeTrials(job_, layout_, tiles_, {.seed = seedOf(settings_)}, stats_);
     if (interrupted()) return;
     ErrorModel& model = trials.model;
     LightQuality quality = model.cheapest(kMargin * settings_.targetError);
@@ -97,7 +98,8 @@ void reachTargetError(FrameJob& job, const DeepFrame& layout, const TileReader& 
 
 void useTimeBudget(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
                    Stats& stats, Log& log) {
-  TrialsResult trials = makeTrials(job, layout, tiles, CostUnit::Seconds, seedOf(settings), stats);
+  const TrialPlan plan{CostUnit::Seconds, settings.timeBudget_s - job.elapsed_s() < kBrief_s, seedOf(settings)};
+  TrialsResult trials = makeTrials(job, layout, tiles, plan, stats);
   const auto left_s = [&] {
     const double audit_s = settings.audit > 0 ? trials.audit_s : 0;
     return kShareToPlan * (settings.timeBudget_s - job.elapsed_s() - audit_s);

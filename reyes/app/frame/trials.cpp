@@ -17,6 +17,8 @@ constexpr LightQuality kBaseOfPaths{16, -1, 0}, kFinerPaths{64, -1, 0};
 constexpr LightQuality kBaseOfLamps{0, -1, 4}, kFinerLamps{0, -1, 16};
 /// One bucket of so many is tried, and no fewer than so many.
 constexpr size_t kBucketsPerTrial = 16, kFewestBuckets = 8;
+constexpr int kBriefness = 4;  ///< Brief trials have so many times fewer rays.
+constexpr size_t kPixelsOfBriefTrials = 100;
 
 /// Numbers, in order, of some of these buckets, chosen by a hash of their places.
 std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& layout, uint32_t seed) {
@@ -35,22 +37,23 @@ std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& lay
 
 class Trials {
  public:
-  Trials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, CostUnit unit, uint32_t seed, Stats& stats)
-      : job_(job), layout_(layout), unit_(unit), stats_(stats) {
+  Trials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan, Stats& stats)
+      : job_(job), layout_(layout), plan_(plan), stats_(stats) {
     for (size_t t = 0; t < layout.tileCount(); ++t)
       if (const auto tile = tiles(t); tile && !tile->fragments.empty()) seen_.push_back(t);
-    some_ = someOf(seen_, layout, seed);
+    some_ = someOf(seen_, layout, plan.seed);
     tiles_ = [&tiles, some = some_](size_t t) {
       return std::binary_search(some.begin(), some.end(), t) ? tiles(t) : nullptr;
     };
   }
 
-  TrialsResult run(uint32_t seed) {
+  TrialsResult run() {
     const bool paths = job_.method().isReference, records = job_.method().caches;
     const LightQuality& base = paths ? kBaseOfPaths : records ? kBaseOfRecords : kBaseOfLamps;
     const LightQuality& finer = paths ? kFinerPaths : records ? kFinerRecords : kFinerLamps;
-    AuditPlan plan = job_.auditPlan(seed);
+    AuditPlan plan = job_.auditPlan(plan_.seed);
     plan.lightSamples = finer.lightSamples;
+    if (plan_.isBrief) plan.pixels = kPixelsOfBriefTrials;
     Audit audit(layout_, tiles_, job_.scene(), job_.shading(), plan, interrupted());
     const QualityTrial first = trial(base, audit), second = trial(finer, audit);
     const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords, audit)) : std::nullopt;
@@ -58,7 +61,9 @@ class Trials {
   }
 
  private:
-  QualityTrial trial(const LightQuality& quality, Audit& audit) {
+  QualityTrial trial(LightQuality quality, Audit& audit) {
+    if (plan_.isBrief && quality.samples > 0) quality.samples /= kBriefness;
+    if (plan_.isBrief && quality.lightSamples > 0) quality.lightSamples /= kBriefness;
     QualityTrial out{quality};
     job_.setQuality(quality);
     const double inFrame = static_cast<double>(seen_.size()) / std::max<double>(1, static_cast<double>(some_.size()));
@@ -82,8 +87,8 @@ class Trials {
   }
   double cost() const {
     const auto& r = stats_.rays;
-    return unit_ == CostUnit::Seconds ? seconds()
-                                      : static_cast<double>(r.gather + r.transmission + r.specular + r.reference);
+    return plan_.unit == CostUnit::Seconds ? seconds()
+                                           : static_cast<double>(r.gather + r.transmission + r.specular + r.reference);
   }
   static double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -91,7 +96,7 @@ class Trials {
 
   FrameJob& job_;
   const DeepFrame& layout_;
-  const CostUnit unit_;
+  const TrialPlan plan_;
   Stats& stats_;
   TileReader tiles_;  ///< Of the buckets that are tried.
   std::vector<size_t> seen_, some_;
@@ -100,10 +105,10 @@ class Trials {
 
 }  // namespace
 
-TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, CostUnit unit, uint32_t seed,
+TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,
                         Stats& stats) {
   const StageTimer timer(stats, "trials");
-  return Trials(job, layout, tiles, unit, seed, stats).run(seed);
+  return Trials(job, layout, tiles, plan, stats).run();
 }
 
 }  // namespace tomales
