@@ -61,8 +61,7 @@ uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
   std::vector<ShaderName> names;
   const auto add = [&](const ShaderCall* call, TmKind kind) {
     if (!call || !seen.insert(call).second) return;
-    const std::string beside = call->where.file ? fs::path(*call->where.file).parent_path().string() : "";
-    names.push_back({call->name, kind, beside});
+    names.push_back({call->name, kind, call->where.folder().string()});
   };
   for (const auto& light : scene.lights) add(&light->shader, TM_LIGHT);
   if (scene.options.imager) add(&*scene.options.imager, TM_IMAGER);
