@@ -14,7 +14,7 @@ namespace tomales {
 namespace {
 
 constexpr size_t kWhole = 0, kGlow = 1, kFirstLight = 2;
-constexpr int64_t kTilesInMemory_bytes = int64_t{1} << 30;  ///< Other tiles are read anew by every pass.
+constexpr int64_t kTilesHeld_bytes = int64_t{1} << 30;  ///< Other tiles are read anew by every pass.
 constexpr int kBucketsAcross = 4;                           ///< Of a part that is shaded at once.
 
 /// What is dropped from an edit that changes a light by a factor.
@@ -52,7 +52,7 @@ bool Relighting::prepare() {
     }
   }
   if (!(files_ = ShotFiles::open(settings_, log_))) return false;
-  tiles_ = std::make_unique<TileStore>(files_->dfb().shot().frame.tileCount(), kTilesInMemory_bytes,
+  tiles_ = std::make_unique<TileStore>(files_->dfb().shot().frame.tileCount(), kTilesHeld_bytes,
                                        [this](size_t index) { return files_->load(index, log_); });
   auto job = ShotJob::open(files_, settings_, stats_, log_);
   if (!job) return false;
