@@ -96,9 +96,10 @@ std::optional<const GiMethod*> parseGi(const std::string& text);
 std::optional<double> parseShare(const std::string& text);
 std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", "10m", "2h"
 
-/// Shares of --memory-limit: textures get a quarter, bricks --brick-cache but no more than an eighth, and each gets at
-/// least 1 MB.
+/// Shares of --memory-limit: textures and what rays meet get a quarter each, bricks --brick-cache but no more than an
+/// eighth, and each gets at least 1 MB.
 int64_t textureShare(int64_t memoryLimit);
+int64_t rayShare(int64_t memoryLimit);
 size_t brickCacheBytes(const RenderSettings& settings);
 
 /// Replaces runs of '#' by the frame number, padded to their length.
