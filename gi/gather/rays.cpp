@@ -13,6 +13,7 @@ struct GatherRays::Scratch {
   std::vector<std::pair<size_t, vec3>> mapped;
   HitAnswers answers, share;
   std::vector<vec3> glow;  ///< The colours of hits that no light lights.
+  std::vector<vec3> left;  ///< What the groups so far have not brought.
 };
 
 GatherRays::Scratch& GatherRays::emptyScratch() {
@@ -107,17 +108,23 @@ void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   }
 }
 
-// Shades the same hits under each group of lights alone. What shines by itself is there each time, and is taken off.
+// Shades the same hits under each group of lights alone, but for the last group, whose share is what is left of the
+// whole. What shines by itself is there each time, and is taken off.
 void GatherRays::shadeShares(const ShadeContext& context, SeenLight& seen) {
+  if (groups_.empty()) return;
   ShadeContext alone = context;
   HitAnswers& share = scratch_.share;
   share.mode = scratch_.answers.mode;
+  std::vector<vec3>& left = scratch_.left;
+  left = scratch_.answers.color;
   for (size_t g = 0; g < groups_.size(); ++g) {
+    const bool isLast = g > 0 && g + 1 == groups_.size();
     alone.lights = &groups_[g];
-    scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, alone, share);
+    if (!isLast) scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, alone, share);
     if (g == 0) scratch_.glow = share.color;
     for (size_t r = 0; r < scratch_.hits.size(); ++r) {
-      const vec3 color = g == 0 ? share.color[r] : share.color[r] - scratch_.glow[r];
+      const vec3 color = isLast ? left[r] : g == 0 ? share.color[r] : share.color[r] - scratch_.glow[r];
+      left[r] -= color;
       if (isFinite(color))
         seen.shares[g][static_cast<size_t>(scratch_.layers.elements[r])] += scratch_.layers.clear[r] * color;
     }

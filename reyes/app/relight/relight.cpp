@@ -84,7 +84,7 @@ class Relight {
     server_.get("whole", [this](const HttpQuestion&) {
       const std::vector<float> whole = relighting_.whole();
       const auto* bytes = reinterpret_cast<const char*>(whole.data());
-      return HttpReply{whole.empty() ? 404 : 200, "application/octet-stream", {bytes, whole.size() * sizeof(float)}};
+      return HttpReply{whole.empty() ? 204 : 200, "application/octet-stream", {bytes, whole.size() * sizeof(float)}};
     });
     server_.get("edits", [this](const HttpQuestion&) { return jsonReply(savedEdits()); });
     server_.post("edit", [this](const HttpQuestion& q) {

@@ -24,6 +24,7 @@ Json Relighting::description() const {
           {"width", window_.width()},
           {"height", window_.height()},
           {"exposure", editable_.exposure},
+          {"present", jsonOf(present_)},
           {"imager", files_->dfb().shot().scene.options.imager.has_value()},
           {"sharesBounces", sharesBounces_},
           {"layers", layers},

@@ -18,8 +18,8 @@ click        choose the object there
 const scene = await get("scene");
 const mixer = new Mixer($("picture"), scene.width, scene.height, scene.layers.length,
   new URLSearchParams(location.search).has("plain"));
-const history = new History(kNothing);
-let state = copyOf(kNothing);
+let state = { ...copyOf(kNothing), ...scene.present };
+const history = new History(state);
 let status = { layers: scene.layers.map(() => ({ version: 0, edit: null, old: true })) };
 let exact = false, falseColor = false;
 /** Lights that are heard alone, or not: a way of looking, and no part of the edit. */
