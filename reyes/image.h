@@ -155,6 +155,8 @@ class DisplayFile {
   /// Gives the file its name. `finished`: the share of the buckets that it holds. A picture with less than 1 leaves
   /// what has that name alone: it becomes NAME.partial.exr, which is reported.
   bool close(float finished = 1);
+  /// The name that close() has given to the file, or that a driver has got.
+  const std::string& written() const;
 
  private:
   struct Impl;

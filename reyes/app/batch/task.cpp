@@ -12,6 +12,7 @@
 #include "reyes/app/exit_code.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/chunk_file.h"
+#include "reyes/base/process.h"
 
 namespace tomales {
 namespace {
@@ -20,11 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kPause{20};
 constexpr std::chrono::seconds kBeforeRetry{2};
-
-std::string hostName() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
-}
 
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 

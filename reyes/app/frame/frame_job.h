@@ -20,6 +20,8 @@ class FrameJob {
   FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log);
   ~FrameJob();
 
+  /// Sets the shares of the progress at which all is hidden, and then gathered, for commands that do not do it all.
+  void setShares(float hidden, float gathered) { hidden_ = hidden, gathered_ = gathered; }
   /// Reads all procedurals that are still closed. Call it before `hide` if tiles leave that one by one, to a file or
   /// shaded: it then finds no new shade groups on its way.
   void openAll();
@@ -55,13 +57,12 @@ class FrameJob {
   GiSettings giSettings() const;
   GiServices* services() { return services_.get(); }
   ShadingSystem& shading() { return *shading_; }
-  FrameControl control(float begin, float end);
+  FrameControl control(const char* pass, float begin, float end);
   /// Returns a callback for the progress of the maps that indirect light needs before anything is gathered.
-  std::function<void(float)> lightProgress() { return meter_.stage(kHidden, kLightMade); }
+  std::function<void(float)> lightProgress() { return meter_.pass("making maps of light", hidden_, lightMade()); }
 
  private:
-  /// Shares of a frame that are done when its stages end.
-  static constexpr float kHidden = 0.3f, kLightMade = 0.5f, kGathered = 0.7f;
+  float lightMade() const { return 0.5f * (hidden_ + gathered_); }
   bool makesLight() const { return mode() == GiMode::Atlas || mode() == GiMode::Radiosity; }
   void warnAboutPixels() const;
   GiMode mode() const { return method_->mode; }
@@ -89,6 +90,7 @@ class FrameJob {
   bool counts_ = false;  ///< Photons are counted at visible points.
   const Camera camera_;
   ProgressMeter meter_;
+  float hidden_ = 0.3f, gathered_ = 0.7f;
   CloudFiles clouds_;
   KeptWork* kept_ = nullptr;
   std::unique_ptr<ShadingSystem> shading_;

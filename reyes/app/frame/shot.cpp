@@ -133,6 +133,7 @@ void ShotJob::shadePicture() {
   prepareLight();
   const auto load = [this](size_t index) { return this->load(index); };
   if (!job_->gathersBeside(irradiance_ && !settings_.appendIrradiance)) {
+    job_->setShares(0, 0);
     warnOfStaleLight();
     if (irradiance_) job_->checkRecords(irradiance_->shot().settings, settings_.irradiance);
     job_->audit(shot_.frame, [&](size_t index) {
@@ -141,6 +142,7 @@ void ShotJob::shadePicture() {
     });
     job_->write(shot_.frame, load);
   } else {
+    job_->setShares(0, 0.6f);
     TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
     job_->gather(shot_.frame, tiles.reader());
     job_->audit(shot_.frame, tiles.reader());
@@ -187,6 +189,7 @@ void ShotJob::gatherIrradiance() {
   const std::vector<uint32_t> asked = tilesOf(shot_.frame, shot_.scene.options);
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
   TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, [this](size_t index) { return load(index); });
+  job_->setShares(0, 0.8f);
   // Points outside the crop that have lost records, because those of the crop reached there, are gathered too.
   job_->gather(shot_.frame, [&](size_t index) {
     return irradiance_ || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr;
@@ -199,7 +202,8 @@ void ShotJob::gatherIrradiance() {
                       tools->rays->emitters().table()};
   shot.caches = job_->services()->takeCaches();
   world_->report();
-  if (!written || !out->finish(shot)) unwritten(out->error());
+  if (!written || !out->finish(shot)) return unwritten(out->error());
+  stats_.addOutput(settings_.output);
 }
 
 // Shades the picture once, for the answers of its rays.

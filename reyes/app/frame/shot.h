@@ -13,6 +13,7 @@ class ShotJob {
  public:
   /// Returns null if the file cannot be read, which is reported.
   static std::unique_ptr<ShotJob> open(const RenderSettings& settings, Stats& stats, Log& log);
+  int frame() const { return shot_.scene.options.frame; }
 
   /// Runs `tomales shade`.
   void shadePicture();
