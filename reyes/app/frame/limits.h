@@ -1,4 +1,4 @@
-// Warnings where methods reach their limits on the scene at hand; the laboratory of docs/chart.md shows what happens
+// Warnings where methods reach their limits on the scene at hand; the laboratory of docs/measured/limits.md shows what happens
 // beyond.
 #pragma once
 #include <span>

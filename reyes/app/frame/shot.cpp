@@ -70,10 +70,23 @@ bool ShotJob::openIrradiance() {
   return true;
 }
 
+std::unique_ptr<KeptWork> ShotJob::keptGather() const {
+  if (!settings_.resume) return nullptr;
+  const std::string sum = sumOfShot(shot_, irradiance_ ? irradiance_->sum() : 0, sourcesOf(settings_.edits)),
+                    contents = contentsOfGather(shot_, file_->shotSum(), *shaders_, sum, settings_);
+  if (!contents.empty()) return KeptWork::create(settings_.output + ".kept", contents, log_);
+  log_.report(Severity::Note, "resume", {},
+              "--resume keeps nothing: the maps of --atlas are read while light is gathered and might change between "
+              "runs");
+  return nullptr;
+}
+
 void ShotJob::prepareLight() {
   shaders_ = frameShaders(settings_, log_);
   world_ = std::make_unique<RayWorld>(shot_, *shaders_, settings_, stats_, log_);
   job_ = std::make_unique<FrameJob>(shot_.scene, *shaders_, settings_, stats_, log_);
+  kept_ = keptGather();
+  job_->keepWork(kept_.get());
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
   if (!irradiance_) return;
@@ -204,6 +217,7 @@ void ShotJob::gatherIrradiance() {
   world_->report();
   if (!written || !out->finish(shot)) return unwritten(out->error());
   stats_.addOutput(settings_.output);
+  if (kept_ && !interrupted()) kept_->forget();
 }
 
 // Shades the picture once, for the answers of its rays.

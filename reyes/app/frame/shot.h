@@ -25,6 +25,8 @@ class ShotJob {
   bool edit();
   bool openIrradiance();
   void prepareLight();
+  /// What an interrupted run has gathered, with --resume; null if nothing is kept.
+  std::unique_ptr<KeptWork> keptGather() const;
   /// Warns of edits that change bounced light, which records keep as it was when they were gathered.
   void warnOfStaleLight() const;
   /// Returns nothing if the bucket is damaged, which is reported.
@@ -46,6 +48,7 @@ class ShotJob {
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
   std::unique_ptr<ShaderRegistry> shaders_;
   std::unique_ptr<RayWorld> world_;
+  std::unique_ptr<KeptWork> kept_;
   std::unique_ptr<FrameJob> job_;
 };
 
