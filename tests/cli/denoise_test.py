@@ -1,6 +1,7 @@
 """tomales denoise: two noisy pictures to one that is nearer to the truth, with all else that the first one holds."""
 import json
 import re
+import subprocess
 
 from program import Suite
 
@@ -44,7 +45,7 @@ t.expect(after < 0.6 * before, f"and state it: {said}")
 old, new = channels("1.exr"), channels("clean.exr")
 t.expect(list(old) == list(new), "every channel stays")
 t.expect(all(old[c] == new[c] for c in old if c not in "RGB") and old["R"] != new["R"], "and all but the colours stay as they are")
-header = t.run("info", "clean.exr").stdout
+header = subprocess.run(["oiiotool", "--info", "-v", "clean.exr"], cwd=t.folder, capture_output=True, text=True).stdout
 t.expect("tomales:denoised" in header and "tomales:contents" not in header and "worldToCamera" in header, "so does the header, which says what was done")
 t.expect_run("the same again", ["denoise", "1.exr", "2.exr", "-o", "again.exr"], 0)
 t.expect((t.folder / "again.exr").read_bytes() == (t.folder / "clean.exr").read_bytes(), "has the same bits")

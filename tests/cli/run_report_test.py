@@ -46,7 +46,7 @@ for n in (1, 2, 3):
     t.expect(counts(together[n]) == counts(alone), f"frame {n} has the figures that it has alone")
     t.expect(together[n]["frame"] == n and together[n]["outputs"] == [f"f{n}.exr", f"f{n}_z.exr"], "and names its pictures")
     t.expect(0 < together[n]["cpu_s"] < 20 and 0 < together[n]["time_s"]["total"] < 20, "and its own time")
-t.expect([w["code"] for w in together[2]["warnings"]] == ["shader-missing"] and not together[1]["warnings"] + together[3]["warnings"],
+t.expect(["shader-missing" in [w["code"] for w in together[n]["warnings"]] for n in (1, 2, 3)] == [False, True, False],
          "a message is in the file of its frame alone")
 t.run("turn.rib", "--stats", "run.json")
 run = read("run.json")
@@ -91,6 +91,8 @@ def passes(*arguments):
     said = t.expect_run(" ".join(arguments[:2]), [*arguments, "--progress", "-t", "2"], 0).stdout.splitlines()
     out, frame = {}, []
     for line in said:
+        if "emitted" in line:
+            continue
         if line.startswith("R90000"):
             frame.append(int(line.split()[1].rstrip("%")))
         else:

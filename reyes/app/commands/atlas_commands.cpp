@@ -12,6 +12,7 @@
 #include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/frame_shaders.h"
 #include "reyes/app/frame/overrides.h"
+#include "reyes/app/watch/progress.h"
 #include "reyes/app/watch/run_report.h"
 #include "reyes/area_lights.h"
 #include "reyes/base/parallel.h"

@@ -246,7 +246,7 @@ Denoised denoise(const HalfBuffers& in) {
   for (Plane& share : chosen) share = smoothed(share, size, kSmoothChoice);
 
   Denoised out;
-  double sum = 0, before = 0, after = 0;
+  double sum = 0, before = 0, left = 0, bias = 0;
   for (size_t c = 0; c < 3; ++c) {
     out.color[c].resize(size.count());
     for (size_t i = 0; i < size.count(); ++i) {
@@ -257,13 +257,15 @@ Denoised denoise(const HalfBuffers& in) {
       const double da = a - in.b[c][i], db = b - in.a[c][i], apart = a - b, noise = in.a[c][i] - in.b[c][i];
       sum += 0.5 * (double{in.a[c][i]} + in.b[c][i]);
       before += 0.25 * noise * noise;
-      // Of the variance of one half's answer, which is half of the squared difference, the mean has a half.
-      after += 0.5 * (da * da + db * db) - 0.5 * noise * noise - 0.25 * apart * apart;
+      // The variance of one half's answer is half of their squared difference, and the mean has half of that. What else
+      // an answer differs from the other half by, beside that half's noise, is its bias.
+      left += 0.25 * apart * apart;
+      bias += 0.5 * (da * da + db * db) - 0.5 * noise * noise - 0.5 * apart * apart;
     }
   }
   const double n = 3 * static_cast<double>(size.count()), mean = std::abs(sum) / n;
   const auto relative = [&](double squares) { return mean > 0 ? std::sqrt(std::max(0.0, squares) / n) / mean : 0.0; };
-  out.before = relative(before), out.after = relative(after);
+  out.before = relative(before), out.after = relative(left + std::max(0.0, bias));
   return out;
 }
 

@@ -40,16 +40,18 @@ std::vector<LogEntry> newOf(const std::vector<LogEntry>& before, std::vector<Log
 }  // namespace
 
 RunReport::RunReport(const RenderSettings& settings, Log& log) : settings_(settings), log_(log) {
+  openLog();
   startFigures();
-  if (settings.logFile.empty()) return;
+}
+
+void RunReport::openLog() {
+  if (settings_.logFile.empty()) return;
   std::string why = kIsRead;
-  if (isAmong(settings.logFile, settings.files) || !log.alsoTo(settings.logFile, why)) {
-    log.report(Severity::Output, "log-write", {}, "\"" + settings.logFile + "\" could not be written: " + why);
-    return;
-  }
-  log.report(Severity::Info, "run", {},
-             fmt::format("version {} ({}) on {}, process {}: {}", kVersion, sourceCommit(), hostName(), ::getpid(),
-                         settings.commandLine));
+  if (isAmong(settings_.logFile, settings_.files) || !log_.alsoTo(settings_.logFile, why))
+    return log_.report(Severity::Output, "log-write", {}, "\"" + settings_.logFile + "\" could not be written: " + why);
+  log_.report(Severity::Info, "run", {},
+              fmt::format("version {} ({}) on {}, process {}: {}", kVersion, sourceCommit(), hostName(), ::getpid(),
+                          settings_.commandLine));
 }
 
 bool RunReport::appends() const { return settings_.statsFile.ends_with(".jsonl"); }
@@ -75,8 +77,8 @@ void RunReport::flush() {
 }
 
 void RunReport::end(const SourceLoc& where) {
-  say(where);
   write();
+  say(where);
   if (isPerFrame() && settings_.profileShaders) printShaderProfile(*stats_);
   isPerFrame() ? startFigures() : startFrame();
 }

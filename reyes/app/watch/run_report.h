@@ -40,6 +40,7 @@ class RunReport {
 
  private:
   using Clock = std::chrono::steady_clock;
+  void openLog();
   bool appends() const;
   bool isPerFrame() const;
   std::string statsFile() const;
