@@ -173,8 +173,8 @@ void joinPictures(const std::vector<std::string>& tiles, const std::string& outp
 /// Reads the channels of all parts of an OpenEXR file, which have the window of the first. Throws FileError.
 Image readParts(const std::string& picture);
 /// Copies an OpenEXR file with all its parts, channels and headers, and every bit of what is not changed. Channels that
-/// `by` has are taken from there, and texts of headers are set, or removed where they are empty. Pre: `by` has the size of
-/// the picture. Throws FileError and WriteError.
+/// `by` has are taken from there, and texts of headers are set, or removed where they are empty. Pre: `by` has the size
+/// of the picture. Throws FileError and WriteError.
 void replaceChannels(const std::string& picture, const std::string& output, const Image& by,
                      const std::map<std::string, std::string>& texts);
 /// Writes a whole picture at once.
