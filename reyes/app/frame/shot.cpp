@@ -149,16 +149,16 @@ void ShotJob::shadePicture() {
     job_->setShares(0, 0);
     warnOfStaleLight();
     if (irradiance_) job_->checkRecords(irradiance_->shot().settings, settings_.irradiance);
-    job_->audit(shot_.frame, [&](size_t index) {
+    const TileReader loaded = [&](size_t index) {
       auto tile = load(index);
       return tile ? std::make_shared<const DeepTile>(std::move(*tile)) : nullptr;
-    });
+    };
+    job_->light(shot_.frame, loaded, false);
     job_->write(shot_.frame, load);
   } else {
     job_->setShares(0, 0.6f);
     TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
-    job_->gather(shot_.frame, tiles.reader());
-    job_->audit(shot_.frame, tiles.reader());
+    job_->light(shot_.frame, tiles.reader(), true);
     job_->write(shot_.frame, [&](size_t index) { return tiles.take(index); });
   }
   world_->report();

@@ -123,7 +123,7 @@ Json statsJson(const RenderSettings& settings, const Stats& stats, const RunFigu
              {"deep_frame", stats.memoryBytes.deepFrame.load()},
              {"raytrace", stats.raytrace.bytes.load()}}}};
   out.update(countersOf(stats));
-  if (settings.audit > 0) out["audit"] = auditOf(stats);
+  if (audits(settings)) out["audit"] = auditOf(stats);
   out["warnings"] = warningsOf(figures.messages);
   return out;
 }
