@@ -59,7 +59,8 @@ struct RenderSettings {
   bool hitList = true;
   std::optional<int64_t> geometryCache;  ///< In bytes.
   std::optional<bool> fullGeometry;      ///< Rays see displaced micropolygons; if not given, for the reference alone.
-  std::string statsFile;
+  std::string statsFile;        ///< '#' in its name: one a frame. Of the ending .jsonl: a line is appended for each.
+  std::string logFile;          ///< Messages are appended there too; empty: none.
   bool profileShaders = false;  ///< True to say at the end what each shader has cost.
   bool progress = false;
   std::string preview;                     ///< host:port of a viewer; empty: none.

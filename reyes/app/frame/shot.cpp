@@ -55,10 +55,23 @@ bool ShotJob::edit() {
   return false;
 }
 
+std::unique_ptr<KeptWork> ShotJob::keptGather() const {
+  if (!settings_.resume) return nullptr;
+  const std::string sum = sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.edits)),
+                    contents = contentsOfGather(shot_, files_->dfb().shotSum(), *shaders_, sum, settings_);
+  if (!contents.empty()) return KeptWork::create(settings_.output + ".kept", contents, log_);
+  log_.report(Severity::Note, "resume", {},
+              "--resume keeps nothing: the maps of --atlas are read while light is gathered and might change between "
+              "runs");
+  return nullptr;
+}
+
 void ShotJob::prepareLight() {
   shaders_ = frameShaders(settings_, log_);
   world_ = std::make_unique<RayWorld>(shot_, *shaders_, settings_, stats_, log_);
   job_ = std::make_unique<FrameJob>(shot_.scene, *shaders_, settings_, stats_, log_);
+  kept_ = keptGather();
+  job_->keepWork(kept_.get());
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
   if (files_->hasIrradiance()) {
@@ -109,6 +122,7 @@ void ShotJob::shadePicture() {
   prepareLight();
   const auto load = [this](size_t index) { return files_->load(index, log_); };
   if (!job_->gathersBeside(files_->hasIrradiance() && !settings_.appendIrradiance)) {
+    job_->setShares(0, 0);
     warnOfStaleLight();
     if (files_->hasIrradiance()) job_->checkRecords(files_->irradiance().settings, settings_.irradiance);
     const TileReader loaded = [&](size_t index) {
@@ -118,6 +132,7 @@ void ShotJob::shadePicture() {
     job_->light(shot_.frame, loaded, false);
     job_->write(shot_.frame, load);
   } else {
+    job_->setShares(0, 0.6f);
     TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
     job_->light(shot_.frame, tiles.reader(), true);
     job_->write(shot_.frame, [&](size_t index) { return tiles.take(index); });
@@ -185,6 +200,7 @@ void ShotJob::gatherIrradiance() {
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
   TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes,
                   [this](size_t index) { return files_->load(index, log_); });
+  job_->setShares(0, 0.8f);
   // Points outside the crop that have lost records, because those of the crop reached there, are gathered too.
   job_->gather(shot_.frame, [&](size_t index) {
     return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr;
@@ -199,7 +215,9 @@ void ShotJob::gatherIrradiance() {
                       job_->services()->shareGroups()};
   shot.caches = job_->services()->takeCaches();
   world_->report();
-  if (!written || !out->finish(shot)) unwritten(out->error());
+  if (!written || !out->finish(shot)) return unwritten(out->error());
+  stats_.addOutput(settings_.output);
+  if (kept_ && !interrupted()) kept_->forget();
 }
 
 // Shades the picture once, for the answers of its rays.
