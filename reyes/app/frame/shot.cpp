@@ -15,8 +15,6 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kTilesInMemory_bytes = int64_t{1} << 31;  ///< Other tiles are read anew by every pass.
-
 SourceLoc wholeFile(const std::string& path) { return {std::make_shared<std::string>(path), 0}; }
 
 }  // namespace
@@ -125,27 +123,26 @@ std::optional<DeepTile> ShotJob::load(size_t index) {
   return tile;
 }
 
+std::shared_ptr<const DeepTile> ShotJob::read(size_t index) {
+  auto tile = load(index);
+  return tile ? std::make_shared<const DeepTile>(std::move(*tile)) : nullptr;
+}
+
 void ShotJob::shadePicture() {
   if (!displaysHaveFolders(shot_.scene.options, pluginTrust(settings_), log_)) return;
   checkDisplays(shot_.scene.options, log_);
   describeShot(shot_.scene.options, sumOfShot(shot_, irradiance_ ? irradiance_->sum() : 0, sourcesOf(settings_.edits)),
                settings_);
   prepareLight();
-  const auto load = [this](size_t index) { return this->load(index); };
+  const TileReader read = [this](size_t index) { return this->read(index); };
   if (!job_->gathersBeside(irradiance_ && !settings_.appendIrradiance)) {
     warnOfStaleLight();
     if (irradiance_) job_->checkRecords(irradiance_->shot().settings, settings_.irradiance);
-    job_->audit(shot_.frame, [&](size_t index) {
-      auto tile = load(index);
-      return tile ? std::make_shared<const DeepTile>(std::move(*tile)) : nullptr;
-    });
-    job_->write(shot_.frame, load);
   } else {
-    TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
-    job_->gather(shot_.frame, tiles.reader());
-    job_->audit(shot_.frame, tiles.reader());
-    job_->write(shot_.frame, [&](size_t index) { return tiles.take(index); });
+    job_->gather(shot_.frame, read);
   }
+  job_->audit(shot_.frame, read);
+  job_->write(shot_.frame, [this](size_t index) { return load(index); });
   world_->report();
 }
 
@@ -186,12 +183,11 @@ void ShotJob::gatherIrradiance() {
   if (!tools) return;
   const std::vector<uint32_t> asked = tilesOf(shot_.frame, shot_.scene.options);
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
-  TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, [this](size_t index) { return load(index); });
   // Points outside the crop that have lost records, because those of the crop reached there, are gathered too.
   job_->gather(shot_.frame, [&](size_t index) {
-    return irradiance_ || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr;
+    return irradiance_ || inCrop.contains(static_cast<uint32_t>(index)) ? read(index) : nullptr;
   });
-  const bool written = recordAnswers(tiles, *out) && copyAnswers(inCrop, *out);
+  const bool written = recordAnswers(*out) && copyAnswers(inCrop, *out);
   IrradianceShot shot{interrupted() ? 0 : file_->shotSum(),
                       job_->giSettings(),
                       shot_.scene.cameraFromWorldAtOpen(),
@@ -203,11 +199,11 @@ void ShotJob::gatherIrradiance() {
 }
 
 // Shades the picture once, for the answers of its rays.
-bool ShotJob::recordAnswers(TileStore& tiles, IcfWriter& out) {
+bool ShotJob::recordAnswers(IcfWriter& out) {
   const StageTimer timer(stats_, "answers");
   std::atomic<bool> good{true};
   const auto startRecording = [&](size_t index, DeepTile& tile) {
-    auto loaded = tiles.take(index);
+    auto loaded = load(index);
     if (!loaded) return false;
     tile = std::move(*loaded);
     tile.answers.assign(tile.batches.size(), RayAnswers{true, {}, {}});

@@ -5,7 +5,6 @@
 #include "gi/icf.h"
 #include "reyes/app/frame/frame_job.h"
 #include "reyes/app/frame/ray_world.h"
-#include "reyes/app/frame/tile_store.h"
 
 namespace tomales {
 
@@ -28,11 +27,12 @@ class ShotJob {
   void warnOfStaleLight() const;
   /// Returns nothing if the bucket is damaged, which is reported.
   std::optional<DeepTile> load(size_t index);
+  std::shared_ptr<const DeepTile> read(size_t index);
   /// Drops the records gathered before where --crop asks for new ones.
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
   /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);
-  bool recordAnswers(TileStore& tiles, IcfWriter& out);
+  bool recordAnswers(IcfWriter& out);
 
   std::unique_ptr<DfbFile> file_;
   RenderSettings settings_;
