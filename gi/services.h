@@ -101,6 +101,10 @@ class GiServices final : public ShadeServices {
   void gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                   const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered = {});
 
+  /// Forgets all that gatherPass() has made. It and shading go by these settings from now on. Maps stay, so the mode
+  /// must be the same, and records are not kept for a later run.
+  void startAgain(const GiSettings& settings);
+
   /// The caches of gatherPass(); frozen while shading.
   const std::vector<PreparedCache>& caches() const;
   std::vector<PreparedCache> takeCaches();  ///< Moves the caches out; none remain.

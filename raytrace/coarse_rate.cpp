@@ -24,6 +24,7 @@ constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
 /// What a patch may have in any picture, and how many times the polygons that would cover the picture evenly: a plane
 /// that reaches from the eye to the horizon needs many more.
 constexpr double kAlwaysQuads = 1 << 16, kMostOfPicture = 256;
+constexpr double kMostSharing = 16;  ///< Patches of an object that share these limits.
 
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
@@ -71,7 +72,9 @@ double mostQuads(const Object& o, const Camera& camera, float edge_px) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
   const double pixels = 1.0 * camera.xResolution() * camera.yResolution();
   const double covering = pixels / (double{edge_px} * edge_px);
-  return std::clamp(kMostOfPicture * covering, kAlwaysQuads, most);
+  // The patches of an object share the picture, and seldom do more than a few of them lie close before the eye.
+  const double sharing = std::min<double>(o.shape().patchCount(), kMostSharing);
+  return std::clamp(kMostOfPicture * covering, kAlwaysQuads, most) / std::max(1.0, sharing);
 }
 
 /// Limits the number of polygons. log: null reports nothing.

@@ -222,8 +222,11 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   const float ofCoarse = ray.level == Level::Coarse ? coarse.coarseDeviation : 0.0f;
   const float deviation = std::max({coarse.deviation, ofCoarse, impl_->chunks.deviation(g, ray.level)});
   const float scale = glm::length(P) + coarse.size;
+  // Polygons that are farther from their surface than it is large stand for nothing that a ray could start from, and
+  // lists of hits within such a distance would hold much of the scene.
+  const float apart = deviation + kChordShare * edgeLength;
   const float automatic =
-      kOffsetFactor * (deviation + impl_->displacementBounds[g] + kChordShare * edgeLength) + kOffsetEpsilon * scale;
+      kOffsetFactor * (impl_->displacementBounds[g] + (apart <= coarse.size ? apart : 0.0f)) + kOffsetEpsilon * scale;
   ray.group = group;
   ray.offset = impl_->hitList ? std::max(given.offset.value_or(automatic), 0.0f) : 0.0f;
   ray.bias = given.bias.value_or(kBias * scale);

@@ -39,6 +39,14 @@ void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
   if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
 }
 
+void GiServices::startAgain(const GiSettings& settings) {
+  impl_->settings = settings;
+  impl_->kept = nullptr;
+  impl_->caches.clear();
+  impl_->spots = BrightSpots{};
+  impl_->bounces = BounceCaches{};
+}
+
 void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }
 
 void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,

@@ -13,7 +13,7 @@ struct GiState {
   const Camera& camera;
   const RaySource rays;
   const ShadingSystem& shading;
-  const GiSettings settings;
+  GiSettings settings;  ///< Constant while anything is gathered or shaded.
   Stats& stats;
   mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< Set in GiMode::Atlas and Baked alone.
   std::vector<PreparedCache> caches;                     ///< Written by fillCaches(), frozen while shading.

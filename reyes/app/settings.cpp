@@ -92,6 +92,14 @@ std::optional<int64_t> parseBytes(const std::string& text) {
   return value << shift;
 }
 
+std::optional<double> parseShare(const std::string& text) {
+  const bool percent = text.ends_with('%');
+  double value = 0;
+  if (!number(std::string_view(text).substr(0, text.size() - percent), value)) return std::nullopt;
+  if (percent) value /= 100;
+  return value > 0 && value < 1 ? std::optional(value) : std::nullopt;
+}
+
 std::optional<const GiMethod*> parseGi(const std::string& text) {
   const GiMethod* method = giMethodNamed(text);
   return method || text == "scene" ? std::optional(method) : std::nullopt;

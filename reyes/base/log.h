@@ -2,6 +2,7 @@
 // abort; broken promises of ours abort (check.h).
 // Threads: every member may be called concurrently.
 #pragma once
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -17,6 +18,8 @@ struct SourceLoc {
   std::shared_ptr<const std::string> file;
   int line = 0;
   std::string text() const;
+  /// The folder of the file as it was named; empty if there is none, or if the file lies in the working folder.
+  std::filesystem::path folder() const { return file ? std::filesystem::path(*file).parent_path() : ""; }
 };
 
 enum class Severity {

@@ -238,6 +238,17 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
       "-v", [&s] { s.verbosity = Log::Verbosity::Verbose; }, "Say more");
 }
 
+void addTarget(CLI::App& app, RenderSettings& s) {
+  CLI::Option* target = addParsed(app, "--target-error", s.targetError, parseShare, "2%",
+                                  "Choose --samples, --max-error and --light-samples for a mean error of the light of "
+                                  "this size: trials find what they bring on this scene, and an audit checks it");
+  CLI::Option* budget = addParsed(app, "--time-budget", s.timeBudget_s, parseSeconds, "5m",
+                                  "Choose them for the least error that a frame reaches in this time");
+  budget->excludes(target);
+  for (const char* chosen : {"--samples", "--max-error", "--light-samples", "--irradiance", "--draft"})
+    if (CLI::Option* option = app.get_option_no_throw(chosen)) target->excludes(option), budget->excludes(option);
+}
+
 void addWatching(CLI::App& app, RenderSettings& s) {
   app.add_flag("--audit{300}", s.audit,
                "Say how far the picture is off: light is found again by many rays in 300 of its pixels, or in N of "

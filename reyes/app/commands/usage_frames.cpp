@@ -37,6 +37,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   addParsed(
       *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
       "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
+  addTarget(*c, in.render);
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
@@ -86,6 +87,7 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
+  addTarget(*c, in.render);
   addShotOptions(*c, in.render);
   c->callback([&] { code = shadeCommand(in.render); });
 }

@@ -1,7 +1,11 @@
 // Takes one frame through the stages, in the order of its members. Rays and global illumination are built if the scene
 // asks for them.
 #pragma once
+#include <chrono>
+
 #include "gi/clouds.h"
+#include "reyes/app/frame/audit.h"
+#include "reyes/app/frame/error_model.h"
 #include "reyes/app/frame/kept_frame.h"
 #include "reyes/app/settings.h"
 #include "reyes/app/watch/progress.h"
@@ -32,10 +36,25 @@ class FrameJob {
   void prepareRays();
   /// Prepares rays against what `rays` provides when the first ray is wanted: for scenes without geometry.
   void prepareRays(RaySource rays);
+  /// Gathers what the picture needs, and measures and tells its error, as the command line asks: with settings of the
+  /// program's own choice where that names an error to reach. `gathers`: false if records are given.
+  void light(const DeepFrame& layout, const TileReader& tiles, bool gathers);
+
+  // The steps of light(), which may be repeated.
+  /// Forgets what was gathered; light is gathered and shaded by these settings from now on.
+  void setQuality(const LightQuality& quality);
+  void setLightSamples(int lightSamples) { quality_.lightSamples = lightSamples; }
+  /// Seconds since the job was made, before anything was hidden.
+  double elapsed_s() const;
+  /// Gathers, warns of what the records show, and keeps light for later frames if the command line asks for it.
   void gather(const DeepFrame& layout, const TileReader& tiles);
-  /// Measures the error of the picture that write() will make, if the command line asks for it: a message, the headers
-  /// of the Displays and the statistics tell it. The tiles are read once.
-  void audit(const DeepFrame& layout, const TileReader& tiles);
+  void gatherRecords(const DeepFrame& layout, const TileReader& tiles, const std::function<void(int)>& covered = {});
+  /// What `--audit` asks for, at pixels that this seed decides.
+  AuditPlan auditPlan(uint32_t seed) const;
+  /// Measures the error of the picture that write() will make. The tiles are read once.
+  AuditReport audit(const DeepFrame& layout, const TileReader& tiles, uint32_t seed);
+  /// Tells it: by a message, and in the headers of the Displays and the statistics.
+  void tellAudit(const AuditReport& report);
   /// Shades some tiles. Returns false if it was interrupted.
   bool shade(std::span<const uint32_t> tiles, const ShadeSteps& steps);
   /// Writes the picture, from tiles that are shaded as its rows need them. If hiding was interrupted, it is not again.
@@ -51,8 +70,10 @@ class FrameJob {
   /// Warns if records that stand in for a gather pass were made without one. `file` is where they come from.
   void checkRecords(const GiSettings& gathered, const std::string& file) const;
   const GiMethod& method() const { return *method_; }
+  Scene& scene() { return scene_; }
   const Camera& camera() const { return camera_; }
   GiSettings giSettings() const;
+  ShadeContext shadeContext() const;
   GiServices* services() { return services_.get(); }
   ShadingSystem& shading() { return *shading_; }
   FrameControl control(float begin, float end);
@@ -69,7 +90,7 @@ class FrameJob {
   /// Reads what rays may meet, on screen or not, before the first ray, which may go anywhere, and keeps it.
   void open(const std::function<bool(const Attributes&)>& wanted);
   int referenceLightSamples() const;
-  ShadeContext shadeContext() const;
+  bool steersLight() const;
   /// Keeps the colours of a tile that is shaded as the finished picture has it. What shaders bake is lost with its
   /// tile, so a tile stays to be shaded again once anything has been baked.
   void keepShaded(size_t index, const DeepTile& tile) const {
@@ -85,6 +106,8 @@ class FrameJob {
   const RenderSettings& settings_;
   Stats& stats_;
   Log& log_;
+  LightQuality quality_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   bool gathers_ = false;
   bool counts_ = false;  ///< Photons are counted at visible points.
   const Camera camera_;
@@ -98,13 +121,5 @@ class FrameJob {
   std::unique_ptr<GiServices> services_;
   std::unique_ptr<Preview> preview_;
 };
-
-/// Hours of rendering must not end at a folder that never existed. Returns false, and reports it, if it does not exist.
-bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
-/// Makes the folder only if it is relative: scenes of modellers name folders of their project. A failure shows when the
-/// file is written.
-void makeFolderOf(const std::string& file);
-/// Makes the relative folders of Displays. Display drivers need none.
-bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log);
 
 }  // namespace tomales

@@ -7,6 +7,7 @@
 
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/outputs.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/input_file.h"
 

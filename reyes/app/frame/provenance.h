@@ -27,6 +27,9 @@ void describeGather(Options& options, const RenderSettings& settings);
 /// Adds what an audit has found to the same headers.
 void describeAudit(Options& options, const std::string& sentence, const RenderSettings& settings);
 
+/// Adds the settings of light that the program has chosen.
+void describeQuality(Options& options, const std::string& chosen, const RenderSettings& settings);
+
 /// Do all files of the frame's Displays hold these contents? Formats without such headers cannot tell, which is
 /// reported, and neither can display drivers.
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log);

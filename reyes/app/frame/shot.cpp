@@ -135,13 +135,12 @@ void ShotJob::shadePicture() {
                settings_);
   prepareLight();
   const TileReader read = [this](size_t index) { return this->read(index); };
-  if (!job_->gathersBeside(irradiance_ && !settings_.appendIrradiance)) {
+  const bool gathers = job_->gathersBeside(irradiance_ && !settings_.appendIrradiance);
+  if (!gathers) {
     warnOfStaleLight();
     if (irradiance_) job_->checkRecords(irradiance_->shot().settings, settings_.irradiance);
-  } else {
-    job_->gather(shot_.frame, read);
   }
-  job_->audit(shot_.frame, read);
+  job_->light(shot_.frame, read, gathers);
   job_->write(shot_.frame, [this](size_t index) { return load(index); });
   world_->report();
 }

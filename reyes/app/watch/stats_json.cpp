@@ -120,7 +120,7 @@ Json statsJson(const RenderSettings& settings, const Stats& stats, double total_
              {"deep_frame", stats.memoryBytes.deepFrame.load()},
              {"raytrace", stats.raytrace.bytes.load()}}}};
   out.update(countersOf(stats));
-  if (settings.audit > 0) out["audit"] = auditOf(stats);
+  if (audits(settings)) out["audit"] = auditOf(stats);
   out["warnings"] = warningsOf(log);
   return out;
 }

@@ -147,5 +147,15 @@ TEST(Tessellate, ASmallPictureAsksForFewPolygonsOfAnEnormousPatch) {
   EXPECT_GT(world.log.count("trace-tessellation"), 0);
 }
 
+TEST(Tessellate, TheEnormousPatchesOfOneObjectShareWhatASmallPictureAsksFor) {
+  World world;
+  world.scene.options.xResolution = world.scene.options.yResolution = 16;
+  world.scene.options.projection = ProjectionKind::Orthographic;
+  world.add(waves(), mat4(mat3(1e6f)));  // 64 patches
+  const auto groups = coarse(world);
+  EXPECT_GT(groups[0].quads.size(), size_t{1} << 12);
+  EXPECT_LE(groups[0].quads.size(), size_t{1} << 16);
+}
+
 }  // namespace
 }  // namespace tomales::test
