@@ -113,6 +113,15 @@ class GiServices final : public ShadeServices {
   /// uncovered or, in a frame that they were not made for, where they disagree. anew: the pixels whose records have
   /// been taken out.
   void useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew = {});
+  /// Has records keep the share of each of these groups of lights (ShadingSystem::lightGroup), so that they can be
+  /// mixed; the first is empty and stands for what shines by itself. Call it before the gather pass, or with caches
+  /// whose records have these shares. It costs the shading of hits once for each group.
+  void keepShares(std::vector<std::string> groups);
+  const std::vector<std::string>& shareGroups() const;
+  /// Multiplies the shares by these gains from now on, until they are set again; empty for all of 1. Indirect light is
+  /// then that of lights which are so much brighter, but for the dominant directions, which stay. While it is called,
+  /// nothing may be shaded.
+  void mixShares(std::vector<vec3> gains);
   /// Sets emitters, so that area lights can be sampled without geometry.
   void useEmitters(EmitterTable emitters);
 

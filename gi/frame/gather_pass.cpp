@@ -149,7 +149,8 @@ class GatherPass {
       gather.samples = std::max(gather.samples, c.plan.gather.samples);
       gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
     }
-    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_, state_.kept});
+    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces,
+                        {state_.stats, cancelled_, state_.kept, state_.groups});
   }
 
   // Returns the points of this phase that no earlier record serves, in the order of pixels, whatever the buckets are. A
@@ -264,7 +265,10 @@ class GatherPass {
     // missed for good.
     if (sharesRays(site.cache) && find) settings.samples /= kRaysPerPilotRay;
     if (sharesRays(site.cache) && !find) point.key = 0;
-    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
+    const std::span<const std::string> groups =
+        isLight(site.cache) ? std::span<const std::string>(state_.groups) : std::span<const std::string>();
+    IrradianceRecord record =
+        gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find, groups);
     record.unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(site.point.group)];
     return record;
   }

@@ -116,7 +116,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit =
       bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
-  hitContext.highlights = true;
+  hitContext.highlights = true, hitContext.lights = context.lights;
   if (!state.focusing.empty()) hitContext.focusing = &state.focusing;
   hitContext.auditPaths = context.auditPaths;
   PathBatches batches(state, *tools, points, N, query, hitContext);

@@ -60,6 +60,15 @@ void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<Pixe
   impl_->caches = std::move(caches), impl_->anew = anew;
   impl_->cachesGiven = !impl_->caches.empty();
 }
+void GiServices::keepShares(std::vector<std::string> groups) { impl_->groups = std::move(groups); }
+const std::vector<std::string>& GiServices::shareGroups() const { return impl_->groups; }
+void GiServices::mixShares(std::vector<vec3> gains) {
+  impl_->gains = std::move(gains);
+  impl_->mixed.clear();
+  if (impl_->gains.empty()) return;
+  for (const PreparedCache& c : impl_->caches)
+    impl_->mixed.push_back(c.plan.gather.occlusion ? std::vector<LightShare>() : c.cache.mixed(impl_->gains));
+}
 void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(std::move(emitters)); }
 
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
