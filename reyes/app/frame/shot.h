@@ -6,7 +6,6 @@
 #include "reyes/app/frame/light_edits.h"
 #include "reyes/app/frame/ray_world.h"
 #include "reyes/app/frame/shot_files.h"
-#include "reyes/app/frame/tile_store.h"
 
 namespace tomales {
 
@@ -52,7 +51,8 @@ class ShotJob {
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
   /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);
-  bool recordAnswers(TileStore& tiles, IcfWriter& out);
+  std::shared_ptr<const DeepTile> read(size_t index) const;
+  bool recordAnswers(IcfWriter& out);
 
   const std::shared_ptr<ShotFiles> files_;
   RenderSettings settings_;
