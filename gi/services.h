@@ -96,8 +96,9 @@ class GiServices final : public ShadeServices {
 
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one
   /// level are frozen before the next reads them, and their order is that of the pixels, so the cache does not depend
-  /// on threads or buckets. The tiles are read again in every phase. `covered`, if not empty, is called when the
-  /// nearest points of every `stride`th pixel and row can be shaded without rays: 16, 8, 4, 2.
+  /// on threads or buckets. Every tile is read twice, or in every phase if the frame is very large. `covered`, if not
+  /// empty, is called when the nearest points of every `stride`th pixel and row can be shaded without rays: 16, 8,
+  /// 4, 2.
   void gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                   const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered = {});
 

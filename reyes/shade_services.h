@@ -69,6 +69,8 @@ struct ShadeContext {
   /// Paths that find indirect light at each point, past all records and maps: to know how wrong those are. 0: light
   /// comes as the frame's method has it.
   int auditPaths = 0;
+  /// The number of specular rays that one point of the eye has sent. What each of them meets is a share of that point.
+  int branches = 1;
   int chunk = 0;  ///< The part of the batch that is being shaded, set by ShadingSystem.
 
   /// Tells whether lamps have highlights on surfaces of a group.
@@ -78,6 +80,12 @@ struct ShadeContext {
   /// Tells whether lamps and skies are seen in mirrors and glass of a group.
   bool mirrorsLamps(int group) const { return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]); }
 };
+
+/// The number of samples or rays that bring light to a point, of which one of the eye has `count`: what all branches
+/// have together is as noisy then as one point. At least `least`.
+inline int shareOfBranch(int count, int least, const ShadeContext& context) {
+  return std::max(std::min(count, least), count / context.branches);
+}
 
 /// The options of one set of rays of a shader's call.
 struct RayQuery {

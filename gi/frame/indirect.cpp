@@ -19,6 +19,8 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
 // Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
+/// Rays of a hemisphere, of which one of many mirrored points has no fewer.
+constexpr int kLeastSamples = 16;
 /// For photons that nobody limits. What is left after so many surfaces of reflectance 0.75 is a hundredth.
 constexpr int kAuditBounces = 16;
 
@@ -195,8 +197,9 @@ BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const Ga
 
 void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                          const IndirectQuery& query, const ShadeContext& context, const IndirectResult& out) {
-  const GatherPlan plan = planFor(state, points.group(), query);
+  GatherPlan plan = planFor(state, points.group(), query);
   const auto prepared = preparedFor(state, plan);
+  plan.gather.samples = shareOfBranch(plan.gather.samples, kLeastSamples, context);
   const GatherPlaces places(state, points);
   const BatchLookup found =
       lookUp(state, prepared != state.caches.end() ? &*prepared : nullptr, places, points, active, N);

@@ -152,14 +152,18 @@ void GiServices::reportAtlas(Stats& stats) const {
 }
 
 void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {
+  std::vector<int> acrossWalls;
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
     const float radius = std::sqrt(points.channel(kArea)[i] / kPi);
+    bool across = false;
     const vec3 e = impl_->atlas ? impl_->atlas->irradianceOverPi(points.group(), points.position(i),
-                                                                 points.facingNormal(i), radius)
+                                                                 points.facingNormal(i), radius, across)
                                 : vec3(0.0f);
     E.x[i] = e.x, E.y[i] = e.y, E.z[i] = e.z;
+    if (across) acrossWalls.push_back(i);
   }
+  if (!acrossWalls.empty()) traceToStored(*impl_, points, acrossWalls, E);
 }
 
 bool GiServices::interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,

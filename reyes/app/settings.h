@@ -59,7 +59,8 @@ struct RenderSettings {
   bool hitList = true;
   std::optional<int64_t> geometryCache;  ///< In bytes.
   std::optional<bool> fullGeometry;      ///< Rays see displaced micropolygons; if not given, for the reference alone.
-  std::string statsFile;
+  std::string statsFile;        ///< '#' in its name: one a frame. Of the ending .jsonl: a line is appended for each.
+  std::string logFile;          ///< Messages are appended there too; empty: none.
   bool profileShaders = false;  ///< True to say at the end what each shader has cost.
   bool progress = false;
   std::string preview;                     ///< host:port of a viewer; empty: none.
@@ -96,9 +97,10 @@ std::optional<const GiMethod*> parseGi(const std::string& text);
 std::optional<double> parseShare(const std::string& text);
 std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", "10m", "2h"
 
-/// Shares of --memory-limit: textures get a quarter, bricks --brick-cache but no more than an eighth, and each gets at
-/// least 1 MB.
+/// Shares of --memory-limit: textures and what rays meet get a quarter each, bricks --brick-cache but no more than an
+/// eighth, and each gets at least 1 MB.
 int64_t textureShare(int64_t memoryLimit);
+int64_t rayShare(int64_t memoryLimit);
 size_t brickCacheBytes(const RenderSettings& settings);
 
 /// Replaces runs of '#' by the frame number, padded to their length.

@@ -98,7 +98,8 @@ class DisplayFiles {
   void close(float finished) {
     write();
     const StageTimer timer(stats_, "write", threadCpuSeconds);
-    for (const auto& file : files_) file->close(finished);
+    for (const auto& file : files_)
+      if (file->close(finished)) stats_.addOutput(file->written());
   }
 
  private:

@@ -83,8 +83,8 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
 bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY); }
 
 int samplesOf(const BoundLight& light, const Batch& batch) {
-  const bool sampled = hasExtent(light) || light.can(TM_LIGHT_SAMPLED);
-  return sampled && batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
+  if (!hasExtent(light) && !light.can(TM_LIGHT_SAMPLED)) return light.samples;
+  return shareOfBranch(batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples, 1, batch.context);
 }
 
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
@@ -184,15 +184,15 @@ void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
   }
 }
 
-std::vector<LightSample>& Lights::samples(Batch& batch) {
-  if (!evaluated_) {
-    evaluated_ = true;
-    if (batch.points && batch.context.light != Illumination::Lights) substitute(batch);
-    for (const BoundLight* light : batch.group.lights)
-      if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch) && shines(*light, batch) &&
-          (!request_ || inCategory(light->category, request_->category)))
-        evaluate(batch, *light);
-  }
+std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
+  if (!evaluated_ && batch.points && batch.context.light != Illumination::Lights) substitute(batch);
+  const bool runsDirect = !evaluated_, runsIndirect = indirect && !indirectEvaluated_;
+  evaluated_ = true, indirectEvaluated_ |= indirect;
+  for (const BoundLight* light : batch.group.lights)
+    if ((light->can(TM_LIGHT_INDIRECT) ? runsIndirect : runsDirect) && !light->can(TM_LIGHT_AMBIENT) &&
+        applies(*light, batch) && shines(*light, batch) &&
+        (!request_ || inCategory(light->category, request_->category)))
+      evaluate(batch, *light);
   if (!group_) return samples_;
   // Copies share their arrays, so rays that are traced for one are traced for all.
   chosen_.clear();

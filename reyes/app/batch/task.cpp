@@ -13,6 +13,7 @@
 #include "reyes/app/watch/cpu_time.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/chunk_file.h"
+#include "reyes/base/process.h"
 
 namespace tomales {
 namespace {
@@ -21,11 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kPause{20};
 constexpr std::chrono::seconds kBeforeRetry{2};
-
-std::string hostName() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
-}
 
 /// A picture with a substitute in it is finished: its log and `batch status` tell of it.
 bool succeeded(int code) { return code == kDone || code == kIncomplete; }

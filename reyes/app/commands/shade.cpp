@@ -7,7 +7,7 @@
 #include "reyes/app/frame/granted.h"
 #include "reyes/app/frame/shot.h"
 #include "reyes/app/watch/interrupt.h"
-#include "reyes/app/watch/stats_json.h"
+#include "reyes/app/watch/run_report.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/temporary_folder.h"
 
@@ -16,14 +16,16 @@ namespace {
 
 int runOnShot(const RenderSettings& asked, void (ShotJob::*work)()) {
   const OrderlyEnd orderly;
-  const auto start = std::chrono::steady_clock::now();
   Log log(asked.verbosity);
+  RunReport report(asked, log);
   const RenderSettings settings = asGranted(asked, log);
   const ThreadLimit threads(settings.threads);
-  Stats stats;
-  if (const auto job = ShotJob::open(settings, stats, log)) (job.get()->*work)();
-  const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
-  writeLastStats(settings, stats, total.count(), log);
+  if (const auto job = ShotJob::open(settings, report.stats(), log)) {
+    report.begin(job->frame());
+    (job.get()->*work)();
+    report.end({});
+  }
+  report.finish();
   const int code = interruptExitCode();
   return code ? code : exitCodeOf(log, settings.strict);
 }

@@ -10,6 +10,7 @@
 #include "reyes/app/commands/join.h"
 #include "reyes/app/commands/options.h"
 #include "reyes/app/commands/shadetest.h"
+#include "reyes/app/denoise/command.h"
 #include "reyes/app/relight/relight.h"
 
 namespace tomales {
@@ -32,6 +33,7 @@ struct Invocation {
   std::string first, second, difference;
   InfoCommand info;
   JoinCommand join;
+  DenoiseCommand denoise;
   bool json = false;
 };
 

@@ -76,6 +76,7 @@ void buildGather(CLI::App& app, Invocation& in, int& code) {
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
+  c->add_flag("--resume", in.render.resume, "Keep what is gathered, and use that of an interrupted run");
   addShotOptions(*c, in.render);
   c->callback([&] { code = gatherCommand(in.render); });
 }
@@ -189,8 +190,9 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())->check([](const std::string& name) {
         return chartSweep(name) ? std::string() : "none of " + chartSweepNames();
       });
-  c->add_flag("--stability", in.stability,
-              "SCENEs are laboratory scenes with a knob (docs/chart.md), or folders of them: error against the knob")
+  c->add_flag(
+       "--stability", in.stability,
+       "SCENEs are laboratory scenes with a knob (docs/measured/limits.md), or folders of them: error against the knob")
       ->excludes(sweep);
   addParsed(*c, "--budget", s.budget_s, parseSeconds, "10m", "Wall time, as 90s, 10m or 2h (default 10m)");
   addParsed(

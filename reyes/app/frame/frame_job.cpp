@@ -75,8 +75,8 @@ void FrameJob::openAll() {
 
 bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(stats_, "hide");
-  meter_.begin("hiding");
-  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? kHidden : kGathered), stats_, log_, sink);
+  return hideTiles(layout, scene_, *shading_, control("hiding", 0, gathers() ? hidden_ : gathered_), stats_, log_,
+                   sink);
 }
 
 void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
@@ -150,6 +150,8 @@ void FrameJob::setQuality(const LightQuality& quality) {
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (!(gathers() || counts_) || interrupted()) return;
   const StageTimer timer(stats_, "gather");
+  const auto progress = meter_.pass("gathering", makesLight() ? lightMade() : hidden_, gathered_);
+  progress(0);
   openPreview(layout);
   std::function<void(int)> show;
   ShadeContext context = shadeContext();
@@ -158,7 +160,8 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
     show = [&](int stride) {
       preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted()));
     };
-  gatherRecords(layout, tiles, show);
+  gatherRecords(layout, tiles, progress, show);
+  if (!interrupted()) progress(1);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && gathers() && !interrupted())
@@ -166,11 +169,8 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
 }
 
 void FrameJob::gatherRecords(const DeepFrame& layout, const TileReader& tiles,
-                             const std::function<void(int)>& covered) {
-  if (!(gathers() || counts_) || interrupted()) return;
-  meter_.begin("gathering");
-  services_->gatherPass(layout, tiles, meter_.stage(makesLight() ? kLightMade : kHidden, kGathered), &interrupted(),
-                        covered);
+                             const std::function<void(float)>& progress, const std::function<void(int)>& covered) {
+  if ((gathers() || counts_) && !interrupted()) services_->gatherPass(layout, tiles, progress, &interrupted(), covered);
 }
 
 AuditPlan FrameJob::auditPlan(uint32_t seed) const {
@@ -207,7 +207,7 @@ ShadeContext FrameJob::shadeContext() const {
 
 bool FrameJob::shade(std::span<const uint32_t> tiles, const ShadeSteps& steps) {
   const StageTimer timer(stats_, "shade");
-  return shadeTiles(tiles, steps, scene_, *shading_, shadeContext(), {{}, &interrupted(), settings_.seed});
+  return shadeTiles(tiles, steps, scene_, *shading_, shadeContext(), control("shading", gathered_, 1));
 }
 
 void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load) {
@@ -220,14 +220,15 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
     context.indirect = false;
   }
   DeepFrame frame = layout;
-  constexpr float begin = kGathered;
   size_t shaded = 0;
   bool complete = true;
-  meter_.begin("shading");
+  const auto progress = meter_.pass("shading", gathered_, 1);
+  progress(0);
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     const StageTimer timer(stats_, "shade");
-    const auto share = [&](size_t done) {
-      return begin + (0.99f - begin) * static_cast<float>(done) / static_cast<float>(frame.tileCount());
+    const auto tell = [&, before = shaded](float share) {  // what is left is to write the last rows
+      progress(0.99f * (static_cast<float>(before) + share * static_cast<float>(tiles.size())) /
+               static_cast<float>(frame.tileCount()));
     };
     const ShadeSteps steps{[&](size_t index, DeepTile& tile) {
                              auto loaded = load(index);
@@ -240,8 +241,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                              if (!cut) keepShaded(index, tile);
                              place(index, std::move(tile), put);
                            }};
-    const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())),
-                               cut ? nullptr : &interrupted(), settings_.seed};
+    const FrameControl control{tell, cut ? nullptr : &interrupted(), settings_.seed};
     complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
     shaded += tiles.size();
   });
@@ -251,10 +251,12 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
 void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
                             const std::function<void(size_t tile, const DeepTile&)>& keep) {
   DeepFrame frame = layout;
-  FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
+  const FrameControl part = control("hiding and shading", 0, 1);
+  FrameControl all = part;
+  all.progress = [&](float share) { part.progress(0.99f * share); };  // what is left is to write the last rows
+  FrameHider hider(layout, scene_, *shading_, all, stats_, log_);
   bool complete = true;
   std::atomic<bool> dropped{false};
-  meter_.begin("hiding and shading");
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     TurnsTimer timer(stats_, "hide", "shade");
     const TileSink sink{{},
@@ -315,11 +317,11 @@ void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   if (rays_) rays_->report(stats_);
   preview_.reset();
   clouds_.write(log_);
-  meter_.report(1);
+  if (!interrupted()) meter_.finish();
 }
 
-FrameControl FrameJob::control(float begin, float end) {
-  return {meter_.stage(begin, end), &interrupted(), settings_.seed};
+FrameControl FrameJob::control(const char* pass, float begin, float end) {
+  return {meter_.pass(pass, begin, end), &interrupted(), settings_.seed};
 }
 
 // The reference must not be noisier in direct light than in indirect.

@@ -37,6 +37,8 @@ class FrameJob {
   FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log);
   ~FrameJob();
 
+  /// Sets the shares of the progress at which all is hidden, and then gathered, for commands that do not do it all.
+  void setShares(float hidden, float gathered) { hidden_ = hidden, gathered_ = gathered; }
   /// Reads all procedurals that are still closed. Call it before `hide` if tiles leave that one by one, to a file or
   /// shaded: it then finds no new shade groups on its way.
   void openAll();
@@ -61,7 +63,8 @@ class FrameJob {
   double elapsed_s() const;
   /// Gathers, warns of what the records show, and keeps light for later frames if the command line asks for it.
   void gather(const DeepFrame& layout, const TileReader& tiles);
-  void gatherRecords(const DeepFrame& layout, const TileReader& tiles, const std::function<void(int)>& covered = {});
+  void gatherRecords(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress = {},
+                     const std::function<void(int)>& covered = {});
   /// What `--audit` asks for, at pixels that this seed decides.
   AuditPlan auditPlan(uint32_t seed) const;
   /// Measures the error of the picture that write() will make. The tiles are read once.
@@ -94,13 +97,12 @@ class FrameJob {
   ShadeContext shadeContext() const;
   GiServices* services() const { return services_.get(); }
   ShadingSystem& shading() const { return *shading_; }
-  FrameControl control(float begin, float end);
+  FrameControl control(const char* pass, float begin, float end);
   /// Returns a callback for the progress of the maps that indirect light needs before anything is gathered.
-  std::function<void(float)> lightProgress() { return meter_.stage(kHidden, kLightMade); }
+  std::function<void(float)> lightProgress() { return meter_.pass("making maps of light", hidden_, lightMade()); }
 
  private:
-  /// Shares of a frame that are done when its stages end.
-  static constexpr float kHidden = 0.3f, kLightMade = 0.5f, kGathered = 0.7f;
+  float lightMade() const { return 0.5f * (hidden_ + gathered_); }
   bool makesLight() const { return mode() == GiMode::Atlas || mode() == GiMode::Radiosity; }
   void warnAboutPixels() const;
   GiMode mode() const { return method_->mode; }
@@ -130,6 +132,7 @@ class FrameJob {
   bool counts_ = false;  ///< Photons are counted at visible points.
   const Camera camera_;
   ProgressMeter meter_;
+  float hidden_ = 0.3f, gathered_ = 0.7f;
   CloudFiles clouds_;
   KeptWork* kept_ = nullptr;
   std::unique_ptr<ShadingSystem> shading_;

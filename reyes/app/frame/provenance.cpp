@@ -129,6 +129,14 @@ std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<S
   return fmt::format("{:016x}", contentSum(sum, world, seed));
 }
 
+std::string contentsOfGather(const Shot& shot, uint64_t buckets, ShaderRegistry& shaders, const std::string& sum,
+                             const RenderSettings& settings) {
+  if (!settings.atlasFolder.empty()) return {};
+  const PixelRect& crop = shot.frame.crop;
+  return fmt::format("{} {} {:016x} {:016x} {} {} {} {} {}", std::string(kVersion) + sourceCommit(), sum, buckets,
+                     shaderSum(shot.scene, shaders), settingsText(settings), crop.x0, crop.y0, crop.x1, crop.y1);
+}
+
 void describeShot(Options& options, const std::string& sum, const RenderSettings& settings) {
   addToPictures(options, kShot, sum, settings);
 }

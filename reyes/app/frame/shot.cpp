@@ -13,11 +13,6 @@
 #include "reyes/rib.h"
 
 namespace tomales {
-namespace {
-
-constexpr int64_t kTilesInMemory_bytes = int64_t{1} << 31;  ///< Other tiles are read anew by every pass.
-
-}  // namespace
 
 std::unique_ptr<ShotJob> ShotJob::open(const RenderSettings& settings, Stats& stats, Log& log) {
   auto files = ShotFiles::open(settings, log);
@@ -55,10 +50,23 @@ bool ShotJob::edit() {
   return false;
 }
 
+std::unique_ptr<KeptWork> ShotJob::keptGather() const {
+  if (!settings_.resume) return nullptr;
+  const std::string sum = sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.edits)),
+                    contents = contentsOfGather(shot_, files_->dfb().shotSum(), *shaders_, sum, settings_);
+  if (!contents.empty()) return KeptWork::create(settings_.output + ".kept", contents, log_);
+  log_.report(Severity::Note, "resume", {},
+              "--resume keeps nothing: the maps of --atlas are read while light is gathered and might change between "
+              "runs");
+  return nullptr;
+}
+
 void ShotJob::prepareLight() {
   shaders_ = frameShaders(settings_, log_);
   world_ = std::make_unique<RayWorld>(shot_, *shaders_, settings_, stats_, log_);
   job_ = std::make_unique<FrameJob>(shot_.scene, *shaders_, settings_, stats_, log_);
+  kept_ = keptGather();
+  job_->keepWork(kept_.get());
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
   if (files_->hasIrradiance()) {
@@ -102,26 +110,25 @@ void ShotJob::warnOfStaleLight() const {
                   fmt::join(changed, ", ")));
 }
 
+std::shared_ptr<const DeepTile> ShotJob::read(size_t index) const {
+  auto tile = files_->load(index, log_);
+  return tile ? std::make_shared<const DeepTile>(std::move(*tile)) : nullptr;
+}
+
 void ShotJob::shadePicture() {
   if (!displaysHaveFolders(shot_.scene.options, pluginTrust(settings_), log_)) return;
   checkDisplays(shot_.scene.options, log_);
   describeShot(shot_.scene.options, sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.edits)), settings_);
   prepareLight();
-  const auto load = [this](size_t index) { return files_->load(index, log_); };
-  if (!job_->gathersBeside(files_->hasIrradiance() && !settings_.appendIrradiance)) {
+  const bool gathers = job_->gathersBeside(files_->hasIrradiance() && !settings_.appendIrradiance);
+  job_->setShares(0, gathers ? 0.6f : 0);
+  if (!gathers) {
     warnOfStaleLight();
     if (files_->hasIrradiance()) job_->checkRecords(files_->irradiance().settings, settings_.irradiance);
-    const TileReader loaded = [&](size_t index) {
-      auto tile = load(index);
-      return tile ? std::make_shared<const DeepTile>(std::move(*tile)) : nullptr;
-    };
-    job_->light(shot_.frame, loaded, false);
-    job_->write(shot_.frame, load);
-  } else {
-    TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
-    job_->light(shot_.frame, tiles.reader(), true);
-    job_->write(shot_.frame, [&](size_t index) { return tiles.take(index); });
   }
+  job_->light(
+      shot_.frame, [this](size_t index) { return read(index); }, gathers);
+  job_->write(shot_.frame, [this](size_t index) { return files_->load(index, log_); });
   world_->report();
 }
 
@@ -183,13 +190,12 @@ void ShotJob::gatherIrradiance() {
   if (!tools) return;
   const std::vector<uint32_t> asked = tilesOf(shot_.frame, shot_.scene.options);
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
-  TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes,
-                  [this](size_t index) { return files_->load(index, log_); });
+  job_->setShares(0, 0.8f);
   // Points outside the crop that have lost records, because those of the crop reached there, are gathered too.
   job_->gather(shot_.frame, [&](size_t index) {
-    return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr;
+    return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? read(index) : nullptr;
   });
-  const bool written = recordAnswers(tiles, *out) && copyAnswers(inCrop, *out);
+  const bool written = recordAnswers(*out) && copyAnswers(inCrop, *out);
   IrradianceShot shot{interrupted() ? 0 : files_->dfb().shotSum(),
                       job_->giSettings(),
                       shot_.scene.cameraFromWorldAtOpen(),
@@ -199,15 +205,17 @@ void ShotJob::gatherIrradiance() {
                       job_->services()->shareGroups()};
   shot.caches = job_->services()->takeCaches();
   world_->report();
-  if (!written || !out->finish(shot)) unwritten(out->error());
+  if (!written || !out->finish(shot)) return unwritten(out->error());
+  stats_.addOutput(settings_.output);
+  if (kept_ && !interrupted()) kept_->forget();
 }
 
 // Shades the picture once, for the answers of its rays.
-bool ShotJob::recordAnswers(TileStore& tiles, IcfWriter& out) {
+bool ShotJob::recordAnswers(IcfWriter& out) {
   const StageTimer timer(stats_, "answers");
   std::atomic<bool> good{true};
   const auto startRecording = [&](size_t index, DeepTile& tile) {
-    auto loaded = tiles.take(index);
+    auto loaded = files_->load(index, log_);
     if (!loaded) return false;
     tile = std::move(*loaded);
     tile.answers.assign(tile.batches.size(), RayAnswers{true, {}, {}});

@@ -6,7 +6,6 @@
 #include "reyes/app/frame/light_edits.h"
 #include "reyes/app/frame/ray_world.h"
 #include "reyes/app/frame/shot_files.h"
-#include "reyes/app/frame/tile_store.h"
 
 namespace tomales {
 
@@ -18,6 +17,7 @@ class ShotJob {
   static std::unique_ptr<ShotJob> open(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats,
                                        Log& log);
   ~ShotJob();
+  int frame() const { return shot_.scene.options.frame; }
 
   /// Runs `tomales shade`.
   void shadePicture();
@@ -43,13 +43,16 @@ class ShotJob {
   bool edit();
   void prepareLight();
   void prepareShares();
+  /// What an interrupted run has gathered, with --resume; null if nothing is kept.
+  std::unique_ptr<KeptWork> keptGather() const;
   /// Warns of edits that change bounced light, which records keep as it was when they were gathered.
   void warnOfStaleLight() const;
   /// Drops the records gathered before where --crop asks for new ones.
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
   /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);
-  bool recordAnswers(TileStore& tiles, IcfWriter& out);
+  std::shared_ptr<const DeepTile> read(size_t index) const;
+  bool recordAnswers(IcfWriter& out);
 
   const std::shared_ptr<ShotFiles> files_;
   RenderSettings settings_;
@@ -63,6 +66,7 @@ class ShotJob {
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
   std::unique_ptr<ShaderRegistry> shaders_;
   std::unique_ptr<RayWorld> world_;
+  std::unique_ptr<KeptWork> kept_;
   std::unique_ptr<FrameJob> job_;
 };
 

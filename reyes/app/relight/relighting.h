@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "reyes/app/frame/shot.h"
+#include "reyes/app/frame/tile_store.h"
 #include "reyes/app/relight/edit_state.h"
 #include "reyes/app/relight/layers.h"
 #include "reyes/base/temporary_folder.h"
