@@ -112,14 +112,15 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   if (!tools) return;
   // Paths branch at the eye's points alone; a hit continues because its own shader asks for indirect light
   // again.
-  const int paths = context.depth > 0        ? 1
-                    : context.auditPaths > 0 ? context.auditPaths
-                                             : planFor(state, points.group(), query).gather.samples;
+  const int paths = context.depth > 0 ? 1
+                    : context.auditPaths > 0
+                        ? context.auditPaths
+                        : shareOfBranch(planFor(state, points.group(), query).gather.samples, 1, context);
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit =
       bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
-  hitContext.highlights = true;
+  hitContext.highlights = true, hitContext.lights = context.lights;
   if (!state.focusing.empty()) hitContext.focusing = &state.focusing;
   hitContext.auditPaths = context.auditPaths;
   PathBatches batches(state, *tools, points, N, query, hitContext);

@@ -390,6 +390,13 @@ TEST_F(BrickMaps, FilesWithPointsOrVoxelsThatAreNoNumbersAreRefused) {
   EXPECT_THROW(lookedUp(BrickMap(path, cache), {0.5f, 0.5f, 0}, {0, 0, 1}, 0.1f), FileError);
 }
 
+TEST_F(BrickMaps, SumsOfEnormousLightStayNumbers) {
+  PointCloud cloud;
+  addSquare(cloud, 64, 0, 1, [](float x, float) { return x < 0.5f ? 3e38f : -3e38f; });
+  writeBrickMap(cloud, {}, path);
+  EXPECT_GT(lookedUp(BrickMap(path, cache), {0.2f, 0.5f, 0}, {0, 0, 1}, 0.1f), 1e37f);
+}
+
 TEST_F(BrickMaps, TinyAndHugeSurfacesKeepTheirDirectionsApart) {
   for (const float scale : {1e-9f, 1e9f}) {
     PointCloud cloud;
