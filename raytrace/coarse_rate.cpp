@@ -111,10 +111,12 @@ Fineness micropolygons(const Attributes& a, float edge) {
   return out;
 }
 
-Fineness fixedFineness(const Object& o) {
+/// Area lights keep their polygons, whose area decides how bright they are.
+Fineness fixedFineness(const Object& o, float longer = 1) {
   const Attributes& a = *o.attributes;
-  if (a.trace.rate == TessellationMode::Full && a.areaLight < 0) return micropolygons(a, 1);
-  return finenessOf(a, std::max(a.trace.tessellation, 1e-3f));
+  if (a.areaLight >= 0) return finenessOf(a, std::max(a.trace.tessellation, 1e-3f));
+  if (a.trace.rate == TessellationMode::Full) return micropolygons(a, longer);
+  return finenessOf(a, std::max(a.trace.tessellation, 1e-3f) / longer);
 }
 
 /// Lattice lines of a patch, diced coarsely.
@@ -152,10 +154,10 @@ class PatchLines {
 
 bool displacesForRays(const Object& o) { return o.attributes->trace.displacements && o.attributes->displacement; }
 
-CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
+CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, float longer, Log* log) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   if (isExactQuad(o, patch)) return {1, 1};
-  return PatchLines(scene, camera, object, patch).rate(fixedFineness(o), &log);
+  return PatchLines(scene, camera, object, patch).rate(fixedFineness(o, longer), log);
 }
 
 std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch,

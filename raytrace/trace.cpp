@@ -43,8 +43,9 @@ std::vector<bool> opaqueOf(const Scene& scene, const std::vector<bool>& constant
 }
 
 std::vector<CoarseGroup> coarseGroups(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
-                                      const SharedShapes& shapes, Log& log) {
-  std::vector<CoarseGroup> groups = tessellate(scene, camera, shading, log, shapes.shared);
+                                      const SharedShapes& shapes, size_t mostBytes, Log& log) {
+  const float longer = mostBytes > 0 ? edgesThatFit(scene, camera, shapes.shared, mostBytes, log) : 1;
+  std::vector<CoarseGroup> groups = tessellate(scene, camera, shading, log, shapes.shared, longer);
   addFigures(shapes, groups);
   return groups;
 }
@@ -67,7 +68,7 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
       camera(c),
       hitList(settings.hitList),
       shapes(shareShapes(s, camera, shading, log)),
-      groups(coarseGroups(s, camera, shading, shapes, log)),
+      groups(coarseGroups(s, camera, shading, shapes, settings.coarseBytes, log)),
       chunks(s, camera, shading, shapes.shared, log),
       opacityIsConstant(constantOpacityOf(s, shading)),
       masks(masksOf(s)),

@@ -42,9 +42,11 @@ struct ShadeContext {
   RayKind kind = RayKind::Camera;
   int depth = 0;  ///< Diffuse bounces between the eye and these points.
   uint32_t seed = 0;
-  int lightSamples = 0;    ///< Samples of each area light and of the sky; 0 for the number that the light asks for.
-  bool indirect = true;    ///< Indirect lights run.
-  bool direct = true;      ///< The other lights run where the eye looks.
+  int lightSamples = 0;  ///< Samples of each area light and of the sky; 0 for the number that the light asks for.
+  bool indirect = true;  ///< Indirect lights run.
+  bool direct = true;    ///< The other lights run where the eye looks.
+  /// If not null, of the other lights those of this LightGroup alone shine, everywhere; empty for none of them.
+  const std::string* lights = nullptr;
   bool variables = false;  ///< The variables that outputOf(options) lists are stored.
   /// Store these instead: for "surface:NAME" the outputs of the shader, or NaN if it has none of this name.
   const std::vector<RayOutput>* told = nullptr;

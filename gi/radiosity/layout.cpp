@@ -84,10 +84,11 @@ void halveUntilFew(std::vector<SurfaceCharts>& surfaces, int64_t limit, Log& log
   int halvings = 0;
   for (; count() > most; ++halvings) forEachChart([](RadiosityChart& c) { c.halve(); });
   if (halvings > 0)
-    log.report(Severity::Warning, "radiosity-texels", {},
-               fmt::format("all radiosity maps together would have more than {:.2g} million texels: their edges have 1/{} "
-                           "of what was asked",
-                           static_cast<double>(limit) / 1e6, 1 << halvings));
+    log.report(
+        Severity::Warning, "radiosity-texels", {},
+        fmt::format("all radiosity maps together would have more than {:.2g} million texels: their edges have 1/{} "
+                    "of what was asked",
+                    static_cast<double>(limit) / 1e6, 1 << halvings));
 }
 
 }  // namespace

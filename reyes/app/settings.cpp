@@ -117,6 +117,8 @@ std::optional<double> parseSeconds(const std::string& text) {
 
 int64_t textureShare(int64_t memoryLimit) { return std::max(kLeastCache, memoryLimit / 4); }
 
+int64_t rayShare(int64_t memoryLimit) { return textureShare(memoryLimit); }
+
 size_t brickCacheBytes(const RenderSettings& settings) {
   if (!settings.memoryLimit) return settings.brickCacheBytes;
   return std::min(settings.brickCacheBytes, static_cast<size_t>(std::max(kLeastCache, *settings.memoryLimit / 8)));

@@ -46,10 +46,11 @@ struct RenderSettings {
   std::optional<int> bucketSize;
   std::vector<std::string> edits;  ///< RIB files of changes to a shot.
   std::string irradiance;          ///< An .icf to shade with.
+  bool byLight = false;            ///< Irradiance records keep the share of each group of lights.
   bool appendIrradiance = false;   ///< True to gather too, where that has no records.
   int audit = 0;  ///< Pixels at which the error of the picture is measured; 0: it is not, unless that is to be reached.
-  double targetError = 0;  ///< The mean relative error of light to reach; 0: settings are as they are given.
-  double timeBudget_s = 0;         ///< Time that a frame may take; 0: as long as its settings ask.
+  double targetError = 0;   ///< The mean relative error of light to reach; 0: settings are as they are given.
+  double timeBudget_s = 0;  ///< Time that a frame may take; 0: as long as its settings ask.
   bool resume = false;
   bool skipFinished = false;             ///< Frames whose pictures hold what would be rendered are left as they are.
   std::optional<int64_t> memoryLimit;    ///< In bytes.
@@ -96,9 +97,10 @@ std::optional<const GiMethod*> parseGi(const std::string& text);
 std::optional<double> parseShare(const std::string& text);
 std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", "10m", "2h"
 
-/// Shares of --memory-limit: textures get a quarter, bricks --brick-cache but no more than an eighth, and each gets at
-/// least 1 MB.
+/// Shares of --memory-limit: textures and what rays meet get a quarter each, bricks --brick-cache but no more than an
+/// eighth, and each gets at least 1 MB.
 int64_t textureShare(int64_t memoryLimit);
+int64_t rayShare(int64_t memoryLimit);
 size_t brickCacheBytes(const RenderSettings& settings);
 
 /// Replaces runs of '#' by the frame number, padded to their length.

@@ -33,6 +33,11 @@ struct BoundLight {
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
 
+/// Tells whether the light, which is no indirect one, is among those that the context lets shine.
+inline bool isMeant(const BoundLight& light, const ShadeContext& context) {
+  return !context.lights || light.group == *context.lights;
+}
+
 /// A primitive variable that takes the place of a shader
 /// parameter. The points hold it in current space already.
 struct Override {

@@ -37,7 +37,7 @@ sys.exit(0 if command == "chart" and code == 3 else code)  # so short a budget l
 # These stand for the reader's own files.
 OWN = {"scene.rib": (ROOT / "scenes/cornell/cornell.rib").read_text(), "model.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n"}
 # What a session cannot do, and why.
-LEFT_OUT = {"./dev": "it builds the program", "sudo ": "it changes the machine", "git ": "it needs a network", "--watch": "it never ends"}
+LEFT_OUT = {"./dev": "it builds the program", "sudo ": "it changes the machine", "git ": "it needs a network", "--watch": "it never ends", "tomales relight": "likewise"}
 
 
 def new_folder(name):

@@ -11,6 +11,7 @@
 #include "reyes/app/commands/options.h"
 #include "reyes/app/commands/shadetest.h"
 #include "reyes/app/denoise/command.h"
+#include "reyes/app/relight/relight.h"
 
 namespace tomales {
 
@@ -27,6 +28,7 @@ struct Invocation {
   ConvertCommand convert;
   ChartSettings chart;
   BatchCommand batch;
+  RelightCommand relight;
   bool stability = false;
   std::string first, second, difference;
   InfoCommand info;

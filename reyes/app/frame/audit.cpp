@@ -122,6 +122,8 @@ std::string sentenceOf(const AuditReport& r) {
     parts += fmt::format("; indirect light {}, by {} paths at each point", percentOf(*r.indirect), r.paths);
   if (r.direct) parts += fmt::format("; direct light {}", percentOf(*r.direct));
   if (!r.indirect) parts += "; there is no indirect light to audit";
+  if (!r.picture.tells())
+    parts += fmt::format("; the audit's own noise of {:.2g} % hides smaller errors", 100 * r.picture.noise);
   return fmt::format(
       "mean error {}, 90 % confidence, {} pixels{}; 99 % of them err by less than {:.2g} %, "
       "which is an estimate",

@@ -279,6 +279,23 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
     log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
 }
 
+void FrameJob::show(const DeepFrame& layout, const ShownTiles& tiles, const ShownPart& part, const RowViewer& viewer,
+                    const std::atomic<bool>& cancelled) {
+  ShadeContext context = shadeContext();
+  context.lights = part.lights, context.indirect = part.indirect;
+  DeepFrame frame = layout;
+  frame.crop = part.window;
+  const FrameControl control{{}, &cancelled, settings_.seed};
+  const auto fill = [&](std::span<const uint32_t> asked, const TilePlace& put) {
+    const auto take = [&](size_t index, DeepTile&& tile) {
+      tiles.shaded(index, tile);
+      put(index, std::move(tile));
+    };
+    shadeTiles(asked, {tiles.load, take}, scene_, *shading_, context, control);
+  };
+  showFrame(frame, fill, viewer, scene_.options, control);
+}
+
 void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {
   for (const auto& [x, y] : settings_.pixels)
     if (tile.rect.contains(x, y))

@@ -17,6 +17,19 @@ namespace tomales {
 
 class Preview;
 
+/// What FrameJob::show() makes.
+struct ShownPart {
+  PixelRect window;                     ///< Inside of the frame's crop window.
+  const std::string* lights = nullptr;  ///< ShadeContext::lights.
+  bool indirect = true;
+};
+
+/// The tiles of FrameJob::show(), from any thread.
+struct ShownTiles {
+  std::function<bool(size_t index, DeepTile& tile)> load;  ///< As ShadeSteps::load.
+  std::function<void(size_t index, const DeepTile& tile)> shaded;
+};
+
 class FrameJob {
  public:
   /// Pre: overrides have been applied to the scene. `shaders` outlives the job. Everything that goes wrong is in the
@@ -67,6 +80,11 @@ class FrameJob {
   void hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
                     const std::function<void(size_t tile, const DeepTile&)>& keep);
 
+  /// Shades a part of the picture for the viewer alone, before exposure and imager. It can be called again and again,
+  /// and needs no write(). If it is cancelled, the viewer may get no rows.
+  void show(const DeepFrame& layout, const ShownTiles& tiles, const ShownPart& part, const RowViewer& viewer,
+            const std::atomic<bool>& cancelled);
+
   bool gathers() const { return gathers_; }
   /// Tells whether gather() has to run, where records are given or not.
   bool gathersBeside(bool recordsGiven) const { return counts_ || (gathers_ && !recordsGiven); }
@@ -77,8 +95,8 @@ class FrameJob {
   const Camera& camera() const { return camera_; }
   GiSettings giSettings() const;
   ShadeContext shadeContext() const;
-  GiServices* services() { return services_.get(); }
-  ShadingSystem& shading() { return *shading_; }
+  GiServices* services() const { return services_.get(); }
+  ShadingSystem& shading() const { return *shading_; }
   FrameControl control(const char* pass, float begin, float end);
   /// Returns a callback for the progress of the maps that indirect light needs before anything is gathered.
   std::function<void(float)> lightProgress() { return meter_.pass("making maps of light", hidden_, lightMade()); }

@@ -105,7 +105,8 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
   // A preview wants the first rows first. An audit looks at all rows before the first one is written, because the
   // pictures' headers tell what it has found.
-  const bool streams = !gathers && !audits(settings) && !choosesQuality(settings) && (large || !settings.preview.empty() || mayStream(scene));
+  const bool streams = !gathers && !audits(settings) && !choosesQuality(settings) &&
+                       (large || !settings.preview.empty() || mayStream(scene));
 
   if (streams || given || settings.resume) job.openAll();
   BucketFile file(scene, layout, world, settings, log);

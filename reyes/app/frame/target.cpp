@@ -47,7 +47,9 @@ class TargetSearch {
       const AuditReport report =
           job_.audit(layout_, tiles_, hashCombine(seedOf(settings_), static_cast<uint32_t>(attempt)));
       if (interrupted()) return;
-      const bool isNear = report.picture.mean <= kTolerance * settings_.targetError;
+      const ErrorEstimate& error = report.picture;
+      // More rays in the picture do not quieten the audit.
+      const bool isNear = !error.tells() || error.mean <= kTolerance * settings_.targetError;
       model.correct(quality, report.indirect ? report.indirect->mean : 0, report.direct ? report.direct->mean : 0);
       const LightQuality better = model.cheapest(kMargin * settings_.targetError);
       if (isNear || attempt == kMostAttempts || better == quality) return finish(quality, report, attempt, isNear);
@@ -72,13 +74,20 @@ class TargetSearch {
   void finish(const LightQuality& quality, const AuditReport& report, int attempts, bool isNear) {
     job_.tellAudit(report);
     describeQuality(job_.scene().options, optionsOf(quality), settings_);
+    const ErrorEstimate& error = report.picture;
+    if (!error.tells() && error.noise > settings_.targetError)
+      log_.report(
+          Severity::Warning, "target-unproved", {},
+          fmt::format("a mean error of {:.3g} % was asked, and the audit's own noise of {:.2g} % hides whether it "
+                      "is reached, with {}",
+                      100 * settings_.targetError, 100 * error.noise, optionsOf(quality)));
     if (isNear) return;
     log_.report(
         Severity::Warning, "target-missed", {},
         fmt::format("a mean error of {:.3g} % was asked, and {:.2g} % ({:.2g} to {:.2g}) reached after {} of at "
                     "most {} attempts, the last with {}",
-                    100 * settings_.targetError, 100 * report.picture.mean, 100 * report.picture.low,
-                    100 * report.picture.high, attempts, kMostAttempts, optionsOf(quality)));
+                    100 * settings_.targetError, 100 * error.mean, 100 * error.low, 100 * error.high, attempts,
+                    kMostAttempts, optionsOf(quality)));
   }
 
   FrameJob& job_;
