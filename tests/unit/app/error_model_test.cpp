@@ -104,6 +104,7 @@ TEST(ErrorModel, LeavesRaysAndRecordsAloneWhereOnlyLampsErr) {
 TEST(ErrorModel, SurvivesTrialsThatSawNothing) {
   const ErrorModel model({{150, 1, 4}}, {{600, 1, 16}}, QualityTrial{{150, 2, 4}});
   EXPECT_EQ(model.error(model.cheapest(0.01)), 0);
+  EXPECT_EQ(model.cheapest(0.01), LightQuality());
 }
 
 TEST(ErrorModel, SurvivesAFinerTrialThatErrsMore) {
