@@ -2,7 +2,7 @@
 
     tests/bench/denoise.py build/release/tomales [--format 160x120]
 
-Errors are root mean squares over the mean colour, against the mean of 16 pictures with 64 times the samples of the
+Errors are root mean squares over the mean colour, against the mean of 8 pictures with 64 times the samples of the
 noisiest level: of the mean of the two halves, of the filtered picture, and both as the command states them.
 """
 import math
@@ -23,7 +23,7 @@ SCENES = {"cornell/cornell.rib": GATHER, "cornell_ball/cornell_ball.rib": GATHER
           "shading/sky.rib": DIRECT, "shading/materials.rib": DIRECT, "spheres/spheres.rib": DIRECT, "still_life/still_life.rib": DIRECT,
           "rays/traced.rib": DIRECT, "ris/ris.rib": DIRECT}
 LEVELS = (1, 4, 16)  # samples of a light, and 16 times as many rays of a record
-TRUTHS = 16
+TRUTHS = 8
 
 program = str(pathlib.Path(sys.argv[1]).resolve())
 size = sys.argv[sys.argv.index("--format") + 1] if "--format" in sys.argv else "160x120"

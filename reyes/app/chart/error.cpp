@@ -177,15 +177,19 @@ std::string notFiniteNote(const ErrorFigures& error) {
 }
 
 float brightness(const Image& image) {
+  constexpr float kOfMedian = 8;  // a lamp would leave 8 bits too few steps for the rest
   std::vector<float> values;
   const auto c = colors(image);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      if (const vec3 color = colorAt(image, c, x, y); isFinite(color)) values.push_back(maxComponent(color));
+      if (const vec3 color = colorAt(image, c, x, y); isFinite(color) && maxComponent(color) > 0)
+        values.push_back(maxComponent(color));
   if (values.empty()) return 1;
-  const auto bright = values.begin() + static_cast<ptrdiff_t>(0.995 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), bright, values.end());
-  return std::max(*bright, 1e-6f);
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return std::max(std::min(at(0.995), kOfMedian * at(0.5)), 1e-6f);
 }
 
 Image thumbnail(const Image& image, int size, float gain) {

@@ -173,7 +173,8 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
     out.peakBytes = counted.value("/memory_bytes/peak_rss"_json_pointer,
                                   0.0);  // wait4() would count this process's memory at the fork
     out.records = counted.value("/irradiance_cache/samples"_json_pointer, int64_t{0});
-    for (const Json& w : counted.value("warnings", Json::array())) out.warnings.push_back(w.value("code", ""));
+    for (const Json& w : counted.value("warnings", Json::array()))
+      if (w.value("severity", "") != "info") out.warnings.push_back(w.value("code", ""));
   }
   if (remember(stem, out)) return out;
   why_ = "\"" + settings_.folder + "\" cannot be written";

@@ -121,7 +121,8 @@ class Page : Markup {
       }
     put("<h2>Differences</h2><p>How much more the most accurate picture of each method is off than that of {} ({}), "
         "with "
-        "95 % intervals. Methods whose intervals hold 0 cannot be told from it by this reference.</p>\n<div>{}</div>\n",
+        "95 % intervals. Methods whose intervals hold 0 cannot be told from it by this reference.</p>\n<div "
+        "style=\"max-width:700px\">{}</div>\n",
         key(best->curve), escapeXml(best->setting), drawDifferences("Differences of errors", rows, 700));
   }
 

@@ -178,7 +178,7 @@ std::string escapeXml(const std::string& text) {
 }
 
 std::string drawDifferences(const std::string& title, const std::vector<PlotDifference>& rows, int width) {
-  constexpr int kRow = 26, kNames = 190, kEnd = 120, kSize = 13;
+  constexpr int kRow = 26, kNames = 190, kEnd = 170, kSize = 13;
   Markup out;
   double low = 0, high = 0;
   for (const PlotDifference& r : rows)

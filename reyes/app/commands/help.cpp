@@ -63,6 +63,7 @@ constexpr Example kExamples[] = {
     {"shadetest", "  tomales shadetest marble.sl Kd=.5 -o marble.png"},
     {"photons", "  tomales photons scene.rib -o photons       then: tomales irradiance photons -o points"},
     {"join", "  tomales join tile_*.exr -o frame.exr"},
+    {"denoise", "  tomales denoise a.exr b.exr -o clean.exr   a and b: rendered with --light-seed 1 and 2"},
     {"irradiance", "  tomales irradiance photons -o points       then: tomales brickmake points -o bricks"},
     {"brickmake", "  tomales brickmake points -o bricks         then: tomales scene.rib --gi atlas --atlas bricks"},
     {"view", "  tomales view points/room.ptc -o points.png --camera scene.rib"},

@@ -219,8 +219,7 @@ void addShaderFolders(CLI::App& app, std::string& folders) {
 
 void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("-t", s.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
-  app.add_option("--stats", s.statsFile,
-                 "Statistics as JSON; # stands for the frame number, and FILE.jsonl gets a line for each frame")
+  app.add_option("--stats", s.statsFile, "Statistics as JSON; # is the frame's number; .jsonl gets a line each")
       ->type_name("FILE.json");
   app.add_option("--log", s.logFile, "Append all messages, with the time, and what each frame took")->type_name("FILE");
   app.add_flag("--profile-shaders", s.profileShaders, "Points and time of each shader, at the end");
