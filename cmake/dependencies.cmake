@@ -7,6 +7,7 @@ pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(zip REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(assimp REQUIRED IMPORTED_TARGET assimp)
+pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(deflate REQUIRED IMPORTED_TARGET libdeflate)
 find_package(glm REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
@@ -48,7 +49,7 @@ set(TOMALES_LIBRARIES
   "OpenImageIO|${OpenImageIO_VERSION}|BSD-3-Clause" "OpenEXR|${OpenEXR_VERSION}|BSD-3-Clause"
   "Imath|${Imath_VERSION}|BSD-3-Clause" "oneTBB|${TBB_VERSION}|Apache-2.0" "GLM|${glm_VERSION}|MIT"
   "Highway|${hwy_VERSION}|Apache-2.0" "fmt|${fmt_VERSION}|MIT" "CLI11|${CLI11_VERSION}|BSD-3-Clause"
-  "JSON for Modern C++|${nlohmann_json_VERSION}|MIT" "Assimp|${assimp_VERSION}|BSD-3-Clause"
+  "JSON for Modern C++|${nlohmann_json_VERSION}|MIT" "cpp-httplib|${httplib_VERSION}|MIT" "Assimp|${assimp_VERSION}|BSD-3-Clause"
   "LibTIFF|${TIFF_VERSION_STRING}|libtiff" "libpng|${PNG_VERSION_STRING}|libpng-2.0" "zlib|${ZLIB_VERSION_STRING}|Zlib"
   "libzip|${zip_VERSION}|BSD-3-Clause" "Zstandard|${zstd_VERSION}|BSD-3-Clause" "libdeflate|${deflate_VERSION}|MIT"
   "xxHash|${xxhash_VERSION}|BSD-2-Clause")

@@ -54,10 +54,11 @@ using AtlasProgress = std::function<void(float)>;
 PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays,
                            const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
                            const AtlasProgress& progress, Stats& stats, Log& log);
-/// One photon map -> irradiance points, in cubes of about `most` photons where there are more. Throws FileError.
+/// One photon map -> irradiance points, in cubes of about `most` photons where there are more. `sight`: as in
+/// estimateIrradiance(), in world space. Throws FileError.
 void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out,
                      const PhotonIrradianceSettings& settings, uint64_t most = kPointsInMemory,
-                     EstimateFigures* figures = nullptr);
+                     EstimateFigures* figures = nullptr, const SightAlongSurface& sight = {});
 /// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                                   BrickSettings settings);
@@ -92,9 +93,11 @@ class IrradianceAtlas {
   /// theirs, match any.
   std::optional<std::string> strange(uint64_t world) const;
 
-  /// E/pi at P (current space) on the side of N, averaged over a radius; 0 where there is no data.
-  vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius) const {
-    return look(mapOfGroup_, group, P, N, radius).value_or(vec3(0.0f));
+  /// E/pi at P (current space) on the side of N, averaged over a radius; 0 where there is no data. `acrossWalls`: as in
+  /// BrickMap::lookup().
+  vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius, bool& acrossWalls) const {
+    acrossWalls = false;
+    return look(mapOfGroup_, group, P, N, radius, &acrossWalls).value_or(vec3(0.0f));
   }
   /// The same for light that came by mirrors and glass alone.
   vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const {
@@ -108,7 +111,8 @@ class IrradianceAtlas {
 
  private:
   using MapOfGroup = std::vector<const BrickMap*>;  ///< Null: no photon came there.
-  std::optional<vec3> look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius) const;
+  std::optional<vec3> look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius,
+                           bool* acrossWalls = nullptr) const;
   const BrickMap* open(const std::filesystem::path& file);
 
   mutable BrickCache cache_;

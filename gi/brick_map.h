@@ -27,11 +27,15 @@ class BrickMap {
   /// Averages data around P on surfaces that face as N does (N zero: on all) over a cube of half width `radius`:
   /// linearly between voxels and between levels (3.3). Where the finest voxels there are empty, coarser ones answer.
   /// Returns false where there is no data near; `out` (width() floats) is zero then. `surface`: data of other surfaces
-  /// do not count where the map knows() this one. Throws FileError where the file is damaged.
-  bool lookup(const vec3& P, const vec3& N, float radius, float* out, int surface = 0) const;
+  /// do not count where the map knows() this one. `acrossWalls`, if not null: voxels that hold light from two sides of
+  /// a wall give way to finer ones, and it says whether the finest do not tell the sides apart either. Throws FileError
+  /// where the file is damaged.
+  bool lookup(const vec3& P, const vec3& N, float radius, float* out, int surface = 0,
+              bool* acrossWalls = nullptr) const;
 
  private:
   struct Sum;
+  void addBetween(float level, const vec3& P, const vec3& N, float radius, Sum& sum) const;
   void addLevel(int level, const vec3& P, const vec3& N, float halfWidth, float weight, Sum& sum) const;
   inline void addVoxel(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;
   void addLayers(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const;

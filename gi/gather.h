@@ -43,9 +43,11 @@ struct KnownLight {
   const HitRadiance* hits = nullptr;   ///< The radiance at the hits of rays.
 };
 /// Gathers one record. `find`, if not null, gets the bright light that the rays of the hemisphere alone have met.
+/// `groups`: the groups of lights whose shares the record gets. The first has no lights: its share is what shines by
+/// itself, and belongs to no other.
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point,
                         const GatherSettings& settings, const KnownLight& known, Stats& stats,
-                        BrightFind* find = nullptr);
+                        BrightFind* find = nullptr, std::span<const std::string> groups = {});
 
 /// The shade groups that rays from a group may hit; null if it is all.
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings);

@@ -20,9 +20,10 @@ struct CloudChannel {
 };
 
 /// The last channel of clouds that tell surfaces apart: the number of the surface that a point lies on, 1 ..
-/// kMostSurfaces; 0: not known. It is no data: brick maps keep it with their layers (gi/bricks/brick.h).
+/// kMostSurfaces; 0: not known; kAcrossWalls: a wall on the surface parts more light from less there. It is no data:
+/// brick maps keep it with their layers (gi/bricks/brick.h).
 inline const CloudChannel kSurfaceChannel{"__surface", 1};
-constexpr int kMostSurfaces = 127;
+constexpr int kMostSurfaces = 126, kAcrossWalls = 127;
 bool tellsSurfaces(const std::vector<CloudChannel>& channels);
 std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels);  ///< The channels without kSurfaceChannel.
 int widthOf(const std::vector<CloudChannel>& channels);                ///< Floats of one point.

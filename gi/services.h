@@ -96,10 +96,15 @@ class GiServices final : public ShadeServices {
 
   /// Fills the irradiance cache for every point that a shaded frame will ask about, coarse to fine. Records of one
   /// level are frozen before the next reads them, and their order is that of the pixels, so the cache does not depend
-  /// on threads or buckets. The tiles are read again in every phase. `covered`, if not empty, is called when the
-  /// nearest points of every `stride`th pixel and row can be shaded without rays: 16, 8, 4, 2.
+  /// on threads or buckets. Every tile is read twice, or in every phase if the frame is very large. `covered`, if not
+  /// empty, is called when the nearest points of every `stride`th pixel and row can be shaded without rays: 16, 8,
+  /// 4, 2.
   void gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                   const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered = {});
+
+  /// Forgets all that gatherPass() has made. It and shading go by these settings from now on. Maps stay, so the mode
+  /// must be the same, and records are not kept for a later run.
+  void startAgain(const GiSettings& settings);
 
   /// The caches of gatherPass(); frozen while shading.
   const std::vector<PreparedCache>& caches() const;
@@ -108,6 +113,15 @@ class GiServices final : public ShadeServices {
   /// uncovered or, in a frame that they were not made for, where they disagree. anew: the pixels whose records have
   /// been taken out.
   void useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew = {});
+  /// Has records keep the share of each of these groups of lights (ShadingSystem::lightGroup), so that they can be
+  /// mixed; the first is empty and stands for what shines by itself. Call it before the gather pass, or with caches
+  /// whose records have these shares. It costs the shading of hits once for each group.
+  void keepShares(std::vector<std::string> groups);
+  const std::vector<std::string>& shareGroups() const;
+  /// Multiplies the shares by these gains from now on, until they are set again; empty for all of 1. Indirect light is
+  /// then that of lights which are so much brighter, but for the dominant directions, which stay. While it is called,
+  /// nothing may be shaded.
+  void mixShares(std::vector<vec3> gains);
   /// Sets emitters, so that area lights can be sampled without geometry.
   void useEmitters(EmitterTable emitters);
 

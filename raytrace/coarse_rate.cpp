@@ -24,6 +24,7 @@ constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
 /// What a patch may have in any picture, and how many times the polygons that would cover the picture evenly: a plane
 /// that reaches from the eye to the horizon needs many more.
 constexpr double kAlwaysQuads = 1 << 16, kMostOfPicture = 256;
+constexpr double kMostSharing = 16;  ///< Patches of an object that share these limits.
 
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
@@ -71,7 +72,9 @@ double mostQuads(const Object& o, const Camera& camera, float edge_px) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
   const double pixels = 1.0 * camera.xResolution() * camera.yResolution();
   const double covering = pixels / (double{edge_px} * edge_px);
-  return std::clamp(kMostOfPicture * covering, kAlwaysQuads, most);
+  // The patches of an object share the picture, and seldom do more than a few of them lie close before the eye.
+  const double sharing = std::min<double>(o.shape().patchCount(), kMostSharing);
+  return std::clamp(kMostOfPicture * covering, kAlwaysQuads, most) / std::max(1.0, sharing);
 }
 
 /// Limits the number of polygons. log: null reports nothing.
@@ -108,10 +111,12 @@ Fineness micropolygons(const Attributes& a, float edge) {
   return out;
 }
 
-Fineness fixedFineness(const Object& o) {
+/// Area lights keep their polygons, whose area decides how bright they are.
+Fineness fixedFineness(const Object& o, float longer = 1) {
   const Attributes& a = *o.attributes;
-  if (a.trace.rate == TessellationMode::Full && a.areaLight < 0) return micropolygons(a, 1);
-  return finenessOf(a, std::max(a.trace.tessellation, 1e-3f));
+  if (a.areaLight >= 0) return finenessOf(a, std::max(a.trace.tessellation, 1e-3f));
+  if (a.trace.rate == TessellationMode::Full) return micropolygons(a, longer);
+  return finenessOf(a, std::max(a.trace.tessellation, 1e-3f) / longer);
 }
 
 /// Lattice lines of a patch, diced coarsely.
@@ -149,10 +154,10 @@ class PatchLines {
 
 bool displacesForRays(const Object& o) { return o.attributes->trace.displacements && o.attributes->displacement; }
 
-CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, Log& log) {
+CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, float longer, Log* log) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   if (isExactQuad(o, patch)) return {1, 1};
-  return PatchLines(scene, camera, object, patch).rate(fixedFineness(o), &log);
+  return PatchLines(scene, camera, object, patch).rate(fixedFineness(o, longer), log);
 }
 
 std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch,

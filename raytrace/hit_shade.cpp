@@ -173,7 +173,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
         answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
     emission.clear();
-    if (!diffuse && context.lampsGlow) shading.emission(points, emission);
+    if (!diffuse && context.lampsGlow) shading.emission(points, emission, context);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = order[k];
       const int p = static_cast<int>(k - first);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "raytrace/chunks.h"
 #include "raytrace/doubled_grid.h"
 #include "raytrace/ray_times.h"
@@ -11,17 +13,20 @@
 namespace tomales {
 namespace {
 
+constexpr double kBytesOfQuad = 125;  ///< Of polygons with their vertices, and of Embree's tree over them.
+constexpr int kMostAttemptsToFit = 5;
+constexpr double kLeastLonger = 1.2;
 constexpr int kLatticeTile = 64;  ///< Quads of one lattice along u or v; it limits what is diced at once.
 
 class Tessellator {
  public:
-  Tessellator(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log)
-      : scene_(scene), camera_(camera), shading_(shading), log_(log), times_(rayTimes(scene)) {}
+  Tessellator(const Scene& scene, const Camera& camera, const ShadingSystem& shading, float longer, Log& log)
+      : scene_(scene), camera_(camera), shading_(shading), longer_(longer), log_(log), times_(rayTimes(scene)) {}
 
   bool moves(int object) const { return times_[static_cast<size_t>(objectOf(object).group)].size() > 1; }
 
   void addPatch(int object, uint32_t patch, CoarseGroup& out) const {
-    const auto [nu, nv] = coarseRate(scene_, camera_, object, patch, log_);
+    const auto [nu, nv] = coarseRate(scene_, camera_, object, patch, longer_, &log_);
     const auto at = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
     for (int j = 0; j < nv; j += kLatticeTile)
       for (int i = 0; i < nu; i += kLatticeTile) {
@@ -86,6 +91,7 @@ class Tessellator {
   const Scene& scene_;
   const Camera& camera_;
   const ShadingSystem& shading_;
+  const float longer_;
   Log& log_;
   const std::vector<std::vector<float>> times_;  ///< Indexed by group.
 };
@@ -137,6 +143,29 @@ void addWork(const Scene& scene, size_t object, std::vector<Work>& work) {
     work.push_back({static_cast<int>(object), p, std::min(p + kPatchesAtOnce, patches)});
 }
 
+/// The patches of all objects that rays need and that are not elsewhere.
+std::vector<Work> workOf(const Scene& scene, const std::vector<bool>& elsewhere) {
+  std::vector<Work> work;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    // An object that no ray sees may still cut its solid.
+    const bool needed = scene.objects[i].solid >= 0 || raysNeed(*scene.objects[i].attributes);
+    if (needed && (elsewhere.empty() || !elsewhere[i])) addWork(scene, i, work);
+  }
+  return work;
+}
+
+double countQuads(const Scene& scene, const Camera& camera, const std::vector<Work>& work, float longer) {
+  std::vector<double> counts(work.size());
+  parallelFor(work.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t w = begin; w < end; ++w)
+      for (uint32_t p = work[w].first; p < work[w].last; ++p) {
+        const CoarseRate rate = coarseRate(scene, camera, work[w].object, p, longer, nullptr);
+        counts[w] += 1.0 * rate.nu * rate.nv;
+      }
+  });
+  return std::accumulate(counts.begin(), counts.end(), 0.0);
+}
+
 float diagonalOf(const Object& o) {
   Bound3 bound;
   for (uint32_t p = 0; p < o.shape().patchCount(); ++p) bound.extend(o.shape().bound(p, UvRect{}));
@@ -148,9 +177,9 @@ enum class Patches { All, WithoutLevels, WithLevels };
 
 /// Returns a part of the result for each piece of work.
 std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
-                                       const std::vector<Work>& work, Patches which, Log& log) {
+                                       const std::vector<Work>& work, Patches which, float longer, Log& log) {
   std::vector<CoarseGroup> pieces(work.size());
-  const Tessellator tessellator(scene, camera, shading, log);
+  const Tessellator tessellator(scene, camera, shading, longer, log);
   const auto wanted = [&](int object, uint32_t patch) {
     const Object& o = scene.objects[static_cast<size_t>(object)];
     const bool withLevels = which == Patches::WithLevels;
@@ -203,13 +232,8 @@ bool raysNeed(const Attributes& a) {
 }
 
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log,
-                                    const std::vector<bool>& elsewhere) {
-  std::vector<Work> work;
-  for (size_t i = 0; i < scene.objects.size(); ++i) {
-    // An object that no ray sees may still cut its solid.
-    const bool needed = scene.objects[i].solid >= 0 || raysNeed(*scene.objects[i].attributes);
-    if (needed && (elsewhere.empty() || !elsewhere[i])) addWork(scene, i, work);
-  }
+                                    const std::vector<bool>& elsewhere, float longer) {
+  const std::vector<Work> work = workOf(scene, elsewhere);
   std::vector<CoarseGroup> groups(scene.groups.size());
   for (size_t g = 0; g < groups.size(); ++g) {
     groups[g].detail = scene.groups[g].attributes->detail;
@@ -226,7 +250,7 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
   });
   for (const Patches which : {Patches::WithoutLevels, Patches::WithLevels}) {
     if (which == Patches::WithLevels && !anyLevels) break;
-    std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, which, log);
+    std::vector<CoarseGroup> pieces = tessellateAll(scene, camera, shading, work, which, longer, log);
     for (size_t w = 0; w < work.size(); ++w) {
       if (!pieces[w].P.empty())
         append(groups[static_cast<size_t>(scene.objects[static_cast<size_t>(work[w].object)].group)], pieces[w]);
@@ -237,6 +261,26 @@ std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, co
   return groups;
 }
 
+float edgesThatFit(const Scene& scene, const Camera& camera, const std::vector<bool>& elsewhere, size_t bytes,
+                   Log& log) {
+  const std::vector<Work> work = workOf(scene, elsewhere);
+  const double most = std::max(1.0, static_cast<double>(bytes) / kBytesOfQuad);
+  const double asked = countQuads(scene, camera, work, 1);
+  float longer = 1;
+  double count = asked;
+  for (int attempt = 0; attempt < kMostAttemptsToFit && count > most; ++attempt) {
+    longer *= static_cast<float>(std::max(kLeastLonger, std::sqrt(count / most)));
+    count = countQuads(scene, camera, work, longer);
+  }
+  if (longer > 1)
+    log.report(
+        Severity::Warning, "trace-memory", {},
+        fmt::format("the {:.2g} million polygons that rays would meet need more memory than --memory-limit leaves "
+                    "them: they are {:.2g} million, and their edges {:.2g} times as long",
+                    asked / 1e6, count / 1e6, longer));
+  return longer;
+}
+
 CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object,
                              Log& log) {
   std::vector<Work> work;
@@ -245,7 +289,7 @@ CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const Sha
   CoarseGroup out;
   out.flipsNormal = o.flipsNormal;
   out.size = diagonalOf(o);
-  for (const CoarseGroup& piece : tessellateAll(scene, camera, shading, work, Patches::All, log)) append(out, piece);
+  for (const CoarseGroup& piece : tessellateAll(scene, camera, shading, work, Patches::All, 1, log)) append(out, piece);
   fit(out);
   return out;
 }

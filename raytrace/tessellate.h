@@ -76,8 +76,14 @@ constexpr float kOffsetFactor = 1.5f;
 
 /// Returns one element for each of scene.groups. It is empty for objects that no ray may meet and no light is made of,
 /// for objects that are `elsewhere`, and for patches that rays of all levels see in chunks (raytrace/chunks.h).
+/// Edges are `longer` times what is asked.
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log,
-                                    const std::vector<bool>& elsewhere = {});
+                                    const std::vector<bool>& elsewhere = {}, float longer = 1);
+
+/// How many times longer than asked edges must be for all that to fit into so much memory, Embree's tree included; at
+/// least 1. Warns if it is more. `elsewhere` as above.
+float edgesThatFit(const Scene& scene, const Camera& camera, const std::vector<bool>& elsewhere, size_t bytes,
+                   Log& log);
 /// Tessellates one object alone.
 CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object,
                              Log& log);

@@ -43,8 +43,9 @@ std::vector<bool> opaqueOf(const Scene& scene, const std::vector<bool>& constant
 }
 
 std::vector<CoarseGroup> coarseGroups(const Scene& scene, const Camera& camera, const ShadingSystem& shading,
-                                      const SharedShapes& shapes, Log& log) {
-  std::vector<CoarseGroup> groups = tessellate(scene, camera, shading, log, shapes.shared);
+                                      const SharedShapes& shapes, size_t mostBytes, Log& log) {
+  const float longer = mostBytes > 0 ? edgesThatFit(scene, camera, shapes.shared, mostBytes, log) : 1;
+  std::vector<CoarseGroup> groups = tessellate(scene, camera, shading, log, shapes.shared, longer);
   addFigures(shapes, groups);
   return groups;
 }
@@ -67,7 +68,7 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
       camera(c),
       hitList(settings.hitList),
       shapes(shareShapes(s, camera, shading, log)),
-      groups(coarseGroups(s, camera, shading, shapes, log)),
+      groups(coarseGroups(s, camera, shading, shapes, settings.coarseBytes, log)),
       chunks(s, camera, shading, shapes.shared, log),
       opacityIsConstant(constantOpacityOf(s, shading)),
       masks(masksOf(s)),
@@ -222,8 +223,11 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   const float ofCoarse = ray.level == Level::Coarse ? coarse.coarseDeviation : 0.0f;
   const float deviation = std::max({coarse.deviation, ofCoarse, impl_->chunks.deviation(g, ray.level)});
   const float scale = glm::length(P) + coarse.size;
+  // Polygons that are farther from their surface than it is large stand for nothing that a ray could start from, and
+  // lists of hits within such a distance would hold much of the scene.
+  const float apart = deviation + kChordShare * edgeLength;
   const float automatic =
-      kOffsetFactor * (deviation + impl_->displacementBounds[g] + kChordShare * edgeLength) + kOffsetEpsilon * scale;
+      kOffsetFactor * (impl_->displacementBounds[g] + (apart <= coarse.size ? apart : 0.0f)) + kOffsetEpsilon * scale;
   ray.group = group;
   ray.offset = impl_->hitList ? std::max(given.offset.value_or(automatic), 0.0f) : 0.0f;
   ray.bias = given.bias.value_or(kBias * scale);

@@ -88,5 +88,8 @@ using RowViewer = std::function<void(const Image& rows)>;
 /// Displays are written all the same.
 void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene,
                 const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
+/// The same rows for the viewer alone, before exposure and imager, and no files.
+void showFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Options& options,
+               const FrameControl& control);
 
 }  // namespace tomales

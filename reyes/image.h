@@ -2,6 +2,7 @@
 // order).
 #pragma once
 #include <functional>
+#include <map>
 #include "reyes/base/plugin_trust.h"
 #include "reyes/base/stats.h"
 #include "reyes/camera.h"
@@ -155,6 +156,8 @@ class DisplayFile {
   /// Gives the file its name. `finished`: the share of the buckets that it holds. A picture with less than 1 leaves
   /// what has that name alone: it becomes NAME.partial.exr, which is reported.
   bool close(float finished = 1);
+  /// The name that close() has given to the file, or that a driver has got.
+  const std::string& written() const;
 
  private:
   struct Impl;
@@ -167,6 +170,13 @@ bool makeShadow(const std::string& picture, const std::string& map, const Source
 /// of one frame, leave pixels out or differ where they overlap, and WriteError.
 void joinPictures(const std::vector<std::string>& tiles, const std::string& output,
                   const std::optional<std::array<float, 4>>& crop);
+/// Reads the channels of all parts of an OpenEXR file, which have the window of the first. Throws FileError.
+Image readParts(const std::string& picture);
+/// Copies an OpenEXR file with all its parts, channels and headers, and every bit of what is not changed. Channels that
+/// `by` has are taken from there, and texts of headers are set, or removed where they are empty. Pre: `by` has the size
+/// of the picture. Throws FileError and WriteError.
+void replaceChannels(const std::string& picture, const std::string& output, const Image& by,
+                     const std::map<std::string, std::string>& texts);
 /// Writes a whole picture at once.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
 /// Colours are encoded as sRGB if `srgb` is set and the format holds integers.

@@ -57,7 +57,8 @@ struct TextureQuery {
 
 struct TextureSettings {
   std::string searchPath{};   ///< Folders, separated by colons.
-  std::string cacheFolder{};  ///< Of converted pictures; if empty: $TOMALES_TEXTURE_CACHE or the user's cache folder.
+  std::string cacheFolder{};  ///< Where converted pictures are kept; if empty: $TOMALES_TEXTURE_CACHE or the user's
+                              ///< cache folder.
   int64_t memory_bytes = int64_t{1} << 30;
   std::function<void(const std::string& what)>
       note{};  ///< Told what was damaged in the folder and is made anew; it is called by any thread.

@@ -25,7 +25,11 @@ struct ShadowAnswer {
 };
 
 /// E/pi and the dominant directions for red, green and blue.
-using IndirectAnswer = std::array<vec3, 4>;
+struct IndirectAnswer {
+  vec3 E;
+  std::array<vec3, 3> dominant;
+  std::vector<vec3> shares;  ///< The part of E that each group of lights brings; empty: not known.
+};
 
 struct RayAnswers {
   bool recording = false;

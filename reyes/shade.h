@@ -69,7 +69,7 @@ class ShadingSystem {
 
   /// Runs the atmosphere, if there is one, between the eye and points that the camera sees. It changes their colours in
   /// place, and ShadedPoints::airCi.
-  void atmosphere(const ShadePoints& points, ShadedPoints& out) const;
+  void atmosphere(const ShadePoints& points, ShadedPoints& out, const ShadeContext& context = {}) const;
   /// Tells whether a volume shader stands inside (Interior) or outside (Exterior) of the group's surfaces.
   bool hasVolume(int group, bool inside) const;
   /// Runs it over what rays bring through the volume to the surface that they leave, in place. The points are those of
@@ -82,7 +82,7 @@ class ShadingSystem {
 
   /// Gives the radiance that each point of a batch adds for camera and specular rays if its object is an emitter: what
   /// the area light's shader sends from there to where kI begins, on the front. Empty if nothing shines.
-  void emission(const ShadePoints& points, std::vector<vec3>& radiance) const;
+  void emission(const ShadePoints& points, std::vector<vec3>& radiance, const ShadeContext& context = {}) const;
   /// The indirect light switched on for a group, if any: what the gather pass must prepare.
   const IndirectQuery* indirectQuery(int group) const;
   /// The first request among those of all indirect lights but filters; empty if there are no such lights.
@@ -98,6 +98,8 @@ class ShadingSystem {
   /// LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.
   LightKind lightKind(int light) const;
   void probe(int light, LightProbe& probe) const;
+  /// The LightGroup of a light; empty if its shader is missing or it is an indirect light.
+  std::string lightGroup(int light) const;
   /// The portals that a light of LightKind::Sky names and that have a place and an area.
   std::span<const Portal> portals(int light) const;
   /// The medium that photons meet inside or outside of a group's surfaces, as its Interior or Exterior says.

@@ -42,9 +42,11 @@ struct ShadeContext {
   RayKind kind = RayKind::Camera;
   int depth = 0;  ///< Diffuse bounces between the eye and these points.
   uint32_t seed = 0;
-  int lightSamples = 0;    ///< Samples of each area light and of the sky; 0 for the number that the light asks for.
-  bool indirect = true;    ///< Indirect lights run.
-  bool direct = true;      ///< The other lights run where the eye looks.
+  int lightSamples = 0;  ///< Samples of each area light and of the sky; 0 for the number that the light asks for.
+  bool indirect = true;  ///< Indirect lights run.
+  bool direct = true;    ///< The other lights run where the eye looks.
+  /// If not null, of the other lights those of this LightGroup alone shine, everywhere; empty for none of them.
+  const std::string* lights = nullptr;
   bool variables = false;  ///< The variables that outputOf(options) lists are stored.
   /// Store these instead: for "surface:NAME" the outputs of the shader, or NaN if it has none of this name.
   const std::vector<RayOutput>* told = nullptr;
@@ -67,6 +69,8 @@ struct ShadeContext {
   /// Paths that find indirect light at each point, past all records and maps: to know how wrong those are. 0: light
   /// comes as the frame's method has it.
   int auditPaths = 0;
+  /// The number of specular rays that one point of the eye has sent. What each of them meets is a share of that point.
+  int branches = 1;
   int chunk = 0;  ///< The part of the batch that is being shaded, set by ShadingSystem.
 
   /// Tells whether lamps have highlights on surfaces of a group.
@@ -76,6 +80,12 @@ struct ShadeContext {
   /// Tells whether lamps and skies are seen in mirrors and glass of a group.
   bool mirrorsLamps(int group) const { return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]); }
 };
+
+/// The number of samples or rays that bring light to a point, of which one of the eye has `count`: what all branches
+/// have together is as noisy then as one point. At least `least`.
+inline int shareOfBranch(int count, int least, const ShadeContext& context) {
+  return std::max(std::min(count, least), count / context.branches);
+}
 
 /// The options of one set of rays of a shader's call.
 struct RayQuery {

@@ -72,10 +72,16 @@ class PatchTree {
   uint32_t top() const { return static_cast<uint32_t>(levels_.size()) - 1; }
   uint32_t count(uint32_t level) const { return static_cast<uint32_t>(levels_[level].size()); }
   const Bound3& box(uint32_t level, uint32_t index) const { return levels_[level][index]; }
-  /// The patches in a box of level 0.
-  std::span<const uint32_t> patches(uint32_t index) const {
-    const size_t first = size_t{index} * kLeaf;
-    return std::span(order_).subspan(first, std::min<size_t>(kLeaf, order_.size() - first));
+  /// Number of patches in a box of a level; the last box of a level may have fewer.
+  static size_t patchesOfBox(uint32_t level) {
+    size_t patches = kLeaf;
+    while (level-- > 0) patches *= kFan;
+    return patches;
+  }
+  /// The patches in a box.
+  std::span<const uint32_t> patches(uint32_t level, uint32_t index) const {
+    const size_t most = patchesOfBox(level), first = index * most;
+    return std::span(order_).subspan(first, std::min(most, order_.size() - first));
   }
 
  private:

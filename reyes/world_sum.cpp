@@ -37,7 +37,7 @@ void addPicture(WorldSum& sum, const std::string& name) {
 
 void fields(WorldSum& a, ShaderCall& x) {
   each(a, x.name, x.params, x.worldFromShader);
-  const std::string beside = x.where.file ? fs::path(*x.where.file).parent_path().string() : ".";
+  const std::string beside = x.where.folder().string();
   for (const char* ending : {".so", ".sl"}) addFile(a, x.name + ending, "shader", beside.empty() ? "." : beside);
   for (const Param& p : x.params)
     for (const std::string& s : p.strings) addPicture(a, s);

@@ -165,6 +165,9 @@ class Glossy {
     for (int i = 0; i < g_->count; ++i) lobes_.emplace_back(N[i], V[i], Material(g_, i, inputs));
   }
   const Lobes& operator[](int i) const { return lobes_[static_cast<size_t>(i)]; }
+  bool isAnyMatte() const {
+    return std::any_of(lobes_.begin(), lobes_.end(), [](const Lobes& l) { return l.material.matte > 0; });
+  }
 
   /// Adds the part of one sample of the lights; addLobeSamples() adds the rest.
   void addLightSample(const TmIlluminance& sample, rsl::Vec3Array& sum) {
@@ -227,7 +230,9 @@ void shadeWith(const rsl::Batch& b, const Coordinates& at, const Opacity& Oi) {
   // Gather rays carry diffuse light alone.
   const bool shiny = b.wantsHighlights();
   Glossy glossy(b, N, V, inputs);
-  for (TmIlluminance sample = tmIlluminanceDefaults(); b.illuminance(sample);) {
+  TmIlluminance sample = tmIlluminanceDefaults();
+  if (!glossy.isAnyMatte()) sample.category = "-indirect";  // metal has no diffuse light, which may cost many rays
+  while (b.illuminance(sample)) {
     for (int i : b) {
       const Vec3 L = rsl::get(sample.direction, i), H = rsl::normalize(L + V[i]);
       const float nl = rsl::dot(N[i], L);

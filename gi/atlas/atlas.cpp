@@ -41,7 +41,7 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Has to be increased when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 11;
+constexpr uint32_t kMethod = 12;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] =
@@ -49,9 +49,9 @@ uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed, direct);
 }
 
-uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings) {
+uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings, bool knowsWalls) {
   const auto& [nearest, every, maxRadius] = settings;
-  return contentSum(kMethod, photons.contents(), nearest, every, maxRadius);
+  return contentSum(kMethod, photons.contents(), nearest, every, maxRadius, knowsWalls);
 }
 
 uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
@@ -193,12 +193,12 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
 }
 
 void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most,
-                     EstimateFigures* figures) {
+                     EstimateFigures* figures, const SightAlongSurface& sight) {
   const PointFile file(photons.string());
   if (offsetOf(file.channels(), kPathPower, 3) < 0) requirePhotons(file);
-  const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given)};
+  const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given, static_cast<bool>(sight))};
   if (file.count() <= most)
-    return writePointFile(estimateIrradiance(file.readAll(), given, {}, figures), out.string(), madeFrom);
+    return writePointFile(estimateIrradiance(file.readAll(), given, {}, figures, sight), out.string(), madeFrom);
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, file.bound());
   const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
@@ -211,7 +211,7 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   forEachTile(tiles, most, [&](int level, const glm::ivec3& place) {
     const auto inside = [&](const vec3& P) { return tiles.contains(level, place, P); };
     const PointCloud points =
-        estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside, figures);
+        estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside, figures, sight);
     for (size_t i = 0; i < points.count(); ++i)
       writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
   });
@@ -257,17 +257,22 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
     writePhotons(photons, scene, rays, shading, names, settings, progress ? tracing : progress, stats, log);
   }
   returnFreeMemory();
+  // Where direct light is stored too, hits have no other way to their light: they look up what there is.
+  const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(rays);
   size_t finished = 0;
   std::vector<MapFigures> made;
   int64_t kept = 0;
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"),
                    bricks = atlasFile(folder, name, ".bkm");
-    const PhotonIrradianceSettings& estimate = name.ends_with(kCaustic) ? settings.caustics : settings.irradiance;
-    if (pointsMadeFrom(points).inputs != irradianceInputs(PointFile(from.string()), estimate)) {
+    const bool caustic = name.ends_with(kCaustic);
+    const PhotonIrradianceSettings& estimate = caustic ? settings.caustics : settings.irradiance;
+    const SightAlongSurface seen = caustic || name == names.volume ? nullptr : sight;
+    if (pointsMadeFrom(points).inputs !=
+        irradianceInputs(PointFile(from.string()), estimate, static_cast<bool>(seen))) {
       const StageTimer timer(stats, "irradiance");
       EstimateFigures figures;
-      writeIrradiance(from, points, estimate, kPointsInMemory, &figures);
+      writeIrradiance(from, points, estimate, kPointsInMemory, &figures, seen);
       if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     }
     if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
@@ -277,7 +282,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   }
   stats.photons.groupsKept += kept;
   warnOfEstimates(scene, names, made, log);
-  warnOfThinWalls(folder, scene, rays, names, log);
+  if (settings.photons.direct) warnOfThinWalls(folder, scene, rays, names, log);
 }
 
 }  // namespace tomales

@@ -59,8 +59,8 @@ std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
   return std::nullopt;
 }
 
-std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N,
-                                          float radius) const {
+std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius,
+                                          bool* acrossWalls) const {
   const BrickMap* map = maps[static_cast<size_t>(group)];
   if (!map) return std::nullopt;
   try {
@@ -69,7 +69,8 @@ std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, con
     // Maps of another scene have other numbers for their surfaces.
     const int surface =
         world_ != 0 && map->file().madeFrom().world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
-    if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface))
+    if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface,
+                    acrossWalls))
       return E / kPi;
   } catch (const FileError& e) {
     log_.report(Severity::Missing, "atlas-damaged", {}, fmt::format("{}: no indirect light from there", e.what()));

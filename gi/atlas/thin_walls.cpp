@@ -21,6 +21,7 @@ constexpr float kReach = 2.2f;
 constexpr float kLift = 0.1f;  ///< Height of the rays over the surface, in reaches.
 /// A place leaks if there is so many times as much light behind the wall; less makes a smudge at an edge.
 constexpr float kMuchMore = 8;
+constexpr float kStands = 0.5f;      ///< Cosine between the normals of a wall and of what it stands on, at most.
 constexpr double kMostArea = 0.002;  ///< The share of all area that may leak without a warning.
 
 /// A place where an estimate was made, in world space.
@@ -102,6 +103,38 @@ class WallTest {
 
 }  // namespace
 
+SightAlongSurface sightAlongSurfaces(const RayScene& rays) {
+  return [&rays, world = WorldFromCurrent(rays.scene()), current = rays.scene().cameraFromWorldAtOpen()](
+             const vec3& worldP, const vec3& worldN, float worldReach) {
+    const vec3 P = transformPoint(current, worldP), N = normalizeOr(transformVector(current, worldN), vec3(0, 0, 1));
+    const float reach = worldReach / world.scale, lift = kLift * reach;
+    const auto hitOf = [&](const vec3& from, const vec3& direction, float tMax) {
+      Ray ray{from, direction};
+      ray.tMax = tMax;
+      return rays.closest(ray, kMaskPhoton);
+    };
+    const auto groupBelow = [&](const vec3& from) {
+      const Hit hit = hitOf(from, -N, 2 * lift);
+      return hit.object < 0 ? -1 : rays.groupOf(hit);
+    };
+    const vec3 start = P + lift * N;
+    vec3 tangent, bitangent;
+    orthonormalBasis(worldN, tangent, bitangent);
+    SightLines out;
+    for (size_t k = 0; k < kSightLines; ++k) {
+      out[k] = worldReach;
+      const float angle = 2 * kPi * static_cast<float>(k) / kSightLines;
+      const vec3 along =
+          normalizeOr(transformVector(current, std::cos(angle) * tangent + std::sin(angle) * bitangent), N);
+      const Hit wall = hitOf(start, along, reach);
+      if (wall.object < 0 || std::abs(dot(wall.geometricNormal, N)) > kStands) continue;
+      const int behind = groupBelow(start + 0.5f * (wall.t + reach) * along);
+      if (behind >= 0 && behind == groupBelow(start)) out[k] = wall.t * world.scale;
+    }
+    return out;
+  };
+}
+
 void warnOfThinWalls(const fs::path& folder, const Scene& scene, const RayScene& rays, const MapNames& names,
                      Log& log) {
   const std::set<std::string> maps(names.global.begin(), names.global.end());
@@ -131,8 +164,8 @@ void warnOfThinWalls(const fs::path& folder, const Scene& scene, const RayScene&
   const Object& wall = scene.objects[static_cast<size_t>(worst->first)];
   log.report(Severity::Warning, "photon-walls", wall.where,
              fmt::format("{}: estimates of irradiance reach to its other side, where there is more light: {:.1f} % of "
-                         "all surfaces are too bright along its edges, and what they light (--gi gather with more "
-                         "bounces is right there; more photons, --photons, reach less far)",
+                         "all surfaces are too bright along its edges, and what they light (--atlas-direct sampled is "
+                         "right there)",
                          objectName(wall), 100 * static_cast<double>(leaking) / static_cast<double>(tested)));
 }
 

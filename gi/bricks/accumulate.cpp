@@ -1,5 +1,8 @@
 #include "gi/bricks/accumulate.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tomales {
@@ -10,6 +13,11 @@ constexpr int kMostLayers = 12;
 /// With so many layers or more, surfaces that face alike share one: coarse voxels meet many surfaces, and finer ones
 /// keep them apart.
 constexpr int kSharedFrom = 6;
+/// Bricks hold no more than this, so that the differences of their values are floats too.
+constexpr float kLargestMean = std::numeric_limits<float>::max() / 4;
+
+/// Sums of enormous light overflow, and files with numbers that are not finite count as damaged.
+float heldMean(float mean) { return std::isnan(mean) ? mean : std::clamp(mean, -kLargestMean, kLargestMean); }
 
 }  // namespace
 
@@ -121,7 +129,7 @@ Brick BrickAccumulator::finish(float tolerance) const {
       parts.layers[i] = {normalizeOr(sum.normal, vec3(0.0f)), sum.incoherent, sum.surface};
       const float* from = data_.data() + static_cast<size_t>(l) * width_;
       float* to = parts.data.data() + i * width_;
-      forEachChannel(width_, [&](size_t k) { to[k] = from[k] / sum.weight; });
+      forEachChannel(width_, [&](size_t k) { to[k] = heldMean(from[k] / sum.weight); });
       ++i;
     }
   return {parts, static_cast<int>(width_), tolerance};

@@ -36,6 +36,7 @@ struct BrickLayer {
          z = 0;  ///< The mean normal in 127ths of its length, off by less than half a degree. Zero for volume data.
   uint8_t incoherent : 1 = 0;  ///< Different layers had to be merged: finer bricks tell them apart.
   uint8_t surface : 7 = 0;     ///< PointCloud::surface() of the data; 0: not known, or several.
+  static constexpr int kSurfaceBits = 127;
 
   BrickLayer() = default;
   BrickLayer(const vec3& unitNormal, bool isIncoherent, int of = 0)
@@ -43,11 +44,11 @@ struct BrickLayer {
         y(part(unitNormal.y)),
         z(part(unitNormal.z)),
         incoherent(isIncoherent),
-        surface(static_cast<uint8_t>(of & kMostSurfaces)) {}
+        surface(static_cast<uint8_t>(of & kSurfaceBits)) {}
   vec3 normal() const { return normalizeOr(vec3(x, y, z), vec3(0.0f)); }
   /// Does the layer match a lookup? N: unit; zero matches any direction. of: a surface; 0 matches any.
-  bool answers(const vec3& N, int of = 0) const {
-    if (of != 0 && surface != 0 && of != surface) return false;
+  bool answers(const vec3& N, int of = 0) const { return (of == 0 || surface == 0 || of == surface) && faces(N); }
+  bool faces(const vec3& N) const {
     const vec3 n(x, y, z);
     const float along = dot(N, n), length2 = dot(n, n);
     return (along > 0 && along * along >= kLayerCosine * kLayerCosine * length2) || length2 == 0 || N == vec3(0.0f);
@@ -158,8 +159,8 @@ struct BrickCube {
 struct BrickTree {
   BrickCube cube;
   std::vector<BrickNode> nodes;
-  int deepest = 0;                            ///< Level of the finest node; the root's is 0.
-  std::bitset<kMostSurfaces + 1> surfaces{};  ///< The surfaces that the points name; bit 0: some name none.
+  int deepest = 0;                                       ///< Level of the finest node; the root's is 0.
+  std::bitset<BrickLayer::kSurfaceBits + 1> surfaces{};  ///< The surfaces that the points name; bit 0: some name none.
   int32_t root() const { return static_cast<int32_t>(nodes.size()) - 1; }
 };
 

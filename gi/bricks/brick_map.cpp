@@ -10,7 +10,8 @@ namespace tomales {
 struct BrickMap::Sum {
   float* data = nullptr;
   float weight = 0;
-  int surface = 0;  ///< The surface that is asked for.
+  int surface = 0;           ///< The surface that is asked for.
+  bool acrossWalls = false;  ///< Some voxel has data of kAcrossWalls on this side.
   // Most voxels of a lookup lie in one brick, so the last one found is kept.
   int level = -1;                         ///< Level of the last brick that was searched.
   glm::ivec3 place{0};                    ///< Its position, in bricks of that level.
@@ -40,23 +41,38 @@ BrickPtr BrickMap::cached(int32_t node) const {
   return cache_->get(id_, static_cast<uint32_t>(node), [&] { return file_->brick(node); });
 }
 
-bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, int surface) const {
+bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, int surface, bool* acrossWalls) const {
   std::fill_n(out, width(), 0.0f);
+  if (acrossWalls) *acrossWalls = false;
   if (tree().nodes.empty() || !isFinite(P) || std::isnan(radius)) return false;
   Sum sum;
   sum.data = out;
   sum.surface = knows(surface) ? surface : 0;
   // The level whose voxels are as wide as the lookup volume; it lies between two levels unless at either end.
   const float ideal = std::log2(tree().cube.voxelSize(0) / std::max(2 * radius, 1e-30f));
-  const float level = std::clamp(ideal, 0.0f, static_cast<float>(tree().deepest));
+  float level = std::clamp(ideal, 0.0f, static_cast<float>(tree().deepest));
+  addBetween(level, P, N, radius, sum);
+  if (acrossWalls && tree().surfaces[kAcrossWalls]) {
+    while (sum.acrossWalls && level < static_cast<float>(tree().deepest) && sum.foundLevel == sum.level) {
+      level = std::floor(level) + 1;
+      std::fill_n(out, width(), 0.0f);
+      sum.weight = 0, sum.acrossWalls = false;
+      addBetween(level, P, N, radius, sum);
+    }
+    *acrossWalls = sum.acrossWalls;
+  }
+  if (!(sum.weight > 0)) return false;
+  for (int k = 0; k < width(); ++k) out[k] /= sum.weight;
+  return true;
+}
+
+/// Adds the data of the levels on both sides of `level`, or of the next coarser one that has any.
+void BrickMap::addBetween(float level, const vec3& P, const vec3& N, float radius, Sum& sum) const {
   const int coarse = static_cast<int>(level);
   const float t = level - static_cast<float>(coarse);
   if (t < 1) addLevel(coarse, P, N, std::max(radius, 0.5f * tree().cube.voxelSize(coarse)), 1 - t, sum);
   if (t > 0) addLevel(coarse + 1, P, N, std::max(radius, 0.5f * tree().cube.voxelSize(coarse + 1)), t, sum);
   for (int l = coarse - 1; l >= 0 && !(sum.weight > 0); --l) addLevel(l, P, N, 0.5f * tree().cube.voxelSize(l), 1, sum);
-  if (!(sum.weight > 0)) return false;
-  for (int k = 0; k < width(); ++k) out[k] /= sum.weight;
-  return true;
 }
 
 namespace {
@@ -144,7 +160,9 @@ void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, floa
     if (incoherent && addFiner(level, voxel, N, weight, sum, depth)) return;
   }
   for (size_t l = layers.first; l < layers.end; ++l) {
-    if (!sum.brick->layer(l).answers(N, sum.surface)) continue;
+    const BrickLayer& layer = sum.brick->layer(l);
+    sum.acrossWalls |= layer.surface == kAcrossWalls && layer.faces(N);
+    if (!layer.answers(N, sum.surface)) continue;
     sum.brick->add(l, weight, sum.data);
     sum.weight += weight;
   }

@@ -4,9 +4,10 @@
 
 namespace tomales {
 
-/// The change of E/pi that the record's gradients predict, for a step from the record's position and a turn, the cross
-/// product of the record's normal and the other one.
-inline vec3 changeBy(const IrradianceRecord& r, const vec3& step, const vec3& turn) {
+/// The change of E/pi that the gradients of a record or a share predict, for a step from the record's position and a
+/// turn, the cross product of the record's normal and the other one.
+template <class Light>
+vec3 changeBy(const Light& r, const vec3& step, const vec3& turn) {
   vec3 change;
   for (int c = 0; c < 3; ++c) change[c] = dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]);
   return change;
@@ -17,11 +18,12 @@ inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n)
 }
 
 /// Returns step^T H step of each channel. The step may be the mean step of records that are valid farther; it is
-/// shortened to `reach`, beyond which this record's H is not known.
-inline vec3 bentBy(const IrradianceRecord& r, const vec3& step, float reach) {
+/// shortened to `reach`, beyond which this record's H is not known. H is that of the record or of a share.
+template <class Light>
+vec3 bentBy(const IrradianceRecord& r, const Light& light, const vec3& step, float reach) {
   const vec3 known = step * std::min(1.0f, reach / std::max(glm::length(step), 1e-30f));
   const float a = dot(known, r.tangent), b = dot(known, cross(r.normal, r.tangent));
-  return a * a * r.hessian[0] + 2 * a * b * r.hessian[1] + b * b * r.hessian[2];
+  return a * a * light.hessian[0] + 2 * a * b * light.hessian[1] + b * b * light.hessian[2];
 }
 
 /// Mean of records that are all extrapolated to one place, with what it needs to be corrected to the second order. A
@@ -36,13 +38,15 @@ class MeanExtrapolation {
 
   /// Adds extrapolate() of the record with this weight, and returns it.
   vec3 add(const IrradianceRecord& r, float weight) {
-    const vec3 turn = cross(r.normal, n_), step = x_ - r.position, change = changeBy(r, step, turn);
-    weight_ += weight, step_ += weight * step, turn_ += weight * turn, change_ += weight * change;
-    for (int c = 0; c < 3; ++c)
-      translation_[c] += weight * r.translationGradient[c], rotation_[c] += weight * r.rotationGradient[c];
-    const vec3 E = glm::max(vec3(0.0f), r.E + change);
+    const vec3 E = glm::max(vec3(0.0f), r.E + addLight(r, r, weight));
     E_ += weight * E, square_ += weight * E * E;
     return E;
+  }
+  /// The same for a share of the record's light. A channel counts where that of the whole does (`whole`, which is what
+  /// another mean's add() returned), so that shares add up to it. agreement() is not to be asked.
+  vec3 addShare(const IrradianceRecord& r, const LightShare& share, float weight, const vec3& whole) {
+    const vec3 E = share.E + addLight(r, share, weight);
+    return vec3(glm::greaterThan(whole, vec3(0.0f))) * E;
   }
   // Pre: add() has been called.
   vec3 step() const { return step_ / weight_; }
@@ -60,25 +64,39 @@ class MeanExtrapolation {
   }
 
  private:
+  template <class Light>
+  vec3 addLight(const IrradianceRecord& r, const Light& light, float weight) {
+    const vec3 turn = cross(r.normal, n_), step = x_ - r.position, change = changeBy(light, step, turn);
+    weight_ += weight, step_ += weight * step, turn_ += weight * turn, change_ += weight * change;
+    for (int c = 0; c < 3; ++c)
+      translation_[c] += weight * light.translationGradient[c], rotation_[c] += weight * light.rotationGradient[c];
+    return change;
+  }
+
   const vec3 x_, n_;
   float weight_ = 0;
   vec3 step_{0.0f}, turn_{0.0f}, change_{0.0f}, E_{0.0f}, square_{0.0f};
   vec3 translation_[3] = {vec3(0), vec3(0), vec3(0)}, rotation_[3] = {vec3(0), vec3(0), vec3(0)};
 };
 
-/// Derivatives hold near the record alone, so each may at most double or extinguish E over the validity radius.
+/// Derivatives hold near the record alone, so each may at most double or extinguish E over the validity radius. Those
+/// of shares are shortened as those of the whole are.
 inline void limitDerivatives(IrradianceRecord& r, float radius) {
+  const auto scale = [](vec3& v, float numerator, float by) { v = by < kInfinity ? v * (numerator / by) : vec3(0.0f); };
   for (int c = 0; c < 3; ++c) {
     vec3& gradient = r.translationGradient[c];
     const float change = glm::length(gradient) * radius;
-    if (!(change < kInfinity))
-      gradient = vec3(0.0f);
-    else if (change > r.E[c])
-      gradient *= r.E[c] / change;
+    if (!(change <= r.E[c])) {
+      scale(gradient, r.E[c], change);
+      for (LightShare& share : r.shares) scale(share.translationGradient[c], r.E[c], change);
+    }
     const float xx = r.hessian[0][c], xy = r.hessian[1][c], yy = r.hessian[2][c];
     const float bend = 0.5f * radius * radius * std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
-    if (!(bend <= r.E[c]))
-      for (vec3& second : r.hessian) second[c] = bend < kInfinity ? second[c] * r.E[c] / bend : 0.0f;
+    if (bend <= r.E[c]) continue;
+    const auto shorten = [&](float& second) { second = bend < kInfinity ? second * r.E[c] / bend : 0.0f; };
+    for (vec3& second : r.hessian) shorten(second[c]);
+    for (LightShare& share : r.shares)
+      for (vec3& second : share.hessian) shorten(second[c]);
   }
 }
 

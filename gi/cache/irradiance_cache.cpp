@@ -199,15 +199,15 @@ struct IrradianceCache::Impl {
   }
 
   /// Lookups that lie close together share one walk through the tree.
-  void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider, Vicinity& near,
-              std::vector<Candidate>& found) const {
+  void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider,
+              std::span<const LightShare> light, Vicinity& near, std::vector<Candidate>& found) const {
     Bound3 region;
     float pixelSize = 0;
     for (const IrradiancePlace& p : places) region.extend(p.position), pixelSize = std::max(pixelSize, p.pixelSize);
     const size_t half = places.size() / 2;
     if (places.size() > kRun || (half > 0 && !(glm::length(region.size()) <= kRunPixels * pixelSize))) {
-      lookup(places.first(half), out, wider, near, found);
-      return lookup(places.subspan(half), out + half, wider, near, found);
+      lookup(places.first(half), out, wider, light, near, found);
+      return lookup(places.subspan(half), out + half, wider, light, near, found);
     }
     near.clear();
     const ValidityBounds farthest = boundsAt(pixelSize, wider);
@@ -230,33 +230,37 @@ struct IrradianceCache::Impl {
         if (w > 0) found.push_back({near.records[k], w});
       }
       std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
-      *out++ = blend(found, p.position, p.shadingNormal, p.pixelSize);
+      *out++ = blend(found, p.position, p.shadingNormal, p.pixelSize, light);
     }
   }
 
-  // Returns the error of the mean of linearly extrapolated records, to the second order.
+  // Returns the error of the mean of linearly extrapolated records, to the second order, if they agree.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
-                   float pixelSize) const {
+                   float pixelSize, std::span<const LightShare> light) const {
     if (info.published) return vec3(0.0f);
     const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
     if (info.curvature)
       for (const Candidate& c : candidates) {
         const IrradianceRecord& r = records[c.record];
-        out += 0.5f * c.weight / weight * bentBy(r, step, reach(size(r), pixelSize));
+        const float far = reach(size(r), pixelSize);
+        out += 0.5f * c.weight / weight *
+               (light.empty() ? bentBy(r, r, step, far) : bentBy(r, light[c.record], step, far));
       }
-    return mean.agreement() * out;
+    return out;
   }
 
-  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n,
-                           float pixelSize) const {
+  IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize,
+                           std::span<const LightShare> light) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
     float nearest = kInfinity;
     Disagreement worst = Disagreement::None;
-    MeanExtrapolation mean(x, n);
+    MeanExtrapolation mean(x, n), other(x, n);
+    vec3 otherE(0.0f);
     for (const Candidate& candidate : candidates) {
       const IrradianceRecord& r = records[candidate.record];
       const vec3 E = mean.add(r, candidate.weight);
+      if (!light.empty()) otherE += candidate.weight * other.addShare(r, light[candidate.record], candidate.weight, E);
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front())
         worst = std::max(worst, disagreementOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
@@ -268,8 +272,13 @@ struct IrradianceCache::Impl {
       for (int c = 0; c < 3; ++c) out.dominant[c] += candidate.weight * r.dominant[c];  // eq. 7
       out.weight += candidate.weight;
     }
-    if (out.weight > 0)
-      out.E = glm::max(vec3(0.0f), out.E / out.weight + secondOrder(candidates, mean, out.weight, pixelSize));
+    if (out.weight > 0) {
+      const auto corrected = [&](const vec3& E, const MeanExtrapolation& m, std::span<const LightShare> of) {
+        return E / out.weight + mean.agreement() * secondOrder(candidates, m, out.weight, pixelSize, of);
+      };
+      out.E = glm::max(vec3(0.0f), corrected(out.E, mean, {}));
+      if (!light.empty()) out.E = vec3(glm::greaterThan(out.E, vec3(0.0f))) * corrected(otherE, other, light);
+    }
     out.inconsistent = limitBy(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
@@ -300,20 +309,31 @@ void IrradianceCache::restore(const IrradianceRecord& record) {
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal,
-                                           float pixelSize) const {
-  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal, pixelSize);
-  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize);
+                                           float pixelSize, std::span<const LightShare> light) const {
+  if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal, pixelSize, light);
+  return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize, light);
 }
 
-void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider) const {
+void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider,
+                             std::span<const LightShare> light) const {
   if (places.empty()) return;
   if (impl_->info.published || impl_->info.curvature) wider = 1;
   if (impl_->settings.kappa < kInfinity) {
     thread_local Vicinity near;
     thread_local std::vector<Candidate> found;
-    return impl_->lookup(places, out, wider, near, found);
+    return impl_->lookup(places, out, wider, light, near, found);
   }
-  for (const IrradiancePlace& p : places) *out++ = impl_->blend({}, p.position, p.shadingNormal, p.pixelSize);
+  for (const IrradiancePlace& p : places) *out++ = impl_->blend({}, p.position, p.shadingNormal, p.pixelSize, light);
+}
+
+std::vector<LightShare> IrradianceCache::mixed(std::span<const vec3> gains) const {
+  std::vector<LightShare> out;
+  out.reserve(impl_->records.size());
+  for (const IrradianceRecord& r : impl_->records) {
+    LightShare& sum = out.emplace_back();
+    for (size_t g = 0; g < gains.size(); ++g) sum.add(r.shares[g], gains[g]);
+  }
+  return out;
 }
 
 const IrradianceRecords& IrradianceCache::records() const { return impl_->records; }

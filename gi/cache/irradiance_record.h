@@ -1,9 +1,29 @@
 // Noun: the irradiance that arrives at one point, and how it changes around it. It needs reyes/base alone. Irradiance:
 // E here is irradiance / pi (the RSL convention). Space: that of the caller.
 #pragma once
+#include <vector>
+
 #include "reyes/base/math.h"
 
 namespace tomales {
+
+/// The part of a record's light that some lights bring, by any number of bounces. Its fields are those of the record,
+/// and all shares add up to them.
+struct LightShare {
+  vec3 E{0.0f};
+  vec3 rotationGradient[3] = {vec3(0), vec3(0), vec3(0)};
+  vec3 translationGradient[3] = {vec3(0), vec3(0), vec3(0)};
+  vec3 hessian[3] = {vec3(0), vec3(0), vec3(0)};
+
+  void add(const LightShare& other, const vec3& gain) {
+    E += gain * other.E;
+    for (int c = 0; c < 3; ++c) {
+      rotationGradient[c] += gain[c] * other.rotationGradient[c];
+      translationGradient[c] += gain[c] * other.translationGradient[c];
+      hessian[c] += gain * other.hessian[c];
+    }
+  }
+};
 
 struct IrradianceRecord {
   vec3 position, normal;        ///< normal is a unit vector without bumps (approximate-gi section 4.5)
@@ -19,8 +39,9 @@ struct IrradianceRecord {
   float noise;                  ///< upper bound of the standard error of the luminance of E
   /// greatest validity radius: neighbours disagree beyond it, or an occluder over the record ends there
   float limit = kInfinity;
-  float pixelSize;               ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
-  float unseenDisplacement = 0;  ///< Greatest distance from the surface that its rays see to the displaced one.
+  float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
+  float unseenDisplacement = 0;    ///< Greatest distance from the surface that its rays see to the displaced one.
+  std::vector<LightShare> shares;  ///< Of each group of lights that was asked for; empty: they are not known.
 };
 
 }  // namespace tomales

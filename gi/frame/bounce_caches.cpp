@@ -35,6 +35,7 @@ void copyRadii(const IrradianceRecord& first, IrradianceRecord& record) {
   record.harmonicMean = first.harmonicMean;
   record.limit = first.limit;
   std::fill_n(record.rotationGradient, 3, vec3(0)), std::fill_n(record.translationGradient, 3, vec3(0));
+  for (LightShare& share : record.shares) share = {.E = share.E};
 }
 
 }  // namespace
@@ -45,10 +46,26 @@ float BounceCaches::pixelSize(const Camera& camera, const vec3& P) const {
 }
 
 IrradianceEstimate BounceCaches::lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
-                                        const vec3& shadingNormal) const {
+                                        const vec3& shadingNormal, const std::string* lights) const {
   if (bounces < 1 || levels_.empty()) return {};
-  return levels_[std::min(static_cast<size_t>(bounces), levels_.size()) - 1].lookup(P, normal, shadingNormal,
-                                                                                    pixelSize(camera, P));
+  const size_t level = std::min(static_cast<size_t>(bounces), levels_.size()) - 1;
+  std::span<const LightShare> light;
+  if (lights) {
+    const auto group = std::ranges::find(groups_, *lights);
+    if (group == groups_.end()) return {};
+    light = alone_[level][static_cast<size_t>(group - groups_.begin())];
+  }
+  return levels_[level].lookup(P, normal, shadingNormal, pixelSize(camera, P), light);
+}
+
+// What shines by itself, the share of the first group, is seen whatever lights are on.
+void BounceCaches::mixLevel() {
+  std::vector<std::vector<LightShare>>& of = alone_.emplace_back();
+  for (size_t g = 0; g < groups_.size(); ++g) {
+    std::vector<vec3> gains(groups_.size(), vec3(0));
+    gains[0] = gains[g] = vec3(1);
+    of.push_back(levels_.back().mixed(gains));
+  }
 }
 
 std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Camera& camera,
@@ -92,12 +109,14 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
 std::vector<IrradianceRecord> BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
                                                       const GatherSettings& settings, const Run& run) {
   RecordSlice made;
-  slices_.make(
-      points,
-      {.gather = [&](size_t i,
-                     BrightFind*) { return gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats); },
-       .isCancelled = [&] { return run.isCancelled(); }},
-      made);
+  slices_.make(points,
+               {.gather =
+                    [&](size_t i, BrightFind*) {
+                      return gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats, nullptr,
+                                    run.groups);
+                    },
+                .isCancelled = [&] { return run.isCancelled(); }},
+               made);
   return std::move(made.records);
 }
 
@@ -132,7 +151,8 @@ bool BounceCaches::settled() const {
 
 void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
                         const GatherSettings& gather, int bounces, const Run& run) {
-  levels_.clear();
+  levels_.clear(), alone_.clear();
+  groups_.assign(run.groups.begin(), run.groups.end());
   light_.assign(1, 0.0);
   points_.clear();
   slices_ = RecordSlices(run.kept, KeptKind::BounceRecords);
@@ -150,6 +170,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   levels_.emplace_back(bound, kCoarse);
   cover(tools, seen, settings, run);
   cover(tools, hitsFrom(*tools.rays, camera, points_, randomStream("more")), settings, run);
+  mixLevel();
   settings.indirect = true;
   for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
     settings.depth = bounces - b + 1;
@@ -162,6 +183,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
     light_.push_back(0);
     insert(level, records);
     levels_.push_back(std::move(level));
+    mixLevel();
   }
 }
 

@@ -14,8 +14,9 @@ class BounceCaches {
  public:
   struct Run {
     Stats& stats;
-    const std::atomic<bool>* cancelled;  ///< May be null.
-    KeptWork* kept;                      ///< May be null.
+    const std::atomic<bool>* cancelled;   ///< May be null.
+    KeptWork* kept;                       ///< May be null.
+    std::span<const std::string> groups;  ///< The groups of lights whose shares are kept.
     bool isCancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
   };
   /// Fills levels for `bounces` of light. `gather` gives the settings of the points that look them up. Records lie
@@ -23,9 +24,10 @@ class BounceCaches {
   /// nothing.
   void fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
             const GatherSettings& gather, int bounces, const Run& run);
-  /// E/pi after so many bounces. A weight of 0 means that it is not known.
+  /// E/pi after so many bounces. A weight of 0 means that it is not known. lights: null, or one of Run::groups, whose
+  /// lights alone shine.
   IrradianceEstimate lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
-                            const vec3& shadingNormal) const;
+                            const vec3& shadingNormal, const std::string* lights) const;
 
  private:
   std::vector<GatherPoint> hitsFrom(const RayScene& rays, const Camera& camera, const std::vector<GatherPoint>& from,
@@ -35,12 +37,16 @@ class BounceCaches {
   std::vector<IrradianceRecord> recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
                                           const GatherSettings& gather, const Run& run);
   void insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records);
+  void mixLevel();
   bool settled() const;
   float pixelSize(const Camera& camera, const vec3& P) const;
 
   std::vector<IrradianceCache> levels_;  ///< levels_[k] holds the light after k + 1 bounces.
-  std::vector<double> light_;            ///< Sum of the records of each level.
-  std::vector<GatherPoint> points_;      ///< The points of the records, the same on all levels.
+  std::vector<std::string> groups_;
+  std::vector<std::vector<std::vector<LightShare>>>
+      alone_;                        ///< alone_[k][g]: the same with the lights of a group alone.
+  std::vector<double> light_;        ///< Sum of the records of each level.
+  std::vector<GatherPoint> points_;  ///< The points of the records, the same on all levels.
   float leastDistance_ = 0;
   RecordSlices slices_{nullptr, KeptKind::BounceRecords};
 };

@@ -36,16 +36,14 @@ std::vector<uint64_t> seenOfBatches(const DeepTile& tile) {
 
 FrameSurvey surveyOf(const DeepFrame& layout, const TileReader& tiles, size_t groups,
                      const std::atomic<bool>* cancelled) {
-  FrameSurvey out{std::vector<uint32_t>(layout.tileCount()), {}, std::vector<uint64_t>(groups)};
+  FrameSurvey out{{}, std::vector<uint64_t>(groups)};
   std::mutex merging;
-  parallelFor(out.points.size(), 1, [&](size_t t, size_t) {
+  parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
     const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
     if (!tile) return;
     Bound3 here;
-    for (const ShadePoints& batch : tile->batches) {
-      out.points[t] += static_cast<uint32_t>(batch.count());
+    for (const ShadePoints& batch : tile->batches)
       for (int i = 0; i < batch.count(); ++i) here.extend(batch.position(i));
-    }
     const std::vector<uint64_t> seen = seenOfBatches(*tile);
     const std::lock_guard lock(merging);
     out.bound.extend(here);

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "gi/frame/frame_survey.h"
+#include "gi/frame/gather_tile.h"
 #include "gi/frame/occluder_search.h"
 #include "gi/frame/record_fields.h"
 #include "gi/frame/record_slices.h"
@@ -15,8 +16,6 @@
 namespace tomales {
 namespace {
 
-constexpr int kLastPhases = 8;  // for points beyond the first of each pixel, in the order of a hash
-constexpr int kGatherPhases = kLatticePhases + kLastPhases;
 constexpr int kPilotPhases = 3;  // bright spots are learnt from the records of these phases
 // With so many rays or more, all records have the same directions: what those miss changes little between records, and
 // is no more than other directions miss (docs/decisions/0095).
@@ -39,7 +38,6 @@ void fields(A& a, Site& x) {
   each(a, point, cache, pixelX, pixelY);
 }
 
-/// It goes over the tiles once in every phase, so that they need not be in memory.
 class GatherPass {
  public:
   GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles)
@@ -55,7 +53,7 @@ class GatherPass {
       std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
       gatherAt(std::move(sites));
-      returnFreeMemory();  // every phase unpacks all tiles, between allocations that stay
+      returnFreeMemory();  // tiles are unpacked between allocations that stay
       const int stride = strideAfter(phase_);
       if (covered && stride > 1 && !isCancelled()) covered(stride);
     }
@@ -84,7 +82,6 @@ class GatherPass {
     }
     if (plans.empty()) return false;
     const FrameSurvey survey = surveyOf(layout_, tiles_, cachesOfGroup_.size(), cancelled_);
-    seen_.emplace(survey.points);
     for (const auto& [group, plan] : plans) {
       size_t c = 0;
       while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
@@ -95,7 +92,11 @@ class GatherPass {
     }
     sites_.resize(state_.caches.size());
     frames_.resize(state_.caches.size());
-    return state_.anew || forgetKnownCaches();
+    if (!state_.anew && !forgetKnownCaches()) return false;
+    std::vector<uint8_t> gathers;
+    for (const std::vector<size_t>& caches : cachesOfGroup_) gathers.push_back(!caches.empty());
+    gatherTiles_.emplace(state_, tiles_, layout_.tileCount(), std::move(gathers));
+    return true;
   }
 
   bool isAnew(const Site& s) const { return state_.anew && state_.anew->contains(s.x, s.y); }
@@ -148,7 +149,8 @@ class GatherPass {
       gather.samples = std::max(gather.samples, c.plan.gather.samples);
       gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
     }
-    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces, {state_.stats, cancelled_, state_.kept});
+    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces,
+                        {state_.stats, cancelled_, state_.kept, state_.groups});
   }
 
   // Returns the points of this phase that no earlier record serves, in the order of pixels, whatever the buckets are. A
@@ -158,10 +160,10 @@ class GatherPass {
     if (takeSites(sites)) return sites;
     std::mutex merging;
     parallelFor(layout_.tileCount(), 1, [&](size_t t, size_t) {
-      const auto tile = isCancelled() ? nullptr : tiles_(t);
+      const auto tile = isCancelled() ? nullptr : gatherTiles_->read(t);
       if (!tile) return;
       std::vector<Site> here;
-      collectTile(t, *tile, here);
+      collectTile(*tile, here);
       const std::lock_guard lock(merging);
       sites.insert(sites.end(), here.begin(), here.end());
     });
@@ -174,8 +176,7 @@ class GatherPass {
 
   static uint64_t keyOf(const Site& s) { return static_cast<uint64_t>(s.point.group) << 32 | s.point.key; }
 
-  // Takes over what an interrupted run has found. Points that were seen in this phase are not marked: no later phase
-  // asks about them.
+  // Takes over what an interrupted run has found.
   bool takeSites(std::vector<Site>& sites) {
     const auto fits = [&](const Site& s) {
       return s.cache < sites_.size() && static_cast<size_t>(s.point.group) < cachesOfGroup_.size();
@@ -186,44 +187,11 @@ class GatherPass {
     return true;
   }
 
-  void collectTile(size_t t, const DeepTile& tile, std::vector<Site>& out) {
-    std::vector<size_t> firstOfBatch{0};
-    std::vector<GatherPlaces> places;
-    for (const ShadePoints& batch : tile.batches) {
-      firstOfBatch.push_back(firstOfBatch.back() + static_cast<size_t>(batch.count()));
-      places.emplace_back(state_, batch);
-    }
+  void collectTile(const GatherTile& tile, std::vector<Site>& out) const {
     std::vector<std::vector<Site>> asked(state_.caches.size());
-    const auto ask = [&](const Facet& facet, int point, int x, int y) {
-      const auto b = static_cast<size_t>(facet.batch);
-      // In the lattice phases every pixel is looked at, and later every point once, in a phase of its own: so the tiles
-      // that see it do not matter.
-      if (phase_ >= kLatticePhases && !seen_->set(t, firstOfBatch[b] + static_cast<size_t>(point))) return;
-      const GatherPoint p = places[b].at(point);
-      for (const size_t c : cachesOfGroup_[static_cast<size_t>(tile.batches[b].group())])
-        asked[c].push_back({p, c, x, y});
-    };
-    for (int y = tile.rect.y0; y < tile.rect.y1; ++y)
-      for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
-        const int latticed = latticePhase(x, y);
-        if (phase_ < kLatticePhases && phase_ != latticed) continue;
-        const DeepPixel& pixel = tile.pixel(x, y);
-        bool first = true;
-        for (uint32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
-          const Facet& facet = tile.facets[tile.fragments[f].facet];
-          const ShadePoints& batch = tile.batches[static_cast<size_t>(facet.batch)];
-          if (cachesOfGroup_[static_cast<size_t>(batch.group())].empty()) continue;
-          for (int corner = 0; corner < 4; ++corner) {
-            const int point = facet.point[corner];
-            if (corner > 0 && point == facet.point[0]) continue;
-            const int phase =
-                first ? latticed : kLatticePhases + static_cast<int>(hash32(batch.key(point)) % kLastPhases);
-            if (phase == phase_) ask(facet, point, x, y);
-            first = false;
-          }
-          if (phase_ < kLatticePhases) break;  // only the first point of the pixel counts
-        }
-      }
+    tile.forPoints(state_.camera, phase_, [&](const GatherPoint& p, int x, int y) {
+      for (const size_t c : cachesOfGroup_[static_cast<size_t>(p.group)]) asked[c].push_back({p, c, x, y});
+    });
     for (size_t c = 0; c < asked.size(); ++c) keepUncovered(c, asked[c], out);
   }
 
@@ -297,7 +265,10 @@ class GatherPass {
     // missed for good.
     if (sharesRays(site.cache) && find) settings.samples /= kRaysPerPilotRay;
     if (sharesRays(site.cache) && !find) point.key = 0;
-    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find);
+    const std::span<const std::string> groups =
+        isLight(site.cache) ? std::span<const std::string>(state_.groups) : std::span<const std::string>();
+    IrradianceRecord record =
+        gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find, groups);
     record.unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(site.point.group)];
     return record;
   }
@@ -314,7 +285,7 @@ class GatherPass {
   std::vector<std::vector<size_t>> cachesOfGroup_;
   std::vector<float> unseenDisplacementOfGroup_;  ///< Displacement that rays do not see, in current space.
   std::vector<uint64_t> frames_;                  ///< Checksum of this frame's pixels, for each cache.
-  std::optional<PointBits> seen_;
+  std::optional<GatherTiles> gatherTiles_;
   std::vector<std::unordered_set<uint64_t>> sites_;  ///< The sites of each cache that have a record.
   const std::function<void(float)>* progress_ = nullptr;
   const std::atomic<bool>* cancelled_ = nullptr;

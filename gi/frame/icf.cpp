@@ -2,6 +2,7 @@
 
 #include "gi/frame/record_fields.h"
 #include "reyes/base/pack.h"
+#include "reyes/state_fields.h"
 
 namespace tomales {
 
@@ -59,6 +60,12 @@ void fields(A& a, ShadowAnswer& x) {
 }
 
 template <class A>
+void fields(A& a, IndirectAnswer& x) {
+  auto& [E, dominant, shares] = x;
+  each(a, E, dominant, shares);
+}
+
+template <class A>
 void fields(A& a, RayAnswers& x) {
   auto& [recording, shadows, indirect] = x;
   each(a, shadows, indirect);
@@ -83,6 +90,8 @@ struct StoredShot {
   mat4 cameraFromWorld{1.0f};
   std::vector<StoredCache> caches;
   std::optional<EmitterTable> emitters;
+  std::vector<std::shared_ptr<LightCall>> lights;
+  std::vector<std::string> groups;
 };
 
 template <class A>
@@ -92,8 +101,8 @@ void fields(A& a, StoredCache& x) {
 
 template <class A>
 void fields(A& a, StoredShot& x) {
-  auto& [shot, settings, cameraFromWorld, caches, emitters] = x;
-  each(a, shot, settings, cameraFromWorld, caches, emitters);
+  auto& [shot, settings, cameraFromWorld, caches, emitters, lights, groups] = x;
+  each(a, shot, settings, cameraFromWorld, caches, emitters, lights, groups);
 }
 
 RecordFileKind icfKind() {
@@ -109,7 +118,10 @@ bool consistent(const StoredShot& stored) {
       const uint64_t quads = uint64_t{l.columns} * l.rows;
       if (l.quads.size() != quads || l.normals.size() != quads) return false;
     }
-  return true;
+  const auto fits = [&](const IrradianceRecord& r) {
+    return r.shares.empty() || r.shares.size() == stored.groups.size();
+  };
+  return std::ranges::all_of(stored.caches, [&](const StoredCache& c) { return std::ranges::all_of(c.records, fits); });
 }
 
 }  // namespace
@@ -124,7 +136,7 @@ bool IcfWriter::writeAnswers(size_t tile, const std::vector<RayAnswers>& answers
 }
 
 bool IcfWriter::finish(const IrradianceShot& shot) {
-  StoredShot stored{shot.shot, shot.settings, shot.cameraFromWorld, {}, shot.emitters};
+  StoredShot stored{shot.shot, shot.settings, shot.cameraFromWorld, {}, shot.emitters, shot.lights, shot.groups};
   const auto asksSurface = [](const EmitterLattice& l) { return l.surface != nullptr; };
   for (const auto& light : shot.emitters.value_or(EmitterTable{}))
     if (std::any_of(light.lattices.begin(), light.lattices.end(), asksSurface)) stored.emitters.reset();
@@ -144,7 +156,13 @@ std::unique_ptr<IcfFile> IcfFile::open(const std::string& path, std::string& err
     error = "its description is damaged";
     return nullptr;
   }
-  file->shot_ = {stored.shot, stored.settings, stored.cameraFromWorld, {}, std::move(stored.emitters)};
+  file->shot_ = {stored.shot,
+                 stored.settings,
+                 stored.cameraFromWorld,
+                 {},
+                 std::move(stored.emitters),
+                 std::move(stored.lights),
+                 std::move(stored.groups)};
   for (const StoredCache& c : stored.caches) {
     IrradianceCache& cache =
         file->shot_.caches.emplace_back(PreparedCache{c.plan, {c.bound, c.plan.cache}, c.frames}).cache;
@@ -203,19 +221,24 @@ class RecordMove {
   void apply(IrradianceRecord& r) const {
     r.position = transformPoint(to_, r.position);
     r.normal = turned(r.normal);
-    for (int c = 0; c < 3; ++c) {
-      r.dominant[c] = turned(r.dominant[c]);
-      r.rotationGradient[c] = hand_ * turned(r.rotationGradient[c]);
-      r.translationGradient[c] = turned(r.translationGradient[c]) / scale_;
-    }
+    for (vec3& d : r.dominant) d = turned(d);
     r.tangent = turned(r.tangent);
-    for (vec3& second : r.hessian) second /= scale_ * scale_;
-    r.hessian[1] *= hand_;
+    moveDerivatives(r);
+    for (LightShare& share : r.shares) moveDerivatives(share);
     for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.unseenDisplacement})
       *length *= scale_;
   }
 
  private:
+  template <class Light>
+  void moveDerivatives(Light& light) const {
+    for (int c = 0; c < 3; ++c) {
+      light.rotationGradient[c] = hand_ * turned(light.rotationGradient[c]);
+      light.translationGradient[c] = turned(light.translationGradient[c]) / scale_;
+    }
+    for (vec3& second : light.hessian) second /= scale_ * scale_;
+    light.hessian[1] *= hand_;
+  }
   vec3 turned(const vec3& v) const { return transformVector(to_, v) / scale_; }
 
   const mat4 to_;

@@ -19,6 +19,8 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
 // Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
+/// Rays of a hemisphere, of which one of many mirrored points has no fewer.
+constexpr int kLeastSamples = 16;
 /// For photons that nobody limits. What is left after so many surfaces of reflectance 0.75 is a hundredth.
 constexpr int kAuditBounces = 16;
 
@@ -38,6 +40,12 @@ std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, con
   if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
   return std::find_if(state.caches.begin(), state.caches.end(),
                       [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
+}
+
+/// The light of the records under the gains; empty if that is their own.
+std::span<const LightShare> mixedLight(const GiState& state, const PreparedCache& prepared) {
+  if (state.mixed.empty()) return {};
+  return state.mixed[static_cast<size_t>(&prepared - state.caches.data())];
 }
 
 uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
@@ -77,15 +85,26 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
           nameOf(settings.occlusion)};
   static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
+  const std::span<const std::string> groups = settings.occlusion ? std::span<const std::string>() : state.groups;
+  const auto mixed = [&](IndirectAnswer answer) {
+    if (groups.empty() || state.gains.empty()) return answer;
+    answer.E = vec3(0);
+    for (size_t g = 0; g < groups.size(); ++g) answer.E += state.gains[g] * answer.shares[g];
+    return answer;
+  };
   if (answers)
-    if (const auto it = answers->indirect.find(name); it != answers->indirect.end()) return it->second;
+    if (const auto it = answers->indirect.find(name);
+        it != answers->indirect.end() && it->second.shares.size() == groups.size())
+      return mixed(it->second);
   const RayTools* tools = gatherTools(state);
-  if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), point.normal, point.normal, point.normal};
+  if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
   const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.hitRadiance.get()};
-  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, known, state.stats);
-  const IndirectAnswer answer{record.E, record.dominant[0], record.dominant[1], record.dominant[2]};
+  const IrradianceRecord record =
+      gather(*tools->rays, *tools->shading, point, settings, known, state.stats, nullptr, groups);
+  IndirectAnswer answer{record.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};
+  for (const LightShare& share : record.shares) answer.shares.push_back(share.E);
   if (answers && answers->recording) answers->indirect[name] = answer;
-  return answer;
+  return mixed(answer);
 }
 
 const RayTools* gatherTools(const GiState& state) {
@@ -156,19 +175,19 @@ std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) 
   if (prepared == state.caches.end()) return std::nullopt;
   const IrradiancePlace place{at.position, at.normal, at.normal, at.pixelSize};
   IrradianceEstimate estimate;
-  prepared->cache.lookup({&place, 1}, &estimate, kServesWider);
+  prepared->cache.lookup({&place, 1}, &estimate, kServesWider, mixedLight(state, *prepared));
   if (!(estimate.weight > 0)) return std::nullopt;
   return estimate.E + causticAt(state, at.group, at.position, at.normal, at.pixelSize);
 }
 
-BatchLookup lookUp(const GiState& state, const IrradianceCache* cache, const GatherPlaces& places,
+BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const GatherPlaces& places,
                    const ShadePoints& points, const uint8_t* active, TmConstVec3 N) {
   BatchLookup out;
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) out.points.push_back(i), out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
   out.known.resize(out.at.size());
-  if (!cache) return out;
-  cache->lookup(out.at, out.known.data(), kServesWider);
+  if (!prepared) return out;
+  prepared->cache.lookup(out.at, out.known.data(), kServesWider, mixedLight(state, *prepared));
   const auto served =
       std::count_if(out.known.begin(), out.known.end(), [](const IrradianceEstimate& e) { return e.weight > 0; });
   state.stats.irradianceCache.lookups += static_cast<int64_t>(out.at.size());
@@ -178,11 +197,12 @@ BatchLookup lookUp(const GiState& state, const IrradianceCache* cache, const Gat
 
 void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                          const IndirectQuery& query, const ShadeContext& context, const IndirectResult& out) {
-  const GatherPlan plan = planFor(state, points.group(), query);
+  GatherPlan plan = planFor(state, points.group(), query);
   const auto prepared = preparedFor(state, plan);
+  plan.gather.samples = shareOfBranch(plan.gather.samples, kLeastSamples, context);
   const GatherPlaces places(state, points);
   const BatchLookup found =
-      lookUp(state, prepared != state.caches.end() ? &prepared->cache : nullptr, places, points, active, N);
+      lookUp(state, prepared != state.caches.end() ? &*prepared : nullptr, places, points, active, N);
   for (size_t k = 0; k < found.points.size(); ++k) {
     const int i = found.points[k];
     const IrradianceEstimate& known = found.known[k];
@@ -197,7 +217,7 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
     GatherPoint point = places.at(i);
     point.normal = n;
     const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);
-    store(out, i, answer[0] + caustic, &answer[1]);
+    store(out, i, answer.E + caustic, answer.dominant.data());
   }
 }
 
@@ -209,8 +229,9 @@ void bounceIndirect(const GiState& state, const ShadePoints& points, const uint8
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
     const GatherPoint point = places.at(i);
-    const IrradianceEstimate estimate = state.bounces.lookup(bounces - context.depth, state.camera, point.position,
-                                                             point.normal, places.shading(i, unitNormal(points, N, i)));
+    const IrradianceEstimate estimate =
+        state.bounces.lookup(bounces - context.depth, state.camera, point.position, point.normal,
+                             places.shading(i, unitNormal(points, N, i)), context.lights);
     if (estimate.weight > 0) store(out, i, estimate.E, estimate.dominant);
     unknown[static_cast<size_t>(i)] = estimate.weight <= 0;
     all &= estimate.weight > 0;

@@ -12,7 +12,7 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kPassStream = randomStream("pass");
-/// Of one pass: the fewer, the more often radii shrink, and the more often the grid is built.
+/// Photons of one pass: the fewer, the more often radii shrink, and the more often the grid is built.
 constexpr int64_t kPhotonsOfPass = 1 << 17;
 /// Disks of the first pass over a micropolygon; alpha = 2/3 makes noise and bias fall equally fast (Knaus and Zwicker
 /// 2011, section 4.3).

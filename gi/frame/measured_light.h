@@ -32,7 +32,7 @@ class MeasuredLight {
   static uint64_t nameOf(const MeasurementPoint& point);
 
   std::mutex noting_;
-  std::unordered_map<uint64_t, uint32_t> index_;  ///< Of each point, by its name.
+  std::unordered_map<uint64_t, uint32_t> index_;  ///< The number of each point, by its name.
   std::vector<MeasurementPoint> points_;
   std::unique_ptr<PhotonMeasurement> measurement_;
 };

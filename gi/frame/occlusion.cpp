@@ -93,14 +93,14 @@ bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const
       std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
   if (prepared == state.caches.end()) return false;
   const GatherPlaces places(state, points);
-  const BatchLookup found = lookUp(state, &prepared->cache, places, points, active, N);
+  const BatchLookup found = lookUp(state, &*prepared, places, points, active, N);
   for (size_t k = 0; k < found.points.size(); ++k) {
     const int i = found.points[k];
     float open = found.known[k].E.x;
     if (!(found.known[k].weight > 0)) {
       GatherPoint point = places.at(i);
       point.normal = found.at[k].shadingNormal;
-      open = gatherOrRecall(state, point, plan.gather, context.answers)[0].x;
+      open = gatherOrRecall(state, point, plan.gather, context.answers).E.x;
     }
     covered[i] = std::clamp(1 - open, 0.0f, 1.0f);
   }

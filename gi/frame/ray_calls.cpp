@@ -7,6 +7,8 @@
 namespace tomales {
 namespace {
 
+constexpr int kMostBranches = 1 << 14;
+
 /// Returns the context of the points that such rays meet: their depths and limits. An object's limit counts from its
 /// own depth, and never lifts an earlier one.
 ShadeContext contextOfHits(const Attributes& own, int group, const RayQuery& query, const ShadeContext& context,
@@ -21,7 +23,7 @@ ShadeContext contextOfHits(const Attributes& own, int group, const RayQuery& que
   if (query.kind == RayKind::Diffuse) {
     ++hit.depth, hit.lightSamples = 1, hit.indirect = hit.highlights;
   } else {
-    ++hit.specularDepth;
+    ++hit.specularDepth, hit.branches = std::min(hit.branches * query.count, kMostBranches);
   }
   return hit;
 }

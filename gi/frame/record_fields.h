@@ -6,11 +6,17 @@
 namespace tomales {
 
 template <class A>
+void fields(A& a, LightShare& x) {
+  auto& [E, rotation, translation, hessian] = x;
+  each(a, E, rotation, translation, hessian);
+}
+
+template <class A>
 void fields(A& a, IrradianceRecord& x) {
   auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-         noise, limit, pixelSize, unseenDisplacement] = x;
+         noise, limit, pixelSize, unseenDisplacement, shares] = x;
   each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-       noise, limit, pixelSize, unseenDisplacement);
+       noise, limit, pixelSize, unseenDisplacement, shares);
 }
 
 template <class A>

@@ -1,4 +1,5 @@
-// indirectDiffuse() by path tracing: for the reference, and for hits that no cache of their bounce serves.
+// indirectDiffuse() by path tracing: for the reference, and for hits that no cache of their bounce serves; and paths
+// from hits where the atlas cannot tell.
 #include "gi/frame/state.h"
 #include "gi/gather/layers.h"
 #include "gi/gather/polygon_start.h"
@@ -10,6 +11,8 @@ namespace tomales {
 namespace {
 
 constexpr size_t kRaysPerBatch = 4096;  // shaded together
+// The share of paths that go on from places that no map knows: those that never come to another place end.
+constexpr float kGoesOn = 2.0f / 3;
 constexpr uint32_t kPathStream =
     randomStream("path");  // keeps directions independent of the light samples at the same point
 
@@ -109,14 +112,15 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   if (!tools) return;
   // Paths branch at the eye's points alone; a hit continues because its own shader asks for indirect light
   // again.
-  const int paths = context.depth > 0        ? 1
-                    : context.auditPaths > 0 ? context.auditPaths
-                                             : planFor(state, points.group(), query).gather.samples;
+  const int paths = context.depth > 0 ? 1
+                    : context.auditPaths > 0
+                        ? context.auditPaths
+                        : shareOfBranch(planFor(state, points.group(), query).gather.samples, 1, context);
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit =
       bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
-  hitContext.highlights = true;
+  hitContext.highlights = true, hitContext.lights = context.lights;
   if (!state.focusing.empty()) hitContext.focusing = &state.focusing;
   hitContext.auditPaths = context.auditPaths;
   PathBatches batches(state, *tools, points, N, query, hitContext);
@@ -128,6 +132,32 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   for (PathSum& sum : sums) {
     for (vec3& d : sum.directions) d = normalizeOr(d, unitNormal(points, N, sum.point));
     store(out, sum.point, sum.radiance / static_cast<float>(paths), sum.directions);
+  }
+}
+
+void traceToStored(const GiState& state, const ShadePoints& points, const std::vector<int>& which, TmVec3 E) {
+  const RayTools* tools = state.rays();
+  if (!tools) return;
+  std::vector<float> normals(3 * static_cast<size_t>(points.count()));
+  float* const n[] = {normals.data(), normals.data() + points.count(), normals.data() + 2 * points.count()};
+  std::vector<PathSum> sums;
+  for (const int i : which) {
+    E.x[i] = E.y[i] = E.z[i] = 0;
+    const uint32_t name = hashCombine(points.name(i).key, points.name(i).sequence, state.settings.seed);
+    if (unitFloat(hash32(name ^ kPathStream)) >= kGoesOn) continue;
+    const vec3 facing = points.facingNormal(i);
+    for (int k = 0; k < 3; ++k) n[k][i] = facing[k];
+    sums.push_back({i});
+  }
+  ShadeContext context{RayKind::Diffuse, 1, state.settings.seed, 1, false};
+  context.light = Illumination::LightsAndStored;
+  context.diffuseLimit = 0;
+  PathBatches batches(state, *tools, points, {n[0], n[1], n[2]}, {}, context);
+  for (PathSum& sum : sums) batches.add(sum, 1);
+  batches.flush();
+  for (const PathSum& sum : sums) {
+    const vec3 e = sum.radiance / kGoesOn;
+    E.x[sum.point] = e.x, E.y[sum.point] = e.y, E.z[sum.point] = e.z;
   }
 }
 

@@ -39,6 +39,14 @@ void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
   if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
 }
 
+void GiServices::startAgain(const GiSettings& settings) {
+  impl_->settings = settings;
+  impl_->kept = nullptr;
+  impl_->caches.clear();
+  impl_->spots = BrightSpots{};
+  impl_->bounces = BounceCaches{};
+}
+
 void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }
 
 void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,
@@ -51,6 +59,15 @@ std::vector<PreparedCache> GiServices::takeCaches() { return std::exchange(impl_
 void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew) {
   impl_->caches = std::move(caches), impl_->anew = anew;
   impl_->cachesGiven = !impl_->caches.empty();
+}
+void GiServices::keepShares(std::vector<std::string> groups) { impl_->groups = std::move(groups); }
+const std::vector<std::string>& GiServices::shareGroups() const { return impl_->groups; }
+void GiServices::mixShares(std::vector<vec3> gains) {
+  impl_->gains = std::move(gains);
+  impl_->mixed.clear();
+  if (impl_->gains.empty()) return;
+  for (const PreparedCache& c : impl_->caches)
+    impl_->mixed.push_back(c.plan.gather.occlusion ? std::vector<LightShare>() : c.cache.mixed(impl_->gains));
 }
 void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(std::move(emitters)); }
 
@@ -135,14 +152,18 @@ void GiServices::reportAtlas(Stats& stats) const {
 }
 
 void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {
+  std::vector<int> acrossWalls;
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
     const float radius = std::sqrt(points.channel(kArea)[i] / kPi);
+    bool across = false;
     const vec3 e = impl_->atlas ? impl_->atlas->irradianceOverPi(points.group(), points.position(i),
-                                                                 points.facingNormal(i), radius)
+                                                                 points.facingNormal(i), radius, across)
                                 : vec3(0.0f);
     E.x[i] = e.x, E.y[i] = e.y, E.z[i] = e.z;
+    if (across) acrossWalls.push_back(i);
   }
+  if (!acrossWalls.empty()) traceToStored(*impl_, points, acrossWalls, E);
 }
 
 bool GiServices::interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,

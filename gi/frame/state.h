@@ -13,7 +13,7 @@ struct GiState {
   const Camera& camera;
   const RaySource rays;
   const ShadingSystem& shading;
-  const GiSettings settings;
+  GiSettings settings;  ///< Constant while anything is gathered or shaded.
   Stats& stats;
   mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< Set in GiMode::Atlas and Baked alone.
   std::vector<PreparedCache> caches;                     ///< Written by fillCaches(), frozen while shading.
@@ -33,6 +33,10 @@ struct GiState {
   std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.
   /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.
   std::vector<uint8_t> focusing{};
+  std::vector<std::string> groups{};  ///< The groups of lights whose shares records hold; empty: none.
+  std::vector<vec3> gains{};          ///< Of each of these groups; empty if all are 1.
+  /// Indexed as `caches`: their light with these gains (IrradianceCache::mixed); empty like them.
+  std::vector<std::vector<LightShare>> mixed{};
 };
 
 /// Returns what gathering needs, atlas and radiosity maps included; null in the case that RaySource describes.
@@ -90,8 +94,8 @@ struct BatchLookup {
   std::vector<IrradianceEstimate> known;  ///< The answers; their weight is 0 where no record serves.
 };
 
-/// cache: may be null, which knows nothing. Counts lookups and hits.
-BatchLookup lookUp(const GiState&, const IrradianceCache* cache, const GatherPlaces&, const ShadePoints&,
+/// prepared: one of state.caches, or null, which knows nothing. Counts lookups and hits.
+BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPlaces&, const ShadePoints&,
                    const uint8_t* active, TmConstVec3 N);
 
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,
@@ -155,6 +159,9 @@ void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* acti
                          const ShadeContext&, const IndirectResult& out);
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                    const ShadeContext&, int bounces, const IndirectResult& out);
+/// Sets E/pi at points where the atlas does not tell two sides of a wall apart: by a path from each, whose hits look up
+/// what is stored there.
+void traceToStored(const GiState&, const ShadePoints&, const std::vector<int>& which, TmVec3 E);
 /// Implements ShadeServices::interpolatedOcclusion().
 bool interpolateOcclusion(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
                           const OcclusionQuery&, const ShadeContext&, float* covered);

@@ -30,9 +30,12 @@ const BrightSpots kNoSpots;
 /// Memory that each thread keeps from one record to the next.
 struct Scratch {
   FirstHits firstHits;
-  std::vector<vec3> directions, radiance;    ///< One ray of each cell.
-  std::vector<vec3> fineDirections, fine;    ///< Further rays of the cells where light changes fast.
-  std::vector<vec3> aimedDirections, aimed;  ///< The rays that are aimed at bright spots.
+  std::vector<vec3> directions;  ///< One ray of each cell.
+  SeenLight seen;
+  std::vector<vec3> fineDirections;  ///< Further rays of the cells where light changes fast.
+  SeenLight fine;
+  std::vector<vec3> aimedDirections;  ///< The rays that are aimed at bright spots.
+  SeenLight aimed;
   std::vector<int> fineCells, aimedCells, raysOfCell;
   std::vector<float> shares;  ///< The share of each bright spot's light that arrives.
   std::vector<CellSpread> spread;
@@ -65,12 +68,12 @@ std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec
 class Hemisphere {
  public:
   Hemisphere(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
-             const GatherSettings& settings, const KnownLight& known)
+             const GatherSettings& settings, const KnownLight& known, std::span<const std::string> groups)
       : point_(point),
         cells_(hemisphereCells(settings.samples)),
         count_(static_cast<size_t>(cells_.rings) * static_cast<size_t>(cells_.sectors)),
         key_(hashCombine(point.key, settings.seed)),
-        rays_(scene, shading, point, settings, known.hits, count_, key_),
+        rays_(scene, shading, point, settings, known.hits, groups, count_, key_),
         spots_(known.spots ? *known.spots : kNoSpots),
         aim_(spots_, point.position, point.normal) {}
 
@@ -82,7 +85,7 @@ class Hemisphere {
       const vec3 local = inCell(static_cast<int>(i), jitter(ring, sector, static_cast<uint32_t>(i)));
       scratch_.directions.push_back(rays_.add(static_cast<int>(i), static_cast<int>(i), local, count_));
     }
-    rays_.see(stats, count_, scratch_.radiance, &scratch_.firstHits);
+    rays_.see(stats, count_, scratch_.seen, &scratch_.firstHits);
     if (find) tell(*find);
     refine(stats);
     aim(stats);
@@ -92,10 +95,12 @@ class Hemisphere {
             rays_.bitangent(),
             point_.normal,
             scratch_.directions,
-            scratch_.radiance,
+            scratch_.seen.all,
             scratch_.firstHits.distances,
             scratch_.spread};
   }
+  /// The radiance of each cell that each group of lights brings; after trace().
+  const std::vector<std::vector<vec3>>& shares() const { return scratch_.seen.shares; }
 
   std::vector<float>& upright() { return scratch_.upright; }
 
@@ -108,7 +113,7 @@ class Hemisphere {
     find = {irradianceSeen(), {}};
     const auto& [distances, normals] = scratch_.firstHits;
     for (size_t i = 0; i < count_; ++i)
-      if (const float L = luminance(scratch_.radiance[i]); L > kContrast * find.irradiance && distances[i] < kInfinity)
+      if (const float L = luminance(scratch_.seen.all[i]); L > kContrast * find.irradiance && distances[i] < kInfinity)
         find.hits.push_back({point_.position + distances[i] * scratch_.directions[i], L, normals[i]});
   }
 
@@ -117,7 +122,7 @@ class Hemisphere {
     scratch_.raysOfCell.assign(count_, 1);
     scratch_.fineDirections.clear();
     scratch_.fineCells.clear();
-    const std::vector<int> chosen = contrastCells(cells_, scratch_.radiance);
+    const std::vector<int> chosen = contrastCells(cells_, scratch_.seen.all);
     if (chosen.empty()) return;
     const int split = std::min(
         kMostSplit, static_cast<int>(std::sqrt(0.5f * static_cast<float>(count_) / static_cast<float>(chosen.size()))));
@@ -150,9 +155,9 @@ class Hemisphere {
     }
     rays_.see(stats, targets * probes, scratch_.aimed);
     scratch_.shares.assign(targets, 0);
-    for (size_t i = 0; i < scratch_.aimed.size(); ++i)
+    for (size_t i = 0; i < scratch_.aimed.all.size(); ++i)
       scratch_.shares[i / probes] +=
-          luminance(scratch_.aimed[i]) / (aim_.radiance(i / probes) * static_cast<float>(probes));
+          luminance(scratch_.aimed.all[i]) / (aim_.radiance(i / probes) * static_cast<float>(probes));
     for (float& share : scratch_.shares) share = std::clamp(share, kLeastShare, 1.0f);
     aim_.dim(scratch_.shares);
   }
@@ -191,14 +196,14 @@ class Hemisphere {
   /// E/pi, luminance, estimated by the rays of the hemisphere alone.
   float irradianceSeen() const {
     float sum = 0;
-    for (const vec3& L : scratch_.radiance) sum += luminance(L);
+    for (const vec3& L : scratch_.seen.all) sum += luminance(L);
     return sum / static_cast<float>(count_);
   }
 
   /// E/pi, luminance, without light as bright as a spot. Colours may be negative, so the result is kept from being so.
   float dimIrradiance() const {
     float sum = 0;
-    for (const vec3& L : scratch_.radiance)
+    for (const vec3& L : scratch_.seen.all)
       if (luminance(L) <= kContrast * spots_.irradiance()) sum += std::max(luminance(L), 0.0f);
     return sum / static_cast<float>(count_);
   }
@@ -208,19 +213,24 @@ class Hemisphere {
     scratch_.spread.assign(count_, {});
     if (scratch_.fineCells.empty() && aims_ == 0) return;
     for (size_t c = 0; c < count_; ++c) {
-      scratch_.radiance[c] *= weight(static_cast<int>(c), scratch_.directions[c]);
-      scratch_.spread[c].add(luminance(scratch_.radiance[c]));
+      const float w = weight(static_cast<int>(c), scratch_.directions[c]);
+      scratch_.seen.all[c] *= w;
+      for (std::vector<vec3>& share : scratch_.seen.shares) share[c] *= w;
+      scratch_.spread[c].add(luminance(scratch_.seen.all[c]));
     }
     for (size_t i = 0; i < scratch_.fineCells.size(); ++i)
-      addTo(scratch_.fineCells[i], scratch_.fineDirections[i], scratch_.fine[i]);
+      addTo(scratch_.fineCells[i], scratch_.fineDirections[i], scratch_.fine, i);
     for (size_t i = 0; i < scratch_.aimedCells.size(); ++i)
-      addTo(scratch_.aimedCells[i], scratch_.aimedDirections[i], scratch_.aimed[i]);
+      addTo(scratch_.aimedCells[i], scratch_.aimedDirections[i], scratch_.aimed, i);
   }
 
-  void addTo(int cell, const vec3& direction, const vec3& L) {
-    const vec3 part = weight(cell, direction) * L;
-    scratch_.radiance[static_cast<size_t>(cell)] += part;
-    scratch_.spread[static_cast<size_t>(cell)].add(luminance(part));
+  void addTo(int cell, const vec3& direction, const SeenLight& light, size_t ray) {
+    const float w = weight(cell, direction);
+    const auto c = static_cast<size_t>(cell);
+    const vec3 part = w * light.all[ray];
+    scratch_.seen.all[c] += part;
+    for (size_t g = 0; g < light.shares.size(); ++g) scratch_.seen.shares[g][c] += w * light.shares[g][ray];
+    scratch_.spread[c].add(luminance(part));
   }
 
   /// Returns one over the number of rays expected in this direction on a cell of projected solid angle pi / n.
@@ -271,16 +281,34 @@ float radiusByHessian(const IrradianceCurvature& curvature, const IrradianceReco
   return hessianRadius(curvature, luminance(r.E), r.pixelSize, kHessianTolerance * maxError) / maxError;
 }
 
+/// `seen`: the hemisphere, with the radiance that the lights of the share bring.
+LightShare shareOf(const HemisphereSamples& seen, bool curved) {
+  const IrradianceRecord record = summarize(seen);
+  LightShare out{.E = record.E};
+  std::ranges::copy(record.rotationGradient, out.rotationGradient);
+  std::ranges::copy(record.translationGradient, out.translationGradient);
+  if (!curved) return out;
+  const IrradianceCurvature curvature = curvatureOf(seen);
+  out.hessian[0] = curvature.xx, out.hessian[1] = curvature.xy, out.hessian[2] = curvature.yy;
+  return out;
+}
+
 }  // namespace
 
 IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
-                        const GatherSettings& settings, const KnownLight& known, Stats& stats, BrightFind* find) {
-  Hemisphere hemisphere(scene, shading, point, settings, known);
+                        const GatherSettings& settings, const KnownLight& known, Stats& stats, BrightFind* find,
+                        std::span<const std::string> groups) {
+  Hemisphere hemisphere(scene, shading, point, settings, known, groups);
   const HemisphereSamples samples = hemisphere.trace(stats, find);
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
   if (!settings.occlusion) record.limit = radiusUnderOccluder(samples, point.pixelSize, hemisphere.upright());
+  for (const std::vector<vec3>& seen : hemisphere.shares()) {
+    HemisphereSamples share = samples;
+    share.radiance = seen;
+    record.shares.push_back(shareOf(share, settings.curvature));
+  }
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     record.tangent = samples.tangent;

@@ -11,7 +11,9 @@ struct GatherRays::Scratch {
   Surroundings surroundings;
   std::vector<Hit> hits, unknown;  ///< unknown: the hits whose radiance is not known.
   std::vector<std::pair<size_t, vec3>> mapped;
-  HitAnswers answers;
+  HitAnswers answers, share;
+  std::vector<vec3> glow;  ///< The colours of hits that no light lights.
+  std::vector<vec3> left;  ///< What the groups so far have not brought.
 };
 
 GatherRays::Scratch& GatherRays::emptyScratch() {
@@ -21,12 +23,14 @@ GatherRays::Scratch& GatherRays::emptyScratch() {
 }
 
 GatherRays::GatherRays(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
-                       const GatherSettings& settings, const HitRadiance* known, size_t count, uint32_t key)
+                       const GatherSettings& settings, const HitRadiance* known, std::span<const std::string> groups,
+                       size_t count, uint32_t key)
     : scene_(scene),
       shading_(shading),
       point_(point),
       settings_(settings),
       known_(known),
+      groups_(groups),
       key_(key),
       times_(scene, point, count, key),
       first_{point.position, point.normal, settings.maxDistance},
@@ -67,13 +71,15 @@ vec3 GatherRays::add(int element, int cell, const vec3& local, size_t raysOfHemi
   return r.direction;
 }
 
-void GatherRays::see(Stats& stats, size_t elements, std::vector<vec3>& radiance, FirstHits* first) {
-  radiance.assign(elements, vec3(settings_.occlusion ? 1 : 0));
+void GatherRays::see(Stats& stats, size_t elements, SeenLight& seen, FirstHits* first) {
+  seen.all.assign(elements, vec3(settings_.occlusion ? 1 : 0));
+  seen.shares.resize(groups_.size());
+  for (std::vector<vec3>& share : seen.shares) share.assign(elements, vec3(0));
   if (first) first->distances.assign(elements, kInfinity), first->normals.resize(elements);
   if (settings_.occlusion)
-    uncover(stats, radiance, first);
+    uncover(stats, seen.all, first);
   else
-    shade(stats, radiance, first);
+    shade(stats, seen, first);
   scratch_.layers = {};
 }
 
@@ -85,7 +91,7 @@ void GatherRays::uncover(Stats& stats, std::vector<vec3>& radiance, FirstHits* f
           vec3(settings_.occlusion->coveredAt(std::max(0.0f, hit.t)));
 }
 
-void GatherRays::shade(Stats& stats, std::vector<vec3>& radiance, FirstHits* first) {
+void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
   context.light = settings_.light;
   context.mirrored = settings_.mirrored;
@@ -95,9 +101,33 @@ void GatherRays::shade(Stats& stats, std::vector<vec3>& radiance, FirstHits* fir
   for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
     meet(stats, layer == 0 ? first : nullptr);
     answer(context);
-    scratch_.layers.goOn(scene_, scratch_.hits, scratch_.answers, 1, [&](int element, const vec3& seen, const vec3&) {
-      radiance[static_cast<size_t>(element)] += seen;
+    shadeShares(context, seen);
+    scratch_.layers.goOn(scene_, scratch_.hits, scratch_.answers, 1, [&](int element, const vec3& color, const vec3&) {
+      seen.all[static_cast<size_t>(element)] += color;
     });
+  }
+}
+
+// Shades the same hits under each group of lights alone, but for the last group, whose share is what is left of the
+// whole. What shines by itself is there each time, and is taken off.
+void GatherRays::shadeShares(const ShadeContext& context, SeenLight& seen) {
+  if (groups_.empty()) return;
+  ShadeContext alone = context;
+  HitAnswers& share = scratch_.share;
+  share.mode = scratch_.answers.mode;
+  std::vector<vec3>& left = scratch_.left;
+  left = scratch_.answers.color;
+  for (size_t g = 0; g < groups_.size(); ++g) {
+    const bool isLast = g > 0 && g + 1 == groups_.size();
+    alone.lights = &groups_[g];
+    if (!isLast) scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, alone, share);
+    if (g == 0) scratch_.glow = share.color;
+    for (size_t r = 0; r < scratch_.hits.size(); ++r) {
+      const vec3 color = isLast ? left[r] : g == 0 ? share.color[r] : share.color[r] - scratch_.glow[r];
+      left[r] -= color;
+      if (isFinite(color))
+        seen.shares[g][static_cast<size_t>(scratch_.layers.elements[r])] += scratch_.layers.clear[r] * color;
+    }
   }
 }
 

@@ -15,12 +15,19 @@ struct FirstHits {
   std::vector<vec3> normals;     ///< Unit, on the side that the ray sees.
 };
 
+/// The radiance that rays bring.
+struct SeenLight {
+  std::vector<vec3> all;
+  std::vector<std::vector<vec3>> shares;  ///< Of each group of lights that is asked for.
+};
+
 class GatherRays {
  public:
   /// `count` is the number of rays of the hemisphere. `known` gives the radiance of hits; it may be null. The arguments
   /// must outlive this object.
   GatherRays(const RayScene& scene, const ShadingSystem& shading, const GatherPoint& point,
-             const GatherSettings& settings, const HitRadiance* known, size_t count, uint32_t key);
+             const GatherSettings& settings, const HitRadiance* known, std::span<const std::string> groups,
+             size_t count, uint32_t key);
 
   vec3 toWorld(const vec3& local) const;
   vec3 toLocal(const vec3& direction) const;
@@ -32,15 +39,16 @@ class GatherRays {
   /// footprint is that of a hemisphere of `raysOfHemisphere` rays. Returns its direction.
   vec3 add(int element, int cell, const vec3& local, size_t raysOfHemisphere);
 
-  /// Traces the added rays and fills radiance[element] for each of the `elements`. `first`, if not null, gets the hits;
-  /// the rays must then have been added in the order of their elements.
-  void see(Stats& stats, size_t elements, std::vector<vec3>& radiance, FirstHits* first = nullptr);
+  /// Traces the added rays and fills seen.all[element] and seen.shares[group][element] for each of the `elements`.
+  /// `first`, if not null, gets the hits; the rays must then have been added in the order of their elements.
+  void see(Stats& stats, size_t elements, SeenLight& seen, FirstHits* first = nullptr);
 
  private:
   struct Scratch;
   static Scratch& emptyScratch();
   void uncover(Stats& stats, std::vector<vec3>& radiance, FirstHits* first);
-  void shade(Stats& stats, std::vector<vec3>& radiance, FirstHits* first);
+  void shade(Stats& stats, SeenLight& seen, FirstHits* first);
+  void shadeShares(const ShadeContext& context, SeenLight& seen);
   void meet(Stats& stats, FirstHits* first);
   void answer(const ShadeContext& context);
 
@@ -49,6 +57,7 @@ class GatherRays {
   const GatherPoint& point_;
   const GatherSettings& settings_;
   const HitRadiance* known_;
+  const std::span<const std::string> groups_;
   const uint32_t key_;
   const RayTimes times_;
   RayFilter filter_;

@@ -29,6 +29,7 @@ vec2 segment(float theta) {
   return {area / kPi, area > 0 ? 2 * s * s * s / (3 * area) : 1.0f};
 }
 
+constexpr float kNotByChance = 3;   ///< Standard deviations of the share of photons in a part of the disk.
 constexpr float kMuchBent = 0.95f;  ///< Length of the mean normal: a hemisphere's within 60 degrees has 3/4.
 
 struct Estimate {
@@ -36,6 +37,7 @@ struct Estimate {
   float radius = 0;                ///< 0 if no estimate was made.
   bool few = false, bent = false;  ///< As in EstimateFigures.
   float clump = 1;
+  bool acrossWalls = false;
 };
 
 /// Radius of the disk that stands for `every` of `count` photons on an area.
@@ -58,8 +60,37 @@ float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside)
   return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
 }
 
+/// Tells whether walls that stand on the surface part more light from less: the share of the light behind them is not
+/// that of the area there.
+bool isAcrossWalls(const PhotonTree& tree, int power, uint32_t at, std::span<const NearPhoton> photons, float radius,
+                   const SightAlongSurface& sight) {
+  const vec3 P = tree.position(at), N = tree.normal(at);
+  const SightLines lines = sight(P, N, radius);
+  SightLines ends;  // of the sectors between two lines: the shorter of both
+  float seen = 0;
+  for (size_t k = 0; k < kSightLines; ++k) {
+    ends[k] = std::min(lines[k], lines[(k + 1) % kSightLines]);
+    seen += ends[k] * ends[k] / (kSightLines * radius * radius);
+  }
+  if (seen >= 1) return false;
+  vec3 tangent, bitangent;
+  orthonormalBasis(N, tangent, bitangent);
+  float behind = 0, all = 0;
+  for (const NearPhoton& photon : photons) {
+    const vec3 off = tree.position(photon.photon) - P;
+    const float turn = std::atan2(dot(off, bitangent), dot(off, tangent)) / (2 * kPi);
+    const auto sector = static_cast<size_t>((turn < 0 ? turn + 1 : turn) * kSightLines) % kSightLines;
+    const float* w = tree.photons().at(photon.photon) + power;
+    const float light = luminance({w[0], w[1], w[2]});
+    all += light;
+    if (glm::length(off) > ends[sector]) behind += light;
+  }
+  const float chance = std::sqrt(seen * (1 - seen) / static_cast<float>(photons.size()));
+  return std::abs(behind / all - (1 - seen)) > kNotByChance * chance;
+}
+
 Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
-                  std::vector<NearPhoton>& heap) {
+                  const SightAlongSurface& sight, std::vector<NearPhoton>& heap) {
   const vec3 P = tree.position(at), N = tree.normal(at);
   const auto most = static_cast<size_t>(settings.nearest);
   tree.nearest(P, N, tree.surface(at), most, settings.maxRadius, heap);
@@ -83,8 +114,12 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
   const float belief = glm::smoothstep(kChanceEnds, kBorderBegins, distance);
   const float covered = glm::mix(1.0f, coveredShare(distance), belief), area = kPi * r2 * covered;
   const float wide = diskRadius(area, inside, settings.every), close = nearRadius(heap, settings.every);
-  return {sum / area, close < kMuchCloser * wide ? close : wide, heap.size() < most,
-          glm::length(normal) < kMuchBent * count, clumpOf(heap, area, inside)};
+  return {sum / area,
+          close < kMuchCloser * wide ? close : wide,
+          heap.size() < most,
+          glm::length(normal) < kMuchBent * count,
+          clumpOf(heap, area, inside),
+          sight && isAcrossWalls(tree, power, at, std::span(heap).first(inside), std::sqrt(r2), sight)};
 }
 
 /// Does the same as estimate(), for a ball in a medium.
@@ -147,7 +182,8 @@ std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& ph
 }
 
 PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& given,
-                              const std::function<bool(const vec3& P)>& wanted, EstimateFigures* figures) {
+                              const std::function<bool(const vec3& P)>& wanted, EstimateFigures* figures,
+                              const SightAlongSurface& sight) {
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
@@ -167,16 +203,17 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
     for (size_t i = begin; i < end; ++i) {
       const auto at = static_cast<uint32_t>(i * every);
       if (!wanted || wanted(tree.position(at)))
-        estimates[i] = (inMedia ? estimateInMedium : estimate)(tree, power, at, settings, heap);
+        estimates[i] = inMedia ? estimateInMedium(tree, power, at, settings, heap)
+                               : estimate(tree, power, at, settings, sight, heap);
     }
   });
   out.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     const auto at = static_cast<uint32_t>(i * every);
-    const vec3& E = estimates[i].irradiance;
-    const std::array values{E.x, E.y, E.z, static_cast<float>(tree.surface(at))};
     const Estimate& e = estimates[i];
     if (!(e.radius > 0)) continue;
+    const vec3& E = e.irradiance;
+    const std::array values{E.x, E.y, E.z, static_cast<float>(e.acrossWalls ? kAcrossWalls : tree.surface(at))};
     out.add(tree.position(at), tree.normal(at), e.radius, values.data());
     if (figures && !inMedia) *figures += {1, e.few, e.bent, e.clump};
   }

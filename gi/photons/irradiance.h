@@ -2,6 +2,7 @@
 // at a photon, and the same search gives the area that it stands for. Irradiance: `irradiance` of the result is E in
 // W/m2, not E/pi. Threads: uses the pool; the result does not depend on it.
 #pragma once
+#include <array>
 #include <functional>
 
 #include "gi/point_cloud.h"
@@ -38,13 +39,20 @@ struct EstimateFigures {
   }
 };
 
+/// How far it is from P along a surface with normal N to walls behind which the surface goes on, at most `reach`, in
+/// even directions from the tangent of orthonormalBasis() on. Threads: calls are concurrent.
+constexpr size_t kSightLines = 8;
+using SightLines = std::array<float, kSightLines>;
+using SightAlongSurface = std::function<SightLines(const vec3& P, const vec3& N, float reach)>;
+
 /// `photons` needs normals and a channel kPower or kIndirectPower of three floats, or kPathPower. The result has the
 /// channels of irradianceChannels(); its disks, or balls, overlap enough to cover the surface, or fill the volume. No
 /// photons make an empty cloud. `wanted`: estimates are made only at photons that it accepts; empty: at all. `figures`:
-/// gains the counts of estimates on surfaces; may be null.
+/// gains the counts of estimates on surfaces; may be null. `sight`: where walls on the surface part more light from
+/// less, the estimate has the surface number kAcrossWalls; empty: walls are not known.
 PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& settings,
-                              const std::function<bool(const vec3& P)>& wanted = {},
-                              EstimateFigures* figures = nullptr);
+                              const std::function<bool(const vec3& P)>& wanted = {}, EstimateFigures* figures = nullptr,
+                              const SightAlongSurface& sight = {});
 
 /// The channels of the result: `irradiance`, `indirect` or `fluence`, and the surface number where the photons have it.
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons);

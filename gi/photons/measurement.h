@@ -13,7 +13,7 @@ namespace tomales {
 
 struct MeasurementPoint {
   vec3 P, N;     ///< N: unit length, on the side whose light is measured.
-  float radius;  ///< Of the disk on which photons count, at scale 1.
+  float radius;  ///< Radius of the disk on which photons count, at scale 1.
   float beside;  ///< How far the polygons that photons meet may lie before or behind the surface.
   int bounces;   ///< Photons that have bounced more often (StoredPhoton::bounces) do not count.
 };

@@ -16,7 +16,7 @@ class PhotonStream {
     size_t count;  ///< Photons of settings().emit that are its share by power, at least one.
   };
   const std::vector<Sent>& sources() const { return sources_; }
-  double power() const { return power_; }  ///< Of all sources together, in W.
+  double power() const { return power_; }  ///< Power of all sources together, in W.
   const PhotonSettings& settings() const { return settings_; }
 
   /// A task's photons fit into the processor's cache.

@@ -44,7 +44,7 @@ std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path) {
 int PointCloud::surface(size_t point) const {
   if (!channels.tellsSurfaces()) return 0;
   const float told = at(point)[width() - 1];
-  return told >= 1 && told <= kMostSurfaces ? static_cast<int>(told) : 0;
+  return told >= 1 && told <= kAcrossWalls ? static_cast<int>(told) : 0;
 }
 
 void PointCloud::add(const vec3& P, const vec3& N, float r, const float* values) {

@@ -12,7 +12,7 @@ constexpr int kLayoutProbes = 4;  ///< Number of edges across a patch by which i
 /// In an object of more patches each is small, and measured by its corners alone.
 constexpr uint32_t kManyPatches = 4096;
 constexpr int kMostTexels = 2048;                                        ///< Limit along an edge of a chart.
-constexpr int64_t kAlwaysTexels = int64_t{1} << 22, kMostOfPixel = 256;  ///< Limits for all charts, and for a pixel.
+constexpr int64_t kAlwaysTexels = int64_t{1} << 18, kMostOfPixel = 256;  ///< Limits for all charts, and for a pixel.
 constexpr size_t kTexelsPerRun = 1024;                                   ///< Texels that one thread bakes at a time.
 
 int powerOfTwoNear(float texels) {
@@ -84,10 +84,11 @@ void halveUntilFew(std::vector<SurfaceCharts>& surfaces, int64_t limit, Log& log
   int halvings = 0;
   for (; count() > most; ++halvings) forEachChart([](RadiosityChart& c) { c.halve(); });
   if (halvings > 0)
-    log.report(Severity::Warning, "radiosity-texels", {},
-               fmt::format("all radiosity maps together would have more than {} million texels: their edges have 1/{} "
-                           "of what was asked",
-                           limit >> 20, 1 << halvings));
+    log.report(
+        Severity::Warning, "radiosity-texels", {},
+        fmt::format("all radiosity maps together would have more than {:.2g} million texels: their edges have 1/{} "
+                    "of what was asked",
+                    static_cast<double>(limit) / 1e6, 1 << halvings));
 }
 
 }  // namespace

@@ -92,6 +92,14 @@ std::optional<int64_t> parseBytes(const std::string& text) {
   return value << shift;
 }
 
+std::optional<double> parseShare(const std::string& text) {
+  const bool percent = text.ends_with('%');
+  double value = 0;
+  if (!number(std::string_view(text).substr(0, text.size() - percent), value)) return std::nullopt;
+  if (percent) value /= 100;
+  return value > 0 && value < 1 ? std::optional(value) : std::nullopt;
+}
+
 std::optional<const GiMethod*> parseGi(const std::string& text) {
   const GiMethod* method = giMethodNamed(text);
   return method || text == "scene" ? std::optional(method) : std::nullopt;
@@ -108,6 +116,8 @@ std::optional<double> parseSeconds(const std::string& text) {
 }
 
 int64_t textureShare(int64_t memoryLimit) { return std::max(kLeastCache, memoryLimit / 4); }
+
+int64_t rayShare(int64_t memoryLimit) { return textureShare(memoryLimit); }
 
 size_t brickCacheBytes(const RenderSettings& settings) {
   if (!settings.memoryLimit) return settings.brickCacheBytes;

@@ -46,8 +46,11 @@ struct RenderSettings {
   std::optional<int> bucketSize;
   std::vector<std::string> edits;  ///< RIB files of changes to a shot.
   std::string irradiance;          ///< An .icf to shade with.
+  bool byLight = false;            ///< Irradiance records keep the share of each group of lights.
   bool appendIrradiance = false;   ///< True to gather too, where that has no records.
-  int audit = 0;                   ///< Pixels at which the error of the picture is measured; 0: it is not.
+  int audit = 0;  ///< Pixels at which the error of the picture is measured; 0: it is not, unless that is to be reached.
+  double targetError = 0;   ///< The mean relative error of light to reach; 0: settings are as they are given.
+  double timeBudget_s = 0;  ///< Time that a frame may take; 0: as long as its settings ask.
   bool resume = false;
   bool skipFinished = false;             ///< Frames whose pictures hold what would be rendered are left as they are.
   std::optional<int64_t> memoryLimit;    ///< In bytes.
@@ -56,7 +59,8 @@ struct RenderSettings {
   bool hitList = true;
   std::optional<int64_t> geometryCache;  ///< In bytes.
   std::optional<bool> fullGeometry;      ///< Rays see displaced micropolygons; if not given, for the reference alone.
-  std::string statsFile;
+  std::string statsFile;        ///< '#' in its name: one a frame. Of the ending .jsonl: a line is appended for each.
+  std::string logFile;          ///< Messages are appended there too; empty: none.
   bool profileShaders = false;  ///< True to say at the end what each shader has cost.
   bool progress = false;
   std::string preview;                     ///< host:port of a viewer; empty: none.
@@ -71,6 +75,9 @@ struct RenderSettings {
   std::string commandLine;
 };
 
+/// Does the program choose the settings of light, by trials that need the whole frame?
+inline bool choosesQuality(const RenderSettings& s) { return s.targetError > 0 || s.timeBudget_s > 0; }
+inline bool audits(const RenderSettings& settings) { return settings.audit > 0 || settings.targetError > 0; }
 inline PluginTrust pluginTrust(const Trust& t) {
   return {.folders = t.shaderFolders + ":" + standardPath("shader") + ":" + t.pluginFolders(),
           .sceneFolders = t.allowsPluginsOfScene()};
@@ -86,11 +93,14 @@ std::optional<std::vector<int>> parseFrames(const std::string& text);           
 std::optional<int64_t> parseBytes(const std::string& text);                                 ///< "600M", "2G", "1000000"
 /// Null for "scene", which leaves it to the scene.
 std::optional<const GiMethod*> parseGi(const std::string& text);
+/// "2%" or "0.02"; more than 0 and less than 1.
+std::optional<double> parseShare(const std::string& text);
 std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", "10m", "2h"
 
-/// Shares of --memory-limit: textures get a quarter, bricks --brick-cache but no more than an eighth, and each gets at
-/// least 1 MB.
+/// Shares of --memory-limit: textures and what rays meet get a quarter each, bricks --brick-cache but no more than an
+/// eighth, and each gets at least 1 MB.
 int64_t textureShare(int64_t memoryLimit);
+int64_t rayShare(int64_t memoryLimit);
 size_t brickCacheBytes(const RenderSettings& settings);
 
 /// Replaces runs of '#' by the frame number, padded to their length.

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "reyes/base/input_file.h"
@@ -42,11 +43,12 @@ static_assert(sizeof(Preamble) == 16 && sizeof(Entry) == 16 && sizeof(Footer) ==
 }  // namespace
 
 void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log) {
+  std::set<std::string> madeAnew;  // what is damaged again was made so, and would be for ever
   while (true) try {
       return make();
     } catch (const DamageError& e) {
       std::error_code problem;
-      if (!std::filesystem::remove(e.path, problem)) throw;
+      if (!madeAnew.insert(e.path).second || !std::filesystem::remove(e.path, problem)) throw;
       log.report(Severity::Note, "cache-damaged", {std::make_shared<const std::string>(e.path), 0},
                  std::string(e.what()) + "; it is made anew");
     }

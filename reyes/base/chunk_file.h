@@ -36,7 +36,8 @@ struct DamageError : FileError {
 };
 
 /// Runs `make`, which keeps files for itself. If one of them turns out to be damaged, that is reported, the file is
-/// removed, and `make` runs once more, to make the file that is missing then.
+/// removed, and `make` runs once more, to make the file that is missing then. If that is damaged too, its DamageError
+/// is thrown: it was made so.
 void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log);
 
 using Bytes = std::vector<std::byte>;

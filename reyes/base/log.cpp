@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "reyes/base/appended_file.h"
+#include "reyes/base/process.h"
+
 namespace tomales {
 
 std::string SourceLoc::text() const {
@@ -32,7 +35,23 @@ std::string beginning(const std::string& message) {
 
 }  // namespace
 
+Log::Log(Verbosity verbosity) : verbosity_(verbosity) {}
 Log::~Log() { printRepeated(); }
+
+bool Log::alsoTo(const std::string& file, std::string& error) {
+  auto opened = AppendedFile::open(file, error);
+  const std::lock_guard lock(mutex_);
+  if (opened) file_ = std::move(opened);
+  return file_ != nullptr;
+}
+
+void Log::append(const std::string& line) {
+  std::string why;
+  if (!file_ || file_->write(timeNow() + ' ' + line, why)) return;
+  file_.reset();
+  entries_.push_back({Severity::Output, "log-write", "the log could not be written: " + why, {}, 1, {{}}});
+  std::fprintf(stderr, "tomales: output error: %s [log-write]\n", entries_.back().message.c_str());
+}
 
 bool Log::isWanted(Severity severity) const {
   return verbosity_ == Verbosity::Verbose || severity > Severity::Warning ||
@@ -70,15 +89,16 @@ void Log::report(Severity severity, std::string_view code, const SourceLoc& wher
     return addPlace(known, where);
   }
   entries_.push_back({severity, std::string(code), message, where, 1, {where}});
-  const bool wanted = isWanted(severity);
   static constexpr const char* kNames[] = {"info", "note", "warning", "missing", "error", "output error"};
-  const int line = wanted ? ++lines_[entries_.back().code] : 0;
-  if (wanted && line <= kMostLinesOfCode)
-    std::fprintf(stderr, "%s: %s: %s [%s]\n", where.text().c_str(), kNames[static_cast<int>(severity)], message.c_str(),
-                 entries_.back().code.c_str());
+  const std::string text =
+      where.text() + ": " + kNames[static_cast<int>(severity)] + ": " + message + " [" + entries_.back().code + "]\n";
+  // What is for information only is asked for, and a frame brings little of it.
+  const int line = isWanted(severity) && severity > Severity::Info ? ++lines_[entries_.back().code] : 0;
+  if (isWanted(severity) && line <= kMostLinesOfCode) std::fputs(text.c_str(), stderr);
   if (line == kMostLinesOfCode + 1)
     std::fprintf(stderr, "tomales: more of [%s] is not printed; the statistics have it\n",
                  entries_.back().code.c_str());
+  append(text);
 }
 
 std::vector<LogEntry> Log::entries() const {

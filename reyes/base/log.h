@@ -2,6 +2,7 @@
 // abort; broken promises of ours abort (check.h).
 // Threads: every member may be called concurrently.
 #pragma once
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,11 +13,15 @@
 
 namespace tomales {
 
+class AppendedFile;
+
 /// A place in the user's input. Line 0 is the file as a whole; no file means the program itself.
 struct SourceLoc {
   std::shared_ptr<const std::string> file;
   int line = 0;
   std::string text() const;
+  /// The folder of the file as it was named; empty if there is none, or if the file lies in the working folder.
+  std::filesystem::path folder() const { return file ? std::filesystem::path(*file).parent_path() : ""; }
 };
 
 enum class Severity {
@@ -43,11 +48,16 @@ class Log {
   static constexpr int kMostLinesOfCode = 100;
   static constexpr size_t kMostPlaces = 4;
   static constexpr size_t kMostRepeated = 10;  ///< Messages whose places the destructor prints.
-  explicit Log(Verbosity verbosity = Verbosity::Normal) : verbosity_(verbosity) {}
+  explicit Log(Verbosity verbosity = Verbosity::Normal);
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
   /// Prints, for messages that came from several places, how often and where they were reported.
   ~Log();
+
+  /// Appends all later messages to a file too, whatever the verbosity, each with the time (UTC) before it, and makes
+  /// the file if it is missing. Several programs may write to one. Returns false, and sets `error`, if it cannot be
+  /// opened.
+  bool alsoTo(const std::string& file, std::string& error);
 
   /// Prints to stderr the first time that (code, subject) reports, and counts after that. The subject is what the
   /// report is about, such as a shader's name: give it where one cause has messages that differ. If empty, it is the
@@ -63,11 +73,13 @@ class Log {
   using Key = std::pair<std::string, std::string>;  // code, subject
   bool isWanted(Severity severity) const;
   void printRepeated() const;
+  void append(const std::string& line);
   const Verbosity verbosity_;
   mutable std::mutex mutex_;
   std::map<Key, size_t> index_;
   std::map<std::string, int, std::less<>> lines_;  ///< Number of lines printed or withheld, by code.
   std::vector<LogEntry> entries_;
+  std::unique_ptr<AppendedFile> file_;  ///< Null unless alsoTo() has opened it.
 };
 
 }  // namespace tomales

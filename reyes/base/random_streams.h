@@ -51,6 +51,7 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"pass", "passes of photons that are counted at points"},
     {"audi", "pixels that are audited"},
     {"sets", "light that an audit finds there, set by set"},
+    {"targ", "buckets of trials, and the audits of one frame"},
     {"boot", "pixels that are drawn again to know how certain an audit is"},
 };
 

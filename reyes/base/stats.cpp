@@ -23,6 +23,16 @@ void Stats::addAudit(const std::string& light, const AuditFigures& figures) {
   audits_[light] = figures;
 }
 
+void Stats::addOutput(const std::string& file) {
+  const std::lock_guard lock(mutex_);
+  outputs_.push_back(file);
+}
+
+std::vector<std::string> Stats::outputs() const {
+  const std::lock_guard lock(mutex_);
+  return outputs_;
+}
+
 std::map<std::string, Stats::AuditFigures> Stats::audits() const {
   const std::lock_guard lock(mutex_);
   return audits_;

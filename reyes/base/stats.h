@@ -1,4 +1,4 @@
-// Counters and stage times of one frame, filled by every unit and printed by reyes/app (--stats).
+// Counters and stage times of one frame, filled by every unit and told by reyes/app (--stats, -v).
 // Threads: counters are atomic; add in bulk (per bucket, per batch), never per sample.
 #pragma once
 #include <atomic>
@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace tomales {
 
@@ -59,6 +60,8 @@ struct Stats {
     double mean = 0, low = 0, high = 0, noise = 0, p99 = 0;
   };
   void addAudit(const std::string& light, const AuditFigures&);
+  /// Adds the name of a file that has been written.
+  void addOutput(const std::string& file);
 
   struct ShaderFigures {
     int64_t vertices = 0;
@@ -70,12 +73,14 @@ struct Stats {
   std::map<std::string, ShaderFigures> byShader() const;
   std::map<std::string, StageFigures> stages() const;
   std::map<std::string, AuditFigures> audits() const;
+  std::vector<std::string> outputs() const;
 
  private:
   mutable std::mutex mutex_;
   std::map<std::string, ShaderFigures> shaders_;
   std::map<std::string, StageFigures> stages_;
   std::map<std::string, AuditFigures> audits_;
+  std::vector<std::string> outputs_;
 };
 
 /// CPU seconds that all threads of this process have used, and those of the calling thread.

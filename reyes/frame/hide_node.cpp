@@ -6,6 +6,7 @@
 
 #include "reyes/base/stop.h"
 #include "reyes/frame/piece_node.h"
+#include "reyes/scattered.h"
 
 namespace tomales {
 namespace {
@@ -13,6 +14,11 @@ namespace {
 /// If so many patches lie in a pixel, every bucket opens small nodes anew: else far more of them than can be seen would
 /// wait for the next row of buckets.
 constexpr float kDense = 4, kSmall_px = 32;
+/// A box of particles of this level or below opens into all their pieces at once: then each bucket has enough of them
+/// to fill grids, while those of a leaf alone are scattered over several. In a pixel there must be at least and at most
+/// so many: of fewer each is large, and more hide each other, so that not all need be opened.
+constexpr uint32_t kLevelOfParticles = 2;
+constexpr float kFewParticles = 1.0f / 64, kManyParticles = 1;
 
 /// How a node is opened. Shared: once, by the first bucket that needs its contents. Transient: by each bucket for
 /// itself. AtOnce: by each bucket too, but its contents do not go through the queue, in which the pieces of many small
@@ -143,15 +149,22 @@ class PatchesNode : public OpeningNode {
 
   static bool isDense(const Bound2& b, const PatchTree& tree, uint32_t level) {
     const vec2 size = b.hi - b.lo;
-    double patches = PatchTree::kLeaf;
-    for (uint32_t k = 0; k < level; ++k) patches *= PatchTree::kFan;
-    patches = std::min(patches, static_cast<double>(tree.patchCount()));
-    return std::max(size.x, size.y) <= kSmall_px && patches >= double{kDense * size.x * size.y};
+    return std::max(size.x, size.y) <= kSmall_px && patchesIn(tree, level) >= kDense * size.x * size.y;
+  }
+  static float patchesIn(const PatchTree& tree, uint32_t level) {
+    return static_cast<float>(std::min<size_t>(PatchTree::patchesOfBox(level), tree.patchCount()));
+  }
+  bool opensAtOnce() const {
+    if (level_ == 0) return true;
+    const vec2 size = raster().hi - raster().lo;
+    const float inPixel = patchesIn(*tree_, level_) / (size.x * size.y);
+    return level_ <= kLevelOfParticles && inPixel >= kFewParticles && inPixel <= kManyParticles &&
+           dynamic_cast<const Scattered*>(&context_.scene.objects[static_cast<size_t>(object_)].shape());
   }
 
   HideNodes open(const BucketRange& within) override {
     HideNodes out;
-    if (level_ > 0) {
+    if (!opensAtOnce()) {
       const uint32_t first = index_ * PatchTree::kFan,
                      last = std::min(first + PatchTree::kFan, tree_->count(level_ - 1));
       for (uint32_t i = first; i < last; ++i)
@@ -160,8 +173,8 @@ class PatchesNode : public OpeningNode {
     }
     return nodesOfPieces(
         context_,
-        splitPatches(context_.scene, object_, tree_->patches(index_), context_.camera, context_.buckets.window(),
-                     context_.stats, context_.log, Splitting::Lazily, context_.cancelled),
+        splitPatches(context_.scene, object_, tree_->patches(level_, index_), context_.camera,
+                     context_.buckets.window(), context_.stats, context_.log, Splitting::Lazily, context_.cancelled),
         zMin(), within);
   }
 

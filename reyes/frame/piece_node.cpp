@@ -41,17 +41,25 @@ void widenToSquares(Grid& g) {
     }
 }
 
-/// The properties that pieces of a node, or of a grid, must have in common.
+/// The properties that pieces of a node, or of a grid, must have in common, as numbers.
 struct Neighbour {
-  int row, column;  ///< Row and column of a bucket.
-  int nu, nv;
-  bool round;
+  uint64_t first, last;  ///< The first and the last bucket that it touches.
+  uint64_t shape;        ///< Counts of cells; is it round?
   const SubPatch* piece;
-  bool sharesNode(const Neighbour& o) const { return row == o.row && column == o.column; }
-  bool sharesGrid(const Neighbour& o) const { return sharesNode(o) && nu == o.nu && nv == o.nv && round == o.round; }
+
+  Neighbour(const BucketRange& touched, const SubPatch& p)
+      : first(number(touched.r0, touched.c0)),
+        last(number(touched.r1, touched.c1)),
+        shape(number(p.nu, 2 * p.nv + p.round)),
+        piece(&p) {}
+  bool sharesNode(const Neighbour& o) const { return first == o.first && last == o.last; }
+  bool sharesGrid(const Neighbour& o) const { return sharesNode(o) && shape == o.shape; }
   bool operator<(const Neighbour& o) const {
-    return std::tie(row, column, nu, nv, round) < std::tie(o.row, o.column, o.nu, o.nv, o.round);
+    return first != o.first ? first < o.first : last != o.last ? last < o.last : shape < o.shape;
   }
+
+ private:
+  static uint64_t number(int a, int b) { return static_cast<uint64_t>(a) << 32 | static_cast<uint32_t>(b); }
 };
 
 PieceStack alone(const SubPatch& p) {
@@ -69,7 +77,7 @@ std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Nei
   const Neighbour* last = nullptr;
   for (const Neighbour& n : neighbours) {
     const SubPatch& p = *n.piece;
-    const int vertices = (n.nu + 1) * (n.nv + 1);
+    const int vertices = (p.nu + 1) * (p.nv + 1);
     const auto most = static_cast<size_t>(std::max(1, kStack_vertices / vertices));
     const bool stacks = vertices <= kStacked_vertices && canStack(context, p);
     if (last && stacks && n.sharesGrid(*last) && out.back().pieces.size() < most) {
@@ -203,7 +211,7 @@ HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, con
     const BucketRange touched = within & context.buckets.touched(piece.raster);
     if (touched.empty()) continue;
     if (piece.nu * piece.nv < kSmall_cells)
-      small.push_back({touched.r0, touched.c0, piece.nu, piece.nv, piece.round, &piece});
+      small.emplace_back(touched, piece);
     else
       out.push_back(std::make_unique<PieceNode>(context, std::vector{alone(piece)}, Placement{piece.raster, piece.zMin},
                                                 touched));

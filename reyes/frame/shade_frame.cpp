@@ -8,9 +8,10 @@ namespace tomales {
 namespace {
 
 /// Camera rays see the radiance of an area light added to what its surface reflects (docs/gi.md).
-void addEmission(const ShadePoints& points, const ShadingSystem& shading, ShadedPoints& out) {
+void addEmission(const ShadePoints& points, const ShadingSystem& shading, const ShadeContext& context,
+                 ShadedPoints& out) {
   std::vector<vec3> emission;
-  shading.emission(points, emission);
+  shading.emission(points, emission, context);
   for (size_t i = 0; i < emission.size(); ++i)
     for (int c = 0; c < 3; ++c) out.Ci[c][i] += emission[i][c];
 }
@@ -46,8 +47,8 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
     batchContext.variables = true;
     if (b < tile.answers.size()) batchContext.answers = &tile.answers[b];
     shading.shade(points, batchContext, out);
-    addEmission(points, shading, out);
-    shading.atmosphere(points, out);
+    addEmission(points, shading, context, out);
+    shading.atmosphere(points, out, context);
   }
 }
 

@@ -98,7 +98,8 @@ class DisplayFiles {
   void close(float finished) {
     write();
     const StageTimer timer(stats_, "write", threadCpuSeconds);
-    for (const auto& file : files_) file->close(finished);
+    for (const auto& file : files_)
+      if (file->close(finished)) stats_.addOutput(file->written());
   }
 
  private:
@@ -107,6 +108,8 @@ class DisplayFiles {
   std::optional<Image> rows_;
   std::vector<DeepRows> deep_;  ///< Indexed by file.
 };
+
+constexpr int kBandRows = 64;  // a multiple of the rows of a tile (image.h)
 
 /// Warns of noise where surfaces move far, are far out of focus, or are thinner than the samples are apart.
 void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
@@ -124,7 +127,6 @@ void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
 
 void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene,
                 const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log) {
-  constexpr int kBandRows = 64;  // a multiple of the rows of a tile (image.h)
   const Options& options = scene.options;
   const FrameOutput output = outputOf(options);
   const SamplePattern pattern = samplePattern(options, control.seed);
@@ -154,6 +156,20 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
   files.close(cut ? std::min(tiles.finished(), std::nextafter(1.0f, 0.0f)) : 1.0f);
   warnOfNoise(filter.noise(), options, log);
   shading.warnOfLightNoise();
+}
+
+void showFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Options& options,
+               const FrameControl& control) {
+  const SamplePattern pattern = samplePattern(options, control.seed);
+  const SampleOffsets offsets = sampleOffsets(pattern);
+  FrameFilter filter(frame, options, offsets);
+  MovingBand tiles(frame, filter, fill, options);
+  for (int y = frame.crop.y0; y < frame.crop.y1; y += kBandRows) {
+    const int end = std::min(y + kBandRows, frame.crop.y1);
+    tiles.moveTo(y, end);
+    if (control.cancelled && *control.cancelled) return;
+    viewer(filter.rows(y, end));
+  }
 }
 
 }  // namespace tomales

@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "reyes/base/rng.h"
 #include "reyes/image/cryptomatte.h"
 #include "reyes/image/deep_rows.h"
@@ -215,9 +217,11 @@ struct DisplayFile::Impl {
 
   bool close(float finished) {
     if (!file || !(file->close(finished) || report())) return false;
-    if (finished < 1 && !format.driver)
+    if (finished < 1 && !format.driver) {
       log.report(Severity::Warning, "output-partial", display.where,
                  "\"" + path + "\" would not be whole: what is finished is in \"" + partialName(path) + "\" beside it");
+      path = std::filesystem::path(path).replace_filename(partialName(path)).string();
+    }
     return true;
   }
 
@@ -253,6 +257,7 @@ std::optional<DeepMerge> DisplayFile::deep() const {
   return writesDeep(impl_->display) ? std::optional(impl_->merge) : std::nullopt;
 }
 bool DisplayFile::close(float finished) { return impl_->close(finished); }
+const std::string& DisplayFile::written() const { return impl_->path; }
 
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log) {
   Options one = options;

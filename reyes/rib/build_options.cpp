@@ -161,7 +161,7 @@ void exposure(GraphicsState& s, const Request& r) {
 /// A relative folder is one of the working folder, and then one of the folder of the file that names it: a scene
 /// renders from any folder.
 std::string alsoBesideFile(const std::string& searchPath, const SourceLoc& where) {
-  const std::filesystem::path own = where.file ? std::filesystem::path(*where.file).parent_path() : "";
+  const std::filesystem::path own = where.folder();
   std::string out;
   const auto add = [&](const std::string& folder) { out += (out.empty() ? "" : ":") + folder; };
   for (const std::string& folder : foldersOf(searchPath)) {

@@ -11,8 +11,8 @@ namespace tomales::rib {
 namespace {
 
 constexpr int kDeepest = 200;
-constexpr size_t kMostSteps = 1 << 26;       ///< Of a comparison with a pattern, each of whose characters may be
-                                             ///< compared with each of the text.
+constexpr size_t kMostSteps = 1 << 26;  ///< Most steps of a comparison with a pattern, each of whose characters may
+                                        ///< be compared with each of the text.
 constexpr size_t kMostToldOfUnknown = 1000;  ///< Bytes of unknown names in a message.
 
 void checkLength(size_t bytes) {

@@ -31,7 +31,7 @@ bool usable(const std::vector<float>& numbers, bool infinityToo) {
 /// Pictures lie beside the scene, too; first in the working folder, since maps that a frame writes are there.
 void addStandardPath(Scene& scene) {
   std::string& path = scene.options.searchPaths["texture"];
-  const std::string own = scene.where.file ? std::filesystem::path(*scene.where.file).parent_path().string() : "";
+  const std::string own = scene.where.folder().string();
   std::vector<std::string> folders = foldersOf(standardPath("texture"));
   if (!own.empty() && own != ".") folders.insert(folders.begin(), own);
   if (!folders.empty()) folders.insert(folders.begin(), ".");

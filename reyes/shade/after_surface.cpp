@@ -4,20 +4,21 @@
 
 namespace tomales {
 
-void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out) const {
+void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out, const ShadeContext& seen) const {
   const BoundGroup& group = impl_->groups[static_cast<size_t>(points.group())];
   if (!group.atmosphere) return;
   const ShaderTimer timer(impl_->stats, *group.atmosphere, points.count());
-  const ShadeContext context;
+  ShadeContext context;
+  context.lights = seen.lights;
   const ShadedPoints before = out;
-  ShadePoints seen = points;
+  ShadePoints through = points;
   // The air is crossed from the eye to the point, also where rays are parallel and kI has no length of its own.
-  for (int i = 0; i < seen.count() && !impl_->camera.perspective(); ++i)
-    seen.set3(kIx, i, vec3(0, 0, seen.channel(kPz)[i]));
+  for (int i = 0; i < through.count() && !impl_->camera.perspective(); ++i)
+    through.set3(kIx, i, vec3(0, 0, through.channel(kPz)[i]));
   const auto run = [&](ShadedPoints& colors) {
     ArenaLease arena;
     Batch batch(*impl_, group, context, *arena);
-    batch.setPoints(seen, *group.atmosphere, {}, colors, 0);
+    batch.setPoints(through, *group.atmosphere, {}, colors, 0);
     if (!batch.run(*group.atmosphere, batch.tm)) return false;
     batch.blackOutNonFinite(*group.atmosphere);
     return true;

@@ -12,6 +12,8 @@
 namespace tomales {
 namespace {
 
+constexpr const char* kIndirect = "indirect";  ///< The category of indirect lights, beside their own.
+
 constexpr int kLightSamples = 16;   ///< The number for a light that gives none.
 constexpr int kColours = 3;         ///< An indirect light has a sample for each.
 constexpr int kMostRays = 1 << 16;  ///< The limit for one irradiance sample.
@@ -150,6 +152,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   light->bound = bound, light->index = index;
   light->group = bound->text(TM_ROLE_GROUP, call.handle);
   light->category = bound->text(TM_ROLE_CATEGORY, "");
+  if (light->can(TM_LIGHT_INDIRECT)) light->category += (light->category.empty() ? "" : ",") + std::string(kIndirect);
   light->nondiffuse = isSaid(*bound, TM_ROLE_NONDIFFUSE);
   light->nonspecular = isSaid(*bound, TM_ROLE_NONSPECULAR);
   light->visible = bound->number(TM_ROLE_VISIBLE, 1) != 0;

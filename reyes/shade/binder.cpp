@@ -12,9 +12,7 @@
 
 namespace tomales {
 
-ShaderName nameOf(const ShaderCall& call, TmKind kind) {
-  return {call.name, kind, call.where.file ? std::filesystem::path(*call.where.file).parent_path().string() : ""};
-}
+ShaderName nameOf(const ShaderCall& call, TmKind kind) { return {call.name, kind, call.where.folder().string()}; }
 
 void Binder::expect(const ShaderCall* call, TmKind kind) {
   if (call && expected_.insert(call).second) names_.push_back(nameOf(*call, kind));

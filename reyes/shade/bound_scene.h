@@ -27,11 +27,16 @@ struct BoundLight {
   bool filters = false;                          ///< It brings the light of another indirect light.
   float maxVariation = 0;                        ///< For TM_OCCLUDED alone: TmOcclusion::maxVariation.
   std::string group;                             ///< The name of its group, or its handle if it names none.
-  std::string category;                          ///< Names that commas separate.
+  std::string category;                          ///< Names that commas separate; "indirect" if it is.
   std::shared_ptr<const Sky> sky;                ///< For TM_LIGHT_SKY alone.
   vec3 sourceTint{1.0f};                         ///< The tint of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
+
+/// Tells whether the light, which is no indirect one, is among those that the context lets shine.
+inline bool isMeant(const BoundLight& light, const ShadeContext& context) {
+  return !context.lights || light.group == *context.lights;
+}
 
 /// A primitive variable that takes the place of a shader
 /// parameter. The points hold it in current space already.

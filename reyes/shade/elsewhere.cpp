@@ -125,7 +125,7 @@ LightSample* lightNumbered(Batch& batch, int32_t number) {
     if (p->number == number / kSamples) place = &p->batch;
   if (!place) return nullptr;
   if (place != &batch) place->lights.restrictTo(batch.lights.group());
-  auto& samples = place->lights.samples(*place);
+  auto& samples = place->lights.samples(*place, false);  // whose number is known has run
   const auto k = static_cast<size_t>(number % kSamples);
   return k < samples.size() ? &samples[k] : nullptr;
 }

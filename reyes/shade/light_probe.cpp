@@ -17,6 +17,11 @@ void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* a
     if (active[i]) set(E, i, vec3(0.0f));
 }
 
+std::string ShadingSystem::lightGroup(int light) const {
+  const auto& l = impl_->lights[static_cast<size_t>(light)];
+  return l && !l->can(TM_LIGHT_INDIRECT) ? l->group : std::string();
+}
+
 LightKind ShadingSystem::lightKind(int light) const {
   const auto& l = impl_->lights[static_cast<size_t>(light)];
   if (!l || !l->indirect || l->nondiffuse) return LightKind::None;
@@ -49,12 +54,13 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   }
 }
 
-void ShadingSystem::emission(const ShadePoints& points, std::vector<vec3>& radiance) const {
+void ShadingSystem::emission(const ShadePoints& points, std::vector<vec3>& radiance,
+                             const ShadeContext& context) const {
   radiance.clear();
   const int index = impl_->groups[static_cast<size_t>(points.group())].group->attributes->areaLight;
   if (index < 0 || index >= static_cast<int>(impl_->lights.size())) return;
   const BoundLight* light = impl_->lights[static_cast<size_t>(index)].get();
-  if (!light || !light->can(TM_LIGHT_AREA) || !light->visible) return;
+  if (!light || !light->can(TM_LIGHT_AREA) || !light->visible || !isMeant(*light, context)) return;
   LightProbe seen;
   std::vector<size_t> front;
   for (int i = 0; i < points.count(); ++i) {

@@ -123,8 +123,12 @@ int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   const TmIlluminance query = givenOptions(batch, tmIlluminanceDefaults(), out);
   if (out->structBytes < offsetof(TmIlluminance, nonspecular)) return 0;  // no room for the answer
   Batch& place = placeOf(batch, g, query);
-  std::vector<LightSample>& samples = place.lights.samples(place);
   const std::string_view category = query.category ? query.category : "";
+  const auto& lights = place.group.lights;
+  std::vector<LightSample>& samples =
+      place.lights.samples(place, std::any_of(lights.begin(), lights.end(), [&](const BoundLight* light) {
+                             return light->can(TM_LIGHT_INDIRECT) && inCategory(light->category, category);
+                           }));
   auto next = static_cast<size_t>(std::max(query.next, 0));
   while (next < samples.size() && !inCategory(samples[next].light->category, category)) ++next;
   if (next >= samples.size()) return 0;

@@ -33,6 +33,12 @@ bool applies(const BoundLight& light, const Batch& batch) {
   return bringsLights(batch.context.light) && batch.context.kind != RayKind::Transmission && isOn(light, batch);
 }
 
+/// Tells whether the context lets the light shine. A direct light that it leaves out still counts where numbers of
+/// samples are chosen, so that the pictures of single lights add up.
+bool shines(const BoundLight& light, const Batch& batch) {
+  return light.can(TM_LIGHT_INDIRECT) || isMeant(light, batch.context);
+}
+
 /// The grid of the points for a light shader, without neighbours; its results have room for those.
 TmGrid lightGrid(Batch& batch, const BoundLight& light) {
   TmGrid g = *Primary(batch, &batch.tm).grid();
@@ -77,8 +83,8 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
 bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY); }
 
 int samplesOf(const BoundLight& light, const Batch& batch) {
-  const bool sampled = hasExtent(light) || light.can(TM_LIGHT_SAMPLED);
-  return sampled && batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
+  if (!hasExtent(light) && !light.can(TM_LIGHT_SAMPLED)) return light.samples;
+  return shareOfBranch(batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples, 1, batch.context);
 }
 
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
@@ -168,7 +174,9 @@ void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
   for (int i = 0; i < asking.count; ++i)
     if (asking.active[i]) set(out, i, vec3(0.0f));
   for (const BoundLight* light : batch.group.lights) {
-    if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch) || (group_ && light->group != *group_)) continue;
+    if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch) || !shines(*light, batch) ||
+        (group_ && light->group != *group_))
+      continue;
     const TmGrid g = lightGrid(batch, *light);
     if (!batch.run(*light->bound, g)) continue;
     for (int i = 0; i < g.count; ++i)
@@ -176,15 +184,15 @@ void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
   }
 }
 
-std::vector<LightSample>& Lights::samples(Batch& batch) {
-  if (!evaluated_) {
-    evaluated_ = true;
-    if (batch.points && batch.context.light != Illumination::Lights) substitute(batch);
-    for (const BoundLight* light : batch.group.lights)
-      if (!light->can(TM_LIGHT_AMBIENT) && applies(*light, batch) &&
-          (!request_ || inCategory(light->category, request_->category)))
-        evaluate(batch, *light);
-  }
+std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
+  if (!evaluated_ && batch.points && batch.context.light != Illumination::Lights) substitute(batch);
+  const bool runsDirect = !evaluated_, runsIndirect = indirect && !indirectEvaluated_;
+  evaluated_ = true, indirectEvaluated_ |= indirect;
+  for (const BoundLight* light : batch.group.lights)
+    if ((light->can(TM_LIGHT_INDIRECT) ? runsIndirect : runsDirect) && !light->can(TM_LIGHT_AMBIENT) &&
+        applies(*light, batch) && shines(*light, batch) &&
+        (!request_ || inCategory(light->category, request_->category)))
+      evaluate(batch, *light);
   if (!group_) return samples_;
   // Copies share their arrays, so rays that are traced for one are traced for all.
   chosen_.clear();
@@ -288,7 +296,9 @@ int Lights::mostSamples(Batch& batch) const {
 }
 
 void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
-  forEachWithExtent(batch, [&](const BoundLight& light) { alongOne(batch, light, lobe, Cl); });
+  forEachWithExtent(batch, [&](const BoundLight& light) {
+    if (shines(light, batch)) alongOne(batch, light, lobe, Cl);
+  });
   ++lobes_;
 }
 
@@ -298,7 +308,7 @@ void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves
   if (!lit || std::none_of(leaves, leaves + batch.points->count(), [](uint8_t l) { return l != 0; })) return;
   for (const BoundLight* light : batch.group.lights) {
     if (!light->can(TM_LIGHT_SKY) || !light->visible || light->nonspecular || !isOn(*light, batch) ||
-        (group_ && light->group != *group_))
+        !shines(*light, batch) || (group_ && light->group != *group_))
       continue;
     TmGrid g = lightGrid(batch, *light);
     g.active = leaves;

@@ -74,8 +74,9 @@ class Lights {
   /// The sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
   /// All samples of all lights that have a direction, in the order of Attributes::lights. They are unshadowed until
-  /// shadow() has been called.
-  std::vector<LightSample>& samples(Batch& batch);
+  /// shadow() has been called. Without `indirect`, indirect lights do not run, which may cost many rays, unless they
+  /// have run already; if they do later, their samples come last.
+  std::vector<LightSample>& samples(Batch& batch, bool indirect = true);
   /// Has the shader asked what lights it?
   bool asked() const { return evaluated_ || ambientAsked_; }
   /// Those that have been asked for so far, of all groups.
@@ -102,7 +103,7 @@ class Lights {
   void tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const;
   template <class Body>
   void forEachWithExtent(Batch& batch, const Body& body) const;
-  bool evaluated_ = false, ambientAsked_ = false;
+  bool evaluated_ = false, indirectEvaluated_ = false, ambientAsked_ = false;
   std::deque<std::vector<TmValue>> params_;
   int lobes_ = 0;  ///< How many lobes along() has been given.
   std::deque<ShadowTally> tallies_;

@@ -13,7 +13,7 @@ struct BoundGroup;
 /// Where a group finds one of FrameOutput::variables.
 struct BoundVariable {
   VariableSource from = VariableSource::Nothing;
-  int index = 0;             ///< Of a channel in ShadePoints, or of an output in TmShader::params.
+  int index = 0;             ///< The number of a channel in ShadePoints, or of an output in TmShader::params.
   bool composited = false;   ///< True for a channel that is a colour and becomes premultiplied.
   std::string lights;        ///< The name of a LightGroup; empty for the light of no group.
   int first = 0, width = 1;  ///< Its place in ShadedPoints::variables.

@@ -30,7 +30,7 @@ constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
 constexpr int kRound_cells = 6;  ///< A disk of at most so many cells is shaded as one cell: only P varies over it.
 /// In edges of a micropolygon. A disk whose bound, 1.5 times as wide as the disk, is no wider than this takes few cells
 /// however it is measured.
-constexpr float kDot = 3.5f;
+constexpr float kDot = 4;
 /// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
@@ -381,8 +381,10 @@ void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log
 
 /// Makes pieces by split(splitter, pieces), and reports; it is the same for patches and pieces.
 template <class Split>
-std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, Stats& stats, Log& log, const Split& split) {
+std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, size_t expected, Stats& stats, Log& log,
+                               const Split& split) {
   std::vector<SubPatch> pieces;
+  pieces.reserve(expected);
   split(splitter, pieces);
   report(splitter.givenUp(), object, stats, log);
   stats.geometry.subpatches += std::count_if(pieces.begin(), pieces.end(), [](const SubPatch& p) { return !p.coarse; });
@@ -395,7 +397,7 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
                                    const Camera& camera, const PixelRect& window, Stats& stats, Log& log,
                                    Splitting splitting, StopFlag stop) {
   return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop),
-                  scene.objects[static_cast<size_t>(object)], stats, log,
+                  scene.objects[static_cast<size_t>(object)], patches.size(), stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
                     const Object& o = scene.objects[static_cast<size_t>(object)];
                     prefetch(o.shape(), patches, [](uint32_t patch) { return patch; });
@@ -415,7 +417,7 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
 std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera,
                                  const PixelRect& window, Stats& stats, Log& log, StopFlag stop) {
   return piecesBy(Splitter(scene, coarse.object, camera, window, stats, Splitting::Lazily, stop),
-                  scene.objects[static_cast<size_t>(coarse.object)], stats, log,
+                  scene.objects[static_cast<size_t>(coarse.object)], 1, stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) { splitter.splitPiece(coarse, out); });
 }
 

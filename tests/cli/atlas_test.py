@@ -112,7 +112,7 @@ glow = json.loads(t.run("info", "--json", "glow.exr").stdout)["channels"][0]["me
 t.expect(result.stderr == "" and abs(glow - 5) < 0.1, f"a closed ball that glows is as bright as the series of its albedo: {glow:.3f}, {result.stderr}")
 
 # Two rooms that share floor and ceiling, with a wall of 2 cm between a bright and a dim lamp.
-def rooms(name, dim, wall):
+def rooms(name, dim, wall, *more):
     def sheet(*corners):
         return 'Polygon "P" [' + "  ".join(f"{x} {y} {z}" for x, y, z in corners) + "]\n"
     x, y, z = 3, 2.5, 1.5
@@ -133,13 +133,18 @@ Attribute "identifier" "name" ["room"]
         + sheet((-x, 0, -z), (-x, 0, z), (-x, y, z), (-x, y, -z)) + sheet((x, 0, -z), (x, y, -z), (x, y, z), (x, 0, z))
         + 'Attribute "identifier" "name" ["thin wall"]\n'
         + "".join(sheet((a, 0, -z), (a, y, -z), (a, y, z), (a, 0, z)) for a in (-0.01, 0.01) if wall) + "WorldEnd\n")
-    return t.run(name, "--gi", "atlas", "--photons", "50000", "-o", "rooms.exr").stderr
+    return t.run(name, "--gi", "atlas", "--photons", "50000", "-o", "rooms.exr", *more).stderr
 
 
-said = rooms("thin.rib", 0.05, True)
+stored = ("--atlas-direct", "stored")
+said = rooms("thin.rib", 0.05, True, *stored)
 t.expect("thin.rib:21" in said and '"thin wall"' in said and "[photon-walls]" in said, f"a thin wall before much more light is named: {said}")
-t.expect("photon-walls" not in rooms("alike.rib", 8, True), "one between rooms that are alike is not")
-t.expect("photon-walls" not in rooms("open.rib", 0.05, False), "nor a room without a wall")
+t.expect("photon-walls" not in rooms("alike.rib", 8, True, *stored), "one between rooms that are alike is not")
+t.expect("photon-walls" not in rooms("open.rib", 0.05, False, *stored), "nor a room without a wall")
+said = rooms("thin.rib", 0.05, True, "--samples", "256", "--bounces", "8")
+t.run("thin.rib", "--gi", "gather", "--samples", "256", "--bounces", "8", "-o", "gathered.exr")
+dim, right = (json.loads(t.run("info", "--json", name).stdout)["channels"][0]["mean"] for name in ("rooms.exr", "gathered.exr"))
+t.expect("photon-walls" not in said and abs(dim / right - 1) < 0.1, f"where hits sample lamps the dim room keeps its light: {dim / right:.3f} of what is right")
 
 # What was gathered as brick maps, with which another camera shades at the cost of direct light (irradiance-atlas 6.3).
 def lit(scene, *arguments):

@@ -31,7 +31,7 @@ WorldEnd
 class Page(html.parser.HTMLParser):
     """Which tags are left open, where links lead, what is loaded from elsewhere."""
 
-    VOID = {"meta", "img", "br"}
+    VOID = {"meta", "img", "br", "input"}
 
     def __init__(self, text):
         super().__init__()
@@ -126,11 +126,12 @@ suite.expect(any(p["best_in_time"] for p in points), "some point is on the Paret
 text = (suite.folder / "report.html").read_text()
 page = Page(text)
 suite.expect(not page.wrong and not page.open, f"tags are closed: {page.wrong} {page.open}")
-suite.expect(not re.search(r"https?:|@import|url\(|<script|<link", text), "nothing comes from a network")
+suite.expect(not re.search(r"https?:|@import|url\((?!#)|<script[^>]+src|<link", text), "nothing comes from a network")
 suite.expect(all(s.startswith("data:image/png;base64,iVBOR") for s in page.loads) and len(page.loads) == 13, "thumbnails and error maps are inside")
+suite.expect(len(re.findall(r'class="picture" data-name="', text)) == 7 and 'filter id="exposure"' in text, "pictures have an exposure and a place to be flipped in")
 broken = [link for link in page.links if link.lstrip("#") not in page.ids and link != "report.json"]
 suite.expect(not broken, f"links lead somewhere: {broken}")
-drawings = [xml.etree.ElementTree.fromstring(s) for s in re.findall(r"<svg.*?</svg>", text, re.S)]
+drawings = [xml.etree.ElementTree.fromstring(s) for s in re.findall(r"<svg viewBox.*?</svg>", text, re.S)]
 suite.expect(len(drawings) == 6, "three plots, each for wide and narrow windows")
 suite.expect([p["value"] for p in points] == [16, 50, 150, 450, 1350, 4000], "the last against what varies")
 for drawing in drawings:
@@ -193,4 +194,5 @@ if browser := shutil.which("chromium"):  # looks, where there is something to lo
     seen = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", (suite.folder / "report.html").as_uri()],
                           capture_output=True, text=True, timeout=120).stdout
     suite.expect(seen.count("<circle") == 36, "a browser shows the same")
+    suite.expect(seen.count("<option") == 14 and "A: reference" in seen, "and its script offers all pictures")
 suite.finish()

@@ -15,12 +15,18 @@ t = Suite()
 SMALL = {"render": "--format 32x32 --samples 16 --pixel-samples 2x2 -t 2", "hide": "--format 32x32 --pixel-samples 2x2", "gather": "--samples 16",
          "batch": "--format 32x32 --samples 16 --pixel-samples 2x2",
          "photons": "--photons 5000", "chart": "--format 16x16 --budget 30s --batches 2 -t 2"}
+# These choose the number of rays themselves, so none is given beside them.
+CHOOSING = {"--target-error": "20%", "--time-budget": "3s"}
 SHIM = f"""#!{sys.executable}
 import subprocess, sys
 small = {SMALL!r}
 given = sys.argv[1:]
 command = next((a for a in given[:1] if a in small), "render" if given and (given[0].endswith(".rib") or given[0] == "-") else "")
 mine = small.get(command, "").split()
+for option, value in {CHOOSING!r}.items():
+    if option in given:
+        given[given.index(option) + 1] = value
+        mine = [word for word in mine if word not in ("--samples", "16")]
 for option, value in zip(mine[::2], mine[1::2]):
     while option in given:
         at = given.index(option)
@@ -31,7 +37,7 @@ sys.exit(0 if command == "chart" and code == 3 else code)  # so short a budget l
 # These stand for the reader's own files.
 OWN = {"scene.rib": (ROOT / "scenes/cornell/cornell.rib").read_text(), "model.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n"}
 # What a session cannot do, and why.
-LEFT_OUT = {"./dev": "it builds the program", "sudo ": "it changes the machine", "git ": "it needs a network", "--watch": "it never ends"}
+LEFT_OUT = {"./dev": "it builds the program", "sudo ": "it changes the machine", "git ": "it needs a network", "--watch": "it never ends", "tomales relight": "likewise"}
 
 
 def new_folder(name):

@@ -59,7 +59,7 @@ t.expect(process.wait(timeout=60) == 0, "and goes on to the end")
 t.write("good.rib", GOOD)
 master, process = start("good.rib", "-o", "good.exr", "--format", "300x300")
 shown = shown_until(master, process, "100%")
-t.expect(re.search(r"\[#+ *\] +\d+%  \d+:\d\d left  hiding and shading \d+:\d\d", shown), "what is done stands beside the bar")
+t.expect(re.search(r"\[#+ *\] +\d+%  \d+:\d\d left  hiding and shading \d+ % \d+:\d\d", shown), "what is done stands beside the bar")
 process.wait(timeout=60)
 
 t.finish()

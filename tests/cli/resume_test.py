@@ -39,7 +39,7 @@ def cut(at, number, *line):
     process = subprocess.Popen([t.program, *line, "--resume", "--progress", "-q", "-t", "2", "--stats", "cut.json"],
                                cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     for said in process.stdout:
-        if int(said.split()[1].rstrip("%")) >= at:
+        if said.startswith("R90000") and int(said.split()[1].rstrip("%")) >= at:
             break
     process.send_signal(number)
     process.communicate(timeout=200)
@@ -85,6 +85,19 @@ for method in ("radiosity", "atlas"):
     cut(60, signal.SIGKILL, "room.rib", "--gi", method, "--photons", "50000")
     share = resumed("room.rib", "--gi", method, "--photons", "50000")
     t.expect(share < 0.6, f"{method}: {share:.3f} of its rays")
+
+t.run("hide", "room.rib", "-o", "room.dfb", "-q")
+t.run("gather", "room.dfb", "-o", "whole.icf", "--stats", "whole.json", "-q")
+for at, number in ((20, signal.SIGKILL), (60, signal.SIGTERM)):
+    cut(at, number, "gather", "room.dfb", "-o", "room.icf")
+    t.expect_run("    goes on", ["gather", "room.dfb", "-o", "room.icf", "--resume", "--stats", "rest.json", "-t", "2"], 0)
+    t.expect((t.folder / "room.icf").read_bytes() == (t.folder / "whole.icf").read_bytes(), "    and has the same bits")
+    share = rays("rest.json") / rays("whole.json")
+    t.expect(share < {20: 0.95, 60: 0.6}[at], f"    with {share:.3f} of its rays")
+    t.expect(not list(t.folder.glob("room.icf.*")), "    and leaves nothing else")
+cut(60, signal.SIGKILL, "gather", "room.dfb", "-o", "room.icf")
+t.run("gather", "room.dfb", "-o", "room.icf", "--resume", "--light-seed", "3", "--stats", "rest.json", "-q")
+t.expect(rays("rest.json") > 0.9 * rays("whole.json"), "another seed takes nothing over")
 
 cut(85, signal.SIGKILL, "baking.rib")
 resumed("baking.rib")

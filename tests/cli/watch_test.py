@@ -79,7 +79,7 @@ t.expect(mean == [float(v) for v in re.search(r"mean of its samples: (\S+) (\S+)
 for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)):
     line = ["good.rib", "-o", f"cut{code}.exr", "--format", "500x500", "--memory-limit", "1M", "--resume", "-t", "2"]
     process = subprocess.Popen([t.program, *line, "--progress", "-q"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    for _ in range(20):
+    for _ in range(25):
         process.stdout.readline()
     process.send_signal(number)
     process.communicate(timeout=200)

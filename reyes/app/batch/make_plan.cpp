@@ -22,7 +22,7 @@ struct FrameFiles {
   bool maps = false;                            ///< It writes maps for later frames, and nothing else.
   bool joins = true;                            ///< All are pictures in OpenEXR that can be made of tiles.
   std::vector<std::string> files;               ///< The first is the picture.
-  std::vector<std::vector<std::string>> tiles;  ///< Likewise for each tile.
+  std::vector<std::vector<std::string>> tiles;  ///< The same for each tile.
 };
 
 std::string cropText(const std::array<int, 2>& tiles, int index) {

@@ -13,7 +13,7 @@ struct BatchTask {
   std::string name;   ///< Names its files beside the plan: letters, digits, - _ and . alone.
   std::string stage;  ///< maps, render, hide, gather, shade, join: for people, and for arrays of jobs.
   int frame = 0;
-  std::vector<std::string> arguments;  ///< Of this program.
+  std::vector<std::string> arguments;  ///< The arguments that this program gets.
   std::vector<std::string> needs;      ///< Names of tasks that come before.
   std::vector<std::string> makes;      ///< Files that exist when the task is finished; they are gone with `removes`.
   std::vector<std::string> removes;    ///< Files that nobody needs after the task.

@@ -9,7 +9,7 @@ namespace tomales {
 
 struct SlurmOptions {
   std::string partition, time, memory;  ///< As sbatch takes them; empty for the cluster's default.
-  int cpus = 1;                         ///< Of each task.
+  int cpus = 1;                         ///< Processors of each task.
   int atOnce = 0;                       ///< Most tasks of one array at a time; 0 for no limit.
 };
 

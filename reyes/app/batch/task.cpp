@@ -10,8 +10,10 @@
 #include <thread>
 
 #include "reyes/app/exit_code.h"
+#include "reyes/app/watch/cpu_time.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/chunk_file.h"
+#include "reyes/base/process.h"
 
 namespace tomales {
 namespace {
@@ -20,13 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kPause{20};
 constexpr std::chrono::seconds kBeforeRetry{2};
-
-std::string hostName() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
-}
-
-double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
 /// A picture with a substitute in it is finished: its log and `batch status` tell of it.
 bool succeeded(int code) { return code == kDone || code == kIncomplete; }
@@ -71,7 +66,7 @@ bool RunningTask::ended() {
   ::wait4(child_, &status, 0, &used);
   state_.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   state_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  state_.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
+  state_.cpu_s = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);
   state_.peak_bytes = int64_t{used.ru_maxrss} * 1024;
   state_.kind = succeeded(state_.code) ? TaskState::Done : stopped_ ? TaskState::Waiting : TaskState::Failed;
   std::error_code none;

@@ -22,10 +22,11 @@ namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
 constexpr int kPictureSize = 200;
-constexpr double kBatchShare = 0.05;  ///< Share of the budget for one batch of the reference.
-constexpr int kFirstBatches = 4;      ///< Batches of the reference that are rendered before the points.
-constexpr double kQuiet = 0.25;       ///< A reference with this share of the least error needs no further batches.
-constexpr double kSilent = 1e-4;      ///< A noise floor below which there is nothing to gain.
+constexpr double kReferenceShare = 1.0 / 3;  ///< Share of the budget for the reference,
+constexpr double kBatchShare = 0.03;         ///< and for one batch of it.
+constexpr int kFirstBatches = 4;             ///< Batches of the reference that are rendered before the points at least.
+constexpr double kQuiet = 0.25;   ///< A reference with this share of the least error needs no further batches.
+constexpr double kSilent = 1e-4;  ///< A noise floor below which there is nothing to gain.
 constexpr int kTrialPaths = 64;
 
 Arguments operator+(Arguments a, const Arguments& b) {
@@ -80,14 +81,14 @@ class Chart {
     for (const ChartCurve& curve : sweep.curves) report_.curves.push_back(curve.name);
   }
 
-  /// Measures some batches of the reference, then all points, then more batches while the budget lasts: a chart whose
-  /// reference is noisy says so, and grows quieter when it is made again, while missing points say nothing.
+  /// Measures the reference for its share of the budget, then all points, then more batches while the budget lasts.
+  /// What a noisy reference hides is seen when the chart is made again, which goes on.
   int run() {
     if (const std::string problem = placesProblem(settings_.output, labSettings_.folder); !problem.empty())
       return fail(Severity::Output, problem);
     chooseReference();
-    while (reference_.batches() < kFirstBatches && (reference_.batches() < 2 || reference_.noiseFloor() > kSilent) &&
-           addBatch()) {
+    while ((reference_.batches() < kFirstBatches || lab_.secondsUsed() < kReferenceShare * settings_.budget_s) &&
+           (reference_.batches() < 2 || reference_.noiseFloor() > kSilent) && addBatch()) {
     }
     if (reference_.batches() == 0)
       return fail(Severity::Error, "no reference: " + (badBatch_.empty() ? lab_.why() : badBatch_));
@@ -221,17 +222,18 @@ class Chart {
 
   /// Computes the errors, once the reference is complete.
   void judge() {
+    const float gain = 1 / (report_.pictureWhite = brightness(reference_.mean()));
     for (ChartPoint& p : report_.points) {
       std::string error;
       const auto image = readImage(p.run.picture, error);
       if (!image) continue;
       p.error = reference_.errorOf(*image);
       p.picture = p.run.picture + ".thumb.png", p.errorMap = p.run.picture + ".error.png";
-      writeImage(p.picture, thumbnail(*image, kPictureSize), true, log_);
+      writeImage(p.picture, thumbnail(*image, kPictureSize, gain), true, log_);
       writeImage(p.errorMap, thumbnail(reference_.errorMap(*image, report_.mapRange), kPictureSize), true, log_);
     }
     report_.referencePicture = (fs::path(labSettings_.folder) / "reference.thumb.png").string();
-    writeImage(report_.referencePicture, thumbnail(reference_.mean(), kPictureSize), true, log_);
+    writeImage(report_.referencePicture, thumbnail(reference_.mean(), kPictureSize, gain), true, log_);
     report_.referenceBatches = reference_.batches(), report_.noiseFloor = reference_.noiseFloor();
     report_.referenceCommandLine =
         commandLine(referenceArguments_ + Arguments{sweep_.seed, fmt::format("1..{}", reference_.batches())});

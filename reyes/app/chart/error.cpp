@@ -61,12 +61,32 @@ Image blend(float a, const Image& A, float b, const Image& B) {
   return out;
 }
 
-double meanError(const Image& test, const Image& reference, const Image& lit) {
-  double sum = 0;
+struct MeanErrors {
+  double relative = 0, square = 0;
+};
+
+MeanErrors meanErrors(const Image& test, const Image& reference, const Image& lit) {
+  MeanErrors sum;
   int64_t count = 0;
-  eachValue(test, reference, lit,
-            [&](float t, float r) { sum += std::abs(t - r) / (std::abs(r) + ChartReference::kFloor), ++count; });
-  return count ? sum / static_cast<double>(count) : 0;
+  eachValue(test, reference, lit, [&](float t, float r) {
+    sum.relative += std::abs(t - r) / (std::abs(r) + ChartReference::kFloor);
+    sum.square += double{t - r} * (t - r), ++count;
+  });
+  const double n = static_cast<double>(std::max<int64_t>(count, 1));
+  return {sum.relative / n, sum.square / n};
+}
+
+/// What is left of a square with all `batches`, if each counts as one of so many in its noise.
+double withoutNoise(double all, double meanOfOthers, double batches) {
+  return std::max(0.0, batches * all - (batches - 1) * meanOfOthers);
+}
+
+/// Half the 95 % interval of a figure, from what it would be without each batch.
+double jackknife(const std::vector<double>& without, double all) {
+  double spread = 0;
+  for (const double v : without) spread += (v - all) * (v - all);
+  const double n = static_cast<double>(without.size());
+  return n < 2 ? 0 : 2 * std::sqrt(spread * (n - 1) / n);
 }
 
 }  // namespace
@@ -95,7 +115,7 @@ double ChartReference::noiseFloor() const {
   // A batch differs from the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the
   // mean of all.
   double sum = 0;
-  for (size_t b = 0; b < batches_.size(); ++b) sum += meanError(batches_[b], meanWithout(b), mean_);
+  for (size_t b = 0; b < batches_.size(); ++b) sum += meanErrors(batches_[b], meanWithout(b), mean_).relative;
   return sum / n / std::sqrt(n + n / (n - 1));
 }
 
@@ -105,21 +125,35 @@ ErrorFigures ChartReference::errorOf(const Image& test) const {
   double squares = 0, tests = 0, references = 0;
   out.notFinite = eachValue(test, mean_, mean_, [&](float t, float r) {
     errors.push_back(std::abs(t - r) / (std::abs(r) + kFloor));
-    out.mean += errors.back(), squares += double{t - r} * (t - r), tests += t, references += r;
+    out.measured += errors.back(), squares += double{t - r} * (t - r), tests += t, references += r;
   });
   if (errors.empty()) return out;
   const double count = static_cast<double>(errors.size());
-  out.mean /= count;
+  out.mean = out.measured /= count, squares /= count;
   const auto p99 = errors.begin() + static_cast<ptrdiff_t>(0.99 * (count - 1));
   std::nth_element(errors.begin(), p99, errors.end());
   out.p99 = *p99;
+  if (batches() >= 2) {
+    MeanErrors others;  // means of the squares
+    for (size_t b = 0; b < batches_.size(); ++b) {
+      const MeanErrors e = meanErrors(test, meanWithout(b), mean_);
+      out.without.push_back(e.relative);
+      others.relative += e.relative * e.relative / batches(), others.square += e.square / batches();
+    }
+    out.mean = std::sqrt(withoutNoise(out.measured * out.measured, others.relative, batches()));
+    squares = withoutNoise(squares, others.square, batches());
+    out.confidence = jackknife(out.without, out.measured);
+  }
   out.bias = references != 0 ? tests / references - 1 : 0;
-  out.rms = references != 0 ? std::sqrt(squares / count) / (references / count) : 0;
-  if (batches() < 2) return out;
-  double spread = 0;
-  for (size_t b = 0; b < batches_.size(); ++b) spread += std::pow(meanError(test, meanWithout(b), mean_) - out.mean, 2);
-  out.confidence = 2 * std::sqrt(spread * (batches() - 1) / batches());
+  out.rms = references != 0 ? std::sqrt(squares) / (references / count) : 0;
   return out;
+}
+
+ErrorDifference operator-(const ErrorFigures& a, const ErrorFigures& b) {
+  std::vector<double> without;
+  for (size_t i = 0; i < std::min(a.without.size(), b.without.size()); ++i)
+    without.push_back(a.without[i] - b.without[i]);
+  return {a.mean - b.mean, jackknife(without, a.measured - b.measured)};
 }
 
 Image ChartReference::errorMap(const Image& test, float range) const {
@@ -142,7 +176,19 @@ std::string notFiniteNote(const ErrorFigures& error) {
   return error.notFinite > 0 ? fmt::format(", {} pixels not finite", error.notFinite) : "";
 }
 
-Image thumbnail(const Image& image, int size) {
+float brightness(const Image& image) {
+  std::vector<float> values;
+  const auto c = colors(image);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (const vec3 color = colorAt(image, c, x, y); isFinite(color)) values.push_back(maxComponent(color));
+  if (values.empty()) return 1;
+  const auto bright = values.begin() + static_cast<ptrdiff_t>(0.995 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), bright, values.end());
+  return std::max(*bright, 1e-6f);
+}
+
+Image thumbnail(const Image& image, int size, float gain) {
   const int step = (std::max(image.width, image.height) + size - 1) / size;
   Image out{image.width / step, image.height / step, {}, {}, 0, 0, 0, 0};
   out.width = std::max(1, out.width), out.height = std::max(1, out.height);
@@ -154,7 +200,7 @@ Image thumbnail(const Image& image, int size) {
       int count = 0;
       for (int j = y * step; j < std::min((y + 1) * step, image.height); ++j)
         for (int i = x * step; i < std::min((x + 1) * step, image.width); ++i) sum += colorAt(image, c, i, j), ++count;
-      set(out, x, y, sum / static_cast<float>(std::max(count, 1)));
+      set(out, x, y, gain * sum / static_cast<float>(std::max(count, 1)));
     }
   return out;
 }

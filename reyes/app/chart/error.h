@@ -11,14 +11,24 @@ namespace tomales {
 
 /// Figures of |test - reference| / (reference + 0.01) over the colours of all pixels where the reference is not black.
 struct ErrorFigures {
-  double mean = 0, p99 = 0;
-  double bias = 0;  ///< The sums of all pixels: test / reference - 1.
-  double rms = 0;   ///< Root mean square of (test - reference), over the mean of the reference.
+  double mean = 0;      ///< Without the noise of the reference (ChartReference::errorOf); 0 if that hides it all.
+  double measured = 0;  ///< With it.
+  double p99 = 0;       ///< With it.
+  double bias = 0;      ///< The sums of all pixels: test / reference - 1.
+  double rms = 0;       ///< Root mean square of (test - reference), over the mean of the reference; without its noise.
   int64_t notFinite =
       0;  ///< Pixels that are infinite or no numbers: in the test they count as black, in the reference not at all.
   double confidence =
       0;  ///< Half the 95 % interval of `mean` that the noise of the reference leaves (jackknife over its batches).
+  std::vector<double> without{};  ///< What `measured` would be without each batch of the reference.
 };
+
+/// How much more one picture is off than another, and half the 95 % interval. Both were held against the same
+/// reference, whose noise mostly cancels in the difference.
+struct ErrorDifference {
+  double mean = 0, confidence = 0;
+};
+ErrorDifference operator-(const ErrorFigures& a, const ErrorFigures& b);
 
 class ChartReference {
  public:
@@ -31,6 +41,9 @@ class ChartReference {
   bool isBlack() const;  ///< True if no pixel has light that is a number.
   /// The mean error of the reference itself, from the spread of its batches; infinite with fewer than two.
   double noiseFloor() const;
+  /// Takes the reference's own noise out of the error by the jackknife (Efron and Stein 1981): the square of an error
+  /// is taken to grow by the variance of the reference, which is that of one batch over their number. For differences
+  /// that are distributed as a Gaussian is, this holds exactly.
   ErrorFigures errorOf(const Image& test) const;
   /// Shows the sign of the error, which grey levels would hide: red is too bright, blue too dark, white is right; the
   /// colour is full at `range`. Green is not finite.
@@ -47,7 +60,10 @@ class ChartReference {
 /// Returns ", 3 pixels not finite", or nothing if all are.
 std::string notFiniteNote(const ErrorFigures& error);
 
-/// Returns the largest reduction of at most `size` pixels: squares of a whole number of pixels are averaged to one.
-Image thumbnail(const Image& image, int size);
+/// The brightest that counts in a picture: all but a few pixels are darker.
+float brightness(const Image& image);
+/// Returns the largest reduction of at most `size` pixels, times a gain: squares of a whole number of pixels are
+/// averaged to one.
+Image thumbnail(const Image& image, int size, float gain = 1);
 
 }  // namespace tomales

@@ -23,6 +23,10 @@ class Markup {
   std::string out_;
 };
 
+/// Markup for pictures of class "picture", whose names are in `data-name`: all get the exposure that a slider asks, in
+/// linear light, and two that are chosen take turns in one place. `white` is the value that is white in the files.
+std::string pictureTools(float white);
+
 /// Returns a PNG file as the address of an <img>.
 std::string embedded(const std::string& png);
 std::string percent(double share);

@@ -12,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "reyes/app/watch/cpu_time.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/child_process.h"
@@ -75,8 +76,6 @@ struct Ended {
   double cpu_s = 0, wall_s = 0;
 };
 
-double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
-
 pid_t start(const std::vector<std::string>& arguments, const std::string& messages) {
   const int file = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) return -1;
@@ -101,7 +100,7 @@ Ended await(pid_t child, Clock::time_point deadline) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   out.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  out.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  out.cpu_s = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
   out.good = WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 3);
   if (!out.good && out.why.empty()) out.why = "the renderer failed";
   return out;

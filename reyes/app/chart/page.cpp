@@ -37,6 +37,7 @@ class Page : Markup {
           "Error against the setting", r_.title.c_str(), [](const ChartPoint& p) { return p.value; },
           [](const ChartPoint&) { return false; });
     put("</div>\n");
+    differences();
     table();
     cards();
     closePage();
@@ -57,7 +58,7 @@ class Page : Markup {
 
   void summary(const std::string& jsonName) {
     put("<p>Error: mean of |test &minus; reference| / (reference + {}) over all colours of all pixels that the "
-        "reference lights. Yellow: the "
+        "reference lights, less what the noise of the reference adds to it. Yellow: the "
         "points that no other beats in both cost and error. Every point leads to its picture.</p>\n",
         ChartReference::kFloor);
     put("<p>The reference is the mean of {} independent pictures ({:.0f} CPU s) of <code>{}</code>; its own noise is "
@@ -88,7 +89,7 @@ class Page : Markup {
       put("<tr><td>{}</td>", key(c));
       for (const double e : kAskedErrors) {
         const auto seconds = secondsToReach(r_, c, e);
-        put("<td>{}</td>", seconds ? shortNumber(*seconds) : "&ndash;");
+        put("<td{}>{}</td>", isFirst(c, e) ? " class=\"first\"" : "", seconds ? shortNumber(*seconds) : "&ndash;");
       }
       put("</tr>\n");
     }
@@ -98,6 +99,30 @@ class Page : Markup {
         put("<p>{}: the error is the same for all settings; what they change is the cost, if they reach this scene at "
             "all.</p>\n",
             key(c));
+  }
+
+  bool isFirst(size_t curve, double error) const {
+    const auto seconds = secondsToReach(r_, curve, error);
+    for (size_t c = 0; c < r_.curves.size(); ++c)
+      if (const auto other = secondsToReach(r_, c, error); !seconds || (other && *other < *seconds)) return false;
+    return seconds.has_value();
+  }
+
+  /// Whether a method is worse is told by the interval of the difference: the noise of the reference, which all share,
+  /// makes the interval of each wider than that.
+  void differences() {
+    const ChartPoint* best = mostAccurate(r_, r_.curves.size());
+    if (!best || r_.curves.size() < 2) return;
+    std::vector<PlotDifference> rows;
+    for (size_t c = 0; c < r_.curves.size(); ++c)
+      if (const ChartPoint* p = mostAccurate(r_, c); p && p->curve != best->curve) {
+        const ErrorDifference d = p->error - best->error;
+        rows.push_back({r_.curves[c], c, d.mean, d.confidence});
+      }
+    put("<h2>Differences</h2><p>How much more the most accurate picture of each method is off than that of {} ({}), "
+        "with "
+        "95 % intervals. Methods whose intervals hold 0 cannot be told from it by this reference.</p>\n<div>{}</div>\n",
+        key(best->curve), escapeXml(best->setting), drawDifferences("Differences of errors", rows, 700));
   }
 
   void legend() {
@@ -115,7 +140,7 @@ class Page : Markup {
       const std::string tip = fmt::format("{}, {}: {} in {} s, {}", r_.curves[p.curve], p.setting,
                                           percent(p.error.mean), shortNumber(p.run.cpu_s), megabytes(p.run.peakBytes));
       plot.curves[p.curve].points.push_back(
-          {cost(p), p.error.mean, tip, fmt::format("#p{}", i), best(p), false, nameOf(p)});
+          {cost(p), p.error.mean, tip, fmt::format("#p{}", i), best(p), false, nameOf(p), p.error.confidence});
     }
     put("<section><h2>{}</h2><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></section>\n", title,
         drawPlot(plot, 580, 420), drawPlot(plot, 358, 340));
@@ -140,15 +165,16 @@ class Page : Markup {
 
   void cards() {
     put("<h2>Pictures</h2><p>Right: where the picture is too bright (red) and too dark (blue), full colour at "
-        "{}.</p>\n<div class=\"cards\">\n",
-        percent(r_.mapRange));
-    put("<figure><img alt=\"reference\" src=\"{}\"><figcaption>reference<br><code>{}</code></figcaption></figure>\n",
+        "{}.</p>\n{}<div class=\"cards\">\n",
+        percent(r_.mapRange), pictureTools(r_.pictureWhite));
+    put("<figure><img class=\"picture\" data-name=\"reference\" alt=\"reference\" "
+        "src=\"{}\"><figcaption>reference<br><code>{}</code></figcaption></figure>\n",
         embedded(r_.referencePicture), escapeXml(r_.referenceCommandLine));
     for (size_t i = 0; i < r_.points.size(); ++i) {
       const ChartPoint& p = r_.points[i];
-      put("<figure id=\"p{}\"><img loading=\"lazy\" alt=\"picture\" src=\"{}\"> <img loading=\"lazy\" alt=\"error\" "
-          "src=\"{}\">",
-          i, embedded(p.picture), embedded(p.errorMap));
+      put("<figure id=\"p{}\"><img class=\"picture\" data-name=\"{}, {}\" loading=\"lazy\" alt=\"picture\" src=\"{}\"> "
+          "<img loading=\"lazy\" alt=\"error\" src=\"{}\">",
+          i, escapeXml(r_.curves[p.curve]), escapeXml(p.setting), embedded(p.picture), embedded(p.errorMap));
       put("<figcaption>{} {}<br>{} in {} CPU s<br><code>{}</code></figcaption></figure>\n", key(p.curve),
           escapeXml(p.setting), percent(p.error.mean), shortNumber(p.run.cpu_s), escapeXml(p.commandLine));
     }

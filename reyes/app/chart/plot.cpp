@@ -119,6 +119,9 @@ class Drawing : Markup {
       put("{}{:.1f} {:.1f}", &p == &curve.points.front() ? "M" : "L", x_.at(p.x), y_.at(p.y));
     put("\"/>\n");
     for (const PlotPoint& p : curve.points) {
+      if (p.interval > 0)
+        put("<path class=\"whisker\" stroke=\"{}\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", plotColor(c), x_.at(p.x),
+            y_.at(std::max(p.y - p.interval, 1e-12)), y_.at(p.y + p.interval));
       if (p.warned) put("<circle class=\"warned\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8.5\"/>", x_.at(p.x), y_.at(p.y));
       put("<a href=\"{}\"><circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" "
           "fill=\"{}\"><title>{}</title></circle></a>\n",
@@ -172,6 +175,31 @@ std::string escapeXml(const std::string& text) {
     }
   }
   return out;
+}
+
+std::string drawDifferences(const std::string& title, const std::vector<PlotDifference>& rows, int width) {
+  constexpr int kRow = 26, kNames = 190, kEnd = 120, kSize = 13;
+  Markup out;
+  double low = 0, high = 0;
+  for (const PlotDifference& r : rows)
+    low = std::min(low, r.mean - r.interval), high = std::max(high, r.mean + r.interval);
+  const double scale = (width - kNames - kEnd) / std::max(high - low, 1e-12);
+  const auto at = [&](double v) { return kNames + (v - low) * scale; };
+  const int height = kRow * static_cast<int>(rows.size()) + kSize;
+  out.put("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height, escapeXml(title));
+  out.put("<path class=\"axis\" d=\"M{:.1f} 4V{}\"/>\n", at(0), height - 4);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const PlotDifference& r = rows[i];
+    const int y = kRow * static_cast<int>(i) + kRow / 2 + 4;
+    out.put("<text class=\"label\" x=\"0\" y=\"{}\">{}</text>", y + 4, escapeXml(r.name));
+    out.put("<path class=\"whisker\" stroke=\"{}\" d=\"M{:.1f} {}H{:.1f}\"/>", plotColor(r.curve),
+            at(r.mean - r.interval), y, at(r.mean + r.interval));
+    out.put("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{}\" r=\"5\" fill=\"{}\"/>", at(r.mean), y, plotColor(r.curve));
+    out.put("<text class=\"tick\" x=\"{}\" y=\"{}\">{} &#177; {}</text>\n", width - kEnd + 14, y + 4, percent(r.mean),
+            percent(r.interval));
+  }
+  out.put("</svg>\n");
+  return out.take();
 }
 
 std::string drawPlot(const Plot& plot, int width, int height) { return Drawing(plot, width, height).draw(); }

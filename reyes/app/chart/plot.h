@@ -12,6 +12,7 @@ struct PlotPoint {
   bool best = false;    ///< Nothing else is both cheaper and more accurate.
   bool warned = false;  ///< Drawn with a ring.
   std::string name{};   ///< Written beside it.
+  double interval = 0;  ///< Half of that of y.
 };
 
 struct PlotCurve {
@@ -26,6 +27,16 @@ struct Plot {
   double limit = 0;  ///< An upright line at this x, with its name; 0 if there is none.
   std::string limitName{};
 };
+
+/// A figure that may have either sign, with its interval.
+struct PlotDifference {
+  std::string name;
+  size_t curve;  ///< Whose colour it has.
+  double mean, interval;
+};
+
+/// Draws shares below each other on a linear axis, with a line at 0.
+std::string drawDifferences(const std::string& title, const std::vector<PlotDifference>& rows, int width);
 
 /// `width` and `height` are in pixels of the text, which is 12 pixels high.
 std::string drawPlot(const Plot& plot, int width, int height);

@@ -31,6 +31,7 @@ Json pointJson(const ChartReport& report, const ChartPoint& p) {
           {"peak_bytes", p.run.peakBytes},
           {"irradiance_records", p.run.records},
           {"mean_absolute_relative_error", p.error.mean},
+          {"with_noise_of_reference", p.error.measured},
           {"confidence_95", p.error.confidence},
           {"p99", p.error.p99},
           {"bias", p.error.bias},
@@ -66,6 +67,13 @@ std::optional<double> secondsToReach(const ChartReport& report, size_t curve, do
     before = &p;
   }
   return best;
+}
+
+const ChartPoint* mostAccurate(const ChartReport& report, size_t curve) {
+  const ChartPoint* out = nullptr;
+  for (const ChartPoint& p : report.points)
+    if ((p.curve == curve || curve >= report.curves.size()) && (!out || p.error.mean < out->error.mean)) out = &p;
+  return out;
 }
 
 bool isFlat(const ChartReport& report, size_t curve) {

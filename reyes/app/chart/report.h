@@ -29,13 +29,17 @@ struct ChartReport {
   int referenceBatches = 0;
   double noiseFloor = 0, referenceSeconds = 0, budget_s = 0;
   std::string referencePicture;
-  float mapRange = 0.1f;  ///< Relative error that has the full colour.
+  float mapRange = 0.1f;   ///< Relative error that has the full colour.
+  float pictureWhite = 1;  ///< The value that is white in the thumbnails.
 };
 
 void markBest(ChartReport& report);
 /// Returns the seconds at which a curve reaches an error, on straight lines between its points in logarithmic axes, or
 /// nothing if it does not.
 std::optional<double> secondsToReach(const ChartReport& report, size_t curve, double error);
+
+/// The point of a curve that is off least; null if it has none. An index past all curves means the least of all points.
+const ChartPoint* mostAccurate(const ChartReport& report, size_t curve);
 
 /// Do all its points have the same error? Its settings then change the cost alone, if they affect this scene at all.
 bool isFlat(const ChartReport& report, size_t curve);

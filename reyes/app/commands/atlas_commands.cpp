@@ -12,7 +12,8 @@
 #include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/frame_shaders.h"
 #include "reyes/app/frame/overrides.h"
-#include "reyes/app/watch/stats_json.h"
+#include "reyes/app/watch/progress.h"
+#include "reyes/app/watch/run_report.h"
 #include "reyes/area_lights.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/temporary_folder.h"
@@ -84,6 +85,7 @@ std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
 }
 
 void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log) {
+  ProgressMeter meter(settings.progress, "preparing");
   applyOverrides(scene, settings);
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
   measureAreaLights(scene, *shaders);
@@ -95,8 +97,10 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const StageTimer timer(stats, "photons");
   AtlasSettings atlas = atlasSettings(settings, scene, shading);
   atlas.photons.direct = true;  // so that the maps, which somebody may look into, have all light
-  const PhotonFigures figures =
-      writePhotons(settings.output, scene, rays, shading, mapNames(scene, shading, atlas), atlas, {}, stats, log);
+  const PhotonFigures figures = writePhotons(settings.output, scene, rays, shading, mapNames(scene, shading, atlas),
+                                             atlas, meter.pass("tracing photons", 0, 1), stats, log);
+  meter.finish();
+  stats.addOutput(settings.output);
   if (settings.verbosity != Log::Verbosity::Quiet)
     fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
 }
@@ -114,13 +118,16 @@ PointCloud cloudOf(const std::string& path) {
 
 int photonsCommand(const RenderSettings& settings) {
   const ThreadLimit threads(settings.threads);
-  const auto start = std::chrono::steady_clock::now();
   Log log(settings.verbosity);
-  Stats stats;
+  RunReport report(settings, log);
   guarded(log, [&] {
-    if (std::optional<Scene> scene = firstScene(settings, log)) tracePhotonsOf(*scene, settings, stats, log);
+    std::optional<Scene> scene = firstScene(settings, log);
+    if (!scene) return;
+    report.begin(scene->options.frame);
+    tracePhotonsOf(*scene, settings, report.stats(), log);
+    report.end(scene->where);
   });
-  writeLastStats(settings, stats, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), log);
+  report.finish();
   return exitCodeOf(log);
 }
 

@@ -7,7 +7,7 @@
 
 #include "reyes/app/commands/atlas_commands.h"
 #include "reyes/app/exit_code.h"
-#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/outputs.h"
 #include "reyes/base/output_root.h"
 #include "reyes/base/search_path.h"
 #include "reyes/image.h"

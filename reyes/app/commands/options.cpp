@@ -219,7 +219,10 @@ void addShaderFolders(CLI::App& app, std::string& folders) {
 
 void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("-t", s.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
-  app.add_option("--stats", s.statsFile, "Statistics as JSON")->type_name("FILE.json");
+  app.add_option("--stats", s.statsFile,
+                 "Statistics as JSON; # stands for the frame number, and FILE.jsonl gets a line for each frame")
+      ->type_name("FILE.json");
+  app.add_option("--log", s.logFile, "Append all messages, with the time, and what each frame took")->type_name("FILE");
   app.add_flag("--profile-shaders", s.profileShaders, "Points and time of each shader, at the end");
   app.add_flag("--progress", s.progress, "Show progress: a bar on a terminal, else lines for render farms");
   addParsed(app, "--texture-memory", s.textureMemory, parseBytes, "600M", "Memory for tiles of pictures (default 1G)");
@@ -235,7 +238,18 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_flag_callback(
       "-q", [&s] { s.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(
-      "-v", [&s] { s.verbosity = Log::Verbosity::Verbose; }, "Say more");
+      "-v", [&s] { s.verbosity = Log::Verbosity::Verbose; }, "Say more, also what each frame wrote and took");
+}
+
+void addTarget(CLI::App& app, RenderSettings& s) {
+  CLI::Option* target = addParsed(app, "--target-error", s.targetError, parseShare, "2%",
+                                  "Choose --samples, --max-error and --light-samples for a mean error of the light of "
+                                  "this size: trials find what they bring on this scene, and an audit checks it");
+  CLI::Option* budget = addParsed(app, "--time-budget", s.timeBudget_s, parseSeconds, "5m",
+                                  "Choose them for the least error that a frame reaches in this time");
+  budget->excludes(target);
+  for (const char* chosen : {"--samples", "--max-error", "--light-samples", "--irradiance", "--draft"})
+    if (CLI::Option* option = app.get_option_no_throw(chosen)) target->excludes(option), budget->excludes(option);
 }
 
 void addWatching(CLI::App& app, RenderSettings& s) {

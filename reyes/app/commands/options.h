@@ -43,6 +43,8 @@ void addLightOptions(CLI::App& app, RenderSettings& s);
 void addTrust(CLI::App& app, Trust& trust);                  ///< Options that say whose code may run.
 void addShaderFolders(CLI::App& app, std::string& folders);  ///< --shaders, which is one of them.
 void addRunOptions(CLI::App& app, RenderSettings& s);        ///< Threads, statistics, memory of textures, verbosity.
-void addWatching(CLI::App& app, RenderSettings& s);          ///< --preview, --pixel
+/// --target-error, --time-budget. Pre: the options of the command that it excludes have been added.
+void addTarget(CLI::App& app, RenderSettings& s);
+void addWatching(CLI::App& app, RenderSettings& s);  ///< --preview, --pixel
 
 }  // namespace tomales

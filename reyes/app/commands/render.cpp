@@ -20,7 +20,7 @@
 #include "reyes/app/frame/render_frame.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/progress.h"
-#include "reyes/app/watch/stats_json.h"
+#include "reyes/app/watch/run_report.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/stop.h"
 #include "reyes/image.h"
@@ -37,10 +37,10 @@ class RenderRun {
 
   RenderRun(const RenderSettings& settings, Job job)
       : log_(settings.verbosity),
+        report_(settings, log_),
         settings_(asGranted(settings, log_)),
         job_(std::move(job)),
-        threads_(settings_.threads),
-        start_(std::chrono::steady_clock::now()) {}
+        threads_(settings_.threads) {}
 
   int run() {
     RibSettings rib;
@@ -63,7 +63,7 @@ class RenderRun {
     if (rendered_ > 0 && namesPicture(settings_.output) && !outputUsed_)
       log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.output), 0},
                   "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
-    writeLastStats(settings_, stats_, secondsSoFar(), log_);
+    report_.finish();
     if (const int code = interruptExitCode()) return code;
     const ExitCode code = exitCodeOf(log_, settings_.strict);
     return read ? code : std::max(code, kUnreadable);
@@ -95,18 +95,22 @@ class RenderRun {
       warnAboutOverwriting(scene);
       warnOfFloatRange(scene, log_);
       if (!settings_.draft) warnOfCoarseDicing(scene, log_);
-      const int64_t seenBefore = stats_.geometry.micropolygonsVisible;
+      report_.begin(scene.options.frame);
+      Stats& stats = report_.stats();
+      const int64_t seenBefore = stats.geometry.micropolygonsVisible;
       const int errorsBefore = errors();
       try {
-        job_(scene, *shaders, scenes_ - 1, settings_, stats_, log_, [this] { flush(); });
+        job_(scene, *shaders, scenes_ - 1, settings_, stats, log_, [this] { report_.flush(); });
       } catch (const std::exception& e) {  // later frames may be smaller, and finished ones keep their statistics
         log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
       }
-      if (stats_.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
+      if (stats.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
           errors() == errorsBefore)  // else the file may have been refused
         explainEmptyFrame(scene, log_);
-      flush();
+      report_.end(scene.where);
       throwIfStopped();
+    } else {
+      report_.skip();
     }
     beginReading();
   }
@@ -116,11 +120,12 @@ class RenderRun {
                 fmt::format("frame {} is finished: its pictures hold what would be rendered", scene.options.frame));
     for (const DisplayCall& display : scene.options.displays)
       outputUsed_ |= display.name == withFrameNumber(settings_.output, scene.options.frame);
+    report_.skip();
     beginReading();
   }
 
   void beginReading() {
-    parse_.emplace(stats_, "parse");
+    parse_.emplace(report_.stats(), "parse");
     meter_.emplace(settings_.progress, "reading");
   }
   void endReading() {
@@ -155,17 +160,11 @@ class RenderRun {
         "\"" + file + "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
   }
 
-  double secondsSoFar() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  void flush() { writeStats(settings_, stats_, secondsSoFar(), log_); }
-
   Log log_;
+  RunReport report_;
   const RenderSettings settings_;
   const Job job_;
   const ThreadLimit threads_;
-  Stats stats_;
-  const std::chrono::steady_clock::time_point start_;
   std::optional<StageTimer> parse_;     // while the scene is read
   std::optional<ProgressMeter> meter_;  // likewise
   std::set<std::string> written_;

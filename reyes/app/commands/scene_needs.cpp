@@ -73,7 +73,7 @@ void SceneNeeds::addPictures(const ShaderCall& call, const TmShader* shader, con
 void SceneNeeds::addShader(const ShaderCall& call, TmKind kind, const Options& options) {
   if (call.name.empty() || call.name == "null") return;
   const std::string path = pathOf(options.searchPaths, "shader");
-  const std::string beside = call.where.file ? std::filesystem::path(*call.where.file).parent_path().string() : "";
+  const std::string beside = call.where.folder().string();
   const TmShader* shader = registry_.find(call.name, kind, path, beside);
   Need& need = needs_[{kindName(kind), call.name}];
   need.found = shader;

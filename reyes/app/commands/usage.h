@@ -10,6 +10,8 @@
 #include "reyes/app/commands/join.h"
 #include "reyes/app/commands/options.h"
 #include "reyes/app/commands/shadetest.h"
+#include "reyes/app/denoise/command.h"
+#include "reyes/app/relight/relight.h"
 
 namespace tomales {
 
@@ -26,10 +28,12 @@ struct Invocation {
   ConvertCommand convert;
   ChartSettings chart;
   BatchCommand batch;
+  RelightCommand relight;
   bool stability = false;
   std::string first, second, difference;
   InfoCommand info;
   JoinCommand join;
+  DenoiseCommand denoise;
   bool json = false;
 };
 

@@ -45,6 +45,16 @@ void buildJoin(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = joinCommand(in.join); });
 }
 
+void buildDenoise(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("denoise", "A picture without noise of two that differ in --light-seed alone");
+  c->add_option("A.exr", in.denoise.first, "Its channels albedo, normal and z guide the filter")->required();
+  c->add_option("B.exr", in.denoise.second, "The same frame with another --light-seed")->required();
+  addParsed(*c, "-o", in.denoise.output, parseNamed(".exr"), "FILE.exr",
+            "Write here: A with the colours of both, filtered")
+      ->required();
+  c->callback([&] { code = denoiseCommand(in.denoise); });
+}
+
 void buildCompile(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("compile", "Check shaders in the RenderMan Shading Language");
   c->add_option("SHADER.sl", in.compile.files)->required();
@@ -135,6 +145,7 @@ void addFileCommands(CLI::App& app, Invocation& in, int& code) {
   buildInfo(app, in, code);
   buildList(app, in, code);
   buildCompare(app, in, code);
+  buildDenoise(app, in, code);
   buildJoin(app, in, code);
   buildCompile(app, in, code);
   buildShadetest(app, in, code);

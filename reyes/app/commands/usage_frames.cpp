@@ -37,6 +37,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   addParsed(
       *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
       "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
+  addTarget(*c, in.render);
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
@@ -53,13 +54,14 @@ void buildHide(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = hideCommand(in.render); });
 }
 
-void addShotOptions(CLI::App& app, RenderSettings& s) {
+void addShotOptions(CLI::App& app, RenderSettings& s, const char* what = "A deep frame buffer",
+                    const char* named = "SHOT.dfb") {
   app.add_option("--edit", s.edits,
                  "Changes to shaders, lights and attributes: RIB requests after Attribute \"identifier\" \"name\"")
       ->expected(1)
       ->take_all()
       ->type_name("EDIT.rib");
-  app.add_option("SHOT", s.files, "A deep frame buffer")->required()->expected(1)->type_name("SHOT.dfb");
+  app.add_option("SHOT", s.files, what)->required()->expected(1)->type_name(named);
 }
 
 void buildGather(CLI::App& app, Invocation& in, int& code) {
@@ -69,9 +71,12 @@ void buildGather(CLI::App& app, Invocation& in, int& code) {
                 "Start from these records and add where they leave points uncovered or disagree; with --crop "
                 "those inside are gathered anew")
       ->type_name("OTHER.icf");
+  c->add_flag("--by-light", in.render.byLight,
+              "Keep what each light brings, so that shade and relight dim and colour lights with all that they bounce");
   addCrop(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
+  c->add_flag("--resume", in.render.resume, "Keep what is gathered, and use that of an interrupted run");
   addShotOptions(*c, in.render);
   c->callback([&] { code = gatherCommand(in.render); });
 }
@@ -86,8 +91,29 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
+  addTarget(*c, in.render);
   addShotOptions(*c, in.render);
   c->callback([&] { code = shadeCommand(in.render); });
+}
+
+void buildRelight(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("relight", "Change the lights of a shot in a browser, and see the frame");
+  RelightCommand& r = in.relight;
+  c->add_option("--irradiance", r.render.irradiance,
+                "Indirect light and shadows of tomales gather --by-light (default: they are gathered first)")
+      ->type_name("SHOT.icf");
+  c->add_option("--port", r.port, "Of the address that the page is at (default: any that is free)")
+      ->check(CLI::Range(1, 65535));
+  c->add_option("--folder", r.folder, "Edits are saved and loaded here (default: the working folder)")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("FOLDER");
+  c->add_flag_callback(
+      "--no-browser", [&r] { r.opens = false; }, "Print the address alone");
+  addCrop(*c, r.render);
+  addLightOptions(*c, r.render);
+  addRunOptions(*c, r.render);
+  addShotOptions(*c, r.render, "A deep frame buffer, or a scene, which is hidden first", "SHOT.dfb|SCENE.rib");
+  c->callback([&] { code = relightFirst(in.relight); });
 }
 
 /// What the user gave of some options, as it would be written again.
@@ -164,8 +190,9 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
       c->add_option("--sweep", s.sweep, "What to vary: " + chartSweepNames())->check([](const std::string& name) {
         return chartSweep(name) ? std::string() : "none of " + chartSweepNames();
       });
-  c->add_flag("--stability", in.stability,
-              "SCENEs are laboratory scenes with a knob (docs/chart.md), or folders of them: error against the knob")
+  c->add_flag(
+       "--stability", in.stability,
+       "SCENEs are laboratory scenes with a knob (docs/measured/limits.md), or folders of them: error against the knob")
       ->excludes(sweep);
   addParsed(*c, "--budget", s.budget_s, parseSeconds, "10m", "Wall time, as 90s, 10m or 2h (default 10m)");
   addParsed(
@@ -199,6 +226,7 @@ void addFrameCommands(CLI::App& app, Invocation& in, int& code) {
   buildHide(app, in, code);
   buildGather(app, in, code);
   buildShade(app, in, code);
+  buildRelight(app, in, code);
   buildBatch(app, in, code);
   buildChart(app, in, code);
 }

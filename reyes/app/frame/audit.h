@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reyes/app/frame/audit_estimate.h"
+#include "reyes/app/frame/audit_pixels.h"
 #include "reyes/base/stats.h"
 #include "reyes/deep.h"
 #include "reyes/shade.h"
@@ -16,6 +17,7 @@ struct AuditPlan {
   size_t pixels = 300;
   uint32_t seed = 0;     ///< Decides which, and the rays there.
   bool indirect = true;  ///< The frame has indirect light.
+  int lightSamples = 0;  ///< The most that an audited picture has of each light; 0: as many as the lights ask.
 };
 
 struct AuditReport {
@@ -26,11 +28,47 @@ struct AuditReport {
   std::optional<ErrorEstimate> indirect, direct;  ///< those of one kind of light too.
 };
 
-/// `context` is that in which the picture is shaded. Pre: gathering is done, so that shading gives the picture's
-/// colours. The same bits for any number of threads. Nothing of the picture changes.
-AuditReport auditFrame(const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
-                       const ShadingSystem& shading, const ShadeContext& context, const AuditPlan& plan,
-                       const std::atomic<bool>& cancelled);
+/// What a kind of light brings to each pixel: in the picture, and by two independent sets of many rays.
+struct FoundLight {
+  std::vector<vec3> picture, sets[2];
+  int rays = 0;  ///< Of each set.
+
+  /// What is missing in the picture.
+  vec3 missing(size_t p) const { return 0.5f * (sets[0][p] + sets[1][p]) - picture[p]; }
+  vec3 noise(size_t p) const { return 0.5f * (sets[0][p] - sets[1][p]); }
+};
+
+/// Some pixels of a frame, and the light that is right there. Several pictures of them can be compared with the same
+/// light, whose rays are traced when the first one wants them. The same bits for any number of threads; nothing of the
+/// frame changes. The references outlive it. Not for several threads at once.
+class Audit {
+ public:
+  Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
+        const AuditPlan& plan, const std::atomic<bool>& cancelled);
+
+  /// The errors of the picture that is shaded in this context. Pre: gathering is done, so that shading gives the
+  /// picture's colours.
+  AuditReport of(const ShadeContext& context);
+
+  /// The colours of the pixels in that picture.
+  std::vector<vec3> shade(ShadeContext context) const;
+  size_t pixelCount() const { return pixels_.size(); }
+
+ private:
+  int findDirect(ShadeContext context);
+  int findIndirect(ShadeContext context);
+  void addSets(FoundLight& light, ShadeContext context, int rays) const;
+  std::vector<AuditedError> errorsOf(std::initializer_list<const FoundLight*> kinds) const;
+
+  const Scene& scene_;
+  const ShadingSystem& shading_;
+  const AuditPlan plan_;
+  const std::vector<AuditPixel> pixels_;
+  const int samplesPerPixel_;
+  const std::atomic<bool>& cancelled_;
+  std::vector<vec3> picture_;
+  FoundLight direct_, indirect_;
+};
 
 /// Writes the report to the statistics.
 void recordAudit(const AuditReport& report, Stats& stats);

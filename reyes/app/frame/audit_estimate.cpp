@@ -48,6 +48,7 @@ ErrorEstimate estimateError(std::span<const AuditedError> places) {
   }
   out.low = percentile(means, kOutside);
   out.high = percentile(means, 1 - kOutside);
+  if (!out.tells()) out.high = std::max(out.high, out.noise);
   return out;
 }
 

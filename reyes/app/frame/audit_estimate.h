@@ -12,9 +12,12 @@ struct AuditedError {
 
 struct ErrorEstimate {
   double mean = 0;           ///< Mean absolute relative error of the picture, without the noise of the audit.
-  double low = 0, high = 0;  ///< It lies between these with 90 % confidence.
+  double low = 0, high = 0;  ///< It lies between these with 90 % confidence; below `noise` nothing is told apart.
   double noise = 0;          ///< Mean of AuditedError::noise.
   double p99 = 0;  ///< 99 % of the places err by less. A few places decide this, so nothing says how certain it is.
+
+  /// False if the audit is noisier than the picture errs, so that it has only found a bound of the error.
+  bool tells() const { return mean >= noise; }
 };
 
 /// The noise is taken off in squares: it and the error are independent. The interval is that of the percentile

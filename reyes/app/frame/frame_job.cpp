@@ -1,16 +1,13 @@
 #include "reyes/app/frame/frame_job.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "reyes/app/frame/atlas_job.h"
-#include "reyes/app/frame/audit.h"
 #include "reyes/app/frame/light_sources.h"
 #include "reyes/app/frame/limits.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
+#include "reyes/app/frame/target.h"
 #include "reyes/app/frame/turns_timer.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/pixel_report.h"
@@ -32,6 +29,7 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
       settings_(settings),
       stats_(stats),
       log_(log),
+      quality_{settings.samples, settings.maxError, settings.lightSamples},
       camera_(scene.options),
       meter_(settings.progress, "preparing"),
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
@@ -77,8 +75,8 @@ void FrameJob::openAll() {
 
 bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(stats_, "hide");
-  meter_.begin("hiding");
-  return hideTiles(layout, scene_, *shading_, control(0, gathers() ? kHidden : kGathered), stats_, log_, sink);
+  return hideTiles(layout, scene_, *shading_, control("hiding", 0, gathers() ? hidden_ : gathered_), stats_, log_,
+                   sink);
 }
 
 void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
@@ -107,18 +105,53 @@ void FrameJob::prepareRays(RaySource rays) {
 
 GiSettings FrameJob::giSettings() const {
   return {mode(),
-          settings_.samples,
+          quality_.samples,
           settings_.bounces,
-          settings_.maxError,
+          quality_.maxError,
           lightSeedOf(settings_),
           settings_.errorFunction,
           mode() != GiMode::Atlas || storesDirect(settings_, *shading_)};
 }
 
+void FrameJob::light(const DeepFrame& layout, const TileReader& tiles, bool gathers) {
+  const bool steers = choosesQuality(settings_) && !interrupted() && steersLight();
+  if (steers && settings_.targetError > 0) return reachTargetError(*this, layout, tiles, settings_, stats_, log_);
+  if (steers)
+    useTimeBudget(*this, layout, tiles, settings_, stats_, log_);
+  else if (gathers)
+    gather(layout, tiles);
+  if (!audits(settings_) || interrupted()) return;
+  const AuditReport report = audit(layout, tiles, lightSeedOf(settings_));
+  if (!interrupted()) tellAudit(report);
+}
+
+/// Tells whether rays and records decide the error of the light; says so if not.
+bool FrameJob::steersLight() const {
+  const bool steers = mode() == GiMode::None || method_->caches || (method_->isReference && !counts_);
+  if (!steers)
+    log_.report(
+        Severity::Warning, "target-unused", {},
+        fmt::format(
+            "--target-error and --time-budget choose rays and records, and the light of --gi {} comes from {}: the "
+            "picture is made as without them",
+            method_->name, counts_ ? "photons" : "maps"));
+  return steers;
+}
+
+double FrameJob::elapsed_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void FrameJob::setQuality(const LightQuality& quality) {
+  quality_ = quality;
+  if (services_) services_->startAgain(giSettings());
+}
+
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
   if (!(gathers() || counts_) || interrupted()) return;
   const StageTimer timer(stats_, "gather");
-  meter_.begin("gathering");
+  const auto progress = meter_.pass("gathering", makesLight() ? lightMade() : hidden_, gathered_);
+  progress(0);
   openPreview(layout);
   std::function<void(int)> show;
   ShadeContext context = shadeContext();
@@ -127,23 +160,35 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
     show = [&](int stride) {
       preview_->show(sketch(layout, tiles, stride, scene_, *shading_, context, interrupted()));
     };
-  services_->gatherPass(layout, tiles, meter_.stage(makesLight() ? kLightMade : kHidden, kGathered), &interrupted(),
-                        show);
+  gatherRecords(layout, tiles, progress, show);
+  if (!interrupted()) progress(1);
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && gathers() && !interrupted())
     bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);
 }
 
-void FrameJob::audit(const DeepFrame& layout, const TileReader& tiles) {
-  if (settings_.audit == 0 || interrupted()) return;
-  const StageTimer timer(stats_, "audit");
-  meter_.begin("auditing");
-  AuditPlan plan{static_cast<size_t>(settings_.audit), lightSeedOf(settings_), false};
+void FrameJob::gatherRecords(const DeepFrame& layout, const TileReader& tiles,
+                             const std::function<void(float)>& progress, const std::function<void(int)>& covered) {
+  if ((gathers() || counts_) && !interrupted()) services_->gatherPass(layout, tiles, progress, &interrupted(), covered);
+}
+
+AuditPlan FrameJob::auditPlan(uint32_t seed) const {
+  AuditPlan plan;
+  if (settings_.audit > 0) plan.pixels = static_cast<size_t>(settings_.audit);
+  plan.seed = seed, plan.indirect = false;
   for (size_t g = 0; g < scene_.groups.size() && mode() != GiMode::None; ++g)
     plan.indirect |= shading_->indirectQuery(static_cast<int>(g)) != nullptr;
-  const AuditReport report = auditFrame(layout, tiles, scene_, *shading_, shadeContext(), plan, interrupted());
-  if (interrupted()) return;
+  return plan;
+}
+
+AuditReport FrameJob::audit(const DeepFrame& layout, const TileReader& tiles, uint32_t seed) {
+  const StageTimer timer(stats_, "audit");
+  meter_.begin("auditing");
+  return Audit(layout, tiles, scene_, *shading_, auditPlan(seed), interrupted()).of(shadeContext());
+}
+
+void FrameJob::tellAudit(const AuditReport& report) {
   const std::string sentence = sentenceOf(report);
   log_.report(Severity::Note, "audit", {}, sentence);
   describeAudit(scene_.options, sentence, settings_);
@@ -154,15 +199,15 @@ ShadeContext FrameJob::shadeContext() const {
   ShadeContext context;
   context.seed = lightSeedOf(settings_);
   context.direct = settings_.direct;
-  context.lightSamples = settings_.lightSamples > 0 ? settings_.lightSamples
-                         : method_->isReference     ? referenceLightSamples()
-                                                    : 0;
+  context.lightSamples = quality_.lightSamples > 0 ? quality_.lightSamples
+                         : method_->isReference    ? referenceLightSamples()
+                                                   : 0;
   return context;
 }
 
 bool FrameJob::shade(std::span<const uint32_t> tiles, const ShadeSteps& steps) {
   const StageTimer timer(stats_, "shade");
-  return shadeTiles(tiles, steps, scene_, *shading_, shadeContext(), {{}, &interrupted(), settings_.seed});
+  return shadeTiles(tiles, steps, scene_, *shading_, shadeContext(), control("shading", gathered_, 1));
 }
 
 void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load) {
@@ -175,14 +220,15 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
     context.indirect = false;
   }
   DeepFrame frame = layout;
-  constexpr float begin = kGathered;
   size_t shaded = 0;
   bool complete = true;
-  meter_.begin("shading");
+  const auto progress = meter_.pass("shading", gathered_, 1);
+  progress(0);
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     const StageTimer timer(stats_, "shade");
-    const auto share = [&](size_t done) {
-      return begin + (0.99f - begin) * static_cast<float>(done) / static_cast<float>(frame.tileCount());
+    const auto tell = [&, before = shaded](float share) {  // what is left is to write the last rows
+      progress(0.99f * (static_cast<float>(before) + share * static_cast<float>(tiles.size())) /
+               static_cast<float>(frame.tileCount()));
     };
     const ShadeSteps steps{[&](size_t index, DeepTile& tile) {
                              auto loaded = load(index);
@@ -195,8 +241,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                              if (!cut) keepShaded(index, tile);
                              place(index, std::move(tile), put);
                            }};
-    const FrameControl control{meter_.stage(share(shaded), share(shaded + tiles.size())),
-                               cut ? nullptr : &interrupted(), settings_.seed};
+    const FrameControl control{tell, cut ? nullptr : &interrupted(), settings_.seed};
     complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
     shaded += tiles.size();
   });
@@ -206,10 +251,12 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
 void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
                             const std::function<void(size_t tile, const DeepTile&)>& keep) {
   DeepFrame frame = layout;
-  FrameHider hider(layout, scene_, *shading_, control(0, 0.99f), stats_, log_);
+  const FrameControl part = control("hiding and shading", 0, 1);
+  FrameControl all = part;
+  all.progress = [&](float share) { part.progress(0.99f * share); };  // what is left is to write the last rows
+  FrameHider hider(layout, scene_, *shading_, all, stats_, log_);
   bool complete = true;
   std::atomic<bool> dropped{false};
-  meter_.begin("hiding and shading");
   finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
     TurnsTimer timer(stats_, "hide", "shade");
     const TileSink sink{{},
@@ -230,6 +277,23 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
   });
   if (!complete || dropped)
     log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+}
+
+void FrameJob::show(const DeepFrame& layout, const ShownTiles& tiles, const ShownPart& part, const RowViewer& viewer,
+                    const std::atomic<bool>& cancelled) {
+  ShadeContext context = shadeContext();
+  context.lights = part.lights, context.indirect = part.indirect;
+  DeepFrame frame = layout;
+  frame.crop = part.window;
+  const FrameControl control{{}, &cancelled, settings_.seed};
+  const auto fill = [&](std::span<const uint32_t> asked, const TilePlace& put) {
+    const auto take = [&](size_t index, DeepTile&& tile) {
+      tiles.shaded(index, tile);
+      put(index, std::move(tile));
+    };
+    shadeTiles(asked, {tiles.load, take}, scene_, *shading_, context, control);
+  };
+  showFrame(frame, fill, viewer, scene_.options, control);
 }
 
 void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {
@@ -253,42 +317,17 @@ void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   if (rays_) rays_->report(stats_);
   preview_.reset();
   clouds_.write(log_);
-  meter_.report(1);
+  if (!interrupted()) meter_.finish();
 }
 
-FrameControl FrameJob::control(float begin, float end) {
-  return {meter_.stage(begin, end), &interrupted(), settings_.seed};
+FrameControl FrameJob::control(const char* pass, float begin, float end) {
+  return {meter_.pass(pass, begin, end), &interrupted(), settings_.seed};
 }
 
 // The reference must not be noisier in direct light than in indirect.
 int FrameJob::referenceLightSamples() const {
-  const int samples = settings_.samples > 0 ? settings_.samples : kReferenceLightSamples;
+  const int samples = quality_.samples > 0 ? quality_.samples : kReferenceLightSamples;
   return std::min(std::max(samples, shading_->mostAreaSamples()), kMostReferenceLightSamples);
-}
-
-void makeFolderOf(const std::string& file) {
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  std::error_code failed;  // if this fails, the folder is missing still
-  if (folder.is_relative() && !folder.empty()) std::filesystem::create_directories(folder, failed);
-}
-
-bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
-  std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  if (folder.empty()) folder = ".";
-  if (::access(folder.c_str(), W_OK | X_OK) == 0) return true;
-  log.report(Severity::Output, "output-folder", where,
-             "\"" + file + "\" cannot be written: its folder is missing or closed to us; the frame was not rendered");
-  return false;
-}
-
-bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log) {
-  bool all = true;
-  for (const DisplayCall& display : options.displays) {
-    if (!driverOf(display, options, trust).empty()) continue;
-    makeFolderOf(display.name);
-    all = hasFolder(display.name, display.where, log) && all;
-  }
-  return all;
 }
 
 }  // namespace tomales

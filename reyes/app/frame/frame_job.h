@@ -1,7 +1,11 @@
 // Takes one frame through the stages, in the order of its members. Rays and global illumination are built if the scene
 // asks for them.
 #pragma once
+#include <chrono>
+
 #include "gi/clouds.h"
+#include "reyes/app/frame/audit.h"
+#include "reyes/app/frame/error_model.h"
 #include "reyes/app/frame/kept_frame.h"
 #include "reyes/app/settings.h"
 #include "reyes/app/watch/progress.h"
@@ -13,6 +17,19 @@ namespace tomales {
 
 class Preview;
 
+/// What FrameJob::show() makes.
+struct ShownPart {
+  PixelRect window;                     ///< Inside of the frame's crop window.
+  const std::string* lights = nullptr;  ///< ShadeContext::lights.
+  bool indirect = true;
+};
+
+/// The tiles of FrameJob::show(), from any thread.
+struct ShownTiles {
+  std::function<bool(size_t index, DeepTile& tile)> load;  ///< As ShadeSteps::load.
+  std::function<void(size_t index, const DeepTile& tile)> shaded;
+};
+
 class FrameJob {
  public:
   /// Pre: overrides have been applied to the scene. `shaders` outlives the job. Everything that goes wrong is in the
@@ -20,6 +37,8 @@ class FrameJob {
   FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log);
   ~FrameJob();
 
+  /// Sets the shares of the progress at which all is hidden, and then gathered, for commands that do not do it all.
+  void setShares(float hidden, float gathered) { hidden_ = hidden, gathered_ = gathered; }
   /// Reads all procedurals that are still closed. Call it before `hide` if tiles leave that one by one, to a file or
   /// shaded: it then finds no new shade groups on its way.
   void openAll();
@@ -32,10 +51,26 @@ class FrameJob {
   void prepareRays();
   /// Prepares rays against what `rays` provides when the first ray is wanted: for scenes without geometry.
   void prepareRays(RaySource rays);
+  /// Gathers what the picture needs, and measures and tells its error, as the command line asks: with settings of the
+  /// program's own choice where that names an error to reach. `gathers`: false if records are given.
+  void light(const DeepFrame& layout, const TileReader& tiles, bool gathers);
+
+  // The steps of light(), which may be repeated.
+  /// Forgets what was gathered; light is gathered and shaded by these settings from now on.
+  void setQuality(const LightQuality& quality);
+  void setLightSamples(int lightSamples) { quality_.lightSamples = lightSamples; }
+  /// Seconds since the job was made, before anything was hidden.
+  double elapsed_s() const;
+  /// Gathers, warns of what the records show, and keeps light for later frames if the command line asks for it.
   void gather(const DeepFrame& layout, const TileReader& tiles);
-  /// Measures the error of the picture that write() will make, if the command line asks for it: a message, the headers
-  /// of the Displays and the statistics tell it. The tiles are read once.
-  void audit(const DeepFrame& layout, const TileReader& tiles);
+  void gatherRecords(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress = {},
+                     const std::function<void(int)>& covered = {});
+  /// What `--audit` asks for, at pixels that this seed decides.
+  AuditPlan auditPlan(uint32_t seed) const;
+  /// Measures the error of the picture that write() will make. The tiles are read once.
+  AuditReport audit(const DeepFrame& layout, const TileReader& tiles, uint32_t seed);
+  /// Tells it: by a message, and in the headers of the Displays and the statistics.
+  void tellAudit(const AuditReport& report);
   /// Shades some tiles. Returns false if it was interrupted.
   bool shade(std::span<const uint32_t> tiles, const ShadeSteps& steps);
   /// Writes the picture, from tiles that are shaded as its rows need them. If hiding was interrupted, it is not again.
@@ -45,23 +80,29 @@ class FrameJob {
   void hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
                     const std::function<void(size_t tile, const DeepTile&)>& keep);
 
+  /// Shades a part of the picture for the viewer alone, before exposure and imager. It can be called again and again,
+  /// and needs no write(). If it is cancelled, the viewer may get no rows.
+  void show(const DeepFrame& layout, const ShownTiles& tiles, const ShownPart& part, const RowViewer& viewer,
+            const std::atomic<bool>& cancelled);
+
   bool gathers() const { return gathers_; }
   /// Tells whether gather() has to run, where records are given or not.
   bool gathersBeside(bool recordsGiven) const { return counts_ || (gathers_ && !recordsGiven); }
   /// Warns if records that stand in for a gather pass were made without one. `file` is where they come from.
   void checkRecords(const GiSettings& gathered, const std::string& file) const;
   const GiMethod& method() const { return *method_; }
+  Scene& scene() { return scene_; }
   const Camera& camera() const { return camera_; }
   GiSettings giSettings() const;
-  GiServices* services() { return services_.get(); }
-  ShadingSystem& shading() { return *shading_; }
-  FrameControl control(float begin, float end);
+  ShadeContext shadeContext() const;
+  GiServices* services() const { return services_.get(); }
+  ShadingSystem& shading() const { return *shading_; }
+  FrameControl control(const char* pass, float begin, float end);
   /// Returns a callback for the progress of the maps that indirect light needs before anything is gathered.
-  std::function<void(float)> lightProgress() { return meter_.stage(kHidden, kLightMade); }
+  std::function<void(float)> lightProgress() { return meter_.pass("making maps of light", hidden_, lightMade()); }
 
  private:
-  /// Shares of a frame that are done when its stages end.
-  static constexpr float kHidden = 0.3f, kLightMade = 0.5f, kGathered = 0.7f;
+  float lightMade() const { return 0.5f * (hidden_ + gathered_); }
   bool makesLight() const { return mode() == GiMode::Atlas || mode() == GiMode::Radiosity; }
   void warnAboutPixels() const;
   GiMode mode() const { return method_->mode; }
@@ -69,7 +110,7 @@ class FrameJob {
   /// Reads what rays may meet, on screen or not, before the first ray, which may go anywhere, and keeps it.
   void open(const std::function<bool(const Attributes&)>& wanted);
   int referenceLightSamples() const;
-  ShadeContext shadeContext() const;
+  bool steersLight() const;
   /// Keeps the colours of a tile that is shaded as the finished picture has it. What shaders bake is lost with its
   /// tile, so a tile stays to be shaded again once anything has been baked.
   void keepShaded(size_t index, const DeepTile& tile) const {
@@ -85,10 +126,13 @@ class FrameJob {
   const RenderSettings& settings_;
   Stats& stats_;
   Log& log_;
+  LightQuality quality_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   bool gathers_ = false;
   bool counts_ = false;  ///< Photons are counted at visible points.
   const Camera camera_;
   ProgressMeter meter_;
+  float hidden_ = 0.3f, gathered_ = 0.7f;
   CloudFiles clouds_;
   KeptWork* kept_ = nullptr;
   std::unique_ptr<ShadingSystem> shading_;
@@ -98,13 +142,5 @@ class FrameJob {
   std::unique_ptr<GiServices> services_;
   std::unique_ptr<Preview> preview_;
 };
-
-/// Hours of rendering must not end at a folder that never existed. Returns false, and reports it, if it does not exist.
-bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
-/// Makes the folder only if it is relative: scenes of modellers name folders of their project. A failure shows when the
-/// file is written.
-void makeFolderOf(const std::string& file);
-/// Makes the relative folders of Displays. Display drivers need none.
-bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log);
 
 }  // namespace tomales

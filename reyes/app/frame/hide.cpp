@@ -7,6 +7,7 @@
 
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/outputs.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/input_file.h"
 
@@ -46,6 +47,7 @@ void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSe
       kMostTiles)
     return unwritten("there are too many buckets; use --bucket-size or --crop");
   FrameJob job(scene, shaders, settings, stats, log);
+  job.setShares(1, 1);
   job.openAll();
   Shot shot{
       scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
@@ -71,7 +73,8 @@ void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSe
     return log.report(
         Severity::Warning, "interrupted", {},
         "interrupted: finished buckets are in \"" + file->unfinishedPath() + "\", and --resume adds the others");
-  if (!file->finish()) unwritten(file->error());
+  if (!file->finish()) return unwritten(file->error());
+  stats.addOutput(path);
 }
 
 }  // namespace tomales

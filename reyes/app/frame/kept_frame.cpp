@@ -28,6 +28,12 @@ bool fits(const ShadedPoints& shaded, const ShadePoints& points) {
 std::unique_ptr<KeptWork> keptWorkOf(const Scene& scene, ShaderRegistry& shaders, const DeepFrame& layout,
                                      const RenderSettings& settings, Log& log) {
   if (!settings.resume) return nullptr;
+  if (choosesQuality(settings)) {
+    log.report(
+        Severity::Note, "resume", {},
+        "--resume keeps hidden buckets alone: light is gathered several times, with settings that the program finds");
+    return nullptr;
+  }
   const std::string contents = contentsOf(scene, shaders, settings);
   if (contents.empty()) {
     log.report(Severity::Note, "resume", {},

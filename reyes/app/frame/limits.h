@@ -1,5 +1,5 @@
-// Warnings where methods reach their limits on the scene at hand; the laboratory of docs/chart.md shows what happens
-// beyond.
+// Warnings where methods reach their limits on the scene at hand; the laboratory of docs/measured/limits.md shows what
+// happens beyond.
 #pragma once
 #include <span>
 

@@ -1,5 +1,7 @@
 #include "reyes/app/frame/outputs.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -128,6 +130,31 @@ void nameOutputs(Options& options, const RenderSettings& settings, Log& log) {
   if (!settings.outputRoot.empty()) keepBelow(settings, named, options);
   dropDisplays(options, named, trust, log);
   if (settings.crop && !settings.overwrite && !writesMapsAlone(options)) keepLargerFiles(options, named, trust, log);
+}
+
+void makeFolderOf(const std::string& file) {
+  const fs::path folder = std::filesystem::path(file).parent_path();
+  std::error_code failed;  // if this fails, the folder is missing still
+  if (folder.is_relative() && !folder.empty()) fs::create_directories(folder, failed);
+}
+
+bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
+  fs::path folder = std::filesystem::path(file).parent_path();
+  if (folder.empty()) folder = ".";
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return true;
+  log.report(Severity::Output, "output-folder", where,
+             "\"" + file + "\" cannot be written: its folder is missing or closed to us; the frame was not rendered");
+  return false;
+}
+
+bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log) {
+  bool all = true;
+  for (const DisplayCall& display : options.displays) {
+    if (!driverOf(display, options, trust).empty()) continue;
+    makeFolderOf(display.name);
+    all = hasFolder(display.name, display.where, log) && all;
+  }
+  return all;
 }
 
 }  // namespace tomales

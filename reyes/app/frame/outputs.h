@@ -1,6 +1,7 @@
 // Which files a frame writes: the scene's Displays, as the command line changes them.
 #pragma once
 #include "reyes/app/settings.h"
+#include "reyes/base/plugin_trust.h"
 #include "reyes/scene.h"
 
 namespace tomales {
@@ -19,5 +20,13 @@ void nameOutputs(Options& options, const RenderSettings& settings, Log& log);
 
 /// True if all that the frame writes is maps for later frames, such as shadow maps, which need all of their view.
 bool writesMapsAlone(const Options& options);
+
+/// Hours of rendering must not end at a folder that never existed. Returns false, and reports it, if it does not exist.
+bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
+/// Makes the folder only if it is relative: scenes of modellers name folders of their project. A failure shows when the
+/// file is written.
+void makeFolderOf(const std::string& file);
+/// Makes the relative folders of Displays. Display drivers need none.
+bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log);
 
 }  // namespace tomales

@@ -42,6 +42,7 @@ RaySettings raySettings(const RenderSettings& settings, const Options& options) 
   const auto it = options.user.find("limits:geocachememory");
   if (it != options.user.end())
     out.geometryCacheBytes = static_cast<size_t>(std::clamp(it->second.number(0), 0.0f, 1e15f) * 1024);
+  if (settings.memoryLimit) out.coarseBytes = static_cast<size_t>(rayShare(*settings.memoryLimit));
   if (settings.geometryCache) out.geometryCacheBytes = static_cast<size_t>(*settings.geometryCache);
   return out;
 }

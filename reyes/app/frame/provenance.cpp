@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kVersionOf = "tomales:version", *kCommit = "tomales:commit", *kScene = "tomales:scene",
-                     *kFrame = "tomales:frame", *kSettings = "tomales:settings", *kAudit = "tomales:audit";
+                     *kFrame = "tomales:frame", *kSettings = "tomales:settings", *kAudit = "tomales:audit",
+                     *kChosen = "tomales:chosen";
 
 /// The options of the command line that pictures depend on and that no option of the scene keeps, where they are not
 /// the defaults.
@@ -34,6 +35,7 @@ std::string settingsText(const RenderSettings& s) {
   add("--samples", s.samples, usual.samples), add("--bounces", s.bounces, usual.bounces);
   add("--max-error", s.maxError, usual.maxError);
   add("--error-function", s.errorFunction ? static_cast<int>(*s.errorFunction) : -1, -1);
+  add("--target-error", s.targetError, usual.targetError), add("--time-budget", s.timeBudget_s, usual.timeBudget_s);
   add("--light-samples", s.lightSamples, usual.lightSamples), add("--indirect-only", !s.direct, false);
   add("--seed", s.seed, usual.seed), add("--light-seed", lightSeedOf(s), s.seed);
   add("--photons", s.photons, usual.photons), add("--photon-noise", s.photonNoise, usual.photonNoise);
@@ -59,8 +61,7 @@ uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
   std::vector<ShaderName> names;
   const auto add = [&](const ShaderCall* call, TmKind kind) {
     if (!call || !seen.insert(call).second) return;
-    const std::string beside = call->where.file ? fs::path(*call->where.file).parent_path().string() : "";
-    names.push_back({call->name, kind, beside});
+    names.push_back({call->name, kind, call->where.folder().string()});
   };
   for (const auto& light : scene.lights) add(&light->shader, TM_LIGHT);
   if (scene.options.imager) add(&*scene.options.imager, TM_IMAGER);
@@ -128,6 +129,14 @@ std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<S
   return fmt::format("{:016x}", contentSum(sum, world, seed));
 }
 
+std::string contentsOfGather(const Shot& shot, uint64_t buckets, ShaderRegistry& shaders, const std::string& sum,
+                             const RenderSettings& settings) {
+  if (!settings.atlasFolder.empty()) return {};
+  const PixelRect& crop = shot.frame.crop;
+  return fmt::format("{} {} {:016x} {:016x} {} {} {} {} {}", std::string(kVersion) + sourceCommit(), sum, buckets,
+                     shaderSum(shot.scene, shaders), settingsText(settings), crop.x0, crop.y0, crop.x1, crop.y1);
+}
+
 void describeShot(Options& options, const std::string& sum, const RenderSettings& settings) {
   addToPictures(options, kShot, sum, settings);
 }
@@ -139,6 +148,10 @@ void describeGather(Options& options, const RenderSettings& settings) {
 
 void describeAudit(Options& options, const std::string& sentence, const RenderSettings& settings) {
   addToPictures(options, kAudit, sentence, settings);
+}
+
+void describeQuality(Options& options, const std::string& chosen, const RenderSettings& settings) {
+  addToPictures(options, kChosen, chosen, settings);
 }
 
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log) {

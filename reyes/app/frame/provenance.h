@@ -20,12 +20,19 @@ void describeOutputs(Options& options, const std::string& contents, const Render
 /// Names what a picture of a shot depends on beside settings: its RIB files, `irradiance`, which is the sum of the
 /// cache that it is shaded with, and the files of edits.
 std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<SourceFile>& edits);
+/// Names what gathering at a shot depends on: `sum`, which is that of sumOfShot(), its buckets, shaders, settings and
+/// crop. Empty if files of light are given, whose contents nobody knows.
+std::string contentsOfGather(const Shot& shot, uint64_t buckets, ShaderRegistry& shaders, const std::string& sum,
+                             const RenderSettings& settings);
 void describeShot(Options& options, const std::string& sum, const RenderSettings& settings);
 /// Says, in the headers of a crop, that light was gathered for this crop alone: beside another such crop there is a
 /// seam.
 void describeGather(Options& options, const RenderSettings& settings);
 /// Adds what an audit has found to the same headers.
 void describeAudit(Options& options, const std::string& sentence, const RenderSettings& settings);
+
+/// Adds the settings of light that the program has chosen.
+void describeQuality(Options& options, const std::string& chosen, const RenderSettings& settings);
 
 /// Do all files of the frame's Displays hold these contents? Formats without such headers cannot tell, which is
 /// reported, and neither can display drivers.

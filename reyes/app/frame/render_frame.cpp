@@ -7,6 +7,7 @@
 #include "reyes/app/frame/bucket_file.h"
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/tile_store.h"
 #include "reyes/app/watch/interrupt.h"
@@ -104,7 +105,8 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
   // A preview wants the first rows first. An audit looks at all rows before the first one is written, because the
   // pictures' headers tell what it has found.
-  const bool streams = !gathers && settings.audit == 0 && (large || !settings.preview.empty() || mayStream(scene));
+  const bool streams = !gathers && !audits(settings) && !choosesQuality(settings) &&
+                       (large || !settings.preview.empty() || mayStream(scene));
 
   if (streams || given || settings.resume) job.openAll();
   BucketFile file(scene, layout, world, settings, log);
@@ -136,8 +138,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
       store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);
       returnFreeMemory();
     }
-    if (gathers) job.gather(layout, store.reader());
-    job.audit(layout, store.reader());
+    job.light(layout, store.reader(), gathers);
     afterStage();
     job.write(layout, [&](size_t i) { return store.take(i); });
   }

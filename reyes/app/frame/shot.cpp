@@ -13,33 +13,28 @@
 #include "reyes/rib.h"
 
 namespace tomales {
-namespace {
-
-constexpr int64_t kTilesInMemory_bytes = int64_t{1} << 31;  ///< Other tiles are read anew by every pass.
-
-SourceLoc wholeFile(const std::string& path) { return {std::make_shared<std::string>(path), 0}; }
-
-}  // namespace
 
 std::unique_ptr<ShotJob> ShotJob::open(const RenderSettings& settings, Stats& stats, Log& log) {
-  std::string error;
-  auto file = DfbFile::open(settings.files.front(), error);
-  if (!file) {
-    log.report(Severity::Error, "dfb-read", wholeFile(settings.files.front()),
-               "cannot be read as a deep frame buffer: " + error);
-    return nullptr;
-  }
-  std::unique_ptr<ShotJob> job(new ShotJob(std::move(file), settings, stats, log));
-  return job->edit() && job->openIrradiance() ? std::move(job) : nullptr;
+  auto files = ShotFiles::open(settings, log);
+  return files ? open(std::move(files), settings, stats, log) : nullptr;
 }
 
-ShotJob::ShotJob(std::unique_ptr<DfbFile> file, const RenderSettings& settings, Stats& stats, Log& log)
-    : file_(std::move(file)), settings_(settings), stats_(stats), log_(log), shot_(file_->shot()) {
+std::unique_ptr<ShotJob> ShotJob::open(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats,
+                                       Log& log) {
+  std::unique_ptr<ShotJob> job(new ShotJob(std::move(files), settings, stats, log));
+  return job->edit() ? std::move(job) : nullptr;
+}
+
+ShotJob::ShotJob(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats, Log& log)
+    : files_(std::move(files)), settings_(settings), stats_(stats), log_(log), shot_(files_->dfb().shot()) {
   settings_.seed = shot_.seed;
 }
 
+ShotJob::~ShotJob() {
+  if (job_ && job_->services() && files_->hasIrradiance()) files_->irradiance().caches = job_->services()->takeCaches();
+}
+
 bool ShotJob::edit() {
-  lightsOfFile_ = shot_.scene.lights;
   for (const ShadeGroup& g : shot_.scene.groups) attributesOfFile_.push_back(g.attributes);
   if (!settings_.edits.empty() && !editScene(settings_.edits, shot_.scene, log_)) return false;
   applyOverrides(shot_.scene, settings_);
@@ -55,45 +50,53 @@ bool ShotJob::edit() {
   return false;
 }
 
-bool ShotJob::openIrradiance() {
-  if (settings_.irradiance.empty()) return true;
-  std::string error;
-  irradiance_ = IcfFile::open(settings_.irradiance, error);
-  if (!irradiance_) {
-    log_.report(Severity::Error, "icf-read", wholeFile(settings_.irradiance),
-                "cannot be read as an irradiance cache: " + error);
-    return false;
-  }
-  if (irradiance_->shot().shot != file_->shotSum())
-    log_.report(Severity::Warning, "icf-shot", wholeFile(settings_.irradiance),
-                "was gathered for another shot: its irradiance is used, its shadows are not");
-  return true;
+std::unique_ptr<KeptWork> ShotJob::keptGather() const {
+  if (!settings_.resume) return nullptr;
+  const std::string sum = sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.edits)),
+                    contents = contentsOfGather(shot_, files_->dfb().shotSum(), *shaders_, sum, settings_);
+  if (!contents.empty()) return KeptWork::create(settings_.output + ".kept", contents, log_);
+  log_.report(Severity::Note, "resume", {},
+              "--resume keeps nothing: the maps of --atlas are read while light is gathered and might change between "
+              "runs");
+  return nullptr;
 }
 
 void ShotJob::prepareLight() {
   shaders_ = frameShaders(settings_, log_);
   world_ = std::make_unique<RayWorld>(shot_, *shaders_, settings_, stats_, log_);
   job_ = std::make_unique<FrameJob>(shot_.scene, *shaders_, settings_, stats_, log_);
+  kept_ = keptGather();
+  job_->keepWork(kept_.get());
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
-  if (!irradiance_) return;
-  IrradianceShot given = irradiance_->takeShot();
-  if (given.emitters && given.shot == file_->shotSum()) job_->services()->useEmitters(std::move(*given.emitters));
-  moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
-  std::optional<PixelRect> anew;
-  if (gathersAnew_) dropRecordsOfCrop(given.caches), anew = shot_.frame.crop;
-  job_->services()->useCaches(std::move(given.caches), anew);
+  if (files_->hasIrradiance()) {
+    IrradianceShot& given = files_->irradiance();
+    if (given.emitters && files_->hasAnswers()) job_->services()->useEmitters(*given.emitters);
+    moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
+    std::optional<PixelRect> anew;
+    if (gathersAnew_) dropRecordsOfCrop(given.caches), anew = shot_.frame.crop;
+    job_->services()->useCaches(std::move(given.caches), anew);
+    lightEdits_ = editsSince(given, shot_.scene, job_->shading(), !settings_.standardFromFiles);
+  }
+  prepareShares();
+}
+
+void ShotJob::prepareShares() {
+  const bool given = files_->hasIrradiance();
+  std::vector<std::string> groups = given ? files_->irradiance().groups : std::vector<std::string>();
+  if (settings_.byLight && (given ? groups.empty() : job_->giSettings().mode != GiMode::Gather))
+    return log_.report(Severity::Warning, "light-shares", {},
+                       given ? "--by-light: the records of --irradiance have no shares; new ones get none either"
+                             : "--by-light: only --gi gather knows which light has bounced");
+  if (settings_.byLight && !given) groups = groupsOfLights(shot_.scene, job_->shading());
+  job_->services()->keepShares(groups);
+  if (given) job_->services()->mixShares(lightEdits_.gains);
 }
 
 void ShotJob::warnOfStaleLight() const {
-  if (!irradiance_ || irradiance_->shot().settings.mode == GiMode::None) return;
+  if (!files_->hasIrradiance() || files_->irradiance().settings.mode == GiMode::None) return;
   std::set<std::string> changed;
-  for (size_t l = 0; l < lightsOfFile_.size(); ++l) {
-    const LightKind kind = job_->shading().lightKind(static_cast<int>(l));
-    const bool bounces = kind != LightKind::None && kind != LightKind::Indirect && kind != LightKind::Ambient;
-    if (bounces && shot_.scene.lights[l] != lightsOfFile_[l])
-      changed.insert("light \"" + shot_.scene.lights[l]->handle + "\"");
-  }
+  for (const std::string& handle : lightEdits_.stale) changed.insert("light \"" + handle + "\"");
   for (size_t g = 0; g < attributesOfFile_.size(); ++g) {
     const Attributes &now = *shot_.scene.groups[g].attributes, &then = *attributesOfFile_[g];
     if (now.surface != then.surface || now.color != then.color || now.opacity != then.opacity)
@@ -107,46 +110,47 @@ void ShotJob::warnOfStaleLight() const {
                   fmt::join(changed, ", ")));
 }
 
-std::optional<DeepTile> ShotJob::load(size_t index) {
-  std::string error;
-  auto tile = file_->tile(index, error);
-  if (!tile) {
-    log_.report(Severity::Error, "dfb-bucket", wholeFile(settings_.files.front()),
-                "bucket " + std::to_string(index) + " is left out of the picture: " + error);
-    return tile;
-  }
-  if (!irradiance_ || irradiance_->shot().shot != file_->shotSum()) return tile;
-  if (auto answers = irradiance_->answers(index, error)) {
-    tile->answers = std::move(*answers);
-  } else {
-    log_.report(Severity::Error, "icf-bucket", wholeFile(settings_.irradiance),
-                "the shadows of bucket " + std::to_string(index) + " are traced anew: " + error);
-  }
-  return tile;
+std::shared_ptr<const DeepTile> ShotJob::read(size_t index) const {
+  auto tile = files_->load(index, log_);
+  return tile ? std::make_shared<const DeepTile>(std::move(*tile)) : nullptr;
 }
 
 void ShotJob::shadePicture() {
   if (!displaysHaveFolders(shot_.scene.options, pluginTrust(settings_), log_)) return;
   checkDisplays(shot_.scene.options, log_);
-  describeShot(shot_.scene.options, sumOfShot(shot_, irradiance_ ? irradiance_->sum() : 0, sourcesOf(settings_.edits)),
-               settings_);
+  describeShot(shot_.scene.options, sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.edits)), settings_);
   prepareLight();
-  const auto load = [this](size_t index) { return this->load(index); };
-  if (!job_->gathersBeside(irradiance_ && !settings_.appendIrradiance)) {
+  const bool gathers = job_->gathersBeside(files_->hasIrradiance() && !settings_.appendIrradiance);
+  job_->setShares(0, gathers ? 0.6f : 0);
+  if (!gathers) {
     warnOfStaleLight();
-    if (irradiance_) job_->checkRecords(irradiance_->shot().settings, settings_.irradiance);
-    job_->audit(shot_.frame, [&](size_t index) {
-      auto tile = load(index);
-      return tile ? std::make_shared<const DeepTile>(std::move(*tile)) : nullptr;
-    });
-    job_->write(shot_.frame, load);
-  } else {
-    TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, load);
-    job_->gather(shot_.frame, tiles.reader());
-    job_->audit(shot_.frame, tiles.reader());
-    job_->write(shot_.frame, [&](size_t index) { return tiles.take(index); });
+    if (files_->hasIrradiance()) job_->checkRecords(files_->irradiance().settings, settings_.irradiance);
   }
+  job_->light(
+      shot_.frame, [this](size_t index) { return read(index); }, gathers);
+  job_->write(shot_.frame, [this](size_t index) { return files_->load(index, log_); });
   world_->report();
+}
+
+void ShotJob::prepareToShow() {
+  shot_.scene.options.displays = {DisplayCall{}};
+  prepareLight();
+}
+
+void ShotJob::choose(const std::string* lights, bool indirect) {
+  shownLights_ = lights, showsIndirect_ = indirect;
+  const std::vector<std::string>& groups = shareGroups();
+  if (groups.empty()) return;
+  std::vector<vec3> gains = lightEdits_.gains;
+  if (gains.empty() && lights) gains.assign(groups.size(), vec3(1.0f));
+  for (size_t g = 1; g < groups.size() && lights; ++g)
+    if (groups[g] != *lights) gains[g] = vec3(0.0f);
+  job_->services()->mixShares(std::move(gains));
+}
+
+void ShotJob::show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
+                   const std::atomic<bool>& cancelled) {
+  job_->show(shot_.frame, tiles, {window, shownLights_, showsIndirect_}, viewer, cancelled);
 }
 
 void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
@@ -162,11 +166,11 @@ void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
 }
 
 bool ShotJob::copyAnswers(const std::set<uint32_t>& except, IcfWriter& out) {
-  if (!irradiance_ || irradiance_->shot().shot != file_->shotSum()) return true;
+  if (!files_->hasAnswers()) return true;
   std::string error;
   for (uint32_t i = 0; i < shot_.frame.tileCount(); ++i) {
     if (except.contains(i)) continue;
-    const auto answers = irradiance_->answers(i, error);
+    const auto answers = files_->answers(i, error);
     if (answers && !answers->empty() && !out.writeAnswers(i, *answers)) return false;
   }
   return true;
@@ -186,28 +190,32 @@ void ShotJob::gatherIrradiance() {
   if (!tools) return;
   const std::vector<uint32_t> asked = tilesOf(shot_.frame, shot_.scene.options);
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
-  TileStore tiles(shot_.frame.tileCount(), kTilesInMemory_bytes, [this](size_t index) { return load(index); });
+  job_->setShares(0, 0.8f);
   // Points outside the crop that have lost records, because those of the crop reached there, are gathered too.
   job_->gather(shot_.frame, [&](size_t index) {
-    return irradiance_ || inCrop.contains(static_cast<uint32_t>(index)) ? tiles.read(index) : nullptr;
+    return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? read(index) : nullptr;
   });
-  const bool written = recordAnswers(tiles, *out) && copyAnswers(inCrop, *out);
-  IrradianceShot shot{interrupted() ? 0 : file_->shotSum(),
+  const bool written = recordAnswers(*out) && copyAnswers(inCrop, *out);
+  IrradianceShot shot{interrupted() ? 0 : files_->dfb().shotSum(),
                       job_->giSettings(),
                       shot_.scene.cameraFromWorldAtOpen(),
                       {},
-                      tools->rays->emitters().table()};
+                      tools->rays->emitters().table(),
+                      shot_.scene.lights,
+                      job_->services()->shareGroups()};
   shot.caches = job_->services()->takeCaches();
   world_->report();
-  if (!written || !out->finish(shot)) unwritten(out->error());
+  if (!written || !out->finish(shot)) return unwritten(out->error());
+  stats_.addOutput(settings_.output);
+  if (kept_ && !interrupted()) kept_->forget();
 }
 
 // Shades the picture once, for the answers of its rays.
-bool ShotJob::recordAnswers(TileStore& tiles, IcfWriter& out) {
+bool ShotJob::recordAnswers(IcfWriter& out) {
   const StageTimer timer(stats_, "answers");
   std::atomic<bool> good{true};
   const auto startRecording = [&](size_t index, DeepTile& tile) {
-    auto loaded = tiles.take(index);
+    auto loaded = files_->load(index, log_);
     if (!loaded) return false;
     tile = std::move(*loaded);
     tile.answers.assign(tile.batches.size(), RayAnswers{true, {}, {}});

@@ -2,49 +2,71 @@
 #pragma once
 #include <set>
 
-#include "gi/icf.h"
 #include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/light_edits.h"
 #include "reyes/app/frame/ray_world.h"
-#include "reyes/app/frame/tile_store.h"
+#include "reyes/app/frame/shot_files.h"
 
 namespace tomales {
 
 class ShotJob {
  public:
-  /// Returns null if the file cannot be read, which is reported.
+  /// Returns null if a file cannot be read, which is reported.
   static std::unique_ptr<ShotJob> open(const RenderSettings& settings, Stats& stats, Log& log);
+  /// The same with files that are open already; one job at a time may use them.
+  static std::unique_ptr<ShotJob> open(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats,
+                                       Log& log);
+  ~ShotJob();
+  int frame() const { return shot_.scene.options.frame; }
 
   /// Runs `tomales shade`.
   void shadePicture();
   /// Runs `tomales gather`.
   void gatherIrradiance();
 
+  /// Prepares for show(): the picture is R G B A Z and goes to no file.
+  void prepareToShow();
+  /// Chooses what show() shows from now on: the light of one group alone with all that it bounces (without shares: its
+  /// direct light, and the bounced light of all lights if `indirect`), or of all lights if it is null. `lights` must
+  /// outlive that.
+  void choose(const std::string* lights, bool indirect);
+  void show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
+            const std::atomic<bool>& cancelled);
+
+  const Shot& shot() const { return shot_; }
+  const FrameJob& job() const { return *job_; }  ///< Pre: prepareToShow(), as for the next two.
+  const LightEdits& lightEdits() const { return lightEdits_; }
+  const std::vector<std::string>& shareGroups() const { return job_->services()->shareGroups(); }
+
  private:
-  ShotJob(std::unique_ptr<DfbFile> file, const RenderSettings& settings, Stats& stats, Log& log);
+  ShotJob(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats, Log& log);
   bool edit();
-  bool openIrradiance();
   void prepareLight();
+  void prepareShares();
+  /// What an interrupted run has gathered, with --resume; null if nothing is kept.
+  std::unique_ptr<KeptWork> keptGather() const;
   /// Warns of edits that change bounced light, which records keep as it was when they were gathered.
   void warnOfStaleLight() const;
-  /// Returns nothing if the bucket is damaged, which is reported.
-  std::optional<DeepTile> load(size_t index);
   /// Drops the records gathered before where --crop asks for new ones.
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
   /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);
-  bool recordAnswers(TileStore& tiles, IcfWriter& out);
+  std::shared_ptr<const DeepTile> read(size_t index) const;
+  bool recordAnswers(IcfWriter& out);
 
-  std::unique_ptr<DfbFile> file_;
+  const std::shared_ptr<ShotFiles> files_;
   RenderSettings settings_;
   Stats& stats_;
   Log& log_;
   Shot shot_;
-  std::unique_ptr<IcfFile> irradiance_;
-  std::vector<std::shared_ptr<LightCall>> lightsOfFile_;               ///< Before edits; likewise,
-  std::vector<std::shared_ptr<const Attributes>> attributesOfFile_{};  ///< indexed by shade group.
+  std::vector<std::shared_ptr<const Attributes>> attributesOfFile_{};  ///< Before edits; indexed by shade group.
+  LightEdits lightEdits_;
+  const std::string* shownLights_ = nullptr;  ///< What choose() has been given.
+  bool showsIndirect_ = true;
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
   std::unique_ptr<ShaderRegistry> shaders_;
   std::unique_ptr<RayWorld> world_;
+  std::unique_ptr<KeptWork> kept_;
   std::unique_ptr<FrameJob> job_;
 };
 

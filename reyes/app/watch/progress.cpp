@@ -5,26 +5,32 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 namespace tomales {
 namespace {
 
 constexpr std::chrono::seconds kTick{1};
 constexpr const char* kEraseLine = "\r\033[K";  ///< ECMA-48: EL.
+constexpr int kStepOfPass = 10;                 ///< In per cent, off the terminal.
 
 std::string minutes(double seconds) {
   const auto whole = static_cast<int>(seconds);
   return fmt::format("{:d}:{:02d}", whole / 60, whole % 60);
 }
 
+int percentOf(float share) { return static_cast<int>(100 * std::clamp(share, 0.0f, 1.0f)); }
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+  std::clearerr(stdout);  // a reader that has gone, as in `| head -1`, is no fault of the frame
+}
+
 }  // namespace
 
-ProgressMeter::ProgressMeter(bool wanted, const char* phase)
-    : wanted_(wanted),
-      terminal_(::isatty(STDOUT_FILENO) != 0),
-      start_(Clock::now()),
-      phase_(phase),
-      phaseStart_(start_) {
+ProgressMeter::ProgressMeter(bool wanted, const char* pass)
+    : wanted_(wanted), terminal_(::isatty(STDOUT_FILENO) != 0), start_(Clock::now()), pass_(pass), passStart_(start_) {
   if (wanted_ && terminal_) mover_ = std::thread([this] { keepMoving(); });
 }
 
@@ -36,8 +42,7 @@ ProgressMeter::~ProgressMeter() {
   }
   wake_.notify_one();
   mover_.join();
-  std::fputs(percent_ >= 0 ? "\n" : kEraseLine, stdout);
-  std::fflush(stdout);
+  print(percent_ >= 0 ? "\n" : kEraseLine);
 }
 
 void ProgressMeter::keepMoving() {
@@ -45,25 +50,45 @@ void ProgressMeter::keepMoving() {
   while (!wake_.wait_for(lock, kTick, [this] { return done_; })) showBar();
 }
 
-void ProgressMeter::begin(const char* phase) {
+void ProgressMeter::begin(const char* pass) {
   const std::lock_guard lock(mutex_);
-  phase_ = phase, phaseStart_ = Clock::now();
+  enter(pass);
 }
 
-std::function<void(float)> ProgressMeter::stage(float begin, float end) {
-  return [this, begin, end](float fraction) { report(begin + (end - begin) * fraction); };
+std::function<void(float)> ProgressMeter::pass(const char* name, float begin, float end) {
+  return [this, name, begin, end](float share) { report(name, share, begin + (end - begin) * share); };
 }
 
-void ProgressMeter::report(float fraction) {
+void ProgressMeter::finish() {
   if (!wanted_) return;
-  const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0f, 1.0f));
   const std::lock_guard lock(mutex_);
+  if (passPercent_ >= 0) tellPass(1);
+  tellFrame(1);
+}
+
+void ProgressMeter::report(const char* pass, float share, float frame) {
+  if (!wanted_) return;
+  const std::lock_guard lock(mutex_);
+  if (std::string_view(pass_) != pass) enter(pass);
+  if (passPercent_ < 0 && share > 0) tellPass(0);
+  tellPass(share);
+  tellFrame(frame);
+}
+
+void ProgressMeter::enter(const char* pass) { pass_ = pass, passStart_ = Clock::now(), passPercent_ = -1; }
+
+void ProgressMeter::tellPass(float share) {
+  const int percent = percentOf(share), step = terminal_ ? 1 : kStepOfPass;
+  if (percent / step <= passPercent_ / step && passPercent_ >= 0) return;
+  passPercent_ = percent;
+  if (!terminal_) print(fmt::format("{} {:3d} %\n", pass_, percent - percent % step));
+}
+
+void ProgressMeter::tellFrame(float share) {
+  const int percent = percentOf(share);
   if (percent <= percent_) return;
   percent_ = percent;
-  if (terminal_) return showBar();
-  std::fputs(fmt::format("R90000  {:2d}%\n", percent).c_str(), stdout);
-  std::fflush(stdout);
-  std::clearerr(stdout);  // a reader that has gone, as in `| head -1`, is no fault of the frame
+  terminal_ ? showBar() : print(fmt::format("R90000  {:2d}%\n", percent));
 }
 
 void ProgressMeter::showBar() const {
@@ -75,9 +100,9 @@ void ProgressMeter::showBar() const {
     out += fmt::format("[{}{}] {:3d}%  {} left  ", std::string(filled, '#'), std::string(40 - filled, ' '), percent_,
                        minutes(left));
   }
-  std::fputs(fmt::format("{}{} {} ", out, phase_, minutes(since(phaseStart_))).c_str(), stdout);
-  std::fflush(stdout);
-  std::clearerr(stdout);
+  out += pass_;
+  if (passPercent_ >= 0) out += fmt::format(" {} %", passPercent_);
+  print(fmt::format("{} {} ", out, minutes(since(passStart_))));
 }
 
 }  // namespace tomales

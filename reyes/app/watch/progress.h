@@ -1,5 +1,6 @@
-// Shows how far a frame is: on a terminal a bar with the time left, and what is being done for how long, which moves
-// every second; else the lines "R90000  NN%" that render farms read. Threads: members may be called from any.
+// Shows how far a frame is, pass by pass: on a terminal a bar of the frame with the time left, and the pass with its
+// own share and time, which moves every second. Elsewhere the lines "R90000  NN%" that render farms read tell the share
+// of the frame, and lines such as "gathering  40 %" that of a pass. Threads: members may be called from any.
 #pragma once
 #include <chrono>
 #include <condition_variable>
@@ -12,26 +13,33 @@ namespace tomales {
 
 class ProgressMeter {
  public:
-  /// `phase` names what is done first, such as "reading". Names of phases must outlive the meter.
-  ProgressMeter(bool wanted, const char* phase);
+  /// `pass` names what is done first, such as "reading". Names of passes must outlive the meter.
+  ProgressMeter(bool wanted, const char* pass);
   ~ProgressMeter();
   ProgressMeter(const ProgressMeter&) = delete;
 
-  void begin(const char* phase);
-  /// A callback for one stage, whose 0..1 is [begin, end] of the frame.
-  std::function<void(float)> stage(float begin, float end);
-  void report(float fraction);
+  /// Begins a pass whose share nobody knows.
+  void begin(const char* pass);
+  /// A callback for a pass, whose 0..1 is [begin, end] of the frame. The pass begins with the first call.
+  std::function<void(float)> pass(const char* name, float begin, float end);
+  /// Tells that the frame is done, and its last pass with it.
+  void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
+  void report(const char* pass, float share, float frame);
+  void enter(const char* pass);
+  void tellPass(float share);
+  void tellFrame(float share);
   void showBar() const;
   void keepMoving();
   const bool wanted_, terminal_;
   const Clock::time_point start_;
   std::mutex mutex_;  ///< It guards what follows.
-  const char* phase_;
-  Clock::time_point phaseStart_;
-  int percent_ = -1;  ///< The one that was shown last, or -1.
+  const char* pass_;
+  Clock::time_point passStart_;
+  int passPercent_ = -1;  ///< The one that was shown last, or -1 if nothing is known of the pass.
+  int percent_ = -1;      ///< Of the frame, likewise.
   bool done_ = false;
   std::condition_variable wake_;
   std::thread mover_;  ///< It runs on a terminal only.

@@ -9,7 +9,6 @@
 #include "reyes/app/build_info.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
-#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
@@ -28,10 +27,10 @@ Json shadersOf(const Stats& stats) {
   return out;
 }
 
-Json warningsOf(const Log& log) {
+Json warningsOf(const std::vector<LogEntry>& messages) {
   static constexpr const char* kSeverity[] = {"info", "note", "warning", "missing", "error", "output"};
   Json out = Json::array();
-  for (const LogEntry& e : log.entries()) {
+  for (const LogEntry& e : messages) {
     Json places = Json::array();
     for (const SourceLoc& place : e.places) places.push_back(place.text());
     out.push_back({{"code", e.code},
@@ -106,23 +105,34 @@ Json countersOf(const Stats& s) {
             {"bytes_read", s.textures.bytesRead.load()}}}};
 }
 
-Json statsJson(const RenderSettings& settings, const Stats& stats, double total_s, const Log& log) {
+Json statsJson(const RenderSettings& settings, const Stats& stats, const RunFigures& figures) {
   Json out{{"version", kVersion},
            {"command", settings.commandLine},
            {"scene", settings.files.empty() ? "" : settings.files.front()},
+           {"frame", figures.frame ? Json(*figures.frame) : Json(nullptr)},
+           {"outputs", stats.outputs()},
+           {"host", hostName()},
+           {"written", timeNow()},
            {"threads", threadCount()},
-           {"time_s", timesOf(stats, total_s)},
-           {"cpu_s", processCpuSeconds()},
+           {"time_s", timesOf(stats, figures.wall_s)},
+           {"cpu_s", figures.cpu_s},
            {"memory_bytes",
-            {{"peak_rss", peakResidentBytes()},
+            {{"peak_rss", figures.peak_bytes},
              {"geometry", stats.memoryBytes.geometry.load()},
              {"grids", stats.memoryBytes.grids.load()},
              {"deep_frame", stats.memoryBytes.deepFrame.load()},
              {"raytrace", stats.raytrace.bytes.load()}}}};
   out.update(countersOf(stats));
-  if (settings.audit > 0) out["audit"] = auditOf(stats);
-  out["warnings"] = warningsOf(log);
+  if (audits(settings)) out["audit"] = auditOf(stats);
+  out["warnings"] = warningsOf(figures.messages);
   return out;
+}
+
+}  // namespace
+
+std::string statsText(const RenderSettings& settings, const Stats& stats, const RunFigures& figures, int indent) {
+  // Text of the user may hold bytes that are no UTF-8; they must not stop the report.
+  return statsJson(settings, stats, figures).dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 void printShaderProfile(const Stats& stats) {
@@ -135,22 +145,6 @@ void printShaderProfile(const Stats& stats) {
     std::puts(fmt::format("{:<24}{:>14}{:>12.3f}{:>14.0f}", name, f.vertices, f.time_s,
                           f.vertices > 0 ? 1e9 * f.time_s / static_cast<double>(f.vertices) : 0.0)
                   .c_str());
-}
-
-}  // namespace
-
-void writeStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {
-  if (settings.statsFile.empty()) return;
-  // Text of the user may hold bytes that are no UTF-8; they must not stop the report.
-  const std::string text = statsJson(settings, stats, total_s, log).dump(2, ' ', false, Json::error_handler_t::replace);
-  std::string why = "it would replace what is read";
-  if (isAmong(settings.statsFile, settings.files) || !writeFile(settings.statsFile, text + '\n', why))
-    log.report(Severity::Output, "stats-write", {}, "\"" + settings.statsFile + "\" could not be written: " + why);
-}
-
-void writeLastStats(const RenderSettings& settings, const Stats& stats, double total_s, Log& log) {
-  writeStats(settings, stats, total_s, log);
-  if (settings.profileShaders) printShaderProfile(stats);
 }
 
 }  // namespace tomales

@@ -40,7 +40,7 @@ struct Mapped {
   const char* map;
   const char* multiplied;  ///< nullptr: the colour.
   const char* channel;     ///< nullptr: all.
-  float number;            ///< Of the channel.
+  float number;            ///< The value that the channel gets.
 };
 constexpr Mapped kMapped[] = {
     {aiTextureType_BASE_COLOR, "texturename", nullptr, nullptr, 0},

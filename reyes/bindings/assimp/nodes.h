@@ -16,7 +16,7 @@ mat4 of(const aiMatrix4x4& m);
 std::string of(const aiString& text);
 
 struct Instance {
-  std::string name;  ///< Of its node.
+  std::string name;  ///< The name of its node.
   unsigned mesh = 0;
   mat4 worldFromMesh{1.0f};
 };

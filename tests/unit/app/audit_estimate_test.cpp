@@ -45,9 +45,12 @@ TEST(ErrorEstimate, LeavesOutTheNoiseOfTheAudit) {
   EXPECT_GT(seen, 1.15 * truth);
 }
 
-TEST(ErrorEstimate, IsZeroWhereNoiseIsAllThatIsSeen) {
+TEST(ErrorEstimate, IsUnknownBelowTheNoiseWhereNoiseIsAllThatIsSeen) {
   const std::vector<AuditedError> places(kPlaces, {0.01f, 0.02f});
-  EXPECT_EQ(estimateError(places).mean, 0);
+  const ErrorEstimate e = estimateError(places);
+  EXPECT_EQ(e.mean, 0);
+  EXPECT_FALSE(e.tells());
+  EXPECT_NEAR(e.high, 0.02, 1e-7);
 }
 
 // 200 audits of errors with a long tail: the share has a standard error of 2.1 %.

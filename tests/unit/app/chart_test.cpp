@@ -46,8 +46,33 @@ TEST(ChartError, PixelsThatTheReferenceLeavesBlackDoNotCount) {
 TEST(ChartError, TheNoiseFloorIsWhatATruePictureIsFoundToBeOff) {
   ChartReference reference;
   for (uint32_t b = 0; b < 8; ++b) reference.add(noisy(1, 0.1f, b));
-  const double found = reference.errorOf(grey(64, 64, 1)).mean;
-  EXPECT_NEAR(reference.noiseFloor() / found, 1, 0.1);
+  const ErrorFigures found = reference.errorOf(grey(64, 64, 1));
+  EXPECT_NEAR(reference.noiseFloor() / found.measured, 1, 0.1);
+  EXPECT_LT(found.mean, 0.25 * found.measured) << "which is not its own";
+}
+
+TEST(ChartError, TheNoiseOfTheReferenceIsTakenOut) {
+  ChartReference noisyReference, truth;
+  truth.add(grey(64, 64, 1));
+  for (uint32_t b = 0; b < 8; ++b) noisyReference.add(noisy(1, 0.3f, b));
+  for (const float error : {0.03f, 0.1f, 0.3f}) {
+    const Image test = noisy(1, error, 100);
+    const double right = truth.errorOf(test).mean;
+    const ErrorFigures found = noisyReference.errorOf(test);
+    EXPECT_NEAR(found.mean / right, 1, error < 0.1f ? 0.25 : 0.04) << error;
+    EXPECT_NEAR(found.rms / truth.errorOf(test).rms, 1, error < 0.1f ? 0.25 : 0.04) << error;
+  }
+  EXPECT_GT(noisyReference.errorOf(noisy(1, 0.03f, 100)).measured, 2 * truth.errorOf(noisy(1, 0.03f, 100)).mean);
+}
+
+TEST(ChartError, TheIntervalOfADifferenceIsNarrowerThanThoseOfTheErrors) {
+  ChartReference reference;
+  for (uint32_t b = 0; b < 8; ++b) reference.add(noisy(1, 0.3f, b));
+  const ErrorFigures worse = reference.errorOf(noisy(1, 0.12f, 100)), better = reference.errorOf(noisy(1, 0.1f, 101));
+  const ErrorDifference d = worse - better;
+  EXPECT_NEAR(d.mean, 0.01, 0.002);
+  EXPECT_GT(d.mean, d.confidence) << "so that the worse one is told";
+  EXPECT_LT(d.confidence, worse.confidence);
 }
 
 TEST(ChartError, PixelsThatAreNoNumbersCountAsBlackAndAreToldOf) {

@@ -94,6 +94,18 @@ TEST_F(ChunkFile, NoFlippedBitAndNoTruncationGivesOtherContents) {
   EXPECT_GT(found, whole.size() * 9 / 10);  // zstd's frames have a few bits that mean nothing
 }
 
+TEST_F(ChunkFile, WhatIsDamagedWheneverItIsMadeIsMadeTwiceAndNoMore) {
+  Log log(Log::Verbosity::Quiet);
+  int made = 0;
+  const auto make = [&] {
+    write();
+    ++made;
+    throw DamageError(path, "it was made so");
+  };
+  EXPECT_THROW(makeAnewWhatIsDamaged(make, log), DamageError);
+  EXPECT_EQ(made, 2);
+}
+
 TEST_F(ChunkFile, AFolderThatIsMissingIsAnError) {
   EXPECT_THROW(ChunkWriter((folder / "missing" / "a").string(), "TESTFILE", 3), FileError);
 }

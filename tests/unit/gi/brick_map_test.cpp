@@ -53,6 +53,35 @@ TEST_F(BrickMaps, AConstantNeedsOneBrickAndIsFoundEverywhere) {
   }
 }
 
+TEST_F(BrickMaps, WhereAWallPartsTwoLightsFinerVoxelsAnswerOrItIsToldThatNoneCan) {
+  PointCloud cloud;
+  cloud.channels = {{"value", 1}, kSurfaceChannel};
+  constexpr int side = 128;
+  for (int i = 0; i < side * side; ++i) {
+    const vec2 at = (vec2(i % side, i / side) + 0.5f) / static_cast<float>(side);
+    const bool mixed = at.x > 0.5f && at.x < 0.55f;
+    const std::array value{at.x < 0.5f ? 100.0f : mixed ? 50.0f : 1.0f, mixed ? float{kAcrossWalls} : 1.0f};
+    cloud.add({at.x, at.y, 0}, {0, 0, 1}, 0.8f / side, value.data());
+  }
+  writeBrickMap(cloud, {0.0001f}, path);
+  const BrickMap map(path, cache);
+  const auto look = [&](float x, float radius, bool& across) {
+    float v = -1;
+    EXPECT_TRUE(map.lookup({x, 0.5f, 0}, {0, 0, 1}, radius, &v, 1, &across));
+    return v;
+  };
+  bool across = true;
+  EXPECT_FLOAT_EQ(look(0.2f, 0.01f, across), 100);
+  EXPECT_FALSE(across);
+  EXPECT_FLOAT_EQ(look(0.7f, 0.2f, across), 1) << "coarse voxels hold both lights";
+  EXPECT_FALSE(across);
+  look(0.52f, 0.01f, across);
+  EXPECT_TRUE(across);
+  float v = -1;
+  map.lookup({0.7f, 0.5f, 0}, {0, 0, 1}, 0.2f, &v, 1);
+  EXPECT_GT(v, 2) << "who does not ask gets the mean over the width";
+}
+
 TEST_F(BrickMaps, ALinearFunctionComesBackWithinHalfAVoxel) {
   PointCloud cloud;
   addSquare(cloud, 128, 0, 1, [](float x, float y) { return x + 2 * y; });
@@ -359,6 +388,13 @@ TEST_F(BrickMaps, FilesWithPointsOrVoxelsThatAreNoNumbersAreRefused) {
   addSquare(cloud, 4, 0, 1, [&](float, float) { return nan; });
   writeBrickMap(cloud, {}, path);
   EXPECT_THROW(lookedUp(BrickMap(path, cache), {0.5f, 0.5f, 0}, {0, 0, 1}, 0.1f), FileError);
+}
+
+TEST_F(BrickMaps, SumsOfEnormousLightStayNumbers) {
+  PointCloud cloud;
+  addSquare(cloud, 64, 0, 1, [](float x, float) { return x < 0.5f ? 3e38f : -3e38f; });
+  writeBrickMap(cloud, {}, path);
+  EXPECT_GT(lookedUp(BrickMap(path, cache), {0.2f, 0.5f, 0}, {0, 0, 1}, 0.1f), 1e37f);
 }
 
 TEST_F(BrickMaps, TinyAndHugeSurfacesKeepTheirDirectionsApart) {

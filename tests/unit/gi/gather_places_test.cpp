@@ -4,6 +4,8 @@
 #include <set>
 
 #include "fixture.h"
+#include "gi/frame/gather_tile.h"
+#include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {
@@ -114,6 +116,75 @@ TEST(GatherPlaces, TheReferenceGathersThereToo) {
     ++found;
   }
   EXPECT_GT(found, 0);
+}
+
+constexpr int kSide = 8, kPixels = kSide * kSide;
+
+/// Pixel p sees point p, and point p + 1 behind it. The first of them move if `drift` is not 0.
+DeepTile tileOfPairs(float drift) {
+  DeepTile tile;
+  tile.rect = {16, 32, 16 + kSide, 32 + kSide};
+  ShadePoints& batch = tile.batches.emplace_back(0, 0);
+  for (int i = 0; i <= kPixels; ++i) {
+    batch.add(hash32(static_cast<uint32_t>(i)));
+    batch.set3(kPx, i, {static_cast<float>(i), 0, 5}), batch.set3(kIx, i, {0, 0, 5});
+    batch.set3(kNx, i, {0, 0, -1}), batch.set3(kNgx, i, {0, 0, -1});
+    batch.set3(kDpduX, i, {1, 0, 0}), batch.set3(kDpdvX, i, {0, 0, 0});
+    batch.set3(kDriftX, i, {i < 20 ? drift : 0, 0, 0});
+    batch.channel(kDu)[i] = 0.5f, batch.channel(kDv)[i] = 0.5f, batch.channel(kTime)[i] = -1;
+    tile.facets.push_back({0, {i, i, i, i}});
+  }
+  for (uint32_t p = 0; p < kPixels; ++p) {
+    tile.pixels.push_back({2 * p, 2});
+    for (uint32_t k = 0; k < 2; ++k) tile.fragments.push_back({p + k, 5, 1});
+  }
+  return tile;
+}
+
+struct GatherTileTest : ::testing::Test {
+  World world{cornell().scene};
+  GiState state{world.scene, world.camera, {}, world.shading, {}, world.stats};
+};
+
+TEST_F(GatherTileTest, AsksForTheNearestPointOfEachPixelAndForEveryOtherPointOnce) {
+  const DeepTile tile = tileOfPairs(0);
+  const GatherTile made(state, tile, std::vector<uint8_t>(world.scene.groups.size(), 1));
+  std::vector<int> nearest(kPixels), late(kPixels + 1);
+  for (int phase = 0; phase < kGatherPhases; ++phase)
+    made.forPoints(world.camera, phase, [&](const GatherPoint& p, int x, int y) {
+      const int pixel = (y - 32) * kSide + x - 16, point = static_cast<int>(p.position.x);
+      EXPECT_EQ(p.key, tile.batches[0].key(point));
+      EXPECT_EQ(p.edgeLength, 0.5f);
+      EXPECT_EQ(p.pixelSize, projectedPixelSize(world.camera, p.position, p.normal));
+      if (phase < kLatticePhases) {
+        EXPECT_EQ(point, pixel);
+        EXPECT_EQ(phase, latticePhase(x, y));
+        ++nearest[static_cast<size_t>(pixel)];
+      } else {
+        EXPECT_EQ(point, pixel + 1);
+        ++late[static_cast<size_t>(point)];
+      }
+    });
+  EXPECT_EQ(nearest, std::vector<int>(kPixels, 1));
+  EXPECT_EQ(late[0], 0) << "no pixel sees it behind another";
+  EXPECT_EQ(std::vector<int>(late.begin() + 1, late.end()), std::vector<int>(kPixels, 1));
+  EXPECT_LT(3 * made.bytes(), tile.bytes());
+}
+
+TEST_F(GatherTileTest, AsksForNothingWhereNothingIsGathered) {
+  const GatherTile made(state, tileOfPairs(0), std::vector<uint8_t>(world.scene.groups.size(), 0));
+  for (int phase = 0; phase < kGatherPhases; ++phase)
+    made.forPoints(world.camera, phase, [](const GatherPoint&, int, int) { ADD_FAILURE(); });
+}
+
+TEST_F(GatherTileTest, MovingAndStillPointsKeepTheirDriftAndTime) {
+  const DeepTile tile = tileOfPairs(2);
+  const GatherTile made(state, tile, std::vector<uint8_t>(world.scene.groups.size(), 1));
+  for (int phase = 0; phase < kGatherPhases; ++phase)
+    made.forPoints(world.camera, phase, [&](const GatherPoint& p, int, int) {
+      EXPECT_EQ(p.drift.x, p.position.x < 20 ? 2.0f : 0.0f) << p.position.x;
+      EXPECT_EQ(p.time, -1);
+    });
 }
 
 }  // namespace

@@ -119,6 +119,46 @@ TEST(PhotonIrradiance, ABallOnASheetDoesNotTakeTheLightOfItsOtherSide) {
   }
 }
 
+/// The unit square, with one photon in `fewer` where x > 0.5, and with a wall between both halves.
+PointCloud besideAWall(uint32_t fewer) {
+  PointCloud photons;
+  photons.channels = {{"power", 3}, kSurfaceChannel};
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const vec2 at = sobol2(i, 5);
+    const std::array values{1.0f, 1.0f, 1.0f, 1.0f};
+    if (at.x < 0.5f || hash32(i) % fewer == 0) photons.add({at.x, at.y, 0}, {0, 0, 1}, 0, values.data());
+  }
+  const SightAlongSurface sight = [](const vec3& P, const vec3& N, float reach) {
+    vec3 tangent, bitangent;
+    orthonormalBasis(N, tangent, bitangent);
+    SightLines out;
+    for (size_t k = 0; k < kSightLines; ++k) {
+      const float angle = 2 * kPi * static_cast<float>(k) / kSightLines;
+      const float t = (0.5f - P.x) / (std::cos(angle) * tangent + std::sin(angle) * bitangent).x;
+      out[k] = t > 0 ? std::min(t, reach) : reach;
+    }
+    return out;
+  };
+  return estimateIrradiance(std::move(photons), {.every = 1}, {}, nullptr, sight);
+}
+
+TEST(PhotonIrradiance, EstimatesWhereAWallPartsMoreLightFromLessAreTold) {
+  const float right = 20000.0f / 50;
+  const PointCloud out = besideAWall(50), alike = besideAWall(1);
+  int told = 0;
+  for (size_t i = 0; i < out.count(); ++i) {
+    const bool across = out.surface(i) == kAcrossWalls, dark = out.position[i].x > 0.5f;
+    told += dark && across;
+    EXPECT_TRUE(!dark || across || out.at(i)[0] < 2 * right) << out.position[i].x << ": " << out.at(i)[0];
+    EXPECT_TRUE(!across || (dark ? out.position[i].x < 0.8f : out.position[i].x > 0.47f))
+        << "it does not reach the wall";
+  }
+  EXPECT_GT(told, 20);
+  size_t byChance = 0;
+  for (size_t i = 0; i < alike.count(); ++i) byChance += alike.surface(i) == kAcrossWalls;
+  EXPECT_LT(byChance, alike.count() / 500) << "a wall between two sides that are alike takes nothing";
+}
+
 TEST(PhotonIrradiance, TilesOfTwoColoursShareTheLightOfTheirFloor) {
   PointCloud photons;
   photons.channels = {{"power", 3}, kSurfaceChannel};

@@ -487,7 +487,9 @@ TEST_F(Atlas, CausticsHaveMapsOfTheirOwn) {
   const float expected = 2 * std::sqrt(0.5f);  // E/pi of the light, at 45 degrees
   EXPECT_NEAR(atlas.causticOverPi(1, {4, 3, 3}, {-1, 0, 0}, 0.1f).y, expected, 0.05f * expected);
   EXPECT_LT(atlas.causticOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f).y, 0.01f);
-  EXPECT_NEAR(atlas.irradianceOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f).y, expected, 0.1f * expected);
+  bool acrossWalls = true;
+  EXPECT_NEAR(atlas.irradianceOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f, acrossWalls).y, expected, 0.1f * expected);
+  EXPECT_FALSE(acrossWalls);
 }
 
 TEST_F(Atlas, OfAFurnaceHasTheSameLightEverywhereInItsMedium) {
@@ -501,7 +503,9 @@ TEST_F(Atlas, OfAFurnaceHasTheSameLightEverywhereInItsMedium) {
 TEST_F(Atlas, AMissingMapIsBlackAndNamed) {
   World world(insideOfASphere());
   const IrradianceAtlas atlas(folder, world.scene, mapNames(world.scene, world.shading, {}), 1 << 20, world.log);
-  EXPECT_EQ(atlas.irradianceOverPi(0, {0, 0, 2.5f}, {0, 0, -1}, 0.1f), vec3(0));
+  bool acrossWalls = true;
+  EXPECT_EQ(atlas.irradianceOverPi(0, {0, 0, 2.5f}, {0, 0, -1}, 0.1f, acrossWalls), vec3(0));
+  EXPECT_FALSE(acrossWalls);
   EXPECT_EQ(world.log.count("atlas-no-map"), 1);
 }
 

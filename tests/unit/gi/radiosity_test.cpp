@@ -305,8 +305,8 @@ TEST(RadiosityMaps, OfASmallPictureAreFewerThanOfALargeOne) {
   World world(std::move(fine));
   const auto services = world.use({.mode = GiMode::Radiosity});
   const RadiosityMaps maps(world.rays, world.shading, world.camera, {}, world.log);
-  EXPECT_LE(maps.texelCount(), int64_t{1} << 22);
-  EXPECT_GT(maps.texelCount(), int64_t{1} << 19);
+  EXPECT_LE(maps.texelCount(), int64_t{1} << 18);
+  EXPECT_GT(maps.texelCount(), int64_t{1} << 15);
 }
 
 TEST(RadiosityMaps, AreNotMadeOfWhatMirrorsIsNotOpaqueOrWantsNone) {

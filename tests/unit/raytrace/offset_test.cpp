@@ -66,6 +66,18 @@ TEST(Offset, ExactSurfacesNeedAlmostNoneAtAnyAngle) {
   EXPECT_EQ(found, 0);
 }
 
+TEST(Offset, ForgetsPolygonsThatAreFartherFromTheSurfaceThanItIsLarge) {
+  World world;
+  world.add(sphere(), translation({0, 0, 4}));
+  world.build();
+  Ray ray{{0, 0, 3}, {0, 0, -1}};
+  for (const auto& [edge, least, most] : {std::tuple(1.0f, 0.05f, 1.0f), std::tuple(1e6f, 0.0f, 0.01f)}) {
+    world.rays->prepareOrigin(0, ray.origin, edge, ray);
+    EXPECT_GT(ray.offset, least);
+    EXPECT_LT(ray.offset, most);
+  }
+}
+
 TEST(Offset, WithoutAHitListTheBiasDecides) {
   World world;
   world.attributes.trace.bias = 0.05f;

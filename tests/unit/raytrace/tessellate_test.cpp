@@ -147,5 +147,33 @@ TEST(Tessellate, ASmallPictureAsksForFewPolygonsOfAnEnormousPatch) {
   EXPECT_GT(world.log.count("trace-tessellation"), 0);
 }
 
+TEST(Tessellate, EdgesGrowUntilPolygonsFitTheMemory) {
+  World world;
+  for (int i = 0; i < 20; ++i) world.add(sphere(), translation({0, 0, 3}));
+  size_t quads[2];
+  for (const size_t bytes : {size_t{1} << 30, size_t{1} << 16}) {
+    const bool isFew = bytes < (size_t{1} << 20);
+    if (!isFew) coarse(world);
+    const float longer = edgesThatFit(world.scene, *world.camera, {}, bytes, world.log);
+    EXPECT_EQ(longer > 1, isFew);
+    EXPECT_EQ(world.log.count("trace-memory"), isFew ? 1 : 0);
+    const auto groups = tessellate(world.scene, *world.camera, *world.shading, world.log, {}, longer);
+    quads[isFew] = groups[0].quads.size();
+  }
+  EXPECT_LE(125 * quads[1], size_t{1} << 16);
+  EXPECT_GE(125 * quads[1], size_t{1} << 14);
+  EXPECT_GT(quads[0], 3 * quads[1]);
+}
+
+TEST(Tessellate, TheEnormousPatchesOfOneObjectShareWhatASmallPictureAsksFor) {
+  World world;
+  world.scene.options.xResolution = world.scene.options.yResolution = 16;
+  world.scene.options.projection = ProjectionKind::Orthographic;
+  world.add(waves(), mat4(mat3(1e6f)));  // 64 patches
+  const auto groups = coarse(world);
+  EXPECT_GT(groups[0].quads.size(), size_t{1} << 12);
+  EXPECT_LE(groups[0].quads.size(), size_t{1} << 16);
+}
+
 }  // namespace
 }  // namespace tomales::test

@@ -26,7 +26,7 @@ TEST(PatchTree, BoxesOfEveryLevelHoldThePatchesBelow) {
   std::vector<int> found(mesh->patchCount());
   float longest = 0;
   for (uint32_t leaf = 0; leaf < tree.count(0); ++leaf) {
-    for (const uint32_t p : tree.patches(leaf)) {
+    for (const uint32_t p : tree.patches(0, leaf)) {
       ++found[p];
       for (uint32_t level = 0, index = leaf; level <= tree.top(); ++level, index /= PatchTree::kFan)
         EXPECT_TRUE(holds(tree.box(level, index), mesh->bound(p, UvRect{})));
@@ -34,6 +34,9 @@ TEST(PatchTree, BoxesOfEveryLevelHoldThePatchesBelow) {
     longest += std::max(tree.box(0, leaf).size().x, tree.box(0, leaf).size().y) / 57;
   }
   for (const int times : found) EXPECT_EQ(times, 1);
+  EXPECT_EQ(tree.patches(1, 0).size(), PatchTree::patchesOfBox(1));
+  EXPECT_EQ(tree.patches(1, 1).data(), tree.patches(0, PatchTree::kFan).data());
+  EXPECT_EQ(tree.patches(2, 0).size(), mesh->patchCount());
   EXPECT_LT(longest, 30);  // Row by row a leaf is 60 long.
 }
 
@@ -48,7 +51,8 @@ TEST(PatchTree, PatchesFollowMortonsCurveAndThoseOfOnePlaceStayInOrder) {
   for (uint32_t p = 0; p < points->patchCount(); ++p) all.extend(points->bound(p, {}));
   std::vector<std::pair<uint32_t, uint32_t>> order;
   for (uint32_t leaf = 0; leaf < tree.count(0); ++leaf)
-    for (const uint32_t p : tree.patches(leaf)) order.emplace_back(mortonPlace(points->bound(p, {}).center(), all), p);
+    for (const uint32_t p : tree.patches(0, leaf))
+      order.emplace_back(mortonPlace(points->bound(p, {}).center(), all), p);
   EXPECT_EQ(order.size(), 5000u);
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }

@@ -1,0 +1,33 @@
+// Takes noise out of a picture that was rendered twice with different random numbers of light (half buffers). Each
+// pixel is a first-order regression over its neighbours on what is known without noise (Bitterli et al. 2016,
+// "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo Renderings"). Weights are those of non-local
+// means by the other half's colours and variance (Rousselle, Knaus and Zwicker 2012, "Adaptive Rendering with Non-Local
+// Means Filtering"). Of several widths of the filter, and none, each pixel takes the one with the least error, which
+// the other half tells. Threads: pure; the result has the same bits for any number of them.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace tomales {
+
+/// One float for each pixel, in rows from the top.
+using Plane = std::vector<float>;
+
+struct HalfBuffers {
+  int width = 0, height = 0;
+  std::array<Plane, 3> a, b;  ///< Colours of the halves: linear, finite.
+  std::vector<Plane> guides;  ///< Albedo, normal, depth, in any scale; finite. At most kMostGuides.
+};
+constexpr size_t kMostGuides = 7;
+
+struct Denoised {
+  std::array<Plane, 3> color;
+  /// Root mean square errors over the mean colour, of the mean of the halves and of `color`. Both are estimated from
+  /// the halves.
+  double before = 0, after = 0;
+};
+
+Denoised denoise(const HalfBuffers& in);
+
+}  // namespace tomales

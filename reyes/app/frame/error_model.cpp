@@ -1,0 +1,143 @@
+#include "reyes/app/frame/error_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tomales {
+namespace {
+
+/// Of an error's square, noise and bias each have at least this share: a trial may show none of it by chance.
+constexpr double kLeastShare = 0.03;
+/// How far the search goes from the base, up and down, in steps of half an octave.
+constexpr int kFewerRays = 6, kMoreRays = 12, kNarrower = 8, kWider = 4;
+constexpr int kFewerLightSamples = 4, kMoreLightSamples = 16;
+
+/// The power of x by which y changes between two trials, within limits.
+double power(double x0, double y0, double x1, double y1, double least, double most) {
+  if (!(y0 > 0) || !(y1 > 0) || x0 == x1) return std::clamp(0.0, least, most);
+  return std::clamp(std::log(y1 / y0) / std::log(x1 / x0), least, most);
+}
+
+/// To two digits, so that options can be given as they are told.
+double rounded(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
+  return std::round(x / unit) * unit;
+}
+
+double halfOctaves(int steps) { return std::pow(2.0, 0.5 * steps); }
+
+double ratio(double x, double base) { return x > 0 && base > 0 ? x / base : 1; }
+
+}  // namespace
+
+std::string optionsOf(const LightQuality& q) {
+  std::string out;
+  const auto add = [&](const char* option, auto value) {
+    out += fmt::format("{}{} {:.4g}", out.empty() ? "" : " ", option, static_cast<double>(value));
+  };
+  if (q.samples > 0) add("--samples", q.samples);
+  if (q.maxError >= 0) add("--max-error", q.maxError);
+  if (q.lightSamples > 0) add("--light-samples", q.lightSamples);
+  return out;
+}
+
+ErrorModel::ErrorModel(const QualityTrial& base, const QualityTrial& finer, const std::optional<QualityTrial>& wider)
+    : base_(base) {
+  const double all = base.indirect * base.indirect, left = finer.indirect * finer.indirect;
+  const double share = 1 - ratio(base.quality.samples, finer.quality.samples);
+  noise_ = share > 0 ? std::clamp((all - left) / share, kLeastShare * all, (1 - kLeastShare) * all) : all;
+  bias_ = wider ? all - noise_ : 0;
+  if (!wider) noise_ = all;
+  const double s0 = base.quality.samples, s1 = finer.quality.samples;
+  const double l0 = base.quality.lightSamples, l1 = finer.quality.lightSamples;
+  directPower_ = power(l0, base.direct, l1, finer.direct, -1.5, -0.25);
+  raysPower_ = power(s0, base.gatherCost, s1, finer.gatherCost, 0.2, 1.2);
+  shadowsPower_ = power(l0, base.shadeCost, l1, finer.shadeCost, 0, 1.2);
+  if (!wider) return;
+  const double m0 = base.quality.maxError, m1 = wider->quality.maxError;
+  const double biasOfWider = std::max(wider->indirect * wider->indirect - noise_, bias_);
+  biasPower_ = power(m0, bias_, m1, biasOfWider, 0.5, 5);
+  recordsPower_ = power(m0, base.gatherCost, m1, wider->gatherCost, -2, -0.1);
+}
+
+double ErrorModel::indirectError(const LightQuality& q) const {
+  const double noise = noise_ / ratio(q.samples, base_.quality.samples);
+  const double bias = bias_ * std::pow(ratio(q.maxError, base_.quality.maxError), biasPower_);
+  return indirectScale_ * std::sqrt(noise + bias);
+}
+
+double ErrorModel::directError(const LightQuality& q) const {
+  return directScale_ * base_.direct * std::pow(ratio(q.lightSamples, base_.quality.lightSamples), directPower_);
+}
+
+double ErrorModel::error(const LightQuality& q) const { return std::hypot(indirectError(q), directError(q)); }
+
+double ErrorModel::gatherCost(const LightQuality& q) const {
+  return base_.gatherCost * std::pow(ratio(q.samples, base_.quality.samples), raysPower_) *
+         std::pow(ratio(q.maxError, base_.quality.maxError), recordsPower_);
+}
+
+double ErrorModel::shadeCost(const LightQuality& q) const {
+  return base_.shadeCost * std::pow(ratio(q.lightSamples, base_.quality.lightSamples), shadowsPower_);
+}
+
+void ErrorModel::correct(const LightQuality& q, double indirect, double direct) {
+  if (const double expected = indirectError(q); expected > 0) indirectScale_ *= indirect / expected;
+  if (const double expected = directError(q); expected > 0) directScale_ *= direct / expected;
+}
+
+int ErrorModel::lightSamplesAt(int step) const {
+  return std::max(1, static_cast<int>(std::lround(base_.quality.lightSamples * halfOctaves(step))));
+}
+
+template <class Better>
+LightQuality ErrorModel::search(const Better& better) const {
+  const LightQuality& base = base_.quality;
+  const auto steps = [](bool varies, int down, int up) { return varies ? std::pair(-down, up) : std::pair(0, 0); };
+  const auto [fewest, most] = steps(base.samples > 0 && base_.indirect > 0, kFewerRays, kMoreRays);
+  const auto [narrowest, widest] = steps(base.maxError > 0 && base_.indirect > 0, kNarrower, kWider);
+  const auto [fewestLight, mostLight] =
+      steps(base.lightSamples > 0 && base_.direct > 0, kFewerLightSamples, kMoreLightSamples);
+  std::optional<LightQuality> found;
+  for (int s = fewest; s <= most; ++s)
+    for (int m = narrowest; m <= widest; ++m)
+      for (int l = fewestLight; l <= mostLight; l += 2) {
+        LightQuality q = base;
+        if (q.samples > 0) q.samples = static_cast<int>(rounded(q.samples * halfOctaves(s)));
+        if (q.maxError > 0) q.maxError = static_cast<float>(rounded(q.maxError * halfOctaves(m)));
+        if (q.lightSamples > 0) q.lightSamples = lightSamplesAt(l);
+        if (!found || better(q, *found)) found = q;
+      }
+  return *found;
+}
+
+LightQuality ErrorModel::cheapest(double target) const {
+  return search([&](const LightQuality& a, const LightQuality& b) {
+    const double errorA = error(a), errorB = error(b);
+    if (errorA <= target && errorB <= target) return cost(a) < cost(b);
+    return errorA < errorB;
+  });
+}
+
+LightQuality ErrorModel::best(double most) const {
+  return search([&](const LightQuality& a, const LightQuality& b) {
+    const double costA = cost(a), costB = cost(b);
+    if (costA <= most && costB <= most) return error(a) < error(b);
+    return costA < costB;
+  });
+}
+
+LightQuality ErrorModel::bestLamps(const LightQuality& given, double most) const {
+  LightQuality out = given;
+  for (int step = -kFewerLightSamples; step <= kMoreLightSamples && base_.direct > 0 && given.lightSamples > 0;
+       ++step) {
+    LightQuality q = given;
+    q.lightSamples = lightSamplesAt(step);
+    if (step == -kFewerLightSamples || shadeCost(q) <= most) out = q;
+  }
+  return out;
+}
+
+}  // namespace tomales

@@ -1,0 +1,41 @@
+// The files that a shot is shaded from: a .dfb, and an .icf if one is given. Several edits of the shot may use them,
+// one after the other.
+#pragma once
+#include "gi/icf.h"
+#include "reyes/app/settings.h"
+#include "reyes/dfb.h"
+
+namespace tomales {
+
+inline SourceLoc wholeFile(const std::string& path) { return {std::make_shared<std::string>(path), 0}; }
+
+class ShotFiles {
+ public:
+  /// Opens RenderSettings::files and irradiance. Returns null if one of them cannot be read, which is reported.
+  static std::shared_ptr<ShotFiles> open(const RenderSettings& settings, Log& log);
+
+  const DfbFile& dfb() const { return *dfb_; }
+  bool hasIrradiance() const { return icf_ != nullptr; }
+  /// Pre: hasIrradiance(). Its caches are lent to one shading of the shot at a time.
+  IrradianceShot& irradiance() { return irradiance_; }
+  const IrradianceShot& irradiance() const { return irradiance_; }
+  /// Names the records and their settings; 0 without an .icf.
+  uint64_t irradianceSum() const { return icf_ ? icf_->sum() : 0; }
+  /// Tells whether the answers of rays were recorded for this shot.
+  bool hasAnswers() const { return icf_ && irradiance_.shot == dfb_->shotSum(); }
+  /// Null: they are damaged, which `error` explains. Pre: hasAnswers().
+  std::optional<std::vector<RayAnswers>> answers(size_t tile, std::string& error) const {
+    return icf_->answers(tile, error);
+  }
+  /// Returns a tile with its answers; nothing if the bucket is damaged, which is reported. Threads: any.
+  std::optional<DeepTile> load(size_t tile, Log& log) const;
+
+ private:
+  ShotFiles() = default;
+  std::string dfbPath_, icfPath_;
+  std::unique_ptr<DfbFile> dfb_;
+  std::unique_ptr<IcfFile> icf_;
+  IrradianceShot irradiance_;
+};
+
+}  // namespace tomales

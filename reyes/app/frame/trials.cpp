@@ -1,0 +1,114 @@
+#include "reyes/app/frame/trials.h"
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "reyes/app/frame/audit.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+/// The quality of trials: the base, one with four times the rays, and one with wider records.
+constexpr LightQuality kBaseOfRecords{150, 1, 4}, kFinerRecords{600, 1, 16}, kWiderRecords{150, 2, 4};
+constexpr LightQuality kBaseOfPaths{16, -1, 0}, kFinerPaths{64, -1, 0};
+constexpr LightQuality kBaseOfLamps{0, -1, 4}, kFinerLamps{0, -1, 16};
+/// One bucket of so many is tried, and no fewer than so many.
+constexpr size_t kBucketsPerTrial = 16, kFewestBuckets = 8;
+constexpr int kBriefness = 4;  ///< Brief trials have so many times fewer rays.
+constexpr size_t kPixelsOfBriefTrials = 100;
+
+/// Numbers, in order, of some of these buckets, chosen by a hash of their places.
+std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& layout, uint32_t seed) {
+  std::vector<std::pair<uint32_t, size_t>> order;
+  for (const size_t t : seen) {
+    const PixelRect r = layout.rectOf(t);
+    order.emplace_back(hashCombine(static_cast<uint32_t>(r.x0), static_cast<uint32_t>(r.y0), seed), t);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), std::max(kFewestBuckets, order.size() / kBucketsPerTrial)));
+  std::vector<size_t> out;
+  for (const auto& [hash, t] : order) out.push_back(t);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+class Trials {
+ public:
+  Trials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan, Stats& stats)
+      : job_(job), layout_(layout), plan_(plan), stats_(stats) {
+    for (size_t t = 0; t < layout.tileCount(); ++t)
+      if (const auto tile = tiles(t); tile && !tile->fragments.empty()) seen_.push_back(t);
+    some_ = someOf(seen_, layout, plan.seed);
+    tiles_ = [&tiles, some = some_](size_t t) {
+      return std::binary_search(some.begin(), some.end(), t) ? tiles(t) : nullptr;
+    };
+  }
+
+  TrialsResult run() {
+    const bool paths = job_.method().isReference, records = job_.method().caches;
+    const LightQuality& base = paths ? kBaseOfPaths : records ? kBaseOfRecords : kBaseOfLamps;
+    const LightQuality& finer = paths ? kFinerPaths : records ? kFinerRecords : kFinerLamps;
+    AuditPlan plan = job_.auditPlan(plan_.seed);
+    plan.lightSamples = finer.lightSamples;
+    if (plan_.isBrief) plan.pixels = kPixelsOfBriefTrials;
+    Audit audit(layout_, tiles_, job_.scene(), job_.shading(), plan, interrupted());
+    const QualityTrial first = trial(base, audit), second = trial(finer, audit);
+    const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords, audit)) : std::nullopt;
+    return {ErrorModel(first, second, third), some_.size(), seen_.size(), audit_s_};
+  }
+
+ private:
+  QualityTrial trial(LightQuality quality, Audit& audit) {
+    if (plan_.isBrief && quality.samples > 0) quality.samples /= kBriefness;
+    if (plan_.isBrief && quality.lightSamples > 0) quality.lightSamples /= kBriefness;
+    QualityTrial out{quality};
+    job_.setQuality(quality);
+    const double inFrame = static_cast<double>(seen_.size()) / std::max<double>(1, static_cast<double>(some_.size()));
+    out.gatherCost = inFrame * costOf([&] { job_.gatherRecords(layout_, tiles_); });
+    const double pixels = 1.0 * layout_.crop.width() * layout_.crop.height();
+    out.shadeCost = pixels / std::max<double>(1, static_cast<double>(audit.pixelCount())) *
+                    costOf([&] { audit.shade(job_.shadeContext()); });
+    const double before_s = seconds();
+    const AuditReport report = audit.of(job_.shadeContext());
+    audit_s_ += seconds() - before_s;
+    if (report.indirect) out.indirect = report.indirect->mean;
+    if (report.direct) out.direct = report.direct->mean;
+    return out;
+  }
+
+  template <class Work>
+  double costOf(const Work& work) const {
+    const double before = cost();
+    work();
+    return cost() - before;
+  }
+  double cost() const {
+    const auto& r = stats_.rays;
+    return plan_.unit == CostUnit::Seconds ? seconds()
+                                           : static_cast<double>(r.gather + r.transmission + r.specular + r.reference);
+  }
+  static double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+
+  FrameJob& job_;
+  const DeepFrame& layout_;
+  const TrialPlan plan_;
+  Stats& stats_;
+  TileReader tiles_;  ///< Of the buckets that are tried.
+  std::vector<size_t> seen_, some_;
+  double audit_s_ = 0;
+};
+
+}  // namespace
+
+TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,
+                        Stats& stats) {
+  const StageTimer timer(stats, "trials");
+  return Trials(job, layout, tiles, plan, stats).run();
+}
+
+}  // namespace tomales

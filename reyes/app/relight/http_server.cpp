@@ -1,0 +1,128 @@
+#include "reyes/app/relight/http_server.h"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <random>
+#include <thread>
+
+#include "reyes/app/relight/edit_state.h"
+
+namespace tomales {
+namespace {
+
+constexpr const char* kAddress = "127.0.0.1";
+constexpr size_t kMostPayload_bytes = 1 << 18;
+constexpr int kPatience_s = 5;
+constexpr size_t kThreads = 16;  ///< Each page waits in one for news; others have to be answered meanwhile.
+
+/// 128 bits of the system's random numbers.
+std::string newToken() {
+  std::random_device random;
+  std::string out;
+  for (int i = 0; i < 4; ++i) out += fmt::format("{:08x}", random());
+  return out;
+}
+
+/// Takes as long whatever differs.
+bool sameText(const std::string& a, const std::string& b) {
+  if (a.size() != b.size()) return false;
+  unsigned difference = 0;
+  for (size_t i = 0; i < a.size(); ++i) difference |= static_cast<unsigned char>(a[i] ^ b[i]);
+  return difference == 0;
+}
+
+/// Nothing of the page comes from elsewhere, or goes there.
+const httplib::Headers kHeaders{{"Content-Security-Policy",
+                                 "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+                                 "img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+                                {"Cross-Origin-Resource-Policy", "same-origin"},
+                                {"Referrer-Policy", "no-referrer"},
+                                {"X-Content-Type-Options", "nosniff"},
+                                {"Cache-Control", "no-store"}};
+
+}  // namespace
+
+struct HttpServer::Impl {
+  httplib::Server server;
+  const std::string token = newToken();
+  int port = 0;
+  std::map<std::string, HttpHandler> gets, posts;
+  std::thread thread;
+
+  bool isOurs(const httplib::Request& request) const {
+    const std::string named[] = {fmt::format("{}:{}", kAddress, port), fmt::format("localhost:{}", port)};
+    const std::string host = request.get_header_value("Host");
+    if (request.get_header_value_count("Host") != 1 || (host != named[0] && host != named[1])) return false;
+    return !request.has_header("Origin") || request.get_header_value("Origin") == "http://" + host;
+  }
+
+  /// The path behind the token; empty if it is not there.
+  std::optional<std::string> pathOf(const httplib::Request& request) const {
+    const std::string& path = request.path;
+    const size_t end = token.size() + 1;
+    if (path.size() <= end || path[0] != '/' || path[end] != '/' || !sameText(path.substr(1, token.size()), token))
+      return std::nullopt;
+    return path.substr(end + 1);
+  }
+
+  void answer(const httplib::Request& request, httplib::Response& response,
+              const std::map<std::string, HttpHandler>& handlers) const {
+    const auto handler = handlers.find(pathOf(request).value_or("?"));
+    if (handler == handlers.end()) return void(response.status = 404);
+    HttpQuestion question{{}, request.body};
+    for (const auto& [name, value] : request.params) question.parameters.emplace(name, value);
+    HttpReply reply;
+    try {
+      reply = handler->second(question);
+    } catch (const BadRequest& e) {
+      reply = {400, "text/plain", e.what()};
+    } catch (const Json::exception&) {
+      reply = {400, "text/plain", "this is not the JSON that is expected here"};
+    }
+    response.status = reply.status;
+    response.set_content(std::move(reply.body), reply.type.c_str());
+  }
+};
+
+HttpServer::HttpServer(int port) : impl_(std::make_unique<Impl>()) {
+  httplib::Server& server = impl_->server;
+  server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };  // httplib deletes it
+  server.set_payload_max_length(kMostPayload_bytes);
+  server.set_read_timeout(kPatience_s, 0);
+  server.set_write_timeout(kPatience_s, 0);
+  server.set_keep_alive_timeout(kPatience_s);
+  server.set_tcp_nodelay(true);
+  server.set_default_headers(kHeaders);
+  server.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    if (impl_->isOurs(request) && impl_->pathOf(request)) return httplib::Server::HandlerResponse::Unhandled;
+    response.status = 403;
+    response.set_content("The address of the page, with its token, is in the terminal.\n", "text/plain");
+    return httplib::Server::HandlerResponse::Handled;
+  });
+  server.set_exception_handler(
+      [](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) { response.status = 500; });
+  server.Get(".*", [this](const httplib::Request& q, httplib::Response& a) { impl_->answer(q, a, impl_->gets); });
+  server.Post(".*", [this](const httplib::Request& q, httplib::Response& a) { impl_->answer(q, a, impl_->posts); });
+  impl_->port = port > 0 ? (server.bind_to_port(kAddress, port) ? port : -1) : server.bind_to_any_port(kAddress);
+  if (impl_->port <= 0) throw std::runtime_error(fmt::format("no port of {} can be listened on", kAddress));
+}
+
+HttpServer::~HttpServer() { stop(); }
+
+void HttpServer::get(const std::string& path, HttpHandler handler) { impl_->gets[path] = std::move(handler); }
+void HttpServer::post(const std::string& path, HttpHandler handler) { impl_->posts[path] = std::move(handler); }
+
+void HttpServer::start() {
+  impl_->thread = std::thread([this] { impl_->server.listen_after_bind(); });
+}
+
+void HttpServer::stop() {
+  if (!impl_->thread.joinable()) return;
+  impl_->server.stop();
+  impl_->thread.join();
+}
+
+std::string HttpServer::url() const { return fmt::format("http://{}:{}/{}/", kAddress, impl_->port, impl_->token); }
+
+}  // namespace tomales

@@ -1,0 +1,49 @@
+// The layers of a picture, for browsers: half floats, and which parts of them are newer than what a page has. Threads:
+// any.
+#pragma once
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <span>
+
+#include "reyes/image.h"
+
+namespace tomales {
+
+/// Bytes of one block: kBlockHeader numbers of 32 bits (little endian): layer, x, y, width, height, version, serial,
+/// 0; then red, green and blue of each pixel as half floats, row by row, and zeros up to a multiple of four bytes.
+constexpr size_t kBlockHeader = 8;
+
+class LayerStore {
+ public:
+  /// window: the pixels of the picture, of which (0, 0) of a block is the first.
+  LayerStore(const PixelRect& window, size_t layers);
+
+  /// Sets a part of a layer. `rgb`: the floats of its pixels; what half floats cannot hold becomes the nearest that
+  /// they can.
+  void put(size_t layer, const PixelRect& part, std::span<const vec3> rgb, uint32_t version);
+  /// Returns blocks that were set after block number `after`, at most about `bytes` of them, oldest first, and sets
+  /// `after` to the last of them. A part that was set again since comes once.
+  std::string blocksAfter(uint64_t& after, size_t bytes) const;
+  /// Waits until there is a block after this one, or something else to tell (wake()), but not for long.
+  void wait(uint64_t after) const;
+  void wake() const;
+  /// The colour of a layer at a pixel, by its raster coordinates; black if it has not been put.
+  vec3 at(size_t layer, int x, int y) const;
+  int64_t bytes() const;
+
+ private:
+  struct Block {
+    uint32_t layer, version;
+    PixelRect part;
+    uint64_t serial;
+  };
+  const PixelRect window_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::vector<std::vector<uint16_t>> layers_;  ///< Three numbers for each pixel; empty until the first put().
+  std::vector<Block> blocks_;                  ///< In the order of their serial numbers.
+  uint64_t serial_ = 0;
+};
+
+}  // namespace tomales

@@ -1,0 +1,68 @@
+// What a page asks about a shot and its shading.
+#include "reyes/app/relight/relighting.h"
+
+namespace tomales {
+
+Json Relighting::description() const {
+  const std::lock_guard lock(mutex_);
+  const auto shaders = [](const std::vector<EditableShader>& all) {
+    Json out = Json::array();
+    for (const EditableShader& s : all) {
+      Json params = Json::array();
+      for (const EditableParam& p : s.params)
+        params.push_back({{"name", p.name}, {"type", p.type}, {"value", p.value}, {"doc", p.doc}});
+      out.push_back({{"owner", s.owner}, {"shader", s.shader}, {"params", params}});
+    }
+    return out;
+  };
+  Json lights = shaders(editable_.lights);
+  for (Json& light : lights)
+    light["proportional"] = !settings_.standardFromFiles && shinesInProportion(light["shader"].get<std::string>());
+  Json layers = Json::array();
+  for (const Layer& layer : list_) layers.push_back({{"name", layer.name}, {"lights", layer.handles}});
+  return {{"file", settings_.files.front()},
+          {"width", window_.width()},
+          {"height", window_.height()},
+          {"exposure", editable_.exposure},
+          {"present", jsonOf(present_)},
+          {"imager", files_->dfb().shot().scene.options.imager.has_value()},
+          {"sharesBounces", sharesBounces_},
+          {"layers", layers},
+          {"lights", lights},
+          {"surfaces", shaders(editable_.surfaces)}};
+}
+
+Json Relighting::status() const {
+  const std::lock_guard lock(mutex_);
+  Json layers = Json::array();
+  for (const Layer& layer : list_)
+    layers.push_back({{"version", layer.version},
+                      {"edit", layer.begun ? jsonOf(*layer.begun) : Json()},
+                      {"old", isOld(layer, layer.shaded)}});
+  Json messages = Json::array();
+  for (const LogEntry& e : log_.entries())
+    if (e.severity >= Severity::Warning) messages.push_back(e.message);
+  return {{"doing", doing_},     {"done", done_},        {"layers", layers},         {"notLinear", notLinear_},
+          {"checked", checked_}, {"messages", messages}, {"bytes", layers_->bytes()}};
+}
+
+std::optional<int> Relighting::groupAt(int x, int y) const {
+  const DeepFrame& frame = files_->dfb().shot().frame;
+  const auto index = static_cast<size_t>(frame.rowOf(y) * frame.columns + (x - frame.padded.x0) / frame.bucketWidth);
+  std::string error;
+  const auto tile = files_->dfb().tile(index, error);
+  if (!tile || tile->pixel(x, y).count == 0) return std::nullopt;
+  const Facet& nearest = tile->facets[tile->fragments[tile->pixel(x, y).first].facet];
+  return tile->batches[static_cast<size_t>(nearest.batch)].group();
+}
+
+Json Relighting::objectAt(int x, int y) const {
+  const int atX = window_.x0 + x, atY = window_.y0 + y;
+  if (!window_.contains(atX, atY)) throw BadRequest("this pixel is outside of the picture");
+  const std::optional<int> group = groupAt(atX, atY);
+  if (!group) return Json::object();
+  const Attributes& a = *files_->dfb().shot().scene.groups[static_cast<size_t>(*group)].attributes;
+  return {{"object", a.name}, {"shader", a.surface ? a.surface->name : "defaultsurface"}};
+}
+
+}  // namespace tomales

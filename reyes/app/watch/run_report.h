@@ -1,0 +1,64 @@
+// What a run and its frames have taken, for --stats, --profile-shaders, -v and --log.
+#pragma once
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reyes/app/settings.h"
+#include "reyes/base/log.h"
+#include "reyes/base/stats.h"
+
+namespace tomales {
+
+/// The figures that --stats writes.
+struct RunFigures {
+  std::optional<int> frame;        ///< None before the first one.
+  double wall_s = 0, cpu_s = 0;    ///< Of the whole process.
+  int64_t peak_bytes = 0;          ///< Resident.
+  std::vector<LogEntry> messages;  ///< Reported meanwhile.
+};
+
+class RunReport {
+ public:
+  /// Opens --log, and says there what runs. `log` and `settings` outlive it.
+  RunReport(const RenderSettings& settings, Log& log);
+
+  /// The counters of the frame that is being made, or of the run where --stats names one file for all frames. The
+  /// reference stays.
+  Stats& stats() { return *stats_; }
+  /// Tells the number of the frame that is being made. What was read before belongs to it.
+  void begin(int frame) { frame_ = frame; }
+  /// Writes what there is so far, if --stats names one file for a frame or for all.
+  void flush();
+  /// A frame is done: says what it has written and taken, and writes its figures.
+  void end(const SourceLoc& where);
+  /// Leaves out what was read for a frame that is not rendered.
+  void skip();
+  /// Writes what there is of the whole run.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void openLog();
+  bool appends() const;
+  bool isPerFrame() const;
+  std::string statsFile() const;
+  void write();
+  RunFigures figures() const;
+  void startFrame();
+  void startFigures();
+  void say(const SourceLoc& where);
+
+  const RenderSettings& settings_;
+  Log& log_;
+  std::optional<Stats> stats_;
+  std::optional<int> frame_;
+  Clock::time_point start_, frameStart_;  ///< Of the figures, and of the frame.
+  double cpuStart_ = 0, frameCpuStart_ = 0;
+  int64_t peak_ = 0;  ///< In bytes, of the frames before.
+  size_t outputsSaid_ = 0;
+  std::vector<LogEntry> before_;  ///< What the figures leave out.
+};
+
+}  // namespace tomales

@@ -1,0 +1,144 @@
+"""What metal and gloss cost at the noise of plastic, on a knot under a sky, and fireflies in the gallery.
+
+    tests/bench/gloss.py build/release/tomales [another tomales ...]
+    tests/bench/gloss.py build/release/tomales --gallery
+
+Noise: root mean square of the difference of two light seeds on the knot, over sqrt(2) and the mean colour there. Time at
+equal noise: CPU seconds times the square of the noise, as a multiple of plastic's. A firefly is a pixel that is brighter
+than 10 times the median of its 5 x 5 neighbours with one light seed and not with another.
+"""
+import math
+import pathlib
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests/image"))
+from gallery import pictures_of  # noqa: E402
+from pictures import pixels  # noqa: E402
+
+SCENE = """Display "knot.exr" "openexr" "rgb"
+Format 192 144 1
+PixelSamples 4 4
+PixelFilter "box" 1 1
+Projection "perspective" "fov" [40]
+Translate 0 0 6
+Rotate -120 1 0 0
+WorldBegin
+{lights}
+Attribute "visibility" "int diffuse" [1] "int specular" [1] "int transmission" [1]
+Surface "{floor}"
+Color [0.5 0.5 0.5]
+Polygon "P" [-6 -6 -1.2  6 -6 -1.2  6 6 -1.2  -6 6 -1.2]
+Color [0.9 0.6 0.3]
+Surface {surface}
+ReadArchive "knot.rib"
+WorldEnd
+"""
+SKY = 'LightSource "environmentlight" 1 "float samples" [64]\nLightSource "indirectlight" 2'
+SURFACES = {"plastic": '"plastic"', "metal": '"disney" "metallic" [1] "roughness" [0.3]',
+            "metal, 8 reflections": '"disney" "metallic" [1] "roughness" [0.3] "reflections" [8]',
+            "gloss, 8 reflections": '"disney" "roughness" [0.3] "reflections" [8]',
+            "mirror": '"shinymetal" "texturename" ["raytrace"] "roughness" [0.1]', "glass": '"glass"'}
+
+
+def knot(around=240, across=32, radius=0.35):
+    """A trefoil as RIB."""
+    def middle(t):
+        r = 2 + math.cos(3 * t)
+        return (r * math.cos(2 * t) / 2, r * math.sin(2 * t) / 2, math.sin(3 * t) / 1.6)
+
+    def unit(v):
+        length = math.sqrt(sum(x * x for x in v))
+        return tuple(x / length for x in v)
+
+    def cross(a, b):
+        return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    points, normals, faces = [], [], []
+    for i in range(around):
+        t, step = 2 * math.pi * i / around, 1e-3
+        a, m, b = middle(t - step), middle(t), middle(t + step)
+        along = unit(tuple(y - x for x, y in zip(a, b)))
+        side = unit(cross(along, tuple(x + y - 2 * z for x, y, z in zip(a, b, m))))
+        up = cross(side, along)
+        for j in range(across):
+            v = 2 * math.pi * j / across
+            normals.append(tuple(math.cos(v) * x + math.sin(v) * y for x, y in zip(up, side)))
+            points.append(tuple(x + radius * n for x, n in zip(m, normals[-1])))
+            faces += [(k % around) * across + n % across for k, n in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
+
+    def numbers(rows):
+        return " ".join(f"{x:.5f}" for row in rows for x in row)
+    return (f"PointsPolygons [{' '.join(['4'] * (around * across))}] [{' '.join(map(str, faces))}] "
+            f'"P" [{numbers(points)}] "N" [{numbers(normals)}]\n')
+
+
+def render(program, folder, *arguments):
+    """CPU seconds."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    code = subprocess.run([program, "render", *arguments, "-q"], cwd=folder).returncode
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    assert code in (0, 3), arguments
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def noise(a, b, mask):
+    squares = sum((x - y) ** 2 for p in mask for x, y in zip(a[p][:3], b[p][:3])) / (3 * len(mask))
+    mean = sum(x + y for p in mask for x, y in zip(a[p][:3], b[p][:3])) / (6 * len(mask))
+    return math.sqrt(squares / 2) / mean
+
+
+def knots(programs, folder):
+    (folder / "knot.rib").write_text(knot())
+    (folder / "mask.rib").write_text(SCENE.format(lights="", floor="null", surface='"constant"'))
+    render(programs[0], folder, "mask.rib", "-o", "mask.exr")
+    mask = [p for p, v in pixels(folder / "mask.exr").items() if v[0] > 0.8]
+    print(f"{'surface':24}" + "".join(f"{'CPU s':>10}{'noise':>9}{'equal':>8}" for _ in programs))
+    first = {}
+    for name, surface in SURFACES.items():
+        (folder / "scene.rib").write_text(SCENE.format(lights=SKY, floor="matte", surface=surface))
+        line = f"{name:24}"
+        for program in programs:
+            cost = [render(program, folder, "scene.rib", "--light-seed", str(k), "-o", f"{k}.exr") for k in (1, 2)]
+            found = noise(pixels(folder / "1.exr"), pixels(folder / "2.exr"), mask)
+            effort = statistics.mean(cost) * found ** 2
+            line += f"{statistics.mean(cost):10.1f}{100 * found:8.2f}%{effort / first.setdefault(program, effort):8.2f}"
+        print(line, flush=True)
+
+
+def fireflies(picture, other):
+    def bright(pixels_of, p):
+        return sum(pixels_of[p][:3])
+
+    def stands_out(pixels_of, p):
+        around = [bright(pixels_of, (p[0] + dx, p[1] + dy)) for dx in range(-2, 3) for dy in range(-2, 3)
+                  if (p[0] + dx, p[1] + dy) in pixels_of]
+        return bright(pixels_of, p) > 10 * statistics.median(around) > 1e-4
+    return [p for p in picture if stands_out(picture, p) and not stands_out(other, p)]
+
+
+def gallery(program, folder):
+    for path in sorted((ROOT / "scenes").glob("*/*.rib")):
+        for picture in pictures_of(path, ROOT):
+            (folder / "scene.rib").write_text(picture.text)
+            options = ["--format", "192x144", "--one-picture", *picture.options]
+            try:
+                for seed in "12":
+                    render(program, path.parent, str(folder / "scene.rib"), "--light-seed", seed, "-o", str(folder / f"{seed}.exr"), *options)
+                a, b = (pixels(folder / f"{seed}.exr") for seed in "12")
+            except (AssertionError, subprocess.CalledProcessError, OSError) as why:
+                print(f"{picture.name}: not rendered ({type(why).__name__})", flush=True)
+                continue
+            found = fireflies(a, b)
+            print(f"{picture.name}: {len(found)} {found[:5] or ''}", flush=True)
+
+
+with tempfile.TemporaryDirectory() as place:
+    chosen = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:] if not p.startswith("--")]
+    if "--gallery" in sys.argv:
+        gallery(chosen[0], pathlib.Path(place))
+    else:
+        knots(chosen, pathlib.Path(place))

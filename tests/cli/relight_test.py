@@ -1,0 +1,244 @@
+"""The server of tomales relight: who may ask, what it answers, and that a saved edit is the picture of the page."""
+import array
+import http.client
+import json
+import pathlib
+import random
+import re
+import select
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import time
+
+from program import Suite
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
+from pictures import pixels  # noqa: E402
+
+SCENE = """Display "box.exr" "openexr" "rgba"
+Format 48 36 1
+PixelSamples 2 2
+Exposure 1.5 1
+Projection "perspective" "fov" [60]
+Translate 0 0 1.4
+WorldBegin
+LightSource "indirectlight" "gi" "float samples" [64]
+LightSource "pointlight" "key" "from" [0.5 0.6 -0.3] "intensity" [0.7]
+LightSource "spotlight" "rim" "from" [-0.8 0.8 0] "to" [0.5 -1 0] "intensity" [1] "coneangle" [0.5]
+Attribute "identifier" "name" ["walls"]
+Surface "matte"
+Color [0.7 0.6 0.5]
+Polygon "P" [-1 -1 -1 1 -1 -1 1 -1 1 -1 -1 1]
+Polygon "P" [-1 -1 1 1 -1 1 1 1 1 -1 1 1]
+Attribute "identifier" "name" ["ball"]
+Surface "plastic" "Ks" [0.4]
+Translate 0.3 -0.6 0.3
+Sphere 0.4 -0.4 0.4 360
+WorldEnd
+"""
+PATIENCE_S = 60
+suite = Suite()
+
+
+class Server:
+    def __init__(self, *options, of="box.dfb"):
+        self.process = subprocess.Popen([suite.program, "relight", of, "--no-browser", *options], cwd=suite.folder, text=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE_S)
+        line = self.process.stdout.readline() if ready else ""
+        self.port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/\n", line).groups()
+        self.host = f"127.0.0.1:{self.port}"
+
+    def ask(self, method, path, body=None, headers=None):
+        """Status, headers and bytes of the answer; the path is taken as it is."""
+        connection = http.client.HTTPConnection("127.0.0.1", int(self.port), timeout=30)
+        connection.putrequest(method, path, skip_host=headers is not None and "Host" in headers)
+        data = body if isinstance(body, bytes) or body is None else json.dumps(body).encode()
+        for name, value in (headers or {}).items():
+            connection.putheader(name, value)
+        if data is not None:
+            connection.putheader("Content-Length", str(len(data)))
+        connection.endheaders(data)
+        answer = connection.getresponse()
+        out = answer.status, dict(answer.getheaders()), answer.read()
+        connection.close()
+        return out
+
+    def get(self, path):
+        return self.ask("GET", f"/{self.token}/{path}")
+
+    def post(self, path, body):
+        return self.ask("POST", f"/{self.token}/{path}", body)
+
+    def json(self, path):
+        return json.loads(self.get(path)[2])
+
+    def news(self, after=0):
+        data = self.get(f"news?after={after}")[2]
+        length = struct.unpack_from("<I", data)[0]
+        return json.loads(data[4:4 + length]), data[4 + length:]
+
+    def settled(self):
+        """Waits until every layer is that of the present edit, and the check has been made."""
+        end, after = time.time() + PATIENCE_S, 0
+        while time.time() < end:
+            status, _ = self.news(after)
+            after = status["after"]
+            if status["checked"] and not any(layer["old"] for layer in status["layers"][1:]) and not status["doing"]:
+                return status
+        return None
+
+    def whole(self):
+        self.post("ask", {})
+        end = time.time() + PATIENCE_S
+        while time.time() < end:
+            status, _, data = self.get("whole")
+            if status == 200:
+                return array.array("f", data)
+            time.sleep(0.05)
+        return None
+
+    def end(self):
+        self.process.send_signal(signal.SIGINT)
+        return self.process.wait(20)
+
+
+def layers(blocks, width, height):
+    """{layer: {(x, y): (r, g, b)}} of the blocks of news."""
+    out, at = {}, 0
+    while at < len(blocks):
+        layer, x, y, w, h, _, _, _ = struct.unpack_from("<8I", blocks, at)
+        values = struct.unpack_from(f"<{3 * w * h}e", blocks, at + 32)
+        for i in range(w * h):
+            out.setdefault(layer, {})[x + i % w, y + i // w] = values[3 * i:3 * i + 3]
+        at += 32 + (6 * w * h + 3) // 4 * 4
+    return out
+
+
+suite.write("box.rib", SCENE)
+suite.run("hide", "box.rib", "-o", "box.dfb", "-q")
+suite.run("gather", "box.dfb", "-o", "box.icf", "--by-light", "-q")
+suite.run("gather", "box.dfb", "-o", "plain.icf", "-q")
+(suite.folder / "edits").mkdir()
+server = Server("--irradiance", "box.icf", "--folder", "edits")
+
+# Who may ask.
+page = f"/{server.token}/"
+suite.expect(server.ask("GET", page)[0] == 200, "the page is there")
+suite.expect("default-src 'none'" in server.ask("GET", page)[1].get("Content-Security-Policy", ""), "it may load nothing from elsewhere")
+for name in ("main.js", "mixer.js", "stage.js", "panel.js", "edit.js", "server.js", "page.css"):
+    suite.expect(server.get(name)[0] == 200, f"{name} is there")
+for path in ("/", "/scene", f"/{'0' * 32}/", f"/{server.token[:-1]}x/", f"/{server.token}", f"/{server.token}x/scene"):
+    suite.expect(server.ask("GET", path)[0] == 403, f"without the token {path[:12]} is refused")
+for host in ("evil.example", f"evil.example:{server.port}", "127.0.0.1", f"127.0.0.1.evil.example:{server.port}", ""):
+    suite.expect(server.ask("GET", page, headers={"Host": host})[0] in (400, 403), f"Host {host!r} is refused")
+suite.expect(server.ask("GET", page, headers={"Host": f"localhost:{server.port}"})[0] == 200, "localhost is the same host")
+for origin in ("http://evil.example", "null", f"https://{server.host}", f"http://{server.host}.evil.example"):
+    suite.expect(server.ask("POST", page + "edit", {}, {"Origin": origin})[0] == 403, f"Origin {origin!r} is refused")
+suite.expect(server.ask("POST", page + "edit", {}, {"Origin": f"http://{server.host}"})[0] == 200, "the page's own origin is not")
+
+# What the page learns.
+scene = server.json("scene")
+suite.expect((scene["width"], scene["height"]) == (48, 36) and scene["exposure"] == [1.5, 1], "the size and the exposure")
+suite.expect([layer["name"] for layer in scene["layers"]] == ["everything", "glow", "key", "rim"] and scene["sharesBounces"],
+             "a layer for each light, with what it bounces")
+suite.expect(server.settled() is not None, "all layers are shaded")
+status, blocks = server.news()
+found = layers(blocks, 48, 36)
+suite.run("shade", "box.dfb", "--irradiance", "box.icf", "-o", "box.exr", "-q")
+suite.expect(sorted(found) == [0, 1, 2, 3] and all(len(layer) == 48 * 36 for layer in found.values()), "they come as blocks")
+truth = pixels(suite.folder / "box.exr")
+for what, of in (("the whole", lambda p: found[0][p]), ("the sum of the lights", lambda p: [sum(found[i][p][c] for i in (1, 2, 3)) for c in range(3)])):
+    worst = max(abs(1.5 * of(p)[c] - truth[p][c]) / (truth[p][c] + 0.01) for p in truth for c in range(3))
+    suite.expect(worst < 2e-3, f"{what} is the picture but for the rounding of half floats ({worst:.1e})")
+suite.expect(status["notLinear"] == [], "light adds up everywhere")
+suite.expect(server.json("object?x=33&y=26") == {"object": "ball", "shader": "plastic"}, "a pixel tells its object and shader")
+
+# Edits: refused, shaded, saved and loaded.
+key = {"lights": {"key": {"intensity": [0.2], "lightcolor": [1, 0.5, 0.25]}, "rim": {"coneangle": [0.3]}},
+       "surfaces": {"ball": {"Ks": [0.9]}}, "exposure": [1.25, 1]}
+for bad in ([], {"rib": "Surface"}, {"lights": {"sun": {}}}, {"lights": {"key": {"shadowname": ["x"]}}}, {"lights": {"key": {"intensity": [1, 2]}}},
+            {"lights": {"key": {"intensity": ["1"]}}}, {"lights": {"key": {"intensity": [1e99]}}}, {"lights": {"key": [1]}},
+            {"surfaces": {"ball": {"no": [1]}}}, {"exposure": [1, 0]}, {"exposure": [-1, 1]}, b"{", b"", b"\xff" * 9, b"[" * 5000):
+    suite.expect(server.post("edit", bad)[0] == 400, f"an edit of {str(bad)[:40]} is refused")
+suite.expect(server.post("edit", b" " * (1 << 19))[0] == 413, "so is one that is too large")
+suite.expect(server.post("edit", key)[0] == 200 and server.settled() is not None, "an edit is shaded")
+whole = server.whole()
+suite.expect(server.post("save", {"name": "warm"})[0] == 200 and (suite.folder / "edits/warm.rib").is_file(), "and saved")
+suite.run("shade", "box.dfb", "--irradiance", "box.icf", "--edit", "edits/warm.rib", "-o", "warm.exr", "-q")
+warm = pixels(suite.folder / "warm.exr")
+suite.expect(whole is not None and all(whole[3 * (48 * y + x) + c] == warm[x, y][c] for x, y in warm for c in range(3)),
+             "shade --edit gives the bits of the page's picture")
+status, blocks = server.news()
+found = layers(blocks, 48, 36)
+worst = max(abs(1.25 * sum(found[i][p][c] for i in (1, 2, 3)) - warm[p][c]) / (warm[p][c] + 0.01) for p in warm for c in range(3))
+suite.expect(worst < 3e-3, f"its layers add up to it ({worst:.1e})")
+single = {"lights": {"rim": {"coneangle": [0.3]}}, "surfaces": {"ball": {"Ks": [0.9]}}, "exposure": [1.25, 1]}
+before = [layer["version"] for layer in status["layers"]]
+server.post("edit", single)
+after = [layer["version"] for layer in server.settled()["layers"]]
+suite.expect(before[1:] == after[1:], "a change of intensity and colour shades no layer again")
+suite.expect(json.loads(server.post("load", {"name": "warm"})[2])["surfaces"] == {"ball": {"Ks": [array.array("f", [0.9])[0]]}}, "a saved edit is loaded")
+suite.expect(server.json("scene")["present"]["exposure"] == [1.25, 1], "another page learns the present edit")
+suite.expect(server.json("edits") == ["warm"], "the folder's edits are listed")
+for name in ("../warm", "..", "", "a/b", "/etc/passwd", "a" * 65, "a.b", "a\0", "%2e%2e%2fwarm"):
+    suite.expect(server.post("save", {"name": name})[0] == 400 and server.post("load", {"name": name})[0] == 400, f"the name {name[:20]!r} leads nowhere")
+for path in ("../box.rib", "..%2fbox.rib", "edits/warm.rib", "%2e%2e/box.rib", "//etc/passwd", "main.js/../../box.rib"):
+    suite.expect(server.get(path)[0] in (403, 404), f"the path {path} leads nowhere")
+suite.write("edits/own.rib", 'LightSource "pointlight" "key" "intensity" [2]\nColor [1 0 0]\n')
+suite.expect(server.post("load", {"name": "own"})[0] == 400, "an edit that does more than the page can is refused")
+for question in ("object", "object?x=99&y=0", "object?x=-1&y=0", "object?x=1e3&y=0", "object?x=99999999999999999999&y=1", "news", "news?after=x"):
+    suite.expect(server.get(question)[0] == 400, f"the question {question} is refused")
+
+# A client that makes no sense, and one that says nothing.
+silent = [socket.create_connection(("127.0.0.1", int(server.port))) for _ in range(8)]
+random.seed(36)
+METHODS = ("GET", "POST", "PUT", "HEAD", "OPTIONS", "DELETE", "TRACE", "G\0T", "")
+PATHS = ("/", page, page + "edit", page + "news?after=0", page + "news?after=%00", page + "load", page + "object?x=1&y=" + "9" * 400, "*", "/" + "a" * 9000)
+LINES = ("Host: " + server.host, "Host: x", "Content-Length: 4", "Content-Length: -1", "Content-Length: 99999999999", "Transfer-Encoding: chunked",
+         "Origin: null", "X: " + "y" * 5000, "Range: bytes=0-,5-1", "Connection: close", ": ", "\0\0", "Expect: 100-continue", "Content-Encoding: gzip",
+         "Content-Type: multipart/form-data; boundary=" + "b" * 100, "Content-Type: application/x-www-form-urlencoded")
+
+
+def nonsense():
+    head = f"{random.choice(METHODS)} {random.choice(PATHS)} HTTP/{random.choice(('1.1', '1.0', '9', ''))}\r\n"
+    text = head + "".join(random.choice(LINES) + "\r\n" for _ in range(random.randrange(6))) + random.choice(("\r\n", "", "\n")) + random.choice(("", "{}", "5\r\n{", "--b\r\n"))
+    data = bytearray(text.encode())
+    for _ in range(random.randrange(4)):
+        data[random.randrange(len(data))] = random.randrange(256)
+    return bytes(data)
+
+
+for _ in range(1500):
+    with socket.create_connection(("127.0.0.1", int(server.port)), timeout=5) as connection:
+        try:
+            connection.sendall(nonsense())
+            connection.shutdown(socket.SHUT_WR)
+        except OSError:
+            pass
+start = time.time()
+suite.expect(server.get("scene")[0] == 200 and server.json("scene")["lights"] == scene["lights"], "after 1500 requests of nonsense it answers as before")
+suite.expect(time.time() - start < 20, "and does not keep others waiting")
+for connection in silent:
+    connection.close()
+suite.expect(server.end() == 0, "Ctrl-C ends it")
+
+# Records without shares, and none at all.
+server = Server("--irradiance", "plain.icf")
+scene = server.json("scene")
+suite.expect(not scene["sharesBounces"] and scene["layers"][-1]["name"] == "bounced light", "without shares bounced light is a layer of its own")
+suite.expect(server.settled() is not None, "which is shaded")
+found = layers(server.news()[1], 48, 36)
+worst = max(abs(1.5 * sum(found[i][p][c] for i in (1, 2, 3, 4)) - truth[p][c]) / (truth[p][c] + 0.01) for p in truth for c in range(3))
+suite.expect(worst < 3e-3, f"and adds up with the others ({worst:.1e})")
+suite.expect(server.post("end", {})[0] == 200 and server.process.wait(20) == 0, "the page ends it")
+server = Server(of="box.rib")
+suite.expect(server.json("scene")["sharesBounces"] and server.settled() is not None, "a scene is hidden, and its light gathered by lights, first")
+suite.expect(server.end() == 0, "and it ends")
+suite.write("none.dfb", "no shot")
+suite.expect_run("a shot that is none", ["relight", "none.dfb", "--no-browser"], 2, "dfb-read")
+suite.expect_run("a scene that is none", ["relight", "none.rib", "--no-browser"], 2)
+suite.finish()

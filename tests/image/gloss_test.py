@@ -1,0 +1,65 @@
+"""Rays of one glossy point share the light samples and gather rays of that point: more of them cost no more of these, and
+bring the same light."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from pictures import pixels
+
+program = pathlib.Path(sys.argv[1]).resolve()
+SCENE = """Display "x.exr" "openexr" "rgb"
+Format 48 36 1
+PixelSamples 2 2
+Projection "perspective" "fov" [40]
+Translate 0 -0.3 5
+Rotate -20 1 0 0
+WorldBegin
+AttributeBegin
+AreaLightSource "arealight" "lamp" "intensity" [3] "samples" [64]
+Surface "matte"
+Translate 0 3 0 Rotate 90 1 0 0
+Patch "bilinear" "P" [-1 -1 0 1 -1 0 -1 1 0 1 1 0]
+AttributeEnd
+Illuminate "lamp" 1
+LightSource "environmentlight" "sky" "intensity" [0.4] "samples" [64]
+LightSource "indirectlight" "bounce" "samples" [256] "bounces" [2]
+Surface "matte" Color [0.7 0.4 0.3]
+Sphere 0.7 -0.7 0.7 360
+Surface "disney" %s "roughness" [0.4] "reflections" [%d]
+Color [0.9 0.9 0.9]
+Polygon "P" [-4 -0.7 -4 -4 -0.7 4 4 -0.7 4 4 -0.7 -4]
+WorldEnd
+"""
+failures = 0
+
+
+def expect(condition, message):
+    global failures
+    print(("ok      " if condition else "FAILED  ") + message)
+    failures += not condition
+
+
+def render(folder, material, reflections, *options):
+    (folder / "x.rib").write_text(SCENE % (material, reflections))
+    subprocess.run([program, "x.rib", "-q", "--stats", "x.json", *options], cwd=folder, check=True)
+    picture = pixels(folder / "x.exr")
+    return json.loads((folder / "x.json").read_text())["rays"], [sum(v[c] for v in picture.values()) / len(picture) for c in range(3)]
+
+
+with tempfile.TemporaryDirectory() as name:
+    folder = pathlib.Path(name)
+    for material in ('"metallic" [1]', '"specular" [1]'):
+        none, _ = render(folder, material, 0)
+        one, single = render(folder, material, 1)
+        many, mean = render(folder, material, 16)
+        expect(many["specular"] > 5 * one["specular"], f"{material}: 16 rays of a point are sent")
+        for kind in ("transmission", "gather"):
+            expect(many[kind] - none[kind] < 1.5 * (one[kind] - none[kind]) + 0.1 * none[kind],
+                   f"and cost no more {kind} rays than one: {none[kind]}, {one[kind]}, {many[kind]}")
+        expect(all(abs(a - b) < 0.01 * b for a, b in zip(single, mean)), f"and bring the same light: {single}, {mean}")
+    traced = [render(folder, '"metallic" [1]', n, "--gi", "reference", "--samples", "64") for n in (1, 16)]
+    expect(traced[1][0]["reference"] < 1.5 * traced[0][0]["reference"], "paths are shared too")
+    expect(all(abs(a - b) < 0.02 * b for a, b in zip(traced[0][1], traced[1][1])), f"and bring the same light: {traced[0][1]}, {traced[1][1]}")
+sys.exit(bool(failures))

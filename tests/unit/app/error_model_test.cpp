@@ -1,0 +1,120 @@
+#include "reyes/app/frame/error_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tomales {
+namespace {
+
+/// A frame that follows the law of the model: noise of rays, interpolation, lamps, and rays that they take.
+struct Frame {
+  double noise = 0.3, bias = 0.01, biasPower = 3, lamps = 0.08, lampsPower = -0.75;
+  QualityTrial trial(const LightQuality& q) const {
+    QualityTrial out{q};
+    out.indirect = std::sqrt(noise * noise / q.samples + bias * bias * std::pow(q.maxError, biasPower));
+    out.direct = lamps * std::pow(q.lightSamples, lampsPower);
+    out.gatherCost = 1000.0 * q.samples * std::pow(q.maxError, -0.8);
+    out.shadeCost = 20000.0 * q.lightSamples;
+    return out;
+  }
+  double error(const LightQuality& q) const { return std::hypot(trial(q).indirect, trial(q).direct); }
+  double rays(const LightQuality& q) const { return trial(q).gatherCost + trial(q).shadeCost; }
+  ErrorModel model() const { return {trial({150, 1, 4}), trial({600, 1, 16}), trial({150, 2, 4})}; }
+};
+
+TEST(ErrorModel, FindsTheLawOfAFrameFromThreeTrials) {
+  const Frame frame;
+  const ErrorModel model = frame.model();
+  for (const LightQuality& q : {LightQuality{75, 0.5, 2}, LightQuality{1200, 1.5, 64}, LightQuality{300, 3, 8}}) {
+    EXPECT_NEAR(model.error(q) / frame.error(q), 1, 1e-6);
+    EXPECT_NEAR(model.cost(q) / frame.rays(q), 1, 1e-6);
+  }
+}
+
+TEST(ErrorModel, ReachesATargetWithFewerRaysThanEveryQualityThatAlsoDoes) {
+  const Frame frame;
+  const LightQuality chosen = frame.model().cheapest(0.012);
+  EXPECT_LE(frame.error(chosen), 0.012);
+  for (int samples : {100, 200, 400, 800, 1600, 3200})
+    for (float maxError : {0.25f, 0.5f, 1.0f, 2.0f})
+      for (int lightSamples : {1, 4, 16, 64, 256}) {
+        const LightQuality other{samples, maxError, lightSamples};
+        if (frame.error(other) <= 0.012) {
+          EXPECT_LE(frame.rays(chosen), 1.1 * frame.rays(other)) << optionsOf(other);
+        }
+      }
+}
+
+TEST(ErrorModel, AsksForMoreRaysOfATargetThatIsSmaller) {
+  const ErrorModel model = Frame().model();
+  double before = 0;
+  for (double target : {0.08, 0.04, 0.02, 0.01}) {
+    const double rays = model.cost(model.cheapest(target));
+    EXPECT_GT(rays, before);
+    before = rays;
+  }
+}
+
+TEST(ErrorModel, GivesTheLeastErrorOfItsRangeWhereATargetCannotBeReached) {
+  const ErrorModel model = Frame().model();
+  const LightQuality chosen = model.cheapest(1e-6);
+  EXPECT_GT(model.error(chosen), 1e-6);
+  EXPECT_LE(model.error(chosen), model.error({9600, 0.07f, 512}));
+}
+
+TEST(ErrorModel, GivesTheLeastErrorThatSoManyRaysBring) {
+  const ErrorModel model = Frame().model();
+  const LightQuality chosen = model.best(1e6);
+  EXPECT_LE(model.cost(chosen), 1e6);
+  EXPECT_LE(model.error(chosen), model.error(model.cheapest(1.1 * model.error(chosen))));
+}
+
+TEST(ErrorModel, GivesTheMostLightSamplesForATimeAndLeavesRaysAlone) {
+  const ErrorModel model = Frame().model();
+  const LightQuality chosen = model.bestLamps({300, 0.7f, 4}, 400000);
+  EXPECT_EQ(chosen.samples, 300);
+  EXPECT_EQ(chosen.maxError, 0.7f);
+  EXPECT_EQ(chosen.lightSamples, 16);
+  EXPECT_EQ(model.bestLamps({300, 0.7f, 4}, 0).lightSamples, 1);
+}
+
+TEST(ErrorModel, IsCorrectedByAPictureThatErrsMoreThanItSaid) {
+  ErrorModel model = Frame().model();
+  const LightQuality first = model.cheapest(0.02);
+  model.correct(first, 3 * model.indirectError(first), model.directError(first));
+  EXPECT_GT(model.error(first), 0.02);
+  const LightQuality second = model.cheapest(0.02);
+  EXPECT_GT(second.samples, first.samples);
+  EXPECT_LE(model.error(second), 0.02);
+}
+
+TEST(ErrorModel, LeavesRaysAndRecordsAloneWhereOnlyLampsErr) {
+  Frame frame;
+  const auto lampsOnly = [&](int lightSamples) {
+    QualityTrial out = frame.trial({150, 1, lightSamples});
+    out.quality.samples = 0, out.quality.maxError = -1, out.indirect = out.gatherCost = 0;
+    return out;
+  };
+  const ErrorModel model(lampsOnly(4), lampsOnly(16), {});
+  const LightQuality chosen = model.cheapest(0.01);
+  EXPECT_EQ(optionsOf(chosen), "--light-samples 16");
+}
+
+TEST(ErrorModel, SurvivesTrialsThatSawNothing) {
+  const ErrorModel model({{150, 1, 4}}, {{600, 1, 16}}, QualityTrial{{150, 2, 4}});
+  EXPECT_EQ(model.error(model.cheapest(0.01)), 0);
+}
+
+TEST(ErrorModel, SurvivesAFinerTrialThatErrsMore) {
+  const Frame frame;
+  QualityTrial unlucky = frame.trial({600, 1, 16});
+  unlucky.indirect = 2 * frame.trial({150, 1, 4}).indirect, unlucky.direct = 1;
+  const ErrorModel model(frame.trial({150, 1, 4}), unlucky, frame.trial({150, 2, 4}));
+  const LightQuality chosen = model.cheapest(0.01);
+  EXPECT_GT(chosen.samples, 0);
+  EXPECT_TRUE(std::isfinite(model.error(chosen)));
+}
+
+}  // namespace
+}  // namespace tomales

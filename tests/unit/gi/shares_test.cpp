@@ -1,0 +1,136 @@
+// The share of each light in irradiance: what is kept for it adds up, and follows gains.
+#include <gtest/gtest.h>
+
+#include "reyes/base/rng.h"
+#include "tests/unit/gi/fixture.h"
+
+namespace tomales {
+namespace {
+
+using namespace test;
+
+const std::vector<std::string> kGroups{"", "left", "right"};
+
+vec3 someVector(uint32_t i, uint32_t salt) {
+  return {unitFloat(hashCombine(i, salt, 0)), unitFloat(hashCombine(i, salt, 1)), unitFloat(hashCombine(i, salt, 2))};
+}
+
+LightShare someShare(uint32_t name) {
+  LightShare share{.E = someVector(name, 0)};
+  for (uint32_t c = 0; c < 3; ++c) {
+    share.rotationGradient[c] = someVector(name, 1 + c) - 0.5f;
+    share.translationGradient[c] = 9.0f * (someVector(name, 4 + c) - 0.5f);
+    share.hessian[c] = 30.0f * (someVector(name, 7 + c) - 0.5f);
+  }
+  return share;
+}
+
+/// Records on a plane whose light is the sum of their shares, some of it too steep to be extrapolated.
+IrradianceCache plane(ErrorFunction function) {
+  const ErrorFunctionInfo& info = infoOf(function);
+  IrradianceCache cache({vec3(-1), vec3(1)}, {function, info.kappa, info.maxPixels, info.minPixels, info.enough});
+  for (uint32_t i = 0; i < 200; ++i) {
+    IrradianceRecord r{};
+    r.position = {2 * unitFloat(hashCombine(i, 11u)) - 1, 2 * unitFloat(hashCombine(i, 12u)) - 1, 0};
+    r.normal = {0, 0, 1}, r.tangent = {1, 0, 0};
+    for (vec3& d : r.dominant) d = r.normal;
+    r.harmonicMean = r.closest = 0.5f, r.smoothRadius = 0.4f, r.pixelSize = 0.02f, r.noise = 0.3f;
+    LightShare all;
+    for (uint32_t g = 0; g < 3; ++g) r.shares.push_back(someShare(3 * i + g)), all.add(r.shares.back(), vec3(1));
+    r.E = all.E;
+    std::copy_n(all.rotationGradient, 3, r.rotationGradient);
+    std::copy_n(all.translationGradient, 3, r.translationGradient);
+    std::copy_n(all.hessian, 3, r.hessian);
+    cache.insert(r);
+  }
+  return cache;
+}
+
+std::vector<IrradiancePlace> places() {
+  std::vector<IrradiancePlace> out;
+  for (uint32_t i = 0; i < 300; ++i) {
+    const vec3 n = normalizeOr(vec3(0.1f * unitFloat(hashCombine(i, 21u)), 0, 1), vec3(0));
+    out.push_back({{unitFloat(hashCombine(i, 22u)), unitFloat(hashCombine(i, 23u)), 0}, n, n, 0.02f});
+  }
+  return out;
+}
+
+class Shares : public testing::TestWithParam<ErrorFunction> {};
+
+TEST_P(Shares, AddUpToTheWholeAndFollowGains) {
+  const IrradianceCache cache = plane(GetParam());
+  const std::vector<IrradiancePlace> at = places();
+  const auto ask = [&](const std::vector<vec3>& gains) {
+    std::vector<IrradianceEstimate> out(at.size());
+    const std::vector<LightShare> light = gains.empty() ? std::vector<LightShare>() : cache.mixed(gains);
+    cache.lookup(at, out.data(), 1.25f, light);
+    return out;
+  };
+  const vec3 red(2, 0, 0.5f);
+  const auto whole = ask({}), same = ask({vec3(1), vec3(1), vec3(1)}), second = ask({vec3(0), vec3(1), vec3(0)}),
+             mixed = ask({vec3(1), red, vec3(1)});
+  int served = 0;
+  for (size_t i = 0; i < at.size(); ++i) {
+    served += whole[i].weight > 0;
+    EXPECT_EQ(mixed[i].weight, whole[i].weight) << "gains do not change where a record is used";
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(same[i].E[c], whole[i].E[c], 1e-4f);
+      EXPECT_NEAR(mixed[i].E[c], same[i].E[c] + (red[c] - 1) * second[i].E[c], 1e-4f);
+      EXPECT_EQ(mixed[i].dominant[c], whole[i].dominant[c]);
+    }
+  }
+  EXPECT_GT(served, 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAllErrorFunctions, Shares,
+                         testing::Values(ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian));
+
+/// A room with two lamps of other colours and a light that every bounce keeps going.
+SceneBuilder room() {
+  SceneBuilder b = cornell({floatParam("bounces", 3)});
+  b.scene.lights.front()->handle = "left";
+  b.light("pointlight", {floatParam("intensity", 0.4f), pointParam("from", {-0.5f, -0.2f, 2.6f})});
+  b.scene.lights.back()->handle = "right";
+  for (Object& o : b.scene.objects) {
+    auto attributes = std::make_shared<Attributes>(*o.attributes);
+    attributes->lights.push_back(2);
+    o.attributes = attributes;
+  }
+  return b;
+}
+
+IrradianceRecord gatherIn(SceneBuilder b, std::span<const std::string> groups) {
+  World world(std::move(b.scene));
+  const auto services = world.use({.mode = GiMode::Gather, .bounces = 3});
+  GatherSettings settings{.samples = 400};
+  settings.indirect = true;
+  return gather(world.rays, world.shading, {0, {0.2f, -1, 3}, {0, 1, 0}, 7, 0.01f, 0.01f}, settings, {}, world.stats,
+                nullptr, groups);
+}
+
+TEST(SharesOfARecord, AreThoseOfItsLightsWithAllThatTheyBounce) {
+  const IrradianceRecord record = gatherIn(room(), kGroups);
+  ASSERT_EQ(record.shares.size(), 3u);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(record.shares[0].E[c], 0) << "nothing shines by itself";
+    EXPECT_NEAR((record.shares[1].E + record.shares[2].E)[c], record.E[c], 1e-4f * record.E[c]);
+    const vec3 gradient = record.shares[1].translationGradient[c] + record.shares[2].translationGradient[c];
+    EXPECT_LT(glm::distance(gradient, record.translationGradient[c]), 1e-3f);
+  }
+  SceneBuilder brighter = room();
+  brighter.scene.lights.back()->shader.params[0].floats[0] *= 3;
+  const IrradianceRecord truth = gatherIn(std::move(brighter), {});
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR((record.shares[1].E + 3.0f * record.shares[2].E)[c], truth.E[c], 1e-3f * truth.E[c]);
+  EXPECT_GT(luminance(record.shares[2].E), 0.1f * luminance(record.E));
+}
+
+TEST(SharesOfARecord, LeaveTheRecordAsItIs) {
+  const IrradianceRecord with = gatherIn(room(), kGroups), without = gatherIn(room(), {});
+  EXPECT_EQ(with.E, without.E);
+  EXPECT_EQ(with.translationGradient[1], without.translationGradient[1]);
+  EXPECT_EQ(with.noise, without.noise);
+}
+
+}  // namespace
+}  // namespace tomales
