@@ -40,7 +40,7 @@ def pictures_of(path, root):
 
 
 def has_to_be_furnished(text):
-    return "plugins:" in text or "slide.png" in text or ".bkm" in text
+    return "plugins:" in text or "slide.png" in text or ".bkm" in text or "photons/" in text
 
 
 def furnish(tomales, root, text, folder):
@@ -56,6 +56,15 @@ def furnish(tomales, root, text, folder):
         (folder / "slide.png").symlink_to(root / "docs/images/displaced.png")
     if "cornell.bkm" in text:
         make_brick_map(tomales, root, folder)
+    if "photons/" in text:
+        (folder / "photons.rib").write_text(text)
+        store_photons(tomales, folder / "photons.rib", folder)
+
+
+def store_photons(tomales, scene, shaders):
+    """As scenes/pool/README.md says, and fewer."""
+    subprocess.run([tomales, "photons", scene.name, "-o", "photons", "--photons", "20000", "--bounces", "3", "--shaders", shaders],
+                   cwd=scene.parent, check=True, capture_output=True)
 
 
 def make_brick_map(tomales, root, folder):

@@ -8,11 +8,11 @@ import subprocess
 import sys
 import tempfile
 
-from gallery import make_brick_map
+from gallery import make_brick_map, store_photons
 from pictures import pixels
 
 tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-FINISHED = ("coast", "still_life", "teapots", "nave")  # docs/gallery.md, finished pictures
+FINISHED = ("pool", "coast", "still_life", "teapots", "nave")  # docs/gallery.md, finished pictures
 failures = []
 
 
@@ -28,6 +28,8 @@ with tempfile.TemporaryDirectory() as temporary:
         name = f"{scene.parent.name}/{scene.stem}"
         text = scene.read_text().replace("../../docs", str(root / "docs"))
         (folder / scene.name).write_text(text)
+        if "photons/" in text:
+            store_photons(tomales, folder / scene.name, scene.parent)
         done = run("render", scene.name, "-o", "out.exr", "--format", "96x72", "--pixel-samples", "2x2", "--shaders", scene.parent, cwd=folder)
         # Four samples a pixel are fewer than most ask, and balls of a few pixels are polyhedra.
         said = [line for line in done.stderr.splitlines() if "[pixel-noise]" not in line and "[dice-turned]" not in line]
