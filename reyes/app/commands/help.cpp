@@ -41,6 +41,9 @@ constexpr Example kExamples[] = {
     {"hide", "  tomales hide scene.rib -o shot.dfb         then: tomales shade shot.dfb -o shot.exr"},
     {"gather", "  tomales gather shot.dfb -o shot.icf        then: tomales shade shot.dfb --irradiance shot.icf"},
     {"shade", "  tomales shade shot.dfb --edit brighter.rib -o shot.exr"},
+    {"relight",
+     "  tomales relight shot.dfb --irradiance shot.icf\n"
+     "  tomales relight scene.rib --folder edits                  hidden and gathered first"},
     {"batch",
      "  tomales batch shot.rib --frames 1-24 -o f.####.exr        here, or with --engine slurm on a cluster\n"
      "  tomales batch status shot.batch"},
