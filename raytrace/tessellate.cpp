@@ -14,8 +14,9 @@ namespace tomales {
 namespace {
 
 constexpr double kBytesOfQuad = 125;  ///< Of polygons with their vertices, and of Embree's tree over them.
-constexpr int kMostAttemptsToFit = 5;
-constexpr double kLeastLonger = 1.2;
+/// Numbers of polygons fall faster than with the square where few are left, so steps are shorter than that says.
+constexpr double kLeastLonger = 1.1, kPowerToFit = 0.3;
+constexpr int kMostAttemptsToFit = 12;
 constexpr int kLatticeTile = 64;  ///< Quads of one lattice along u or v; it limits what is diced at once.
 
 class Tessellator {
@@ -269,7 +270,7 @@ float edgesThatFit(const Scene& scene, const Camera& camera, const std::vector<b
   float longer = 1;
   double count = asked;
   for (int attempt = 0; attempt < kMostAttemptsToFit && count > most; ++attempt) {
-    longer *= static_cast<float>(std::max(kLeastLonger, std::sqrt(count / most)));
+    longer *= static_cast<float>(std::max(kLeastLonger, std::pow(count / most, kPowerToFit)));
     count = countQuads(scene, camera, work, longer);
   }
   if (longer > 1)

@@ -25,6 +25,8 @@ bool appendTo(const std::string& path, const std::string& line, std::string& why
   return file && file->write(line, why);
 }
 
+constexpr const char* kFrameDone = "frame-done";
+
 /// The messages of `now` that `before` has not, and how often and where they came meanwhile.
 std::vector<LogEntry> newOf(const std::vector<LogEntry>& before, std::vector<LogEntry> now) {
   for (size_t i = 0; i < before.size(); ++i) {
@@ -60,8 +62,10 @@ bool RunReport::isPerFrame() const { return appends() || settings_.statsFile.fin
 std::string RunReport::statsFile() const { return withFrameNumber(settings_.statsFile, frame_.value_or(0)); }
 
 RunFigures RunReport::figures() const {
-  return {frame_, secondsSince(start_), processCpuSeconds() - cpuStart_, std::max(peak_, peakResidentBytes()),
-          newOf(before_, log_.entries())};
+  RunFigures out{frame_, secondsSince(start_), processCpuSeconds() - cpuStart_, std::max(peak_, peakResidentBytes()),
+                 newOf(before_, log_.entries())};
+  std::erase_if(out.messages, [](const LogEntry& e) { return e.code == kFrameDone; });  // the figures say it themselves
+  return out;
 }
 
 void RunReport::write() {
@@ -89,7 +93,7 @@ void RunReport::say(const SourceLoc& where) {
   for (; outputsSaid_ < all.size(); ++outputsSaid_)
     outputs += (outputs.empty() ? "\"" : ", \"") + all[outputsSaid_] + '"';
   log_.report(
-      Severity::Info, "frame-done", where,
+      Severity::Info, kFrameDone, where,
       fmt::format("frame {} of \"{}\" wrote {}; it took {:.2f} s ({:.2f} CPU s) and {:.0f} MB on {}",
                   frame_.value_or(0), settings_.files.empty() ? "" : settings_.files.front(),
                   outputs.empty() ? "nothing" : outputs, secondsSince(frameStart_),
