@@ -71,7 +71,7 @@ void addOutput(CLI::App& app, RenderSettings& s) {
 
 void addCrop(CLI::App& app, RenderSettings& s) {
   addParsed(app, "--crop", s.crop, parseCrop, "X0,X1,Y0,Y1",
-            "Part of the frame, 0..1 from the top left (default: the scene's CropWindow, or all)");
+            "Part of the frame, 0..1 from the top left (default: CropWindow)");
   app.add_flag(
          "--overwrite", s.overwrite,
          "With --crop: write over pictures of the scene that hold more. Without it they are kept, and the crop of "
@@ -88,8 +88,7 @@ void addFrameSize(CLI::App& app, RenderSettings& s) {
       fmt::format("Resolution in pixels (default: the scene's, or {}x{})", unasked.xResolution, unasked.yResolution));
   addParsed(app, "--pixel-samples", s.pixelSamples, pixelSamples, "NxM",
             fmt::format("Samples of a pixel (default: the scene's, or {}x{})", unasked.xSamples, unasked.ySamples));
-  app.add_option("--shading-rate", s.shadingRate,
-                 "Area of a micropolygon in pixels, for all objects (default: as they ask, or 1)")
+  app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels (default: as objects ask, or 1)")
       ->check(between(1e-3, 1e6));
   app.add_option("--seed", s.seed, fmt::format("Of all random numbers (default {})", s.seed));
   app.add_option("--bucket-size", s.bucketSize,
