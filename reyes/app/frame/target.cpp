@@ -19,6 +19,10 @@ constexpr double kTolerance = 1.1;    ///< A picture that errs by so many times 
 constexpr double kShareToPlan = 0.9;  ///< Of the time that is left is planned: models of time are off by a tenth.
 /// A frame whose gathering has taken less than this share of its time is lit again, better.
 constexpr double kLittleUsed = 0.5;
+constexpr int kLampsOfAudit = 16;  ///< Light samples of a picture whose audit takes as long as those of trials.
+/// Lamps lose no more of their planned samples where gathering was late: a picture that is late too is better than
+/// noise.
+constexpr int kMostCutOfLamps = 4;
 constexpr double kBrief_s = 60;  ///< With less time, trials are brief.
 
 uint32_t seedOf(const RenderSettings& settings) { return hashCombine(lightSeedOf(settings), randomStream("targ")); }
@@ -109,11 +113,12 @@ void useTimeBudget(FrameJob& job, const DeepFrame& layout, const TileReader& til
                    Stats& stats, Log& log) {
   const TrialPlan plan{CostUnit::Seconds, settings.timeBudget_s - job.elapsed_s() < kBrief_s, seedOf(settings)};
   TrialsResult trials = makeTrials(job, layout, tiles, plan, stats);
-  const auto left_s = [&] {
-    const double audit_s = settings.audit > 0 ? trials.audit_s : 0;
+  LightQuality quality;
+  const auto left_s = [&] {  // an audit takes many times as many light samples as the picture
+    const double audit_s = settings.audit > 0 ? trials.audit_s * std::max(1, quality.lightSamples / kLampsOfAudit) : 0;
     return kShareToPlan * (settings.timeBudget_s - job.elapsed_s() - audit_s);
   };
-  LightQuality quality = trials.model.best(std::max(0.0, left_s()));
+  for (int pass = 0; pass < 2; ++pass) quality = trials.model.best(std::max(0.0, left_s()));
   const double planned_s = left_s();
   job.setQuality(quality);
   job.gather(layout, tiles);
@@ -125,7 +130,9 @@ void useTimeBudget(FrameJob& job, const DeepFrame& layout, const TileReader& til
       job.setQuality(quality), job.gather(layout, tiles);
     }
   }
+  const int fewest = quality.lightSamples / kMostCutOfLamps;
   quality = trials.model.bestLamps(quality, std::max(0.0, left_s()));
+  quality.lightSamples = std::max(quality.lightSamples, fewest);
   job.setLightSamples(quality.lightSamples);
   log.report(
       Severity::Note, "time-budget", {},
