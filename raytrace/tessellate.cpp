@@ -13,7 +13,7 @@
 namespace tomales {
 namespace {
 
-constexpr double kBytesOfQuad = 125;  ///< Of polygons with their vertices, and of Embree's tree over them.
+constexpr double kBytesOfQuad = 125;  ///< A polygon with its vertices, and its part of Embree's tree.
 /// Numbers of polygons fall faster than with the square where few are left, so steps are shorter than that says.
 constexpr double kLeastLonger = 1.1, kPowerToFit = 0.3;
 constexpr int kMostAttemptsToFit = 12;

@@ -41,7 +41,7 @@ struct IrradianceRecord {
   float limit = kInfinity;
   float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
   float unseenDisplacement = 0;    ///< Greatest distance from the surface that its rays see to the displaced one.
-  std::vector<LightShare> shares;  ///< Of each group of lights that was asked for; empty: they are not known.
+  std::vector<LightShare> shares;  ///< One for each group of lights that was asked for; empty: not known.
 };
 
 }  // namespace tomales

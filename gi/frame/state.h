@@ -34,7 +34,7 @@ struct GiState {
   /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.
   std::vector<uint8_t> focusing{};
   std::vector<std::string> groups{};  ///< The groups of lights whose shares records hold; empty: none.
-  std::vector<vec3> gains{};          ///< Of each of these groups; empty if all are 1.
+  std::vector<vec3> gains{};          ///< One for each of these groups; empty if all are 1.
   /// Indexed as `caches`: their light with these gains (IrradianceCache::mixed); empty like them.
   std::vector<std::vector<LightShare>> mixed{};
 };

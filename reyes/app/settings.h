@@ -54,6 +54,7 @@ struct RenderSettings {
   bool resume = false;
   bool skipFinished = false;             ///< Frames whose pictures hold what would be rendered are left as they are.
   std::optional<int64_t> memoryLimit;    ///< In bytes.
+  bool memoryIsGranted = false;          ///< The limit is what a cluster has granted, so it may not change pictures.
   std::optional<int64_t> textureMemory;  ///< In bytes.
   std::string textureCache;
   bool hitList = true;

@@ -98,6 +98,11 @@ t.expect_run("a job takes what it was granted", ["two.rib", "-o", "grant.#.exr",
 t.expect(json.loads((t.folder / "grant.json").read_text())["threads"] == 1, "its threads are as many")
 t.expect_run("or what is asked for", ["two.rib", "-o", "grant.#.exr", "-v", "-t", "2", "--memory-limit", "900M"], 0)
 t.expect("slurm-grant" not in t.run("two.rib", "-o", "grant.#.exr", "-v", "-t", "2", "--memory-limit", "900M").stderr, "which is not told")
+t.write("round.rib", 'Display "round.exr" "file" "rgba" Format 16 16 1 Projection "perspective" "fov" 40 Translate 0 0 5 WorldBegin Surface "matte"\n'
+        + 'Attribute "trace" "tessellation" 20\n' + "".join(f"Translate 0.{i + 1} 0 0 Sphere 1 -1 1 360\n" for i in range(9)) + "WorldEnd\n")
+os.environ["SLURM_MEM_PER_CPU"] = "1"
+t.expect("[trace-memory]" not in t.run("round.rib", "--gi", "gather", "--samples", "4").stderr, "what is granted changes no polygon, as another node grants more")
+t.expect("[trace-memory]" in t.run("round.rib", "--gi", "gather", "--samples", "4", "--memory-limit", "1M").stderr, "what is asked for does")
 for name in grant:
     del os.environ[name]
 

@@ -12,8 +12,8 @@ namespace tomales {
 /// Figures of |test - reference| / (reference + 0.01) over the colours of all pixels where the reference is not black.
 struct ErrorFigures {
   double mean = 0;      ///< Without the noise of the reference (ChartReference::errorOf); 0 if that hides it all.
-  double measured = 0;  ///< With it.
-  double p99 = 0;       ///< With it.
+  double measured = 0;  ///< The mean with that noise.
+  double p99 = 0;       ///< The 99th percentile, with that noise.
   double bias = 0;      ///< The sums of all pixels: test / reference - 1.
   double rms = 0;       ///< Root mean square of (test - reference), over the mean of the reference; without its noise.
   int64_t notFinite =

@@ -9,7 +9,7 @@ namespace tomales {
 namespace {
 
 constexpr int kReach = 8, kPatch = 3;                ///< Pixels from the middle of the window, and of a patch.
-constexpr std::array<float, 2> kWidths{0.5f, 1.0f};  ///< Of the filter: k of Rousselle et al.
+constexpr std::array<float, 2> kWidths{0.5f, 1.0f};  ///< Widths of the filter: k of Rousselle et al.
 constexpr int kSmoothVariance = 2, kSmoothError = 4, kSmoothChoice = 1;
 constexpr int kBand = 16;                  ///< Rows that one thread takes at a time.
 constexpr size_t kMost = kMostGuides + 1;  ///< Unknowns of a regression: the colour and its slopes.
@@ -45,7 +45,7 @@ Plane smoothed(const Plane& in, const Size& size, int reach) {
   return out;
 }
 
-/// Of one half, from the differences of both: they have the same.
+/// The variance of one half, from the differences of both, which have the same.
 Color varianceOf(const HalfBuffers& in, const Size& size) {
   Color out;
   for (size_t c = 0; c < 3; ++c) {

@@ -31,7 +31,7 @@ struct AuditReport {
 /// What a kind of light brings to each pixel: in the picture, and by two independent sets of many rays.
 struct FoundLight {
   std::vector<vec3> picture, sets[2];
-  int rays = 0;  ///< Of each set.
+  int rays = 0;  ///< Number in each set.
 
   /// What is missing in the picture.
   vec3 missing(size_t p) const { return 0.5f * (sets[0][p] + sets[1][p]) - picture[p]; }

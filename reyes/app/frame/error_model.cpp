@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// Of an error's square, noise and bias each have at least this share: a trial may show none of it by chance.
+/// Noise and bias each have at least this share of an error's square: a trial may show none of it by chance.
 constexpr double kLeastShare = 0.03;
 /// How far the search goes from the base, up and down, in steps of half an octave.
 constexpr int kFewerRays = 6, kMoreRays = 12, kNarrower = 8, kWider = 4;

@@ -10,7 +10,7 @@ namespace tomales {
 struct LightQuality {
   int samples = 0;       ///< Rays of a record, or paths at a point of the reference; 0: as the scene asks.
   float maxError = -1;   ///< How far records reach; negative: as the scene asks, or there are no records.
-  int lightSamples = 0;  ///< Of each area light, where the eye looks; 0: as the light asks.
+  int lightSamples = 0;  ///< Samples of each area light, where the eye looks; 0: as the light asks.
   bool operator==(const LightQuality&) const = default;
 };
 

@@ -42,6 +42,7 @@ RenderSettings asGranted(RenderSettings settings, Log& log) {
   }
   if (const int64_t bytes = grantedBytes(); !settings.memoryLimit && bytes > 0) {
     settings.memoryLimit = static_cast<int64_t>(kShareOfMemory * static_cast<double>(bytes));
+    settings.memoryIsGranted = true;
     said += fmt::format("{}--memory-limit {}M", said.empty() ? "" : " and ", *settings.memoryLimit / kMegabyte);
   }
   if (!said.empty()) log.report(Severity::Info, "slurm-grant", {}, "Slurm has granted what makes " + said);

@@ -13,7 +13,7 @@ struct LightEdits {
 };
 
 /// builtIn: the standard lights are those of the program, whose light is in proportion to "intensity" and "lightcolor".
-/// Of other shaders nothing is known.
+/// The light of other shaders may follow these numbers in any way.
 LightEdits editsSince(const IrradianceShot& gathered, const Scene& now, const ShadingSystem& shading, bool builtIn);
 
 /// Tells whether what this built-in light sends is in proportion to its "intensity" and "lightcolor".

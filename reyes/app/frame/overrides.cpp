@@ -42,7 +42,9 @@ RaySettings raySettings(const RenderSettings& settings, const Options& options) 
   const auto it = options.user.find("limits:geocachememory");
   if (it != options.user.end())
     out.geometryCacheBytes = static_cast<size_t>(std::clamp(it->second.number(0), 0.0f, 1e15f) * 1024);
-  if (settings.memoryLimit) out.coarseBytes = static_cast<size_t>(rayShare(*settings.memoryLimit));
+  // Nodes of a cluster grant different sizes, and give the same bits.
+  if (settings.memoryLimit && !settings.memoryIsGranted)
+    out.coarseBytes = static_cast<size_t>(rayShare(*settings.memoryLimit));
   if (settings.geometryCache) out.geometryCacheBytes = static_cast<size_t>(*settings.geometryCache);
   return out;
 }

@@ -14,16 +14,16 @@ namespace tomales {
 namespace {
 
 constexpr int kMostAttempts = 3;
-constexpr double kMargin = 0.9;       ///< Of the target is aimed at, because some pictures err more than a model says.
-constexpr double kTolerance = 1.1;    ///< A picture that errs by so many times the target is lit again.
-constexpr double kShareToPlan = 0.9;  ///< Of the time that is left is planned: models of time are off by a tenth.
+constexpr double kMargin = 0.9;     ///< Share of the target that is aimed at: some pictures err more than a model says.
+constexpr double kTolerance = 1.1;  ///< A picture that errs by so many times the target is lit again.
+constexpr double kShareToPlan = 0.9;  ///< Share of the time left that is planned: models of time are off by a tenth.
 /// A frame whose gathering has taken less than this share of its time is lit again, better.
 constexpr double kLittleUsed = 0.5;
 constexpr int kLampsOfAudit = 16;  ///< Light samples of a picture whose audit takes as long as those of trials.
 /// Lamps lose no more of their planned samples where gathering was late: a picture that is late too is better than
 /// noise.
 constexpr int kMostCutOfLamps = 4;
-constexpr double kBrief_s = 60;  ///< With less time, trials are brief.
+constexpr double kBrief_s = 60;  ///< Trials are brief where less time is left.
 
 uint32_t seedOf(const RenderSettings& settings) { return hashCombine(lightSeedOf(settings), randomStream("targ")); }
 

@@ -98,7 +98,7 @@ class Trials {
   const DeepFrame& layout_;
   const TrialPlan plan_;
   Stats& stats_;
-  TileReader tiles_;  ///< Of the buckets that are tried.
+  TileReader tiles_;  ///< Reads the buckets that are tried.
   std::vector<size_t> seen_, some_;
   double audit_s_ = 0;
 };

@@ -16,7 +16,7 @@ struct HttpReply {
 };
 
 struct HttpQuestion {
-  std::map<std::string, std::string> parameters;  ///< Of the address, after "?".
+  std::map<std::string, std::string> parameters;  ///< Those of the address, after "?".
   std::string body;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kWhole = 0, kGlow = 1, kFirstLight = 2;
 constexpr int64_t kTilesHeld_bytes = int64_t{1} << 30;  ///< Other tiles are read anew by every pass.
-constexpr int kBucketsAcross = 4;                       ///< Of a part that is shaded at once.
+constexpr int kBucketsAcross = 4;                       ///< Buckets along an edge of a part that is shaded at once.
 
 /// What is dropped from an edit that changes a light by a factor.
 bool isFactor(const std::string& param) { return param == "intensity" || param == "lightcolor"; }

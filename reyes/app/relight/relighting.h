@@ -53,10 +53,10 @@ class Relighting {
     std::string name;
     std::optional<std::string> lights;  ///< The group whose light it is, empty for none; not given: all.
     bool indirect = true;
-    std::vector<std::string> handles{};  ///< Of the lights of the group.
+    std::vector<std::string> handles{};  ///< Names of the group's lights.
     std::optional<EditState> shaded{};   ///< The edit that it holds; not given: none yet.
     std::optional<EditState> begun{};    ///< The edit that is being shaded.
-    uint32_t version = 0;                ///< Of `begun`.
+    uint32_t version = 0;                ///< Counts the passes that have begun.
   };
   struct Pass {
     size_t layer;

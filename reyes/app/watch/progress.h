@@ -39,7 +39,7 @@ class ProgressMeter {
   const char* pass_;
   Clock::time_point passStart_;
   int passPercent_ = -1;  ///< The one that was shown last, or -1 if nothing is known of the pass.
-  int percent_ = -1;      ///< Of the frame, likewise.
+  int percent_ = -1;      ///< The same of the frame.
   bool done_ = false;
   std::condition_variable wake_;
   std::thread mover_;  ///< It runs on a terminal only.

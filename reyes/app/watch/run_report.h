@@ -13,9 +13,9 @@ namespace tomales {
 
 /// The figures that --stats writes.
 struct RunFigures {
-  std::optional<int> frame;        ///< None before the first one.
-  double wall_s = 0, cpu_s = 0;    ///< Of the whole process.
-  int64_t peak_bytes = 0;          ///< Resident.
+  std::optional<int> frame;        ///< Empty before the first frame.
+  double wall_s = 0, cpu_s = 0;    ///< Those of the whole process.
+  int64_t peak_bytes = 0;          ///< Most resident memory.
   std::vector<LogEntry> messages;  ///< Reported meanwhile.
 };
 
@@ -54,7 +54,7 @@ class RunReport {
   Log& log_;
   std::optional<Stats> stats_;
   std::optional<int> frame_;
-  Clock::time_point start_, frameStart_;  ///< Of the figures, and of the frame.
+  Clock::time_point start_, frameStart_;  ///< Where the figures and the frame begin.
   double cpuStart_ = 0, frameCpuStart_ = 0;
   int64_t peak_ = 0;  ///< In bytes, of the frames before.
   size_t outputsSaid_ = 0;
