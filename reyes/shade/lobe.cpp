@@ -133,7 +133,7 @@ class Highlight {
 
 void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
   Batch& batch = batchOf(host);
-  if (!batch.context.highlightsLamps(batch.points->group()))
+  if (batch.points && !batch.context.highlightsLamps(batch.points->group()))
     return forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
   const Primary primary(batch, g);
   Highlight highlight(batch, primary.grid(), N, V, roughness, out);

@@ -266,6 +266,14 @@ scene("flat", 'Surface "constant" Scale 0.4 0.4 1')
 render("and the same without it", "flat")
 t.expect(far != sum(c != BLACK for c in picture("flat").values()), "moves the surface")
 
+t.write("raised.sl", """surface raised() { vector V = -normalize(I);
+  color seen = ambient() + diffuse(N) + specular(N, V, .1) + phong(N, V, 9) + trace(P, N) + occlusion(P, N, 4);
+  P += (.25 + 1e-9 * comp(seen, 0)) * normalize(N); Ci = 1; Oi = 1; }
+""")
+scene("raised", 'LightSource "lamp" 1 Attribute "displacementbound" "sphere" [0.3] Surface "raised" Scale 0.4 0.4 1')
+render("a surface that looks for light before it displaces", "raised")
+t.expect(sum(c != BLACK for c in picture("raised").values()) == far, "moves the surface as a displacement does")
+
 # What a stranger's shader cannot do.
 t.write("endless.sl", "surface endless() { float i = 0; while (i < 1) { i = i * .5; } Ci = i; Oi = 1; }\n")
 scene("endless", 'Surface "endless"')
