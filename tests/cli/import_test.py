@@ -1,9 +1,13 @@
 """Models of other programs as scenes: what is where in the picture, and what is told of what cannot be brought in."""
 import math
-import subprocess
+import pathlib
+import sys
 
 from models import Gltf, collada, cube, fbx, obj, ply, png, stl, triangles
 from program import Suite
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
+from pictures import pixels  # noqa: E402
 
 t = Suite()
 positions, normals, uvs, colors, quads = cube()
@@ -11,12 +15,11 @@ opaque = [(*c, 1) for c in colors]
 
 
 def picture(name, *options):
-    """Of a scene: its exit code is 0, and the pixels are rows of triples of bytes."""
-    t.expect_run(f"{name} renders", [name + ".rib", "-o", name + ".png", *options], 0)
-    subprocess.run(["oiiotool", name + ".png", "-d", "uint8", "-o", name + ".pnm"], cwd=t.folder, check=True)
-    head, size, _, data = (t.folder / (name + ".pnm")).read_bytes().split(b"\n", 3)
-    width, height = map(int, size.split())
-    return [[tuple(data[3 * (y * width + x) : 3 * (y * width + x) + 3]) for x in range(width)] for y in range(height)]
+    """Of a scene: its exit code is 0, and the pixels are rows of triples of bytes, about as a screen shows them."""
+    t.expect_run(f"{name} renders", [name + ".rib", "-o", name + ".exr", *options], 0)
+    seen = pixels(t.folder / (name + ".exr"))
+    width, height = (max(place[k] for place in seen) + 1 for k in (0, 1))
+    return [[tuple(round(255 * min(max(c, 0), 1) ** (1 / 2.2)) for c in seen[x, y][:3]) for x in range(width)] for y in range(height)]
 
 
 def imported(name, model, *options):

@@ -1,9 +1,11 @@
-"""Float pixels of a picture with nothing but the standard library: oiiotool (openimageio-tools, which the install step brings)
-turns any format into an uncompressed float TIFF, and that is simple to read."""
+"""Float pixels of a picture with nothing but the standard library. What exr.py does not read, oiiotool (openimageio-tools, which the
+install step brings) turns into an uncompressed float TIFF, and that is simple to read."""
 import pathlib
 import struct
 import subprocess
 import tempfile
+
+import exr
 
 
 def _tiff_fields(data):
@@ -25,6 +27,10 @@ def _tiff_fields(data):
 
 def pixels(path):
     """{(x, y): (R, G, B, ...)} of an image file; outside the data window of a crop it is black."""
+    if read := exr.read(pathlib.Path(path), "RGBA"):
+        (width, height), seen = read
+        black = (0.0,) * len(next(iter(seen.values())))
+        return {(x, y): seen.get((x, y), black) for y in range(height) for x in range(width)}
     with tempfile.TemporaryDirectory() as folder:
         tiff = pathlib.Path(folder) / "float.tif"
         subprocess.run(["oiiotool", "-q", str(path), "--croptofull", "-d", "float", "--compression", "none", "--scanline",

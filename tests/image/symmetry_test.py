@@ -37,7 +37,7 @@ ON_SCREEN = re.compile(r"ScreenWindow|orthographic")                            
 BY_PIXELS = re.compile(r"motionfactor|DetailRange")                                       # is coarser, or another shape, by so many pixels
 KNOWS_WORLD = re.compile(r'"smoke"')                                                     # has heights in the world as parameters
 BY_PARAMETERS = re.compile(r"[Tt]exture|[Dd]isplace|primvar|vertex|varying|wood|grid")  # halves have other u, v and bounds
-SLOW = ("furnace", "rectlight", "ris")
+SLOW = ("furnace", "interior", "rectlight", "ris")
 MOVES = {"turned": ("Rotate 37 1 2 3", "Rotate -37 1 2 3"), "far from the origin": ("Translate 300 -200 500", "Translate -300 200 -500")}
 
 
