@@ -118,10 +118,11 @@ class GiServices final : public ShadeServices {
   /// whose records have these shares. It costs the shading of hits once for each group.
   void keepShares(std::vector<std::string> groups);
   const std::vector<std::string>& shareGroups() const;
-  /// Multiplies the shares by these gains from now on, until they are set again; empty for all of 1. Indirect light is
-  /// then that of lights which are so much brighter, but for the dominant directions, which stay. While it is called,
-  /// nothing may be shaded.
-  void mixShares(std::vector<vec3> gains);
+  /// Multiplies the shares of records and answers that were given by `gains` from now on, and those of light that is
+  /// gathered anew by `ofNew`, until they are set again; empty for all of 1. Indirect light is then that of lights
+  /// which are so much brighter, but for the dominant directions, which stay. While it is called, nothing may be
+  /// shaded.
+  void mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew = {});
   /// Sets emitters, so that area lights can be sampled without geometry.
   void useEmitters(EmitterTable emitters);
 

@@ -98,6 +98,10 @@ class ShadingSystem {
   /// LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.
   LightKind lightKind(int light) const;
   void probe(int light, LightProbe& probe) const;
+  /// Null if it is missing.
+  const TmShader* lightShader(int light) const;
+  /// The product of those parameters of a light that are factors (isFactor()), where its request gives `params`.
+  vec3 lightFactor(int light, const std::vector<Param>& params) const;
   /// The LightGroup of a light; empty if its shader is missing or it is an indirect light.
   std::string lightGroup(int light) const;
   /// The portals that a light of LightKind::Sky names and that have a place and an area.

@@ -14,6 +14,10 @@ namespace tomales {
 const char* kindName(TmKind kind);
 /// The name of a TmRole; null if no role has this number.
 const char* roleName(int32_t role);
+/// The role that a shader's parameter declares, or that of the standard parameter of its name and type.
+TmRole roleOf(const TmShader& shader, const TmParamDecl& decl);
+/// Tells whether all that a light sends is in proportion to a parameter with this role.
+constexpr bool isFactor(TmRole role) { return role == TM_ROLE_SCALE || role == TM_ROLE_TINT; }
 /// Parameters that every shader of a kind understands, whether or not it declares them.
 std::span<const TmParamDecl> standardParams(TmKind kind);
 

@@ -1,8 +1,8 @@
 #include "reyes/shader.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
+rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour", TM_ROLE_TINT);
 
 void shade(const TmGrid* g) {
   for (int i : rsl::Batch(g)) rsl::set(g->Cl, i, intensity(g, i) * lightcolor(g, i));

@@ -2,8 +2,9 @@
 #include "shaders/cone.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance that the geometry emits from the side of its normal");
+rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance that the geometry emits from the side of its normal",
+                           TM_ROLE_TINT);
 rsl::FloatParam area(
     "area", 0,
     "0: intensity is a scale of radiance. Else the area of the geometry, and a point at the distance d "

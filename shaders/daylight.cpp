@@ -4,8 +4,8 @@
 #include "reyes/shader.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale; at 1 white paper in the sun has a radiance near 1");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "tint");
+rsl::FloatParam intensity("intensity", 1, "scale; at 1 white paper in the sun has a radiance near 1", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "tint", TM_ROLE_TINT);
 rsl::VectorParam sundirection("sundirection", {0, 1, 0}, "towards the sun");
 rsl::VectorParam zenith("zenith", {0, 1, 0}, "up");
 rsl::FloatParam turbidity("turbidity", 2, "haziness, 1.7 to 10");

@@ -1,8 +1,8 @@
 #include "shaders/shadow.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
+rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour", TM_ROLE_TINT);
 rsl::PointParam from("from", {0, 0, 0}, "light travels from here");
 rsl::PointParam to("to", {0, 0, 1}, "to here");
 ShadowParams shadow;

@@ -3,8 +3,8 @@
 #include "reyes/shader.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of the sky, or what multiplies its map");
+rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of the sky, or what multiplies its map", TM_ROLE_TINT);
 rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform", TM_ROLE_SKY_MAP);
 rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader", TM_ROLE_SKY_SPACE);
 rsl::FloatParam samples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);

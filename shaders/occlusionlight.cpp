@@ -1,8 +1,8 @@
 #include "reyes/shader.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of what is all around");
+rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of what is all around", TM_ROLE_TINT);
 rsl::UniformFloatParam samples("samples", 64, "rays a point");
 rsl::UniformFloatParam coneangle("coneangle", 1.5707963f, "half angle around the normal that is looked at");
 rsl::UniformFloatParam maxdist("maxdist", 1e30f, "what is farther covers nothing");

@@ -1,8 +1,8 @@
 #include "shaders/shadow.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
+rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour", TM_ROLE_TINT);
 rsl::PointParam from("from", {0, 0, 0}, "position");
 ShadowParams shadow;
 rsl::StringParam sfpx("sfpx", "", "shadow map towards +x", TM_ROLE_SHADOW_MAP),

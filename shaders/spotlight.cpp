@@ -2,8 +2,8 @@
 #include "shaders/shadow.h"
 
 namespace {
-rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1 on the axis");
-rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour");
+rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1 on the axis", TM_ROLE_SCALE);
+rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour", TM_ROLE_TINT);
 rsl::PointParam from("from", {0, 0, 0}, "position");
 rsl::PointParam to("to", {0, 0, 1}, "a point on the axis");
 rsl::FloatParam coneangle("coneangle", 0.523598776f, "half angle of the cone, radians");

@@ -1,6 +1,8 @@
 // Noun: the irradiance that arrives at one point, and how it changes around it. It needs reyes/base alone. Irradiance:
 // E here is irradiance / pi (the RSL convention). Space: that of the caller.
 #pragma once
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "reyes/base/math.h"
@@ -43,5 +45,23 @@ struct IrradianceRecord {
   float unseenDisplacement = 0;    ///< Greatest distance from the surface that its rays see to the displaced one.
   std::vector<LightShare> shares;  ///< One for each group of lights that was asked for; empty: not known.
 };
+
+/// The record as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
+inline IrradianceRecord withGains(IrradianceRecord record, std::span<const vec3> gains) {
+  LightShare sum;
+  float most = 1;
+  for (size_t g = 0; g < gains.size(); ++g) {
+    LightShare scaled;
+    scaled.add(record.shares[g], gains[g]);
+    record.shares[g] = scaled;
+    sum.add(scaled, vec3(1.0f));
+    most = std::max({most, gains[g].x, gains[g].y, gains[g].z});
+  }
+  record.E = sum.E, record.noise *= most;  // which is an upper bound
+  std::ranges::copy(sum.rotationGradient, record.rotationGradient);
+  std::ranges::copy(sum.translationGradient, record.translationGradient);
+  std::ranges::copy(sum.hessian, record.hessian);
+  return record;
+}
 
 }  // namespace tomales

@@ -86,16 +86,16 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
   static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
   const std::span<const std::string> groups = settings.occlusion ? std::span<const std::string>() : state.groups;
-  const auto mixed = [&](IndirectAnswer answer) {
-    if (groups.empty() || state.gains.empty()) return answer;
+  const auto mixed = [&](IndirectAnswer answer, const std::vector<vec3>& gains) {
+    if (groups.empty() || gains.empty()) return answer;
     answer.E = vec3(0);
-    for (size_t g = 0; g < groups.size(); ++g) answer.E += state.gains[g] * answer.shares[g];
+    for (size_t g = 0; g < groups.size(); ++g) answer.E += gains[g] * answer.shares[g];
     return answer;
   };
   if (answers)
     if (const auto it = answers->indirect.find(name);
         it != answers->indirect.end() && it->second.shares.size() == groups.size())
-      return mixed(it->second);
+      return mixed(it->second, state.gains);
   const RayTools* tools = gatherTools(state);
   if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
   const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.hitRadiance.get()};
@@ -104,7 +104,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
   IndirectAnswer answer{record.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};
   for (const LightShare& share : record.shares) answer.shares.push_back(share.E);
   if (answers && answers->recording) answers->indirect[name] = answer;
-  return mixed(answer);
+  return mixed(answer, state.gainsOfNew);
 }
 
 const RayTools* gatherTools(const GiState& state) {

@@ -62,8 +62,8 @@ void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<Pixe
 }
 void GiServices::keepShares(std::vector<std::string> groups) { impl_->groups = std::move(groups); }
 const std::vector<std::string>& GiServices::shareGroups() const { return impl_->groups; }
-void GiServices::mixShares(std::vector<vec3> gains) {
-  impl_->gains = std::move(gains);
+void GiServices::mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew) {
+  impl_->gains = std::move(gains), impl_->gainsOfNew = std::move(ofNew);
   impl_->mixed.clear();
   if (impl_->gains.empty()) return;
   for (const PreparedCache& c : impl_->caches)

@@ -35,6 +35,7 @@ struct GiState {
   std::vector<uint8_t> focusing{};
   std::vector<std::string> groups{};  ///< The groups of lights whose shares records hold; empty: none.
   std::vector<vec3> gains{};          ///< One for each of these groups; empty if all are 1.
+  std::vector<vec3> gainsOfNew{};     ///< The same for light that is gathered while shading.
   /// Indexed as `caches`: their light with these gains (IrradianceCache::mixed); empty like them.
   std::vector<std::vector<LightShare>> mixed{};
 };

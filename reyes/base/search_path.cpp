@@ -15,6 +15,17 @@ std::vector<std::string> foldersOf(const std::string& searchPath) {
   return out;
 }
 
+std::string alsoWithin(const std::string& searchPath, const std::string& base) {
+  std::string out;
+  const auto add = [&](const std::string& folder) { out += (out.empty() ? "" : ":") + folder; };
+  for (const std::string& folder : foldersOf(searchPath)) {
+    add(folder);
+    if (std::filesystem::path(folder).is_relative() && folder != "." && !base.empty())
+      add((std::filesystem::path(base) / folder).string());
+  }
+  return out;
+}
+
 std::string pathOf(const std::map<std::string, std::string>& searchPaths, const std::string& kind) {
   const auto it = searchPaths.find(kind);
   return it == searchPaths.end() ? std::string() : it->second;

@@ -158,23 +158,11 @@ void exposure(GraphicsState& s, const Request& r) {
   s.globals.options.exposureGamma = a[1];
 }
 
-/// A relative folder is one of the working folder, and then one of the folder of the file that names it: a scene
-/// renders from any folder.
-std::string alsoBesideFile(const std::string& searchPath, const SourceLoc& where) {
-  const std::filesystem::path own = where.folder();
-  std::string out;
-  const auto add = [&](const std::string& folder) { out += (out.empty() ? "" : ":") + folder; };
-  for (const std::string& folder : foldersOf(searchPath)) {
-    add(folder);
-    if (std::filesystem::path(folder).is_relative() && folder != "." && !own.empty()) add((own / folder).string());
-  }
-  return out;
-}
-
 /// Sets the search path of a category, before and after the map of folders.
 void setSearchPath(GraphicsState& s, const Request& r, const std::string& category, const std::string& path) {
   Globals& g = s.globals;
-  const std::string inPlace = alsoBesideFile(mappedPath(path, g.dirMap), r.where);
+  // A scene renders from any folder.
+  const std::string inPlace = alsoWithin(mappedPath(path, g.dirMap), r.where.folder().string());
   if (std::max(path.size(), inPlace.size()) > kLongestSearchPath)
     return rejectOption(s, r,
                         fmt::format("the search path \"{}\" would be longer than {} bytes", category.substr(0, 80),

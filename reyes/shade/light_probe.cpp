@@ -3,6 +3,7 @@
 
 #include "reyes/rsl_host.h"
 #include "reyes/shade/batch.h"
+#include "reyes/shade/roles.h"
 #include "reyes/shade/system.h"
 
 namespace tomales {
@@ -20,6 +21,16 @@ void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* a
 std::string ShadingSystem::lightGroup(int light) const {
   const auto& l = impl_->lights[static_cast<size_t>(light)];
   return l && !l->can(TM_LIGHT_INDIRECT) ? l->group : std::string();
+}
+
+const TmShader* ShadingSystem::lightShader(int light) const {
+  const auto& l = impl_->lights[static_cast<size_t>(light)];
+  return l ? l->bound->shader : nullptr;
+}
+
+vec3 ShadingSystem::lightFactor(int light, const std::vector<Param>& params) const {
+  const TmShader* shader = lightShader(light);
+  return shader ? factorOf(*shader, params) : vec3(1.0f);
 }
 
 LightKind ShadingSystem::lightKind(int light) const {

@@ -1,8 +1,10 @@
 #include "reyes/shade/roles.h"
-#include "reyes/shader_registry.h"
 
 #include <algorithm>
 #include <array>
+
+#include "reyes/shade/parameter_values.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -87,6 +89,16 @@ TmRole roleOf(const TmShader& shader, const TmParamDecl& decl) {
   for (const TmParamDecl& p : standardParams(static_cast<TmKind>(shader.kind)))
     if (std::string_view(p.name) == decl.name && p.type == TM_TYPE_OF(decl.type)) return static_cast<TmRole>(p.role);
   return TM_ROLE_NONE;
+}
+
+vec3 factorOf(const TmShader& light, const std::vector<Param>& params) {
+  vec3 out(1.0f);
+  for (const TmParamDecl& decl : std::span(light.params, static_cast<size_t>(light.paramCount))) {
+    if (!isFactor(roleOf(light, decl))) continue;
+    const std::vector<float> value = parameterValue(decl, findParam(params, decl.name)).floats;
+    out *= decl.role == TM_ROLE_SCALE ? vec3(value[0]) : vec3(value[0], value[1], value[2]);
+  }
+  return out;
 }
 
 }  // namespace tomales

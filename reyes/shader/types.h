@@ -84,7 +84,7 @@ typedef enum TmRole {
   TM_ROLE_MAX_DISTANCE = 11,    /* float. TM_LIGHT_INDIRECT: length of gather rays */
   TM_ROLE_SUBSET = 12,          /* string. TM_LIGHT_INDIRECT: sets of objects that gather rays see */
   TM_ROLE_INDIRECT_SOURCE = 13, /* string. TM_LIGHT_INDIRECT: handle of the indirect light that this one filters */
-  TM_ROLE_SCALE = 14,           /* float. TM_LIGHT_INDIRECT: multiplies what it brings, for its filters too */
+  TM_ROLE_SCALE = 14,           /* float. Any light: multiplies all that it sends or brings, and does nothing else */
   TM_ROLE_TINT = 15,            /* color. Likewise */
   TM_ROLE_MAX_VARIATION = 16,   /* float. Light with TM_OCCLUDED: the TmOcclusion::maxVariation that it asks for */
   TM_ROLE_LIGHTING = 17,        /* string. Any light: direct, indirect or both */

@@ -206,5 +206,7 @@ SHADE = ["shade", "{v}.dfb", "--irradiance", "{v}.icf", "-o", "{v}.exr"]
 t.expect(alike("hide, gather, shade", asking(), HIDE, GATHER, SHADE) == gathered, "as in one process")
 for variant in ("built", "copy"):
     t.write(variant + "_edit.rib", light(variant, "pointlight", "key", intensity=5) + light(variant, "indirectlight", "gi", lightcolor="0 1 0"))
-alike("edits", asking(), HIDE, GATHER, [*SHADE, "--edit", "{v}_edit.rib"])
+EDIT = [*SHADE, "--edit", "{v}_edit.rib"]
+stale = alike("edits", asking(), HIDE, GATHER, EDIT)
+t.expect(alike("edits of light that is kept by lamps", asking(), HIDE, [*GATHER, "--by-light"], EDIT) != stale, "what bounces follows")
 t.finish()

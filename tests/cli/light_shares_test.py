@@ -65,6 +65,15 @@ suite.expect(off("dim.exr", "truth.exr") < 0.015, f"as if gathered anew: {100 * 
 suite.expect_run("without shares it is stale", shade("stale.exr", "--irradiance", "plain.icf", "--edit", "dim.rib"), 0, "light-stale")
 suite.expect(off("stale.exr", "truth.exr") > 0.1, f"and wrong: {100 * off('stale.exr', 'truth.exr'):.0f} % off")
 
+# Light that is gathered after the edit is that of the edited lamp already, whether the rest is kept in the file or not.
+suite.run("gather", "room.dfb", "-o", "half.icf", "--by-light", "--crop", "0,0.5,0,1", "-q")
+suite.expect_run("records of one half", shade("half.exr", "--irradiance", "half.icf", "--edit", "dim.rib"), 0)
+suite.expect(off("half.exr", "truth.exr") < 0.015, f"the other half is gathered while it is shaded: {100 * off('half.exr', 'truth.exr'):.2f} % off")
+suite.run("gather", "room.dfb", "-o", "mended.icf", "--irradiance", "room.icf", "--crop", "0,0.5,0,1", "--edit", "dim.rib", "-q")
+mended = suite.expect_run("one half gathered anew", shade("mended.exr", "--irradiance", "mended.icf", "--edit", "dim.rib"), 0)
+suite.expect("light-stale" not in mended.stderr and off("mended.exr", "truth.exr") < 0.015,
+             f"and the other as dim as the lamp: {100 * off('mended.exr', 'truth.exr'):.2f} % off")
+
 # Two pictures of one light each are the picture of both.
 for name, other in (("key", "spotlight\" \"rim"), ("rim", "pointlight\" \"key")):
     suite.write(f"{name}.rib", f'LightSource "{other}" "intensity" [0]\n')
@@ -75,6 +84,8 @@ suite.expect(worst < 2e-5, f"the pictures of one light each add up to that of bo
 
 suite.write("cone.rib", 'LightSource "spotlight" "rim" "coneangle" [0.3]\n')
 suite.expect_run("another cone is no factor", shade("cone.exr", "--irradiance", "room.icf", "--edit", "cone.rib"), 0, "light-stale", '"rim"')
+suite.run("gather", "room.dfb", "-o", "part.icf", "--irradiance", "room.icf", "--crop", "0,0.5,0,1", "--edit", "cone.rib", "-q")
+suite.expect_run("nor in one half", shade("part.exr", "--irradiance", "part.icf", "--edit", "cone.rib"), 0, "light-stale", '"rim"')
 suite.run("gather", "room.dfb", "-o", "cone.icf", "--edit", "cone.rib", "-q")
 fresh = suite.run(*shade("cone.exr", "--irradiance", "cone.icf", "--edit", "cone.rib"))
 suite.expect("light-stale" not in fresh.stderr, "records that were gathered with the edit are not stale")

@@ -137,6 +137,23 @@ suite.run("hide", "gone.rib", "-o", "gone.dfb", "-q")
 (suite.folder / "gone.rib").unlink()
 suite.expect_run("without its RIB a shot that needs rays says so", ["shade", "gone.dfb", "-o", "gone.exr"], 3, "is gone or has changed")
 
+# Shaders and pictures that lie beside the scene are found from any folder.
+home = suite.folder
+for folder in ("scene/looks", "elsewhere"):
+    (home / folder).mkdir(parents=True)
+suite.write("scene/plain.sl", "surface plain() { Ci = Cs; }\n")
+suite.write("scene/looks/shown.sl", 'surface shown(string map = "";) { Ci = texture(map); }\n')
+suite.write("map.rib", 'Display "scene/looks/map.exr" "file" "rgb"\nFormat 8 8 1\nWorldBegin\nColor [0.2 0.7 0.3]\nSurface "constant"\nDisk 1 9 360\nWorldEnd\n')
+suite.run("map.rib", "-q")
+suite.write("scene/moved.rib", 'Format 16 12 1\nOption "searchpath" "shader" ["looks:&"] "texture" ["looks"]\nTranslate 0 0 4\nWorldBegin\nColor [1 0.5 0]\n'
+            'Surface "plain"\nSphere 1 -1 1 360\nSurface "shown" "map" ["map.exr"]\nDisk 0.5 9 360\nWorldEnd\n')
+suite.expect_run("a scene with looks of its own", ["scene/moved.rib", "-o", "moved.exr"], 0)
+suite.run("hide", "scene/moved.rib", "-o", "moved.dfb", "-q")
+suite.folder = home / "elsewhere"
+suite.expect_run("which are found from another folder", ["shade", "../moved.dfb", "-o", "../moved_elsewhere.exr"], 0)
+suite.folder = home
+expect_same("so that the picture stays the same", "moved.exr", "moved_elsewhere.exr")
+
 # Information
 for file, kind in (("direct.dfb", "dfb"), ("indirect.icf", "icf")):
     info = json.loads(suite.run("info", file, "--json").stdout)

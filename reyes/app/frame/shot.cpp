@@ -10,9 +10,27 @@
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/watch/interrupt.h"
+#include "reyes/base/search_path.h"
 #include "reyes/rib.h"
 
 namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Lets shaders and pictures be found where the shot was hidden, if that is not the working folder.
+void searchFrom(const fs::path& hidden, Scene& scene) {
+  std::error_code unknown;
+  if (hidden.empty() || fs::equivalent(hidden, ".", unknown)) return;
+  for (const char* kind : {"shader", "texture"}) {
+    std::string& path = scene.options.searchPaths[kind];
+    path = alsoWithin(path, hidden.string());
+    for (const fs::path& folder : {hidden, hidden / scene.where.folder()})
+      path += (path.empty() ? "" : ":") + folder.string();
+  }
+}
+
+}  // namespace
 
 std::unique_ptr<ShotJob> ShotJob::open(const RenderSettings& settings, Stats& stats, Log& log) {
   auto files = ShotFiles::open(settings, log);
@@ -28,6 +46,7 @@ std::unique_ptr<ShotJob> ShotJob::open(std::shared_ptr<ShotFiles> files, const R
 ShotJob::ShotJob(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats, Log& log)
     : files_(std::move(files)), settings_(settings), stats_(stats), log_(log), shot_(files_->dfb().shot()) {
   settings_.seed = shot_.seed;
+  searchFrom(shot_.folder, shot_.scene);
 }
 
 ShotJob::~ShotJob() {
@@ -71,12 +90,13 @@ void ShotJob::prepareLight() {
   world_->setServices(job_->services());
   if (files_->hasIrradiance()) {
     IrradianceShot& given = files_->irradiance();
+    lightEdits_ = editsSince(given, shot_.scene, job_->shading());
     if (given.emitters && files_->hasAnswers()) job_->services()->useEmitters(*given.emitters);
     moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
     std::optional<PixelRect> anew;
     if (gathersAnew_) dropRecordsOfCrop(given.caches), anew = shot_.frame.crop;
+    if (gathers_) takeEdits(given.caches);
     job_->services()->useCaches(std::move(given.caches), anew);
-    lightEdits_ = editsSince(given, shot_.scene, job_->shading(), !settings_.standardFromFiles);
   }
   prepareShares();
 }
@@ -90,7 +110,7 @@ void ShotJob::prepareShares() {
                              : "--by-light: only --gi gather knows which light has bounced");
   if (settings_.byLight && !given) groups = groupsOfLights(shot_.scene, job_->shading());
   job_->services()->keepShares(groups);
-  if (given) job_->services()->mixShares(lightEdits_.gains);
+  if (given && !gathers_) job_->services()->mixShares(lightEdits_.gains);
 }
 
 void ShotJob::warnOfStaleLight() const {
@@ -141,11 +161,13 @@ void ShotJob::choose(const std::string* lights, bool indirect) {
   shownLights_ = lights, showsIndirect_ = indirect;
   const std::vector<std::string>& groups = shareGroups();
   if (groups.empty()) return;
-  std::vector<vec3> gains = lightEdits_.gains;
-  if (gains.empty() && lights) gains.assign(groups.size(), vec3(1.0f));
-  for (size_t g = 1; g < groups.size() && lights; ++g)
-    if (groups[g] != *lights) gains[g] = vec3(0.0f);
-  job_->services()->mixShares(std::move(gains));
+  std::vector<vec3> gains = lightEdits_.gains, chosen;
+  if (lights) chosen.assign(groups.size(), vec3(1.0f));
+  for (size_t g = 1; g < chosen.size(); ++g)
+    if (groups[g] != *lights) chosen[g] = vec3(0.0f);
+  if (gains.empty()) gains = chosen;
+  for (size_t g = 0; g < chosen.size(); ++g) gains[g] *= chosen[g];
+  job_->services()->mixShares(std::move(gains), std::move(chosen));
 }
 
 void ShotJob::show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
@@ -165,13 +187,42 @@ void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
   }
 }
 
+void ShotJob::takeEdits(std::vector<PreparedCache>& caches) const {
+  if (lightEdits_.gains.empty()) return;
+  for (PreparedCache& prepared : caches) {
+    if (prepared.plan.gather.occlusion) continue;
+    IrradianceCache edited(prepared.cache.bound(), prepared.plan.cache);
+    for (const IrradianceRecord& r : prepared.cache.records()) edited.restore(withGains(r, lightEdits_.gains));
+    prepared.cache = std::move(edited);
+  }
+}
+
+void ShotJob::takeEdits(IndirectAnswer& answer) const {
+  if (lightEdits_.gains.size() != answer.shares.size() || answer.shares.empty()) return;
+  answer.E = vec3(0);
+  for (size_t g = 0; g < answer.shares.size(); ++g)
+    answer.shares[g] *= lightEdits_.gains[g], answer.E += answer.shares[g];
+}
+
+std::vector<std::shared_ptr<LightCall>> ShotJob::lightsOfRecords() const {
+  std::vector<std::shared_ptr<LightCall>> out(shot_.scene.lights.begin(), shot_.scene.lights.end());
+  if (!files_->hasIrradiance()) return out;
+  const auto& given = files_->irradiance().lights;
+  for (size_t l = 0; l < std::min(given.size(), out.size()); ++l)
+    if (std::ranges::count(lightEdits_.stale, out[l]->handle) > 0) out[l] = given[l];
+  return out;
+}
+
 bool ShotJob::copyAnswers(const std::set<uint32_t>& except, IcfWriter& out) {
   if (!files_->hasAnswers()) return true;
   std::string error;
   for (uint32_t i = 0; i < shot_.frame.tileCount(); ++i) {
     if (except.contains(i)) continue;
-    const auto answers = files_->answers(i, error);
-    if (answers && !answers->empty() && !out.writeAnswers(i, *answers)) return false;
+    auto answers = files_->answers(i, error);
+    if (!answers || answers->empty()) continue;
+    for (RayAnswers& batch : *answers)
+      for (auto& [name, answer] : batch.indirect) takeEdits(answer);
+    if (!out.writeAnswers(i, *answers)) return false;
   }
   return true;
 }
@@ -184,7 +235,7 @@ void ShotJob::gatherIrradiance() {
   std::string error;
   const auto out = IcfWriter::create(settings_.output, error);
   if (!out) return unwritten(error);
-  gathersAnew_ = settings_.crop.has_value();
+  gathers_ = true, gathersAnew_ = settings_.crop.has_value();
   prepareLight();
   const RayTools* tools = world_->tools();
   if (!tools) return;
@@ -201,7 +252,7 @@ void ShotJob::gatherIrradiance() {
                       shot_.scene.cameraFromWorldAtOpen(),
                       {},
                       tools->rays->emitters().table(),
-                      shot_.scene.lights,
+                      lightsOfRecords(),
                       job_->services()->shareGroups()};
   shot.caches = job_->services()->takeCaches();
   world_->report();

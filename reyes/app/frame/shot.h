@@ -49,6 +49,12 @@ class ShotJob {
   void warnOfStaleLight() const;
   /// Drops the records gathered before where --crop asks for new ones.
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
+  /// Brings given records and answers to the strength of edited lights, so that they can stand beside new ones.
+  void takeEdits(std::vector<PreparedCache>& caches) const;
+  void takeEdits(IndirectAnswer& answer) const;
+  /// The lights that records will be known to be made by: where an edit changes more than the strength of a light, the
+  /// one by which those given were made, so that they stay known to be stale.
+  std::vector<std::shared_ptr<LightCall>> lightsOfRecords() const;
   /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);
   std::shared_ptr<const DeepTile> read(size_t index) const;
@@ -63,6 +69,7 @@ class ShotJob {
   LightEdits lightEdits_;
   const std::string* shownLights_ = nullptr;  ///< What choose() has been given.
   bool showsIndirect_ = true;
+  bool gathers_ = false;      ///< True if records are made for a file.
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
   std::unique_ptr<ShaderRegistry> shaders_;
   std::unique_ptr<RayWorld> world_;

@@ -32,7 +32,8 @@ EditableShader describe(const std::string& owner, const ShaderCall& call, TmKind
     const int32_t type = TM_TYPE_OF(decl.type);
     if (type > TM_NORMAL || decl.arrayLength != 1 || (decl.type & TM_OUTPUT)) continue;
     const size_t floats = type == TM_FLOAT ? 1 : 3;
-    EditableParam param{decl.name, kTypeNames[type], decl.doc ? decl.doc : "", std::vector<float>(floats, 0.0f)};
+    EditableParam param{decl.name, kTypeNames[type], decl.doc ? decl.doc : "", roleOf(*shader, decl),
+                        std::vector<float>(floats, 0.0f)};
     if (decl.floats) param.value.assign(decl.floats, decl.floats + floats);
     if (const Param* given = findParam(call.params, decl.name); given && given->floats.size() == floats)
       param.value = given->floats;

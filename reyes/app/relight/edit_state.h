@@ -23,6 +23,7 @@ struct BadRequest : std::runtime_error {
 struct EditableParam {
   std::string name, type;  ///< As RIB declares it: "float", "color", ...
   std::string doc;
+  TmRole role;
   std::vector<float> value;  ///< In the scene as it was hidden.
 };
 

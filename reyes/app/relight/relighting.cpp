@@ -17,9 +17,6 @@ constexpr size_t kWhole = 0, kGlow = 1, kFirstLight = 2;
 constexpr int64_t kTilesHeld_bytes = int64_t{1} << 30;  ///< Other tiles are read anew by every pass.
 constexpr int kBucketsAcross = 4;                       ///< Buckets along an edge of a part that is shaded at once.
 
-/// What is dropped from an edit that changes a light by a factor.
-bool isFactor(const std::string& param) { return param == "intensity" || param == "lightcolor"; }
-
 }  // namespace
 
 Relighting::Relighting(const RenderSettings& settings, Stats& stats, Log& log)
@@ -93,9 +90,11 @@ EditState Relighting::relevant(const Layer& layer, const EditState& state) const
     const bool direct =
         std::ranges::any_of(list_, [&](const Layer& l) { return std::ranges::count(l.handles, handle) > 0; });
     if (!whole && !own && direct) continue;
-    const bool factors = own && !settings_.standardFromFiles && shinesInProportion(light.shader);
+    // The page mixes a layer by the factor of its light. Lights of one layer may each have another.
+    const bool mixed = own && layer.handles.size() == 1;
     for (const auto& [name, value] : params)
-      if (!factors || !isFactor(name)) out.lights[handle][name] = value;
+      if (!mixed || !isFactor(std::ranges::find(light.params, name, &EditableParam::name)->role))
+        out.lights[handle][name] = value;
   }
   return out;
 }

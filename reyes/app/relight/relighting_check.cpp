@@ -22,10 +22,9 @@ void Relighting::checkLinearity() {
       const float gain = kGains[i % std::size(kGains)];
       const auto scaled = [&](const std::string& handle) {
         const EditableShader& light = *std::ranges::find(editable_.lights, handle, &EditableShader::owner);
-        const auto intensity = std::ranges::find(light.params, "intensity", &EditableParam::name);
-        if (settings_.standardFromFiles || !shinesInProportion(light.shader) || intensity == light.params.end())
-          return false;
-        std::vector<float>& value = other.lights[handle].try_emplace("intensity", intensity->value).first->second;
+        const auto scale = std::ranges::find(light.params, TM_ROLE_SCALE, &EditableParam::role);
+        if (scale == light.params.end()) return false;
+        std::vector<float>& value = other.lights[handle].try_emplace(scale->name, scale->value).first->second;
         value[0] *= gain;
         return true;
       };

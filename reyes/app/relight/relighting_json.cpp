@@ -10,26 +10,22 @@ Json Relighting::description() const {
     for (const EditableShader& s : all) {
       Json params = Json::array();
       for (const EditableParam& p : s.params)
-        params.push_back({{"name", p.name}, {"type", p.type}, {"value", p.value}, {"doc", p.doc}});
+        params.push_back({{"name", p.name},
+                          {"type", p.type},
+                          {"value", p.value},
+                          {"doc", p.doc},
+                          {"role", p.role == TM_ROLE_NONE ? Json() : Json(roleName(p.role))}});
       out.push_back({{"owner", s.owner}, {"shader", s.shader}, {"params", params}});
     }
     return out;
   };
-  Json lights = shaders(editable_.lights);
-  for (Json& light : lights)
-    light["proportional"] = !settings_.standardFromFiles && shinesInProportion(light["shader"].get<std::string>());
   Json layers = Json::array();
   for (const Layer& layer : list_) layers.push_back({{"name", layer.name}, {"lights", layer.handles}});
-  return {{"file", settings_.files.front()},
-          {"width", window_.width()},
-          {"height", window_.height()},
-          {"exposure", editable_.exposure},
-          {"present", jsonOf(present_)},
-          {"imager", files_->dfb().shot().scene.options.imager.has_value()},
-          {"sharesBounces", sharesBounces_},
-          {"layers", layers},
-          {"lights", lights},
-          {"surfaces", shaders(editable_.surfaces)}};
+  return {{"file", settings_.files.front()},     {"width", window_.width()},
+          {"height", window_.height()},          {"exposure", editable_.exposure},
+          {"present", jsonOf(present_)},         {"imager", files_->dfb().shot().scene.options.imager.has_value()},
+          {"sharesBounces", sharesBounces_},     {"layers", layers},
+          {"lights", shaders(editable_.lights)}, {"surfaces", shaders(editable_.surfaces)}};
 }
 
 Json Relighting::status() const {

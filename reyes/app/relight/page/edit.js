@@ -15,13 +15,12 @@ export const set = (state, kind, shader, param, numbers) => {
 
 export const valueOf = (state, kind, shader, param) => state[kind][shader.owner]?.[param.name] ?? param.value;
 
-/** What a light sends is in proportion to this, if it is a light of which that is known. */
-export const strengthOf = (state, light) => {
-  const find = (name) => light.params.find((p) => p.name === name);
-  const intensity = find("intensity"), color = find("lightcolor");
-  const scale = intensity ? valueOf(state, "lights", light, intensity)[0] : 1;
-  return (color ? valueOf(state, "lights", light, color) : [1, 1, 1]).map((c) => c * scale);
-};
+/** All that a light sends is in proportion to the parameters with these roles (TM_ROLE_SCALE, TM_ROLE_TINT). */
+export const isFactor = (param) => param.role === "scale" || param.role === "tint";
+
+export const strengthOf = (state, light) =>
+  light.params.filter(isFactor).map((p) => valueOf(state, "lights", light, p))
+    .reduce((strength, value) => strength.map((c, i) => c * value[i % value.length]), [1, 1, 1]);
 
 /** Undo and redo. */
 export class History {

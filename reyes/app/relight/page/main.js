@@ -33,7 +33,7 @@ const weights = () => scene.layers.map((layer, i) => {
   if (i === 0) return [1, 1, 1];
   if ((solo.size > 0 && !solo.has(layer.name)) || mute.has(layer.name)) return [0, 0, 0];
   const light = lightOf(layer.lights[0]), then = status.layers[i].edit;
-  if (!light || !light.proportional || !then) return [1, 1, 1];
+  if (!light || !then) return [1, 1, 1];
   return ratio(strengthOf(state, light), strengthOf(then, light));
 });
 

@@ -1,4 +1,6 @@
 // Lights and surfaces as sliders, colours and numbers.
+import { isFactor } from "./edit.js";
+
 const element = (tag, props = {}, ...children) => {
   const out = Object.assign(document.createElement(tag), props);
   out.append(...children);
@@ -44,7 +46,7 @@ const control = (kind, shader, param, tools) => {
   return { row, refresh: () => { slider.value = value()[0]; number.value = text(value()[0]); } };
 };
 
-/** The intensity in stops from that of the scene, which is what a lighter turns; the number beside it is the value. */
+/** The scale of a light in stops from that of the scene, which is what a lighter turns; the number beside it is the value. */
 const brightness = (light, param, tools) => {
   const scene = param.value[0];
   if (!(scene > 0)) return control("lights", light, param, tools);
@@ -56,7 +58,7 @@ const brightness = (light, param, tools) => {
     tools.change("lights", light, param, [Number(slider.value) <= -kStops ? 0 : scene * 2 ** Number(slider.value)]);
   slider.ondblclick = () => tools.change("lights", light, param, [scene]);
   number.onchange = () => tools.change("lights", light, param, [Math.max(Number(number.value) || 0, 0)]);
-  const row = element("label", { className: "row", title: param.doc }, element("span", { textContent: "intensity" }), slider, number);
+  const row = element("label", { className: "row", title: param.doc }, element("span", { textContent: param.name }), slider, number);
   const refresh = () => { slider.value = value() > 0 ? Math.log2(value() / scene) : -kStops; number.value = text(value()); };
   return { row, refresh };
 };
@@ -74,10 +76,9 @@ export const buildLights = (into, scene, tools) => {
   const all = [], marks = [];
   for (const light of scene.lights) {
     const layer = scene.layers.find((l) => l.lights.includes(light.owner));
-    const isMain = (p) => p.name === "intensity" || p.name === "lightcolor";
-    const main = light.params.filter(isMain).map((p) =>
-      p.name === "intensity" ? brightness(light, p, tools) : control("lights", light, p, tools));
-    const others = light.params.filter((p) => !isMain(p)).map((p) => control("lights", light, p, tools));
+    const main = light.params.filter(isFactor).map((p) =>
+      p.role === "scale" ? brightness(light, p, tools) : control("lights", light, p, tools));
+    const others = light.params.filter((p) => !isFactor(p)).map((p) => control("lights", light, p, tools));
     all.push(...main, ...others);
     const buttons = layer ? ["solo", "mute"].map((which) => {
       const button = element("button", { textContent: which === "solo" ? "S" : "M", title: which });
