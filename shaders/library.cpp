@@ -5,7 +5,7 @@ extern const rsl::Shader constantShader, matteShader, metalShader, plasticShader
     environmentlightShader, indirectlightShader, filterlightShader, shadowspotShader, shadowpointShader,
     shadowdistantShader, shinymetalShader, fogShader, depthcueShader, backgroundShader, clamptoalphaShader, bumpyShader,
     noisybumpShader, mirrorShader, glassShader, occlusionlightShader, disneyShader, disneycutoutShader, daylightShader,
-    sunlightShader;
+    sunlightShader, mediumShader, subsurfaceShader;
 
 const TmShaderLibrary* tomales_builtin_shaders(void) {
   static const TmShader* const shaders[] = {constantShader,      matteShader,          metalShader,
@@ -18,7 +18,7 @@ const TmShaderLibrary* tomales_builtin_shaders(void) {
                                             clamptoalphaShader,  bumpyShader,          noisybumpShader,
                                             mirrorShader,        glassShader,          occlusionlightShader,
                                             disneyShader,        disneycutoutShader,   daylightShader,
-                                            sunlightShader};
+                                            sunlightShader,      mediumShader,         subsurfaceShader};
   static const TmShaderLibrary library = rsl::libraryOf(shaders);
   return &library;
 }

@@ -181,7 +181,7 @@ typedef struct TmIlluminance {
   int32_t sentCount;
   /* The answer. */
   int32_t light;         /* its number, for ask() and lightDensity() */
-  TmConstVec3 L;         /* from P to the light, of full length; unit length where it is at infinity */
+  TmConstVec3 L;         /* from P to the light, of full length; the arrays of `direction` if it is at infinity */
   TmConstVec3 direction; /* L with unit length */
   TmConstVec3 Cl;        /* shadowed, divided by the number of samples */
   const uint8_t* lit;    /* 1: active, and the sample comes from the cone */

@@ -44,6 +44,21 @@ def is_near(value, expected, what, tolerance):
 # A furnace: what scatters everything hides as much light as it sends.
 sent, hidden = ball("furnace", 'LightSource "environmentlight" 1 "intensity" [1]', 2, 0)
 is_near(sent / hidden, 1, "in a furnace of radiance 1, over what it hides", 0.03)
+# The eye within it, by the built-in medium: what the map holds over half a unit before a black wall.
+t.write("within.rib", """Display "within.exr" "file" "rgb"
+Format 8 8 1
+Projection "orthographic"
+ScreenWindow -0.5 0.5 -0.5 0.5
+WorldBegin
+Atmosphere "medium" "scattering" [2 2 2] "map" ["furnace/scene.volume.bkm"]
+Surface "constant"
+Color [0 0 0]
+Translate 0 0 0.5
+Polygon "P" [-1 -1 0 -1 1 0 1 1 0 1 -1 0]
+WorldEnd
+""")
+t.expect_run("a medium by its photons", ["within.rib"], 0)
+is_near(json.loads(t.run("info", "--json", "within.exr").stdout)["channels"][0]["mean"], 1 - math.exp(-1), "seen from within", 0.03)
 # So thin that light is scattered once: a beam of E = pi has the fluence pi everywhere, the mean radiance 1/4, of which half is scattered.
 sent, hidden = ball("thin", 'LightSource "distantlight" 1 "from" [1 0 0] "to" [0 0 0] "intensity" [1]', 0.01, 0.01)
 is_near(sent / hidden, 0.125, "thin smoke in a beam, over what it hides", 0.05)

@@ -38,7 +38,7 @@ struct placed : sl::Light {
 struct dimmer : sl::Imager {
   void main() { Ci = Ci * xcomp(P), alpha = 0.5 * alpha, Oi = Color(alpha); }
 };
-struct curious : sl::Surface {
+struct inquiring : sl::Surface {
   void main() { Ci = Color(time, dtime, xcomp(dPdtime)), Oi = Color(xcomp(E), ycomp(E), ncomps); }
 };
 const rsl::Shader hazysunShader(TM_LIGHT, "hazysun", "", TM_LIGHT_SOLAR | TM_LIGHT_SAMPLED, sl::shade<hazysun>,
@@ -48,13 +48,13 @@ const rsl::Shader gradedskyShader(TM_LIGHT, "gradedsky", "", TM_LIGHT_SOLAR | TM
 const rsl::Shader panelShader(TM_LIGHT, "panel", "", TM_LIGHT_AREA, sl::shade<panel>, {&intensity});
 const rsl::Shader placedShader(TM_LIGHT, "placed", "", TM_LIGHT_AREA, sl::shade<placed>, {});
 const rsl::Shader dimmerShader(TM_IMAGER, "dimmer", "", 0, sl::shade<dimmer>, {});
-const rsl::Shader curiousShader(TM_SURFACE, "curious", "", 0, sl::shade<curious>, {});
+const rsl::Shader inquiringShader(TM_SURFACE, "inquiring", "", 0, sl::shade<inquiring>, {});
 
 class SlKinds : public Stage {
  protected:
   SlKinds() {
     static const TmShader* const shaders[] = {hazysunShader, gradedskyShader, panelShader,
-                                              placedShader,  dimmerShader,    curiousShader};
+                                              placedShader,  dimmerShader,    inquiringShader};
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) {
@@ -123,7 +123,7 @@ TEST_F(SlKinds, ImagersReadAndWritePixels) {
 }
 
 TEST_F(SlKinds, SurfacesKnowTheEyeTheTimeAndTheirVelocity) {
-  surface("curious");
+  surface("inquiring");
   scene.options.shutterOpen = 1, scene.options.shutterClose = 3;
   ShadePoints p = points({vec3(0, 0, 5)});
   p.set3(kDriftX, 0, vec3(4, 0, 0));

@@ -1,0 +1,203 @@
+// A medium that is the same everywhere and absorbs and scatters light. The radiance that a ray brings is the integral
+// of M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th edition, section 14.1. Phase function: L.
+// Henyey and J. Greenstein, "Diffuse radiation in the galaxy", 1941.
+#include <vector>
+
+#include "reyes/shader/shadeops.h"
+
+namespace {
+rsl::ColorParam scattering("scattering", {0.1f, 0.1f, 0.1f}, "for each unit of the world", TM_ROLE_SCATTERING);
+rsl::ColorParam absorption("absorption", {0, 0, 0}, "likewise", TM_ROLE_ABSORPTION);
+rsl::FloatParam anisotropy("anisotropy", 0, "mean cosine of the angle of scattering: above 0 onwards, below 0 back");
+rsl::UniformFloatParam steps("steps", 32, "places of each ray that are lit; powers of two are the least noisy");
+rsl::FloatParam lightway("lightway", 0,
+                         "light is dimmed on its way here, from its lamp or for at most this far; 0: not at all");
+rsl::StringParam map(
+    "map", "",
+    "brick map of the fluence, as FOLDER/scene.volume.bkm of --gi atlas --atlas FOLDER: light that was "
+    "scattered any number of times, evenly; none: light of lamps that is scattered once");
+
+rsl::Color extinction(const TmGrid* g, int i) { return scattering(g, i) + absorption(g, i); }
+
+rsl::Color passing(rsl::Color extinction, float way) {
+  return {std::exp(-extinction.x * way), std::exp(-extinction.y * way), std::exp(-extinction.z * way)};
+}
+
+/// The phase function times pi, as the Cl of a lamp is E/pi.
+float phase(float g, float cosine) {
+  const float bend = std::max(1 + g * g - 2 * g * cosine, 1e-6f);
+  return (1 - g * g) / (4 * bend * std::sqrt(bend));
+}
+
+/// Places along a ray in proportion to what passes of the channel that is dimmed least. Lengths: units of the world.
+struct ByPassing {
+  float way, rate;
+
+  ByPassing(rsl::Color extinction, float length)
+      : way(length), rate(std::min({extinction.x, extinction.y, extinction.z})) {}
+  bool isThin() const { return rate * way < 1e-4f; }
+  float at(float share) const { return isThin() ? share * way : -std::log1p(share * std::expm1(-rate * way)) / rate; }
+  float density(float distance) const {
+    return isThin() ? 1 / way : rate * std::exp(-rate * distance) / -std::expm1(-rate * way);
+  }
+};
+
+/// Places along a ray in proportion to the inverse square of the distance to a lamp, which is `beside` the ray at the
+/// distance `nearest` from the eye: C. Kulla and M. Fajardo, "Importance Sampling Techniques for Path Tracing in
+/// Participating Media", 2012. Lengths: units of the world.
+struct ByLamp {
+  float beside, nearest, from, to;
+
+  ByLamp(float besideRay, float nearestAt, float way)
+      : beside(std::max(besideRay, 1e-5f * way)),
+        nearest(nearestAt),
+        from(std::atan(-nearest / beside)),
+        to(std::atan((way - nearest) / beside)) {}
+  float at(float share) const { return nearest + beside * std::tan(from + share * (to - from)); }
+  float density(float distance) const {
+    const float past = distance - nearest;
+    return beside / ((to - from) * (beside * beside + past * past));
+  }
+};
+
+/// The light that a place of each ray scatters to the eye, for each unit of scattering.
+class LightAround {
+ public:
+  /// `units`: units of the world in one of current space, along each ray.
+  LightAround(const rsl::Batch& b, const rsl::Array& units) : b_(b), units_(units), ambient_(b.ambient()) {}
+
+  rsl::Vec3Array at(const rsl::Vec3Array& Q) const { return *map(b_.g) ? ofPhotons(Q) : ofLamps(Q); }
+
+ private:
+  rsl::Vec3Array ofPhotons(const rsl::Vec3Array& Q) const {
+    rsl::Vec3Array out(b_.g);
+    const rsl::Vec3Array everywhere(b_.g);
+    rsl::Array found(b_.g);
+    const TmCloudOptions options = tmCloudDefaults();
+    const TmChannel fluence{"fluence", out};
+    b_.g->call->texture3d(b_.g->host, b_.g, map(b_.g), &options, Q, everywhere, &fluence, 1, found.data());
+    for (int i : b_) out.set(i, found[i] > 0 ? out[i] / (4 * rsl::kPi) : rsl::Color{});
+    return out;
+  }
+  rsl::Vec3Array ofLamps(const rsl::Vec3Array& Q) const {
+    rsl::Vec3Array out(b_.g);
+    for (int i : b_) out.set(i, ambient_[i]);
+    TmIlluminance lamp = tmIlluminanceDefaults();
+    for (lamp.P = Q; b_.illuminance(lamp);) add(lamp, out);
+    return out;
+  }
+  void add(const TmIlluminance& lamp, rsl::Vec3Array& out) const {
+    const bool isAtInfinity = lamp.L.x == lamp.direction.x;
+    for (int i : b_) {
+      if (!lamp.lit[i]) continue;
+      const float distance = rsl::length(rsl::get(lamp.L, i)) * units_[i];
+      const float way = isAtInfinity ? lightway(b_.g, i) : std::min(distance, lightway(b_.g, i));
+      const float onwards = rsl::dot(rsl::get(lamp.direction, i), rsl::normalize(b_.I(i)));
+      const rsl::Color arrives = passing(extinction(b_.g, i), way) * rsl::get(lamp.Cl, i);
+      out.set(i, out[i] + phase(anisotropy(b_.g, i), onwards) * arrives);
+    }
+  }
+
+  const rsl::Batch& b_;
+  const rsl::Array& units_;
+  const rsl::Vec3Array ambient_;
+};
+
+/// Chooses places along each ray in several ways, and weighs them all by the balance heuristic of E. Veach.
+class Places {
+ public:
+  Places(const rsl::Batch& b, const rsl::Array& units) : b_(b), units_(units) {
+    rsl::Vec3Array middle(b.g);
+    for (int i : b) middle.set(i, b.P(i) - 0.5f * b.I(i));
+    TmIlluminance lamp = tmIlluminanceDefaults();
+    int last = -1;
+    for (lamp.P = middle; lamps_.size() < kMostLamps && b.illuminance(lamp); last = lamp.light)
+      if (lamp.light != last && lamp.L.x != lamp.direction.x) addLamp(lamp);
+  }
+
+  int kinds() const { return 1 + static_cast<int>(lamps_.size()); }
+  float way(int i) const { return rsl::length(b_.I(i)) * units_[i]; }
+  float at(int kind, int i, float share) const {
+    const float distance = kind == 0 ? passing(i).at(share) : lamp(kind, i).at(share);
+    return std::min(std::max(distance, 0.0f), way(i));
+  }
+  /// The sum of the densities of all kinds.
+  float density(int i, float distance) const {
+    float sum = passing(i).density(distance);
+    for (int kind = 1; kind < kinds(); ++kind) sum += lamp(kind, i).density(distance);
+    return sum;
+  }
+
+ private:
+  static constexpr size_t kMostLamps = 7;
+  struct Lamp {
+    rsl::Array beside, nearest;
+  };
+
+  void addLamp(const TmIlluminance& lamp) {
+    Lamp out{rsl::Array(b_.g), rsl::Array(b_.g)};
+    for (int i : b_) {
+      const rsl::Vec3 along = rsl::normalize(b_.I(i)), L = rsl::get(lamp.L, i);
+      const float past = rsl::dot(L, along);
+      out.beside[i] = rsl::length(L - past * along) * units_[i];
+      out.nearest[i] = 0.5f * way(i) + past * units_[i];
+    }
+    lamps_.push_back(std::move(out));
+  }
+  ByPassing passing(int i) const { return {extinction(b_.g, i), way(i)}; }
+  ByLamp lamp(int kind, int i) const {
+    const Lamp& l = lamps_[static_cast<size_t>(kind - 1)];
+    return {l.beside[i], l.nearest[i], way(i)};
+  }
+
+  const rsl::Batch& b_;
+  const rsl::Array& units_;
+  std::vector<Lamp> lamps_;
+};
+
+rsl::Array unitsAlongRays(const rsl::Batch& b) {
+  rsl::Vec3Array world(b.g);
+  b.g->call->transform(b.g->host, b.g, TM_AS_VECTOR, "current", "world", b.g->I, world);
+  rsl::Array out(b.g);
+  for (int i : b) out[i] = rsl::length(world[i]) / std::max(rsl::length(b.I(i)), 1e-30f);
+  return out;
+}
+
+/// The light that each whole ray scatters to the eye.
+rsl::Vec3Array scattered(const rsl::Batch& b, const rsl::Array& units) {
+  const LightAround light(b, units);
+  const Places places(b, units);
+  const int kinds = places.kinds(), each = std::max(1, static_cast<int>(steps(b.g)) / kinds);
+  rsl::Vec3Array sum(b.g), Q(b.g);
+  rsl::Array forPassing(b.g), forLamps(b.g), distance(b.g);
+  for (int k = 0; k < each * kinds; ++k) {
+    const int kind = k % kinds;
+    b.g->call->stratified(b.g->host, b.g, k / kinds, each, forPassing.data(), forLamps.data());
+    for (int i : b) {
+      distance[i] = places.at(kind, i, kind == 0 ? forPassing[i] : forLamps[i]);
+      Q.set(i, b.P(i) - (1 - distance[i] / std::max(places.way(i), 1e-30f)) * b.I(i));
+    }
+    const rsl::Vec3Array here = light.at(Q);
+    for (int i : b) {
+      const float weight = 1 / (static_cast<float>(each) * places.density(i, distance[i]));
+      sum.set(i, sum[i] + weight * passing(extinction(b.g, i), distance[i]) * scattering(b.g, i) * here[i]);
+    }
+  }
+  return sum;
+}
+
+void shade(const TmGrid* g) {
+  const rsl::Batch b(g);
+  const rsl::Array units = unitsAlongRays(b);
+  const rsl::Vec3Array sum = scattered(b, units);
+  for (int i : b) {
+    const rsl::Color passed = passing(extinction(g, i), rsl::length(b.I(i)) * units[i]);
+    rsl::set(g->Ci, i, rsl::get(g->Ci, i) * passed + sum[i]);
+    rsl::set(g->Oi, i, rsl::Color{1, 1, 1} - (rsl::Color{1, 1, 1} - rsl::get(g->Oi, i)) * passed);
+  }
+}
+}  // namespace
+
+extern const rsl::Shader mediumShader;
+const rsl::Shader mediumShader(TM_VOLUME, "medium", "absorbs and scatters light, the same everywhere", 0, shade,
+                               {&scattering, &absorption, &anisotropy, &steps, &lightway, &map});
