@@ -81,6 +81,10 @@ class Pictures(unittest.TestCase):
                 self.expect_mean(name, 0.03)
                 self.expect_blocks(name, 0.06)
 
+    def test_each_picture_is_over_its_own_uv_map(self):
+        self.expect_mean("second_uv", 0.03)
+        self.expect_blocks("second_uv", 0.06)
+
     def test_displacement_moves_the_surface(self):
         self.expect_mean("displaced", 0.03)
         self.expect_blocks("displaced", 0.08)
@@ -164,7 +168,13 @@ class Addon(unittest.TestCase):
         self.assertLess(self.of("cancel"), 30)
 
     def test_progress_rises(self):
-        self.assertEqual(self.of("progress"), {"rises": True, "last": 1})
+        self.assertEqual(self.of("progress"), {"rises": True, "last": 1, "warnings": []})
+
+    def test_the_picture_is_shown_while_it_is_made(self):
+        preview = self.of("preview")
+        self.assertGreater(preview["shown"], 1)
+        self.assertEqual(preview["rows"], sorted(preview["rows"]))
+        self.assertEqual(preview["different"], 0)
 
     def test_each_view_layer_has_its_passes(self):
         layers = self.of("layers")

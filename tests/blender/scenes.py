@@ -341,6 +341,28 @@ def normal_map():
     return scene
 
 
+def second_uv():
+    """Colours over one UV map; metal, and normals that bend, over another that is turned and stretched."""
+    scene, tree, shader = lit_plane("ShaderNodeBsdfPrincipled", Roughness=0.7)
+    mesh = scene.objects["Plane"].data
+    second = mesh.uv_layers.new(name="Second")
+    for item, first in zip(second.data, mesh.uv_layers["UVMap"].data):
+        u, v = first.uv
+        item.uv = (0.1 + 0.8 * v, 0.9 - 0.5 * u)
+    mesh.uv_layers["UVMap"].active_render = True
+    coordinates, bend = tree.nodes.new("ShaderNodeUVMap"), tree.nodes.new("ShaderNodeNormalMap")
+    coordinates.uv_map = bend.uv_map = "Second"
+    color = image_node(tree, picture("ramp", 64, 64, lambda u, v: numpy.stack([u, v, 0.5 + 0 * u], -1), True))
+    tilted = image_node(tree, picture("tilted", 64, 64, lambda u, v: numpy.stack([0.5 + 0.3 * numpy.sin(6 * u), 0.5 + 0.25 * v, numpy.full_like(u, 0.9)], -1), True))
+    metal = image_node(tree, picture("metal", 64, 64, lambda u, v: numpy.repeat((0.8 * (u < v))[..., None], 3, -1), True))
+    for node, output, target in ((color, "Color", shader.inputs["Base Color"]), (tilted, "Color", bend.inputs["Color"]), (metal, "Color", shader.inputs["Metallic"])):
+        tree.links.new(node.outputs[output], target)
+        if node is not color:
+            tree.links.new(coordinates.outputs["UV"], node.inputs["Vector"])
+    tree.links.new(bend.outputs["Normal"], shader.inputs["Normal"])
+    return scene
+
+
 def displaced():
     """A displacement that moves the surface, seen from the side."""
     scene, tree, shader = lit_plane()
@@ -485,7 +507,7 @@ def metal():
 
 
 SCENES = [area, disk_lamp, sun, soft_sun, point, spot, soft_spot, camera_shift, orthographic, focus, motion, deformation, texture, pictures_of_all, panorama, turned_sky]
-SCENES += [instances, room, subdivision, creases, bump, normal_map, displaced, graph, mixture, hair, metal]
+SCENES += [instances, room, subdivision, creases, bump, normal_map, second_uv, displaced, graph, mixture, hair, metal]
 
 
 def blocks(path):
