@@ -75,6 +75,13 @@ class Pictures(unittest.TestCase):
         self.expect_blocks("panorama", 0.06)
         self.expect_blocks("turned_sky", 0.03)
 
+    def test_skies_that_nodes_compute(self):
+        """The horizon of the Sky Texture and the sun's disk are sharper than a panorama."""
+        self.expect_mean("sky", 0.03)
+        self.expect_blocks("sky", 0.08)
+        self.expect_mean("woven_sky", 0.02)
+        self.expect_blocks("woven_sky", 0.05)
+
     def test_bumps_and_normal_maps_turn_the_same_way(self):
         for name in ("bump", "normal_map"):
             with self.subTest(name):

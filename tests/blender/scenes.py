@@ -289,6 +289,45 @@ def subdivision():
     return scene
 
 
+def sky():
+    """A Sky Texture with its sun low at one side, and a box in it."""
+    scene = empty_scene()
+    scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    node = tree.nodes.new("ShaderNodeTexSky")
+    node.sky_type, node.sun_elevation, node.sun_rotation, node.sun_intensity = "NISHITA", 0.5, 2.3, 0.5
+    background = tree.nodes["Background"]
+    background.inputs["Strength"].default_value = 0.1
+    tree.links.new(node.outputs["Color"], background.inputs["Color"])
+    floor()
+    add(bpy.ops.mesh.primitive_cube_add, material("cube", (0.2, 0.5, 0.8))[0], size=1, location=(0.5, 0, 0.5))
+    camera(scene, (2, -6, 1), (0, 0, 1), lens=24)
+    scene.tomales.bounces, scene.tomales.light_samples = 0, 256
+    scene.cycles.max_bounces = 0
+    return scene
+
+
+def woven_sky():
+    """Waves over directions, and a second Background that is added."""
+    scene = empty_scene()
+    scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    waves, both = tree.nodes.new("ShaderNodeTexWave"), tree.nodes.new("ShaderNodeAddShader")
+    waves.inputs["Scale"].default_value = 0.5
+    more = tree.nodes.new("ShaderNodeBackground")
+    more.inputs["Color"].default_value = (0.1, 0.2, 0.5, 1)
+    tree.links.new(waves.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    tree.links.new(tree.nodes["Background"].outputs[0], both.inputs[0])
+    tree.links.new(more.outputs[0], both.inputs[1])
+    tree.links.new(both.outputs[0], tree.nodes["World Output"].inputs["Surface"])
+    add(bpy.ops.mesh.primitive_uv_sphere_add, material("white", (0.8, 0.8, 0.8))[0], radius=1, segments=64, ring_count=32)
+    bpy.ops.object.shade_smooth()
+    camera(scene, (2, -4, 1), lens=24)
+    scene.tomales.bounces, scene.tomales.light_samples = 0, 256
+    scene.cycles.max_bounces = 1
+    return scene
+
+
 def soft_sun():
     scene = sun()
     scene.objects["SUN"].data.angle = 0.3
@@ -506,7 +545,7 @@ def metal():
     return scene
 
 
-SCENES = [area, disk_lamp, sun, soft_sun, point, spot, soft_spot, camera_shift, orthographic, focus, motion, deformation, texture, pictures_of_all, panorama, turned_sky]
+SCENES = [area, disk_lamp, sun, soft_sun, point, spot, soft_spot, camera_shift, orthographic, focus, motion, deformation, texture, pictures_of_all, panorama, turned_sky, sky, woven_sky]
 SCENES += [instances, room, subdivision, creases, bump, normal_map, second_uv, displaced, graph, mixture, hair, metal]
 
 

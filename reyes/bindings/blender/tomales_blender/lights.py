@@ -21,7 +21,7 @@ def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: s
     ri.ConcatTransform(flat(matrix.normalized() if light.type != "AREA" else matrix))
     common: dict[str, object] = {"lightcolor": list(light.color), **group_of(obj)}
     if light.type == "SUN":
-        _write_sun(ri, light, handle, samples, common)
+        write_sun(ri, light.angle, light.energy, handle, samples, common)
     elif light.type == "AREA":
         _write_area(ri, light, matrix, handle, samples, common)
     elif light.type == "SPOT":
@@ -46,13 +46,13 @@ def _emit(ri: tomales.Ri, handle: str, radiance: float, samples: int, common: di
 _SUN_DISTANCE = 1e6  # so far that a scene of a kilometre sees it in one direction, to a milliradian
 
 
-def _write_sun(ri: tomales.Ri, light: bpy.types.SunLight, handle: str, samples: int, common: dict[str, object]) -> None:
-    """Its strength is what falls on a surface that faces it. A disk of the angle's size has soft shadows."""
-    if light.angle < 1e-4:
-        ri.LightSource("distantlight", handle, {"intensity": light.energy / pi, "point from": [0, 0, 0], "point to": [0, 0, -1], **common})
+def write_sun(ri: tomales.Ri, angle: float, energy: float, handle: str, samples: int, common: dict[str, object]) -> None:
+    """It stands at +z. Its strength is what falls on a surface that faces it. A disk of the angle's size has soft shadows."""
+    if angle < 1e-4:
+        ri.LightSource("distantlight", handle, {"intensity": energy / pi, "point from": [0, 0, 0], "point to": [0, 0, -1], **common})
         return
-    radius = tan(min(light.angle, pi - 0.01) / 2) * _SUN_DISTANCE
-    _emit(ri, handle, light.energy * (1 + (_SUN_DISTANCE / radius) ** 2) / pi, samples, common)
+    radius = tan(min(angle, pi - 0.01) / 2) * _SUN_DISTANCE
+    _emit(ri, handle, energy * (1 + (_SUN_DISTANCE / radius) ** 2) / pi, samples, common)
     ri.Translate(0, 0, _SUN_DISTANCE)
     ri.Scale(radius, radius, -1)
     ri.Disk(0, 1, 360)

@@ -70,7 +70,7 @@ def look_of(material: bpy.types.Material | None, textures: Textures, reflections
     return look
 
 
-def changes(material: bpy.types.Material) -> bool:
+def changes(material: bpy.types.Material | bpy.types.World) -> bool:
     """Whether it may look different in another frame."""
     trees = [material.node_tree] if material.use_nodes else []
     for tree in trees:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import bpy
@@ -11,8 +11,9 @@ from mathutils import Matrix
 
 from . import relief
 from .camera import flat
-from .lights import group_of
+from .lights import group_of, write_sun
 from .nodes import Graph, Unsupported, source
+from .panorama import Panorama, Sun
 from .textures import Textures
 from .values import is_picture, mean
 
@@ -30,20 +31,37 @@ SKY_SHADER = """surface tomales_sky(color tint = 1; string map = "";)
 SKY_RADIUS_SHARE = 0.9  # of the far clipping distance
 
 
-def write_world(ri: tomales.Ri, world: bpy.types.World, handle: str, textures: Textures, samples: int, warn: Warn) -> Sky | None:
-    """A sky as a light; None if it is black."""
-    tint, picture, turned = _background(world, textures, lambda text: warn(f"world {world.name}: {text}"))
-    if max(tint) <= 0:
+@dataclass
+class Background:
+    """What the world's nodes show."""
+
+    tint: list[float]
+    seen: str = ""  #: The file of a panorama, which the tint multiplies.
+    lights: str = ""  #: The same without the sun.
+    turned: Matrix = field(default_factory=lambda: Matrix.Identity(4))  #: The world's space from the panorama's.
+    sun: Sun | None = None
+
+
+def write_world(ri: tomales.Ri, world: bpy.types.World, textures: Textures, panorama_of: Callable[[bpy.types.World], Panorama], samples: int, warn: Warn) -> Sky | None:
+    """A sky as a light, and its sun as another; None if it is black."""
+    shown = _background(world, textures, panorama_of, lambda text: warn(f"world {world.name}: {text}"))
+    if max(shown.tint) <= 0:
         return None
-    parameters: dict[str, object] = {"lightcolor": tint, "float samples": samples, **group_of(world)}
-    if picture:
-        parameters.update({"string map": picture, "string mapspace": "shader"})
+    parameters: dict[str, object] = {"lightcolor": shown.tint, "float samples": samples, **group_of(world)}
+    if shown.lights:
+        parameters.update({"string map": shown.lights, "string mapspace": "shader"})
     ri.Attribute("light", {"string shadows": "on"})
     ri.TransformBegin()
-    sky = Sky({"color tint": tint, **({"string map": picture} if picture else {})}, turned)
+    sky = Sky({"color tint": shown.tint, **({"string map": shown.seen} if shown.seen else {})}, shown.turned)
     sky.place(ri)
-    ri.LightSource("environmentlight", handle, parameters)
+    ri.LightSource("environmentlight", "world", parameters)
     ri.TransformEnd()
+    if shown.sun:
+        ri.AttributeBegin()
+        ri.ConcatTransform(flat(shown.sun.toward.to_track_quat("Z", "Y").to_matrix().to_4x4()))
+        write_sun(ri, shown.sun.angle, 1, "sun", samples, {"lightcolor": shown.sun.color, **group_of(world)})
+        ri.AttributeEnd()
+        ri.Illuminate("sun", 1)
     return sky
 
 
@@ -69,24 +87,34 @@ class Sky:
         ri.AttributeEnd()
 
 
-def _background(world: bpy.types.World, textures: Textures, say: Warn) -> tuple[list[float], str, Matrix]:
-    """Colour, panorama and its rotation, of the world's Background node."""
-    still = Matrix.Identity(4)
+def _background(world: bpy.types.World, textures: Textures, panorama_of: Callable[[bpy.types.World], Panorama], say: Warn) -> Background:
     if not world.use_nodes:
-        return list(world.color), "", still
-    node = next((n for n in world.node_tree.nodes if n.type == "BACKGROUND"), None)
-    if not node:
-        say("it has no Background node; it is black")
-        return [0, 0, 0], "", still
-    graph = Graph(textures.pixels)
+        return Background(list(world.color))
+    output = next((n for n in world.node_tree.nodes if n.type == "OUTPUT_WORLD" and n.is_active_output), None)
+    closure = source(output.inputs["Surface"]) if output else None
+    if not closure:
+        return Background([0, 0, 0])
     try:
-        value = graph.of(node.inputs["Color"]) * mean(graph.of(node.inputs["Strength"]))[0]
+        return _computed(world, closure.node, textures)
     except Unsupported as problem:
-        say(f"the node {problem} is not supported; the sky is grey")
-        return [0.5 * node.inputs["Strength"].default_value] * 3, "", still
+        try:
+            shown = panorama_of(world)
+        except OSError as failure:
+            say(f"the node {problem} is not supported; the sky is grey: {failure}")
+            return Background([0.5] * 3)
+    return Background([1.0] * 3, textures.file(shown.whole), textures.file(shown.sunless), sun=shown.sun)
+
+
+def _computed(world: bpy.types.World, node: bpy.types.Node, textures: Textures) -> Background:
+    """Of a Background node before a colour or one panorama. Raises Unsupported for all else."""
+    if node.type != "BACKGROUND":
+        raise Unsupported(node.name)
+    graph = Graph(textures.pixels)
+    value = graph.of(node.inputs["Color"]) * mean(graph.of(node.inputs["Strength"]))[0]
     if not is_picture(value):
-        return mean(value), "", still
-    return [1.0, 1.0, 1.0], textures.file(value), rotation_of(next(n for n in world.node_tree.nodes if n.type == "TEX_ENVIRONMENT"))
+        return Background(mean(value))
+    file = textures.file(value)
+    return Background([1.0] * 3, file, file, rotation_of(next(n for n in world.node_tree.nodes if n.type == "TEX_ENVIRONMENT")))
 
 
 def rotation_of(node: bpy.types.Node) -> Matrix:
