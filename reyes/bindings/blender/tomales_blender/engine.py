@@ -130,7 +130,8 @@ class TomalesEngine(bpy.types.RenderEngine):
 
     def _run(self, rib: Path, folder: Path, options: list[str], result: bpy.types.RenderResult) -> bool:
         """Whether there is a picture. Shows progress and what is done, and ends the program when the user wants to stop."""
-        preview = Preview() if self._has_viewer else None
+        is_asked_for = any(option.startswith("--preview") for option in options)  # by the user, for another viewer
+        preview = Preview() if self._has_viewer and not is_asked_for else None
         shown = [f"--preview={preview.address}"] if preview else []
         command = [tomales.program.find(), "render", "--progress", *shown, *options, *tomales.program.more_options(), str(rib)]
         process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -170,7 +171,7 @@ class TomalesEngine(bpy.types.RenderEngine):
         if preview is None or time.monotonic() - self._shown_s < _SHOW_S:
             return
         picture = preview.take()
-        if picture is not None:
+        if picture is not None and picture.shape[:2] == (result.resolution_y, result.resolution_x):
             self._shown_s = time.monotonic()
             fill(result.layers[0].passes["Combined"], picture.transpose(2, 0, 1), result)
             self.update_result(result)
