@@ -75,11 +75,22 @@ class Pictures(unittest.TestCase):
         self.expect_blocks("panorama", 0.06)
         self.expect_blocks("turned_sky", 0.03)
 
+    def test_skies_that_nodes_compute(self):
+        """The horizon of the Sky Texture and the sun's disk are sharper than a panorama."""
+        self.expect_mean("sky", 0.03)
+        self.expect_blocks("sky", 0.08)
+        self.expect_mean("woven_sky", 0.02)
+        self.expect_blocks("woven_sky", 0.05)
+
     def test_bumps_and_normal_maps_turn_the_same_way(self):
         for name in ("bump", "normal_map"):
             with self.subTest(name):
                 self.expect_mean(name, 0.03)
                 self.expect_blocks(name, 0.06)
+
+    def test_each_picture_is_over_its_own_uv_map(self):
+        self.expect_mean("second_uv", 0.03)
+        self.expect_blocks("second_uv", 0.06)
 
     def test_displacement_moves_the_surface(self):
         self.expect_mean("displaced", 0.03)
@@ -164,7 +175,13 @@ class Addon(unittest.TestCase):
         self.assertLess(self.of("cancel"), 30)
 
     def test_progress_rises(self):
-        self.assertEqual(self.of("progress"), {"rises": True, "last": 1})
+        self.assertEqual(self.of("progress"), {"rises": True, "last": 1, "warnings": []})
+
+    def test_the_picture_is_shown_while_it_is_made(self):
+        preview = self.of("preview")
+        self.assertGreater(preview["shown"], 1)
+        self.assertEqual(preview["rows"], sorted(preview["rows"]))
+        self.assertEqual(preview["different"], 0)
 
     def test_each_view_layer_has_its_passes(self):
         layers = self.of("layers")

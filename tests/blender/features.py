@@ -12,9 +12,10 @@ arguments = sys.argv[sys.argv.index("--") + 1 :]
 sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # scenes.py renders nothing, and lends its tools
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
+import numpy  # noqa: E402
 import scenes  # noqa: E402
 from scenes import add, camera, empty_scene, exr, light, material  # noqa: E402
-from tomales_blender import panels, passes as passes_module  # noqa: E402
+from tomales_blender import engine, panels, passes as passes_module  # noqa: E402
 from tomales_blender.engine import TomalesEngine  # noqa: E402
 
 FOLDER, found = arguments[0], {}
@@ -176,11 +177,32 @@ def progress():
     """What the engine has said while it rendered: the shares rise to the whole."""
     scene = scenes.area()
     scene.render.engine = "TOMALES"
-    shares = []
+    shares, warnings = [], []
     show, TomalesEngine._show_progress = TomalesEngine._show_progress, lambda self: shares.append(self._progress)
+    warn, TomalesEngine._warn = TomalesEngine._warn, lambda self, message: warnings.append(message)
     bpy.ops.render.render()
-    TomalesEngine._show_progress = show
-    return {"rises": shares == sorted(shares), "last": shares[-1]}
+    TomalesEngine._show_progress, TomalesEngine._warn = show, warn
+    return {"rises": shares == sorted(shares), "last": shares[-1], "warnings": warnings}
+
+
+def preview():
+    """Pictures that are shown before the whole: rows that are there are those of the whole, the others are empty."""
+    scene = scenes.area()
+    scene.render.resolution_y = 288  # rows come by 64
+    scene.tomales.bounces, scene.tomales.light_samples = 0, 128
+    shown, fill = [], engine.fill
+    engine.fill = lambda target, planes, result: (shown.append(planes.transpose(1, 2, 0)), fill(target, planes, result))
+    TomalesEngine._has_viewer, engine._SHOW_S = True, 0
+    render(scene, "preview")
+    TomalesEngine._has_viewer, engine._SHOW_S, engine.fill = False, 1, fill
+    channels = exr.read(os.path.join(FOLDER, "preview", "untitled.0001.exr"))
+    whole = numpy.stack([channels[c] for c in "RGBA"], -1)
+    filled = [picture.any((1, 2)) for picture in shown]
+    return {
+        "shown": len(shown),
+        "rows": [int(rows.sum()) for rows in filled],
+        "different": float(max((abs(picture - whole)[rows].max() for picture, rows in zip(shown, filled) if rows.any()), default=0)),
+    }
 
 
 GLOW = "surface glow(output varying color warm = 0;) { warm = color(0.25, 0.5, 0.75); Ci = Cs * diffuse(faceforward(normalize(N), I)); Oi = 1; }"
@@ -249,7 +271,7 @@ def interface():
     return {p.name: [p.kind.split()[-1], p.value()] for p in made.tomales.parameters}
 
 
-FEATURES = (passes, animation, deformation, faults, strands, override, refused, unsupported, cancel, progress, layers, mattes, moved, interface)
+FEATURES = (passes, animation, deformation, faults, strands, override, refused, unsupported, cancel, progress, preview, layers, mattes, moved, interface)
 for feature in FEATURES:
     found[feature.__name__] = feature()
     with open(os.path.join(FOLDER, "features.json"), "w") as file:

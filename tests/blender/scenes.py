@@ -289,6 +289,45 @@ def subdivision():
     return scene
 
 
+def sky():
+    """A Sky Texture with its sun low at one side, and a box in it."""
+    scene = empty_scene()
+    scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    node = tree.nodes.new("ShaderNodeTexSky")
+    node.sky_type, node.sun_elevation, node.sun_rotation, node.sun_intensity = "NISHITA", 0.5, 2.3, 0.5
+    background = tree.nodes["Background"]
+    background.inputs["Strength"].default_value = 0.1
+    tree.links.new(node.outputs["Color"], background.inputs["Color"])
+    floor()
+    add(bpy.ops.mesh.primitive_cube_add, material("cube", (0.2, 0.5, 0.8))[0], size=1, location=(0.5, 0, 0.5))
+    camera(scene, (2, -6, 1), (0, 0, 1), lens=24)
+    scene.tomales.bounces, scene.tomales.light_samples = 0, 256
+    scene.cycles.max_bounces = 0
+    return scene
+
+
+def woven_sky():
+    """Waves over directions, and a second Background that is added."""
+    scene = empty_scene()
+    scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    waves, both = tree.nodes.new("ShaderNodeTexWave"), tree.nodes.new("ShaderNodeAddShader")
+    waves.inputs["Scale"].default_value = 0.5
+    more = tree.nodes.new("ShaderNodeBackground")
+    more.inputs["Color"].default_value = (0.1, 0.2, 0.5, 1)
+    tree.links.new(waves.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+    tree.links.new(tree.nodes["Background"].outputs[0], both.inputs[0])
+    tree.links.new(more.outputs[0], both.inputs[1])
+    tree.links.new(both.outputs[0], tree.nodes["World Output"].inputs["Surface"])
+    add(bpy.ops.mesh.primitive_uv_sphere_add, material("white", (0.8, 0.8, 0.8))[0], radius=1, segments=64, ring_count=32)
+    bpy.ops.object.shade_smooth()
+    camera(scene, (2, -4, 1), lens=24)
+    scene.tomales.bounces, scene.tomales.light_samples = 0, 256
+    scene.cycles.max_bounces = 1
+    return scene
+
+
 def soft_sun():
     scene = sun()
     scene.objects["SUN"].data.angle = 0.3
@@ -338,6 +377,28 @@ def normal_map():
     tilted = picture("tilted", 64, 64, lambda u, v: numpy.stack([0.5 + 0.3 * numpy.sin(6 * u), 0.5 + 0.25 * v, numpy.full_like(u, 0.9)], -1), True)
     tree.links.new(image_node(tree, tilted).outputs["Color"], node.inputs["Color"])
     tree.links.new(node.outputs["Normal"], shader.inputs["Normal"])
+    return scene
+
+
+def second_uv():
+    """Colours over one UV map; metal, and normals that bend, over another that is turned and stretched."""
+    scene, tree, shader = lit_plane("ShaderNodeBsdfPrincipled", Roughness=0.7)
+    mesh = scene.objects["Plane"].data
+    second = mesh.uv_layers.new(name="Second")
+    for item, first in zip(second.data, mesh.uv_layers["UVMap"].data):
+        u, v = first.uv
+        item.uv = (0.1 + 0.8 * v, 0.9 - 0.5 * u)
+    mesh.uv_layers["UVMap"].active_render = True
+    coordinates, bend = tree.nodes.new("ShaderNodeUVMap"), tree.nodes.new("ShaderNodeNormalMap")
+    coordinates.uv_map = bend.uv_map = "Second"
+    color = image_node(tree, picture("ramp", 64, 64, lambda u, v: numpy.stack([u, v, 0.5 + 0 * u], -1), True))
+    tilted = image_node(tree, picture("tilted", 64, 64, lambda u, v: numpy.stack([0.5 + 0.3 * numpy.sin(6 * u), 0.5 + 0.25 * v, numpy.full_like(u, 0.9)], -1), True))
+    metal = image_node(tree, picture("metal", 64, 64, lambda u, v: numpy.repeat((0.8 * (u < v))[..., None], 3, -1), True))
+    for node, output, target in ((color, "Color", shader.inputs["Base Color"]), (tilted, "Color", bend.inputs["Color"]), (metal, "Color", shader.inputs["Metallic"])):
+        tree.links.new(node.outputs[output], target)
+        if node is not color:
+            tree.links.new(coordinates.outputs["UV"], node.inputs["Vector"])
+    tree.links.new(bend.outputs["Normal"], shader.inputs["Normal"])
     return scene
 
 
@@ -484,8 +545,8 @@ def metal():
     return scene
 
 
-SCENES = [area, disk_lamp, sun, soft_sun, point, spot, soft_spot, camera_shift, orthographic, focus, motion, deformation, texture, pictures_of_all, panorama, turned_sky]
-SCENES += [instances, room, subdivision, creases, bump, normal_map, displaced, graph, mixture, hair, metal]
+SCENES = [area, disk_lamp, sun, soft_sun, point, spot, soft_spot, camera_shift, orthographic, focus, motion, deformation, texture, pictures_of_all, panorama, turned_sky, sky, woven_sky]
+SCENES += [instances, room, subdivision, creases, bump, normal_map, second_uv, displaced, graph, mixture, hair, metal]
 
 
 def blocks(path):

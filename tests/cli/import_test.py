@@ -92,6 +92,12 @@ t.expect(text.count("ObjectBegin") == 1 and text.count("ObjectInstance") == 2 an
 middle = [strongest(seen[60][x]) for x in range(60, 101)]
 t.expect("r" in middle and "rg" not in middle and "gb" not in middle, "both show the red side to the middle: " + " ".join(middle))
 
+# Area lights of .fbx, of which Assimp tells neither kind nor size: they shine before themselves alone.
+for name, height, top in (("above.fbx", 4, "r"), ("below.fbx", -4, "")):
+    t.write(name, fbx(positions, quads, normals, area=(0, height, 0)))
+    t.expect_run(f"an area light: {name}", ["import", name, "-o", name + ".rib"], 0, "1 lights are taken as small areas")
+    seen = picture(name, "--format", "160x120")
+    t.expect((strongest(seen[28][77]), strongest(seen[73][63])) == (top, ""), f"{name}: the light falls down: {seen[28][77]}, {seen[73][63]}")
 # Lights: the same light from a point of four times the intensity at twice the distance; a sun is as strong everywhere.
 
 

@@ -77,6 +77,7 @@ spot = next(light for light in lights if light["name"] == "spotlight")
 cone = next(p for p in spot["parameters"] if p["name"] == "coneangle")
 t.expect(cone["type"] == "float" and len(cone["default"]) == 1 and cone["doc"], f"has types, defaults and words: {cone}")
 t.expect(all(light["doc"] and all(p["doc"] for p in light["parameters"]) for light in lights), "of every light and parameter")
+t.expect_run("list of shaders, which is what most want", ["list"], 0, "surface plastic", "= 0.8 ")
 t.expect_run("list of what there is not", ["list", "gremlins"], 1, "shaders", "filters")
 
 # What is no scene.

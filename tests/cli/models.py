@@ -144,11 +144,19 @@ class Gltf:
         return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
-def fbx(positions, faces, normals):
-    """FBX in text, as its version 7.4 has it."""
+def fbx(positions, faces, normals, area=None):
+    """FBX in text, as its version 7.4 has it, with an area light that shines along -y from the place `area`."""
     points = ",".join(f"{c}" for p in positions for c in p)
     indices = ",".join(str(i if k + 1 < len(f) else -i - 1) for f in faces for k, i in enumerate(f))
     corners = ",".join(f"{c}" for f in faces for i in f for c in normals[i])
+    lamp = f""" NodeAttribute: 5, "NodeAttribute::lamp", "Light" {{ TypeFlags: "Light"
+  GeometryVersion: 124
+  Properties70:  {{ P: "LightType", "enum", "", "",3
+   P: "Color", "Color", "", "A",1,1,1
+   P: "Intensity", "Number", "", "A",100 }} }}
+ Model: 4, "Model::lamp", "Light" {{ Version: 232
+  Properties70:  {{ P: "Lcl Translation", "Lcl Translation", "", "A",{area[0]},{area[1]},{area[2]} }} }}
+""" if area else ""
     return f"""; FBX 7.4.0 project file
 FBXHeaderExtension:  {{ FBXHeaderVersion: 1003
  FBXVersion: 7400 }}
@@ -183,8 +191,10 @@ Objects:  {{
  Material: 3, "Material::red paint", "" {{ Version: 102
   ShadingModel: "phong"
   Properties70:  {{ P: "DiffuseColor", "Color", "", "A",0.8,0.1,0.1 }} }}
-}}
+{lamp}}}
 Connections:  {{
+ {'C: "OO",5,4' if area else ""}
+ {'C: "OO",4,0' if area else ""}
  C: "OO",2,0
  C: "OO",1,2
  C: "OO",3,2

@@ -3,7 +3,9 @@
     python3 tests/python/course_scripts.py FOLDER [-j 2] [--only PART] [--keep FOLDER]
 
 The folder is copied, because scripts write beside themselves. A script that writes a RIB file instead of rendering has
-its file rendered. Modules that scripts import, and that begin no stream themselves, need only import.
+its file rendered. Modules that scripts import, and that begin no stream themselves, need only import. Modules that they
+ask for are found by PYTHONPATH. In place of oslc, which comes with RenderMan, stands a program that makes an empty file:
+the renderer has other shaders in their place.
 """
 import argparse
 import concurrent.futures
@@ -34,11 +36,13 @@ given = options.parse_args()
 temporary = tempfile.TemporaryDirectory()
 copy = given.keep or pathlib.Path(temporary.name, "copy")
 shutil.copytree(given.folder, copy, dirs_exist_ok=True)
-for shader in copy.rglob("*.osl"):
-    shader.with_suffix(".oso").touch()  # some scripts want their shaders compiled; the renderer has other ones in their place
+programs = pathlib.Path(temporary.name, "programs")
+programs.mkdir()
+(programs / "oslc").write_text('#!/bin/sh\nfor file; do :; done\n: > "${file%.osl}.oso"\n')
+(programs / "oslc").chmod(0o755)
 small = "-t 1 --draft --format 64x48"
-environment = {**os.environ, "PYTHONPATH": str(bindings), "PYTHONDONTWRITEBYTECODE": "1", "TOMALES_RENDER_OPTIONS": small,
-               "TOMALES": tomales.program.find(), "TOMALES_TEXTURE_CACHE": str(pathlib.Path(temporary.name, "textures"))}
+environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(bindings), os.environ.get("PYTHONPATH", "")]), "PATH": os.pathsep.join([str(programs), os.environ["PATH"]]),
+               "PYTHONDONTWRITEBYTECODE": "1", "TOMALES_RENDER_OPTIONS": small, "TOMALES": tomales.program.find(), "TOMALES_TEXTURE_CACHE": str(pathlib.Path(temporary.name, "textures"))}
 
 
 def files_of(folder, endings, since):

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "reyes/base/apart.h"
@@ -12,11 +13,14 @@
 namespace tomales {
 namespace {
 
+/// In the digits that tell it from other floats: 0.8, not 0.800000011920929.
+double shortOf(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
+
 Json defaultOf(const TmParamDecl& p) {
   static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
   const int32_t type = TM_TYPE_OF(p.type);
   Json value = Json::array();
-  for (int i = 0; i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? p.floats[i] : 0.0f);
+  for (int i = 0; i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? shortOf(p.floats[i]) : 0.0);
   for (int i = 0; type == TM_STRING && p.strings && i < p.arrayLength; ++i) value.push_back(p.strings[i]);
   return value;
 }

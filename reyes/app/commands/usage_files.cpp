@@ -22,9 +22,9 @@ void buildInfo(CLI::App& app, Invocation& in, int& code) {
 
 void buildList(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("list", "What is built in, with parameters, types, defaults and what they are for");
-  c->add_option("KIND", in.first)->required()->check(CLI::IsMember(listedKinds()));
+  c->add_option("KIND", in.first, "By default " + listedKinds().front())->check(CLI::IsMember(listedKinds()));
   c->add_flag("--json", in.json, "As JSON");
-  c->callback([&] { code = listCommand(in.first, in.json); });
+  c->callback([&] { code = listCommand(in.first.empty() ? listedKinds().front() : in.first, in.json); });
 }
 
 void buildCompare(CLI::App& app, Invocation& in, int& code) {

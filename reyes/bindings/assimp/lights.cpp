@@ -29,10 +29,10 @@ Placed placed(const aiLight& light, const mat4& world, const LightSettings& sett
   if (!isFinite(out.strength)) out.strength = vec3(0.0f);
   const vec3 toward = settings.world.center() - out.from;
   const float distance = std::max(glm::length(toward), 1e-3f * glm::length(settings.world.size()));
-  if (light.mType == aiLightSource_POINT || light.mType == aiLightSource_SPOT)
-    out.strength *= inverseSquareOf(light, distance);
-  const float area = light.mType == aiLightSource_AREA ? light.mSize.x * light.mSize.y / kPi : 1;
-  const bool isDistant = light.mType == aiLightSource_DIRECTIONAL || light.mType == aiLightSource_AMBIENT;
+  const bool isDistant = light.mType == aiLightSource_DIRECTIONAL || light.mType == aiLightSource_AMBIENT,
+             isArea = light.mType == aiLightSource_AREA;
+  if (!isDistant && !isArea) out.strength *= inverseSquareOf(light, distance);
+  const float area = isArea ? light.mSize.x * light.mSize.y / kPi : 1;
   out.arriving = luminance(out.strength) * (isDistant ? 1 : area / std::max(distance * distance, 1e-20f));
   return out;
 }
@@ -76,6 +76,9 @@ Requests requestsOf(const Placed& p, float scale, const LightSettings& settings)
       return source("pointlight", {from});
     case aiLightSource_AREA:
       return areaLight(p, scale);
+    case aiLightSource_UNDEFINED:  // as a small area: it shines before itself, with the cosine
+      return source("spotlight", {from, to, param("coneangle", kPi / 2), param("conedeltaangle", 0.0f),
+                                  param("beamdistribution", 1.0f)});
     default: {
       const float outer = halfAngle(p.light->mAngleOuterCone, settings),
                   inner = std::min(outer, halfAngle(p.light->mAngleInnerCone, settings));
@@ -99,10 +102,7 @@ Lights lightsOf(const aiScene& scene, const Nodes& nodes, const LightSettings& s
   for (unsigned k = 0; k < scene.mNumLights; ++k) {
     const aiLight& light = *scene.mLights[k];
     const auto node = nodes.worldFromNode.find(of(light.mName));
-    if (light.mType == aiLightSource_UNDEFINED || light.mType > aiLightSource_AREA) {
-      ++out.unknown;
-      continue;
-    }
+    if (light.mType == aiLightSource_UNDEFINED) ++out.unknown;
     all.push_back(placed(light, node == nodes.worldFromNode.end() ? mat4(1.0f) : node->second, settings));
     all.back().handle = fmt::format("{} {}", k + 1, all.back().handle);
     if (std::isfinite(all.back().arriving)) arriving += all.back().arriving;

@@ -16,7 +16,7 @@ struct LightSettings {
 struct Lights {
   Requests requests;
   float scale = 1;  ///< That they were multiplied by.
-  int unknown = 0;  ///< Kinds that there is nothing for.
+  int unknown = 0;  ///< Those whose kind Assimp does not tell, such as areas of .fbx.
 };
 
 /// Those of the model. Scale 0: 1 if they bring between 0.3 and 3 (E/pi) to the middle of the world, all shadows left

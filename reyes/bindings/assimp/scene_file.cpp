@@ -143,7 +143,8 @@ class SceneWriter {
   Requests lights(const Camera& camera) {
     const Lights lights = lightsOf(scene_, nodes_, {world_, settings_.lightScale, isGltf(endingOf(settings_.model))});
     if (lights.unknown > 0)
-      note(Severity::Warning, "import-light", fmt::format("{} lights of unknown kinds are left out", lights.unknown));
+      note(Severity::Warning, "import-light",
+           fmt::format("{} lights are taken as small areas: Assimp does not tell their kind and size", lights.unknown));
     if (lights.requests.empty()) return studioLights(camera.worldFromCamera);
     if (settings_.lightScale == 0 && lights.scale != 1)
       note(Severity::Note, "import-light-scale",

@@ -36,6 +36,8 @@ class Closure:
     emission: Value = field(default_factory=lambda: _BLACK)
     ior: Value = field(default_factory=lambda: constant(1.45))
     vertex_color: str = ""  #: The attribute that has the colour.
+    #: What has pictures over the material's second UV map: color, opacity, emission, and names of numbers.
+    over_second: frozenset[str] = frozenset()
     normal: bpy.types.NodeSocket | None = None  #: The input that bends normals.
 
 
@@ -45,8 +47,10 @@ class Reader:
     def __init__(self, pixels: Callable[[bpy.types.Image], numpy.ndarray | None], say: Callable[[str], None]) -> None:
         self.graph = Graph(pixels)
         self._say = say
+        self._second: str | None = None  #: The material's second UV map.
 
     def surface(self, material: bpy.types.Material) -> Closure:
+        self._second = uses_of(material).second_uv_map
         output = output_of(material)
         return self._closure(output.inputs["Surface"]) if output else Closure("glow")
 
@@ -57,6 +61,16 @@ class Reader:
         except Unsupported as problem:
             self._say(f"{problem} at {socket.name} is not followed; its default is used")
             return constant(socket.default_value)
+
+    def is_over_second(self, socket: bpy.types.NodeSocket | None) -> bool:
+        """Whether the pictures of an input are over the second UV map. An input that mixes maps counts for the first."""
+        try:
+            maps = self.graph.uv_maps(socket) if socket and self._second is not None else set()
+        except Unsupported:  # which value() has named
+            return False
+        if len(maps) > 1:
+            self._say(f"{socket.name} mixes pictures over several UV maps; the first map counts for all")
+        return maps == {self._second}
 
     def _closure(self, socket: bpy.types.NodeSocket) -> Closure:
         output = source(socket)
@@ -79,14 +93,16 @@ class Reader:
         attribute = color_attribute(socket)
         if attribute:
             return Closure(kind, _ONE, vertex_color=attribute, **more)
-        return Closure(kind, self.value(socket), **more)
+        second = more.pop("over_second", frozenset()) | ({"color"} if self.is_over_second(socket) else set())
+        return Closure(kind, self.value(socket), over_second=second, **more)
 
     def _mixed(self, node: bpy.types.Node) -> Closure:
         share = self.value(node.inputs[0]).clip(0, 1)
         a, b = self._closure(node.inputs[1]), self._closure(node.inputs[2])
         if not is_picture(share) and share[0] in (0, 1):
             return b if share[0] else a
-        return _between(a, b, share, self._say)
+        out = _between(a, b, share, self._say)
+        return replace(out, over_second=out.over_second | {"opacity"}) if self.is_over_second(node.inputs[0]) else out
 
 
 def output_of(material: bpy.types.Material) -> bpy.types.Node | None:
@@ -105,19 +121,20 @@ def color_attribute(socket: bpy.types.NodeSocket) -> str:
 
 
 def uses_of(material: bpy.types.Material | None) -> Uses:
-    """The UV map and the colour attribute that the nodes read; where they read several, the first."""
+    """The UV maps and the colour attribute that the nodes read; where they read more, the first of them."""
     if material is None or not material.use_nodes or material.tomales.shader:
         return Uses()
     maps, colors = [], []
     for node in _all_nodes(material.node_tree):
-        if node.type == "TEX_IMAGE":
+        if node.type == "TEX_IMAGE" and any(output.is_linked for output in node.outputs):
             try:
                 maps.append(uv_map(node))
             except Unsupported:
                 continue
         elif node.type in _MAKERS:
             colors.append(color_attribute(_input(node, ("Base Color", "Color"))))
-    return Uses(next(filter(None, maps), ""), next(filter(None, colors), ""))
+    first, second = [*dict.fromkeys(maps), None, None][:2]
+    return Uses(first or "", second, next(filter(None, colors), ""))
 
 
 def _all_nodes(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Node]:
@@ -129,7 +146,10 @@ def _all_nodes(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Node]:
 
 
 def _between(a: Closure, b: Closure, share: Value, say: Callable[[str], None]) -> Closure:
-    """(1 - share) a + share b. Parameters are mixed, which is right where they are proportions, and near it elsewhere."""
+    """(1 - share) a + share b. Parameters are mixed, which is right where they are proportions, and near it elsewhere.
+
+    Two pictures that are mixed are both over the second UV map if one of them is.
+    """
     rest = 1 - share
     if a.kind == "null" or b.kind == "null":
         there, weight = (b, share) if a.kind == "null" else (a, rest)
@@ -146,7 +166,7 @@ def _between(a: Closure, b: Closure, share: Value, say: Callable[[str], None]) -
     kind = "matte" if a.kind == b.kind == "matte" else "disney"
     if a.vertex_color != b.vertex_color:
         say("a mixture of colour attributes has the first alone")
-    return Closure(kind, _lerp(a.color, b.color, share), numbers, _lerp(a.opacity, b.opacity, share), emission, a.ior, a.vertex_color or b.vertex_color, a.normal or b.normal)
+    return Closure(kind, _lerp(a.color, b.color, share), numbers, _lerp(a.opacity, b.opacity, share), emission, a.ior, a.vertex_color or b.vertex_color, a.over_second | b.over_second, a.normal or b.normal)
 
 
 def _sum(a: Closure, b: Closure, say: Callable[[str], None]) -> Closure:
@@ -178,13 +198,12 @@ def _principled(reader: Reader, node: bpy.types.Node) -> Closure:
     transmission = reader.value(_input(node, ("Transmission", "Transmission Weight")))
     emitted, strength = _input(node, ("Emission", "Emission Color")), node.inputs.get("Emission Strength")
     emission = _product(reader.value(emitted), reader.value(strength))
-    numbers = _numbers()
-    for name, inputs in _PRINCIPLED.items():
-        socket = _input(node, inputs)
-        if socket and socket.type == "VALUE":  # a colour since Blender 4.0, which disney's number cannot hold
-            numbers[name] = reader.value(socket)
+    sockets = {name: _input(node, inputs) for name, inputs in _PRINCIPLED.items()}
+    sockets = {name: socket for name, socket in sockets.items() if socket and socket.type == "VALUE"}  # a colour since Blender 4.0, which disney's number cannot hold
+    numbers = {**_numbers(), **{name: reader.value(socket) for name, socket in sockets.items()}}
     numbers["clearcoatgloss"] = 1 - numbers["clearcoatgloss"]
-    more = {"numbers": numbers, "opacity": reader.value(node.inputs["Alpha"]), "emission": emission, "ior": reader.value(node.inputs["IOR"])}
+    second = frozenset(name for name, socket in {**sockets, "opacity": node.inputs["Alpha"], "emission": emitted}.items() if reader.is_over_second(socket))
+    more = {"numbers": numbers, "opacity": reader.value(node.inputs["Alpha"]), "emission": emission, "ior": reader.value(node.inputs["IOR"]), "over_second": second}
     return reader.colored("glass" if mean(transmission)[0] > 0.5 else "disney", node.inputs["Base Color"], **more)
 
 
@@ -197,7 +216,9 @@ def _diffuse(reader: Reader, node: bpy.types.Node) -> Closure:
 
 
 def _glossy(reader: Reader, node: bpy.types.Node) -> Closure:
-    return reader.colored("disney", node.inputs["Color"], numbers={**_numbers(metallic=1), "roughness": reader.value(node.inputs["Roughness"])})
+    rough = node.inputs["Roughness"]
+    second = frozenset({"roughness"} if reader.is_over_second(rough) else ())
+    return reader.colored("disney", node.inputs["Color"], numbers={**_numbers(metallic=1), "roughness": reader.value(rough)}, over_second=second)
 
 
 def _glass(reader: Reader, node: bpy.types.Node) -> Closure:

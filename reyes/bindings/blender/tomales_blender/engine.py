@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import tempfile
 import threading
+import time
 import traceback
 from pathlib import Path
 
@@ -15,11 +16,14 @@ import tomales
 
 from .camera import UnsupportedCamera, resolution
 from .frame import Frame
-from .passes import Passes, wanted
+from .passes import Passes, fill, wanted
+from .preview import Preview
 from .snapshot import Cache, ends_in_subdivision
 
-_PERCENT = re.compile(rb"(\d+)%")
+_OF_FRAME = re.compile(rb"R9\d+ +(\d+)%")  #: What `--progress` says to render farms.
+_OF_PASS = re.compile(rb"(\w.*?) +(\d+) %")
 _LOOK_S = 0.1  #: How often it is seen whether the user wants to stop.
+_SHOW_S = 1.0  #: How often a picture that grows is shown: Blender converts all of it.
 
 
 class Session:
@@ -89,7 +93,7 @@ class TomalesEngine(bpy.types.RenderEngine):
         if scene.tomales.export_only:
             return
         self.update_stats("", "Rendering")
-        if self._run(rib, folder, shlex.split(scene.tomales.options)):
+        if self._run(rib, folder, shlex.split(scene.tomales.options), result):
             passes.read(result, numpy.array(scene.camera.matrix_world.normalized()) @ numpy.diag([1, 1, -1, 1]))
             passes.stamp(depsgraph.view_layer.name, self.get_result())
 
@@ -124,19 +128,27 @@ class TomalesEngine(bpy.types.RenderEngine):
             return width, height
         return int(width * render.border_max_x) - int(width * render.border_min_x), int(height * render.border_max_y) - int(height * render.border_min_y)
 
-    def _run(self, rib: Path, folder: Path, options: list[str]) -> bool:
-        """Whether there is a picture. Shows progress, and ends the program when the user wants to stop."""
-        command = [tomales.program.find(), "render", "--progress", *options, *tomales.program.more_options(), str(rib)]
+    def _run(self, rib: Path, folder: Path, options: list[str], result: bpy.types.RenderResult) -> bool:
+        """Whether there is a picture. Shows progress and what is done, and ends the program when the user wants to stop."""
+        is_asked_for = any(option.startswith("--preview") for option in options)  # by the user, for another viewer
+        preview = Preview() if self._has_viewer and not is_asked_for else None
+        shown = [f"--preview={preview.address}"] if preview else []
+        command = [tomales.program.find(), "render", "--progress", *shown, *options, *tomales.program.more_options(), str(rib)]
         process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         reader = threading.Thread(target=self._listen, args=(process,), daemon=True)
         reader.start()
-        while process.poll() is None:
-            reader.join(_LOOK_S)
-            self._show_progress()
-            if self._is_given_up():
-                process.terminate()
-                process.wait()
-                return False
+        try:
+            while process.poll() is None:
+                reader.join(_LOOK_S)
+                self._show_progress()
+                self._show_picture(preview, result)
+                if self._is_given_up():
+                    process.terminate()
+                    process.wait()
+                    return False
+        finally:
+            if preview:
+                preview.close()
         reader.join()
         self._show_progress()
         for message in self._messages:
@@ -146,9 +158,23 @@ class TomalesEngine(bpy.types.RenderEngine):
         return process.returncode in (0, 3)
 
     _progress = 0.0
+    _pass = "Rendering"
+    _shown_s = 0.0
+    _has_viewer = not bpy.app.background
 
     def _show_progress(self) -> None:
         self.update_progress(self._progress)
+        self.update_stats("", self._pass)
+
+    def _show_picture(self, preview: Preview | None, result: bpy.types.RenderResult) -> None:
+        """What the renderer has made of it."""
+        if preview is None or time.monotonic() - self._shown_s < _SHOW_S:
+            return
+        picture = preview.take()
+        if picture is not None and picture.shape[:2] == (result.resolution_y, result.resolution_x):
+            self._shown_s = time.monotonic()
+            fill(result.layers[0].passes["Combined"], picture.transpose(2, 0, 1), result)
+            self.update_result(result)
 
     def _is_given_up(self) -> bool:
         return self.test_break()
@@ -157,9 +183,10 @@ class TomalesEngine(bpy.types.RenderEngine):
         """In a thread of its own: touches nothing of Blender."""
         assert process.stdout is not None
         for line in process.stdout:
-            percent = _PERCENT.search(line)
-            if percent and line.startswith(b"R9"):
-                self._progress = int(percent[1]) / 100
+            if of_frame := _OF_FRAME.match(line):
+                self._progress = int(of_frame[1]) / 100
+            elif of_pass := _OF_PASS.fullmatch(line.rstrip()):
+                self._pass = of_pass[1].decode().capitalize()
             elif line.strip():
                 self._messages.append(line.decode(errors="replace").strip())
 

@@ -15,10 +15,12 @@ from . import lights
 from .camera import write_camera, write_motion
 from .geometry import TIMES
 from .materials import Look, changes, look_of
+from .panorama import Panorama, panorama_of
 from .passes import Passes
 from .settings import TomalesScene
 from .snapshot import Placed, Cache, Snapshot, take
 from .textures import Textures
+from .world import SKY_RADIUS_SHARE, write_shaders, write_world
 
 Warn = Callable[[str], None]
 
@@ -61,7 +63,7 @@ class Frame:
         first = snapshots[0]
         path = self._folder / f"{name}.rib"
         self._folder.mkdir(parents=True, exist_ok=True)
-        lights.write_shaders(self._folder)
+        write_shaders(self._folder)
         ri = tomales.Ri()
         ri.Begin(path)
         ri.Option("searchpath", {"string texture": f"{self._folder}:.:@"})  # the working folder, where the whole has been moved
@@ -105,10 +107,10 @@ class Frame:
         ri.ShadingRate(s.shading_rate)
 
     def _write_lights(self, ri: tomales.Ri, snapshot: Snapshot) -> None:
-        s, world = self._settings, self._scene.world
+        s = self._settings
         if s.bounces > 0:
             ri.LightSource("indirectlight", "indirect", {"float samples": s.gather_samples, "float bounces": s.bounces})
-        sky = lights.write_world(ri, world, "world", self._textures, s.light_samples, self._warn) if world else None
+        sky = write_world(ri, self._scene.world, self._textures, self._panorama, s.light_samples, self._warn) if self._scene.world else None
         for i, (obj, matrix) in enumerate(snapshot.lights.values()):
             ri.AttributeBegin()
             ri.Attribute("identifier", {"string name": obj.name})
@@ -116,7 +118,13 @@ class Frame:
             ri.AttributeEnd()
             ri.Illuminate(f"light{i}", 1)
         if sky and not self._scene.render.film_transparent:
-            sky.write(ri, snapshot.camera, lights.SKY_RADIUS_SHARE * self._scene.camera.data.clip_end)
+            sky.write(ri, snapshot.camera, SKY_RADIUS_SHARE * self._scene.camera.data.clip_end)
+
+    def _panorama(self, world: bpy.types.World) -> Panorama:
+        known = {} if changes(world) else self._cache.panoramas
+        if world.name_full not in known:
+            known[world.name_full] = panorama_of(world, self._scene.frame_current)
+        return known[world.name_full]
 
     # Objects
 

@@ -56,6 +56,7 @@ class Uses:
     """What a material's shader wants to know under the names of the RISpec."""
 
     uv_map: str = ""  #: As st; empty: the active one.
+    second_uv_map: str | None = None  #: As s1 and t1; None: its pictures are all over the first.
     color: str = ""  #: Colour attribute, as Cs.
 
 
@@ -113,13 +114,14 @@ def _add_colors(mesh: bpy.types.Mesh, faces: _Faces) -> None:
 
 
 def _variables_of(mesh: bpy.types.Mesh, faces: _Faces, use: Uses) -> dict[str, numpy.ndarray]:
-    """All that faces of one material bring, and what its shader knows as st and Cs."""
+    """All that faces of one material bring, and what its shader knows as st, s1, t1 and Cs."""
     active = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
-    out = dict(faces.corners)
-    for token, name in (("float[2] st", f"float[2] uv_{_word(use.uv_map or active)}"), ("color Cs", f"color color_{_word(use.color)}")):
-        if f"facevarying {name}" in out:
-            out[f"facevarying {token}"] = out[f"facevarying {name}"]
-    return out
+    uv_of = lambda name: faces.corners.get(f"facevarying float[2] uv_{_word(name or active)}")  # noqa: E731
+    out, known = dict(faces.corners), {"float[2] st": uv_of(use.uv_map), "color Cs": faces.corners.get(f"facevarying color color_{_word(use.color)}")}
+    second = uv_of(use.second_uv_map) if use.second_uv_map is not None else None
+    if second is not None:
+        known |= {"float s1": second[:, 0], "float t1": second[:, 1]}
+    return out | {f"facevarying {token}": values for token, values in known.items() if values is not None}
 
 
 def _word(name: str) -> str:

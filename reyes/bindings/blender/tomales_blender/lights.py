@@ -1,26 +1,17 @@
-"""Blender's lights and world as light sources.
+"""Blender's lights as light sources.
 
 The units are Cycles': watts of a lamp that radiates into all directions, watts per square metre of a sun. A light of the
 RISpec sends E/pi (docs/gi.md), so a pi is divided out.
 """
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from math import acos, cos, pi, tan
-from pathlib import Path
 
 import bpy
 import tomales
 from mathutils import Matrix
 
-from . import relief
 from .camera import flat
-from .nodes import Graph, Unsupported, source
-from .textures import Textures
-from .values import is_picture, mean
-
-Warn = Callable[[str], None]
 
 
 def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: str, samples: int) -> None:
@@ -30,7 +21,7 @@ def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: s
     ri.ConcatTransform(flat(matrix.normalized() if light.type != "AREA" else matrix))
     common: dict[str, object] = {"lightcolor": list(light.color), **group_of(obj)}
     if light.type == "SUN":
-        _write_sun(ri, light, handle, samples, common)
+        write_sun(ri, light.angle, light.energy, handle, samples, common)
     elif light.type == "AREA":
         _write_area(ri, light, matrix, handle, samples, common)
     elif light.type == "SPOT":
@@ -55,13 +46,13 @@ def _emit(ri: tomales.Ri, handle: str, radiance: float, samples: int, common: di
 _SUN_DISTANCE = 1e6  # so far that a scene of a kilometre sees it in one direction, to a milliradian
 
 
-def _write_sun(ri: tomales.Ri, light: bpy.types.SunLight, handle: str, samples: int, common: dict[str, object]) -> None:
-    """Its strength is what falls on a surface that faces it. A disk of the angle's size has soft shadows."""
-    if light.angle < 1e-4:
-        ri.LightSource("distantlight", handle, {"intensity": light.energy / pi, "point from": [0, 0, 0], "point to": [0, 0, -1], **common})
+def write_sun(ri: tomales.Ri, angle: float, energy: float, handle: str, samples: int, common: dict[str, object]) -> None:
+    """It stands at +z. Its strength is what falls on a surface that faces it. A disk of the angle's size has soft shadows."""
+    if angle < 1e-4:
+        ri.LightSource("distantlight", handle, {"intensity": energy / pi, "point from": [0, 0, 0], "point to": [0, 0, -1], **common})
         return
-    radius = tan(min(light.angle, pi - 0.01) / 2) * _SUN_DISTANCE
-    _emit(ri, handle, light.energy * (1 + (_SUN_DISTANCE / radius) ** 2) / pi, samples, common)
+    radius = tan(min(angle, pi - 0.01) / 2) * _SUN_DISTANCE
+    _emit(ri, handle, energy * (1 + (_SUN_DISTANCE / radius) ** 2) / pi, samples, common)
     ri.Translate(0, 0, _SUN_DISTANCE)
     ri.Scale(radius, radius, -1)
     ri.Disk(0, 1, 360)
@@ -100,88 +91,3 @@ def _write_area(ri: tomales.Ri, light: bpy.types.AreaLight, matrix: Matrix, hand
         ri.Disk(0, 1, 360)
     else:
         ri.Polygon({"P": [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]})
-
-
-SKY_SHADER = """surface tomales_sky(color tint = 1; string map = "";)
-{
-    Ci = tint;
-    /* environment() turns its direction into world space: give it the one that has there what I has in this space */
-    if (map != "") Ci *= environment(map, vtransform("world", "current", vtransform("shader", I)));
-    Oi = 1;
-}
-"""
-
-SKY_RADIUS_SHARE = 0.9  # of the far clipping distance
-
-
-def write_world(ri: tomales.Ri, world: bpy.types.World, handle: str, textures: Textures, samples: int, warn: Warn) -> Sky | None:
-    """A sky as a light; None if it is black."""
-    tint, picture, turned = _background(world, textures, lambda text: warn(f"world {world.name}: {text}"))
-    if max(tint) <= 0:
-        return None
-    parameters: dict[str, object] = {"lightcolor": tint, "float samples": samples, **group_of(world)}
-    if picture:
-        parameters.update({"string map": picture, "string mapspace": "shader"})
-    ri.Attribute("light", {"string shadows": "on"})
-    ri.TransformBegin()
-    sky = Sky({"color tint": tint, **({"string map": picture} if picture else {})}, turned)
-    sky.place(ri)
-    ri.LightSource("environmentlight", handle, parameters)
-    ri.TransformEnd()
-    return sky
-
-
-@dataclass
-class Sky:
-    """What the camera sees of the world."""
-
-    parameters: dict[str, object]
-    turned: Matrix  #: The world's space from the panorama's.
-
-    def place(self, ri: tomales.Ri) -> None:
-        ri.ConcatTransform(flat(self.turned))
-        ri.Scale(-1, 1, 1)  # longitudes run the other way round in Blender's panoramas
-
-    def write(self, ri: tomales.Ri, eye: Matrix, radius: float) -> None:
-        """A sphere around the camera, which nothing else sees."""
-        ri.AttributeBegin()
-        ri.Attribute("visibility", {"int camera": 1, "int diffuse": 0, "int specular": 0, "int transmission": 0})
-        ri.ConcatTransform(flat(Matrix.Translation(eye.translation)))
-        self.place(ri)
-        ri.Surface("tomales_sky", self.parameters)
-        ri.Sphere(radius, -radius, radius, 360)
-        ri.AttributeEnd()
-
-
-def _background(world: bpy.types.World, textures: Textures, say: Warn) -> tuple[list[float], str, Matrix]:
-    """Colour, panorama and its rotation, of the world's Background node."""
-    still = Matrix.Identity(4)
-    if not world.use_nodes:
-        return list(world.color), "", still
-    node = next((n for n in world.node_tree.nodes if n.type == "BACKGROUND"), None)
-    if not node:
-        say("it has no Background node; it is black")
-        return [0, 0, 0], "", still
-    graph = Graph(textures.pixels)
-    try:
-        value = graph.of(node.inputs["Color"]) * mean(graph.of(node.inputs["Strength"]))[0]
-    except Unsupported as problem:
-        say(f"the node {problem} is not supported; the sky is grey")
-        return [0.5 * node.inputs["Strength"].default_value] * 3, "", still
-    if not is_picture(value):
-        return mean(value), "", still
-    return [1.0, 1.0, 1.0], textures.file(value), rotation_of(next(n for n in world.node_tree.nodes if n.type == "TEX_ENVIRONMENT"))
-
-
-def rotation_of(node: bpy.types.Node) -> Matrix:
-    """Of a Mapping node before an Environment Texture, the other way round: it turns directions, not the sky."""
-    output = source(node.inputs["Vector"])
-    turned = output is not None and output.node.type == "MAPPING"
-    matrix = output.node.inputs["Rotation"].default_value.to_matrix().to_4x4() if turned else Matrix.Identity(4)
-    return matrix if turned and output.node.vector_type == "TEXTURE" else matrix.transposed()
-
-
-def write_shaders(folder: Path) -> None:
-    """The shaders that frames need, in RSL."""
-    for name, text in (("tomales_sky", SKY_SHADER), ("tomales_relief", relief.SHADER)):
-        (folder / f"{name}.sl").write_text(text)

@@ -70,7 +70,7 @@ def look_of(material: bpy.types.Material | None, textures: Textures, reflections
     return look
 
 
-def changes(material: bpy.types.Material) -> bool:
+def changes(material: bpy.types.Material | bpy.types.World) -> bool:
     """Whether it may look different in another frame."""
     trees = [material.node_tree] if material.use_nodes else []
     for tree in trees:
@@ -106,7 +106,7 @@ def _shaded(closure: Closure, textures: Textures, reflections: int, say: Warn) -
     if closure.kind == "glass":
         look.shader = "glass"
         look.parameters = {"float eta": mean(closure.ior)[0], "color transmitcolor": mean(closure.color)}
-    elif closure.kind == "matte" and not is_picture(closure.opacity):
+    elif closure.kind == "matte" and not is_picture(closure.opacity) and not closure.over_second:
         _matte(look, closure, textures)
     else:
         _disney(look, closure, textures, reflections, say)
@@ -147,5 +147,8 @@ def _disney(look: Look, closure: Closure, textures: Textures, reflections: int, 
     if is_picture(closure.emission) and closure.kind == "disney":
         parameters["color emission"], parameters["string emissionmap"] = [1, 1, 1], textures.file(closure.emission)
         say("its picture glows, and lights other things by bounces alone")
+    second = [_maps()[name] for name in sorted(closure.over_second) if f"string {_maps().get(name)}" in parameters]
+    if second:
+        parameters["string secondset"] = " ".join(second)
     if reflections and max(mean(closure.numbers[name])[0] for name in ("metallic", "specular", "clearcoat")) > 0:
         parameters["float reflections"] = reflections

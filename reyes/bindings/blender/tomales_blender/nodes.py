@@ -62,6 +62,17 @@ class Graph:
         finally:
             self._groups = before
 
+    def uv_maps(self, socket: bpy.types.NodeSocket) -> set[str]:
+        """Of the pictures that feed an input; an empty name: the active one. Raises Unsupported."""
+        output = source(socket)
+        if output is None:
+            return set()
+        if output.node.type in ("GROUP", "GROUP_INPUT"):
+            return self.across(output, self.uv_maps)
+        if output.node.type == "TEX_IMAGE":
+            return {uv_map(output.node)}
+        return set().union(*(self.uv_maps(i) for i in output.node.inputs))
+
     def image(self, node: bpy.types.Node, output: bpy.types.NodeSocket) -> Value:
         pixels = self._pixels(node.image) if node.image else None
         if pixels is None:

@@ -95,11 +95,11 @@ class Passes:
         channels = exr.read(self._folder / self._name)
         planes_of = lambda names: numpy.stack([_channel(channels, name) for name in names])  # noqa: E731
         layer = result.layers[0]
-        self._fill(layer.passes["Combined"], planes_of("RGBA"), result)
+        fill(layer.passes["Combined"], planes_of("RGBA"), result)
         for p in self._passes:
             if p.name in layer.passes:
                 planes = planes_of(p.plane_names()) if p.variable else numpy.ones((3, *channels["A"].shape), "f4")
-                self._fill(layer.passes[p.name], self._converted(p, planes, planes_of, to_world), result)
+                fill(layer.passes[p.name], self._converted(p, planes, planes_of, to_world), result)
 
     def stamp(self, layer: str, result: bpy.types.RenderResult) -> None:
         """Says which names the numbers of mattes stand for, as Blender's compositor seeks them. `result`: of the engine, with
@@ -122,13 +122,14 @@ class Passes:
             return numpy.divide(planes, color, out=numpy.zeros_like(planes), where=color > 0)
         return numpy.concatenate([planes, planes_of(["A"])]) if p.channels == "RGBA" and p.variable not in _MATTES else planes
 
-    @staticmethod
-    def _fill(target: bpy.types.RenderPass, planes: numpy.ndarray, result: bpy.types.RenderResult) -> None:
-        _, height, width = planes.shape
-        if (width, height) != (result.resolution_x, result.resolution_y):
-            raise OSError(f"the picture has {width} x {height} pixels, not {result.resolution_x} x {result.resolution_y}")
-        values = planes[: target.channels].transpose(1, 2, 0)[::-1]
-        target.rect.foreach_set(numpy.ascontiguousarray(values, "f4").reshape(-1, target.channels)) if hasattr(target.rect, "foreach_set") else setattr(target, "rect", values.reshape(-1, target.channels).tolist())
+
+def fill(target: bpy.types.RenderPass, planes: numpy.ndarray, result: bpy.types.RenderResult) -> None:
+    """Planes of shape (channels, height, width), the top row first, into a pass of the result. Raises OSError."""
+    _, height, width = planes.shape
+    if (width, height) != (result.resolution_x, result.resolution_y):
+        raise OSError(f"the picture has {width} x {height} pixels, not {result.resolution_x} x {result.resolution_y}")
+    values = planes[: target.channels].transpose(1, 2, 0)[::-1]
+    target.rect.foreach_set(numpy.ascontiguousarray(values, "f4").reshape(-1, target.channels)) if hasattr(target.rect, "foreach_set") else setattr(target, "rect", values.reshape(-1, target.channels).tolist())
 
 
 def _channel(channels: dict[str, numpy.ndarray], name: str) -> numpy.ndarray:

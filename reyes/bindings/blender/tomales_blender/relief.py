@@ -19,21 +19,29 @@ SHADER = """displacement tomales_relief(
     float moves = 0;        /* 1: the surface moves, by lengths of the object's space; 0: its normals alone turn */
     string normalmap = "";  /* normals in the space of tangents, as colours; the second tangent points up in the picture */
     float strength = 1;     /* of the normal map */
+    float heightset = 1;    /* 2: the heights are over s1, t1 */
+    float normalset = 1;    /* 2: the normals are */
+    varying float s1 = 0;
+    varying float t1 = 0;
 )
 {
     normal n = normalize(N);
     normal bent = n;
     if (normalmap != "") {
-        float det = Du(s) * Dv(t) - Dv(s) * Du(t);
+        float ss = normalset == 2 ? s1 : s;
+        float tt = normalset == 2 ? t1 : t;
+        float det = Du(ss) * Dv(tt) - Dv(ss) * Du(tt);
         if (det != 0) {
-            vector right = normalize((Du(P) * Dv(t) - Dv(P) * Du(t)) / det);
-            vector up = normalize((Du(P) * Dv(s) - Dv(P) * Du(s)) / det);
-            color c = 2 * color texture(normalmap, s, t) - color(1);
+            vector right = normalize((Du(P) * Dv(tt) - Dv(P) * Du(tt)) / det);
+            vector up = normalize((Du(P) * Dv(ss) - Dv(P) * Du(ss)) / det);
+            color c = 2 * color texture(normalmap, ss, tt) - color(1);
             bent = normalize(strength * (c[0] * right + c[1] * up) + mix(1, c[2], strength) * n);
         }
     }
     if (heightmap != "") {
-        float height = scale * (float texture(heightmap[0], s, t) - midlevel);
+        float ss = heightset == 2 ? s1 : s;
+        float tt = heightset == 2 ? t1 : t;
+        float height = scale * (float texture(heightmap[0], ss, tt) - midlevel);
         if (moves == 1) height *= length(vtransform("object", "current", normalize(vtransform("object", n))));
         point moved = P + height * n;
         bent = normalize(bent + normalize(calculatenormal(moved)) - normalize(calculatenormal(P)));
@@ -77,6 +85,8 @@ def _add_normal(parameters: dict[str, Any], socket: bpy.types.NodeSocket, reader
         if is_picture(picture):
             parameters["string normalmap"] = textures.file(picture)
             parameters["float strength"] = float(reader.value(node.inputs["Strength"])[..., 0].mean())
+            if reader.is_over_second(node.inputs["Color"]):
+                parameters["float normalset"] = 2
     else:
         say(f"{node.name} at {socket.name} is not followed; the surface is smooth there")
 
@@ -86,7 +96,7 @@ def _add_heights(parameters: dict[str, Any], socket: bpy.types.NodeSocket, scale
     heights = reader.value(socket) if source(socket) else constant(midlevel)
     if not is_picture(heights) or scale == 0:
         return 0.0
-    parameters.update({"string heightmap": textures.file(gray(heights)), "float scale": scale, "float midlevel": midlevel})
+    parameters.update({"string heightmap": textures.file(gray(heights)), "float scale": scale, "float midlevel": midlevel, "float heightset": 1 + reader.is_over_second(socket)})
     return float(abs(gray(heights)[..., 0] - midlevel).max())
 
 

@@ -10,6 +10,7 @@ from mathutils import Matrix
 from . import geometry
 from .closures import uses_of
 from .materials import Look
+from .panorama import Panorama
 
 Warn = Callable[[str], None]
 
@@ -52,6 +53,7 @@ class Cache:
         self.shapes: dict[str, Shape] = {}
         self.archives: dict[tuple[str, int], str] = {}
         self.looks: dict[str, Look] = {}  #: By the full name of the material.
+        self.panoramas: dict[str, Panorama] = {}  #: By the full name of the world.
 
 
 def take(depsgraph: bpy.types.Depsgraph, camera: bpy.types.Object, subdivide: bool, cache: Cache, warn: Warn) -> Snapshot:

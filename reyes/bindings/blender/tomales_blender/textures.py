@@ -12,6 +12,7 @@ from . import exr
 from .values import Value, is_gray
 
 FOLDER = "textures"
+_MOST = 65504  #: That half floats hold.
 
 
 class Textures:
@@ -46,7 +47,7 @@ class Textures:
 
     def file(self, picture: Value) -> str:
         """The file of a picture, relative to the folder."""
-        pixels = numpy.ascontiguousarray(picture[..., :1] if is_gray(picture) else picture, "f2")
+        pixels = numpy.ascontiguousarray((picture[..., :1] if is_gray(picture) else picture).clip(max=_MOST), "f2")
         name = f"{FOLDER}/{hashlib.sha256(pixels.tobytes()).hexdigest()[:20]}.exr"
         path = self._folder / name
         if not path.exists():
