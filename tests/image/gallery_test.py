@@ -12,7 +12,7 @@ from gallery import make_brick_map, store_photons
 from pictures import pixels
 
 tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-FINISHED = ("pool", "coast", "still_life", "teapots", "nave")  # docs/gallery.md, finished pictures
+FINISHED = ("pool", "coast", "still_life", "teapots", "nave", "watch")  # docs/gallery.md, finished pictures
 failures = []
 
 
@@ -20,13 +20,19 @@ def run(*arguments, cwd):
     return subprocess.run([tomales, *map(str, arguments)], cwd=cwd, capture_output=True, text=True)
 
 
+def generated(scene):
+    """A scene that is too large to be kept, from the script beside it."""
+    return subprocess.run([sys.executable, scene.parent / f"make_{scene.stem}.py"], capture_output=True, text=True, check=True).stdout
+
+
 with tempfile.TemporaryDirectory() as temporary:
     folder = pathlib.Path(temporary)
     os.environ["TOMALES_TEXTURE_CACHE"] = str(folder / "textures")
     make_brick_map(tomales, root, folder)
-    for scene in sorted(scene for group in ("primitives", "motion", *FINISHED) for scene in root.glob(f"scenes/{group}/*.rib")):
+    scenes = [scene for group in ("primitives", "motion", *FINISHED) for scene in root.glob(f"scenes/{group}/*.rib")]
+    for scene in sorted({*scenes, *(root / f"scenes/{name}/{name}.rib" for name in FINISHED)}):
         name = f"{scene.parent.name}/{scene.stem}"
-        text = scene.read_text().replace("../../docs", str(root / "docs"))
+        text = (scene.read_text() if scene.exists() else generated(scene)).replace("../../docs", str(root / "docs"))
         (folder / scene.name).write_text(text)
         if "photons/" in text:
             store_photons(tomales, folder / scene.name, scene.parent)

@@ -1,0 +1,7 @@
+#include "movement.h"
+
+/* Steel with a fine polish. */
+surface steel(color metal = color(0.62, 0.61, 0.60)) {
+  Oi = Os;
+  Ci = Os * polished(faceforward(normalize(N), I), metal, 0.06, 12);
+}
