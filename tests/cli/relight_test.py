@@ -184,6 +184,11 @@ after = [layer["version"] for layer in server.settled()["layers"]]
 suite.expect(before[1:] == after[1:], "a change of intensity and colour shades no layer again")
 suite.expect(json.loads(server.post("load", {"name": "warm"})[2])["surfaces"] == {"ball": {"Ks": [array.array("f", [0.9])[0]]}}, "a saved edit is loaded")
 suite.expect(server.json("scene")["present"]["exposure"] == [1.25, 1], "another page learns the present edit")
+for what, path, status in (("the first page that edits", "edit?page=5", 200), ("a second one only watches", "edit?page=6", 409),
+                           ("until it takes over", "edit?page=6&take=1", 200), ("then the first one watches", "edit?page=5", 409),
+                           ("and so does one without a number", "edit", 409)):
+    suite.expect(server.post(path, single)[0] == status, what)
+suite.expect(server.news()[0]["editor"] == 6 and server.news()[0]["present"]["exposure"] == [1.25, 1], "all learn who edits, and what")
 suite.expect(server.json("edits") == ["warm"], "the folder's edits are listed")
 for name in ("../warm", "..", "", "a/b", "/etc/passwd", "a" * 65, "a.b", "a\0", "%2e%2e%2fwarm"):
     suite.expect(server.post("save", {"name": name})[0] == 400 and server.post("load", {"name": name})[0] == 400, f"the name {name[:20]!r} leads nowhere")

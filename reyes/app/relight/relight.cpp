@@ -51,6 +51,24 @@ fs::path fileOfEdit(const std::string& folder, const std::string& name) {
   return fs::path(folder) / (name + kEdit);
 }
 
+/// The page that edits, by the number that it has given itself; others watch. Threads: any.
+class Editor {
+ public:
+  /// Tells whether this page may edit: it does already, it takes over, or nobody does. Page 0 has no number.
+  bool admits(uint64_t page, bool takesOver) {
+    uint64_t nobody = 0;
+    if (takesOver)
+      page_ = page;
+    else
+      page_.compare_exchange_strong(nobody, page);
+    return page_ == page;
+  }
+  uint64_t page() const { return page_; }
+
+ private:
+  std::atomic<uint64_t> page_{0};
+};
+
 class Relight {
  public:
   Relight(const RelightCommand& command, const RenderSettings& settings, Stats& stats, Log& log)
@@ -88,7 +106,11 @@ class Relight {
     });
     server_.get("edits", [this](const HttpQuestion&) { return jsonReply(savedEdits()); });
     server_.post("edit", [this](const HttpQuestion& q) {
+      const uint64_t page = q.parameters.contains("page") ? numberOf(q, "page") : 0;
+      if (!editor_.admits(page, q.parameters.contains("take")))
+        return HttpReply{409, "text/plain", "another page edits"};
       relighting_.edit(Json::parse(q.body));
+      relighting_.layers().wake();
       return jsonReply({{"rib", ribOf(relighting_.present(), relighting_.editable())}});
     });
     server_.post("pointer", [this](const HttpQuestion& q) {
@@ -117,7 +139,7 @@ class Relight {
     if (!ended_) relighting_.layers().wait(after);
     std::string blocks = relighting_.layers().blocksAfter(after, kMostBlocks_bytes);
     Json status = relighting_.status();
-    status["after"] = after;
+    status["after"] = after, status["editor"] = editor_.page();
     std::string text = status.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const auto length = static_cast<uint32_t>(text.size());
@@ -152,6 +174,7 @@ class Relight {
   Log& log_;
   Relighting relighting_;
   HttpServer server_;
+  Editor editor_;
   std::atomic<bool> ended_{false};
 };
 

@@ -38,8 +38,8 @@ Json Relighting::status() const {
   Json messages = Json::array();
   for (const LogEntry& e : log_.entries())
     if (e.severity >= Severity::Warning) messages.push_back(e.message);
-  return {{"doing", doing_},     {"done", done_},        {"layers", layers},         {"notLinear", notLinear_},
-          {"checked", checked_}, {"messages", messages}, {"bytes", layers_->bytes()}};
+  return {{"present", jsonOf(present_)}, {"doing", doing_},     {"done", done_},        {"layers", layers},
+          {"notLinear", notLinear_},     {"checked", checked_}, {"messages", messages}, {"bytes", layers_->bytes()}};
 }
 
 std::optional<int> Relighting::groupAt(int x, int y) const {

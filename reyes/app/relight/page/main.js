@@ -22,6 +22,10 @@ let state = { ...copyOf(kNothing), ...scene.present };
 const history = new History(state);
 let status = { layers: scene.layers.map(() => ({ version: 0, edit: null, old: true })) };
 let exact = false, falseColor = false;
+/** Several pages may watch; one edits, until another takes over. */
+const page = 1 + Math.floor(Math.random() * 999999998);
+const watches = () => Boolean(status.editor) && status.editor !== page;
+const postEdit = (more = "") => post(`edit?page=${page}${more}`, state);
 /** Lights that are heard alone, or not: a way of looking, and no part of the edit. */
 const solo = new Set(), mute = new Set();
 
@@ -70,7 +74,7 @@ const whole = () => mixer.fresh(0, 0, scene.width, scene.height, false);
 let sending = null, unsent = false;
 const send = async () => {
   if (sending) return void (unsent = true);
-  sending = post("edit", state);
+  sending = postEdit();
   try {
     $("rib").textContent = (await sending).rib;
     if (exact) await post("ask");
@@ -87,13 +91,26 @@ const show = () => {
   lights.refresh(state), surfaces.refresh(state);
   send();
 };
+const follow = (present) => {
+  const followed = { ...copyOf(kNothing), ...present };
+  if (JSON.stringify(followed) === JSON.stringify(state)) return;
+  state = followed;
+  whole();
+  paint();
+  lights.refresh(state), surfaces.refresh(state);
+};
 const change = (what, edit) => {
+  if (watches()) return;
   performance.mark("changed");
   edit(state);
   history.keep(state, what);
   show();
 };
-const step = (by) => { state = history.step(by); show(); };
+const step = (by) => {
+  if (watches()) return;
+  state = history.step(by);
+  show();
+};
 
 const panelTools = {
   value: (kind, shader, param) => valueOf(state, kind, shader, param),
@@ -156,7 +173,7 @@ const keep = () => {
 const listEdits = async () => $("edits").replaceChildren(...(await get("edits")).map((name) => new Option(name)));
 $("save").onclick = async () => {
   try {
-    await post("edit", state);
+    if (!watches()) await postEdit();
     note(`Saved as ${(await post("save", { name: $("name").value })).file}`, false);
     await listEdits();
   } catch (e) {
@@ -177,6 +194,7 @@ $("load").onclick = async () => {
 const actions = {
   undo: () => step(-1), redo: () => step(1), exact: () => setExact(!exact), falseColor: () => setFalse(!falseColor),
   fit: () => stage.fit(), snap: keep, help: () => { $("keys").hidden = !$("keys").hidden; },
+  takeOver: () => postEdit("&take=1"),
   end: async () => { await post("end"); $("what").textContent = "ended"; },
 };
 for (const [id, action] of Object.entries(actions)) $(id).onclick = action;
@@ -205,6 +223,8 @@ const isPresent = (edit) => edit && nameOf(edit) === nameOf(state);
 try {
   await listen((news, blocks) => {
     status = news;
+    $("takeOver").hidden = !watches();
+    if (watches()) follow(news.present);
     for (const block of blocks) {
       mixer.put(block);
       const first = status.layers.slice(1).some((l) => l.version === 0 || l.edit === null);
