@@ -3,10 +3,10 @@
 //   in     a scene whose procedurals are open, and its bound shaders
 //   out    Attributes::trace of objects and groups: displacements, and a finer tessellation
 //   never  depends on threads or on the crop
-// Rule: rays see a displacement that moves a point in view by a pixel or more, and polygons for rays are then a quarter
-// as long, so that they follow the bumps. Where such polygons would be more than the pixels of the picture they are
-// longer; where even polygons of the usual length are too many, rays see the smooth surface, and a warning says so
-// (docs/decisions/0162).
+// Rule: rays see a displacement that moves a point of a patch in view by a pixel or more, and polygons for rays are
+// then a quarter as long, so that they follow the bumps. Where such polygons would be more than the pixels of the
+// picture they are longer, up to the usual length. Where even these are too many, or longer than 32 pixels before the
+// eye, rays see the smooth surface, and a warning says so (docs/decisions/0162).
 #pragma once
 #include "reyes/camera.h"
 #include "reyes/shade.h"
