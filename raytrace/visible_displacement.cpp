@@ -8,6 +8,7 @@
 #include "raytrace/tessellate.h"
 #include "reyes/base/parallel.h"
 #include "reyes/dice.h"
+#include "reyes/scene_changes.h"
 
 namespace tomales {
 namespace {
@@ -24,9 +25,7 @@ constexpr float kLongest_px = 32;  ///< Longer polygons are no picture of the su
 constexpr float kNearPart_px = 256;
 constexpr int kMostHalvings = 64;
 
-bool isUndecided(const Attributes& a) {
-  return a.displacement && !a.trace.displacements && !a.user.contains("trace:displacements") && raysNeed(a);
-}
+bool isUndecided(const Attributes& a) { return leavesDisplacementOpen(a) && raysNeed(a); }
 
 struct PatchOfObject {
   int object;
@@ -130,8 +129,10 @@ class Chooser {
     std::vector<size_t> order(patches_.size());
     std::iota(order.begin(), order.end(), size_t{0});
     std::ranges::stable_sort(order, std::greater{}, [&](size_t g) { return reliefs_[g].amplitude_px; });
+    std::vector<size_t> left;
     for (const size_t g : order)
-      if (reliefs_[g].amplitude_px >= kVisible_px) choose(g);
+      if (reliefs_[g].amplitude_px >= kVisible_px && !choose(g)) left.push_back(g);
+    if (!left.empty()) report(left);
   }
 
  private:
@@ -152,33 +153,32 @@ class Chooser {
     return out;
   }
 
-  void choose(size_t g) {
+  bool choose(size_t g) {
     const std::shared_ptr<const Attributes> given = scene_.groups[g].attributes;
     for (float finer = kFiner; finer >= 1; finer /= 2) {
       dress(g, changed(given, finer));
       const double quads = countQuads(g);
       if (quads > quadsLeft_ || !isFine(reliefs_[g])) continue;
       quadsLeft_ -= quads;
-      return;
+      return true;
     }
     dress(g, given);
-    const Object& o = scene_.objects[static_cast<size_t>(patches_[g].front().object)];
-    log_.report(
-        Severity::Warning, "trace-displacement", o.where,
-        fmt::format("{}: rays do not see its displacement of {:.0f} pixels, because that takes more polygons than "
-                    "the picture has pixels; its shadows on itself are those of the smooth surface. Attribute "
-                    "\"trace\" \"displacements\" 1 or 0 chooses",
-                    objectName(o), reliefs_[g].amplitude_px),
-        o.where.text());
+    return false;
+  }
+
+  void report(const std::vector<size_t>& left) const {
+    const Object& o = scene_.objects[static_cast<size_t>(patches_[left.front()].front().object)];
+    const std::string others = left.size() > 1 ? fmt::format(", nor those of {} further objects", left.size() - 1) : "";
+    log_.report(Severity::Warning, "trace-displacement", o.where,
+                fmt::format("{}: rays do not see its displacement of {:.0f} pixels{}, because that takes more polygons "
+                            "than the picture has pixels; shadows are those of the smooth surface. Attribute "
+                            "\"trace\" \"displacements\" 1 or 0 chooses",
+                            objectName(o), reliefs_[left.front()].amplitude_px, others));
   }
 
   std::shared_ptr<const Attributes> changed(const std::shared_ptr<const Attributes>& given, float finer) {
     std::shared_ptr<const Attributes>& out = changed_[{given, finer}];
-    if (!out) {
-      auto copy = std::make_shared<Attributes>(*given);
-      copy->trace.displacements = true, copy->trace.tessellation *= finer;
-      out = std::move(copy);
-    }
+    if (!out) out = withDisplacementForRays(*given, finer);
     return out;
   }
 

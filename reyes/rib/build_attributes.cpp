@@ -167,7 +167,7 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
       {"trace:displacements",
        [](Attributes& a, const Param& p) {
          a.trace.displacements = p.number(0) != 0;
-         a.user["trace:displacements"] = p;  // shows that somebody has chosen (raytrace/visible_displacement.h)
+         a.user["trace:displacements"] = p;  // shows that somebody has said it (reyes/scene_changes.h)
        }},
       {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
       {"trace:maxdiffusedepth",
