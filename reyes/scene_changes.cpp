@@ -3,6 +3,9 @@
 namespace tomales {
 namespace {
 
+constexpr const char* kSaid = "trace:displacements";         ///< The reader of RIB keeps it.
+constexpr const char* kChosen = "trace:chosentessellation";  ///< How many times finer polygons have become.
+
 /// The changed copy of each Attributes, which is made once.
 class ChangedAttributes {
  public:
@@ -43,6 +46,28 @@ void changeAttributes(Scene& scene, const std::function<void(Attributes&)>& chan
   for (ShadeGroup& g : scene.groups) changed.replace(g.attributes);
   for (Procedural& p : scene.procedurals) changed.replace(p);
   if (hasGeometry(scene)) scene.freeze();
+}
+
+bool leavesDisplacementOpen(const Attributes& a) {
+  return a.displacement && !a.trace.displacements && !a.user.contains(kSaid);
+}
+
+std::shared_ptr<const Attributes> withDisplacementForRays(const Attributes& a, float finer) {
+  auto out = std::make_shared<Attributes>(a);
+  out->trace.displacements = true, out->trace.tessellation *= finer;
+  Param p;
+  p.name = kChosen, p.floats = {finer};
+  out->user[kChosen] = p;
+  return out;
+}
+
+std::shared_ptr<const Attributes> asTheSceneSays(const std::shared_ptr<const Attributes>& a) {
+  const auto chosen = a->user.find(kChosen);
+  if (chosen == a->user.end()) return a;
+  auto out = std::make_shared<Attributes>(*a);
+  out->trace.displacements = false, out->trace.tessellation /= chosen->second.number(1);
+  out->user.erase(kChosen);
+  return out;
 }
 
 }  // namespace tomales

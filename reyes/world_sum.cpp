@@ -4,6 +4,7 @@
 
 #include "reyes/base/file_stamp.h"
 #include "reyes/base/search_path.h"
+#include "reyes/scene_changes.h"
 #include "reyes/state_fields.h"
 
 namespace tomales {
@@ -71,7 +72,7 @@ uint64_t worldSum(const Scene& scene, bool photonsOnly) {
     if (isNew) {
       WorldSum part;
       part.searchPaths = scene.options.searchPaths;
-      std::shared_ptr<const Attributes> shared = o.attributes;
+      std::shared_ptr<const Attributes> shared = asTheSceneSays(o.attributes);
       field(part, shared);
       attributes->second = part.sum;
     }

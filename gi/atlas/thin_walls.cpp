@@ -118,6 +118,7 @@ SightAlongSurface sightAlongSurfaces(const RayScene& rays) {
       return hit.object < 0 ? -1 : rays.groupOf(hit);
     };
     const vec3 start = P + lift * N;
+    const int here = groupBelow(start);
     vec3 tangent, bitangent;
     orthonormalBasis(worldN, tangent, bitangent);
     SightLines out;
@@ -128,8 +129,9 @@ SightAlongSurface sightAlongSurfaces(const RayScene& rays) {
           normalizeOr(transformVector(current, std::cos(angle) * tangent + std::sin(angle) * bitangent), N);
       const Hit wall = hitOf(start, along, reach);
       if (wall.object < 0 || std::abs(dot(wall.geometricNormal, N)) > kStands) continue;
-      const int behind = groupBelow(start + 0.5f * (wall.t + reach) * along);
-      if (behind >= 0 && behind == groupBelow(start)) out[k] = wall.t * world.scale;
+      const auto goesOnAt = [&](float t) { return here >= 0 && groupBelow(start + t * along) == here; };
+      // The underside of a solid wall may lie on the surface, and be met instead of it.
+      if (goesOnAt(0.5f * (wall.t + reach)) || goesOnAt(reach)) out[k] = wall.t * world.scale;
     }
     return out;
   };

@@ -114,12 +114,17 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
   const float belief = glm::smoothstep(kChanceEnds, kBorderBegins, distance);
   const float covered = glm::mix(1.0f, coveredShare(distance), belief), area = kPi * r2 * covered;
   const float wide = diskRadius(area, inside, settings.every), close = nearRadius(heap, settings.every);
+  const float reach = std::sqrt(r2);
+  const bool across = sight && isAcrossWalls(tree, power, at, std::span(heap).first(inside), reach, sight);
+  // Photons behind a wall do not tell how far apart those before it are, so the mark stands for all that was searched.
   return {sum / area,
-          close < kMuchCloser * wide ? close : wide,
+          across                       ? reach
+          : close < kMuchCloser * wide ? close
+                                       : wide,
           heap.size() < most,
           glm::length(normal) < kMuchBent * count,
           clumpOf(heap, area, inside),
-          sight && isAcrossWalls(tree, power, at, std::span(heap).first(inside), std::sqrt(r2), sight)};
+          across};
 }
 
 /// Does the same as estimate(), for a ball in a medium.

@@ -164,7 +164,11 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
       {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
       {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
-      {"trace:displacements", [](Attributes& a, const Param& p) { a.trace.displacements = p.number(0) != 0; }},
+      {"trace:displacements",
+       [](Attributes& a, const Param& p) {
+         a.trace.displacements = p.number(0) != 0;
+         a.user["trace:displacements"] = p;  // shows that somebody has said it (reyes/scene_changes.h)
+       }},
       {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
       {"trace:maxdiffusedepth",
        [](Attributes& a, const Param& p) {

@@ -100,6 +100,7 @@ Surface "matte"
 Color [0.42 0.36 0.30]
 Displacement "noisybump" "float Km" [0.04] "float frequency" [2.5] "float octaves" [5]
 Attribute "displacementbound" "sphere" [0.05]
+Attribute "trace" "int displacements" [0]
 Patch "bilinear" "P" [-9 -0.92 -5  9 -0.92 -5  -9 -0.92 14  9 -0.92 14]
 AttributeEnd
 {eyes}AttributeBegin

@@ -31,7 +31,7 @@ def outliers(picture):
 
 
 scene = root / "displaced.rib"
-full = render("full", root / "full.rib", scene)
+full = render("full", scene, "--ray-geometry", "full")
 on = render("on", scene)
 off = render("off", scene, "--no-hit-list")
 natural = outliers(full)

@@ -6,7 +6,6 @@ import re
 import subprocess
 
 # What the files' comments and READMEs say that they are rendered with; of fewer photons.
-BEFORE = {"displaced/full.rib": "displaced/displaced.rib"}
 OPTIONS = {"shading/milk.rib": ("--gi", "atlas", "--atlas", "maps", "--photons", "100000", "--bounces", "20")}
 # File -> its source, where that has another name.
 PLUGINS = {"stonesurface": "stone"}
@@ -29,8 +28,6 @@ def pictures_of(path, root):
     name = str(path.relative_to(root / "scenes"))
     text = path.read_text(errors="replace").replace("../../docs", str(root / "docs"))
     text = re.sub(r"^Transform \[", "ConcatTransform [", text, flags=re.M)  # the same before the world, but for what tests put before it
-    if name in BEFORE:
-        text += (root / "scenes" / BEFORE[name]).read_text()
     head, *frames = re.split(r"^(?=FrameBegin)", text, flags=re.M)
     if not frames:
         return [Picture(name, text, "", OPTIONS.get(name, ()))]

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "raytrace/visible_displacement.h"
 #include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/light_sources.h"
 #include "reyes/app/frame/limits.h"
@@ -90,6 +91,7 @@ void FrameJob::prepareRays() {
   if (!traces()) return;
   const StageTimer timer(stats_, "raytrace");
   meter_.begin("ray geometry");
+  chooseDisplacements(scene_, camera_, *shading_, log_);
   rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
 }

@@ -1,5 +1,6 @@
 #include "reyes/app/frame/ray_world.h"
 
+#include "raytrace/visible_displacement.h"
 #include "reyes/app/frame/hide.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/rib.h"
@@ -12,10 +13,11 @@ struct RayWorld::Built {
         Log& log)
       : scene(std::move(s)), camera(scene.options) {
     shading = std::make_unique<ShadingSystem>(scene, shaders, services, log, stats);
+    chooseDisplacements(scene, camera, *shading, log);
     rays = std::make_unique<RayScene>(scene, camera, *shading, raySettings(settings, scene.options), stats, log);
     tools = {rays.get(), shading.get()};
   }
-  const Scene scene;
+  Scene scene;
   const Camera camera;
   std::unique_ptr<ShadingSystem> shading;
   std::unique_ptr<RayScene> rays;

@@ -152,6 +152,8 @@ TEST(PhotonIrradiance, EstimatesWhereAWallPartsMoreLightFromLessAreTold) {
     EXPECT_TRUE(!dark || across || out.at(i)[0] < 2 * right) << out.position[i].x << ": " << out.at(i)[0];
     EXPECT_TRUE(!across || (dark ? out.position[i].x < 0.8f : out.position[i].x > 0.44f))
         << "it does not reach the wall";
+    EXPECT_TRUE(!across || !dark || out.position[i].x - out.radius[i] < 0.5f)
+        << "the mark covers what lies between it and the wall";
   }
   EXPECT_GT(told, 10);
   size_t byChance = 0;
