@@ -47,6 +47,13 @@ def lathe(profile):
     return "TransformBegin Rotate -90 1 0 0 " + " ".join(bands) + " TransformEnd"
 
 
+def spun(profile, around=16):
+    """One bicubic B-spline through rings of control points, for what rays have to find without seams."""
+    rings, swell = [profile[0]] * 2 + list(profile) + [profile[-1]] * 2, 3 / (2 + math.cos(2 * math.pi / around))
+    points = [c for r, y in rings for a in (2 * math.pi * k / around for k in range(around)) for c in (swell * r * math.cos(a), y, -swell * r * math.sin(a))]
+    return f'Basis "b-spline" 1 "b-spline" 1 PatchMesh "bicubic" {around} "periodic" {len(rings)} "nonperiodic" "P" [{numbers(points)}]'
+
+
 def rounded(profile, steps=6):
     """The profile as a Catmull-Rom curve through its points."""
     points = [profile[0], *profile, profile[-1]]
@@ -100,10 +107,10 @@ def bougainvillea(count, flowers):
 
 
 def cypress(x, z, tall, wide):
-    for k in range(70):
-        up = (k + random.random()) / 70
+    for k in range(130):
+        up = (k + random.random()) / 130
         away, angle = wide * (1 - up) ** 0.75 * min(1, 0.5 + 3 * up) * random.uniform(0.5, 1), random.uniform(0, 2 * math.pi)
-        yield x + away * math.cos(angle), 0.3 + tall * up, z + away * math.sin(angle), 1.1 - 0.5 * up, 2.2
+        yield x + away * math.cos(angle), 0.3 + tall * up, z + away * math.sin(angle), 0.75 - 0.35 * up, 1.5
 
 
 print(f'''##RenderMan RIB-Structure 1.1
@@ -151,7 +158,7 @@ UNLIT = 'Attribute "visibility" "int photon" [0]'  # no photons need to go there
 STONE = 'Surface "travertine"'
 part("near deck", UNLIT, STONE, box(-9, RIGHT, -0.3, DECK, -4.5, NEAR - 0.04))
 part("left deck", UNLIT, STONE, box(-9, LEFT - 0.04, -0.3, DECK, NEAR - 0.04, WALL))
-part("far deck", UNLIT, STONE, box(LEFT - 0.04, RIGHT, -0.3, DECK, FAR + 0.04, WALL))
+part("far deck", UNLIT, STONE, box(LEFT - 0.04, RIGHT, -0.3, DECK, FAR + 0.04, WALL + 0.3))
 for name, (x0, x1, z0, z1) in {"near edge": (LEFT - 0.3, RIGHT, NEAR - 0.3, NEAR + 0.03), "far edge": (LEFT - 0.3, RIGHT, FAR - 0.03, FAR + 0.3),
                                "left edge": (LEFT - 0.3, LEFT + 0.03, NEAR - 0.1, FAR + 0.1)}.items():
     part(name, 'Surface "travertine" "float slab" [0.45]', soft(x0, x1, DECK - 0.07, DECK + 0.025, z0, z1))
@@ -184,7 +191,9 @@ part("cypresses", UNLIT, 'Surface "leaf" "color green" [0.045 0.085 0.04]', *(p 
 part("swim ring", 'Surface "vinyl"', "Translate 1.55 0.045 2.35 Rotate 3 0 0 1 Rotate 20 0 1 0 Rotate -88 1 0 0", "Torus 0.40 0.135 0 360 360")
 part("handrail", 'Surface "steel"', 'Attribute "photon" "string shadingmodel" ["chrome"]', 'Color 0.75 0.76 0.78', 'Attribute "dice" "int roundcurve" [1] Basis "bezier" 3 "bezier" 3',
      *(f'Curves "cubic" [10] "nonperiodic" "P" [{numbers(c for y, z in ((-0.6, 5.05), (-0.1, 5.05), (0.2, 5.05), (0.75, 5.15), (1.05, 5.25), (1.05, 5.7), (1.05, 6.2), (1.05, 6.5), (0.8, 6.6), (0.15, 6.6)) for c in (x, y, z))}] "constant float constantwidth" [0.042]' for x in (-1.72, -2.35)))
-part("hat", UNLIT, 'Surface "straw"', f"Translate -2.05 {DECK + 0.03} -0.62 Rotate 5 0 0 1", lathe(rounded([(0.26, 0.035), (0.235, 0.012), (0.17, 0.0), (0.112, 0.008), (0.108, 0.03), (0.104, 0.09), (0.09, 0.125), (0.055, 0.132), (0.001, 0.12)])))
-part("ribbon", UNLIT, 'Surface "stucco" "color paint" [0.05 0.06 0.10]', f"Translate -2.05 {DECK + 0.03} -0.62 Rotate 5 0 0 1", "Rotate -90 1 0 0", "Hyperboloid 0.1105 0 0.014  0.1085 0 0.05 360")
-part("towel", UNLIT, 'Surface "towel"', f"Translate -1.3 {DECK + 0.03} -0.55 Rotate 12 0 1 0", soft(-0.36, 0.36, 0, 0.045, -0.22, 0.22, hard=1.3), soft(-0.35, 0.365, 0.04, 0.085, -0.21, 0.225, hard=1.3), soft(-0.36, 0.35, 0.08, 0.13, -0.22, 0.21, hard=1.1))
+part("hat", UNLIT, 'Attribute "trace" "float tessellation" [6]', 'Surface "straw"', f"Translate -1.93 {DECK + 0.055} -0.42 Rotate 5 0 0 1", spun([(0.262, 0.036), (0.235, 0.012), (0.17, 0.0), (0.112, 0.008), (0.108, 0.03), (0.104, 0.09), (0.09, 0.125), (0.055, 0.132), (0, 0.12)]))
+part("ribbon", UNLIT, 'Surface "stucco" "color paint" [0.05 0.06 0.10]', f"Translate -1.93 {DECK + 0.055} -0.42 Rotate 5 0 0 1", "Rotate -90 1 0 0", "Hyperboloid 0.1105 0 0.014  0.1085 0 0.05 360")
+part("towels", UNLIT, 'Surface "towel"', f"Translate -1.18 {DECK + 0.03} -0.50", *(
+    f"TransformBegin Translate {random.uniform(-0.012, 0.012):.3f} {0.021 * k:.3f} {random.uniform(-0.012, 0.012):.3f} Rotate {10 + random.uniform(-2.5, 2.5):.1f} 0 1 0 "
+    + soft(-0.3, 0.3, 0, 0.024, -0.2, 0.2, hard=4) + " TransformEnd" for k in range(6)))
 print("WorldEnd")
