@@ -78,6 +78,13 @@ expected = [80 - 0.75 * scale, 80 + 0.25 * scale - 1, 60 - 0.5 * scale, 60 + 0.5
 t.expect(all(abs(a - b) <= 1.5 for a, b in zip((left, right, top, bottom), expected)),
          f"the model's camera is looked through: {left, right, top, bottom}, expected {expected}")
 t.expect_run("a camera that is not there", ["import", "camera.glb", "-o", "other.rib", "--camera", "nobody"], 3, 'no camera "nobody"', '"eye"')
+away = Gltf()
+away.node(mesh=away.mesh(positions, triangles(quads), NORMAL=normals, COLOR_0=opaque))
+away.add("cameras", {"type": "perspective", "perspective": {"yfov": fov, "znear": 0.1, "aspectRatio": 4 / 3}})
+away.node(camera=0, name="eye", translation=[0, 0, -4.5])
+t.write("away.glb", away.glb())
+t.expect_run("a camera that looks away", ["import", "away.glb", "-o", "away.rib"], 0, 'camera "eye" looks away')
+t.expect(max(picture("away", "--format", "160x120")[60][80]) > 10, "another one sees the model")
 
 # One mesh for several nodes, of which one mirrors: red towards +x is then on the other side.
 twice = Gltf()

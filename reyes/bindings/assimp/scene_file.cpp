@@ -128,7 +128,11 @@ class SceneWriter {
         note(Severity::Warning, "import-camera",
              fmt::format("camera \"{}\": Assimp does not tell its angle; {} degrees are taken", of(c.mName),
                          out.fov_degrees));
-      return out;
+      if (transformBound(glm::inverse(out.worldFromCamera), world_).hi.z > 0) return out;
+      note(Severity::Warning, "import-camera",
+           fmt::format("camera \"{}\" looks away from all that there is; one that frames the model is added",
+                       of(c.mName)));
+      return cameraAround(world_);
     }
     if (!settings_.camera.empty()) {
       std::string names;
