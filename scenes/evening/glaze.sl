@@ -1,0 +1,10 @@
+#include "room.h"
+
+/* Stoneware under a clear glaze. */
+surface glaze() {
+  point q = transform("shader", P);
+  float run = fBm(16 * q, 16 * filterwidthp(q), 4, 2.1, 0.55);
+  normal Nf = faceforward(normalize(N), I);
+  Oi = Os;
+  Ci = Os * (Cs * (1 + 0.35 * run) * received(Nf) + gloss(Nf, 1.5, 0.03, 8));
+}

@@ -1,0 +1,13 @@
+#include "noises.h"
+
+/* The cloth of a lampshade, as one sees it: the bulb behind it is brightest at its own height, and threads cross. What the
+ * shade sends into the room is an area light's.
+ */
+surface lampshade(float height = 0.27; color warm = color(0.55, 0.24, 0.075), hot = color(1.3, 0.80, 0.38);) {
+  point q = transform("shader", P);
+  float up = zcomp(q) / height - 0.45, near = exp(-9 * up * up), width = filterwidthp(q);
+  float facing = abs(normalize(N) . normalize(I));
+  float threads = 0.5 * (float noise(600 * zcomp(q), 40 * u) + float noise(700 * u, 40 * zcomp(q))) - 0.5;
+  Oi = Os;
+  Ci = Os * mix(warm, hot, near * mix(0.55, 1, facing)) * (1 + 0.3 * threads * noisefade(600 * width));
+}

@@ -1,0 +1,11 @@
+#include "room.h"
+
+/* Curtains of linen: the dusk shines through a little. */
+surface linen(color cloth = color(0.52, 0.46, 0.36)) {
+  point q = transform("room", P);
+  float width = filterwidthp(q);
+  float threads = float noise(700 * xcomp(q), 40 * ycomp(q)) + float noise(40 * xcomp(q), 500 * ycomp(q)) - 1;
+  normal Nf = faceforward(normalize(N), I);
+  Oi = Os;
+  Ci = Os * cloth * (1 + 0.25 * threads * noisefade(300 * width)) * (0.8 * received(Nf) + 0.2 * received(-Nf));
+}

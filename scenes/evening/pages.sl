@@ -1,0 +1,9 @@
+#include "room.h"
+
+/* The cut edges of pages. */
+surface pages(color paper = color(0.60, 0.52, 0.38)) {
+  point q = transform("shader", P);
+  normal Nf = faceforward(normalize(N), I);
+  Oi = Os;
+  Ci = Os * paper * (0.8 + 0.4 * float noise(1500 * ycomp(q))) * received(Nf);
+}

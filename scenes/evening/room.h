@@ -1,0 +1,27 @@
+/* What the shaders of this scene share: places on walls and floors, and what a surface mirrors. */
+#ifndef ROOM_H
+#define ROOM_H
+
+#include "noises.h"
+
+/* The light at a matte point: lamps, dusk, and a little that comes from everywhere. */
+color received(normal Nf) {
+  return diffuse(Nf) + color(0.006, 0.005, 0.005);
+}
+
+/* What a polished surface adds: Fresnel's share of what lies in the mirrored direction, over a cone. Points that are seen
+ * in a mirror take one ray, and further ones a mean of the room, because rays would multiply otherwise.
+ */
+color gloss(normal Nf; float eta, cone, samples) {
+  float Kr, Kt;
+  vector In = normalize(I);
+  color seen = color(0.05, 0.035, 0.02);
+  fresnel(In, Nf, 1 / eta, Kr, Kt);
+  if (raydepth() == 0)
+    seen = trace(P, normalize(reflect(In, Nf)), "samplecone", cone, "samples", samples);
+  else if (raydepth() == 1 && isindirectray() == 0)
+    seen = trace(P, normalize(reflect(In, Nf)));
+  return Kr * seen;
+}
+
+#endif
