@@ -14,8 +14,8 @@ namespace tomales {
 namespace {
 
 constexpr float kVisible_px = 1;
-constexpr float kFiner =
-    4;  ///< Polygons of 16 pixels cut the tops off bumps that are as wide (docs/measured/truth.md).
+/// Polygons of 16 pixels cut the tops off bumps that are as wide (docs/measured/truth.md).
+constexpr float kFiner = 4;
 /// All polygons of chosen objects are no more than the pixels of the picture, or than this.
 constexpr double kAlwaysQuads = 1 << 17;
 /// A displacement is measured at about so many points of a group.

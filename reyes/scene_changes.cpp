@@ -3,9 +3,6 @@
 namespace tomales {
 namespace {
 
-constexpr const char* kSaid = "trace:displacements";         ///< The reader of RIB keeps it.
-constexpr const char* kChosen = "trace:chosentessellation";  ///< How many times finer polygons have become.
-
 /// The changed copy of each Attributes, which is made once.
 class ChangedAttributes {
  public:
@@ -49,24 +46,19 @@ void changeAttributes(Scene& scene, const std::function<void(Attributes&)>& chan
 }
 
 bool leavesDisplacementOpen(const Attributes& a) {
-  return a.displacement && !a.trace.displacements && !a.user.contains(kSaid);
+  return a.displacement && !a.trace.displacements && !a.trace.displacementsGiven;
 }
 
 std::shared_ptr<const Attributes> withDisplacementForRays(const Attributes& a, float finer) {
   auto out = std::make_shared<Attributes>(a);
-  out->trace.displacements = true, out->trace.tessellation *= finer;
-  Param p;
-  p.name = kChosen, p.floats = {finer};
-  out->user[kChosen] = p;
+  out->trace.displacements = true, out->trace.tessellation *= finer, out->trace.chosenFiner = finer;
   return out;
 }
 
 std::shared_ptr<const Attributes> asTheSceneSays(const std::shared_ptr<const Attributes>& a) {
-  const auto chosen = a->user.find(kChosen);
-  if (chosen == a->user.end()) return a;
+  if (a->trace.chosenFiner == 0) return a;
   auto out = std::make_shared<Attributes>(*a);
-  out->trace.displacements = false, out->trace.tessellation /= chosen->second.number(1);
-  out->user.erase(kChosen);
+  out->trace.displacements = false, out->trace.tessellation /= out->trace.chosenFiner, out->trace.chosenFiner = 0;
   return out;
 }
 

@@ -181,8 +181,10 @@ struct Attributes {
   Visibility visibility;
   struct Trace {
     std::optional<float> bias, offset;
-    bool displacements = false;
-    bool sampleMotion = true;  ///< Rays from this object see motion.
+    bool displacements = false;       ///< Rays see its displacement.
+    bool displacementsGiven = false;  ///< The scene says so or not; else raytrace/visible_displacement.h chooses.
+    float chosenFiner = 0;            ///< What it has multiplied the tessellation by; 0: it has not chosen.
+    bool sampleMotion = true;         ///< Rays from this object see motion.
     int maxDiffuseDepth = 1,
         maxSpecularDepth = 2;  ///< Bounces that may follow one at this object; an earlier object's limit still applies.
     std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; if empty, they see all

@@ -90,8 +90,10 @@ void fields(A& a, Visibility& x) {
 
 template <class A>
 void fields(A& a, Attributes::Trace& x) {
-  auto& [bias, offset, displacements, sampleMotion, maxDiffuseDepth, maxSpecularDepth, subset, tessellation, rate] = x;
-  each(a, bias, offset, displacements, sampleMotion, maxDiffuseDepth, maxSpecularDepth, subset, tessellation, rate);
+  auto& [bias, offset, displacements, displacementsGiven, chosenFiner, sampleMotion, maxDiffuseDepth, maxSpecularDepth,
+         subset, tessellation, rate] = x;
+  each(a, bias, offset, displacements, displacementsGiven, chosenFiner, sampleMotion, maxDiffuseDepth, maxSpecularDepth,
+       subset, tessellation, rate);
 }
 
 template <class A>

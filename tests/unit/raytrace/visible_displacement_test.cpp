@@ -46,7 +46,7 @@ TEST(VisibleDisplacement, RaysSeeWhatMovesPointsByMoreThanAPixel) {
 TEST(VisibleDisplacement, WhatTheSceneSaysStays) {
   World world;
   displaceBy(world, 0.2f);
-  world.attributes.user["trace:displacements"] = floatsParam("displacements", ValueType::Float, Storage::Uniform, {0});
+  world.attributes.trace.displacementsGiven = true;
   world.add(sphere(), translation({0, 0, 3}));
   choose(world);
   EXPECT_FALSE(traceOf(world, 0).displacements);
