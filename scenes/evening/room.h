@@ -1,4 +1,4 @@
-/* What the shaders of this scene share: places on walls and floors, and what a surface mirrors. */
+/* What the shaders of this scene share: the light at a matte point, and what a polished one mirrors. */
 #ifndef ROOM_H
 #define ROOM_H
 
