@@ -6,6 +6,7 @@
 #include "reyes/shader/ggx.h"
 #include "reyes/shader/shadeops.h"
 #include "shaders/maps.h"
+#include "shaders/reflections.h"
 
 namespace {
 
@@ -21,7 +22,8 @@ MappedFloat metallic("metallic", 0, "0: dielectric, 1: metal", "metallicmap", "m
     clearcoat("clearcoat", 0, "a second lobe", "clearcoatmap", "clearcoatchannel"),
     clearcoatgloss("clearcoatgloss", 1, "1: glossy, 0: satin", "clearcoatglossmap", "clearcoatglosschannel");
 rsl::UniformFloatParam reflections("reflections", 0,
-                                   "rays that mirror the scene, a point that the camera sees; 0: lights alone");
+                                   "rays that mirror the scene, a point that the camera sees; more if lights "
+                                   "have many samples; 0: lights alone");
 rsl::ColorParam emission("emission", {0, 0, 0}, "radiance that it adds");
 rsl::StringParam texturename("texturename", "", "picture that multiplies Cs, the base colour"),
     emissionmap("emissionmap", "", "picture that multiplies the emission");
@@ -152,10 +154,14 @@ struct Lobes {
 /// One batch of points with their materials.
 class Glossy {
  public:
-  Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const Inputs& inputs)
+  /// `rays`: directions that mirror the scene, at least; 0: lights alone.
+  Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const Inputs& inputs, int rays)
       : b_(b),
         g_(b.g),
-        ofLights_(static_cast<int>(g_->call->lobeSamples(g_->host, g_))),
+        isLit_(g_->call->lobeSamples(g_->host, g_) > 0),
+        mirrors_(rays > 0),
+        least_(b_.rayDepth() > 0 ? std::min(rays, 1) : rays),
+        drawn_(directions()),
         L_(g_),
         xi0_(g_),
         xi1_(g_),
@@ -175,34 +181,34 @@ class Glossy {
     for (int i : b_) {
       const Vec3 L = rsl::get(sample.direction, i);
       if (rsl::dot((*this)[i].N, L) <= 0) continue;
-      const float other = density_[i] > 0 ? static_cast<float>(ofLights_) * (*this)[i].density(L) / density_[i] : 0.0f;
+      const float other = density_[i] > 0 ? static_cast<float>(drawn_) * (*this)[i].density(L) / density_[i] : 0.0f;
       sum.set(i, sum[i] + rsl::get(sample.Cl, i) * (*this)[i].value(L) / (1 + other * other));
     }
   }
-  void addLobeSamples(rsl::Vec3Array& sum) {
-    for (int k = 0; k < ofLights_; ++k) {
-      draw(k, ofLights_);
-      g_->call->lightAlong(g_->host, g_, L_, density_.data(), k, ofLights_, cl_);
-      for (int i : b_) sum.set(i, sum[i] + cl_[i] * (*this)[i].value(L_[i]));
-    }
-  }
-  /// Adds reflections of the scene. Lamps are left out, because light samples bring them.
-  void addReflections(int rays, rsl::Vec3Array& sum) {
-    TmRayOptions options = tmRayDefaults();
-    options.drawn = rays, options.passLamps = 1;
-    for (int& k = options.number; k < rays; ++k) {
-      draw(k, rays);
-      const rsl::Vec3Array seen = b_.trace(L_, options);
+  /// Adds what arrives along directions of the lobes: light, and the scene where it is mirrored. Both come along the
+  /// same directions, so that where few directions happen to find the sky, more find what hides it.
+  void addLobeSamples(rsl::Vec3Array& ofLights, rsl::Vec3Array& ofScene) {
+    Reflections seen(b_, drawn_, least_);
+    for (int k = 0; k < drawn_; ++k) {
+      draw(k);
+      if (isLit_) {
+        g_->call->lightAlong(g_->host, g_, L_, density_.data(), k, drawn_, cl_);
+        for (int i : b_) ofLights.set(i, ofLights[i] + cl_[i] * (*this)[i].value(L_[i]));
+      }
+      if (!mirrors_) continue;
       for (int i : b_)
-        if (density_[i] > 0)
-          sum.set(i, sum[i] + seen[i] * (*this)[i].value(L_[i]) / (rsl::kPi * density_[i] * static_cast<float>(rays)));
+        if (density_[i] > 0) {
+          const float weight = 1 / (rsl::kPi * density_[i] * static_cast<float>(drawn_));
+          seen.add(i, L_[i], weight * (*this)[i].value(L_[i]), xi0_[i], xi1_[i]);
+        }
+      if ((k + 1) % Reflections::kTogether == 0 || k + 1 == drawn_) seen.trace(ofScene);
     }
   }
 
  private:
   /// Sets L_, which is 0 where the direction goes below the surface, and density_.
-  void draw(int k, int of) {
-    g_->call->stratified(g_->host, g_, k, of, xi0_.data(), xi1_.data());
+  void draw(int k) {
+    g_->call->stratified(g_->host, g_, k, drawn_, xi0_.data(), xi1_.data());
     for (int i : b_) {
       const Vec3 L = (*this)[i].draw(xi0_[i], xi1_[i]);
       density_[i] = (*this)[i].density(L);
@@ -210,9 +216,17 @@ class Glossy {
     }
   }
 
+  /// A mirrored scene has more detail than lights have, so it takes twice the directions that those want. Rays would
+  /// multiply in repeated reflections.
+  int directions() const {
+    const int ofLights = static_cast<int>(g_->call->lobeSamples(g_->host, g_));
+    return std::max(least_, mirrors_ && b_.rayDepth() == 0 ? 2 * ofLights : ofLights);
+  }
+
   const rsl::Batch& b_;
   const TmGrid* const g_;
-  const int ofLights_;
+  const bool isLit_, mirrors_;
+  const int least_, drawn_;
   std::vector<Lobes> lobes_;
   rsl::Vec3Array L_;
   rsl::Array xi0_, xi1_, density_;
@@ -229,7 +243,7 @@ void shadeWith(const rsl::Batch& b, const Coordinates& at, const Opacity& Oi) {
   const ColorPicture glow(b, at.of("emissionmap"), emissionmap(g), linearize(g) != 0);
   // Gather rays carry diffuse light alone.
   const bool shiny = b.wantsHighlights();
-  Glossy glossy(b, N, V, inputs);
+  Glossy glossy(b, N, V, inputs, shiny ? static_cast<int>(rsl::clamp(reflections(g), 0, 1 << 14)) : 0);
   TmIlluminance sample = tmIlluminanceDefaults();
   if (!glossy.isAnyMatte()) sample.category = "-indirect";  // metal has no diffuse light, which may cost many rays
   while (b.illuminance(sample)) {
@@ -243,12 +257,7 @@ void shadeWith(const rsl::Batch& b, const Coordinates& at, const Opacity& Oi) {
     // Indirect light is diffuse light: only its main direction is known.
     if (shiny && !sample.nonspecular && !sample.isIndirect) glossy.addLightSample(sample, highlight);
   }
-  if (shiny) {
-    glossy.addLobeSamples(highlight);
-    const int rays = static_cast<int>(rsl::clamp(reflections(g), 0, 1 << 14));
-    glossy.addReflections(b.rayDepth() > 0 ? std::min(rays, 1) : rays,
-                          mirrored);  // rays would multiply in repeated reflections
-  }
+  if (shiny) glossy.addLobeSamples(highlight, mirrored);
   for (int i : b) {
     const Material& m = glossy[i].material;
     const Color matte = m.matte * m.base * ambient[i] + diffuse[i];

@@ -73,6 +73,7 @@ TEST_F(Disney, TheRoughestMetalGivesBackWhatItsIntegralSays) {
 // A world of 1 all around is the same whether it is a sky, of which light and lobes are sampled, or what reflected rays
 // see.
 TEST_F(Disney, ReflectedRaysTellOfTheSameWorldAsHighlights) {
+  services.met = [](const vec3&, const vec3&) { return 1.0f; };
   services.seen = [](const vec3&) { return vec3(1.0f); };
   for (const float rough : {0.1f, 0.5f, 1.0f})
     for (const float coat : {0.0f, 1.0f}) {
@@ -103,6 +104,43 @@ TEST_F(Disney, ASharpLobeUnderASkyIsFreeOfNoise) {
   EXPECT_LT(std::sqrt(square), 0.06);
 }
 
+// White things hide half of a white sky: where few directions find the sky, more find what hides it.
+TEST_F(Disney, WhatHidesAWhiteSkyIsMirroredAlongTheSameDirections) {
+  const auto hidden = [](const vec3& d) { return d.x > 0.02f; };
+  services.met = [&](const vec3&, const vec3& d) { return hidden(d) ? 1.0f : kInfinity; };
+  services.seen = [&](const vec3& d) { return vec3(hidden(d) ? 1.0f : 0.0f); };
+  services.visible = [&](const vec3&, const vec3& d) { return hidden(d) ? 0.0f : 1.0f; };
+  surface("disney", {number("metallic", 1), number("roughness", 0.3f), number("reflections", 8)});
+  light("environmentlight", {number("samples", 64)});
+  const ShadedPoints seen = shade(points(std::vector<vec3>(200, vec3(0, 0, 5))));
+  double mean = 0, square = 0;
+  for (int i = 0; i < 200; ++i)
+    mean += double{seen.color(i).x} / 200, square += std::pow(double{seen.color(i).x} - 1, 2) / 200;
+  EXPECT_NEAR(mean, 1, 0.01);
+  EXPECT_LT(std::sqrt(square), 0.03) << "0.09 by 8 directions of their own";
+}
+
+// A coat reflects a few hundredths of the light, so that most of what it meets is left out.
+TEST_F(Disney, WhatIsMirroredInPartIsRightInTheMean) {
+  attributes.color = vec3(0.0f);
+  services.met = [](const vec3&, const vec3& d) { return d.x > 0 ? 1.0f : kInfinity; };
+  services.seen = [](const vec3& d) { return d.x > 0 ? vec3(1 + d.x + 2 * d.y) : vec3(0.0f); };
+  const auto meanOf = [&](float rays, int n) {
+    shading.reset(), scene.objects.clear(), services.asked.clear();
+    scene.lights.clear(), attributes.lights.clear();
+    surface("disney", {number("roughness", 0.5f), number("clearcoat", 1), number("reflections", rays)});
+    light("environmentlight", {number("intensity", 0), number("samples", 128)});
+    const ShadedPoints seen = shade(points(std::vector<vec3>(static_cast<size_t>(n), vec3(0.5f, 0.4f, 5))));
+    double sum = 0;
+    for (int i = 0; i < n; ++i) sum += double{seen.color(i).x} / n;
+    return sum;
+  };
+  const double many = meanOf(4096, 20), few = meanOf(4, 3000);
+  EXPECT_NEAR(few, many, 0.03 * many);
+  meanOf(4, 1);
+  EXPECT_LT(services.asked.size(), 128u + 32) << "few hits are shaded";
+}
+
 TEST_F(Disney, BitsDoNotDependOnTheCompanyOfAPoint) {
   surface("disney", {number("metallic", 1), number("reflections", 8)});
   light("environmentlight");
@@ -124,8 +162,10 @@ TEST_F(Disney, EmissionAndReflectionsAreAdded) {
   attributes.color = vec3(0.0f);
   expectColor(facing({number("specular", 0), color("emission", {1, 2, 3})}), {1, 2, 3});
   const size_t before = services.asked.size();
-  facing({number("reflections", 4)});
-  ASSERT_EQ(services.asked.size(), before + 4);
+  services.met = [](const vec3&, const vec3&) { return 1.0f; };
+  attributes.color = vec3(1.0f);
+  facing({number("metallic", 1), number("reflections", 4)});
+  ASSERT_EQ(services.asked.size(), before + 8) << "four distances, and four colours";
   EXPECT_EQ(services.asked.back().number, 3);
   EXPECT_EQ(services.asked.back().count, 4);
   EXPECT_FALSE(services.asked.back().lampsGlow) << "light samples bring them";
