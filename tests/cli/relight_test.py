@@ -188,7 +188,9 @@ for what, path, status in (("the first page that edits", "edit?page=5", 200), ("
                            ("until it takes over", "edit?page=6&take=1", 200), ("then the first one watches", "edit?page=5", 409),
                            ("and so does one without a number", "edit", 409)):
     suite.expect(server.post(path, single)[0] == status, what)
+suite.expect(server.post("leave?page=5", {})[0] == 200 and server.post("edit?page=5", single)[0] == 409, "one that watches may go")
 suite.expect(server.news()[0]["editor"] == 6 and server.news()[0]["present"]["exposure"] == [1.25, 1], "all learn who edits, and what")
+suite.expect(server.post("leave?page=6", {})[0] == 200 and server.post("edit?page=7", single)[0] == 200, "when the one that edits has gone, the next may")
 suite.expect(server.json("edits") == ["warm"], "the folder's edits are listed")
 for name in ("../warm", "..", "", "a/b", "/etc/passwd", "a" * 65, "a.b", "a\0", "%2e%2e%2fwarm"):
     suite.expect(server.post("save", {"name": name})[0] == 400 and server.post("load", {"name": name})[0] == 400, f"the name {name[:20]!r} leads nowhere")

@@ -63,6 +63,7 @@ class Editor {
       page_.compare_exchange_strong(nobody, page);
     return page_ == page;
   }
+  void leave(uint64_t page) { page_.compare_exchange_strong(page, 0); }
   uint64_t page() const { return page_; }
 
  private:
@@ -112,6 +113,10 @@ class Relight {
       relighting_.edit(Json::parse(q.body));
       relighting_.layers().wake();
       return jsonReply({{"rib", ribOf(relighting_.present(), relighting_.editable())}});
+    });
+    server_.post("leave", [this](const HttpQuestion& q) {
+      editor_.leave(numberOf(q, "page"));
+      return jsonReply(Json::object());
     });
     server_.post("pointer", [this](const HttpQuestion& q) {
       relighting_.pointAt(static_cast<int>(numberOf(q, "x")), static_cast<int>(numberOf(q, "y")));

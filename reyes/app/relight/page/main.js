@@ -25,6 +25,7 @@ let exact = false, falseColor = false;
 /** Several pages may watch; one edits, until another takes over. */
 const page = 1 + Math.floor(Math.random() * 999999998);
 const watches = () => Boolean(status.editor) && status.editor !== page;
+addEventListener("pagehide", () => navigator.sendBeacon(`leave?page=${page}`));
 const postEdit = (more = "") => post(`edit?page=${page}${more}`, state);
 /** Lights that are heard alone, or not: a way of looking, and no part of the edit. */
 const solo = new Set(), mute = new Set();
