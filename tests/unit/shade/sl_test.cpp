@@ -292,7 +292,7 @@ TEST_F(Sl, TheExamplesCompileOutOfTree) {
                                     source / "docs/example_plugin/lacquer.cpp"};
   for (const auto& entry : fs::directory_iterator(source / "docs/rsl_plugins"))
     if (entry.path().extension() == ".cpp") examples.push_back(entry.path());
-  EXPECT_EQ(examples.size(), 10u);
+  EXPECT_EQ(examples.size(), 9u);
   for (const fs::path& example : examples) {
     const fs::path plugin = folder / example.filename().replace_extension(".so");
     const std::string command = std::string(TOMALES_CXX) +
