@@ -95,11 +95,26 @@ page.run("document.getElementById('load').click()")
 suite.expect(page.wait("document.getElementById('rib').textContent.includes('intensity')"), "it is loaded again")
 page.key("e")
 
-# A click chooses, the pointer tells; the page looks well.
+# A click chooses, and the pointer tells.
 box = page.run("(() => { const b = document.getElementById('picture').getBoundingClientRect(); return [b.left + 0.3 * b.width, b.top + 0.7 * b.height]; })()")
 page.click(*box)
 suite.expect(page.wait("document.querySelectorAll('#probe .bar').length > 1"), "bars tell what each light brings to the pixel")
 suite.expect(page.wait("document.getElementById('probe').textContent.includes('matte')"), "a click tells the shader")
+
+# A second page watches the first, until it takes over.
+VALUE = "Number(document.querySelector('#lights .light:has(button[title=solo]) input[type=range]').value)"
+other = Page(chromium)
+other.open(url)
+suite.expect(other.wait("!document.getElementById('takeOver').hidden"), "a second page watches")
+page.run(SLIDE % -1.5)
+suite.expect(other.wait(f"Math.abs({VALUE} + 1.5) < 0.02"), "its slider follows that of the first")
+other.run("document.getElementById('takeOver').click()")
+suite.expect(page.wait("!document.getElementById('takeOver').hidden"), "it takes over, and the first one watches")
+page.run("document.getElementById('takeOver').click()")
+suite.expect(other.wait("!document.getElementById('takeOver').hidden"), "and back")
+other.close()
+
+# Snapshots; the page looks well.
 page.key("s")
 page.run(SLIDE % 0.5)
 page.key("w")
@@ -111,17 +126,6 @@ for name, size in SIZES.items():
     page.screenshot(folder / f"{name}.png")
     suite.expect(page.run("[document.documentElement, document.querySelector('aside')].every((e) => e.scrollWidth <= e.clientWidth)"), f"{name}: nothing reaches over the edge of the window")
 suite.expect(page.complaints() == [], f"the browser complains of nothing {page.complaints()[:2]}")
-
-# A second page watches the first, until it takes over.
-VALUE = "document.querySelector('#lights .light:has(button[title=solo]) input[type=range]').value"
-other = Page(chromium)
-other.open(url)
-suite.expect(other.wait("!document.getElementById('takeOver').hidden"), "a second page watches")
-page.run(SLIDE % -1.5)
-suite.expect(other.wait(f"Math.abs({VALUE} + 1.5) < 0.02"), "its slider follows that of the first")
-other.run("document.getElementById('takeOver').click()")
-suite.expect(page.wait("!document.getElementById('takeOver').hidden"), "it takes over, and the first one watches")
-other.close()
 page.run("document.getElementById('end').click()")
 suite.expect(server.wait(20) == 0, "the page ends the program")
 page.close()
