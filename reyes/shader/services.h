@@ -47,11 +47,11 @@ typedef struct TmServices {
   void (*shadow)(void* host, const TmGrid*, const char* name, const TmShadowOptions*, TmConstVec3 P, TmVec3 out);
 
   /* Multiple importance sampling of a surface's own lobe f (the cosine included, over pi less), as specular() does it.
-   * With m = lobeSamples() and p(L) the density over solid angle with which the surface draws L, the highlight is the
-   * sum of
+   * With m directions of its own, lobeSamples() or more, that it draws with the density p(L) over solid angle, the
+   * highlight is the sum of
    *   f(L) Cl / (1 + (m p(L) / d)^2)  over illuminance() at the points themselves, with d of lightDensity(); wholly
    *                                   where d is 0, and
-   *   f(L) Cl                         over m directions of its own, with Cl of lightAlong().
+   *   f(L) Cl                         over these directions, with Cl of lightAlong().
    * lightDensity: `light` is TmIlluminance::light; 0 where lightAlong() would not find the light. lightAlong: L of unit
    * length, sample number 0..m-1, density p(L), 0 for none. stratified: numbers in [0,1) for sample number `sample`. */
   int32_t (*lobeSamples)(void* host, const TmGrid*);
