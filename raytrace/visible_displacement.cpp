@@ -20,10 +20,11 @@ constexpr float kFiner = 4;
 constexpr double kAlwaysQuads = 1 << 17;
 /// A displacement is measured at about so many points of a group.
 constexpr size_t kProbedPoints = 4096, kProbedPatches = 64;
-constexpr int kFewestCells = 4, kMostCells = 32;  ///< Of a probed patch, along u and v.
+constexpr int kFewestCells = 4, kMostCells = 32;  ///< A probed patch has so many along u and v.
 constexpr float kLongest_px = 32;  ///< Longer polygons are no picture of the surface, and rays would start within it.
-constexpr float kNearPart_px = 256;
-constexpr int kMostHalvings = 64;
+constexpr float kNearPart_px =
+    256;                           ///< The near part of a patch is no larger, so that probes lie close together there.
+constexpr int kMostHalvings = 64;  ///< Ground at the eye plane is never that small.
 
 bool isUndecided(const Attributes& a) { return leavesDisplacementOpen(a) && raysNeed(a); }
 
@@ -50,7 +51,7 @@ NearPart partOf(const Object& o, const Camera& camera, uint32_t patch, const UvR
   return {glm::length(nearest), glm::length(bound.size()) / pixel, pixel, rect};
 }
 
-/// Nearest parts are halved first, until one is small.
+/// Halves the nearest part along both ways, and so on until the nearest one is small.
 NearPart nearestPart(const Object& o, const Camera& camera, uint32_t patch) {
   std::vector<NearPart> parts{partOf(o, camera, patch, UvRect{})};
   for (int halvings = 0;; ++halvings) {
@@ -100,7 +101,7 @@ Probe probed(const Scene& scene, const Camera& camera, const ShadingSystem& shad
 /// What the displacement does to the objects of a group.
 struct Relief {
   float amplitude_px = 0;
-  std::vector<Probe> nearest;  ///< Of the patches that were probed.
+  std::vector<Probe> nearest;  ///< The near part of each patch that was probed.
 };
 
 /// Chooses group after group, the greatest displacement first, until polygons for rays are as many as there may be.

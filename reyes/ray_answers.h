@@ -5,6 +5,7 @@
 #include <array>
 #include <compare>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "reyes/base/math.h"
@@ -30,6 +31,13 @@ struct IndirectAnswer {
   std::array<vec3, 3> dominant;
   std::vector<vec3> shares;  ///< The part of E that each group of lights brings; empty: not known.
 };
+
+/// The answer as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
+inline IndirectAnswer withGains(IndirectAnswer answer, std::span<const vec3> gains) {
+  answer.E = vec3(0.0f);
+  for (size_t g = 0; g < gains.size(); ++g) answer.shares[g] *= gains[g], answer.E += answer.shares[g];
+  return answer;
+}
 
 struct RayAnswers {
   bool recording = false;

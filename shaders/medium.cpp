@@ -46,8 +46,9 @@ struct ByPassing {
 /// distance `nearest` from the eye: C. Kulla and M. Fajardo, "Importance Sampling Techniques for Path Tracing in
 /// Participating Media", 2012. Lengths: units of the world.
 struct ByLamp {
-  float beside, nearest, from, to;
+  float beside = 0, nearest = 0, from = 0, to = 0;
 
+  ByLamp() = default;
   ByLamp(float besideRay, float nearestAt, float way)
       : beside(std::max(besideRay, 1e-5f * way)),
         nearest(nearestAt),
@@ -130,29 +131,22 @@ class Places {
 
  private:
   static constexpr size_t kMostLamps = 7;
-  struct Lamp {
-    rsl::Array beside, nearest;
-  };
 
   void addLamp(const TmIlluminance& lamp) {
-    Lamp out{rsl::Array(b_.g), rsl::Array(b_.g)};
+    std::vector<ByLamp>& of = lamps_.emplace_back(static_cast<size_t>(b_.g->count));
     for (int i : b_) {
       const rsl::Vec3 along = rsl::normalize(b_.I(i)), L = rsl::get(lamp.L, i);
       const float past = rsl::dot(L, along);
-      out.beside[i] = rsl::length(L - past * along) * units_[i];
-      out.nearest[i] = 0.5f * way(i) + past * units_[i];
+      of[static_cast<size_t>(i)] = {rsl::length(L - past * along) * units_[i], 0.5f * way(i) + past * units_[i],
+                                    way(i)};
     }
-    lamps_.push_back(std::move(out));
   }
   ByPassing passing(int i) const { return {extinction(b_.g, i), way(i)}; }
-  ByLamp lamp(int kind, int i) const {
-    const Lamp& l = lamps_[static_cast<size_t>(kind - 1)];
-    return {l.beside[i], l.nearest[i], way(i)};
-  }
+  const ByLamp& lamp(int kind, int i) const { return lamps_[static_cast<size_t>(kind - 1)][static_cast<size_t>(i)]; }
 
   const rsl::Batch& b_;
   const rsl::Array& units_;
-  std::vector<Lamp> lamps_;
+  std::vector<std::vector<ByLamp>> lamps_;  ///< Indexed by kind - 1 and by point.
 };
 
 rsl::Array unitsAlongRays(const rsl::Batch& b) {

@@ -23,7 +23,7 @@ struct Body : Surface {
   }
   Color leaving(const Normal& Nf) {
     const char* const file = uniform(cloudname);
-    if (material != "") return subsurface(P, Nf, file, "material", material, "unitlength", unitlength);
+    if (material != "") return subsurface(P, Nf, file, "material", material, "ior", eta, "unitlength", unitlength);
     return subsurface(P, Nf, file, "albedo", ofBody(albedo), "diffusemeanfreepath", ofBody(meanfreepath), "ior", eta,
                       "unitlength", unitlength);
   }

@@ -19,7 +19,7 @@ def formatter():
 
 root = pathlib.Path(sys.argv[1])
 folders = ("reyes", "raytrace", "gi", "shaders", "displays", "tests", "docs", "scenes")
-files = sorted(f for folder in folders for f in (root / folder).rglob("*") if f.suffix in (".cpp", ".h") and not (folder == "scenes" and f.suffix == ".h"))  # RSL's
+files = sorted(f for folder in folders for f in (root / folder).rglob("*") if f.suffix in (".cpp", ".h"))
 if not formatter():
     print(f"clang-format {VERSION} is not installed")
     sys.exit(SKIPPED)

@@ -87,10 +87,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
   const std::span<const std::string> groups = settings.occlusion ? std::span<const std::string>() : state.groups;
   const auto mixed = [&](IndirectAnswer answer, const std::vector<vec3>& gains) {
-    if (groups.empty() || gains.empty()) return answer;
-    answer.E = vec3(0);
-    for (size_t g = 0; g < groups.size(); ++g) answer.E += gains[g] * answer.shares[g];
-    return answer;
+    return groups.empty() || gains.empty() ? answer : withGains(std::move(answer), gains);
   };
   if (answers)
     if (const auto it = answers->indirect.find(name);

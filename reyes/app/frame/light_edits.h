@@ -12,6 +12,8 @@ struct LightEdits {
   std::vector<std::string> stale;
 };
 
+/// Compares the lights by which records were gathered with those of the scene now, which has the same ones unless it is
+/// another scene: then nothing is known of edits.
 LightEdits editsSince(const IrradianceShot& gathered, const Scene& now, const ShadingSystem& shading);
 
 /// The groups of lights that bounce, for GiServices::keepShares: empty first, then by name.

@@ -197,13 +197,6 @@ void ShotJob::takeEdits(std::vector<PreparedCache>& caches) const {
   }
 }
 
-void ShotJob::takeEdits(IndirectAnswer& answer) const {
-  if (lightEdits_.gains.size() != answer.shares.size() || answer.shares.empty()) return;
-  answer.E = vec3(0);
-  for (size_t g = 0; g < answer.shares.size(); ++g)
-    answer.shares[g] *= lightEdits_.gains[g], answer.E += answer.shares[g];
-}
-
 std::vector<std::shared_ptr<LightCall>> ShotJob::lightsOfRecords() const {
   std::vector<std::shared_ptr<LightCall>> out(shot_.scene.lights.begin(), shot_.scene.lights.end());
   if (!files_->hasIrradiance()) return out;
@@ -221,7 +214,9 @@ bool ShotJob::copyAnswers(const std::set<uint32_t>& except, IcfWriter& out) {
     auto answers = files_->answers(i, error);
     if (!answers || answers->empty()) continue;
     for (RayAnswers& batch : *answers)
-      for (auto& [name, answer] : batch.indirect) takeEdits(answer);
+      for (auto& [name, answer] : batch.indirect)
+        if (!answer.shares.empty() && answer.shares.size() == lightEdits_.gains.size())
+          answer = withGains(std::move(answer), lightEdits_.gains);
     if (!out.writeAnswers(i, *answers)) return false;
   }
   return true;

@@ -49,9 +49,8 @@ class ShotJob {
   void warnOfStaleLight() const;
   /// Drops the records gathered before where --crop asks for new ones.
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
-  /// Brings given records and answers to the strength of edited lights, so that they can stand beside new ones.
+  /// Brings given records to the strength of edited lights, so that they can stand beside new ones.
   void takeEdits(std::vector<PreparedCache>& caches) const;
-  void takeEdits(IndirectAnswer& answer) const;
   /// The lights that records will be known to be made by: where an edit changes more than the strength of a light, the
   /// one by which those given were made, so that they stay known to be stale.
   std::vector<std::shared_ptr<LightCall>> lightsOfRecords() const;

@@ -205,6 +205,31 @@ TEST_F(CloudCalls, DiffusedLightIsAskedForInTheSpaceOfTheFileUnderTheMask) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+TEST_F(CloudCalls, TheBuiltInBodyAsksByItsMaterialAndWithoutOneByItsColours) {
+  ParamList params{text("cloudname", "known.ptc"), number("unitlength", 10), number("eta", 1.5f), number("Ks", 0)};
+  attributes.color = vec3(1, 2, 1);
+  surface("subsurface", params);
+  system().setClouds(&clouds);
+  expectColor(shade(row()).color(1), {1, 2 * 15, 0});
+  params.push_back(text("material", ""));
+  params.push_back(color("albedo", {0.5f, 0.5f, 0.5f}));
+  shading.reset(), scene.objects.clear();
+  surface("subsurface", params);
+  system().setClouds(&clouds);
+  const ShadedPoints out = shade(row());
+  EXPECT_NEAR(out.color(1).y, 2 * 15, 1e-5f);
+  EXPECT_GT(out.color(1).z, 0) << "no material of the table";
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(CloudCalls, ABodyBakesWhatEntersForLaterFrames) {
+  light("ambientlight"), light("distantlight", {point("to", {0, 0, 1})});
+  surface("subsurface", {text("cloudname", "entering.ptc"), number("baking", 1)});
+  system().setClouds(&clouds);
+  shade(row());
+  EXPECT_EQ(clouds.baked.size(), row().count());
+}
+
 TEST_F(CloudCalls, WithoutItsCloudNoLightIsDiffusedAndTheUserIsTold) {
   surface("wax", {text("file", "absent.ptc")});
   system().setClouds(&clouds);
