@@ -57,10 +57,11 @@ bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::str
 std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& searchPath,
                                                            const std::string& beside) const {
   std::vector<std::string> out = foldersOf(searchPath);
+  if (!beside.empty()) out.push_back(beside);
+  out.push_back(".");
   std::error_code none;
   for (const std::string& folder : foldersOf(trust.folders))
     if (fs::is_directory(folder, none)) out.push_back(folder);  // folders of a user or an installation may be missing
-  out.push_back(beside.empty() ? "." : beside);
   return out;
 }
 
