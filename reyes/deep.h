@@ -4,6 +4,7 @@
 //   DeepFrame 1--* DeepTile 1--* ShadePoints (one batch a shade group)
 //                           1--* DeepPixel 1--* Fragment --> Facet --> shade point(s)
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 
@@ -28,7 +29,19 @@ struct Fragment {
   float z;           ///< Camera-space depth of the nearest of its samples.
   uint64_t samples;  ///< Bit s is set if sample 64 * word + s of the pixel sees the facet.
   uint16_t word = 0;
-  uint8_t u = 0, v = 0;  ///< Mean position of its samples on the facet, 0..255; used by smooth shading.
+  uint8_t u = 0, v = 0;  ///< Mean position of its samples on the facet, as setPosition() keeps it; for smooth shading.
+
+  /// Keeps a position on the facet, 0..1 each way, as the 256th part of its side that it is in.
+  void setPosition(const vec2& position) {
+    const ivec2 part = glm::min(ivec2(256.0f * position), ivec2(255));
+    u = static_cast<uint8_t>(part.x), v = static_cast<uint8_t>(part.y);
+  }
+  /// The weights of a facet's four points in the middle of that part. They are exact in floats and sum to 1 exactly, so
+  /// that what is opaque at all corners is opaque between them.
+  std::array<float, 4> cornerWeights() const {
+    const vec2 at = (vec2(u, v) + 0.5f) / 256.0f, rest = 1.0f - at;
+    return {rest.x * rest.y, at.x * rest.y, rest.x * at.y, at.x * at.y};
+  }
 };
 
 struct DeepPixel {

@@ -280,9 +280,7 @@ class TileBuilder {
     const float share = 1 / static_cast<float>(std::popcount(fragment.samples));
     if (!blurred)
       positions = glm::clamp(positionOnCell(entry, camera_, cell, {places * share, 0, vec2(0)}), vec2(0), vec2(1));
-    const vec2 mean = positions * (blurred ? 255 * share : 255.0f);
-    fragment.u = static_cast<uint8_t>(std::lround(mean.x));
-    fragment.v = static_cast<uint8_t>(std::lround(mean.y));
+    fragment.setPosition(blurred ? positions * share : positions);
   }
 
   const Camera& camera_;

@@ -10,17 +10,12 @@ bool isConstant(const Facet& f) { return f.point[1] == f.point[0] && f.point[2] 
 /// Points of a facet and their weights: the first alone, or the four corners at a fragment.
 struct Blend {
   int count = 1;
-  float weight[4] = {1, 0, 0, 0};
+  std::array<float, 4> weight = {1, 0, 0, 0};
 
   Blend() = default;
   Blend(const Facet& f, const Fragment& fragment) {
     if (isConstant(f)) return;
-    const float u = static_cast<float>(fragment.u) / 255, v = static_cast<float>(fragment.v) / 255;
-    count = 4;
-    weight[0] = (1 - u) * (1 - v);
-    weight[1] = u * (1 - v);
-    weight[2] = (1 - u) * v;
-    weight[3] = u * v;
+    count = 4, weight = fragment.cornerWeights();
   }
 };
 

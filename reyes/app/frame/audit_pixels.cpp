@@ -82,9 +82,8 @@ struct Seen {
   Seen(const DeepTile& tile, const Fragment& fragment) {
     const Facet& facet = tile.facets[fragment.facet];
     const ShadedPoints& shaded = tile.shaded[static_cast<size_t>(facet.batch)];
-    const float u = static_cast<float>(fragment.u) / 255, v = static_cast<float>(fragment.v) / 255;
-    const float weight[4] = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-    for (int corner = 0; corner < 4; ++corner) {
+    const std::array<float, 4> weight = fragment.cornerWeights();
+    for (size_t corner = 0; corner < 4; ++corner) {
       if (!facet.matte) color += weight[corner] * shaded.color(facet.point[corner]);
       opacity += weight[corner] * shaded.opacity(facet.point[corner]);
     }

@@ -293,8 +293,21 @@ TEST(Resolve, SmoothShadingSharesCornersAndKnowsThePlaceOnTheFacet) {
     EXPECT_NEAR(t.batches[0].channel(kArea)[facet.point[k]], 16, 1e-4);
     EXPECT_NEAR(t.batches[0].channel(kDpduX)[facet.point[k]], 12, 1e-4);
   }
-  EXPECT_EQ(f.u, std::lround(255 * 1.5f / 4));
-  EXPECT_EQ(f.v, std::lround(255 * 2.5f / 4));
+  EXPECT_EQ(f.u, std::floor(256 * 1.5f / 4));
+  EXPECT_EQ(f.v, std::floor(256 * 2.5f / 4));
+}
+
+TEST(Fragment, TheWeightsOfItsCornersAreThoseOfItsPlaceAndSumToExactlyOne) {
+  for (int x = 0; x <= 1000; ++x)
+    for (int y = 0; y <= 1000; y += 50) {
+      const vec2 at = vec2(x, y) / 1000.0f;
+      Fragment f{};
+      f.setPosition(at);
+      const auto w = f.cornerWeights();
+      ASSERT_EQ(w[0] + w[1] + w[2] + w[3], 1.0f) << x << " " << y;
+      ASSERT_NEAR(w[1] + w[3], at.x, 1.0 / 512 + 1e-6);
+      ASSERT_NEAR(w[2] + w[3], at.y, 1.0 / 512 + 1e-6);
+    }
 }
 
 TEST(Resolve, StillHasTheGridsOfSolidsWhenThoseThatNobodySeesAreLetGoOf) {

@@ -90,7 +90,7 @@ TEST(FilterFrame, SmoothFacetsAreBilinearInTheirFourPoints) {
   }
   tile.fragments[0].u = 51, tile.fragments[0].v = 102;
   const Image image = filterFrame(frame, filtered("box", 1), jittered(1, 1));
-  EXPECT_NEAR(image.at(0, 0)[0], 0.2f + 2 * 0.4f, 1e-6f);
+  EXPECT_NEAR(image.at(0, 0)[0], 51.5f / 256 + 2 * 102.5f / 256, 1e-6f);
 }
 
 TEST(FilterFrame, EmptyPixelsAreBlackAndInfinitelyFar) {
