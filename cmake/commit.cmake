@@ -1,5 +1,6 @@
 # Writes OUTPUT with the commit of the sources, and leaves it alone if that is what it says already. An archive made by
 # `git archive` has the commit here instead of the first line (.gitattributes).
+cmake_minimum_required(VERSION 3.25)
 set(commit "$Format:%H$")
 if(commit MATCHES "Format")
   execute_process(COMMAND git rev-parse HEAD WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE commit RESULT_VARIABLE problem

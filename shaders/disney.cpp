@@ -1,15 +1,17 @@
-// A principled surface after Burley 2012, "Physically-based shading at Disney" (sections 5.3 to 5.6), without
-// anisotropy and subsurface. Highlights combine samples of the lights and of its own two lobes; reflected rays are
-// drawn from the lobes. Every parameter may be multiplied by a picture.
+// A principled surface after Burley 2012 (shaders/burley.h), without anisotropy and subsurface. Highlights combine
+// samples of the lights and of its own two lobes; reflected rays are drawn from the lobes. Every parameter may be
+// multiplied by a picture.
 #include <optional>
 
-#include "reyes/shader/ggx.h"
 #include "reyes/shader/shadeops.h"
+#include "shaders/burley.h"
 #include "shaders/maps.h"
 #include "shaders/reflections.h"
 
 namespace {
 
+using burley::Lobes;
+using burley::Material;
 using rsl::Color;
 using rsl::Vec3;
 
@@ -37,20 +39,6 @@ rsl::ColorOutput diffusePart("diffuse", "share of diffuse light and sheen"),
     specularPart("specular", "share of highlights"), reflectionPart("reflection", "share of the mirrored scene"),
     albedo("albedo", "base colour");
 
-float luminance(Color c) { return rsl::dot(c, {0.2126f, 0.7152f, 0.0722f}); }
-float fresnelWeight(float cosine) {
-  const float m = rsl::clamp(1 - cosine, 0, 1);
-  return m * m * m * m * m;
-}
-/// The generalised Trowbridge-Reitz distribution with gamma 1, of the coat; that with gamma 2 is GGX.
-float gtr1(float nh, float alpha) {
-  if (alpha >= 1) return 1 / rsl::kPi;
-  const float a2 = alpha * alpha, t = 1 + (a2 - 1) * nh * nh;
-  return (a2 - 1) / (rsl::kPi * std::log(a2) * t);
-}
-/// Burley masks the coat as if it were of this width.
-const rsl::Ggx kMaskOfCoat(0.25f);
-
 /// The parameters of a batch, multiplied by their pictures.
 struct Inputs {
   Inputs(const rsl::Batch& b, const Coordinates& at)
@@ -63,92 +51,20 @@ struct Inputs {
         sheentint(b, at, ::sheentint),
         clearcoat(b, at, ::clearcoat),
         clearcoatgloss(b, at, ::clearcoatgloss) {}
+  burley::Inputs operator()(const TmGrid* g, int i) const {
+    return {rsl::get(g->Cs, i) * paint[i],
+            metallic[i],
+            specular[i],
+            speculartint[i],
+            roughness[i],
+            sheen[i],
+            sheentint[i],
+            clearcoat[i],
+            clearcoatgloss[i]};
+  }
 
   ColorPicture paint;
   MappedValues metallic, specular, speculartint, roughness, sheen, sheentint, clearcoat, clearcoatgloss;
-};
-
-/// The material of one point, from the parameters.
-struct Material {
-  Color base, specular0, sheen;
-  float roughness, coat, coatAlpha, matte;
-  rsl::Ggx facets;
-
-  Material(const TmGrid* g, int i, const Inputs& in)
-      : base(rsl::get(g->Cs, i) * in.paint[i]),
-        roughness(rsl::clamp(in.roughness[i], 0, 1)),
-        facets(std::max(1e-3f, roughness * roughness)) {
-    const float bright = luminance(base), metal = rsl::clamp(in.metallic[i], 0, 1);
-    const Color tint = bright > 0 ? base / bright : Color{1, 1, 1}, white{1, 1, 1};
-    specular0 = rsl::mix(0.08f * in.specular[i] * rsl::mix(white, tint, in.speculartint[i]), base, metal);
-    sheen = in.sheen[i] * rsl::mix(white, tint, in.sheentint[i]);
-    coat = 0.25f * in.clearcoat[i], coatAlpha = rsl::mix(0.1f, 0.001f, in.clearcoatgloss[i]);
-    matte = 1 - metal;
-  }
-  /// diffuse() and glossy() are BRDFs times pi, for light that is E/pi. diffuse() includes the sheen.
-  Color diffuse(float nl, float nv, float lh) const {
-    const float grazing = 0.5f + 2 * lh * lh * roughness;
-    const float retro = rsl::mix(1, grazing, fresnelWeight(nl)) * rsl::mix(1, grazing, fresnelWeight(nv));
-    return matte * (retro * base + rsl::kPi * fresnelWeight(lh) * sheen);
-  }
-  Color glossy(float nl, float nv, float nh, float lh) const {
-    const float F = fresnelWeight(lh);
-    const Color lobe = facets.reflection(nl, nv, nh) * rsl::mix(specular0, Color{1, 1, 1}, F);
-    const float coatLobe = coat * gtr1(nh, coatAlpha) * rsl::mix(0.04f, 1, F) * kMaskOfCoat.maskingOverTwiceCosine(nl) *
-                           kMaskOfCoat.maskingOverTwiceCosine(nv);
-    return rsl::kPi * (lobe + Color{coatLobe, coatLobe, coatLobe});
-  }
-};
-
-/// A viewer who stands below a surface whose normals a picture has turned looks along it.
-Vec3 aboveSurface(Vec3 N, Vec3 V) {
-  constexpr float kLeast = 1e-4f;
-  const float nv = rsl::dot(N, V);
-  return nv >= kLeast ? V : rsl::normalize(V + (kLeast - nv) * N);
-}
-
-/// The two lobes of one point, from which directions are drawn: the half vector H of the base by what the viewer sees
-/// of its facets, and that of the coat by its distribution times N.H.
-struct Lobes {
-  Vec3 N, V;
-  Material material;
-  float nv, coatShare;  ///< coatShare is the share of the directions that are drawn from the coat.
-
-  Lobes(Vec3 n, Vec3 v, const Material& m)
-      : N(n), V(aboveSurface(n, v)), material(m), nv(std::max(1e-4f, rsl::dot(n, V))) {
-    const float F = fresnelWeight(nv), coat = m.coat * rsl::mix(0.04f, 1, F),
-                base = luminance(rsl::mix(m.specular0, Color{1, 1, 1}, F));
-    coatShare = coat > 0 ? coat / (coat + base) : 0;
-  }
-  /// BRDF times cosine times pi, for light that is E/pi; 0 below the surface.
-  Color value(Vec3 L) const {
-    const float nl = rsl::dot(N, L);
-    if (nl <= 0) return {};
-    const Vec3 H = rsl::normalize(L + V);
-    return nl * material.glossy(nl, nv, rsl::dot(N, H), rsl::dot(L, H));
-  }
-  /// Probability density of draw() over solid angle.
-  float density(Vec3 L) const {
-    const Vec3 H = rsl::normalize(L + V);
-    const float nh = rsl::dot(N, H), vh = rsl::dot(V, H);
-    if (nh <= 0 || vh <= 0 || rsl::dot(N, L) <= 0) return 0;
-    const float ofBase = material.facets.reflectedDensity(nv, nh);
-    return coatShare > 0 ? rsl::mix(ofBase, gtr1(nh, material.coatAlpha) * nh / (4 * vh), coatShare) : ofBase;
-  }
-  Vec3 draw(float xi0, float xi1) const {
-    const Vec3 H = xi0 < coatShare ? normalOfCoat(xi0 / coatShare, xi1)
-                                   : material.facets.visibleNormal(N, V, (xi0 - coatShare) / (1 - coatShare), xi1);
-    return 2 * rsl::dot(V, H) * H - V;
-  }
-
- private:
-  Vec3 normalOfCoat(float xi0, float xi1) const {
-    const float a2 = material.coatAlpha * material.coatAlpha, c2 = (1 - std::pow(a2, 1 - xi0)) / (1 - a2),
-                c = std::sqrt(rsl::clamp(c2, 0, 1)), s = std::sqrt(1 - c * c), angle = 2 * rsl::kPi * xi1;
-    Vec3 tangent, bitangent;
-    rsl::orthonormalBasis(N, tangent, bitangent);
-    return (s * std::cos(angle)) * tangent + (s * std::sin(angle)) * bitangent + c * N;
-  }
 };
 
 /// One batch of points with their materials.
@@ -168,7 +84,7 @@ class Glossy {
         density_(g_),
         cl_(g_) {
     lobes_.reserve(static_cast<size_t>(g_->count));
-    for (int i = 0; i < g_->count; ++i) lobes_.emplace_back(N[i], V[i], Material(g_, i, inputs));
+    for (int i = 0; i < g_->count; ++i) lobes_.emplace_back(N[i], V[i], Material(inputs(g_, i)));
   }
   const Lobes& operator[](int i) const { return lobes_[static_cast<size_t>(i)]; }
   bool isAnyMatte() const {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cstdarg>
 #include <cstdio>
@@ -13,16 +12,6 @@
 
 namespace tomales::rib {
 namespace {
-
-size_t count(RtInt n) { return n > 0 ? static_cast<size_t>(n) : 0; }
-size_t sum(const RtInt n[], RtInt length) {
-  size_t out = 0;
-  for (RtInt i = 0; i < length; ++i) out += count(n[i]);
-  return out;
-}
-size_t pastLargest(const RtInt list[], size_t length) {
-  return length == 0 ? 0 : count(*std::max_element(list, list + length)) + 1;
-}
 
 /// The tokens and values of a variadic call.
 struct Arrays {
@@ -59,6 +48,8 @@ void say(const char* name, std::vector<RibArg> args, RI_ARRAYS, const ValueCount
   if (Recorder* r = listening()) r->say(name, std::move(args), r->params(name, n, tokens, values, counts, category));
 }
 
+std::array<int, 2> steps() { return recorder ? recorder->steps() : std::array{3, 3}; }
+
 // Handles are numbers, so that those of another call do no harm.
 RtPointer newHandle() {
   static std::atomic<uintptr_t> last{0};
@@ -70,38 +61,6 @@ RtLightHandle light(const char* request, RtToken name, RI_ARRAYS) {
   const RtPointer h = newHandle();
   say(request, {text(name), handle(h)}, n, tokens, values);
   return h;
-}
-
-/// Patches and their ends along one direction (RISpec 3.2 section 5.2).
-struct Spans {
-  size_t patches, ends;
-};
-Spans spans(bool cubic, RtInt n, RtToken wrap, int step) {
-  const bool periodic = wrap && std::string_view(wrap) == RI_PERIODIC;
-  const int order = cubic ? 4 : 2, by = cubic ? std::max(1, step) : 1;
-  const size_t patches = periodic ? count(n / by) : n < order ? 0 : count((n - order) / by + 1);
-  return {patches, patches + !periodic};
-}
-bool isCubic(RtToken type) {
-  return type && (std::string_view(type) == RI_BICUBIC || std::string_view(type) == RI_CUBIC);
-}
-
-ValueCounts meshCounts(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwrap) {
-  const std::array<int, 2> steps = recorder ? recorder->steps() : std::array<int, 2>{3, 3};
-  const Spans u = spans(isCubic(type), nu, uwrap, steps[0]), v = spans(isCubic(type), nv, vwrap, steps[1]);
-  return {u.patches * v.patches, u.ends * v.ends, count(nu) * count(nv), u.ends * v.ends};
-}
-
-ValueCounts curveCounts(RtToken type, RtInt ncurves, const RtInt nvertices[], RtToken wrap) {
-  const int step = recorder ? recorder->steps()[1] : 3;
-  size_t varying = 0;
-  for (RtInt i = 0; i < ncurves; ++i) varying += spans(isCubic(type), nvertices[i], wrap, step).ends;
-  return {count(ncurves), varying, sum(nvertices, ncurves), varying};
-}
-
-ValueCounts faceCounts(RtInt nfaces, size_t corners, const RtInt vertices[]) {
-  const size_t n = pastLargest(vertices, corners);
-  return {count(nfaces), n, n, corners};
 }
 
 }  // namespace
@@ -297,7 +256,7 @@ RtVoid RiPatchMesh(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwra
 }
 RtVoid RiPatchMeshV(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwrap, RI_ARRAYS) {
   say("PatchMesh", {text(type), integer(nu), text(uwrap), integer(nv), text(vwrap)}, n, tokens, values,
-      meshCounts(type, nu, uwrap, nv, vwrap));
+      meshCounts(type, nu, uwrap, nv, vwrap, steps()));
 }
 RtVoid RiNuPatch(RtInt nu, RtInt uorder, const RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder,
                  const RtFloat vknot[], RtFloat vmin, RtFloat vmax, ...) {
@@ -369,7 +328,7 @@ RtVoid RiCurves(RtToken type, RtInt ncurves, const RtInt nvertices[], RtToken wr
 }
 RtVoid RiCurvesV(RtToken type, RtInt ncurves, const RtInt nvertices[], RtToken wrap, RI_ARRAYS) {
   say("Curves", {text(type), integers(nvertices, count(ncurves)), text(wrap)}, n, tokens, values,
-      curveCounts(type, ncurves, nvertices, wrap));
+      curveCounts(type, ncurves, nvertices, wrap, steps()[1]));
 }
 RtVoid RiBlobby(RtInt nleaf, RtInt ncode, const RtInt code[], RtInt nfloats, const RtFloat floats[], RtInt nstrings,
                 const RtString strings[], ...) {

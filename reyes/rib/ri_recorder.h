@@ -4,29 +4,9 @@
 
 #include "reyes/rib/arguments.h"
 #include "reyes/rib/ri_calls.h"
+#include "reyes/rib/ri_counts.h"
 
 namespace tomales::rib {
-
-/// The number of values of each storage class that a primitive takes (RISpec 3.2 section 5).
-struct ValueCounts {
-  size_t uniform = 1, varying = 1, vertex = 1, faceVarying = 1;
-  size_t of(Storage s) const {
-    switch (s) {
-      case Storage::Constant:
-        return 1;
-      case Storage::Uniform:
-        return uniform;
-      case Storage::Varying:
-        return varying;
-      case Storage::Vertex:
-        return vertex;
-      case Storage::FaceVarying:
-        return faceVarying;
-    }
-    return 1;
-  }
-};
-inline constexpr ValueCounts kQuadric{1, 4, 4, 4};
 
 class Recorder {
  public:

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "reyes/base/rng.h"
-#include "reyes/rsl_host.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/light_services.h"
@@ -80,92 +79,12 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
   g.xi0 = xi0, g.xi1 = xi1;
 }
 
-bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY); }
-
 int samplesOf(const BoundLight& light, const Batch& batch) {
   if (!hasExtent(light) && !light.can(TM_LIGHT_SAMPLED)) return light.samples;
   return shareOfBranch(batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples, 1, batch.context);
 }
 
-EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
-  const int n = g.count;
-  const EmitterPoints points{batch.arena.vec3(n), batch.arena.vec3(n), batch.arena.floats(n), batch.arena.floats(n)};
-  if (light.can(TM_LIGHT_AREA)) g.Pl = view(points.P), g.Nl = view(points.N);
-  return points;
-}
-
-/// Takes points on the emitter. Returns false if the light has no geometry.
-bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
-  if (!batch.scene.services) return false;
-  if (!batch.scene.services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points)) return false;
-  for (int i = 0; i < g.count; ++i) set(g.L, i, get(g.Pl, i) - get(g.P, i));
-  return true;
-}
-
-void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
-  for (int i = 0; i < g.count; ++i) {
-    set(g.L, i, light.sky->sample(get(g.P, i), batch.points->facingNormal(i), {g.xi0[i], g.xi1[i]}, points.density[i]));
-    points.meetDensity[i] = points.density[i];
-  }
-}
-
-/// Runs a light with an extent. A sky lights along the directions that it was given, whatever its shader makes of L.
-bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g) {
-  const TmVec3 asked = g.L;
-  if (light.can(TM_LIGHT_SKY)) {
-    g.L = batch.arena.vec3(batch.tm.count);
-    for (int i = 0; i < g.count; ++i) set(g.L, i, get(asked, i));
-  }
-  const bool ran = batch.run(*light.bound, g);
-  g.L = asked;
-  if (ran && isMean(*light.bound->shader)) meanToRadiance(g, batch.scene.services, light.index);
-  return ran;
-}
-
-/// Finds where directions from the points meet the light, and the density of the light's own samples there. Returns
-/// false if nothing can be met.
-bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe,
-               const EmitterPoints& points) {
-  for (int i = 0; i < g.count; ++i) set(g.L, i, get(lobe.L, i));
-  if (light.can(TM_LIGHT_AREA)) {
-    if (!batch.scene.services) return false;
-    batch.scene.services->meetEmitter(light.index, g.count, view(g.P), lobe.L, points);
-    for (int i = 0; i < g.count; ++i)
-      if (points.density[i] > 0) set(g.L, i, get(g.Pl, i) - get(g.P, i));
-    return true;
-  }
-  for (int i = 0; i < g.count; ++i)
-    points.density[i] = light.sky->density(get(g.P, i), batch.points->facingNormal(i), get(g.L, i));
-  return true;
-}
-
-/// The vectors to just before the points on the emitter, so that its own geometry is not in the way.
-TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach) {
-  if (reach == 0) return g.L;
-  const TmVec3 toward = batch.arena.vec3(g.count);
-  for (int i = 0; i < g.count; ++i) set(toward, i, get(g.L, i) + reach * get(g.Nl, i));
-  return toward;
-}
-
-/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `density` is that of all samples
-/// together, over solid angle.
-void radianceToSample(const TmGrid& g, const float* density) {
-  for (int i = 0; i < g.count; ++i) {
-    const float weight = density[i] > 0 ? 1 / (kPi * density[i]) : 0.0f;
-    set(g.Cl, i, weight > 0 ? get(g.Cl, i) * weight : vec3(0.0f));
-  }
-}
-
 }  // namespace
-
-void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light) {
-  const float area = services ? services->emitterArea(light) : 0.0f;
-  for (int i = 0; i < g.count; ++i) {
-    const vec3 L = get(g.L, i), N = get(g.Nl, i);
-    const float distance2 = dot(L, L), cosine = -dot(L, N) / std::sqrt(distance2);
-    set(g.Cl, i, area > 0 && cosine > 0 ? get(g.Cl, i) * (kPi * distance2 / (cosine * area)) : vec3(0.0f));
-  }
-}
 
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 

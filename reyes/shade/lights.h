@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "reyes/shade.h"
+#include "reyes/shade/extended_lights.h"
 
 namespace tomales {
 
 class Batch;
-struct BoundLight;
 struct BoundShader;
 
 /// A parameter that the asking shader sends to lights. It does not own the arrays.
@@ -48,19 +47,6 @@ struct LightSample {
   TmVec3 far{};                     ///< L at full length, for points and their neighbours.
   const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
-};
-
-/// For a light of which isMean() is true, after its run: makes of Cl, the light that a lamp at one point of the
-/// geometry would bring, the radiance of the geometry there, so that the mean of Cl over the area arrives. The integral
-/// of radiance times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
-void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light);
-
-/// Unit directions that a surface has drawn itself, one of `samples` for each point. `density` is over solid angle; 0
-/// where there is no direction.
-struct LobeDirections {
-  TmConstVec3 L;
-  const float* density;
-  int sample, samples;
 };
 
 class Lights {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "reyes/shader/lists.h"
-#include "reyes/shader/sl_values.h"
+#include "reyes/shader/sl_operators.h"
 
 namespace sl {
 

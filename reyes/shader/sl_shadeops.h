@@ -3,7 +3,7 @@
 #pragma once
 #include <array>
 
-#include "reyes/shader/sl_values.h"
+#include "reyes/shader/sl_operators.h"
 #include "reyes/shader/text.h"
 #include "reyes/shader/wavelet.h"
 

@@ -4,8 +4,10 @@
 
 #include "reyes/scattered.h"
 #include "reyes/split.h"
+#include "reyes/split/object_view.h"
 #include "reyes/split/placement.h"
 #include "reyes/split/rate.h"
+#include "reyes/split/visits.h"
 
 namespace tomales {
 namespace {
@@ -17,16 +19,7 @@ constexpr int kMaxDepth = 48;
 /// otherwise nothing near the eye would ever be culled.
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
-/// Limits of the pieces that one patch may visit: so many times those that cover the window once, and a number for
-/// small windows. A ground plane up to its horizon takes about ten, as its grids lie over each other there. Only
-/// coordinates beyond the precision or range of floats, which no halving makes small, come near it. Patches of one
-/// object share what exceeds the least, or a mesh of them would take hours.
-constexpr double kLayersOfObject = 128, kLayersOfPatch = 16;
-constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 constexpr float kLeastReach_px = 0.05f;  ///< Vertices are snapped by this, and it closes T-vertices.
-/// The cost of a blurred piece beyond its visit, if it may be seen all over the window: each sample there is tested
-/// against it, and all buckets wait for its vertices at every key.
-constexpr double kVisitsOfBlur = 32, kKeysOfBlur = 16;
 constexpr int kRound_cells = 6;  ///< A disk of at most so many cells is shaded as one cell: only P varies over it.
 /// In edges of a micropolygon. A disk whose bound, 1.5 times as wide as the disk, is no wider than this takes few cells
 /// however it is measured.
@@ -34,10 +27,6 @@ constexpr float kDot = 4;
 /// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
-constexpr float kDeepest = 2;        ///< A coarse piece's far end is at most so many times as far away as its near end.
-constexpr double kLeastSeen = 0.25;  ///< Share of a coarse piece's width in the picture, and of its height.
-
-double pixelsOf(const PixelRect& r) { return static_cast<double>(r.width()) * r.height(); }
 
 std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   UvRect a = r, b = r;
@@ -85,24 +74,25 @@ class Splitter {
         gridSize_(scene.options.gridSize),
         longest_(2 * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(gridSize_))))),
         camera_(camera),
-        window_(window),
         stats_(stats),
         lazily_(splitting == Splitting::Lazily),
         stop_(stop),
-        edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))) {}
+        edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))),
+        view_(object_, camera, window),
+        visits_(window, gridSize_, edge_px_) {}
 
   /// May patches like this one be dots? A shape has either disks only or none.
   bool hasDots(uint32_t patch) const {
-    return canBeRound(patch) && object_.displacementBound <= 0 && object_.attributes->rasterOrient;
+    return view_.canBeRound(patch) && object_.displacementBound <= 0 && object_.attributes->rasterOrient;
   }
   /// Takes a patch that is clearly a small disk, or invisible, without measuring it, and returns nothing. Otherwise it
   /// returns the patch's bound, and the patch has to be split. Pre: hasDots().
   std::optional<Bound3> takeDot(uint32_t patch, std::vector<SubPatch>& out) {
     if (stopped()) return std::nullopt;
     const Bound3 bare = cameraBound(object_, patch, UvRect{});
-    const bool seen = !cannotBeSeen(bare);
-    if (seen && crosses(bare)) return bare;
-    const Bound2 raster = seen ? rasterOf(bare, kLeastReach_px) : Bound2{};
+    const bool seen = !view_.cannotBeSeen(bare);
+    if (seen && view_.crossesEye(bare)) return bare;
+    const Bound2 raster = seen ? view_.rasterOf(bare, kLeastReach_px) : Bound2{};
     const vec2 size = raster.hi - raster.lo;
     if (seen && !(std::max(size.x, size.y) <= kDot * edge_px_)) return bare;
     ++stats_.geometry.piecesVisited;
@@ -118,10 +108,7 @@ class Splitter {
     const Bound3* bare = nullptr;  ///< The result of cameraBound(); null if it has not been computed.
   };
   void splitPatch(uint32_t patch, const Known& known, std::vector<SubPatch>& out) {
-    const double patches = object_.shape().patchCount();
-    const double layers = std::max(kLayersOfObject / patches, kLayersOfPatch),
-                 least = std::max(kVisitsOfObject / patches, kVisitsOfPatch);
-    splitWithin(static_cast<int64_t>(least + layers * gridsOver(pixelsOf(window_))), patch, UvRect{}, 0, &known, out);
+    splitWithin(visits_.ofPatch(object_.shape().patchCount()), patch, UvRect{}, 0, &known, out);
   }
   void splitPiece(const SubPatch& coarse, std::vector<SubPatch>& out) {
     splitWithin(coarse.visits, coarse.patch, coarse.rect, coarse.depth, nullptr, out);
@@ -137,7 +124,7 @@ class Splitter {
     const auto first = static_cast<ptrdiff_t>(out.size());
     start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
     split(patch, rect, depth, known, out);
-    const auto share = [this](const SubPatch& p) { return p.coarse ? expectedVisits(p) : 0.0; };
+    const auto share = [this](const SubPatch& p) { return p.coarse ? visits_.expected(p) : 0.0; };
     double shares = 0;
     for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
     for (auto p = out.begin() + first; p != out.end(); ++p)
@@ -155,7 +142,7 @@ class Splitter {
     --budget_;
     ++stats_.geometry.piecesVisited;
     Bound3 bare = known && known->bare ? *known->bare : cameraBound(object_, patch, rect);
-    if (cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
+    if (view_.cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
       ++stats_.geometry.culled;
       return;
     }
@@ -164,50 +151,46 @@ class Splitter {
     const float reach = size.u.length + size.v.length;
     if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
       bare = size.probes.grown(reach);
-      if (cannotBeSeen(bare)) return;
+      if (view_.cannotBeSeen(bare)) return;
     }
     const Bound3 bound = bare.grown(object_.displacementBound);
-    const bool crossesEye = crosses(bare);
-    const float blur = coarsening(patch, rect, bound);
+    const bool crossesEye = view_.crossesEye(bare);
+    const float blur = view_.coarsening(patch, rect, bound);
     const bool binary = object_.attributes->binaryDice;
     const bool joins = !alone_ || depth > 0;
     const auto [nu, nv] = cells(size, edge_px_, blur, binary, joins);
     const bool oneCell = flat_ && nu == 1 && nv == 1;
     const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
+    const auto piece = [&, nu = nu, nv = nv](bool coarse) {
+      return SubPatch{.object = index_,
+                      .patch = patch,
+                      .rect = rect,
+                      .nu = nu,
+                      .nv = nv,
+                      .raster = view_.rasterOf(bound, reach_px),
+                      .zMin = bound.lo.z,
+                      .crossesEye = crossesEye,
+                      .depth = depth,
+                      .coarse = coarse};
+    };
     if (static_cast<int64_t>(nu) * nv <= gridSize_) {
       // A piece that moves through the eye plane does so however small it is; it is seen while it stays in front.
       if (crossesEye && !still) ++givenUp_.atEye;
-      if (!still || camera_.defocuses()) budget_ -= visitsOfBlur(rasterOf(bare, reach_px));
+      if (!still || camera_.defocuses())
+        budget_ -= visits_.ofBlur(view_.rasterOf(bare, reach_px), object_.keyTimes.size());
       if (std::max(nu, nv) > longest_ && !crossesEye)
         cutAcross(patch, rect, depth + 1, nu, nv, out);
-      else if (depth == 0 && nu * nv <= kRound_cells && !crossesEye && canBeRound(patch))
-        out.push_back(roundPiece(patch, rect, rasterOf(bound, reach_px), bound.lo.z));
+      else if (depth == 0 && nu * nv <= kRound_cells && !crossesEye && view_.canBeRound(patch))
+        out.push_back(roundPiece(patch, rect, view_.rasterOf(bound, reach_px), bound.lo.z));
       else
-        out.push_back({.object = index_,
-                       .patch = patch,
-                       .rect = rect,
-                       .nu = nu,
-                       .nv = nv,
-                       .raster = rasterOf(bound, reach_px),
-                       .zMin = bound.lo.z,
-                       .crossesEye = crossesEye,
-                       .depth = depth});
-    } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && gridsOf(nu, nv) >= kGridsOfCoarse && !crossesEye &&
-               isOfOneScale(bare) && isLargelySeen(rasterOf(bound, reach_px)) &&
+        out.push_back(piece(false));
+    } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && visits_.grids(nu, nv) >= kGridsOfCoarse && !crossesEye &&
+               view_.isOfOneScale(bare) && visits_.isLargelySeen(view_.rasterOf(bound, reach_px)) &&
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that the number of its grids can be estimated.
-      out.push_back({.object = index_,
-                     .patch = patch,
-                     .rect = rect,
-                     .nu = nu,
-                     .nv = nv,
-                     .raster = rasterOf(bound, reach_px),
-                     .zMin = bound.lo.z,
-                     .crossesEye = crossesEye,
-                     .depth = depth,
-                     .coarse = true});
+      out.push_back(piece(true));
     } else if (depth == kMaxDepth || !(hasMiddle(rect.u0, rect.u1) || hasMiddle(rect.v0, rect.v1))) {
-      takeSmallest(patch, rect, depth, bound, crossesEye, rasterOf(bound, reach_px), out);
+      takeSmallest(patch, rect, depth, bound, crossesEye, view_.rasterOf(bound, reach_px), out);
     } else {
       const bool longerInU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
       const bool alongU = hasMiddle(rect.u0, rect.u1) && (longerInU || !hasMiddle(rect.v0, rect.v1));
@@ -252,7 +235,7 @@ class Splitter {
       --budget_;
       ++stats_.geometry.piecesVisited;
       const Bound3 bare = cameraBound(object_, patch, part);
-      if (cannotBeSeen(bare) || object_.shape().kept(patch, part) == Kept::None) {
+      if (view_.cannotBeSeen(bare) || object_.shape().kept(patch, part) == Kept::None) {
         ++stats_.geometry.culled;
         continue;
       }
@@ -262,50 +245,11 @@ class Splitter {
                      .rect = part,
                      .nu = nu,
                      .nv = nv,
-                     .raster = rasterOf(bound, borderReach_px(object_.displacementBound)),
+                     .raster = view_.rasterOf(bound, borderReach_px(object_.displacementBound)),
                      .zMin = bound.lo.z,
                      .depth = depth});
     }
   }
-
-  /// Is all of it seen at about the same scale? If not, the cost of its near end says nothing about most of it.
-  bool isOfOneScale(const Bound3& bare) const { return !camera_.perspective() || bare.hi.z <= kDeepest * bare.lo.z; }
-
-  /// Is much of its bound in the window? If not, halving soon culls most of it, and the visits that it takes until then
-  /// have little to do with its grids: a strip that runs past the eye is thousands of windows wide.
-  bool isLargelySeen(const Bound2& raster) const {
-    const glm::dvec2 size = raster.hi - raster.lo, seen = sizeInView_px(raster);
-    return seen.x >= kLeastSeen * size.x && seen.y >= kLeastSeen * size.y;
-  }
-
-  int64_t visitsOfBlur(const Bound2& raster) const {
-    const double keys = 1 + static_cast<double>(object_.keyTimes.size()) / kKeysOfBlur;
-    return static_cast<int64_t>(kVisitsOfBlur * keys * inView_px(raster) / pixelsOf(window_));
-  }
-  int64_t gridsOf(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
-  /// Width and height of the part of a bound inside the window.
-  glm::dvec2 sizeInView_px(const Bound2& raster) const {
-    const vec2 lo = glm::max(raster.lo, vec2(window_.x0, window_.y0)),
-               hi = glm::min(raster.hi, vec2(window_.x1, window_.y1));
-    return glm::max(hi - lo, vec2(0));
-  }
-  double inView_px(const Bound2& raster) const {
-    const glm::dvec2 size = sizeInView_px(raster);
-    return size.x * size.y;
-  }
-  /// Visits of a coarse piece: its share of grids by area, those that the window's border may cut, and the halvings
-  /// that lead from all of it to them. Towards a horizon many grids lie over each other; beside the eye next to nothing
-  /// of a huge piece is seen.
-  double expectedVisits(const SubPatch& p) const {
-    const int64_t grids = gridsOf(p.nu, p.nv);
-    const glm::dvec2 size = p.raster.hi - p.raster.lo, seen = sizeInView_px(p.raster);
-    const glm::dvec2 gridsAcross = seen / (double{edge_px_} * std::sqrt(gridSize_)) + 1.0;
-    const double inView = static_cast<double>(grids) * (seen.x / size.x) * (seen.y / size.y);
-    return std::min(static_cast<double>(grids), inView + gridsAcross.x * gridsAcross.y) +
-           std::bit_width(static_cast<uint64_t>(grids));
-  }
-  /// Number of grids in a layer of surface over this area.
-  double gridsOver(double area_px) const { return area_px / (double{edge_px_} * edge_px_ * gridSize_); }
 
   SubPatch roundPiece(uint32_t patch, const UvRect& rect, const Bound2& raster, float zMin) const {
     return {.object = index_,
@@ -318,46 +262,17 @@ class Splitter {
             .round = true};
   }
   bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
-  /// Is it a whole disk that one cell without corners or neighbours represents?
-  bool canBeRound(uint32_t patch) const {
-    return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk;
-  }
-  bool cannotBeSeen(const Bound3& bare) const {
-    const Bound3 bound = bare.grown(object_.displacementBound);
-    if (!isFinite(bound.lo) || !isFinite(bound.hi)) return true;
-    // Solids are clipped where their surface is known, not before.
-    return object_.solid < 0 ? camera_.outside(bound, window_) : camera_.outsideWindow(bound, window_);
-  }
-  /// Does the undisplaced bound cross the eye plane? A displacement bound does not shrink with halving, so it does not
-  /// count.
-  bool crosses(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
-
-  /// Raster bound of the part beyond the near plane.
-  Bound2 rasterOf(Bound3 bound, float reach_px) const {
-    if (camera_.perspective()) bound.lo.z = std::max(bound.lo.z, camera_.nearClip());
-    return tomales::rasterOf(bound, reach_px, camera_);
-  }
-
-  /// Factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter of the
-  /// circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.
-  float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const {
-    const Attributes& a = *object_.attributes;
-    const float focus = a.focusFactor * leastBlur_px(camera_, std::max(bound.lo.z, camera_.nearClip()), bound.hi.z) / 4;
-    const bool moves = a.motionFactor > 0 && object_.keyTimes.size() > 1;
-    const float motion = moves ? a.motionFactor * pathLength_px(object_, camera_, patch, rect) / 4 : 0;
-    const float scale = std::max({1.0f, focus, std::sqrt(motion)});
-    return std::isfinite(scale) ? scale : 1.0f;
-  }
 
   const Object& object_;
   const int index_, gridSize_;
   const int longest_;  ///< Greatest number of cells in a row.
   const Camera& camera_;
-  const PixelRect& window_;
   Stats& stats_;
   const bool lazily_;
   const StopFlag stop_;
   const float edge_px_;
+  const ObjectView view_;
+  const Visits visits_;
   int start_ = 0;                      ///< Depth of the piece that is being split.
   int64_t budget_ = 0;                 ///< Number of pieces that may still be visited.
   bool flat_ = false, alone_ = false;  ///< Results of isFlat() and isAlone() for the current patch.

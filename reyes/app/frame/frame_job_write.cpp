@@ -1,0 +1,128 @@
+// The last part of a FrameJob: its tiles are shaded and become pictures.
+#include <fmt/format.h>
+
+#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/turns_timer.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/app/watch/pixel_report.h"
+#include "reyes/app/watch/preview.h"
+
+namespace tomales {
+
+bool FrameJob::shade(std::span<const uint32_t> tiles, const ShadeSteps& steps) {
+  const StageTimer timer(stats_, "shade");
+  return shadeTiles(tiles, steps, scene_, *shading_, shadeContext(), control("shading", gathered_, 1));
+}
+
+void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load) {
+  ShadeContext context = shadeContext();
+  const bool cut = interrupted();
+  if (cut) {
+    // The buckets that are hidden are worth lighting; a second signal ends this too.
+    log_.report(Severity::Warning, "interrupted", {},
+                "interrupted: finished buckets are shaded with direct light and written");
+    context.indirect = false;
+  }
+  DeepFrame frame = layout;
+  size_t shaded = 0;
+  bool complete = true;
+  const auto progress = meter_.pass("shading", gathered_, 1);
+  progress(0);
+  finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
+    const StageTimer timer(stats_, "shade");
+    const auto tell = [&, before = shaded](float share) {  // what is left is to write the last rows
+      progress(0.99f * (static_cast<float>(before) + share * static_cast<float>(tiles.size())) /
+               static_cast<float>(frame.tileCount()));
+    };
+    const ShadeSteps steps{[&](size_t index, DeepTile& tile) {
+                             auto loaded = load(index);
+                             if (!loaded) return false;
+                             tile = std::move(*loaded);
+                             takeShaded(kept_, index, tile);
+                             return true;
+                           },
+                           [&](size_t index, DeepTile&& tile) {
+                             if (!cut) keepShaded(index, tile);
+                             place(index, std::move(tile), put);
+                           }};
+    const FrameControl control{tell, cut ? nullptr : &interrupted(), settings_.seed};
+    complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
+    shaded += tiles.size();
+  });
+  if (!complete) log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+}
+
+void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
+                            const std::function<void(size_t tile, const DeepTile&)>& keep) {
+  DeepFrame frame = layout;
+  const FrameControl part = control("hiding and shading", 0, 1);
+  FrameControl all = part;
+  all.progress = [&](float share) { part.progress(0.99f * share); };  // what is left is to write the last rows
+  FrameHider hider(layout, scene_, *shading_, all, stats_, log_);
+  bool complete = true;
+  std::atomic<bool> dropped{false};
+  finish(frame, [&](std::span<const uint32_t> tiles, const TilePlace& put) {
+    TurnsTimer timer(stats_, "hide", "shade");
+    const TileSink sink{{},
+                        [&](size_t index, DeepTile&& tile) {
+                          keep(index, tile);
+                          const TurnsTimer::Turn turn(timer);
+                          if (!takeShaded(kept_, index, tile))
+                            tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+                          if (interrupted()) {  // as shadeTiles() does
+                            dropped = true;
+                            return;
+                          }
+                          keepShaded(index, tile);
+                          place(index, std::move(tile), put);
+                        },
+                        find};
+    complete = hider.hide(tiles, sink) && complete;
+  });
+  if (!complete || dropped)
+    log_.report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");
+}
+
+void FrameJob::show(const DeepFrame& layout, const ShownTiles& tiles, const ShownPart& part, const RowViewer& viewer,
+                    const std::atomic<bool>& cancelled) {
+  ShadeContext context = shadeContext();
+  context.lights = part.lights, context.indirect = part.indirect;
+  DeepFrame frame = layout;
+  frame.crop = part.window;
+  const FrameControl control{{}, &cancelled, settings_.seed};
+  const auto fill = [&](std::span<const uint32_t> asked, const TilePlace& put) {
+    const auto take = [&](size_t index, DeepTile&& tile) {
+      tiles.shaded(index, tile);
+      put(index, std::move(tile));
+    };
+    shadeTiles(asked, {tiles.load, take}, scene_, *shading_, context, control);
+  };
+  showFrame(frame, fill, viewer, scene_.options, control);
+}
+
+void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {
+  for (const auto& [x, y] : settings_.pixels)
+    if (tile.rect.contains(x, y))
+      std::fputs(pixelReport(tile, x, y, layOutFrame(scene_).samplesPerPixel, scene_).c_str(), stdout);
+  put(index, std::move(tile));
+}
+
+void FrameJob::openPreview(const DeepFrame& layout) {
+  if (!preview_ && !settings_.preview.empty())
+    preview_ = std::make_unique<Preview>(settings_.preview, scene_.options.displays.front().name, layout, log_);
+}
+
+void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
+  openPreview(frame);
+  const RowViewer viewer = preview_ ? [&](const Image& rows) { preview_->show(rows); } : RowViewer{};
+  writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed, pluginTrust(settings_)},
+             stats_, log_);
+  if (services_) services_->reportAtlas(stats_);
+  if (rays_) rays_->report(stats_);
+  preview_.reset();
+  clouds_.write(log_);
+  if (!interrupted()) meter_.finish();
+}
+
+}  // namespace tomales

@@ -1,0 +1,44 @@
+// Lights with an extent, lamps with geometry and skies: samples of their own, and directions that meet them. A grid is
+// that of a light shader over a batch's points; what these functions need and make of it is in its Pl, Nl, L and Cl.
+#pragma once
+#include "reyes/shade.h"
+
+namespace tomales {
+
+class Batch;
+struct BoundLight;
+
+/// Unit directions that a surface has drawn itself, one of `samples` for each point. `density` is over solid angle; 0
+/// where there is no direction.
+struct LobeDirections {
+  TmConstVec3 L;
+  const float* density;
+  int sample, samples;
+};
+
+bool hasExtent(const BoundLight& light);
+
+/// Makes room for the points on the emitter, which the grid then shows the shader.
+EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g);
+/// Takes points on the emitter by the grid's random numbers. Returns false if the light has no geometry.
+bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points);
+void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points);
+/// Finds where directions from the points meet the light, and the density of the light's own samples there. Returns
+/// false if nothing can be met.
+bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe,
+               const EmitterPoints& points);
+
+/// Runs the light. A sky lights along the directions that it was given, whatever its shader makes of L.
+bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g);
+/// For a light of which isMean() is true, after its run: makes of Cl, the light that a lamp at one point of the
+/// geometry would bring, the radiance of the geometry there, so that the mean of Cl over the area arrives. The integral
+/// of radiance times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
+void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light);
+/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `density` is that of all samples
+/// together, over solid angle.
+void radianceToSample(const TmGrid& g, const float* density);
+
+/// The vectors to just before the points on the emitter, so that its own geometry is not in the way.
+TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach);
+
+}  // namespace tomales

@@ -1,0 +1,36 @@
+// Private to splitting: what the camera can see of an object's pieces. Bounds are in camera space, over the shutter;
+// `bare` ones are without displacement. Pure.
+#pragma once
+#include "reyes/split.h"
+
+namespace tomales {
+
+class ObjectView {
+ public:
+  /// `window`: the raster pixels that have samples. All must outlive this.
+  ObjectView(const Object& object, const Camera& camera, const PixelRect& window)
+      : object_(object), camera_(camera), window_(window) {}
+
+  bool cannotBeSeen(const Bound3& bare) const;
+  /// Does the undisplaced bound cross the eye plane? A displacement bound does not shrink with halving, so it does not
+  /// count.
+  bool crossesEye(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
+  /// Is all of it seen at about the same scale? If not, the cost of its near end says nothing about most of it.
+  bool isOfOneScale(const Bound3& bare) const;
+  /// Raster bound of the part beyond the near plane.
+  Bound2 rasterOf(Bound3 bound, float reach_px) const;
+  /// Factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter of the
+  /// circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.
+  float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const;
+  /// Is it a whole disk that one cell without corners or neighbours represents?
+  bool canBeRound(uint32_t patch) const {
+    return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk;
+  }
+
+ private:
+  const Object& object_;
+  const Camera& camera_;
+  const PixelRect& window_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,40 @@
+// Private to splitting: measures patches by a lattice of points on each, the probes. Lines of the lattice are measured
+// chord by chord, at a vector of patches together: most scenes with many patches have small ones.
+#pragma once
+#include "reyes/base/simd.h"
+#include "reyes/scene.h"
+
+namespace tomales {
+
+/// Probes of kPatches patches; point k of all of them is adjacent. Rows of points run along u.
+template <int kProbesT, int kPatchesT>
+struct ProbeLattice {
+  static constexpr int kProbes = kProbesT, kPatches = kPatchesT, kRow = kProbes + 1, kCount = kRow * kRow;
+  alignas(64) float x[kCount][kPatches], y[kCount][kPatches], z[kCount][kPatches];  ///< Positions in camera space.
+  alignas(64) float rasterX[kCount][kPatches], rasterY[kCount][kPatches];
+};
+
+/// PatchSize of kPatches patches.
+template <int kPatches>
+struct ProbeSizes {
+  struct Line {
+    alignas(64) float px[kPatches], length[kPatches], bend_px[kPatches];
+    alignas(64) int least[kPatches];
+  };
+  Line u, v;
+  alignas(64) float area_px2[kPatches];
+  alignas(64) float lo[3][kPatches], hi[3][kPatches];
+};
+
+/// Takes the probes from object space to camera space and to raster space, and measures the lines through them.
+/// `asSeen`: lengths and areas count as the camera sees them, else as if they faced it.
+void measureLattice(ProbeLattice<1, kLanes>& at, const mat4& cameraFromObject, const Camera& camera, bool asSeen,
+                    ProbeSizes<kLanes>& out);
+void measureLattice(ProbeLattice<4, kLanes>& at, const mat4& cameraFromObject, const Camera& camera, bool asSeen,
+                    ProbeSizes<kLanes>& out);
+void measureLattice(ProbeLattice<1, 1>& at, const mat4& cameraFromObject, const Camera& camera, bool asSeen,
+                    ProbeSizes<1>& out);
+void measureLattice(ProbeLattice<4, 1>& at, const mat4& cameraFromObject, const Camera& camera, bool asSeen,
+                    ProbeSizes<1>& out);
+
+}  // namespace tomales
