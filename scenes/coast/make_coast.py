@@ -4,7 +4,12 @@
     make_coast.py > coast.rib
 """
 import math
+import pathlib
 import random
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from parts import head, numbers
 
 random.seed(37)
 TUFTS, BLADES, PLACES = 6, 46, 2300
@@ -13,10 +18,6 @@ TUFTS, BLADES, PLACES = 6, 46, 2300
 def knoll(x, z):
     """Height of the ground before the eye, in metres; the grass stands on it."""
     return 42.0 + 0.13 * x - 0.0032 * z * z + 0.10 * math.sin(0.9 * x + 0.5) * math.sin(0.7 * z) - 0.002 * x * x
-
-
-def numbers(values):
-    return " ".join(f"{v:.3g}" for v in values)
 
 
 def tuft(name):
@@ -32,7 +33,7 @@ def tuft(name):
             points += [x + height * dx * s ** 2 * 1.3, height * (s - 0.18 * s ** 3), z + height * dz * s ** 2 * 1.3]
         widths += [0.008, 0.002]
     print(f'ObjectBegin "{name}"')
-    print(f'  Curves "cubic" [{numbers([4] * BLADES)}] "nonperiodic" "P" [{numbers(points)}] "varying float width" [{numbers(widths)}]')
+    print(f'  Curves "cubic" [{numbers([4] * BLADES, ".3g")}] "nonperiodic" "P" [{numbers(points, ".3g")}] "varying float width" [{numbers(widths, ".3g")}]')
     print("ObjectEnd")
 
 
@@ -40,24 +41,11 @@ def sheet(near, far, columns):
     """A flat ring sector before the eye, which "headland" raises."""
     angles = [math.radians(-31 + 62 * k / columns) for k in range(columns + 1)]
     points = [c for r in (near, far) for a in angles for c in (r * math.tan(a), 0, r)]
-    print(f'    PatchMesh "bilinear" {columns + 1} "nonperiodic" 2 "nonperiodic" "P" [{numbers(points)}]')
+    print(f'    PatchMesh "bilinear" {columns + 1} "nonperiodic" 2 "nonperiodic" "P" [{numbers(points, ".3g")}]')
 
 
-print('''##RenderMan RIB-Structure 1.1
-# A headland by the sea in the evening. make_coast.py has written this file; README.md tells about it.
-version 3.04
-Format 1600 900 1
-PixelSamples 4 4
-PixelFilter "mitchell" 4 4
-ShadingRate 1
-Projection "perspective" "fov" [31]
-Clipping 0.3 40000
-Imager "grade"
-Display "coast.exr" "openexr" "rgba"
-Display "+coast.png" "png" "rgb" "string transfer" ["sRGB"]
-Rotate 2.4 1 0 0
-Translate 0 -44 0
-WorldBegin
+head("coast", "A headland by the sea in the evening", 31, "Clipping 0.3 40000", "Rotate 2.4 1 0 0", "Translate 0 -44 0", imager="grade")
+print('''WorldBegin
   CoordinateSystem "coast"
   AttributeBegin
     Attribute "identifier" "string name" ["sky"]

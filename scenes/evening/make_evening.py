@@ -6,61 +6,15 @@
 Units are metres: x to the right, y up from the floor, z away from the eye.
 """
 import math
+import pathlib
 import random
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from parts import box, head, lathe, numbers, part, rounded, soft
 
 random.seed(4)
 BACK, LEFT, RIGHT, TOP = 2.5, -2.9, 3.0, 2.75  # the room
-
-
-def numbers(values):
-    return " ".join(f"{v:.4g}" for v in values)
-
-
-def part(name, *requests):
-    """An object with a name; requests are its attributes and geometry."""
-    print(f'  AttributeBegin\n    Attribute "identifier" "string name" ["{name}"]')
-    for request in requests:
-        print("    " + request)
-    print("  AttributeEnd")
-
-
-def corners(x0, x1, y0, y1, z0, z1):
-    return [(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)]
-
-
-FACES = "0 1 3 2  4 6 7 5  0 4 5 1  2 3 7 6  0 2 6 4  1 5 7 3"
-
-
-def box(*sides):
-    return f'PointsPolygons [4 4 4 4 4 4] [{FACES}] "P" [{numbers(c for corner in corners(*sides) for c in corner)}]'
-
-
-def soft(*sides, hard=2.0):
-    """A box with rounded edges; the less hard, the fuller."""
-    ring = "0 1 3 2 0  4 6 7 5 4  0 4  1 5  3 7  2 6"
-    return (f'SubdivisionMesh "catmull-clark" [4 4 4 4 4 4] [{FACES}] ["crease" "crease" "crease" "crease" "crease" "crease"] '
-            f'[5 1 5 1 2 1 2 1 2 1 2 1] [{ring}] [{numbers([hard] * 6)}] "P" [{numbers(c for corner in corners(*sides) for c in corner)}]')
-
-
-def rounded(profile, steps=6):
-    """The profile as a Catmull-Rom curve through its points."""
-    points = [profile[0], *profile, profile[-1]]
-    curve = []
-    for a, b, c, d in zip(points, points[1:], points[2:], points[3:]):
-        for k in range(steps):
-            t = k / steps
-            curve.append(tuple(0.5 * (2 * q + (r - p) * t + (2 * p - 5 * q + 4 * r - s) * t * t + (3 * q - p - 3 * r + s) * t ** 3)
-                               for p, q, r, s in zip(a, b, c, d)))
-    return curve + [profile[-1]]
-
-
-def lathe(profile, around=12):
-    """A bicubic B-spline through rings of control points (radius, height), from below to above. Corners are points that stand twice."""
-    rings = [profile[0]] * 2 + list(profile) + [profile[-1]] * 2
-    swell = 3 / (2 + math.cos(2 * math.pi / around))
-    points = [c for r, y in rings for k in range(around)
-              for c in (swell * r * math.cos(2 * math.pi * k / around), y, -swell * r * math.sin(2 * math.pi * k / around))]
-    return f'Basis "b-spline" 1 "b-spline" 1 PatchMesh "bicubic" {around} "periodic" {len(rings)} "nonperiodic" "P" [{numbers(points)}]'
 
 
 def curtain(x0, x1, z, folds, top, bottom):
@@ -127,22 +81,8 @@ def lamp(name, x, z, foot, shade, height, bulb, cloth):
     print(f'  Illuminate "{name} bulb" 1\n  Illuminate "{name} shade" 1')
 
 
-print('''##RenderMan RIB-Structure 1.1
-# A reading corner at dusk. make_evening.py has written this file; README.md tells about it.
-version 3.04
-Format 1600 900 1
-PixelSamples 4 4
-PixelFilter "mitchell" 4 4
-ShadingRate 1
-Projection "perspective" "fov" [35]
-Clipping 0.2 200
-Imager "print"
-Display "evening.exr" "openexr" "rgba"
-Display "+evening.png" "png" "rgb" "string transfer" ["sRGB"]
-Rotate -5 1 0 0
-Rotate 2.5 0 1 0
-Translate -0.05 -1.28 3.3
-WorldBegin
+head("evening", "A reading corner at dusk", 35, "Clipping 0.2 200", "Rotate -5 1 0 0", "Rotate 2.5 0 1 0", "Translate -0.05 -1.28 3.3")
+print('''WorldBegin
   CoordinateSystem "room"
   Attribute "light" "string shadows" ["on"]
   # What is left of the day comes by the window.

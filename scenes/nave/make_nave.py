@@ -6,16 +6,17 @@
 Units are metres: x to the right, y up from the floor, z into the hall.
 """
 import math
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from parts import head, numbers
 
 BAYS, BAY = 7, 5.0
 HALF, SPRING, RISE = 4.0, 7.0, 4.0     # the nave: half its width, where its vaults begin, and how high they rise
 WALL, AISLE = 0.7, 7.6                 # the walls' thickness, and where the outer walls stand
 ARCADE, COLUMN = 4.2, 0.42             # where the arches between columns begin, and the columns' radius
 STEPS = 20                             # of an arch
-
-
-def numbers(values):
-    return " ".join(f"{v:.4g}" for v in values)
 
 
 def begin(name, *requests):
@@ -68,22 +69,8 @@ def rib(x, z, degrees, width, thick):
     print(f'    TransformBegin Translate {x:g} {SPRING} {z:g} Rotate {degrees:g} 0 1 0 Scale {width / RISE:g} 1 1 Torus {RISE} {thick} 0 360 180 TransformEnd')
 
 
-print('''##RenderMan RIB-Structure 1.1
-# A vaulted hall with shafts of light. make_nave.py has written this file; README.md tells about it.
-version 3.04
-Format 1200 1600 1
-PixelSamples 4 4
-PixelFilter "mitchell" 4 4
-ShadingRate 1
-Projection "perspective" "fov" [50]
-Clipping 0.1 200
-Imager "print"
-Display "nave.exr" "openexr" "rgba"
-Display "+nave.png" "png" "rgb" "string transfer" ["sRGB"]
-Rotate 7 1 0 0
-Rotate 9 0 1 0
-Translate 1.6 -1.7 -0.6
-WorldBegin
+head("nave", "A vaulted hall with shafts of light", 50, "Clipping 0.1 200", "Rotate 7 1 0 0", "Rotate 9 0 1 0", "Translate 1.6 -1.7 -0.6", size=(1200, 1600))
+print('''WorldBegin
   CoordinateSystem "hall"
   Attribute "light" "string shadows" ["on"]
   LightSource "distantlight" "sun" "from" [0.72 0.56 0.34] "to" [0 0 0] "intensity" [13] "lightcolor" [1 0.80 0.55] "string __category" ["sun"]

@@ -6,7 +6,12 @@
 Units are metres: x to the right, y up from the still water, z away from the eye.
 """
 import math
+import pathlib
 import random
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from parts import box, head, lathe as spun, numbers, part, rounded, soft
 
 random.seed(21)
 DECK, FLOOR = 0.16, -1.35              # heights of the stone around the water and of the mosaic below it
@@ -14,56 +19,10 @@ LEFT, RIGHT, NEAR, FAR = -3.3, 3.5, 0, 6.2  # the basin; a white wall stands on 
 WALL = 8.7                             # z of the rear wall
 
 
-def numbers(values):
-    return " ".join(f"{v:.4g}" for v in values)
-
-
-def part(name, *requests):
-    """An object with a name; requests are its attributes and geometry."""
-    print(f'  AttributeBegin\n    Attribute "identifier" "string name" ["{name}"]')
-    for request in requests:
-        print("    " + request)
-    print("  AttributeEnd")
-
-
-def box(x0, x1, y0, y1, z0, z1):
-    corners = [(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)]
-    return ("PointsPolygons [4 4 4 4 4 4] [0 1 3 2  4 6 7 5  0 4 5 1  2 3 7 6  0 2 6 4  1 5 7 3] "
-            f'"P" [{numbers(c for corner in corners for c in corner)}]')
-
-
-def soft(x0, x1, y0, y1, z0, z1, hard=2.0):
-    """A box with rounded edges; the less hard, the fuller."""
-    corners = [(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)]
-    rings = "0 1 3 2 0  4 6 7 5 4"
-    return ('SubdivisionMesh "catmull-clark" [4 4 4 4 4 4] [0 1 3 2  4 6 7 5  0 4 5 1  2 3 7 6  0 2 6 4  1 5 7 3] '
-            f'["crease" "crease" "crease" "crease" "crease" "crease"] [5 1 5 1 2 1 2 1 2 1 2 1] [{rings}  0 4  1 5  3 7  2 6] [{numbers([hard] * 6)}] '
-            f'"P" [{numbers(c for corner in corners for c in corner)}]')
-
-
 def lathe(profile):
     """Quadric bands, so that a profile of (radius, height) from below to above becomes a surface of revolution."""
     bands = [f"Hyperboloid {r0:.4g} 0 {y0:.4g}  {r1:.4g} 0 {y1:.4g} 360" for (r0, y0), (r1, y1) in zip(profile, profile[1:])]
     return "TransformBegin Rotate -90 1 0 0 " + " ".join(bands) + " TransformEnd"
-
-
-def spun(profile, around=16):
-    """One bicubic B-spline through rings of control points, for what rays have to find without seams."""
-    rings, swell = [profile[0]] * 2 + list(profile) + [profile[-1]] * 2, 3 / (2 + math.cos(2 * math.pi / around))
-    points = [c for r, y in rings for a in (2 * math.pi * k / around for k in range(around)) for c in (swell * r * math.cos(a), y, -swell * r * math.sin(a))]
-    return f'Basis "b-spline" 1 "b-spline" 1 PatchMesh "bicubic" {around} "periodic" {len(rings)} "nonperiodic" "P" [{numbers(points)}]'
-
-
-def rounded(profile, steps=6):
-    """The profile as a Catmull-Rom curve through its points."""
-    points = [profile[0], *profile, profile[-1]]
-    curve = []
-    for a, b, c, d in zip(points, points[1:], points[2:], points[3:]):
-        for k in range(steps):
-            t = k / steps
-            curve.append(tuple(0.5 * (2 * q + (r - p) * t + (2 * p - 5 * q + 4 * r - s) * t * t + (3 * q - p - 3 * r + s) * t ** 3)
-                               for p, q, r, s in zip(a, b, c, d)))
-    return curve + [profile[-1]]
 
 
 def agave(leaves, size):
@@ -113,22 +72,8 @@ def cypress(x, z, tall, wide):
         yield x + away * math.cos(angle), 0.3 + tall * up, z + away * math.sin(angle), 0.75 - 0.35 * up, 1.5
 
 
-print(f'''##RenderMan RIB-Structure 1.1
-# A courtyard pool in the afternoon. make_pool.py has written this file; README.md tells about it.
-version 3.04
-Format 1600 900 1
-PixelSamples 4 4
-PixelFilter "mitchell" 4 4
-ShadingRate 1
-Projection "perspective" "fov" [38]
-Clipping 0.2 500
-Imager "print"
-Display "pool.exr" "openexr" "rgba"
-Display "+pool.png" "png" "rgb" "string transfer" ["sRGB"]
-Rotate -10 1 0 0
-Rotate -6 0 1 0
-Translate 0.75 -1.9 3.9
-WorldBegin
+head("pool", "A courtyard pool in the afternoon", 38, "Clipping 0.2 500", "Rotate -10 1 0 0", "Rotate -6 0 1 0", "Translate 0.75 -1.9 3.9")
+print(f'''WorldBegin
   CoordinateSystem "court"
   Attribute "irradiance" "float maxerror" [1]  # the shaders' occlusion() is interpolated between records
   Attribute "light" "string shadows" ["on"]
@@ -191,7 +136,7 @@ part("cypresses", UNLIT, 'Surface "leaf" "color green" [0.045 0.085 0.04]', *(p 
 part("swim ring", 'Surface "vinyl"', "Translate 1.55 0.045 2.35 Rotate 3 0 0 1 Rotate 20 0 1 0 Rotate -88 1 0 0", "Torus 0.40 0.135 0 360 360")
 part("handrail", 'Surface "steel"', 'Attribute "photon" "string shadingmodel" ["chrome"]', 'Color 0.75 0.76 0.78', 'Attribute "dice" "int roundcurve" [1] Basis "bezier" 3 "bezier" 3',
      *(f'Curves "cubic" [10] "nonperiodic" "P" [{numbers(c for y, z in ((-0.6, 5.05), (-0.1, 5.05), (0.2, 5.05), (0.75, 5.15), (1.05, 5.25), (1.05, 5.7), (1.05, 6.2), (1.05, 6.5), (0.8, 6.6), (0.15, 6.6)) for c in (x, y, z))}] "constant float constantwidth" [0.042]' for x in (-1.72, -2.35)))
-part("hat", UNLIT, 'Attribute "trace" "float tessellation" [6]', 'Surface "straw"', f"Translate -1.93 {DECK + 0.055} -0.42 Rotate 5 0 0 1", spun([(0.262, 0.036), (0.235, 0.012), (0.17, 0.0), (0.112, 0.008), (0.108, 0.03), (0.104, 0.09), (0.09, 0.125), (0.055, 0.132), (0, 0.12)]))
+part("hat", UNLIT, 'Attribute "trace" "float tessellation" [6]', 'Surface "straw"', f"Translate -1.93 {DECK + 0.055} -0.42 Rotate 5 0 0 1", spun([(0.262, 0.036), (0.235, 0.012), (0.17, 0.0), (0.112, 0.008), (0.108, 0.03), (0.104, 0.09), (0.09, 0.125), (0.055, 0.132), (0, 0.12)], 16))
 part("ribbon", UNLIT, 'Surface "stucco" "color paint" [0.05 0.06 0.10]', f"Translate -1.93 {DECK + 0.055} -0.42 Rotate 5 0 0 1", "Rotate -90 1 0 0", "Hyperboloid 0.1105 0 0.014  0.1085 0 0.05 360")
 part("towels", UNLIT, 'Surface "towel"', f"Translate -1.18 {DECK + 0.03} -0.50", *(
     f"TransformBegin Translate {random.uniform(-0.012, 0.012):.3f} {0.021 * k:.3f} {random.uniform(-0.012, 0.012):.3f} Rotate {10 + random.uniform(-2.5, 2.5):.1f} 0 1 0 "

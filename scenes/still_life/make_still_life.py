@@ -6,12 +6,13 @@
 Units are decimetres: x to the right, y up from the table, z away from the eye.
 """
 import math
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from parts import head, lathe, numbers
 
 STANDS = {"jug": (-2.2, 1.5), "bowl": (0.35, 0.4), "glass": (2.55, -0.6), "bottle": (1.75, 2.4), "candle": (4.05, 1.5)}  # x and z of what stands on the table
-
-
-def numbers(values):
-    return " ".join(f"{v:.4g}" for v in values)
 
 
 def place(name, x, z, *requests, y=0.0):
@@ -64,17 +65,6 @@ def cloth(left, right, back, edge, drop):
             f'"P" [{numbers(points)}]')
 
 
-def lathe(profile, around=12):
-    """A bicubic B-spline through rings of control points; profile is (radius, height) from below to above. The first and the last point
-    count three times, so that the surface ends there. Corners are points that stand twice. The radii of control points are a
-    little larger than those of the curve that they bend."""
-    rings = [profile[0]] * 2 + list(profile) + [profile[-1]] * 2
-    swell = 3 / (2 + math.cos(2 * math.pi / around))
-    points = [c for r, y in rings for k in range(around)
-              for c in (swell * r * math.cos(2 * math.pi * k / around), y, -swell * r * math.sin(2 * math.pi * k / around))]
-    return (f'Basis "b-spline" 1 "b-spline" 1 PatchMesh "bicubic" {around} "periodic" {len(rings)} "nonperiodic" "P" [{numbers(points)}]')
-
-
 JUG = [(0, 0), (0.75, 0), (0.80, 0), (0.82, 0.08), (0.95, 0.35), (1.45, 1.0), (1.62, 1.7), (1.45, 2.4), (0.95, 2.95), (0.62, 3.4), (0.55, 3.8),
        (0.62, 4.2), (0.80, 4.45), (0.80, 4.5), (0.74, 4.5), (0.56, 4.2), (0.48, 3.8), (0.55, 3.4), (0.6, 3.0), (0, 2.9)]
 BOWL = [(0, 0), (0.55, 0), (0.6, 0), (0.6, 0.12), (0.55, 0.2), (0.9, 0.28), (1.5, 0.6), (1.85, 1.1), (1.92, 1.24), (1.88, 1.27), (1.78, 1.1), (1.42, 0.66),
@@ -93,22 +83,8 @@ FLAME = [(0, 0), (0.05, 0.02), (0.075, 0.14), (0.06, 0.28), (0.025, 0.44), (0, 0
 HALF = [(0, -0.64), (0.06, -0.62), (0.11, -0.54), (0.26, -0.44), (0.42, -0.22), (0.448, -0.02), (0.448, 0)]
 LEMON = [(0, -0.64), (0.06, -0.62), (0.11, -0.54), (0.26, -0.44), (0.42, -0.22), (0.45, 0.0), (0.42, 0.22), (0.26, 0.46), (0.12, 0.56), (0.10, 0.66), (0.05, 0.71), (0, 0.72)]
 
-print('''##RenderMan RIB-Structure 1.1
-# A still life beside a window, with a candle. make_still_life.py has written this file; README.md tells about it.
-version 3.04
-Format 1620 1080 1
-PixelSamples 4 4
-PixelFilter "mitchell" 4 4
-ShadingRate 1
-Projection "perspective" "fov" [26.5]
-DepthOfField 7 1.0 14.6
-Clipping 1 100
-Imager "print"
-Display "still_life.exr" "openexr" "rgba"
-Display "+still_life.png" "png" "rgb" "string transfer" ["sRGB"]
-Rotate -9 1 0 0
-Translate 0 -3.75 15.2
-WorldBegin
+head("still_life", "A still life beside a window, with a candle", 26.5, "DepthOfField 7 1.0 14.6", "Clipping 1 100", "Rotate -9 1 0 0", "Translate 0 -3.75 15.2", size=(1620, 1080))
+print('''WorldBegin
   CoordinateSystem "room"
   Attribute "irradiance" "float maxerror" [1]  # the shaders' occlusion() is interpolated between records
   Attribute "light" "string shadows" ["on"]

@@ -5,6 +5,12 @@
 
 Units are those of the teapot, which is 3.15 high: x to the right, y up, z away from the eye.
 """
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from parts import head
+
 ACROSS, RISE, TREAD = 6.8, 3.1, 5.2  # from pot to pot, and from step to step
 STEPS = (("marble", "harlequin", "crackle", "terrazzo"), ("copper", "breton", "walnut", "bricks"), ("gingham", "malachite", "stoneware", "dots"))
 WIDE = 60
@@ -18,22 +24,8 @@ def box(y0, y1, z0, z1):
     return f'PatchMesh "bilinear" 2 "nonperiodic" {len(rows)} "nonperiodic" "P" [{points}]'
 
 
-print('''##RenderMan RIB-Structure 1.1
-# Twelve teapots in soft light. make_teapots.py has written this file; README.md tells about it.
-version 3.04
-Format 1600 900 1
-PixelSamples 4 4
-PixelFilter "mitchell" 4 4
-ShadingRate 1
-Projection "perspective" "fov" [18.5]
-DepthOfField 16 2 46
-Clipping 1 500
-Imager "print"
-Display "teapots.exr" "openexr" "rgba"
-Display "+teapots.png" "png" "rgb" "string transfer" ["sRGB"]
-Rotate -13.7 1 0 0
-Translate 0 -16 44
-WorldBegin
+head("teapots", "Twelve teapots in soft light", 18.5, "DepthOfField 16 2 46", "Clipping 1 500", "Rotate -13.7 1 0 0", "Translate 0 -16 44")
+print('''WorldBegin
   Attribute "light" "string shadows" ["on"]
   LightSource "occlusionlight" "room" "float samples" [128] "float maxdist" [18] "float maxvariation" [0.02] "lightcolor" [0.24 0.245 0.265]
   AttributeBegin

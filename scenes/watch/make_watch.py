@@ -6,21 +6,14 @@
 Units are millimetres: x to the right, y up from the main plate, z away from the eye.
 """
 import math
+import pathlib
 import random
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from parts import head, numbers, part
 
 random.seed(12)
-
-
-def numbers(values):
-    return " ".join(f"{v:.2f}".rstrip("0").rstrip(".") for v in values)  # a hundredth of a millimetre
-
-
-def part(name, *requests):
-    """An object with a name; requests are its attributes and geometry."""
-    print(f'  AttributeBegin\n    Attribute "identifier" "string name" ["{name}"]')
-    for request in requests:
-        print("    " + request)
-    print("  AttributeEnd")
 
 
 # Outlines are closed lists of (x, z), counterclockwise as seen from above with z up the page.
@@ -151,24 +144,8 @@ def jewel(name, x, z, y, radius):
     part(f"pivot in the {name}", f"Surface {STEEL}", place, turned([(0.12 * radius, -0.4), (0.12 * radius, 0.0), (0.07 * radius, 0.06 * radius), (0, 0.07 * radius)]))
 
 
-print('''##RenderMan RIB-Structure 1.1
-# The movement of a watch, seen through a lens that is wide open. make_watch.py has written this file; README.md tells about it.
-version 3.04
-Format 1600 900 1
-PixelSamples 12 12
-PixelFilter "mitchell" 4 4
-ShadingRate 1.6
-Projection "perspective" "fov" [22.5]
-Hider "hidden" "float[4] aperture" [7 12 0.35 0]
-DepthOfField 1 1.7 34.5
-Clipping 1 400
-Imager "print"
-Display "watch.exr" "openexr" "rgba"
-Display "+watch.png" "png" "rgb" "string transfer" ["sRGB"]
-Rotate -32 1 0 0
-Rotate 3 0 1 0
-Translate -0.4 -22.0 37.4
-WorldBegin
+head("watch", "The movement of a watch, seen through a lens that is wide open", 22.5, 'Hider "hidden" "float[4] aperture" [7 12 0.35 0]', "DepthOfField 1 1.7 34.5", "Clipping 1 400", "Rotate -32 1 0 0", "Rotate 3 0 1 0", "Translate -0.4 -22.0 37.4", samples=12, rate=1.6)
+print('''WorldBegin
   CoordinateSystem "movement"
   Attribute "trace" "int maxspeculardepth" [3]
 ''')
