@@ -60,9 +60,10 @@ const TmParamDecl* parameterOfArea(const ShaderCall& call, const std::string& pa
 
 }  // namespace
 
-void measureAreaLights(Scene& scene, ShaderRegistry& registry) {
+void measureAreaLights(Scene& scene, ShaderRegistry& registry, Log& log) {
   const std::string convention = wordOf(scene.options, "shade:arealight");
-  if (convention != "bmrt" && !(convention.empty() && isMadeForBmrt(scene))) return;
+  const bool guessed = convention.empty() && isMadeForBmrt(scene);
+  if (convention != "bmrt" && !guessed) return;
   const std::string path = pathOf(scene.options.searchPaths, "shader");
   for (std::shared_ptr<LightCall>& light : scene.lights) {
     const TmParamDecl* taken = light->area ? parameterOfArea(light->shader, path, registry) : nullptr;
@@ -73,6 +74,11 @@ void measureAreaLights(Scene& scene, ShaderRegistry& registry) {
     p.name = taken->name, p.floats = {static_cast<float>(area)};
     measured->shader.params.push_back(std::move(p));
     light = std::move(measured);
+    if (guessed)
+      log.report(
+          Severity::Note, "scene-bmrt", scene.where,
+          "the scene has options or attributes of BMRT's (\"render\", \"radiosity\"): the light of arealight falls "
+          "off with the square of the distance (--arealight radiance)");
   }
 }
 

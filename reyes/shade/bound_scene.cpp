@@ -71,14 +71,6 @@ float specularSharpnessOf(const Scene& scene, Log& log) {
                "Option \"shade\" \"specular\" \"" + convention + "\" is neither \"prman\" nor \"rispec\"; ignored");
   const Param* ofBmrt = optionOf(scene.options, "render:prmanspecular");
   if (convention.empty() && ofBmrt) convention = ofBmrt->number(0) != 0 ? "prman" : "rispec";
-  if (convention.empty() && isMadeForBmrt(scene)) {
-    convention = "rispec";
-    log.report(
-        Severity::Note, "scene-bmrt", scene.where,
-        "the scene has options or attributes of BMRT's (\"render\", \"radiosity\"): the exponent of specular() is "
-        "1/roughness, and the light of arealight falls off with the square of the distance (--specular prman, "
-        "--arealight radiance)");
-  }
   return convention == "rispec" ? 1.0f : 8.0f;
 }
 

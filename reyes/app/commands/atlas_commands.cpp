@@ -88,7 +88,7 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   ProgressMeter meter(settings.progress, "preparing");
   applyOverrides(scene, settings);
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
-  measureAreaLights(scene, *shaders);
+  measureAreaLights(scene, *shaders, log);
   displaceByMovingSurfaces(scene, *shaders, log);
   scene.open([](const Attributes& a) { return a.visibility.photon; });
   ShadingSystem shading(scene, *shaders, nullptr, log, stats);

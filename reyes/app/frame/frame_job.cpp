@@ -32,7 +32,7 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
       camera_(scene.options),
       meter_(settings.progress, "preparing"),
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
-  measureAreaLights(scene, shaders);
+  measureAreaLights(scene, shaders, log);
   if (!settings.draft) displaceByMovingSurfaces(scene, shaders, log);
   shading_ = std::make_unique<ShadingSystem>(scene, shaders, nullptr, log, stats);
   shading_->setClouds(&clouds_);
