@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reyes/camera_bound.h"
+#include "reyes/output.h"
 #include "reyes/shade/batch.h"
 
 namespace tomales {
@@ -109,6 +110,7 @@ void LightUse::countStops(const Batch& batch) {
 }
 
 void LightUse::warn(const BoundScene& scene) const {
+  if (!shades(scene.scene.options)) return;  // a map for later frames needs no light
   warnOfDarkness(scene);
   const bool whole = scene.scene.options.cropWindow == Options().cropWindow;
   const bool indirect =

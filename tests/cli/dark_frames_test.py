@@ -46,6 +46,11 @@ t.expect(not told("constant", 'Surface "constant"\nSphere 1 -1 1 360'), "neither
 said = told("mixed", 'Attribute "identifier" "name" "glow"\nSurface "constant"\nTranslate .2 0 0 Sphere .5 -.5 .5 360\n' + BALL)
 t.expect("ball" in said["light-none"] and "glow" not in said["light-none"], "only surfaces that ask are named")
 
+# What cuts itself out by its opacity is shaded for a map of depth too, which shows no light.
+t.write("leaf.sl", "surface leaf() { Oi = step(.5, s); Ci = Oi * diffuse(N); }")
+t.write("map.rib", 'Display "map.z" "zfile" "z"\nFormat 32 32 1\nWorldBegin\nSurface "leaf"\nTranslate 0 0 5\nSphere 1 -1 1 360\nWorldEnd\n')
+t.expect("light-none" not in t.run("map.rib").stderr, "a map for later frames needs no light")
+
 # A light that shines on nothing that follows it, or is switched off.
 said = told("scoped", 'AttributeBegin\nLightSource "distantlight" 1\nAttributeEnd\n' + BALL)
 t.expect("light-off" in said and "light-none" not in said, f"a light that ends with its block: {said}")

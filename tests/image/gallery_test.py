@@ -4,6 +4,7 @@
 """
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,7 +13,7 @@ from gallery import make_brick_map, store_photons
 from pictures import pixels
 
 tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-FINISHED = ("pool", "coast", "still_life", "teapots", "nave", "evening", "watch")  # docs/gallery.md, finished pictures
+FINISHED = ("pool", "coast", "still_life", "teapots", "nave", "evening", "watch", "forest", "dandelion")  # docs/gallery.md, finished pictures
 failures = []
 
 
@@ -33,6 +34,7 @@ with tempfile.TemporaryDirectory() as temporary:
     for scene in sorted({*scenes, *(root / f"scenes/{name}/{name}.rib" for name in FINISHED)}):
         name = f"{scene.parent.name}/{scene.stem}"
         text = (scene.read_text() if scene.exists() else generated(scene)).replace("../../docs", str(root / "docs"))
+        text = re.sub(r"Format (\d+) (\d+)", lambda m: f"Format {int(m[1]) // 8} {int(m[2]) // 8}", text)  # of shadow maps; --format is for pictures
         (folder / scene.name).write_text(text)
         if "photons/" in text:
             store_photons(tomales, folder / scene.name, scene.parent)

@@ -1,0 +1,8 @@
+#include "forest.h"
+
+/* The sky between the trunks. */
+surface morning() {
+  vector d = normalize(vtransform("forest", I));
+  Oi = 1;
+  Ci = 1.3 * farair(d);
+}
