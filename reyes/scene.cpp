@@ -132,6 +132,7 @@ ShadeGroup Scene::groupFor(const Object& o, int index) const {
   const mat4 m = o.cameraFromObject.at(options.shutterOpen);
   ShadeGroup g{.attributes = o.attributes,
                .cameraFromObject = m,
+               .primvars = {},
                .exampleObject = index,
                .solid = o.solid >= 0,
                .subtracted = o.subtracted};

@@ -135,7 +135,7 @@ void BrickMap::find(int level, const glm::ivec3& place, Sum& sum) const {
   } else {
     const int both = std::min(level, sum.foundLevel);
     const glm::ivec3 apart = (place >> (level - both)) ^ (sum.place >> (sum.level - both));
-    at = both - std::bit_width(static_cast<unsigned>(apart.x | apart.y | apart.z));
+    at = both - static_cast<int>(std::bit_width(static_cast<unsigned>(apart.x | apart.y | apart.z)));
   }
   const int32_t before = sum.foundLevel < 0 ? -1 : sum.path[static_cast<size_t>(sum.foundLevel)];
   while (at < level) {

@@ -29,8 +29,8 @@ struct CacheAligned {
   // It aligns by hand: glibc's aligned allocation takes no part in its caches of freed blocks, and grids come and go by
   // millions.
   T* allocate(size_t n) {
-    void* block = ::operator new(n * sizeof(T) + kLine);
-    void** aligned = reinterpret_cast<void**>((reinterpret_cast<uintptr_t>(block) + kLine) & ~(kLine - 1));
+    char* block = static_cast<char*>(::operator new(n * sizeof(T) + kLine));
+    void** aligned = reinterpret_cast<void**>(block + kLine - reinterpret_cast<uintptr_t>(block) % kLine);
     aligned[-1] = block;
     return reinterpret_cast<T*>(aligned);
   }

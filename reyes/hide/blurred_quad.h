@@ -25,7 +25,8 @@ struct Blur {
 template <class B>
 struct BlurredQuad {
   static constexpr int kKeys = B::kMoves ? 2 : 1;
-  float x[kKeys][4], y[kKeys][4], d[kKeys][4];
+  using Values = float[size_t{kKeys}][4];
+  Values x, y, d;
   bool swapped[5];  ///< Is the second end of the edges ab, bc, ca, bd, dc the canonical one?
   float dMin = kInfinity, dMax = -kInfinity;
 

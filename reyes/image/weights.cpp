@@ -42,7 +42,7 @@ struct Reached {
 template <int kPixels, int kFloats>
 [[gnu::always_inline]] inline void addTo(float* to, int width, const Weighted& seen, int stride, const float* weight,
                                          const float* value) {
-  Vector<kFloats> sum[kPixels];
+  Vector<kFloats> sum[size_t{kPixels}];
   for (int i = 0; i < kPixels; ++i) sum[i] = vectorAt<kFloats>(to + i * width);
   for (int c = seen.count; c > 0; --c, weight += stride, value += seen.step)
     for (int i = 0; i < kPixels; ++i) sum[i] += weight[i] * vectorAt<kFloats>(value);

@@ -50,20 +50,21 @@ Weights bernsteinDerivative(double t) {
   return {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t};
 }
 
+glm::dvec3 controlOf(const BezierPatch& patch, size_t k) { return {patch[0][k], patch[1][k], patch[2][k]}; }
+
 glm::dvec3 weighted(const BezierPatch& patch, const Weights& u, const Weights& v) {
   glm::dvec3 sum(0);
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 16; ++k) sum[axis] += u[k % 4] * v[k / 4] * patch[axis][k];
+  for (size_t k = 0; k < 16; ++k) sum += u[k % 4] * v[k / 4] * controlOf(patch, k);
   return sum;
 }
 
 /// Do all control points lie on a line, so that there is no normal anywhere?
 bool isLine(const BezierPatch& patch) {
-  const auto control = [&](int k) { return glm::dvec3(patch[0][k], patch[1][k], patch[2][k]); };
+  const auto control = [&](size_t k) { return controlOf(patch, k); };
   glm::dvec3 along(0);
-  for (int k = 1; k < 16; ++k)
+  for (size_t k = 1; k < 16; ++k)
     if (const glm::dvec3 step = control(k) - control(0); glm::length(step) > glm::length(along)) along = step;
-  for (int k = 1; k < 16; ++k)
+  for (size_t k = 1; k < 16; ++k)
     if (glm::length(glm::cross(along, control(k) - control(0))) > 1e-9 * glm::dot(along, along)) return false;
   return true;
 }
@@ -113,7 +114,8 @@ ToBezier bezierFrom(const Basis& basis) {
       for (int k = 0; k < 4; ++k) sum += kBezierFromPower[i][k] * static_cast<double>(basis.matrix[k][j]);
       // The named bases are twelfths. With exactly equal weights two patches agree exactly on the edge that they share.
       const double twelfths = std::round(12 * sum);
-      out[i][j] = static_cast<float>(std::abs(12 * sum - twelfths) < 1e-5 ? twelfths / 12 : sum);
+      out[static_cast<size_t>(i)][static_cast<size_t>(j)] =
+          static_cast<float>(std::abs(12 * sum - twelfths) < 1e-5 ? twelfths / 12 : sum);
     }
   return out;
 }
@@ -123,11 +125,11 @@ BezierNet convertNet(const BezierNet& control, const ToBezier& u, const ToBezier
     return w[0] * a + w[1] * b + w[2] * c + w[3] * d;
   };
   BezierNet rows, out;
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i)
+  for (size_t j = 0; j < 4; ++j)
+    for (size_t i = 0; i < 4; ++i)
       rows[4 * j + i] = weigh(u[i], control[4 * j], control[4 * j + 1], control[4 * j + 2], control[4 * j + 3]);
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) out[4 * j + i] = weigh(v[j], rows[i], rows[4 + i], rows[8 + i], rows[12 + i]);
+  for (size_t j = 0; j < 4; ++j)
+    for (size_t i = 0; i < 4; ++i) out[4 * j + i] = weigh(v[j], rows[i], rows[4 + i], rows[8 + i], rows[12 + i]);
   return out;
 }
 
@@ -158,11 +160,11 @@ void evaluateBicubic(const BezierPatch& patch, int n, const float* u, const floa
 Bound3 boundBicubic(const BezierPatch& patch, const UvRect& rect) {
   Bound3 bound, whole;
   for (int axis = 0; axis < 3; ++axis) {
-    BezierNet net = patch[axis];
+    BezierNet net = patch[static_cast<size_t>(axis)];
     whole.lo[axis] = *std::min_element(net.begin(), net.end());
     whole.hi[axis] = *std::max_element(net.begin(), net.end());
-    for (int k = 0; k < 4; ++k) restrictCurve(&net[4 * k], 1, rect.u0, rect.u1);
-    for (int k = 0; k < 4; ++k) restrictCurve(&net[k], 4, rect.v0, rect.v1);
+    for (size_t k = 0; k < 4; ++k) restrictCurve(&net[4 * k], 1, rect.u0, rect.u1);
+    for (size_t k = 0; k < 4; ++k) restrictCurve(&net[k], 4, rect.v0, rect.v1);
     const auto [lo, hi] = std::minmax_element(net.begin(), net.end());
     bound.lo[axis] = *lo, bound.hi[axis] = *hi;
   }

@@ -88,7 +88,7 @@ class Contourer {
 
  private:
   dvec3 position(const Lattice& at) const { return origin_ + unit_ * dvec3(at[0], at[1], at[2]); }
-  Lattice cornerOf(const Cell& cell, int k) const {
+  Lattice cornerOf(const Cell& cell, uint32_t k) const {
     return {cell.corner[0] + (k & 1) * cell.size, cell.corner[1] + (k >> 1 & 1) * cell.size,
             cell.corner[2] + (k >> 2) * cell.size};
   }
@@ -96,7 +96,7 @@ class Contourer {
 
   uint8_t cornersInside(const Cell& cell, const BlobField& field) const {
     int inside = 0;
-    for (int k = 0; k < 8; ++k) inside |= (field.at(position(cornerOf(cell, k))).value > kBlobSurface) << k;
+    for (uint32_t k = 0; k < 8; ++k) inside |= (field.at(position(cornerOf(cell, k))).value > kBlobSurface) << k;
     return static_cast<uint8_t>(inside);
   }
 
@@ -123,7 +123,7 @@ class Contourer {
     }
     const uint32_t first = static_cast<uint32_t>(cells_.size());
     cells_[index].firstChild = first;
-    for (int k = 0; k < 8; ++k) {
+    for (uint32_t k = 0; k < 8; ++k) {
       const Cell& parent = cells_[index];
       Cell child{parent.corner, parent.size / 2};
       child.corner = cornerOf(child, k);
@@ -137,9 +137,9 @@ class Contourer {
   bool hidesGap(const Cell& cell, const BlobField& field) const {
     constexpr int kStretches = 4;
     if (field.leavesUsed() < 2) return false;
-    for (int a = 0; a < 8; ++a)
-      for (int axis = 0; axis < 3; ++axis) {
-        const int b = a | 1 << axis;
+    for (uint32_t a = 0; a < 8; ++a)
+      for (uint32_t axis = 0; axis < 3; ++axis) {
+        const uint32_t b = a | 1u << axis;
         if (b == a || (cell.inside >> a ^ cell.inside >> b) & 1) continue;
         const dvec3 p = position(cornerOf(cell, a)), q = position(cornerOf(cell, b));
         for (int k = 1; k < kStretches; ++k)
@@ -153,9 +153,9 @@ class Contourer {
   /// Approximate points where the surface meets the cell's edges.
   std::vector<dvec3> crossingsOf(const Cell& cell, const BlobField& field) const {
     std::vector<dvec3> out;
-    for (int a = 0; a < 8; ++a)
-      for (int axis = 0; axis < 3; ++axis) {
-        const int b = a | 1 << axis;
+    for (uint32_t a = 0; a < 8; ++a)
+      for (uint32_t axis = 0; axis < 3; ++axis) {
+        const uint32_t b = a | 1u << axis;
         if (b == a || !((cell.inside >> a ^ cell.inside >> b) & 1)) continue;
         const dvec3 p = position(cornerOf(cell, a)), q = position(cornerOf(cell, b));
         const double f = field.at(p).value - kBlobSurface, g = field.at(q).value - kBlobSurface;
@@ -186,7 +186,7 @@ class Contourer {
     while (cells_[index].firstChild != 0) {
       const Cell& cell = cells_[index];
       uint32_t child = 0;
-      for (int axis = 0; axis < 3; ++axis)
+      for (uint32_t axis = 0; axis < 3; ++axis)
         child |= static_cast<uint32_t>(halves[axis] > 2 * cell.corner[axis] + cell.size) << axis;
       index = cell.firstChild + child;
     }
@@ -195,31 +195,31 @@ class Contourer {
 
   void addQuads(uint32_t index) {
     const Cell& cell = cells_[index];
-    for (int a = 0; a < 8; ++a)
-      for (int axis = 0; axis < 3; ++axis) {
-        const int b = a | 1 << axis;
+    for (uint32_t a = 0; a < 8; ++a)
+      for (uint32_t axis = 0; axis < 3; ++axis) {
+        const uint32_t b = a | 1u << axis;
         if (b != a && (cell.inside >> a ^ cell.inside >> b) & 1) addQuad(index, axis, a);
       }
   }
 
   /// Adds the quadrilateral across an edge of a cell, from corner `a` along `axis`, if no smaller cell has the edge;
   /// among cells of the same size the first adds it.
-  void addQuad(uint32_t index, int axis, int a) {
+  void addQuad(uint32_t index, uint32_t axis, uint32_t a) {
     const Cell& cell = cells_[index];
-    const int y = (axis + 1) % 3, z = (axis + 2) % 3;
+    const uint32_t y = (axis + 1) % 3, z = (axis + 2) % 3;
     const Lattice from = cornerOf(cell, a);
     std::array<uint32_t, 4> around;
-    for (int k = 0; k < 4; ++k) {
+    for (uint32_t k = 0; k < 4; ++k) {
       Lattice halves{2 * from[0], 2 * from[1], 2 * from[2]};
       halves[axis] += cell.size;
-      halves[y] += k & 1 ? 1 : -1, halves[z] += k & 2 ? 1 : -1;
+      halves[y] += k & 1 ? 1 : ~0u, halves[z] += k & 2 ? 1 : ~0u;
       if (halves[y] > 2 * cells_[0].size || halves[z] > 2 * cells_[0].size) return;  // outside of the root
       around[k] = cellAround(halves);
       const Cell& other = cells_[around[k]];
       if (other.size < cell.size || (other.size == cell.size && around[k] < index) || other.vertex < 0) return;
     }
     BlobQuad quad;
-    for (int k = 0; k < 4; ++k) quad.corners[k] = static_cast<uint32_t>(cells_[around[k]].vertex);
+    for (size_t k = 0; k < 4; ++k) quad.corners[k] = static_cast<uint32_t>(cells_[around[k]].vertex);
     // The corners run counter-clockwise about the axis, which leads outward if it begins inside.
     if (!(cell.inside >> a & 1)) std::swap(quad.corners[1], quad.corners[2]);
     const auto& c = quad.corners;

@@ -85,7 +85,7 @@ CurveSegments::CurveSegments(bool cubic, const Basis& basis, const std::vector<i
   const std::vector<Cubic<vec3>> widths = along(width);
   lines_.resize(segments_.size());
   for (size_t k = 0; k < lines_.size(); ++k)
-    for (int i = 0; i < 4; ++i) lines_[k][i] = vec4(centers[k][i], widths[k][i].x);
+    for (size_t i = 0; i < 4; ++i) lines_[k][i] = vec4(centers[k][i], widths[k][i].x);
   if (!cubic_) findMitres();
 }
 
@@ -102,7 +102,7 @@ std::vector<Cubic<vec3>> CurveSegments::along(const Primvar& var, const float* v
   for (size_t s = 0; s < out.size(); ++s)
     for (int c = 0; c < std::min(3, var.width); ++c) {
       const Cubic<float> component = componentAlong(var, values, c, segments_[s]);
-      for (int k = 0; k < 4; ++k) out[s][k][c] = component[k];
+      for (size_t k = 0; k < 4; ++k) out[s][k][c] = component[k];
     }
   return out;
 }
@@ -117,14 +117,16 @@ void CurveSegments::interpolate(const Primvar& var, size_t k, int n, const float
 /// Bezier values of one component of a variable along a segment.
 Cubic<float> CurveSegments::componentAlong(const Primvar& var, const float* values, int component,
                                            const CurveSegment& s) const {
-  const auto at = [&](uint32_t element) { return values[static_cast<size_t>(element) * var.width + component]; };
+  const auto at = [&](size_t element) {
+    return values[element * static_cast<size_t>(var.width) + static_cast<size_t>(component)];
+  };
   if (var.storage == Storage::Constant) return straight(at(0), at(0));
   if (var.storage == Storage::Uniform) return straight(at(s.curve), at(s.curve));
   if (var.storage != Storage::Vertex) return straight(at(s.corners[0]), at(s.corners[1]));
   if (!cubic_) return straight(at(s.controls[0]), at(s.controls[1]));
   Cubic<float> out{};
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 4; ++i) out[k] += toBezier_[k][i] * at(s.controls[i]);
+  for (size_t k = 0; k < 4; ++k)
+    for (size_t i = 0; i < 4; ++i) out[k] += toBezier_[k][i] * at(s.controls[i]);
   return out;
 }
 

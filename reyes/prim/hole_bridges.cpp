@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-using Walk = std::vector<int>;
+using Walk = std::vector<uint32_t>;
 
 // Greatest number of pairs of a hole's vertex and a corner that are tried where the bridge of the first key is not
 // clear.
@@ -35,7 +35,7 @@ class Bridger {
     if (at < 0) at = findCorner(p_[hole[0]]);
     if (at < 0) return false;
     if (keys_.size() > 1 && !isClear(hole, at, later)) at = findClear(hole, at, later);
-    hole.insert(hole.end(), {hole[0], walk_[at]});
+    hole.insert(hole.end(), {hole[0], number(at)});
     walk_.insert(walk_.begin() + at + 1, hole.begin(), hole.end());
     return true;
   }
@@ -45,7 +45,9 @@ class Bridger {
 
  private:
   int size() const { return static_cast<int>(walk_.size()); }
-  const Point2& corner(int i) const { return p_[walk_[(i + size()) % size()]]; }
+  /// The number of the corner at a position in the walk, which goes round.
+  uint32_t number(int i) const { return walk_[static_cast<size_t>((i + size()) % size())]; }
+  const Point2& corner(int i) const { return p_[number(i)]; }
 
   static bool isLess(const Point2& a, const Point2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
   /// Positions that several points share, sorted.
@@ -111,7 +113,7 @@ class Bridger {
   /// Does m lie towards the inside from corner i? This tells the copies of a corner apart that bridges have made.
   bool sees(int i, const Point2& m) const { return sees(p_, i, m); }
   bool sees(const std::vector<Point2>& p, int i, const Point2& m) const {
-    const auto at = [&](int k) { return p[walk_[(k + size()) % size()]]; };
+    const auto at = [&](int k) { return p[number(k)]; };
     const Point2 b = at(i);
     int before = i - 1, after = i + 1;  // passes bridges of no length
     while (at(before) == b && before > i - size()) --before;
@@ -133,7 +135,7 @@ class Bridger {
   /// Is the bridge from the hole's first vertex to a position in the walk inside and clear of everything, at every key?
   bool isClear(const Walk& hole, int at, std::span<const Walk> later) const {
     for (const std::vector<Point2>& p : keys_) {
-      const Point2 &a = p[hole[0]], &b = p[walk_[at]];
+      const Point2 &a = p[hole[0]], &b = p[number(at)];
       if (!sees(p, at, a) || touches(p, a, b, walk_) || touches(p, a, b, hole)) return false;
       if (std::any_of(later.begin(), later.end(), [&](const Walk& loop) { return touches(p, a, b, loop); }))
         return false;
@@ -173,11 +175,11 @@ BridgedOutline bridgeHoles(const Outlines& keys, const std::vector<int>& loopSta
   std::vector<Walk> loops;
   for (size_t k = 0; k + 1 < loopStarts.size(); ++k) {
     Walk loop(static_cast<size_t>(loopStarts[k + 1] - loopStarts[k]));
-    std::iota(loop.begin(), loop.end(), loopStarts[k]);
+    std::iota(loop.begin(), loop.end(), static_cast<uint32_t>(loopStarts[k]));
     const double area = signedArea(p, loop);
     if (k && area == 0) continue;  // takes nothing away
     if (k && area > 0) std::reverse(loop.begin(), loop.end());
-    const auto lefter = [&](int a, int b) { return p[a].x < p[b].x; };
+    const auto lefter = [&](uint32_t a, uint32_t b) { return p[a].x < p[b].x; };
     if (k) std::rotate(loop.begin(), std::max_element(loop.begin(), loop.end(), lefter), loop.end());
     loops.push_back(std::move(loop));
   }

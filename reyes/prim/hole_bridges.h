@@ -6,9 +6,9 @@ namespace tomales {
 
 /// One closed walk over a polygon with holes.
 struct BridgedOutline {
-  std::vector<int> order;  ///< Positions in the list of points; both ends of a bridge occur twice.
-  int ignored = 0;         ///< Number of holes that lie outside of the outline.
-  bool simple = true;      ///< No bridge crosses anything at any key. False only for a polygon that moves.
+  std::vector<uint32_t> order;  ///< Positions in the list of points; both ends of a bridge occur twice.
+  int ignored = 0;              ///< Number of holes that lie outside of the outline.
+  bool simple = true;           ///< No bridge crosses anything at any key. False only for a polygon that moves.
 };
 
 /// Loop k is the points loopStarts[k] to loopStarts[k + 1] - 1: first the outline, which goes counter-clockwise, then

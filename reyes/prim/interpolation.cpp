@@ -40,7 +40,7 @@ void interpolateBilinear(const float* values, int width, const Corners& corners,
                          float* out, int stride) {
   for (int c = 0; c < width; ++c) {
     float corner[4];
-    for (int k = 0; k < 4; ++k) corner[k] = values[static_cast<size_t>(corners[k]) * width + c];
+    for (size_t k = 0; k < 4; ++k) corner[k] = values[corners[k] * static_cast<size_t>(width) + static_cast<size_t>(c)];
     bilinear(corner, n, u, v, out + static_cast<ptrdiff_t>(c) * stride);
   }
 }
@@ -75,7 +75,7 @@ Bound3 boundBilinear(const std::array<vec3, 4>& corners, const UvRect& rect) {
   }
   const float u[4] = {rect.u0, rect.u1, rect.u0, rect.u1}, v[4] = {rect.v0, rect.v0, rect.v1, rect.v1};
   Bound3 bound, whole;
-  for (int k = 0; k < 4; ++k) {
+  for (size_t k = 0; k < 4; ++k) {
     whole.extend(corners[k]);
     const vec3 low = corners[0] * (1 - u[k]) + corners[1] * u[k], high = corners[2] * (1 - u[k]) + corners[3] * u[k];
     bound.extend(low * (1 - v[k]) + high * v[k]);

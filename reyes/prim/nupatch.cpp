@@ -95,11 +95,13 @@ class NuPatch : public Prim {
  private:
   int column(uint32_t patch) const { return static_cast<int>(patch) % u_.patches(); }
   int row(uint32_t patch) const { return static_cast<int>(patch) / u_.patches(); }
-  int uSegment(uint32_t patch) const { return u_.spans[static_cast<size_t>(column(patch))].segment; }
-  int vSegment(uint32_t patch) const { return v_.spans[static_cast<size_t>(row(patch))].segment; }
-  size_t segmentNumber(uint32_t patch) const {
-    return static_cast<size_t>(vSegment(patch)) * u_.segments() + static_cast<size_t>(uSegment(patch));
+  /// The number of a patch's segment in rows of `width`, segments or controls.
+  size_t numberInRows(uint32_t patch, int width) const {
+    const int u = u_.spans[static_cast<size_t>(column(patch))].segment,
+              v = v_.spans[static_cast<size_t>(row(patch))].segment;
+    return static_cast<size_t>(v) * static_cast<size_t>(width) + static_cast<size_t>(u);
   }
+  size_t segmentNumber(uint32_t patch) const { return numberInRows(patch, u_.segments()); }
   RationalNet net(uint32_t patch) const {
     return {&nets_[patch * static_cast<size_t>(u_.order * v_.order)], u_.order, v_.order};
   }
@@ -107,7 +109,7 @@ class NuPatch : public Prim {
   /// Appends the Bezier controls of a patch; controlOf(number) is a homogeneous control of the whole.
   template <class ControlOf>
   void convert(uint32_t patch, const ControlOf& controlOf, std::vector<vec4>& out) const {
-    const size_t corner = static_cast<size_t>(vSegment(patch)) * u_.controls + static_cast<size_t>(uSegment(patch));
+    const size_t corner = numberInRows(patch, u_.controls);
     for (int l = 0; l < v_.order; ++l)
       for (int k = 0; k < u_.order; ++k) {
         glm::dvec4 sum(0);
@@ -156,7 +158,7 @@ class NuPatch : public Prim {
   void interpolateCorners(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
                           int stride) const {
     const uint32_t width = static_cast<uint32_t>(u_.corners());
-    const uint32_t first = static_cast<uint32_t>(vSegment(patch)) * width + static_cast<uint32_t>(uSegment(patch));
+    const uint32_t first = static_cast<uint32_t>(numberInRows(patch, u_.corners()));
     std::vector<float> along(static_cast<size_t>(2 * n));
     for (int i = 0; i < n; ++i) {
       along[static_cast<size_t>(i)] = u_.alongSegment(column(patch), u[i]);

@@ -102,10 +102,13 @@ class BicubicMesh : public PatchMesh {
 
   PatchInfo info(uint32_t patch) const override {
     const auto edge = [&](uint32_t p, PatchEdge bit) {
-      const int first = bit == kEdgeU1 ? 3 : bit == kEdgeV1 ? 12 : 0, step = bit == kEdgeU0 || bit == kEdgeU1 ? 4 : 1;
+      const size_t first = bit == kEdgeU1   ? 3
+                           : bit == kEdgeV1 ? 12
+                                            : 0,
+                   step = bit == kEdgeU0 || bit == kEdgeU1 ? 4 : 1;
       std::array<vec3, 4> points;
-      for (int k = 0; k < 4; ++k) {
-        const int c = first + k * step;
+      for (size_t k = 0; k < 4; ++k) {
+        const size_t c = first + k * step;
         points[k] = {patches_[p][0][c], patches_[p][1][c], patches_[p][2][c]};
       }
       return points;
@@ -130,9 +133,9 @@ class BicubicMesh : public PatchMesh {
  private:
   BezierNet net(uint32_t patch, const float* values, int width) const {
     BezierNet control;
+    size_t n = 0;
     for (int l = 0; l < 4; ++l)
-      for (int k = 0; k < 4; ++k)
-        control[4 * l + k] = values[mesh_.controlOf(patch, k, l) * static_cast<size_t>(width)];
+      for (int k = 0; k < 4; ++k) control[n++] = values[mesh_.controlOf(patch, k, l) * static_cast<size_t>(width)];
     return convertNet(control, uToBezier_, vToBezier_);
   }
 

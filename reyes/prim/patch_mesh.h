@@ -15,8 +15,8 @@ struct Direction {
 struct Layout {
   Direction u, v;
   uint32_t patches() const { return static_cast<uint32_t>(u.patches) * static_cast<uint32_t>(v.patches); }
-  size_t controls() const { return static_cast<size_t>(u.controls) * v.controls; }
-  size_t corners() const { return static_cast<size_t>(u.corners()) * v.corners(); }
+  size_t controls() const { return static_cast<size_t>(u.controls) * static_cast<size_t>(v.controls); }
+  size_t corners() const { return static_cast<size_t>(u.corners()) * static_cast<size_t>(v.corners()); }
   PrimvarCounts counts() const { return {patches(), corners(), controls(), corners()}; }
 
   /// Numbers of the varying values at a patch's corners.
@@ -30,7 +30,8 @@ struct Layout {
   /// Number of control (k, l) of a patch.
   size_t controlOf(uint32_t patch, int k, int l) const {
     const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
-    return static_cast<size_t>((j * v.step + l) % v.controls) * u.controls + (i * u.step + k) % u.controls;
+    const int row = (j * v.step + l) % v.controls, column = (i * u.step + k) % u.controls;
+    return static_cast<size_t>(row) * static_cast<size_t>(u.controls) + static_cast<size_t>(column);
   }
   /// The neighbour across an edge, around the mesh whether or not it is periodic.
   uint32_t neighbour(uint32_t patch, int du, int dv) const {

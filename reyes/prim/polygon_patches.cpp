@@ -107,6 +107,9 @@ class Decomposer {
     loopStart_.push_back(static_cast<int>(corner_.size()));
   }
 
+  /// The face-vertex at a position among the corners, and whether its edge to the next one is open.
+  uint32_t cornerAt(int k) const { return corner_[static_cast<size_t>(k)]; }
+  bool openAt(int k) const { return open_[static_cast<size_t>(k)] != 0; }
   int nextInLoop(int k) const {
     const auto end = std::upper_bound(loopStart_.begin(), loopStart_.end(), k);
     return k + 1 < *end ? k + 1 : *(end - 1);
@@ -120,13 +123,14 @@ class Decomposer {
     std::vector<uint32_t> corner;
     std::vector<char> open;
     for (size_t k = 0; k < outline.order.size(); ++k) {
-      const int at = outline.order[k], to = outline.order[(k + 1) % outline.order.size()];
-      corner.push_back(corner_[at]);
-      open.push_back(nextInLoop(at) == to ? open_[at] : nextInLoop(to) == at ? open_[to] : 0);
+      const int at = static_cast<int>(outline.order[k]),
+                to = static_cast<int>(outline.order[(k + 1) % outline.order.size()]);
+      corner.push_back(cornerAt(at));
+      open.push_back(nextInLoop(at) == to ? openAt(at) : nextInLoop(to) == at && openAt(to));
     }
     for (std::vector<Point2>& p : outlines_) {
       const std::vector<Point2> loops = std::exchange(p, {});
-      for (const int at : outline.order) p.push_back(loops[at]);
+      for (const uint32_t at : outline.order) p.push_back(loops[at]);
     }
     corner_ = std::move(corner), open_ = std::move(open);
   }
@@ -195,19 +199,18 @@ class Decomposer {
     return static_cast<uint32_t>(vertices_.size() + out_.made.count() - 1);
   }
 
-  bool openBetween(int a, int b) const { return (a + 1) % static_cast<int>(corner_.size()) == b && open_[a]; }
+  bool openBetween(int a, int b) const { return (a + 1) % static_cast<int>(corner_.size()) == b && openAt(a); }
 
   /// Adds a triangle as one patch. Its edge v = 1 is the corner opposite to its shortest side: lines along u are short,
   /// and a function that is linear over the triangle is so over the patch.
   void addTriangle(const Piece& piece) {
     const auto side = [&](size_t k) {
-      const vec3 d = position(*keys_[0], corner_[static_cast<size_t>(piece[(k + 1) % 3])]) -
-                     position(*keys_[0], corner_[static_cast<size_t>(piece[k])]);
+      const vec3 d = position(*keys_[0], cornerAt(piece[(k + 1) % 3])) - position(*keys_[0], cornerAt(piece[k]));
       return glm::dot(d, d);
     };
     const size_t k = side(1) < side(0) ? (side(2) < side(1) ? 2 : 1) : (side(2) < side(0) ? 2 : 0);
     const int a = piece[k], b = piece[(k + 1) % 3], c = piece[(k + 2) % 3];
-    addQuad({corner_[a], corner_[b], corner_[c], corner_[c]},
+    addQuad({cornerAt(a), cornerAt(b), cornerAt(c), cornerAt(c)},
             {true, edgeBits(openBetween(c, a), openBetween(b, c), openBetween(a, b), true)});
   }
 
@@ -216,7 +219,7 @@ class Decomposer {
     if (n == 3) return addTriangle(piece);
     std::vector<uint32_t>&at = at_, &middle = middle_;
     at.clear(), middle.clear();
-    for (int k : piece) at.push_back(corner_[k]);
+    for (int k : piece) at.push_back(cornerAt(k));
     for (size_t k = 0; k < n; ++k) middle.push_back(make(std::array{at[k], at[(k + 1) % n]}));
     const uint32_t center = make(at);
     const bool planar = out_.faces.back().planar;

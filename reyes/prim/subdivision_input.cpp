@@ -28,8 +28,9 @@ std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, co
   std::vector<size_t> corners(vertexCount);
   size_t first = 0;
   for (const int count : vertexCounts) {
-    for (int k = 0; k < count; ++k) corners[static_cast<size_t>(vertices[first + k])] += static_cast<size_t>(count) - 2;
-    first += static_cast<size_t>(count);
+    const size_t n = static_cast<size_t>(count);
+    for (size_t k = 0; k < n; ++k) corners[static_cast<size_t>(vertices[first + k])] += n - 2;
+    first += n;
   }
   const auto most = std::find_if(corners.begin(), corners.end(), [](size_t n) { return n > kMost; });
   if (most == corners.end()) return {};
@@ -43,8 +44,9 @@ FaceVaryingChannel mergeFaceVarying(const Primvar& var, const std::vector<int>& 
   for (size_t k = 0; k < vertices.size(); ++k) {
     const float* value = &var.values[k * width];
     std::vector<int>& known = ofVertex[static_cast<size_t>(vertices[k])];
-    const auto same = std::find_if(known.begin(), known.end(),
-                                   [&](int i) { return std::equal(value, value + width, &out.values[i * width]); });
+    const auto same = std::find_if(known.begin(), known.end(), [&](int i) {
+      return std::equal(value, value + width, &out.values[static_cast<size_t>(i) * width]);
+    });
     out.indices.push_back(same != known.end() ? *same : static_cast<int>(out.values.size() / width));
     if (same != known.end()) continue;
     known.push_back(out.indices.back());

@@ -38,8 +38,8 @@ vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Fr
 /// Converts control points of a uniform B-spline, u fastest. Next to a boundary or a crease Bfr repeats control points
 /// for missing ones; it evaluates such faces itself.
 std::optional<BezierPatch> asBicubic(const Limit& limit) {
-  constexpr int kControls = 16;
-  if (!limit.surface.IsRegular() || limit.surface.IsLinear() || limit.surface.GetNumControlPoints() != kControls)
+  constexpr size_t kControls = 16;
+  if (!limit.surface.IsRegular() || limit.surface.IsLinear() || limit.surface.GetNumControlPoints() != int{kControls})
     return {};
   std::array<int, kControls> index;
   limit.surface.GetControlPointIndices(index.data());
@@ -47,9 +47,9 @@ std::optional<BezierPatch> asBicubic(const Limit& limit) {
   if (std::adjacent_find(index.begin(), index.end()) != index.end()) return {};
   static const ToBezier kToBezier = bezierFrom(bsplineBasis());
   BezierPatch patch;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (size_t axis = 0; axis < 3; ++axis) {
     BezierNet controls;
-    for (int k = 0; k < kControls; ++k) controls[k] = limit.points[static_cast<size_t>(3 * k + axis)];
+    for (size_t k = 0; k < kControls; ++k) controls[k] = limit.points[3 * k + axis];
     patch[axis] = convertNet(controls, kToBezier, kToBezier);
   }
   return patch;

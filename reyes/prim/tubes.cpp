@@ -145,7 +145,7 @@ class Tubes : public Prim {
     vec3 along, alongSlope;
     segments_.direction(segment, v, along, alongSlope);
     const float length = glm::length(along), x = v * kSides;
-    const int k = std::min(static_cast<int>(x), kSides - 1);
+    const size_t k = static_cast<size_t>(std::min(static_cast<int>(x), kSides - 1));
     const std::array<vec3, kSides + 1>& sides = sides_[segment];
     if (!(length > 0)) return {sides[0], {}, {}, {}, {}};
     Frame f;
@@ -186,10 +186,10 @@ class Tubes : public Prim {
       p = vec3(value) + radius * out, du = radius * around, dv = -0.5f * value.w * out;
       normal = end->last ? f.along : -f.along;
     } else if (!segments_.cubic()) {
-      const auto onRim = [&](int k, const vec3& x) {
+      const auto onRim = [&](size_t k, const vec3& x) {
         const vec3 side = sides_[segment][k * size_t{kSides}];
         return 0.5f * line[k * size_t{3}].w *
-               joints_[segment][static_cast<size_t>(k)](x.x * side + x.y * cross(segments_.chord(segment), side));
+               joints_[segment][k](x.x * side + x.y * cross(segments_.chord(segment), side));
       };
       const vec3 x(cosine, sine, 0), byU(-turn * sine, turn * cosine, 0);
       const vec3 a = onRim(0, x), b = onRim(1, x);

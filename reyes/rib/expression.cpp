@@ -100,7 +100,7 @@ class Evaluator {
     return value;
   }
   std::string comparison() {
-    const std::string a = sum();
+    std::string a = sum();
     if (take("=~")) return truth(matches(a, sum()));
     if (take("==")) return truth(order(a, sum()) == 0);
     if (take("!=")) return truth(order(a, sum()) != 0);
@@ -149,7 +149,7 @@ class Evaluator {
     if (take("${")) return variable(upTo('}'));
     if (take("$(") || take("(")) return inParentheses();
     if (take("$")) return variable(word());
-    const std::string name = word();
+    std::string name = word();
     if (name == "defined") return defined();
     if (name == "concat") return concat();
     return name;
@@ -180,7 +180,7 @@ class Evaluator {
   std::string upTo(char end) {
     const size_t n = rest_.find(end);
     if (n == std::string_view::npos) throw ExpressionError(fmt::format("{} is missing", end));
-    const std::string out(rest_.substr(0, n));
+    std::string out(rest_.substr(0, n));
     rest_.remove_prefix(n + 1);
     return out;
   }
@@ -196,7 +196,7 @@ class Evaluator {
     while (n < rest_.size() && inWord(rest_[n])) ++n;
     if (n == 0)
       throw ExpressionError(rest_.empty() ? "it ends early" : fmt::format("'{}' is not understood", rest_[0]));
-    const std::string out(rest_.substr(0, n));
+    std::string out(rest_.substr(0, n));
     rest_.remove_prefix(n);
     return out;
   }

@@ -58,7 +58,7 @@ void refuseHuge(const Code& code, Messages& messages) {
       std::max_element(code.registers.begin(), code.registers.end(), [](const Register& a, const Register& b) {
         return a.varying * a.length * floatsOf(a.shape) < b.varying * b.length * floatsOf(b.shape);
       });
-  const auto megabytes = [&](int32_t floats) { return std::ceil(floats * sizeof(float) * kBatch / kMegabyte); };
+  const auto megabytes = [&](int32_t floats) { return std::ceil(floats * (sizeof(float) * kBatch / kMegabyte)); };
   messages.error(largest->place,
                  fmt::format("what varies of this shader needs {} MB for {} points, \"{}\" most of it; {} MB are the "
                              "limit",

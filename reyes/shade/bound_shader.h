@@ -26,7 +26,7 @@ struct BoundShader {
   /// into the arrays below.
   std::vector<TmValue> values;
 
-  bool can(TmCapability capability) const { return (shader->capabilities & capability) != 0; }
+  bool can(TmCapability capability) const { return (shader->capabilities & static_cast<uint32_t>(capability)) != 0; }
   /// The index in TmShader::params of the output parameter of that name, or -1.
   int output(std::string_view name, ValueType type) const;
   /// The index of the output parameter with that role, or -1.

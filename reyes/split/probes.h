@@ -10,20 +10,22 @@ namespace tomales {
 template <int kProbesT, int kPatchesT>
 struct ProbeLattice {
   static constexpr int kProbes = kProbesT, kPatches = kPatchesT, kRow = kProbes + 1, kCount = kRow * kRow;
-  alignas(64) float x[kCount][kPatches], y[kCount][kPatches], z[kCount][kPatches];  ///< Positions in camera space.
-  alignas(64) float rasterX[kCount][kPatches], rasterY[kCount][kPatches];
+  using Values = float[size_t{kCount}][size_t{kPatches}];
+  alignas(64) Values x, y, z;  ///< Positions in camera space.
+  alignas(64) Values rasterX, rasterY;
 };
 
 /// PatchSize of kPatches patches.
 template <int kPatches>
 struct ProbeSizes {
+  using Values = float[size_t{kPatches}];
   struct Line {
-    alignas(64) float px[kPatches], length[kPatches], bend_px[kPatches];
-    alignas(64) int least[kPatches];
+    alignas(64) Values px, length, bend_px;
+    alignas(64) int least[size_t{kPatches}];
   };
   Line u, v;
-  alignas(64) float area_px2[kPatches];
-  alignas(64) float lo[3][kPatches], hi[3][kPatches];
+  alignas(64) Values area_px2;
+  alignas(64) Values lo[3], hi[3];
 };
 
 /// Takes the probes from object space to camera space and to raster space, and measures the lines through them.

@@ -40,7 +40,7 @@ double Visits::expected(const SubPatch& p) const {
   const glm::dvec2 gridsAcross = seen / (double{edge_px_} * std::sqrt(gridSize_)) + 1.0;
   const double inView = static_cast<double>(all) * (seen.x / size.x) * (seen.y / size.y);
   return std::min(static_cast<double>(all), inView + gridsAcross.x * gridsAcross.y) +
-         std::bit_width(static_cast<uint64_t>(all));
+         static_cast<double>(std::bit_width(static_cast<uint64_t>(all)));
 }
 
 bool Visits::isLargelySeen(const Bound2& raster) const {

@@ -8,10 +8,10 @@ namespace tomales::compiler {
 namespace {
 
 /// Runs a kernel that takes `inputs` whole registers.
-template <int inputs>
+template <size_t inputs>
 void runKernel(Run& run, const Step& s) {
   Lanes in[inputs];
-  for (int k = 0; k < inputs; ++k) in[k] = run.lanes[s.in[k]];
+  for (size_t k = 0; k < inputs; ++k) in[k] = run.lanes[s.in[k]];
   s.kernel(s.uniform ? 1 : run.blocks, run.lanes[s.out], in);
 }
 
@@ -25,15 +25,15 @@ void runLongKernel(Run& run, const Step& s) {
 }
 
 /// Runs a kernel once for each component. Numbers count for all components.
-template <int inputs>
+template <size_t inputs>
 void runByComponent(Run& run, const Step& s) {
   Lanes in[inputs], out = run.lanes[s.out];
-  for (int k = 0; k < inputs; ++k) in[k] = run.lanes[s.in[k]];
+  for (size_t k = 0; k < inputs; ++k) in[k] = run.lanes[s.in[k]];
   const int blocks = s.uniform ? 1 : run.blocks;
   for (int32_t c = 0; c < s.components; ++c) {
     s.kernel(blocks, out, in);
     out.data += out.component;
-    for (int k = 0; k < inputs; ++k) in[k].data += in[k].component;
+    for (size_t k = 0; k < inputs; ++k) in[k].data += in[k].component;
   }
 }
 
