@@ -26,7 +26,7 @@ template <class L>
 [[gnu::always_inline]] inline void measureLine(const L& __restrict at, int first, int step, const Camera& camera,
                                                bool asSeen, typename ProbeSizes<L::kPatches>::Line& __restrict out) {
   constexpr int n = L::kPatches;
-  float length_px[n] = {}, length[n] = {}, chord[n];
+  float length_px[size_t{n}] = {}, length[size_t{n}] = {}, chord[size_t{n}];
   for (int k = 0; k < L::kProbes; ++k) {
     const int a = first + k * step, b = a + step;
     for (int i = 0; i < n; ++i) {
@@ -65,7 +65,7 @@ template <class L>
 [[gnu::always_inline]] inline void measureCorner(const L& __restrict at, int a, int b, int c, const Camera& camera,
                                                  bool asSeen, float* __restrict out) {
   constexpr int n = L::kPatches;
-  float area[n];
+  float area[size_t{n}];
   for (int i = 0; asSeen && i < n; ++i) {
     const float bx = at.rasterX[b][i] - at.rasterX[a][i], by = at.rasterY[b][i] - at.rasterY[a][i];
     const float cx = at.rasterX[c][i] - at.rasterX[a][i], cy = at.rasterY[c][i] - at.rasterY[a][i];
@@ -119,12 +119,12 @@ template <class L>
   }
 }
 
-template <int kCount, int kPatches>
+template <size_t kCount, size_t kPatches>
 [[gnu::always_inline]] inline void boundPoints(const float (&at)[kCount][kPatches], float* __restrict lo,
                                                float* __restrict hi) {
-  for (int i = 0; i < kPatches; ++i) lo[i] = kInfinity, hi[i] = -kInfinity;
-  for (int k = 0; k < kCount; ++k)
-    for (int i = 0; i < kPatches; ++i)
+  for (size_t i = 0; i < kPatches; ++i) lo[i] = kInfinity, hi[i] = -kInfinity;
+  for (size_t k = 0; k < kCount; ++k)
+    for (size_t i = 0; i < kPatches; ++i)
       lo[i] = at[k][i] < lo[i] ? at[k][i] : lo[i], hi[i] = hi[i] < at[k][i] ? at[k][i] : hi[i];
 }
 
