@@ -15,11 +15,11 @@ struct GiState {
   const ShadingSystem& shading;
   GiSettings settings;  ///< Constant while anything is gathered or shaded.
   Stats& stats;
-  mutable std::unique_ptr<const IrradianceAtlas> atlas;  ///< Set in GiMode::Atlas and Baked alone.
-  std::vector<PreparedCache> caches;                     ///< Written by fillCaches(), frozen while shading.
-  std::optional<Emitters> emitters;                      ///< Emitters that are known without rays.
-  BrightSpots spots{};                                   ///< Written by fillCaches().
-  BounceCaches bounces{};                                ///< Written by fillCaches().
+  mutable std::unique_ptr<const IrradianceAtlas> atlas{};  ///< Set in GiMode::Atlas and Baked alone.
+  std::vector<PreparedCache> caches{};                     ///< Written by fillCaches(), frozen while shading.
+  std::optional<Emitters> emitters{};                      ///< Emitters that are known without rays.
+  BrightSpots spots{};                                     ///< Written by fillCaches().
+  BounceCaches bounces{};                                  ///< Written by fillCaches().
   /// Queries of each group; written by learnOcclusionQueries() alone.
   mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};
   KeptWork* kept = nullptr;                                  ///< Null if nothing is kept for a later run.

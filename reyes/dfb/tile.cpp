@@ -51,6 +51,7 @@ void batch(A& a, ShadePoints& x) {
   int group = x.group(), primvarFloats = x.primvarFloats();
   bool steps = x.hasSteps();
   std::vector<SampleName> names;
+  names.reserve(static_cast<size_t>(x.count()));
   for (int i = 0; i < x.count(); ++i) names.push_back(x.name(i));
   each(a, group, primvarFloats, steps);
   columns(a, names, &SampleName::key, &SampleName::sequence);

@@ -9,7 +9,7 @@ bool isConstant(const Facet& f) { return f.point[1] == f.point[0] && f.point[2] 
 
 /// Points of a facet and their weights: the first alone, or the four corners at a fragment.
 struct Blend {
-  int count = 1;
+  size_t count = 1;
   std::array<float, 4> weight = {1, 0, 0, 0};
 
   Blend() = default;
@@ -23,7 +23,7 @@ FacetShade blendedShade(const DeepTile& tile, const Facet& facet, const Blend& b
   const ShadedPoints& shaded = tile.shaded[static_cast<size_t>(facet.batch)];
   FacetShade out{blend.weight[0] * shaded.color(facet.point[0]), blend.weight[0] * shaded.opacity(facet.point[0]),
                  vec3(0.0f)};
-  for (int i = 1; i < blend.count; ++i) {
+  for (size_t i = 1; i < blend.count; ++i) {
     out.color += blend.weight[i] * shaded.color(facet.point[i]);
     out.opacity += blend.weight[i] * shaded.opacity(facet.point[i]);
   }
@@ -63,7 +63,7 @@ Air Compositor::takeAir(const DeepTile& tile, const Fragment& fragment, FacetSha
   Air out;
   if (facet.matte || shaded.airCi[0].empty()) return out;
   const Blend blend(facet, fragment);
-  for (int i = 0; i < blend.count; ++i)
+  for (size_t i = 0; i < blend.count; ++i)
     for (int k = 0; k < 3; ++k) {
       const auto point = static_cast<size_t>(facet.point[i]);
       out.color[k] += blend.weight[i] * shaded.airCi[k][point],
@@ -108,7 +108,7 @@ void Compositor::extraValues(const DeepTile& tile, const Fragment& fragment, flo
     out[e] = facet.matte && !extra.composited ? extra.fill : 0;
     if (facet.matte) continue;
     const AlignedVector<float>& values = shaded.variables[static_cast<size_t>(extra.variable)];
-    for (int i = 0; i < blend.count; ++i) out[e] += blend.weight[i] * values[static_cast<size_t>(facet.point[i])];
+    for (size_t i = 0; i < blend.count; ++i) out[e] += blend.weight[i] * values[static_cast<size_t>(facet.point[i])];
   }
 }
 

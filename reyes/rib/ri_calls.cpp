@@ -53,7 +53,7 @@ std::array<int, 2> steps() { return recorder ? recorder->steps() : std::array{3,
 // Handles are numbers, so that those of another call do no harm.
 RtPointer newHandle() {
   static std::atomic<uintptr_t> last{0};
-  return reinterpret_cast<RtPointer>(++last);
+  return reinterpret_cast<RtPointer>(++last);  // NOLINT(performance-no-int-to-ptr)
 }
 RibArg handle(RtPointer p) { return text(fmt::format("of a plugin: {}", reinterpret_cast<uintptr_t>(p)).c_str()); }
 
@@ -141,6 +141,7 @@ PLAIN(ObjectEnd)
 RtVoid RiObjectInstance(RtObjectHandle h) { say("ObjectInstance", {handle(h)}); }
 RtVoid RiMotionBegin(RtInt n, ...) {
   std::vector<float> times;
+  times.reserve(count(n));
   std::va_list list;
   va_start(list, n);
   for (RtInt i = 0; i < n; ++i) times.push_back(static_cast<float>(va_arg(list, double)));
@@ -287,7 +288,7 @@ RtVoid RiSubdivisionMeshV(RtToken scheme, RtInt nfaces, const RtInt nvertices[],
                           const RtToken tags[], const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[],
                           RI_ARRAYS) {
   size_t ints = 0, floats = 0;
-  for (RtInt i = 0; i < ntags; ++i) ints += count(nargs[2 * i]), floats += count(nargs[2 * i + 1]);
+  for (size_t i = 0; i < count(ntags); ++i) ints += count(nargs[2 * i]), floats += count(nargs[2 * i + 1]);
   const size_t corners = sum(nvertices, nfaces);
   say("SubdivisionMesh",
       {text(scheme), integers(nvertices, count(nfaces)), integers(vertices, corners), texts(tags, count(ntags)),

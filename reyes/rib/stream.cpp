@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <new>
 
@@ -47,8 +46,7 @@ std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
 
 std::unique_ptr<ByteStream> ByteStream::fromMemory(const std::string& text) {
   return std::unique_ptr<ByteStream>(new ByteStream([&text, at = size_t{0}](char* buffer, size_t size) mutable {
-    const size_t n = std::min(size, text.size() - at);
-    std::memcpy(buffer, text.data() + at, n);
+    const size_t n = text.copy(buffer, size, at);
     at += n;
     return n;
   }));
