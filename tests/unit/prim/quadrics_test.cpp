@@ -175,5 +175,39 @@ TEST(Quadric, WithoutAreaThrowsASentence) {
   EXPECT_NE(errorOf([] { makeTorus(1, 0.5f, 90, 90, 360, {}, none); }), "");
 }
 
+TEST(Quadric, HasNoAreaWhereANumberThatMakesItWideIsZeroOrItEndsWhereItBegins) {
+  const struct {
+    const char* name;
+    std::vector<float> numbers;
+    std::vector<size_t> sizes;                   // each makes it vanish if it is zero
+    std::vector<std::array<size_t, 2>> extents;  // and these if all pairs of them are equal
+  } rows[] = {{"Sphere", {1, -1, 2, 360}, {0, 3}, {{1, 2}}},
+              {"Cone", {1, 2, 360}, {1, 2}, {}},
+              {"Cylinder", {1, -1, 2, 360}, {0, 3}, {{1, 2}}},
+              {"Hyperboloid", {1, 2, 3, 4, 5, 6, 360}, {6}, {{0, 3}, {1, 4}, {2, 5}}},
+              {"Paraboloid", {1, 2, 3, 360}, {0, 3}, {{1, 2}}},
+              {"Disk", {1, 2, 360}, {1, 2}, {}},
+              {"Torus", {2, 1, 10, 360, 360}, {1, 4}, {{2, 3}}}};
+  ASSERT_EQ(std::size(rows), quadrics().size());
+  for (const auto& row : rows) {
+    const Quadric& quadric = *findQuadric(row.name);
+    ASSERT_EQ(quadric.numberCount, static_cast<int>(row.numbers.size())) << row.name;
+    EXPECT_FALSE(quadric.hasNoArea(row.numbers.data())) << row.name;
+    for (size_t i = 0; i < row.numbers.size(); ++i) {
+      std::vector<float> zero = row.numbers;
+      zero[i] = 0;
+      const bool vanishes = std::find(row.sizes.begin(), row.sizes.end(), i) != row.sizes.end();
+      EXPECT_EQ(quadric.hasNoArea(zero.data()), vanishes) << row.name << ' ' << i;
+    }
+    std::vector<float> flat = row.numbers;
+    for (size_t i = 0; i < row.extents.size(); ++i) {
+      EXPECT_FALSE(quadric.hasNoArea(flat.data())) << row.name;
+      flat[row.extents[i][1]] = flat[row.extents[i][0]];
+    }
+    EXPECT_EQ(quadric.hasNoArea(flat.data()), !row.extents.empty()) << row.name;
+  }
+  EXPECT_EQ(findQuadric("Polygon"), nullptr);
+}
+
 }  // namespace
 }  // namespace tomales

@@ -38,6 +38,46 @@ TEST(Teapot, StandsOnTheGroundAndHasItsSize) {
   expectBoundsContainTheSurface(*prim);
 }
 
+TEST(Teapot, ItsHalvesMirrorEachOtherAndItsPatchesMeetSmoothly) {
+  Problems problems;
+  const PrimPtr prim = makeTeapot({}, problems);
+  struct Border {
+    Sample ends[3];
+  };
+  std::vector<Border> borders;
+  glm::dvec3 moments(0);
+  for (uint32_t patch = 0; patch < 32; ++patch) {
+    for (const float u : {0.2f, 0.5f, 0.8f})
+      for (const float v : {0.2f, 0.5f, 0.8f}) {
+        const glm::dvec3 p = sampleAt(*prim, patch, u, v).p;
+        moments += p.y * glm::dvec3(1, p.x, p.z);
+      }
+    for (const auto& [u0, v0, u1, v1] : {std::array<float, 4>{0, 0, 1, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}}) {
+      Border border;
+      for (int k = 0; k < 3; ++k) {
+        const float t = 0.25f * static_cast<float>(k + 1);
+        border.ends[k] = sampleAt(*prim, patch, lerp(u0, u1, t), lerp(v0, v1, t));
+      }
+      borders.push_back(border);
+    }
+  }
+  EXPECT_LT(glm::length(moments), 1e-3);
+  const auto meet = [](const Border& a, const Border& b) {
+    const float same = glm::length(a.ends[0].p - b.ends[0].p) + glm::length(a.ends[2].p - b.ends[2].p),
+                opposite = glm::length(a.ends[0].p - b.ends[2].p) + glm::length(a.ends[2].p - b.ends[0].p);
+    return std::min(same, opposite) < 1e-4f;
+  };
+  int joined = 0, creased = 0;
+  for (size_t i = 0; i < borders.size(); ++i)
+    for (size_t k = i + 1; k < borders.size(); ++k)
+      if (glm::length(borders[i].ends[0].p - borders[i].ends[2].p) > 1e-4f && meet(borders[i], borders[k])) {
+        ++joined;
+        creased += std::abs(dot(glm::normalize(borders[i].ends[1].n), glm::normalize(borders[k].ends[1].n))) < 0.999f;
+      }
+  EXPECT_EQ(joined, 52);
+  EXPECT_EQ(creased, 0);
+}
+
 TEST(Teapot, IsOpenOnlyWhereItsPartsEnd) {
   Problems problems;
   const PrimPtr prim = makeTeapot({}, problems);

@@ -58,6 +58,23 @@ TEST(Motion, WhatGrowsFromNothingIsKeptAtAllKeys) {
   EXPECT_EQ(r.log.count("rib-object-dropped"), 1) << "flat at all keys";
 }
 
+TEST(Motion, WhatIsNothingAtAKeyHasTheShapeOfTheNextKeyThatIsSomething) {
+  const Reading r("Shutter 0 1" +
+                  inWorld("MotionBegin [0 .5 1] Scale 1 1 1 Scale 0 0 0 Scale 2 4 8 MotionEnd " + kSphere +
+                          "Identity MotionBegin [0 .5 1] Scale 1 2 3 Scale 0 0 0 Scale 0 0 0 "
+                          "MotionEnd " +
+                          kSphere));
+  const auto shape = [&](size_t object, float time) {
+    const mat4 m = r.object(object).worldFromObject.at(time);
+    EXPECT_GT(m[0].x, 0);
+    EXPECT_LT(m[2].z, 1e-4f) << "hardly to be seen";
+    return vec3(m[0].x, m[1].y, m[2].z) / m[0].x;
+  };
+  expectNear(shape(0, 0.5f), {1, 2, 4});
+  expectNear(shape(1, 0.5f), {1, 2, 3});
+  expectNear(shape(1, 1), {1, 2, 3});
+}
+
 TEST(Motion, DisplacementIsBoundWhereWhatGrowsIsLargest) {
   const std::string bumpy = "Displacement \"bumpy\" Attribute \"displacementbound\" \"sphere\" [0.1] ";
   for (const char* keys : {"Scale 1 1 1 Scale 3 3 3", "Scale 3 3 3 Scale 1 1 1"}) {
@@ -128,6 +145,35 @@ TEST(Objects, BuildPatchesAnewUnderAnotherBasis) {
   EXPECT_NEAR(width(0), 3, 1e-3);
   EXPECT_LT(width(1), 2);
   EXPECT_FLOAT_EQ(width(2), width(0)) << "the Bezier basis written out";
+}
+
+TEST(Objects, AreTubesWhereTheInstanceSaysSoAndRibbonsElsewhere) {
+  const std::string round = "Attribute \"dice\" \"roundcurve\" ";
+  const Reading r(inWorld("ObjectBegin 1 Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0] ObjectEnd " + round +
+                          "[1] ObjectInstance 1 " + round + "[0] ObjectInstance 1 " + round + "[1] ObjectInstance 1"));
+  const size_t patches[] = {3, 1, 3};
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(r.object(i).shape().patchCount(), patches[i]) << i;
+}
+
+TEST(Objects, StandForAMillionRequestsAtMost) {
+  std::string many = "ObjectBegin 1\n", thousands = "ObjectBegin 2\n";
+  for (int i = 0; i < 1000; ++i) many += "Matte 1 ", thousands += "ObjectInstance 1 ";
+  const Reading r(inWorld(many + "ObjectEnd " + thousands + kSphere + "ObjectEnd\nObjectInstance 2\n" +
+                          "ObjectBegin 3 ObjectInstance 1 Sphere 2 -2 2 360 ObjectEnd ObjectInstance 3 " + kSphere));
+  ASSERT_EQ(r.scene().objects.size(), 2u) << "the sphere after the millionth request is left out";
+  EXPECT_EQ(r.told("rib-nesting"), 1);
+  EXPECT_EQ(r.message("rib-nesting").where.line, 6);
+  EXPECT_TRUE(r.attributes(0).matte == false && r.attributes(1).matte == false) << "an instance leaves nothing behind";
+}
+
+TEST(Objects, WithoutTheirEndEndWhereAWorldBeginsOrTheFileEnds) {
+  const std::string open = "ObjectBegin 1\nSphere 1 -1 1 360 ";
+  const Reading r(open + "WorldBegin ObjectInstance 1 WorldEnd");
+  EXPECT_EQ(r.scene().objects.size(), 1u);
+  EXPECT_EQ(r.codes(), "rib-unbalanced@1 ");
+  const Reading s("WorldBegin " + open);
+  EXPECT_EQ(s.scenes.size(), 1u);
+  EXPECT_EQ(s.codes(), "rib-unbalanced@1 rib-unbalanced@2 ") << "the world's end is missing, too";
 }
 
 TEST(Objects, ThatNameEachOtherEnd) {

@@ -97,6 +97,13 @@ TEST(Shaders, RememberTheirSpaceInTheWorld) {
   expectNear(transformPoint(r.attributes(1).displacement->worldFromShader.at(0), {0, 0, 0}), {1, 0, 0});
 }
 
+TEST(Shaders, OfBeforeTheWorldMoveIntoItsSpace) {
+  const Reading r("Translate 0 0 5 Surface \"plastic\" Translate 0 3 0 Displacement \"dented\" Translate 0 0 -1 " +
+                  inWorld(kSphere));
+  expectNear(transformPoint(r.attributes(0).surface->worldFromShader.at(0), {0, 0, 0}), {0, -3, 1});
+  expectNear(transformPoint(r.attributes(0).displacement->worldFromShader.at(0), {0, 0, 0}), {0, 0, 1});
+}
+
 TEST(Lights, OutsideTheWorldKeepTheirPlace) {
   const Reading r("LightSource \"pointlight\" 1 Translate 0 0 5 " +
                   inWorld("Translate 0 2 0 LightSource \"spotlight\" 2 " + kSphere));
@@ -178,6 +185,13 @@ TEST(ShadingRate, IsMultipliedByRelativeRatesDownTheBlocks) {
   EXPECT_EQ(r.attributes(2).shadingRate, 1);
   EXPECT_EQ(r.attributes(3).shadingRate, 1);
   EXPECT_EQ(r.codes(), "rib-attribute@5 ");
+}
+
+TEST(ShadingRate, OfInfinityIsTheCoarsest) {
+  const Reading r(inWorld("ShadingRate 1e99 " + kSphere + "ShadingRate 1e-9 " + kSphere));
+  EXPECT_EQ(r.attributes(0).shadingRate, 1e8f);
+  EXPECT_EQ(r.attributes(1).shadingRate, 1e-3f);
+  EXPECT_EQ(r.codes(), "rib-clamped@2 rib-clamped@3 ");
 }
 
 TEST(Scene, ShadowLightsOfOldListingsFindTheirMap) {
@@ -302,9 +316,13 @@ TEST(Interning, ManyObjectsThatDifferInTheirPlaceAloneAreGroupedInTime) {
 
 TEST(EmptyMesh, IsAWarningOnly) {
   const Reading r(
-      inWorld("PointsPolygons [] [] \"P\" []\nSubdivisionMesh \"catmull-clark\" [] [] \"P\" []\n" + kSphere));
+      inWorld("PointsPolygons [] [] \"P\" []\nPointsGeneralPolygons [] [] [] \"P\" []\n"
+              "SubdivisionMesh \"catmull-clark\" [] [] \"P\" []\n"
+              "HierarchicalSubdivisionMesh \"catmull-clark\" [] [] [] [] [] [] [] \"P\" []\n"
+              "Points \"P\" []\nPoints \"Pw\" []\nCurves \"linear\" [] \"nonperiodic\" \"P\" []\n" +
+              kSphere));
   EXPECT_EQ(r.scene().objects.size(), 1u);
-  EXPECT_EQ(r.log.count("rib-empty-mesh"), 2);
+  EXPECT_EQ(r.log.count("rib-empty-mesh"), 7) << r.codes();
   EXPECT_EQ(r.log.worst(), Severity::Warning);
 }
 
