@@ -1,4 +1,7 @@
 // Tests the effect of options, the camera and transformations on the Scene.
+#include <fmt/format.h>
+
+#include "reyes/base/rng.h"
 #include "rib_test_tools.h"
 
 namespace tomales {
@@ -177,6 +180,43 @@ TEST(Transformations, GoWithTransformEndAndAttributeEnd) {
   for (const size_t i : {0, 1}) {
     expectNear(inWorldSpace(r.object(i), {0, 0, 0}), {0, 0, 0});
     EXPECT_EQ(r.attributes(i).color, vec3(1, 0, 0));
+  }
+}
+
+TEST(Transformations, InAnyNumberAndOrderAreTheProductOfTheirMatrices) {
+  const auto number = [](uint32_t i, uint32_t axis, float least, float most) {
+    return lerp(least, most, unitFloat(hashCombine(i, axis, 9)));
+  };
+  for (uint32_t scene = 0; scene < 50; ++scene) {
+    std::string text;
+    glm::dmat4 product(1);
+    for (uint32_t step = 0; step < 1 + scene % 7; ++step) {
+      const uint32_t i = hashCombine(scene, step);
+      const float x = number(i, 0, -2, 2), y = number(i, 1, -2, 2), z = number(i, 2, 0.5f, 2);
+      glm::dmat4 m(1);  // columns; what RIB has as rows
+      if (i % 4 == 0) {
+        m[3] = {x, y, z, 1};
+        text += fmt::format("Translate {} {} {} ", x, y, z);
+      } else if (i % 4 == 1) {
+        m[0][0] = x, m[1][1] = y, m[2][2] = z;
+        text += fmt::format("Scale {} {} {} ", x, y, z);
+      } else if (i % 4 == 2) {
+        const double c = std::cos(x), s = std::sin(x);
+        m[0] = {c, s, 0, 0}, m[1] = {-s, c, 0, 0};
+        text += fmt::format("Rotate {} 0 0 {} ", x * 180 / kPi, z);
+      } else {
+        m[1][0] = std::tan(0.5);
+        text += fmt::format("Skew {} 0 {} 0 {} 0 0 ", 0.5 * 180 / kPi, z, z);
+      }
+      product *= m;
+      if (step == 3) text += "TransformBegin Translate 9 9 9 Rotate 9 1 2 3 TransformEnd ";
+    }
+    const Reading r(inWorld(text + kSphere));
+    ASSERT_EQ(r.scene().objects.size(), 1u) << text << r.codes();
+    for (const vec3& p : {vec3(0), vec3(1, 0, 0), vec3(0.3f, -2, 0.7f)})
+      EXPECT_LT(glm::length(inWorldSpace(r.object(0), p) - vec3(product * glm::dvec4(p, 1))),
+                1e-4f * (1 + 9 * glm::length(p)))
+          << text;
   }
 }
 
