@@ -17,17 +17,25 @@ void tilting(const TmGrid* g) {
 void raising(const TmGrid* g) {
   for (int i : rsl::Batch(g)) g->P.z[i] -= 0.25f;
 }
+// Tells du, dv and the derivatives of P by where it puts P.
+void measuring(const TmGrid* g) {
+  for (int i : rsl::Batch(g)) {
+    const float along = g->dPdu.x[i] * g->du[i], across = g->dPdv.y[i] * g->dv[i];
+    g->P.x[i] = g->du[i], g->P.y[i] = g->dv[i], g->P.z[i] = 5 + along + 2 * across;
+  }
+}
 struct rough : sl::Displacement {
   void main() { P -= random() * sl::Vector(0, 0, 1); }
 };
 const rsl::Shader roughShader(TM_DISPLACEMENT, "rough", "", 0, sl::shade<rough>, {});
+const rsl::Shader measuringShader(TM_DISPLACEMENT, "measuring", "", TM_DERIVATIVES, measuring, {});
 const rsl::Shader tiltingShader(TM_DISPLACEMENT, "tilting", "", 0, tilting, {});
 const rsl::Shader raisingShader(TM_DISPLACEMENT, "raising", "", 0, raising, {});
 
 class Displacement : public Stage {
  protected:
   Displacement() {
-    static const TmShader* const shaders[] = {tiltingShader, raisingShader, roughShader};
+    static const TmShader* const shaders[] = {tiltingShader, raisingShader, roughShader, measuringShader};
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     attributes.displacementBound = 10;
@@ -66,6 +74,17 @@ TEST_F(Displacement, MovesPointsOfEveryMotionKeyAndCalculatesTheNormal) {
   }
   EXPECT_TRUE(g.displaced);
   EXPECT_EQ(stats.byShader().at("tilting").vertices, g.vertexCount());
+}
+
+TEST_F(Displacement, KnowsHowParametersAndPlacesChangeOverAMicropolygon) {
+  displacement("measuring");
+  Grid g = plane(8);
+  system().displace(g);
+  for (int k = 0; k < g.vertexCount(); ++k) {
+    EXPECT_FLOAT_EQ(g.P(0, 0)[k], 0.125f);
+    EXPECT_FLOAT_EQ(g.P(0, 1)[k], 0.125f);
+    EXPECT_NEAR(g.P(0, 2)[k], 5 + 0.125f - 0.25f, 1e-6f) << "y falls as v grows";
+  }
 }
 
 TEST_F(Displacement, LeavesTheNormalToTheShader) {

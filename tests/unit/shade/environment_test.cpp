@@ -39,6 +39,22 @@ class Environment : public Stage {
 
 const std::vector<vec3> kNormals{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {-0.6f, 0, 0.8f}, {0.48f, -0.6f, 0.64f}};
 
+TEST_F(Environment, FewSamplesFindASmallSun) {
+  const vec3 sun = glm::normalize(vec3(0.3f, -0.5f, 0.8f));
+  const auto sky = [&](const vec3& d) { return vec3(dot(d, sun) > std::cos(0.05f) ? 1000.0f : 0.01f); };
+  surface("matte", {number("Kd", 1)});
+  light("environmentlight", {text("map", writeMap(sky))});
+  double expected = 0;  // over pi, texel by texel
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const double theta = M_PI * (y + 0.5) / 128, phi = 2 * M_PI * (x + 0.5) / 256, size = 2 * M_PI / 256 * M_PI / 128;
+      const vec3 d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+      expected += sky(d).x * std::max(0.0f, dot(d, sun)) * std::sin(theta) * size / M_PI;
+    }
+  EXPECT_NEAR(litBy(sun, 64).x / expected, 1, 0.15) << "by the cosine alone, one sample in 400 would meet it";
+  EXPECT_NEAR(litBy(sun, 4096).x / expected, 1, 0.03);
+}
+
 TEST_F(Environment, UniformSkyGivesCsKdWithoutNoise) {
   attributes.color = {0.5f, 0.25f, 1};
   surface("matte", {number("Kd", 0.8f)});
