@@ -4,7 +4,6 @@ import re
 import sys
 
 
-
 def code(files):
     """Their text without comments, in which a word proves nothing. What stands there is compiled; tests/unit is run as a whole."""
     return "\n".join(re.sub(r"//.*|/\*.*?\*/", "", file.read_text()) for file in files)
