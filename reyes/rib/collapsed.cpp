@@ -49,7 +49,7 @@ std::vector<Request> grown(std::vector<Request> keys) {
     if (!isCollapsed(keys[k])) continue;
     for (size_t away = 1; away < keys.size(); ++away) {
       const size_t other = isWhole(k + away) ? k + away : k - away;
-      if (!isWhole(other) || keys[other].name != keys[k].name) continue;
+      if (!isWhole(other)) continue;
       out[k] = between(keys[k], keys[other], kLittle);
       break;
     }

@@ -147,14 +147,28 @@ TEST(SpotAim, ASphereIsAConeOfEvenDirections) {
   for (uint32_t i = 0; i < 4096; ++i) {
     const vec3 d = aim.direction(0.5f, sobol2(i, 3));
     EXPECT_LE(1 - d.z, 1.001f * (1 - cosine));
+    EXPECT_GT(aim.density(d), 0);
     within += 1 - d.z < 0.5f * (1 - cosine) ? 1.0f / 4096 : 0.0f;
     const vec3 p = aim.probe(0, sobol2(i, 4));
     found = std::max(found, 1 - p.z);
   }
+  EXPECT_GT(aim.density(aim.direction(0.5f, {0.99999f, 0.3f})), 0) << "its rim is its own, whatever is rounded";
   EXPECT_NEAR(within, 0.5f, 0.01f);
   EXPECT_NEAR(found / (1 - cosine), 1 / (marginOf(8) * marginOf(8)), 0.01f) << "where hits were";
   EXPECT_EQ(SpotAim(spots, {0, 0, 40 - 2.99f * radius}, {0, 0, 1}).targets(), 0u) << "rays find what is so near";
   EXPECT_EQ(SpotAim(spots, {0, 0, 40 - 3.01f * radius}, {0, 0, 1}).targets(), 1u);
+}
+
+TEST(SpotAim, DensityIsThatOfBallsAndOfRectanglesTogether) {
+  for (const float side : {-1.0f, 1.0f}) {
+    BrightFind ball = rectangle({side * 20, 0, 40}, {0, 1, 0}, {1, 0, 0});
+    for (size_t i = 0; i < 4; ++i) ball.hits[i].normal = {1, 0, 0};
+    const BrightSpots spots = spotsOf({ball, rectangle({-side * 20, 0, 40}, {0, 1, 0}, {1, 0, 0})});
+    ASSERT_EQ(spots.spots().size(), 2u);
+    const SpotAim aim(spots, {0, 0, 0}, {0, 0, 1});
+    EXPECT_GT(aim.density(glm::normalize(vec3(20, 0, 40))), 0);
+    EXPECT_GT(aim.density(glm::normalize(vec3(-20, 0, 40))), 0);
+  }
 }
 
 TEST(SpotAim, PlacesAndTargetsAreChosenByTheirShares) {

@@ -63,5 +63,69 @@ TEST(Primvars, MatricesAndArraysKeepTheirWidth) {
   EXPECT_EQ(vars[1].width, 6);
 }
 
+// Caches free what is large by what it says, so a primitive must not forget a part of itself.
+TEST(Primitives, TellHowMuchTheyHold) {
+  Problems problems;
+  const auto row = [](int count) {
+    std::vector<float> p;
+    for (int i = 0; i < count; ++i) p.insert(p.end(), {static_cast<float>(i), static_cast<float>(i % 2), 0});
+    return ParamList{positions(std::move(p))};
+  };
+  const auto grid = [](int nu, int nv) {
+    std::vector<float> p;
+    for (int j = 0; j < nv; ++j)
+      for (int i = 0; i < nu; ++i)
+        p.insert(p.end(), {static_cast<float>(i), static_cast<float>(j), 0.1f * static_cast<float>(i % 3)});
+    return ParamList{positions(std::move(p))};
+  };
+  const auto line = [](int controls) {
+    NurbsDirection out{controls, 4, {}, 3, static_cast<float>(controls)};
+    for (int i = 0; i < controls + 4; ++i) out.knots.push_back(static_cast<float>(i));
+    return out;
+  };
+  const auto strip = [](int faces) {  // counts and vertices of quadrilaterals between two rows of points
+    std::pair<std::vector<int>, std::vector<int>> out;
+    for (int i = 0; i < faces; ++i)
+      out.first.push_back(4), out.second.insert(out.second.end(), {i, i + 1, i + faces + 2, i + faces + 1});
+    return out;
+  };
+  const struct {
+    const char* name;
+    std::function<PrimPtr(int)> make;  // of so many points, at least
+    size_t least;                      // bytes of a point
+  } rows[] = {
+      {"Points", [&](int n) { return makePoints(row(n), problems); }, 12},
+      {"Curves", [&](int n) { return makeCurves(false, bezierBasis(), {n}, false, row(n), problems); }, 12},
+      {"tubes", [&](int n) { return makeTubes(false, bezierBasis(), {n}, false, row(n), problems); }, 24},
+      {"bilinear", [&](int n) { return makeBilinearPatchMesh(n, false, 2, false, grid(n, 2), problems); }, 24},
+      {"bicubic",
+       [&](int n) {
+         return makeBicubicPatchMesh(n + 3, false, bsplineBasis(), 4, false, bsplineBasis(), grid(n + 3, 4), problems);
+       },
+       192},  // 16 points for each patch
+      {"NuPatch", [&](int n) { return makeNuPatch(line(n), line(4), {}, grid(n, 4), problems); }, 64 + 16},
+      {"PointsPolygons",
+       [&](int n) {
+         const auto [counts, vertices] = strip(n);
+         return makePolygons(counts, vertices, grid(n + 1, 2), problems);
+       },
+       24 + 16},
+      {"SubdivisionMesh",
+       [&](int n) {
+         const auto [counts, vertices] = strip(n);
+         return makeSubdivisionMesh("catmull-clark", counts, vertices, {{"interpolateboundary"}, {0, 0, 0}, {}, {}, {}},
+                                    grid(n + 1, 2), problems);
+       },
+       400 + 24},
+  };
+  for (const auto& row : rows) {
+    const size_t few = row.make(500)->bytes(), many = row.make(2000)->bytes();
+    EXPECT_GE(few, 500 * row.least) << row.name;
+    EXPECT_LT(few, 500 * 4000u) << row.name;
+    EXPECT_NEAR(static_cast<double>(many) / static_cast<double>(few), 4, 1.1) << row.name;
+  }
+  EXPECT_TRUE(problems.empty());
+}
+
 }  // namespace
 }  // namespace tomales

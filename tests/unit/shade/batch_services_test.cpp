@@ -45,7 +45,7 @@ TEST_F(BatchServices, RandomNumbersDoNotRepeatAndKnowNothingOfTheDirectionsOfLob
 
 TEST_F(BatchServices, FilterstepAveragesOverTheMicropolygonAndDepthCountsBetweenTheClippingPlanes) {
   scene.options.nearClip = 1, scene.options.farClip = 21;
-  body = [](sl::Surface& s) { s.Ci = Color(filterstep(0.5, s.u), depth(s.P), filterstep(0.5, s.v)); };  // filterstepOfU
+  body = [](sl::Surface& s) { s.Ci = Color(filterstep(0.5, s.u), depth(s.P), filterstep(0.5, s.v)); };
   ShadePoints p = points(std::vector<vec3>(10, vec3(0, 0, 5)));
   for (int i = 0; i < 10; ++i) p.channel(kDu)[i] = 0.4f, p.channel(kDv)[i] = 0.1f;
   const ShadedPoints out = shade(p);
