@@ -198,6 +198,8 @@ std::optional<Image> readImage(const std::string& path, std::string& error);
 /// Figures of `tomales compare` over colour channels of images of equal size.
 struct Comparison {
   double rmse = 0, relativeMse = 0, meanAbsoluteRelativeError = 0, maxError = 0, psnr_dB = 0, ssim = 0, flip = 0;
+  double smudges = 0;  ///< Relative standard deviation of test / reference over the smooth blocks of 8 x 8 pixels.
+  double specks = 0;   ///< Share of their pixels that stand out of the block by a fifth.
   int64_t differentPixels = 0;
 };
 Comparison compare(const Image& test, const Image& reference);

@@ -12,10 +12,11 @@ namespace {
 
 constexpr int kRaysOfPoint = 48;  ///< Rays from each point that look for places where records are needed.
 constexpr size_t kMostPoints = 1024, kMostRecords = 1 << 14;
-constexpr int kPhases = 8;  ///< Number of phases; each has twice the candidates of the one before.
+constexpr int kPhases = 8;        ///< Number of phases; each has twice the candidates of the one before.
+constexpr int kSearchPhases = 3;  ///< Bright spots are learnt at the places of these phases, of few records.
 constexpr CacheSettings kCoarse{};
 constexpr float kPixelsAcross = 64;  ///< Records are as dense as for a picture of so many pixels.
-constexpr int kSamplesShare = 4, kLeastSamples = 48, kMostSamples = 256;
+constexpr int kSamplesShare = 2, kLeastSamples = 48, kMostSamples = 256;
 /// Each further level has half the rays of the one before, but at least these: all levels together cost about as much
 /// as the first two.
 constexpr int kLeastDeepSamples = 24;
@@ -106,18 +107,20 @@ std::vector<GatherPoint> BounceCaches::hitsFrom(const RayScene& rays, const Came
   return out;
 }
 
-std::vector<IrradianceRecord> BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
-                                                      const GatherSettings& settings, const Run& run) {
+RecordSlice BounceCaches::recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
+                                    const GatherSettings& settings, const Run& run, bool findsLight) {
+  const KnownLight known{.spots = findsLight ? nullptr : &spots_};
+  const std::span<const std::string> groups = findsLight ? std::span<const std::string>() : run.groups;
   RecordSlice made;
   slices_.make(points,
-               {.gather =
-                    [&](size_t i, BrightFind*) {
-                      return gather(*tools.rays, *tools.shading, points[i], settings, {}, run.stats, nullptr,
-                                    run.groups);
+               {.findsLight = findsLight,
+                .gather =
+                    [&](size_t i, BrightFind* find) {
+                      return gather(*tools.rays, *tools.shading, points[i], settings, known, run.stats, find, groups);
                     },
                 .isCancelled = [&] { return run.isCancelled(); }},
                made);
-  return std::move(made.records);
+  return made;
 }
 
 void BounceCaches::insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records) {
@@ -138,7 +141,8 @@ void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& 
     std::vector<GatherPoint> fresh;
     for (size_t i = 0; i < candidates.size(); ++i)
       if (open[i] && points_.size() + fresh.size() < kMostRecords) fresh.push_back(candidates[i]);
-    insert(levels_[0], recordsAt(tools, fresh, settings, run));
+    if (phase < kSearchPhases) spots_.learn(recordsAt(tools, fresh, settings, run, true).finds);
+    insert(levels_[0], recordsAt(tools, fresh, settings, run, false).records);
     points_.insert(points_.end(), fresh.begin(), fresh.end());
   }
 }
@@ -155,6 +159,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   groups_.assign(run.groups.begin(), run.groups.end());
   light_.assign(1, 0.0);
   points_.clear();
+  spots_ = {};
   slices_ = RecordSlices(run.kept, KeptKind::BounceRecords);
   float distance = 0;
   for (const GatherPoint& p : from) distance += glm::length(p.position) / static_cast<float>(from.size());
@@ -178,7 +183,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
     settings.seed = hashCombine(gather.seed, static_cast<uint32_t>(b));
     settings.samples = std::max(kLeastDeepSamples, settings.samples / 2);
     IrradianceCache level(bound, kCoarse);
-    std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run);
+    std::vector<IrradianceRecord> records = recordsAt(tools, points_, settings, run, false).records;
     for (size_t i = 0; i < records.size(); ++i) copyRadii(levels_[0].records()[i], records[i]);
     light_.push_back(0);
     insert(level, records);

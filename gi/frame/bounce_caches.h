@@ -34,8 +34,8 @@ class BounceCaches {
                                     uint32_t name) const;
   void cover(const RayTools& tools, const std::vector<GatherPoint>& candidates, const GatherSettings& gather,
              const Run& run);
-  std::vector<IrradianceRecord> recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points,
-                                          const GatherSettings& gather, const Run& run);
+  RecordSlice recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points, const GatherSettings& gather,
+                        const Run& run, bool findsLight);
   void insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records);
   void mixLevel();
   bool settled() const;
@@ -47,6 +47,7 @@ class BounceCaches {
       alone_;                        ///< alone_[k][g]: the same with the lights of a group alone.
   std::vector<double> light_;        ///< Sum of the records of each level.
   std::vector<GatherPoint> points_;  ///< The points of the records, the same on all levels.
+  BrightSpots spots_;                ///< Some rays of each record are aimed at these.
   float leastDistance_ = 0;
   RecordSlices slices_{nullptr, KeptKind::BounceRecords};
 };

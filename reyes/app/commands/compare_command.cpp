@@ -29,6 +29,8 @@ Json figuresOf(const Comparison& c) {
           {"psnr_dB", c.psnr_dB},
           {"ssim", c.ssim},
           {"flip_like", c.flip},
+          {"smudges", c.smudges},
+          {"specks", c.specks},
           {"different_pixels", c.differentPixels}};
 }
 

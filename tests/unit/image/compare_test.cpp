@@ -51,6 +51,23 @@ TEST(Compare, MoreNoiseIsLessAlike) {
   EXPECT_LT(a.flip, b.flip);
 }
 
+TEST(Compare, SmudgesAreWhatSmoothBlocksDifferByFromEachOther) {
+  std::vector<float> even(16 * 8, 0.5f), halves = even;
+  for (size_t i = 0; i < halves.size(); ++i) halves[i] *= i % 16 < 8 ? 1.1f * 2 : 0.9f * 2;
+  const Comparison c = compare(grey(16, 8, halves), grey(16, 8, even));
+  EXPECT_NEAR(c.smudges, 0.1, 1e-6) << "a picture twice as bright has none";
+  EXPECT_EQ(c.specks, 0);
+  std::vector<float> edge = even;  // not smooth: nothing counts there
+  for (size_t i = 0; i < edge.size(); ++i) edge[i] *= i % 16 < 12 ? 1 : 2;
+  EXPECT_EQ(compare(grey(16, 8, halves), grey(16, 8, edge)).smudges, 0);
+}
+
+TEST(Compare, SpecksAreThePixelsThatStandOutOfASmoothBlock) {
+  std::vector<float> even(64, 0.5f), speck = even;
+  speck[20] = 0.65f, speck[40] = 0.55f;
+  EXPECT_NEAR(compare(grey(8, 8, speck), grey(8, 8, even)).specks, 1.0 / 64, 1e-9);
+}
+
 TEST(Compare, GreenAgainstBlueIsTheLargestPerceptualDifference) {
   Image green = grey(8, 8, std::vector<float>(64, 0.0f)), blue = green;
   for (size_t i = 0; i < green.pixels.size(); i += 3) green.pixels[i + 1] = 1, blue.pixels[i + 2] = 1;
