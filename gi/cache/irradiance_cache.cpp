@@ -2,27 +2,16 @@
 
 #include <utility>
 
+#include "gi/cache/amendments.h"
+#include "gi/cache/disputes.h"
 #include "gi/cache/extrapolation.h"
+#include "gi/cache/published.h"
 #include "gi/cache/record_tree.h"
 #include "reyes/base/simd.h"
 
 namespace tomales {
 namespace {
 
-constexpr float kFinestPixels = 1;              // in pixels, at kappa 1: disagreement shortens no radius below this
-constexpr float kMaxAngleTerm = 0.0151922470f;  // 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4)
-constexpr float kBehindTolerance = 0.1f;        // share of the validity radius
-// the same in pixels, at kappa 1: thin surfaces have two sides, however far their records are valid
-constexpr float kBehindPixels = 0.45f;
-constexpr float kHeight = 0.5f;   // share of the closest distance, above the record's plane
-constexpr float kHeightFade = 4;  // the weight fades from three quarters of that height on
-// relative difference of extrapolated values, at kappa 1, beyond which light does not change smoothly
-constexpr float kDisagreement = 0.1f;
-constexpr float kDiscontinuous = 0.5f;  // the same between points that see different surfaces
-constexpr float kNoiseMargin = 3;       // in standard errors
-constexpr float kDark = 0.1f;  // share of the mean E: darker values are compared with this and not with themselves
-// share of E by which it may change over a record's radius; a steeper record serves no wider
-constexpr float kSteep = 0.3f;
 constexpr size_t kRun = 64;  // greatest number of lookups that share their candidates
 // greatest diagonal of the places of a run: incoherent points would share too many candidates
 constexpr float kRunPixels = 24;
@@ -81,48 +70,18 @@ struct IrradianceCache::Impl {
   Bound3 bound;
   RecordTree tree{bound};
   IrradianceRecords records{};
-  double luminanceSum = 0;  // sum over the records' E
   const ErrorFunctionInfo& info = infoOf(settings.errorFunction);
+  Disputes disputes{isOn(Amendment::Disputes) && !info.published, info.splitSphere, settings.kappa};
+  const bool bends = isOn(Amendment::SecondOrder) && !info.published, fadesBehind = isOn(Amendment::Behind),
+             fadesAbove = isOn(Amendment::Height);
 
-  float size(const IrradianceRecord& r) const {
-    if (info.splitSphere) return r.harmonicMean;
-    return info.curvature ? std::min(r.smoothRadius, r.closest * settings.kappa) : r.closest * 0.5f;
-  }
-
-  // Returns the distance at which the error reaches 1: the denominator of eq. 3 over kappa. Ward's split sphere has the
-  // same limits.
-  float reach(float recordSize, float pixelSize) const {
-    const float radius = std::max(std::min(recordSize, settings.maxPixels * pixelSize), settings.minPixels * pixelSize);
-    return radius / settings.kappa;
-  }
+  float size(const IrradianceRecord& r) const { return sizeOf(r, info, settings.kappa); }
+  float reach(float recordSize, float pixelSize) const { return radiusOf(recordSize, settings, pixelSize); }
 
   void insert(uint32_t index) {
     const IrradianceRecord& r = records[index];
     tree.insert(index, r.position, size(r), reach(size(r), r.pixelSize));
   }
-
-  enum class Disagreement { None, Steep, Discontinuous };
-
-  Disagreement disagreementOf(const vec3& a, const vec3& b, float noise) const {
-    if (info.published) return Disagreement::None;
-    const float tolerance = info.splitSphere ? 4 * kDisagreement : kDisagreement;  // kappa counts four times there
-    const float larger = std::max(luminance(a), luminance(b)),
-                off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
-    const auto dark = static_cast<float>(kDark * luminanceSum / static_cast<double>(records.size()));
-    if (!(off > tolerance / settings.kappa * std::max(larger, dark))) return Disagreement::None;
-    return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
-  }
-
-  // Where light is steep, no record is needed nearer than a pixel: it would be the noise of single pixels, each paid
-  // with a hemisphere. Where points see different surfaces, something thinner than that lies between them.
-  float least(float pixelSize) const { return kFinestPixels * pixelSize / settings.kappa; }
-  float limitBy(Disagreement disagreement, float distance, float pixelSize) const {
-    if (disagreement == Disagreement::None) return kInfinity;
-    return disagreement == Disagreement::Discontinuous ? distance : std::max(distance, least(pixelSize));
-  }
-
-  // Standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the hits.
-  static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
 
   // The new record knows E at its place, which older records have extrapolated, and they know E at theirs. Where the
   // two disagree, each ends before the other.
@@ -130,52 +89,29 @@ struct IrradianceCache::Impl {
     IrradianceRecord& fresh = records[index];
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
       IrradianceRecord& old = records[candidate.record];
-      const float distance = glm::length(fresh.position - old.position), fromOld = noiseAt(old, distance),
-                  fromFresh = noiseAt(fresh, distance);
+      const float distance = glm::length(fresh.position - old.position), fromOld = Disputes::noiseAt(old, distance),
+                  fromFresh = Disputes::noiseAt(fresh, distance);
       const Disagreement ofOld =
-          disagreementOf(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
+          disputes.of(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
       const Disagreement ofFresh =
-          disagreementOf(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
-      old.limit = std::min(old.limit, limitBy(ofOld, distance, old.pixelSize));
-      fresh.limit = std::min(fresh.limit, limitBy(ofFresh, distance, fresh.pixelSize));
+          disputes.of(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
+      old.limit = std::min(old.limit, disputes.limit(ofOld, distance, old.pixelSize));
+      fresh.limit = std::min(fresh.limit, disputes.limit(ofFresh, distance, fresh.pixelSize));
     }
-  }
-
-  // Returns 1 where light does not change over the radius, and 0 where it changes by kSteep of itself: a shadow's edge
-  // may lie beyond.
-  static float evenness(const IrradianceRecord& r, float radius) {
-    const vec3 change = radius * (r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2]);
-    const float most = kSteep * (r.E.x + r.E.y + r.E.z);
-    return dot(change, change) < most * most ? 1 - dot(change, change) / (most * most) : 0.0f;
   }
 
   // The weight falls smoothly to 0 where the record stops being used, so that interpolation has no seams.
   float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize, float wider) const {
-    const float covers = reach(size(r), pixelSize);
-    const float radius = std::min(covers * (1 + (wider - 1) * evenness(r, covers)), r.limit);
+    const float covers = reach(size(r), pixelSize), radius = std::min(covers * reachFactor(r, covers, wider), r.limit);
     const vec3 step = x - r.position;
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
-    // A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless
-    // it is no farther than bumps that rays do not see.
-    const float tolerance =
-        std::max(std::min(kBehindTolerance * radius, kBehindPixels * pixelSize / settings.kappa), r.unseenDisplacement);
-    const float behind = -0.5f * dot(step, n + r.normal) / tolerance;
-    if (behind >= 1) return 0;
-    // A point that is as high above the record as the closest hit lies on another surface: R- may be wider than a slot
-    // between parallel walls.
-    const float above = dot(step, r.normal), highest = kHeight * r.closest;
-    if (above > 0 && above >= highest) return 0;
-    const float upright = above > 0 ? std::min(1.0f, kHeightFade * (1 - above / highest)) : 1.0f;
-    const float front = upright * (1 - std::max(0.0f, behind));
-    const float position = std::sqrt(distance2) / radius;
-    const float angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
-    if (!info.splitSphere) {
-      const float error = std::max(position, settings.kappa * angle / std::sqrt(kMaxAngleTerm));  // eq. 2
-      return front * std::max(0.0f, 1 - error);                                                   // eq. 5
-    }
-    const float error = position + settings.kappa * angle;
-    return front * std::max(0.0f, 1 / std::max(error, 1e-4f) - 1);
+    const float fades = (fadesAbove ? heightFactor(r, step) : 1.0f) *
+                        (fadesBehind ? frontFactor(r, step, n, radius, pixelSize / settings.kappa) : 1.0f);
+    if (!(fades > 0)) return 0;
+    const float position = std::sqrt(distance2) / radius, angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
+    return fades * (info.splitSphere ? splitSphereWeight(position, angle, settings.kappa)
+                                     : screenWeight(position, angle, settings.kappa));
   }
 
   // The candidates are in the order of the records, so that the result does not depend on the shape of the tree.
@@ -192,10 +128,8 @@ struct IrradianceCache::Impl {
 
   ValidityBounds boundsAt(float pixelSize, float wider) const {
     constexpr float kRounding = 1e-4f;
-    const float angle =
-        info.splitSphere ? 1 / (settings.kappa * settings.kappa) : kMaxAngleTerm / (settings.kappa * settings.kappa);
     return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize, wider * (1 + kRounding) / settings.kappa,
-            1 - angle - kRounding};
+            leastCosine(info, settings.kappa) - kRounding};
   }
 
   /// Lookups that lie close together share one walk through the tree.
@@ -237,7 +171,7 @@ struct IrradianceCache::Impl {
   // Returns the error of the mean of linearly extrapolated records, to the second order, if they agree.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
                    float pixelSize, std::span<const LightShare> light) const {
-    if (info.published) return vec3(0.0f);
+    if (!bends) return vec3(0.0f);
     const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
     if (info.curvature)
@@ -263,7 +197,7 @@ struct IrradianceCache::Impl {
       if (!light.empty()) otherE += candidate.weight * other.addShare(r, light[candidate.record], candidate.weight, E);
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front())
-        worst = std::max(worst, disagreementOf(E, out.E / out.weight, 2 * noiseAt(r, distance)));
+        worst = std::max(worst, disputes.of(E, out.E / out.weight, 2 * Disputes::noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
       out.closest = std::min(out.closest, r.closest);
       out.occluderHeight = std::min(out.occluderHeight, std::max(r.closest, r.limit));
@@ -279,7 +213,7 @@ struct IrradianceCache::Impl {
       out.E = glm::max(vec3(0.0f), corrected(out.E, mean, {}));
       if (!light.empty()) out.E = vec3(glm::greaterThan(out.E, vec3(0.0f))) * corrected(otherE, other, light);
     }
-    out.inconsistent = limitBy(worst, nearest, pixelSize) <= nearest;
+    out.inconsistent = disputes.limit(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
   }
@@ -295,16 +229,16 @@ IrradianceCache::~IrradianceCache() = default;
 void IrradianceCache::insert(const IrradianceRecord& record) {
   Impl& impl = *impl_;
   impl.records.push_back(record);
-  impl.luminanceSum += luminance(record.E);
+  impl.disputes.add(luminance(record.E));
   if (!(impl.settings.kappa < kInfinity)) return;
-  limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
+  if (isOn(Amendment::Slopes)) limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
   impl.limitDisagreeing(static_cast<uint32_t>(impl.records.size() - 1));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
 }
 
 void IrradianceCache::restore(const IrradianceRecord& record) {
   impl_->records.push_back(record);
-  impl_->luminanceSum += luminance(record.E);
+  impl_->disputes.add(luminance(record.E));
   if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
 }
 
@@ -317,7 +251,7 @@ IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, co
 void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider,
                              std::span<const LightShare> light) const {
   if (places.empty()) return;
-  if (impl_->info.published || impl_->info.curvature) wider = 1;
+  if (impl_->info.published || impl_->info.curvature || !isOn(Amendment::Reach)) wider = 1;
   if (impl_->settings.kappa < kInfinity) {
     thread_local Vicinity near;
     thread_local std::vector<Candidate> found;

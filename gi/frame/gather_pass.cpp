@@ -3,6 +3,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "gi/cache/amendments.h"
 #include "gi/frame/frame_survey.h"
 #include "gi/frame/gather_tile.h"
 #include "gi/frame/occluder_search.h"
@@ -206,7 +207,8 @@ class GatherPass {
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
       if (k.weight < enough || (k.inconsistent && (isNew || isAnew(asked[i]))) ||
-          (isLight(cache) && !k.hasRecord && occluders.isUnderOccluder(asked[i].point, k.closest, k.occluderHeight)))
+          (isLight(cache) && isOn(Amendment::Occluders) && !k.hasRecord &&
+           occluders.isUnderOccluder(asked[i].point, k.closest, k.occluderHeight)))
         out.push_back(asked[i]);
     }
     state_.stats.rays.gather += occluders.raysTraced();

@@ -1,5 +1,6 @@
 #include "gi/gather.h"
 
+#include "gi/cache/amendments.h"
 #include "gi/gather/hemisphere.h"
 #include "gi/gather/hessian.h"
 #include "gi/gather/rays.h"
@@ -303,7 +304,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
-  if (!settings.occlusion) record.limit = radiusUnderOccluder(samples, point.pixelSize, hemisphere.upright());
+  if (!settings.occlusion && isOn(Amendment::Occluders))
+    record.limit = radiusUnderOccluder(samples, point.pixelSize, hemisphere.upright());
   for (const std::vector<vec3>& seen : hemisphere.shares()) {
     HemisphereSamples share = samples;
     share.radiance = seen;

@@ -1,0 +1,53 @@
+// Private to gi/irradiance_cache: records that disagree about a place by more than their noise explains. What lies
+// between them is an edge of light, or something thinner than both are wide.
+#pragma once
+#include "gi/cache/irradiance_record.h"
+
+namespace tomales {
+
+enum class Disagreement { None, Steep, Discontinuous };
+
+class Disputes {
+ public:
+  /// kappa: that of the cache, which counts four times for the split sphere.
+  Disputes(bool on, bool splitSphere, float kappa)
+      : on_(on), tolerance_((splitSphere ? 4 * kDisagreement : kDisagreement) / kappa), kappa_(kappa) {}
+
+  void add(float luminance) { luminanceSum_ += luminance, ++records_; }
+
+  /// Compares two values for one place. noise: the standard error of their difference, or more.
+  Disagreement of(const vec3& a, const vec3& b, float noise) const {
+    if (!on_) return Disagreement::None;
+    const float larger = std::max(luminance(a), luminance(b)),
+                off = std::abs(luminance(a) - luminance(b)) - kNoiseMargin * noise;
+    const auto dark = static_cast<float>(kDark * luminanceSum_ / static_cast<double>(records_));
+    if (!(off > tolerance_ * std::max(larger, dark))) return Disagreement::None;
+    return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
+  }
+
+  /// How far a record may reach that disagrees at this distance. Where light is steep, no record is needed nearer than a
+  /// pixel: it would be the noise of single pixels, each paid with a hemisphere. Where points see different surfaces,
+  /// something thinner than that lies between them.
+  float limit(Disagreement disagreement, float distance, float pixelSize) const {
+    if (disagreement == Disagreement::None) return kInfinity;
+    return disagreement == Disagreement::Discontinuous ? distance
+                                                       : std::max(distance, kFinestPixels * pixelSize / kappa_);
+  }
+
+  /// Standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the hits.
+  static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
+
+ private:
+  static constexpr float kDisagreement = 0.1f;   // relative difference at kappa 1; 5 % makes more records, no less error
+  static constexpr float kDiscontinuous = 0.5f;  // the same between points that see different surfaces
+  static constexpr float kNoiseMargin = 3;       // in standard errors
+  static constexpr float kDark = 0.1f;           // share of the mean E: darker values are compared with this
+  static constexpr float kFinestPixels = 1;      // at kappa 1
+
+  const bool on_;
+  const float tolerance_, kappa_;
+  double luminanceSum_ = 0;  ///< Over the records' E.
+  size_t records_ = 0;
+};
+
+}  // namespace tomales
