@@ -25,14 +25,14 @@ enum class Amendment {
   /// gi/cache/extrapolation.h: derivatives may at most double or extinguish E over a record's radius.
   Slopes,
 };
-inline constexpr const char* kAmendments[] = {"second-order", "disputes", "reach", "behind",
+inline constexpr const char* kAmendments[] = {"second-order", "disputes",  "reach", "behind",
                                               "height",       "occluders", "slopes"};
 
 /// False where the bench has switched it off.
 bool isOn(Amendment amendment);
 
-/// Factor on a record's radius: `wider` where light does not change over the radius, and 1 where it changes by kSteep of
-/// itself, because a shadow's edge may lie beyond.
+/// Factor on a record's radius: `wider` where light does not change over the radius, and 1 where it changes by kSteep
+/// of itself, because a shadow's edge may lie beyond.
 inline float reachFactor(const IrradianceRecord& r, float radius, float wider) {
   constexpr float kSteep = 0.3f;  // more lets the dark side of edges get light
   const vec3 change = radius * (r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2]);
@@ -41,8 +41,8 @@ inline float reachFactor(const IrradianceRecord& r, float radius, float wider) {
   return 1 + (wider - 1) * even;
 }
 
-/// A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless it is no farther
-/// than bumps that rays do not see. Returns 0 behind, 1 in front, and less between. `pixel`: at kappa 1.
+/// A point behind the record sees other things than the record did (Ward et al. 1988, section 4), unless it is no
+/// farther than bumps that rays do not see. Returns 0 behind, 1 in front, and less between. `pixel`: at kappa 1.
 inline float frontFactor(const IrradianceRecord& r, const vec3& step, const vec3& n, float radius, float pixel) {
   constexpr float kOfRadius = 0.1f;
   constexpr float kOfPixel = 0.45f;  // thin surfaces have two sides, however far their records are valid
@@ -50,8 +50,8 @@ inline float frontFactor(const IrradianceRecord& r, const vec3& step, const vec3
   return 1 - std::clamp(-0.5f * dot(step, n + r.normal) / tolerance, 0.0f, 1.0f);
 }
 
-/// A point that is as high above the record as half its closest hit lies on another surface: R- may be wider than a slot
-/// between parallel walls. The weight fades from three quarters of that height on.
+/// A point that is as high above the record as half its closest hit lies on another surface: R- may be wider than a
+/// slot between parallel walls. The weight fades from three quarters of that height on.
 inline float heightFactor(const IrradianceRecord& r, const vec3& step) {
   constexpr float kOfClosest = 0.5f, kFade = 4;
   const float above = dot(step, r.normal), highest = kOfClosest * r.closest;

@@ -25,8 +25,8 @@ class Disputes {
     return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
   }
 
-  /// How far a record may reach that disagrees at this distance. Where light is steep, no record is needed nearer than a
-  /// pixel: it would be the noise of single pixels, each paid with a hemisphere. Where points see different surfaces,
+  /// How far a record may reach that disagrees at this distance. Where light is steep, no record is needed nearer than
+  /// a pixel: it would be the noise of single pixels, each paid with a hemisphere. Where points see different surfaces,
   /// something thinner than that lies between them.
   float limit(Disagreement disagreement, float distance, float pixelSize) const {
     if (disagreement == Disagreement::None) return kInfinity;
@@ -38,7 +38,7 @@ class Disputes {
   static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
 
  private:
-  static constexpr float kDisagreement = 0.1f;   // relative difference at kappa 1; 5 % makes more records, no less error
+  static constexpr float kDisagreement = 0.1f;  // relative difference at kappa 1; 5 % makes more records, no less error
   static constexpr float kDiscontinuous = 0.5f;  // the same between points that see different surfaces
   static constexpr float kNoiseMargin = 3;       // in standard errors
   static constexpr float kDark = 0.1f;           // share of the mean E: darker values are compared with this

@@ -11,9 +11,9 @@ constexpr float kMaxAngleTerm = 0.0151922470f;  ///< 1 - cos(alpha+), alpha+ = 1
 
 /// The size of a record, from which its radius follows.
 inline float sizeOf(const IrradianceRecord& r, const ErrorFunctionInfo& info, float kappa) {
-  if (info.splitSphere) return r.harmonicMean;                                // Ward et al. 1988
-  if (info.curvature) return std::min(r.smoothRadius, r.closest * kappa);     // Schwarzhaupt et al. 2012
-  return r.closest * 0.5f;                                                    // approximate-gi eq. 3
+  if (info.splitSphere) return r.harmonicMean;                             // Ward et al. 1988
+  if (info.curvature) return std::min(r.smoothRadius, r.closest * kappa);  // Schwarzhaupt et al. 2012
+  return r.closest * 0.5f;                                                 // approximate-gi eq. 3
 }
 
 /// The distance at which the error reaches 1: the denominator of eq. 3 over kappa. The split sphere as it was published
