@@ -17,16 +17,13 @@ enum class Amendment {
   Reach,
   /// A record fades out where a point lies behind it (Ward et al. 1988 end it there), within less than a pixel.
   Behind,
-  /// A record ends at half its closest distance above its plane, where another surface begins.
-  Height,
   /// gi/gather/gather.cpp: a record under an occluder is valid as far as that is high; points under unknown ones get
   /// records.
   Occluders,
   /// gi/cache/extrapolation.h: derivatives may at most double or extinguish E over a record's radius.
   Slopes,
 };
-inline constexpr const char* kAmendments[] = {"second-order", "disputes",  "reach", "behind",
-                                              "height",       "occluders", "slopes"};
+inline constexpr const char* kAmendments[] = {"second-order", "disputes", "reach", "behind", "occluders", "slopes"};
 
 /// False where the bench has switched it off.
 bool isOn(Amendment amendment);
@@ -48,15 +45,6 @@ inline float frontFactor(const IrradianceRecord& r, const vec3& step, const vec3
   constexpr float kOfPixel = 0.45f;  // thin surfaces have two sides, however far their records are valid
   const float tolerance = std::max(std::min(kOfRadius * radius, kOfPixel * pixel), r.unseenDisplacement);
   return 1 - std::clamp(-0.5f * dot(step, n + r.normal) / tolerance, 0.0f, 1.0f);
-}
-
-/// A point that is as high above the record as half its closest hit lies on another surface: R- may be wider than a
-/// slot between parallel walls. The weight fades from three quarters of that height on.
-inline float heightFactor(const IrradianceRecord& r, const vec3& step) {
-  constexpr float kOfClosest = 0.5f, kFade = 4;
-  const float above = dot(step, r.normal), highest = kOfClosest * r.closest;
-  if (!(above > 0)) return 1;
-  return std::clamp(kFade * (1 - above / highest), 0.0f, 1.0f);
 }
 
 }  // namespace tomales

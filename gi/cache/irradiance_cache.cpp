@@ -72,8 +72,7 @@ struct IrradianceCache::Impl {
   IrradianceRecords records{};
   const ErrorFunctionInfo& info = infoOf(settings.errorFunction);
   Disputes disputes{isOn(Amendment::Disputes) && !info.published, info.splitSphere, settings.kappa};
-  const bool bends = isOn(Amendment::SecondOrder) && !info.published, fadesBehind = isOn(Amendment::Behind),
-             fadesAbove = isOn(Amendment::Height);
+  const bool bends = isOn(Amendment::SecondOrder) && !info.published, fadesBehind = isOn(Amendment::Behind);
 
   float size(const IrradianceRecord& r) const { return sizeOf(r, info, settings.kappa); }
   float reach(float recordSize, float pixelSize) const { return radiusOf(recordSize, settings, pixelSize); }
@@ -106,8 +105,7 @@ struct IrradianceCache::Impl {
     const vec3 step = x - r.position;
     const float distance2 = dot(step, step);
     if (!(distance2 < radius * radius)) return 0;
-    const float fades = (fadesAbove ? heightFactor(r, step) : 1.0f) *
-                        (fadesBehind ? frontFactor(r, step, n, radius, pixelSize / settings.kappa) : 1.0f);
+    const float fades = fadesBehind ? frontFactor(r, step, n, radius, pixelSize / settings.kappa) : 1.0f;
     if (!(fades > 0)) return 0;
     const float position = std::sqrt(distance2) / radius, angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
     return fades * (info.splitSphere ? splitSphereWeight(position, angle, settings.kappa)

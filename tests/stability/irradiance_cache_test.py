@@ -14,17 +14,18 @@ from pictures import pixels  # noqa: E402
 
 # Most that the mean and the 99th percentile of the relative error, and the share of black pixels that get light, may be at the size and
 # with the rays of the test: 40 x 40 pixels of up to 6 cm, so that the wall of 2 cm is thinner than the least reach of a record.
+# They are 1.3 times what it has today: `plain`, without the amendments, is over them in box_ball, lamp_slot and thin_wall.
 LIMITS = {
-    "box_ball": (0.04, 0.25, 0.001),
-    "bumps": (0.035, 0.2, 0.001),
-    "contact": (0.055, 0.6, 0.001),
-    "grazing": (0.03, 0.15, 0.001),
-    "hair": (0.03, 0.2, 0.001),
-    "hot_spot": (0.12, 0.6, 0.2),
-    "sun_room": (0.12, 0.6, 0.6),
-    "lamp_slot": (0.05, 0.35, 0.001),
-    "thin_blades": (0.05, 0.3, 0.001),
-    "thin_wall": (0.03, 0.3, 0.03),
+    "box_ball": (0.0244, 0.121, 0.001),
+    "bumps": (0.0185, 0.087, 0.001),
+    "contact": (0.0252, 0.194, 0.001),
+    "grazing": (0.0161, 0.094, 0.001),
+    "hair": (0.0192, 0.092, 0.001),
+    "hot_spot": (0.0982, 0.576, 0.182),
+    "sun_room": (0.0898, 0.441, 0.511),
+    "lamp_slot": (0.0266, 0.139, 0.001),
+    "thin_blades": (0.0309, 0.152, 0.001),
+    "thin_wall": (0.0133, 0.094, 0.015),
 }
 FLOOR = 0.01
 
