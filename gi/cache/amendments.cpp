@@ -1,5 +1,6 @@
 #include "gi/cache/amendments.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <string>
@@ -13,6 +14,7 @@ bool isOn(Amendment amendment) {
     uint32_t out = 0;
     for (size_t i = 0; i < std::size(kAmendments); ++i)
       if (list.find("," + std::string(kAmendments[i]) + ",") != std::string::npos) out |= uint32_t{1} << i;
+    if (out != 0) std::fprintf(stderr, "tomales: TOMALES_WITHOUT leaves out of the irradiance cache: %s\n", named);
     return out;
   }();
   return !(without >> static_cast<uint32_t>(amendment) & 1);

@@ -118,11 +118,11 @@ TEST(Primitives, TellHowMuchTheyHold) {
        },
        400 + 24},
   };
-  for (const auto& row : rows) {
-    const size_t few = row.make(500)->bytes(), many = row.make(2000)->bytes();
-    EXPECT_GE(few, 500 * row.least) << row.name;
-    EXPECT_LT(few, 500 * 4000u) << row.name;
-    EXPECT_NEAR(static_cast<double>(many) / static_cast<double>(few), 4, 1.1) << row.name;
+  for (const auto& shape : rows) {
+    const size_t few = shape.make(500)->bytes(), many = shape.make(2000)->bytes();
+    EXPECT_GE(few, 500 * shape.least) << shape.name;
+    EXPECT_LT(few, 500 * 4000u) << shape.name;
+    EXPECT_NEAR(static_cast<double>(many) / static_cast<double>(few), 4, 1.1) << shape.name;
   }
   EXPECT_TRUE(problems.empty());
 }
