@@ -35,11 +35,9 @@ struct Equations {
     const double radius = std::min<double>(covers * (1 + (wider - 1) * even), r.limit), distance = glm::length(step);
     const double tolerance = std::max<double>(std::min(0.1 * radius, 0.45 * pixel / kappa), r.unseenDisplacement);
     const double behind = std::max(0.0, -dot(step, turned + ni) / 2 / tolerance);
-    const double above = std::max(0.0, dot(step, ni)) / (r.closest / 2.0);
     // A record that was limited ends before the place that limited it, whatever the distance is rounded to.
-    if (distance >= radius * (1 - 1e-6) || behind >= 1 || above >= 1) return 0;
-    const double fades = std::min(1.0, 4 * (1 - above)) * (1 - behind),
-                 angle = std::sqrt(std::max(0.0, 1 - dot(turned, ni)));
+    if (distance >= radius * (1 - 1e-6) || behind >= 1) return 0;
+    const double fades = 1 - behind, angle = std::sqrt(std::max(0.0, 1 - dot(turned, ni)));
     if (info.splitSphere) return fades * std::max(0.0, 1 / std::max(distance / radius + kappa * angle, 1e-4) - 1);
     return fades * std::max(0.0, 1 - std::max(distance / radius, kappa * angle / std::sqrt(1 - std::cos(kPi / 18))));
   }
