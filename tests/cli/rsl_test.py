@@ -143,6 +143,9 @@ t.expect_run("of good and bad files all are looked at", ["compile", "green.sl", 
 t.write("defined.sl", "#ifdef BLUE\n#define C color(0, 0, BLUE)\n#endif\nsurface defined() { Ci = C; Oi = 1; }\n")
 t.expect_run("compile without its definition", ["compile", "defined.sl"], 2, '"C"')
 t.expect_run("and with it", ["compile", "defined.sl", "-D", "BLUE=0.5"], 0)
+t.write("twice.sl", '#include "deeper.h"\n#include "own.h"\nsurface twice() { Ci = color(RED, GREEN, OWN); Oi = 1; }\n')
+t.write(folder("own") + "/own.h", "#define OWN 1\n")
+t.expect_run("-D and -I as often as they are given", ["compile", "-I", "headers", "-D", "RED=1", "-I", "own", "-D", "GREEN=0", "twice.sl"], 0)
 t.write("dumped.sl", "float twice(float x) { return 2 * x; }\nsurface dumped(float Kd = .5) { Oi = Os; Ci = Os * Cs * twice(Kd) * diffuse(normalize(N)); }\n")
 for stage, says in (("tokens", ["dumped.sl:1:1", "twice"]), ("tree", ["function float twice", "surface dumped", "call diffuse"]), ("types", ["call diffuse : color", "name Kd : float"]),
                     ("lowered", ["surface dumped", "parameter float Kd", "Diffuse"]), ("code", ["surface dumped", "Mul 2 uf0.Kd", "Diffuse"])):

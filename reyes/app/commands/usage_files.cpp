@@ -58,14 +58,14 @@ void buildDenoise(CLI::App& app, Invocation& in, int& code) {
 void buildCompile(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("compile", "Check shaders in the RenderMan Shading Language");
   c->add_option("SHADER.sl", in.compile.files)->required();
-  c->add_option("-I", in.compile.folders, "Folder of #include")
+  c->add_option("-I", in.compile.folders, "Folder of #include; may be given again")
       ->type_name("FOLDER")
       ->expected(1)
-      ->allow_extra_args(false);
-  c->add_option("-D", in.compile.definitions, "Define a macro")
+      ->take_all();
+  c->add_option("-D", in.compile.definitions, "Define a macro; may be given again")
       ->type_name("NAME[=VALUE]")
       ->expected(1)
-      ->allow_extra_args(false);
+      ->take_all();
   c->add_option("--dump", in.compile.dump, "Print what a stage makes of the shaders")
       ->check(CLI::IsMember({"tokens", "tree", "types", "lowered", "code"}))
       ->type_name("tokens|tree|types|lowered|code");
@@ -78,10 +78,10 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("shadetest", "One shader over a grid: time and values");
   c->add_option("SHADER", in.shadetest.shader, "A name, a .sl file, or a plugin .so")->required();
   c->add_option("PARAMETER=VALUE", in.shadetest.parameters, "Of the shader: Kd=.5, color=1,0,0, name=marble");
-  c->add_option("-I", in.shadetest.folders, "Folder of #include, for a .sl")
+  c->add_option("-I", in.shadetest.folders, "Folder of #include, for a .sl; may be given again")
       ->type_name("FOLDER")
       ->expected(1)
-      ->allow_extra_args(false);
+      ->take_all();
   addShaderFolders(*c, in.shadetest.shaderFolders);
   c->add_flag("--watch", in.shadetest.watch, "Shade again whenever the .sl or what it includes changes");
   addParsed(
