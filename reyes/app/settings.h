@@ -81,6 +81,7 @@ inline bool choosesQuality(const RenderSettings& s) { return s.targetError > 0 |
 inline bool audits(const RenderSettings& settings) { return settings.audit > 0 || settings.targetError > 0; }
 inline PluginTrust pluginTrust(const Trust& t) {
   return {.folders = t.shaderFolders + ":" + standardPath("shader") + ":" + t.pluginFolders(),
+          .chosen = t.shaderFolders,
           .sceneFolders = t.allowsPluginsOfScene()};
 }
 inline PluginTrust pluginTrust(const RenderSettings& settings) { return pluginTrust(settings.trust); }

@@ -8,6 +8,7 @@ namespace tomales {
 
 struct PluginTrust {
   std::string folders{};      ///< Folders that the user named, separated by colons: searched before those of the scene.
+  std::string chosen{};       ///< Those among them that are meant for this run; texts beside the scene come after them.
   bool sceneFolders = false;  ///< If true, folders that the scene names, and the working folder, are trusted too.
 };
 

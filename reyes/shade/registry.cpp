@@ -57,6 +57,7 @@ bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::str
 std::vector<std::string> ShaderRegistry::Impl::textFolders(const std::string& searchPath,
                                                            const std::string& beside) const {
   std::vector<std::string> out = foldersOf(searchPath);
+  for (const std::string& folder : foldersOf(trust.chosen)) out.push_back(folder);
   if (!beside.empty()) out.push_back(beside);
   out.push_back(".");
   std::error_code none;

@@ -71,8 +71,12 @@ t.expect(elsewhere.returncode == 0 and not elsewhere.stderr, f"beside the scene 
 expect_all("elsewhere", GREEN, "and the surface is found from there")
 folder("library")
 t.write("library/green.sl", plain("green", "color(1, 0, 0)"))
-t.expect_run("a .sl of that name in a folder of the user", ["beside.rib", "--shaders", "library"], 0)
+os.environ["TOMALES_SHADERS"] = "library"
+t.expect_run("a .sl of that name in a folder of the user", ["beside.rib"], 0)
 expect_all("beside", GREEN, "comes after the one beside the scene")
+del os.environ["TOMALES_SHADERS"]
+t.expect_run("in a folder of --shaders", ["beside.rib", "--shaders", "library"], 0)
+expect_all("beside", RED, "it comes before that")
 (t.folder / "library/green.sl").unlink()
 t.write("library/collection.sl", plain("ruby", "color(1, 0, 0)") + plain("sapphire", "color(0, 0, 1)"))
 scene("collected", 'Surface "sapphire"', 'Option "searchpath" "string shader" ["library"]')
