@@ -61,7 +61,7 @@ class Merger {
 
   const DeepMerge merge_;
   DeepRows& out_;
-  vec3 before_, color_, coverage_;
+  vec3 before_{0.0f}, color_{0.0f}, coverage_{0.0f};
   float start_ = 0, end_ = 0;
   bool open_ = false;
   uint32_t count_ = 0;
