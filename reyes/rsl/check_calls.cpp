@@ -36,6 +36,18 @@ std::string signature(const Function& f) {
   return out + ")";
 }
 
+/// The value of an expression of written numbers alone.
+std::optional<float> written(const Expr& e) {
+  if (e.kind == ExprKind::Number) return e.number;
+  if (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary) return std::nullopt;
+  const std::optional<float> a = written(*e.args.front()), b = written(*e.args.back());
+  if (!a || !b) return std::nullopt;
+  if (e.text == "+") return e.kind == ExprKind::Unary ? *a : *a + *b;
+  if (e.text == "-") return e.kind == ExprKind::Unary ? -*a : *a - *b;
+  if (e.text == "*") return *a * *b;
+  return e.text == "/" ? std::optional(*a / *b) : std::nullopt;
+}
+
 bool takesList(const Builtin& b) {
   switch (b.emit) {
     case Emit::List:
@@ -155,6 +167,12 @@ Type Checker::typeOfBuiltin(Expr& e, const Builtin& b) {
     if (!slot.any) expect(*e.args[i], typeOf(slot), where.c_str());
     if (slot.output) assigned(*e.args[i], where.c_str());
   }
+  if (b.op == Op::Smoothstep && written(*e.args[1]) && written(*e.args[0]) > written(*e.args[1]))
+    messages_.warning(
+        e.place,
+        "smoothstep() whose first edge is the greater one is a hard step; 1 - smoothstep(least, greatest, x) falls "
+        "smoothly",
+        e.length);
   if (takesList(b)) {
     size_t from = n;
     while (from < e.args.size() && !e.args[from]->type.is(Base::String)) ++from;

@@ -140,6 +140,11 @@ t.expect(not t.expect_run("compile of a good shader", ["compile", "green.sl"], 0
 result = t.expect_run("compile of a suspicious one", ["compile", "suspicious.sl"], 0, 'warning: the parameter "unread" is never read', '"forgotten"')
 t.expect(not result.stdout and result.stderr, "speaks on standard error")
 t.expect(not t.expect_run("without warnings", ["compile", "-q", "suspicious.sl"], 0).stderr, "is quiet")
+EDGES = {"1, 0, s": True, "HALF, -(HALF), s": True, "1 - 0.5, 1 / 4, s": True, "0, 1, s": False, "1, 1, s": False, "1, s, t": False, "s, 0, t": False}
+for edges, warns in EDGES.items():
+    t.write("edges.sl", f"#define HALF 0.5\nsurface edges() {{ Oi = 1; Ci = smoothstep({edges}); }}\n")
+    said = t.expect_run(f"compile of smoothstep({edges})", ["compile", "edges.sl"], 0).stderr
+    t.expect(("edges.sl:2:32: warning: smoothstep() whose first edge" in said) == warns, f"{'warns' if warns else 'does not warn'} of a hard step")
 t.expect_run("compile of a shader that lacks a function", ["compile", "lacking.sl"], 3, "lacking.sl:1:26: warning", "company_noise")
 t.expect_run("compile of a file that is not there", ["compile", "nosuch.sl"], 2, "nosuch.sl")
 t.expect_run("compile of nothing", ["compile"], 1)

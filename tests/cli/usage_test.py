@@ -67,6 +67,11 @@ info = json.loads(t.expect_run("info of a scene", ["info", "frames.rib", "--json
 t.expect([f["frame"] for f in info["frames"]] == [1, 2, 3] and info["frames"][0]["objects"] == 1, "lists frames and objects")
 info = json.loads(t.expect_run("info of a picture", ["info", "good.exr", "--json"], 0).stdout)
 t.expect(info["size"] == [24, 24] and [c["name"] for c in info["channels"]] == ["R", "G", "B", "A"], "lists size and channels")
+for copy in ("map.z", "map", "map.rib", "map.tex", "map.jpg"):
+    t.write(copy, (t.folder / "good.exr").read_bytes())
+    info = json.loads(t.expect_run(f"info of a picture called {copy}", ["info", copy, "--json"], 0).stdout)
+    t.expect(info["kind"] == "image" and info["size"] == [24, 24], "goes by its first bytes")
+t.expect_run("a picture is no scene, whatever its name", ["map.rib"], 2, "is a picture by its first bytes", "not-rib")
 
 # Interruption: finished buckets are written, the exit code tells.
 for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string_view>
+
+#include "reyes/pictures.h"
 
 namespace tomales {
 namespace {
@@ -42,21 +45,52 @@ constexpr Foreign kForeign[] = {
     {" .zip .tar .tgz .7z .rar ", "an archive of files", "unpack it and render a RIB file in it"},
 };
 
-}  // namespace
+/// OpenEXR, TIFF and BigTIFF in both orders of bytes, PNG, JPEG and Radiance, as their specifications have it.
+constexpr std::string_view kPictureMagic[] = {
+    {"\x76\x2f\x31\x01", 4}, {"II*\0", 4},        {"MM\0*", 4}, {"II+\0", 4}, {"MM\0+", 4},
+    {"\x89PNG\r\n", 6},      {"\xff\xd8\xff", 3}, "#?RADIANCE", "#?RGBE"};
 
-bool isForeign(const std::string& file, Log& log) {
+std::string endingOf(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending.empty() || ending.find(' ') != std::string::npos) return false;
+  return ending;
+}
+
+bool beginsAsPicture(const std::string& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return false;  // a pipe gives its bytes only once
+  char bytes[16] = {};
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes, sizeof bytes);
+  const std::string_view begin(bytes, static_cast<size_t>(in.gcount()));
+  return std::any_of(std::begin(kPictureMagic), std::end(kPictureMagic),
+                     [&](std::string_view magic) { return begin.starts_with(magic); });
+}
+
+const Foreign* kindOfEnding(const std::string& ending) {
+  if (ending.empty() || ending.find(' ') != std::string::npos) return nullptr;
   const auto* kind = std::find_if(std::begin(kForeign), std::end(kForeign), [&](const Foreign& f) {
     return f.endings.find(" " + ending + " ") != std::string_view::npos;
   });
-  if (kind == std::end(kForeign)) return false;
+  return kind == std::end(kForeign) ? nullptr : kind;
+}
+
+}  // namespace
+
+bool isPicture(const std::string& file) {
+  const std::vector<std::string>& endings = pictureEndings();
+  return std::find(endings.begin(), endings.end(), endingOf(file)) != endings.end() || beginsAsPicture(file);
+}
+
+bool isForeign(const std::string& file, Log& log) {
+  const Foreign* const named = kindOfEnding(endingOf(file));
+  const Foreign* const kind = !named && beginsAsPicture(file) ? kindOfEnding(".exr") : named;
+  if (!kind) return false;
   std::string remedy = kind->remedy;
   for (size_t at = remedy.find("{}"); at != std::string::npos; at = remedy.find("{}", at + file.size()))
     remedy.replace(at, 2, file);
   log.report(Severity::Error, "not-rib", {std::make_shared<const std::string>(file), 0},
-             fmt::format("is {} by its name, and no RIB: {}", kind->what, remedy));
+             fmt::format("is {} by its {}, and no RIB: {}", kind->what, named ? "name" : "first bytes", remedy));
   return true;
 }
 

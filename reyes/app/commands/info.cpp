@@ -182,7 +182,7 @@ Json infoOf(const std::string& file, const Trust& trust, Log& log) {
   if (named && !std::filesystem::exists(file, none)) return namedShaderInfo(file, pluginTrust(trust), log);
   if (extension == ".ptc" || extension == ".bkm")
     return ownInfo(file, extension == ".ptc" ? pointsInfo : bricksInfo, log);
-  if (namesPicture(file)) return imageInfo(file, log);
+  if (isPicture(file)) return imageInfo(file, log);
   if (file.ends_with(".dfb")) return dfbInfo(file, log);
   if (file.ends_with(".icf")) return icfInfo(file, log);
   if (file.ends_with(".sl")) return textInfo(file, log);
