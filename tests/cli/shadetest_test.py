@@ -21,6 +21,9 @@ light = t.expect_run("a light is tried on matte", ["shadetest", "ambientlight"],
 t.expect(figure(light, "Ci greatest") == [1, 1, 1], "and lights it")
 bump = t.expect_run("a displacement", ["shadetest", "noisybump"], 0)
 t.expect(0 < figure(bump, "longest displacement")[0] <= 0.1, "stays within its Km")
+t.expect("displacement-bound" not in bump.stderr, "needs no bound of a scene that the user has not written")
+for wrong in ("Km=abc", "Km=1,2", "Km=", "Km=1x"):
+    t.expect_run(f"a value that does not suit, {wrong},", ["shadetest", "noisybump", wrong], 3, '"Km" takes 1 number, and not', "shadetest-parameter")
 fog = t.expect_run("a volume lies before a lit square", ["shadetest", "fog", "--grid", "3x3"], 0)
 plain = t.expect_run("which is as bright as", ["shadetest", "matte", "--grid", "3x3"], 0)
 t.expect(abs(figure(fog, "Ci greatest")[0] / figure(plain, "Ci greatest")[0] - 2.718281828 ** -5) < 1e-4, "without five units of fog")

@@ -13,9 +13,9 @@ constexpr const char* kSquare = "Patch \"bilinear\" \"P\" [-.5 .5 0  .5 .5 0  -.
 constexpr float kLampDistance = 2;  // its distance from the eye, in front of the square and beside the way to it
 
 std::string requestFor(const TmShader& shader, const std::string& parameters) {
-  static constexpr const char* kRequests[] = {"Surface \"{}\" {}\n", "Displacement \"{}\" {}\n",
-                                              "LightSource \"{}\" \"tested\" {}\n", "Atmosphere \"{}\" {}\n",
-                                              "Imager \"{}\" {}\n"};
+  static constexpr const char* kRequests[] = {
+      "Surface \"{}\" {}\n", "Attribute \"displacementbound\" \"sphere\" [1e9]\nDisplacement \"{}\" {}\n",
+      "LightSource \"{}\" \"tested\" {}\n", "Atmosphere \"{}\" {}\n", "Imager \"{}\" {}\n"};
   if (shader.capabilities & TM_LIGHT_AREA)
     return fmt::format(
         "AttributeBegin AreaLightSource \"{}\" \"tested\" {} Translate 0 0 {} {}AttributeEnd\nIlluminate \"tested\" "

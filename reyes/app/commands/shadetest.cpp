@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <sstream>
 #include <thread>
 
 #include "reyes/app/commands/shader_check.h"
@@ -61,6 +62,14 @@ Tried findShaders(const ShadetestCommand& command, ShaderRegistry& registry, Log
   return {};
 }
 
+/// How many numbers the text holds, separated by blanks; -1 if it holds anything else.
+int numbersIn(const std::string& text) {
+  int out = 0;
+  std::istringstream in(text);
+  for (float number = 0; in >> number;) ++out;
+  return in.eof() ? out : -1;
+}
+
 /// Writes the parameters of the command line as a request has them.
 std::string writtenParameters(const ShadetestCommand& command, const TmShader& shader, Log& log) {
   static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
@@ -78,6 +87,13 @@ std::string writtenParameters(const ShadetestCommand& command, const TmShader& s
     std::string values = value;
     std::replace(values.begin(), values.end(), ',', ' ');
     const bool text = TM_TYPE_OF(p->type) == TM_STRING;
+    const int type = TM_TYPE_OF(p->type), needed = p->arrayLength * (type == TM_FLOAT ? 1 : type == TM_MATRIX ? 16 : 3);
+    if (!text && numbersIn(values) != needed) {
+      log.report(Severity::Missing, "shadetest-parameter", {},
+                 fmt::format("\"{}\" takes {} number{}, and not \"{}\"; it is ignored", name, needed,
+                             needed == 1 ? "" : "s with commas between them", value));
+      continue;
+    }
     const std::string array = p->arrayLength > 1 ? fmt::format("[{}]", p->arrayLength) : "";
     out += fmt::format(" \"uniform {}{} {}\" [{}]", kTypes[TM_TYPE_OF(p->type)], array, name,
                        text ? "\"" + value + "\"" : values);
