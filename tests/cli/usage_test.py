@@ -62,6 +62,8 @@ for key in ("version", "command", "scene", "threads", "time_s", "cpu_s", "memory
 t.expect(stats["threads"] == 1 and stats["geometry"]["micropolygons_visible"] > 0, "and hold plausible figures")
 t.expect(all(k in stats["time_s"] for k in ("total", "parse", "hide", "shade", "image")), "and the time of every stage")
 
+t.expect_run("an option that is given twice", ["good.rib", "-t", "1", "-t", "2"], 1, "-t is given more than once\nRun with --help")
+
 # info.
 info = json.loads(t.expect_run("info of a scene", ["info", "frames.rib", "--json"], 0).stdout)
 t.expect([f["frame"] for f in info["frames"]] == [1, 2, 3] and info["frames"][0]["objects"] == 1, "lists frames and objects")

@@ -21,10 +21,19 @@ bool namesCommand(const CLI::App& app, const std::string& text) {
   return !app.get_subcommands([&](const CLI::App* c) { return c->get_name() == text; }).empty();
 }
 
+/// The library says of an option that is given twice: "-t: At Most 1 required but received 2".
+std::string failureOf(const CLI::App* app, const CLI::Error& e) {
+  std::string out = CLI::FailureMessage::simple(app, e);
+  const size_t at = out.find(": At Most 1 required but received ");
+  if (at != std::string::npos) out.replace(at, out.find('\n', at) - at, " is given more than once");
+  return out;
+}
+
 int parseAndRun(int argc, char** argv) {
   CLI::App app("A Reyes renderer with global illumination", "tomales");
   app.set_version_flag("--version", describeBuild());
   app.footer(exitCodeHelp());
+  app.failure_message(failureOf);
   app.require_subcommand(1);
   setHelp(app);
   Invocation in;
