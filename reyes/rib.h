@@ -6,6 +6,7 @@
 #pragma once
 #include <functional>
 #include <iosfwd>
+#include <set>
 
 #include "reyes/base/trust.h"
 #include "reyes/scene.h"
@@ -75,6 +76,10 @@ bool readRibText(const std::string& text, const std::string& name, const RibSett
 /// Passes the requests on as they are written and follows no archives, conditions or programs. Returns as readRib.
 bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
+
+/// The pictures that Make requests of the files read, as they name them, but "./". Of standard input, pipes and what
+/// cannot be read, there are none.
+std::set<std::string> makeSources(const std::vector<std::string>& files);
 
 /// The request table, a line for each request: its name, the letters of its arguments (reyes/rib/request_table.h) or -,
 /// "parameters" or -, and what becomes of it: "works", "draws" (works, and the picture needs it), "ignored", or

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct RenderSettings {
   std::vector<std::string> files;  ///< The files of one RIB stream; "-" is standard input.
   std::string output;              ///< Empty for the scene's Displays.
   bool onePicture = false;         ///< Displays other than `output` are left out.
+  std::set<std::string> sources;   ///< Pictures that Make requests of `files` read (reyes/rib.h:makeSources).
   bool overwrite = false;          ///< A crop may take the place of a picture that holds more.
   int threads = 0;                 ///< 0 for as many as the machine has.
   std::optional<std::array<int, 2>> format, pixelSamples;

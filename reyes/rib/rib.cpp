@@ -1,5 +1,7 @@
 #include "reyes/rib.h"
 
+#include <filesystem>
+
 #include "reyes/rib/parser.h"
 #include "reyes/rib/reader.h"
 
@@ -33,6 +35,18 @@ class PlainParse {
   rib::Dictionary dictionary_;
 };
 
+class MakeSources : public RiSink {
+ public:
+  void request(const Request& r) override {
+    if (!r.name.starts_with("Make")) return;
+    const size_t count = r.name == "MakeCubeFaceEnvironment" ? 6 : 1;
+    for (size_t i = 0; i < std::min(count, r.args.size()); ++i)
+      for (const std::string& name : r.args[i].strings)
+        names.insert(std::filesystem::path(name).lexically_normal().string());
+  }
+  std::set<std::string> names;
+};
+
 }  // namespace
 
 bool readRib(const std::vector<std::string>& files, const RibSettings& settings, Log& log) {
@@ -60,6 +74,15 @@ bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log) {
 
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log) {
   return PlainParse(sink, log).read(rib::ByteStream::fromMemory(text).get(), name);
+}
+
+std::set<std::string> makeSources(const std::vector<std::string>& files) {
+  MakeSources sources;
+  Log quiet(Log::Verbosity::Quiet);
+  std::error_code none;
+  for (const std::string& file : files)
+    if (std::filesystem::is_regular_file(file, none)) parseRib({file}, sources, quiet);
+  return sources.names;
 }
 
 }  // namespace tomales

@@ -105,6 +105,36 @@ t.expect(window("beauty.exr") == (0, 0, 48, 36), "takes its place too")
 t.expect_run("--overwrite alone", ["shot.rib", "--overwrite"], 1, "--crop")
 t.run("shot.rib", "-q")
 
+# Pictures that a later Make request reads are maps, too: six faces of a room whose sides have a colour each.
+FACES = ["px", "nx", "py", "ny", "pz", "nz"]
+face = lambda n, name: f"""FrameBegin {n}
+Display "{name}.exr" "file" "rgb"
+Format 16 16 1
+Projection "perspective" "fov" [90]
+WorldBegin
+Color [{n / 8} 0.5 0.25]
+Surface "constant"
+Patch "bilinear" "P" [-9 -9 4  9 -9 4  -9 9 4  9 9 4]
+WorldEnd
+FrameEnd
+"""
+room = "".join(face(n + 1, name) for n, name in enumerate(FACES))
+quoted = ' '.join(f'"{name}.exr"' for name in FACES)
+room += f'MakeCubeFaceEnvironment {quoted} "room.env" 90 "box" 1 1\n'
+t.write("room.rib", room + face(7, "beauty"))
+t.run("room.rib", "-q")
+made = (t.folder / "room.env").read_bytes()
+for line in (["-o", "look.exr"], ["--format", "20x12"], ["-o", "look.exr", "--crop", "0,0.5,0,0.5", "--one-picture"]):
+    for name in FACES + ["room"]:
+        (t.folder / (name + (".env" if name == "room" else ".exr"))).unlink()
+    t.expect_run(f"a room by six faces, {' '.join(line)}", ["room.rib", *line], 0)
+    t.expect((t.folder / "room.env").read_bytes() == made, "    has the same map")
+    t.expect(all(window(name + ".exr")[2:] == (16, 16) for name in FACES), "    of whole faces")
+t.expect(window("look.exr")[2:] == (8, 8), "and -o is the picture alone")
+for left in [f"{name}.exr" for name in FACES] + ["room.env", "look.exr"]:
+    (t.folder / left).unlink()
+t.run("shot.rib", "-q")
+
 # Headers: points of the world are projected to where they are seen.
 seen = [at for at, value in pixels(t.folder / "beauty.exr").items() if value[3] > 0.99]
 middle = (sum(x for x, _ in seen) / len(seen) + 0.5, sum(y for _, y in seen) / len(seen) + 0.5)

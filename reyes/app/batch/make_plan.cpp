@@ -35,6 +35,7 @@ std::string cropText(const std::array<int, 2>& tiles, int index) {
 class PlanMaker {
  public:
   PlanMaker(const PlanOptions& options, Log& log) : options_(options), log_(log) {
+    options_.render.sources = makeSources(options_.render.files);
     plan_.file = fs::absolute(options.file).lexically_normal();
     plan_.workingFolder = fs::current_path().string();
   }
@@ -76,7 +77,7 @@ class PlanMaker {
     if (wanted && !std::binary_search(wanted->begin(), wanted->end(), number)) return;
     applyOverrides(scene, options_.render);
     FrameFiles& frame = frames_[number];
-    frame.maps = (frame.worlds == 0 || frame.maps) && writesMapsAlone(scene.options);
+    frame.maps = (frame.worlds == 0 || frame.maps) && writesMapsAlone(scene.options, options_.render);
     ++frame.worlds;
     for (const std::string& file : filesOf(scene.options, options_.render.output)) frame.files.push_back(file);
     for (const DisplayCall& d : scene.options.displays)
@@ -177,7 +178,7 @@ class PlanMaker {
     }
   }
 
-  const PlanOptions& options_;
+  PlanOptions options_;
   Log& log_;
   BatchPlan plan_;
   std::map<int, FrameFiles> frames_;

@@ -29,6 +29,12 @@
 namespace tomales {
 namespace {
 
+/// What Make requests read matters only where the command line may rename it or change its size.
+RenderSettings withSources(RenderSettings settings) {
+  if (namesPicture(settings.output) || settings.format || settings.crop) settings.sources = makeSources(settings.files);
+  return settings;
+}
+
 class RenderRun {
  public:
   /// A job takes a frame and the number of its scene in the stream.
@@ -38,7 +44,7 @@ class RenderRun {
   RenderRun(const RenderSettings& settings, Job job)
       : log_(settings.verbosity),
         report_(settings, log_),
-        settings_(asGranted(settings, log_)),
+        settings_(withSources(asGranted(settings, log_))),
         job_(std::move(job)),
         threads_(settings_.threads) {}
 

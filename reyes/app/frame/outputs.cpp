@@ -17,6 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Does it write what later frames read, by the Display's type or by a Make request?
+bool feedsFrames(const DisplayCall& d, const RenderSettings& settings) {
+  return writesMap(d) || settings.sources.contains(fs::path(d.name).lexically_normal().string());
+}
+
 /// A picture to be looked at has no alpha, and is sRGB unless the scene's Exposure encodes already.
 void writeForScreens(DisplayCall& display, const Options& options) {
   display.mode = "rgb";
@@ -37,16 +42,17 @@ std::string beside(const std::string& output, const std::string& first, const st
 /// Returns the names that it gives.
 std::set<std::string> replaceByOutput(Options& options, const RenderSettings& settings) {
   std::vector<DisplayCall>& displays = options.displays;
-  const auto first = std::find_if_not(displays.begin(), displays.end(), writesMap);
+  const auto isMap = [&](const DisplayCall& d) { return feedsFrames(d, settings); };
+  const auto first = std::find_if_not(displays.begin(), displays.end(), isMap);
   if (first == displays.end()) return {};
   if (settings.onePicture)
-    displays.erase(std::remove_if(first + 1, displays.end(), std::not_fn(writesMap)), displays.end());
+    displays.erase(std::remove_if(first + 1, displays.end(), std::not_fn(isMap)), displays.end());
   const std::string output = withFrameNumber(settings.output, options.frame);
   std::set<std::string> names{output};
   const PluginTrust trust = pluginTrust(settings);
   const bool staysBelowRoot = !settings.outputRoot.empty();  // what the RIB names does, by its own name
   for (auto other = first + 1; other != displays.end() && !staysBelowRoot; ++other) {
-    if (writesMap(*other) || !driverOf(*other, options, trust).empty()) continue;
+    if (isMap(*other) || !driverOf(*other, options, trust).empty()) continue;
     other->name = beside(output, first->name, other->name);
     names.insert(other->name);
   }
@@ -118,8 +124,9 @@ void keepLargerFiles(Options& options, const std::set<std::string>& named, const
 
 }  // namespace
 
-bool writesMapsAlone(const Options& options) {
-  return !options.displays.empty() && std::all_of(options.displays.begin(), options.displays.end(), writesMap);
+bool writesMapsAlone(const Options& options, const RenderSettings& settings) {
+  return !options.displays.empty() && std::all_of(options.displays.begin(), options.displays.end(),
+                                                  [&](const DisplayCall& d) { return feedsFrames(d, settings); });
 }
 
 void nameOutputs(Options& options, const RenderSettings& settings, Log& log) {
@@ -129,7 +136,8 @@ void nameOutputs(Options& options, const RenderSettings& settings, Log& log) {
   if (namesPicture(settings.output)) named = replaceByOutput(options, settings);
   if (!settings.outputRoot.empty()) keepBelow(settings, named, options);
   dropDisplays(options, named, trust, log);
-  if (settings.crop && !settings.overwrite && !writesMapsAlone(options)) keepLargerFiles(options, named, trust, log);
+  if (settings.crop && !settings.overwrite && !writesMapsAlone(options, settings))
+    keepLargerFiles(options, named, trust, log);
 }
 
 void makeFolderOf(const std::string& file) {

@@ -7,10 +7,10 @@
 namespace tomales {
 
 /// Gives a scene without Display the default one, and decides on the names of all files:
-/// - `-o` takes the place of the first Display that is no map for later frames. Other pictures go beside it, so that
-///   nothing is written over that the command does not name: with `-o look.exr` the Displays "m.exr" and "m_id.exr"
-///   write look.exr and look_id.exr, and "z.exr" writes look_z.exr. With `--output-root` they keep their names below
-///   it.
+/// - `-o` takes the place of the first Display that is no map for later frames, by its type or because a Make request
+///   reads it. Other pictures go beside it, so that nothing is written over that the command does not name: with
+///   `-o look.exr` the Displays "m.exr" and "m_id.exr" write look.exr and look_id.exr, and "z.exr" writes look_z.exr.
+///   With `--output-root` they keep their names below it.
 /// - What the RIB names is written below `--output-root`.
 /// - Displays that would write over an earlier one's file, and windows beside files, are left out with a message.
 /// - A picture on the disk that holds more than `--crop` is kept, with a message, unless `-o` names it or `--overwrite`
@@ -19,7 +19,7 @@ namespace tomales {
 void nameOutputs(Options& options, const RenderSettings& settings, Log& log);
 
 /// True if all that the frame writes is maps for later frames, such as shadow maps, which need all of their view.
-bool writesMapsAlone(const Options& options);
+bool writesMapsAlone(const Options& options, const RenderSettings& settings);
 
 /// Hours of rendering must not end at a folder that never existed. Returns false, and reports it, if it does not exist.
 bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);

@@ -74,7 +74,7 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   if (!settings.textureCache.empty()) scene.options.searchPaths["texturecache"] = settings.textureCache;
   Options& o = scene.options;
   if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
-  if (!writesMapsAlone(o)) {
+  if (!writesMapsAlone(o, settings)) {
     if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
     if (settings.crop) o.cropWindow = *settings.crop;
   }

@@ -45,6 +45,16 @@ TEST(Outputs, OfOnePictureKeepTheMapsThatLaterFramesRead) {
   EXPECT_EQ(namesIn(o), (std::vector<std::string>{"look.exr", "lamp.z"}));
 }
 
+TEST(Outputs, ThatMakeRequestsReadKeepTheirNames) {
+  Options o = displaysOf({{"./face.tif", "tiff"}, {"m.exr", "file"}});
+  RenderSettings settings;
+  settings.output = "look.exr", settings.sources = {"face.tif"};
+  Log log(Log::Verbosity::Quiet);
+  nameOutputs(o, settings, log);
+  EXPECT_EQ(namesIn(o), (std::vector<std::string>{"./face.tif", "look.exr"}));
+  EXPECT_TRUE(writesMapsAlone(displaysOf({{"face.tif", "tiff"}}), settings));
+}
+
 TEST(Outputs, OfASceneWithoutDisplayAreTheDefaultOne) {
   Options o;
   Log log(Log::Verbosity::Quiet);
@@ -80,9 +90,9 @@ TEST(Outputs, ThatTheUserNamesComeBeforeOthersOfThatNameWithoutAWarning) {
 }
 
 TEST(Outputs, AreMapsAloneWhereEveryDisplayIsOne) {
-  EXPECT_TRUE(writesMapsAlone(displaysOf({{"a.z", "shadow"}, {"b.z", "zfile"}})));
-  EXPECT_FALSE(writesMapsAlone(displaysOf({{"a.z", "shadow"}, {"b.exr", "file"}})));
-  EXPECT_FALSE(writesMapsAlone({})) << "a frame without Displays writes the default picture";
+  EXPECT_TRUE(writesMapsAlone(displaysOf({{"a.z", "shadow"}, {"b.z", "zfile"}}), {}));
+  EXPECT_FALSE(writesMapsAlone(displaysOf({{"a.z", "shadow"}, {"b.exr", "file"}}), {}));
+  EXPECT_FALSE(writesMapsAlone({}, {})) << "a frame without Displays writes the default picture";
 }
 
 }  // namespace
