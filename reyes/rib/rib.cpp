@@ -47,6 +47,23 @@ class MakeSources : public RiSink {
   std::set<std::string> names;
 };
 
+/// May a file hold Make requests other than MakeShadow, whose Displays are maps by their type? The bytes tell at a
+/// fraction of the cost of reading, in binary RIB too, which defines each name once.
+bool mayMakeMaps(const std::string& file) {
+  constexpr std::string_view kMake = "Make", kShadow = "Shadow";
+  const auto stream = rib::ByteStream::open(file);
+  std::string seen;
+  while (stream && stream->peek() != rib::ByteStream::kEnd) {
+    seen.append(stream->begin(), stream->end());
+    stream->skipTo(stream->end());
+    for (size_t at = seen.find(kMake); at != std::string::npos; at = seen.find(kMake, at + 1))
+      if (seen.size() >= at + kMake.size() + kShadow.size() && seen.compare(at + kMake.size(), kShadow.size(), kShadow))
+        return true;
+    seen.erase(0, seen.size() - std::min(seen.size(), kMake.size() + kShadow.size() - 1));
+  }
+  return false;
+}
+
 }  // namespace
 
 bool readRib(const std::vector<std::string>& files, const RibSettings& settings, Log& log) {
@@ -81,7 +98,7 @@ std::set<std::string> makeSources(const std::vector<std::string>& files) {
   Log quiet(Log::Verbosity::Quiet);
   std::error_code none;
   for (const std::string& file : files)
-    if (std::filesystem::is_regular_file(file, none)) parseRib({file}, sources, quiet);
+    if (std::filesystem::is_regular_file(file, none) && mayMakeMaps(file)) parseRib({file}, sources, quiet);
   return sources.names;
 }
 

@@ -15,7 +15,7 @@ surface skin(color deep = color(0.008, 0.036, 0.032), pale = color(0.055, 0.16, 
   color tint = mix(deep, pale, clamp(0.35 + 0.75 * patches + 0.7 * (which - 0.5), 0, 1));
   float amber = exp(-pow((d - 2.0) / 0.8, 2)) + 0.65 * smoothstep(0.25, 0.6, patches + 0.35 * (which - 0.5));
   tint = mix(tint, warm * (0.6 + 0.8 * which), clamp(amber, 0, 0.9));
-  tint *= (1 + 0.5 * grain) * mix(0.75, 1.25, smoothstep(0.5, 0.1, middle));
+  tint *= (1 + 0.5 * grain) * mix(0.75, 1.25, step(0.5, middle));
   tint = mix(tint, tint * 1.6 + color(0.03, 0.03, 0.02), smoothstep(0.10, 0.25, edge) * (1 - smoothstep(0.25, 0.45, edge)) * 0.5);
   float groove = smoothstep(0.0, 0.16, edge);
   tint = mix(color(0.028, 0.018, 0.012), tint, groove);
