@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -19,6 +21,12 @@ std::optional<Image> load(const std::string& path, Log& log) {
     log.report(Severity::Error, "image-read", {std::make_shared<std::string>(path), 0},
                "cannot be read as a picture: " + error);
   return image;
+}
+
+/// The figures are those of colours: a map of depth has none.
+bool hasColors(const Image& image) {
+  return std::any_of(image.channels.begin(), image.channels.end(),
+                     [](const std::string& name) { return name != "A" && name != "Z"; });
 }
 
 Json figuresOf(const Comparison& c) {
@@ -47,6 +55,11 @@ int compareCommand(const std::string& test, const std::string& reference, const 
                            b->height, reference));
     return exitCodeOf(log);
   }
+  for (const auto& [image, file] : {std::pair(&*a, &test), std::pair(&*b, &reference)})
+    if (!hasColors(*image))
+      log.report(Severity::Error, "image-size", {std::make_shared<std::string>(*file), 0},
+                 fmt::format("has no colours to compare, but {}", fmt::join(image->channels, ", ")));
+  if (log.worst() >= Severity::Error) return exitCodeOf(log);
   const Json figures = figuresOf(compare(*a, *b));
   if (json)
     std::puts(figures.dump(2).c_str());
