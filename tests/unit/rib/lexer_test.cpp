@@ -43,6 +43,7 @@ TEST(Lexer, UnderstandsStringEscapes) {
   ASSERT_EQ(list.size(), 6u);
   const char* expected[] = {"a\"b", "\\", "x\ny", "A0", "", "qz"};
   for (size_t i = 0; i < 6; ++i) EXPECT_EQ(list[i].text, expected[i]);
+  EXPECT_EQ(tokens(R"("\7\41x")")[0].text, "\a!x") << "of one and of two digits";
 }
 
 TEST(Lexer, SkipsCommentsAndCountsLines) {
