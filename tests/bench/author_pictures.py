@@ -8,12 +8,10 @@ does it. Old pictures hold 8 bits without gamma unless the scene's Exposure says
 blocks of 4 x 4 pixels, in units of white, so that grain and filters at outlines count little. SHEETS gets a picture of each pair: ours, theirs, and the
 difference times four.
 """
-import argparse
 import os
 import pathlib
 import re
 import shutil
-import sys
 import tempfile
 
 import numpy
@@ -70,15 +68,7 @@ def compared(ours, theirs, sheet):
 
 
 def main():
-    arguments = sys.argv[1:]
-    rest = arguments[arguments.index("--") + 1:] if "--" in arguments else []
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("folders", type=pathlib.Path, nargs="+")
-    parser.add_argument("--keep", type=pathlib.Path, required=True)
-    parser.add_argument("--seconds", type=int, default=60)
-    parser.add_argument("--only", default="")
-    given = parser.parse_args(arguments[:arguments.index("--")] if "--" in arguments else arguments)
+    given, rest = public_scenes.command_line(__doc__, 60, ("--keep", {"type": pathlib.Path, "required": True}), ("--only", {"default": ""}))
     print("| scene | rms | mean of ours | of theirs | ends | messages |\n|---|---|---|---|---|---|")
     for folder in given.folders:
         with tempfile.TemporaryDirectory() as temporary:

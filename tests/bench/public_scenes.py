@@ -78,16 +78,21 @@ def row(name, results):
             f"{max(counts)} | {sum(r['silent'] for r in results)} |")
 
 
-def main():
+def command_line(description, seconds, *options):
+    """What the command line gives, and the arguments of the renderer, which follow --. An option is its name and keywords of add_argument()."""
     arguments = sys.argv[1:]
-    rest = arguments[arguments.index("--") + 1:] if "--" in arguments else []
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    end = arguments.index("--") if "--" in arguments else len(arguments)
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("folders", type=pathlib.Path, nargs="+")
-    parser.add_argument("--seconds", type=int, default=20)
-    parser.add_argument("--keep", type=pathlib.Path)
-    parser.add_argument("--list", action="store_true")
-    given = parser.parse_args(arguments[:arguments.index("--")] if "--" in arguments else arguments)
+    parser.add_argument("--seconds", type=int, default=seconds)
+    for name, keywords in options:
+        parser.add_argument(name, **keywords)
+    return parser.parse_args(arguments[:end]), arguments[end + 1:]
+
+
+def main():
+    given, rest = command_line(__doc__, 20, ("--keep", {"type": pathlib.Path}), ("--list", {"action": "store_true"}))
     program = given.program.resolve()
     everything, rows, kinds = [], [], collections.Counter()
     for folder in given.folders:
