@@ -172,7 +172,10 @@ void Chunks::pack(const std::vector<Planned>& planned) {
       const CoarseRate& rate = p.piece->rate[index(level)];
       const bool fits = held + polygons(rate) <= kChunkPolygons && chunks_.back().group == p.group &&
                         chunks_.back().tiles.size() < kChunkTiles;
-      if (!fits) chunks_.push_back({p.group, level, {}, {}}), held = 0;
+      if (!fits) {
+        chunks_.push_back({p.group, level, {}, {}});
+        held = 0;
+      }
       held += polygons(rate);
       chunks_.back().tiles.push_back({p.of->object, p.of->patch, p.piece->rect, rate});
       chunks_.back().bound.extend(p.piece->bound);
@@ -190,7 +193,8 @@ ChunkMesh Chunks::dice(size_t chunk) const {
     out.firstVertex.push_back(static_cast<uint32_t>(vertices));
     vertices += static_cast<size_t>(nu + 1) * static_cast<size_t>(nv + 1);
   }
-  out.P.reserve(vertices + 1), out.N.reserve(vertices);
+  out.P.reserve(vertices + 1);
+  out.N.reserve(vertices);
   for (const Tile& t : tiles) {
     const Object& o = scene_.objects[static_cast<size_t>(t.object)];
     const auto [nu, nv] = t.rate;

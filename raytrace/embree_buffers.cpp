@@ -22,7 +22,10 @@ void shareBuffers(RTCGeometry geometry, const CoarseGroup& g, const Geometry::Ru
 void copyBuffers(RTCGeometry geometry, std::vector<Geometry::Run> runs, Geometry& out) {
   const size_t steps = out.meshes[runs.front().mesh].laterP.size() + 1;
   size_t vertexCount = 0, quadCount = 0;
-  for (const Geometry::Run& r : runs) vertexCount += out.meshes[r.mesh].P.size(), quadCount += r.count;
+  for (const Geometry::Run& r : runs) {
+    vertexCount += out.meshes[r.mesh].P.size();
+    quadCount += r.count;
+  }
   std::vector<vec3*> vertices;
   for (unsigned step = 0; step < steps; ++step)
     vertices.push_back(static_cast<vec3*>(

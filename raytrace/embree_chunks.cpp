@@ -29,7 +29,8 @@ class Slabs {
         continue;
       }
       const float a = lo / direction_[k], b = hi / direction_[k];
-      first = std::max(first, std::min(a, b)), last = std::min(last, std::max(a, b));
+      first = std::max(first, std::min(a, b));
+      last = std::min(last, std::max(a, b));
     }
     return first <= last + 1e-6f * std::abs(last) + margin;
   }
@@ -55,7 +56,8 @@ EmbreeChunks::~EmbreeChunks() {
 void EmbreeChunks::attach(RTCDevice device, RTCScene to, unsigned id, uint32_t firstInstance,
                           const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
                           const std::vector<bool>& opaque) {
-  device_ = device, firstInstance_ = firstInstance;
+  device_ = device;
+  firstInstance_ = firstInstance;
   rtcRetainDevice(device);
   for (uint32_t g = 0; g < groups.size(); ++g)
     described_.push_back({opaque[g], groups[g].flipsNormal, 0, {}, groups.data(), {g, 0, 0}});
@@ -146,7 +148,10 @@ void EmbreeChunks::learnExtent(uint32_t chunk, const ChunkMesh& mesh) const {
     for (int v = 0; v < nv; v += kPartEdge)
       for (int u = 0; u < nu; u += kPartEdge) {
         const int u1 = std::min(u + kPartEdge, nu), v1 = std::min(v + kPartEdge, nv), more = (u1 - u) * (v1 - v);
-        if (held + more > kPartPolygons) out.parts.emplace_back(), held = 0;
+        if (held + more > kPartPolygons) {
+          out.parts.emplace_back();
+          held = 0;
+        }
         held += more;
         for (int j = v; j <= v1; ++j)
           for (int i = u; i <= u1; ++i) {

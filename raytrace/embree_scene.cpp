@@ -11,9 +11,15 @@ namespace {
 RTCRay rayFrom(const Ray& ray, float shift, float tNear, uint32_t mask) {
   const vec3 origin = ray.origin - shift * ray.direction;
   RTCRay r{};
-  r.org_x = origin.x, r.org_y = origin.y, r.org_z = origin.z;
-  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  r.tnear = tNear, r.tfar = ray.tMax + shift, r.time = ray.time;
+  r.org_x = origin.x;
+  r.org_y = origin.y;
+  r.org_z = origin.z;
+  r.dir_x = ray.direction.x;
+  r.dir_y = ray.direction.y;
+  r.dir_z = ray.direction.z;
+  r.tnear = tNear;
+  r.tfar = ray.tMax + shift;
+  r.time = ray.time;
   r.mask = maskAt(mask, ray.level);
   return r;
 }

@@ -21,11 +21,19 @@ class SphericalRectangle {
  public:
   SphericalRectangle(const EmitterShape& shape, const vec3& from) {
     const dvec3 d = dvec3(shape.center) - dvec3(from);
-    x_ = glm::normalize(dvec3(shape.u)), y_ = glm::normalize(dvec3(shape.v)), z_ = cross(x_, y_);
+    x_ = glm::normalize(dvec3(shape.u));
+    y_ = glm::normalize(dvec3(shape.v));
+    z_ = cross(x_, y_);
     const double hx = glm::length(dvec3(shape.u)), hy = glm::length(dvec3(shape.v));
     z0_ = dot(d, z_);
-    if (z0_ > 0) z_ = -z_, z0_ = -z0_;
-    x0_ = dot(d, x_) - hx, y0_ = dot(d, y_) - hy, x1_ = x0_ + 2 * hx, y1_ = y0_ + 2 * hy;
+    if (z0_ > 0) {
+      z_ = -z_;
+      z0_ = -z0_;
+    }
+    x0_ = dot(d, x_) - hx;
+    y0_ = dot(d, y_) - hy;
+    x1_ = x0_ + 2 * hx;
+    y1_ = y0_ + 2 * hy;
     const std::array<dvec3, 4> corners = {dvec3(x0_, y0_, z0_), dvec3(x1_, y0_, z0_), dvec3(x1_, y1_, z0_),
                                           dvec3(x0_, y1_, z0_)};
     std::array<dvec3, 4> n;  // normals of the planes through the eye and an edge
@@ -36,7 +44,8 @@ class SphericalRectangle {
       n[i] /= length;
     }
     const auto angle = [&](size_t a, size_t b) { return std::acos(std::clamp(-dot(n[a], n[b]), -1.0, 1.0)); };
-    b0_ = n[0].z, b1_ = n[2].z;
+    b0_ = n[0].z;
+    b1_ = n[2].z;
     k_ = kFullTurn - angle(2, 3) - angle(3, 0);
     solidAngle_ = angle(0, 1) + angle(1, 2) - k_;
   }
@@ -74,11 +83,13 @@ class EllipticalCone {
     // The nearest and the farthest point of the rim, and the ray that halves the angle between them.
     const double nearAngle = std::atan2(off - r, height), farAngle = std::atan2(off + r, height);
     const double middle = 0.5 * (nearAngle + farAngle);
-    z_ = std::sin(middle) * y - std::cos(middle) * n, y_ = std::cos(middle) * y + std::sin(middle) * n,
+    z_ = std::sin(middle) * y - std::cos(middle) * n;
+    y_ = std::cos(middle) * y + std::sin(middle) * n;
     x_ = cross(y_, z_);
     const double at = height * std::tan(middle) - off;  // where it meets the plane, from the centre
     const double halfChord = std::sqrt(std::max(0.0, r * r - at * at));
-    a_ = halfChord * std::cos(middle) / height, b_ = std::tan(0.5 * (farAngle - nearAngle));
+    a_ = halfChord * std::cos(middle) / height;
+    b_ = std::tan(0.5 * (farAngle - nearAngle));
     if (!(a_ > 0 && b_ > 0)) return;
     for (size_t i = 0; i <= kSteps; ++i) width_[i] = versineAt(static_cast<double>(i) * kStep);
     for (size_t i = 0; i < kSteps; ++i) total_ += weight(i);

@@ -103,8 +103,12 @@ EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups)
 }
 
 void put(const EmitterPoints& out, int i, const vec3& P, const vec3& N, double density, double meetDensity) {
-  out.P.x[i] = P.x, out.P.y[i] = P.y, out.P.z[i] = P.z;
-  out.N.x[i] = N.x, out.N.y[i] = N.y, out.N.z[i] = N.z;
+  out.P.x[i] = P.x;
+  out.P.y[i] = P.y;
+  out.P.z[i] = P.z;
+  out.N.x[i] = N.x;
+  out.N.y[i] = N.y;
+  out.N.z[i] = N.z;
   out.density[i] = static_cast<float>(density);
   if (out.meetDensity) out.meetDensity[i] = static_cast<float>(meetDensity);
 }
@@ -250,8 +254,12 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     }
     area[i] = static_cast<float>(p.area * l.areas.total() / l.areas.weight(pick));
     if (group) group[i] = p.group;
-    P.x[i] = p.P.x, P.y[i] = p.P.y, P.z[i] = p.P.z;
-    N.x[i] = p.N.x, N.y[i] = p.N.y, N.z[i] = p.N.z;
+    P.x[i] = p.P.x;
+    P.y[i] = p.P.y;
+    P.z[i] = p.P.z;
+    N.x[i] = p.N.x;
+    N.y[i] = p.N.y;
+    N.z[i] = p.N.z;
   }
   return true;
 }

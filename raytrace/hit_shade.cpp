@@ -153,9 +153,11 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
                          const ShadeContext& context, HitAnswers& answers) const {
   const Scene& scene = impl_->scene;
   ShadeContext hitContext = context;
-  hitContext.answers = nullptr, hitContext.variables = false;  // these belong to the points that the rays leave
+  hitContext.answers = nullptr;
+  hitContext.variables = false;  // these belong to the points that the rays leave
   hitContext.told = answers.outputs.empty() ? nullptr : &answers.outputs;
-  answers.color.assign(hits.size(), vec3(0)), answers.opacity.assign(hits.size(), vec3(0));
+  answers.color.assign(hits.size(), vec3(0));
+  answers.opacity.assign(hits.size(), vec3(0));
   std::vector<int> groupOf;
   const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
   const bool diffuse = context.kind == RayKind::Diffuse;
@@ -206,16 +208,18 @@ void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>
         if (hits[i].object < 0 || (dot(rays[i].direction, left[i].geometricNormal) < 0) != inside) continue;
         const vec3 I = std::max(hits[i].t, 0.0f) * rays[i].direction;
         addPoint(*impl_, came[i], left[i], names[i], ends);
-        ends.set3(kPx, ends.count() - 1, rays[i].origin + I), ends.set3(kIx, ends.count() - 1, I);
+        ends.set3(kPx, ends.count() - 1, rays[i].origin + I);
+        ends.set3(kIx, ends.count() - 1, I);
         which.push_back(i);
       }
       colors.resize(ends.count());
       for (size_t k = 0; k < which.size(); ++k)
         colors.set(static_cast<int>(k), answers.color[which[k]], answers.opacity[which[k]]);
       if (which.empty() || !shading.crossVolume(ends, inside, crossing, colors)) continue;
-      for (size_t k = 0; k < which.size(); ++k)
-        answers.color[which[k]] = colors.color(static_cast<int>(k)),
+      for (size_t k = 0; k < which.size(); ++k) {
+        answers.color[which[k]] = colors.color(static_cast<int>(k));
         answers.opacity[which[k]] = colors.opacity(static_cast<int>(k));
+      }
     }
   }
 }

@@ -16,7 +16,8 @@ bool meets(const Ray& ray, const Bound3& box) {
       continue;
     }
     const float a = (box.lo[axis] - o) / d, b = (box.hi[axis] - o) / d;
-    from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
   }
   return from <= to;
 }

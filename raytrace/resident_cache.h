@@ -53,7 +53,10 @@ class ResidentCache {
   struct alignas(64) Slot {
     std::shared_ptr<const T> take(int64_t now) {
       const Hold hold(busy);
-      if (content) lastUse = now, ++lookups;
+      if (content) {
+        lastUse = now;
+        ++lookups;
+      }
       return content;
     }
     void put(std::shared_ptr<const T> made, int64_t now) {

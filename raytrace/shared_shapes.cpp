@@ -80,7 +80,8 @@ SharedShapes shareShapes(const Scene& scene, const Camera& camera, const Shading
     const mat4 cameraFromLargest = object(largest).cameraFromObject.keys.front();
     toObjectSpace(cameraFromLargest, object(largest).attributes->insideOut, mesh);
     const float shrink = growth(mat3(glm::inverse(cameraFromLargest)));
-    mesh.deviation *= shrink, mesh.size *= shrink;
+    mesh.deviation *= shrink;
+    mesh.size *= shrink;
     for (const int i : *objects) {
       const mat4& m = object(i).cameraFromObject.keys.front();
       out.instances.push_back({i, static_cast<uint32_t>(object(i).group), static_cast<uint32_t>(out.masters.size() - 1),

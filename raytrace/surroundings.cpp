@@ -6,7 +6,9 @@ namespace tomales {
 
 void Surroundings::reset(const vec3& origin, float reach) {
   polygons_.clear();
-  origin_ = origin, reach_ = reach, known_ = true;
+  origin_ = origin;
+  reach_ = reach;
+  known_ = true;
 }
 
 namespace {
@@ -29,7 +31,11 @@ void Surroundings::add(uint32_t group, uint32_t quad, bool flips, const std::arr
   if (polygons_.size() == kMost) return giveUp();
   Near p{group, quad, instance, flips, instance < 0 ? normals : trianglesOf(ofMaster), heights, {}, {}, {}};
   const vec3 planes[] = {cross(a, b), cross(b, d), cross(d, a), cross(b, c), cross(c, d)};
-  for (size_t k = 0; k < std::size(planes); ++k) p.x[k] = planes[k].x, p.y[k] = planes[k].y, p.z[k] = planes[k].z;
+  for (size_t k = 0; k < std::size(planes); ++k) {
+    p.x[k] = planes[k].x;
+    p.y[k] = planes[k].y;
+    p.z[k] = planes[k].z;
+  }
   polygons_.push_back(p);
 }
 
@@ -43,8 +49,12 @@ void Surroundings::meet(const vec3& direction, float window, HitList& list) cons
       if (!((x >= 0 && u >= 0 && v >= 0) || (x <= 0 && u <= 0 && v <= 0))) return;
       const float whole = x + u + v;
       if (!(std::abs(p.heights[k]) <= window * std::abs(whole)) || whole == 0) return;
-      u /= whole, v /= whole;
-      if (k == 1) u = 1 - u, v = 1 - v;
+      u /= whole;
+      v /= whole;
+      if (k == 1) {
+        u = 1 - u;
+        v = 1 - v;
+      }
       list.push_back(
           {p.heights[k] / whole, p.group, p.quad, u, v, (whole > 0) != p.flips, p.instance, p.normals[k], -1});
     };

@@ -126,9 +126,12 @@ void fit(CoarseGroup& g) {
     v = std::move(out);
   };
   if (g.P.empty()) return;
-  exactly(g.P, 1), exactly(g.N, 0);
+  exactly(g.P, 1);
+  exactly(g.N, 0);
   for (std::vector<vec3>& later : g.laterP) exactly(later, 1);
-  g.quads.shrink_to_fit(), g.latticeOfQuad.shrink_to_fit(), g.lattices.shrink_to_fit();
+  g.quads.shrink_to_fit();
+  g.latticeOfQuad.shrink_to_fit();
+  g.lattices.shrink_to_fit();
 }
 
 /// A run of patches of one object, which one thread tessellates at a time.
@@ -194,8 +197,10 @@ std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera,
         if (wanted(work[w].object, p)) tessellator.addPatch(work[w].object, p, pieces[w]);
   });
   if (which == Patches::WithLevels)
-    for (CoarseGroup& piece : pieces)
-      piece.onlyCoarse = piece.quads.size(), piece.coarseDeviation = std::exchange(piece.deviation, 0.0f);
+    for (CoarseGroup& piece : pieces) {
+      piece.onlyCoarse = piece.quads.size();
+      piece.coarseDeviation = std::exchange(piece.deviation, 0.0f);
+    }
   return pieces;
 }
 

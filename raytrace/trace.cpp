@@ -138,9 +138,12 @@ void RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon, Hit& out
   }
   // Copying a structure that has just been written in smaller pieces would stall, so each member is assigned in place.
   out.t = polygon.t;
-  out.object = instance ? instance->object : l.object, out.patch = l.patch;
-  out.u = uv.x, out.v = uv.y;
-  out.normal = normalizeOr(normal, geometric), out.geometricNormal = geometric;
+  out.object = instance ? instance->object : l.object;
+  out.patch = l.patch;
+  out.u = uv.x;
+  out.v = uv.y;
+  out.normal = normalizeOr(normal, geometric);
+  out.geometricNormal = geometric;
   out.atOpen = atOpen;
 }
 
@@ -178,7 +181,10 @@ RayScene::RayScene(const Scene& scene, const Camera& camera, const ShadingSystem
     : impl_(std::make_unique<Impl>(scene, camera, shading, settings, log)) {
   size_t polygons = 0, bytes = impl_->embree.bytes() + impl_->solids.bytes();
   for (const auto* meshes : {&impl_->groups, &impl_->shapes.masters})
-    for (const CoarseGroup& g : *meshes) polygons += g.quads.size(), bytes += g.bytes();
+    for (const CoarseGroup& g : *meshes) {
+      polygons += g.quads.size();
+      bytes += g.bytes();
+    }
   stats.raytrace.coarsePolygons += static_cast<int64_t>(polygons);
   stats.raytrace.bytes += static_cast<int64_t>(bytes);
   stats.geometryCache.finePolygons += impl_->chunks.finePolygons();
@@ -188,7 +194,8 @@ RayScene::~RayScene() = default;
 
 void RayScene::report(Stats& stats) const {
   const ResidentFigures figures = impl_->embree.chunkFigures();
-  stats.geometryCache.lookups += figures.lookups, stats.geometryCache.misses += figures.misses;
+  stats.geometryCache.lookups += figures.lookups;
+  stats.geometryCache.misses += figures.misses;
   stats.geometryCache.bytes = std::max(stats.geometryCache.bytes.load(), figures.mostBytes);
 }
 
@@ -236,7 +243,8 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
 void RayScene::noteStarts(int group, int64_t rays, int64_t crowded) const {
   const std::lock_guard lock(impl_->startsMutex);
   Starts& sum = impl_->starts[group];
-  sum.rays += rays, sum.crowded += crowded;
+  sum.rays += rays;
+  sum.crowded += crowded;
 }
 
 std::map<int, RayScene::Starts> RayScene::starts() const {

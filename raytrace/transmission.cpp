@@ -74,8 +74,10 @@ std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std
     if (clear[r] == vec3(0)) continue;
     for (const PolygonHit& hit : layers.hits) {
       if (impl_->knowsOpacity(hit.group)) continue;
-      asked.rayOf.push_back(r), asked.rays.push_back(rays[r]);
-      impl_->resolve(rays[r], hit, asked.hits.emplace_back()), asked.names.push_back(names[r]);
+      asked.rayOf.push_back(r);
+      asked.rays.push_back(rays[r]);
+      impl_->resolve(rays[r], hit, asked.hits.emplace_back());
+      asked.names.push_back(names[r]);
     }
   }
   if (asked.hits.empty()) return clear;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kVisible_px = 1;
 /// Polygons of 16 pixels cut the tops off bumps that are as wide (docs/measured/truth.md).
-constexpr float kFiner = 4;
+constexpr int kFiner = 4;
 /// All polygons of chosen objects are no more than the pixels of the picture, or than this.
 constexpr double kAlwaysQuads = 1 << 17;
 /// A displacement is measured at about so many points of a group.
@@ -87,9 +87,11 @@ Probe probed(const Scene& scene, const Camera& camera, const ShadingSystem& shad
     float u = 0, v = 0;
     for (int k = 0; k < cells; ++k) {
       const auto vertex = [&](int i, int j) { return before[static_cast<size_t>(j * (cells + 1) + i)]; };
-      u += inPixels(vertex(k, line), vertex(k + 1, line)), v += inPixels(vertex(line, k), vertex(line, k + 1));
+      u += inPixels(vertex(k, line), vertex(k + 1, line));
+      v += inPixels(vertex(line, k), vertex(line, k + 1));
     }
-    out.u_px = std::max(out.u_px, u), out.v_px = std::max(out.v_px, v);
+    out.u_px = std::max(out.u_px, u);
+    out.v_px = std::max(out.v_px, v);
   }
   shading.displace(grid);
   for (int i = 0; i < grid.vertexCount(); ++i)
@@ -156,8 +158,8 @@ class Chooser {
 
   bool choose(size_t g) {
     const std::shared_ptr<const Attributes> given = scene_.groups[g].attributes;
-    for (float finer = kFiner; finer >= 1; finer /= 2) {
-      dress(g, changed(given, finer));
+    for (int finer = kFiner; finer >= 1; finer /= 2) {
+      dress(g, changed(given, static_cast<float>(finer)));
       const double quads = countQuads(g);
       if (quads > quadsLeft_ || !isFine(reliefs_[g])) continue;
       quadsLeft_ -= quads;

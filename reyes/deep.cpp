@@ -13,7 +13,9 @@ size_t DeepTile::bytes() const {
 
 void DeepTile::shrink() {
   for (ShadePoints& b : batches) b.shrink();
-  facets.shrink_to_fit(), fragments.shrink_to_fit(), pixels.shrink_to_fit();
+  facets.shrink_to_fit();
+  fragments.shrink_to_fit();
+  pixels.shrink_to_fit();
 }
 
 void DeepTile::forgetPoints() {

@@ -34,7 +34,8 @@ struct Fragment {
   /// Keeps a position on the facet, 0..1 each way, as the 256th part of its side that it is in.
   void setPosition(const vec2& position) {
     const ivec2 part = glm::min(ivec2(256.0f * position), ivec2(255));
-    u = static_cast<uint8_t>(part.x), v = static_cast<uint8_t>(part.y);
+    u = static_cast<uint8_t>(part.x);
+    v = static_cast<uint8_t>(part.y);
   }
   /// The weights of a facet's four points in the middle of that part. They are exact in floats and sum to 1 exactly, so
   /// that what is opaque at all corners is opaque between them.

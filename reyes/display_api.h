@@ -80,7 +80,10 @@ static inline const TmDisplayParam* tmDisplayParam(const TmDisplayPicture* pictu
   int32_t i;
   for (i = 0; i < picture->paramCount; ++i) {
     const char *a = picture->params[i].name, *b = name;
-    while (*a && *a == *b) ++a, ++b;
+    while (*a && *a == *b) {
+      ++a;
+      ++b;
+    }
     if (*a != *b) continue;
     picture->params[i].wasRead = 1;
     return &picture->params[i];

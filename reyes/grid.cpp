@@ -7,7 +7,9 @@
 namespace tomales {
 
 void Grid::allocate(int cellsU, int cellsV, int keys, int primvarFloats, Pool* pool) {
-  nu = cellsU, nv = cellsV, keyCount = keys;
+  nu = cellsU;
+  nv = cellsV;
+  keyCount = keys;
   block_ = PooledVector<float>(static_cast<size_t>(stride()) * static_cast<size_t>(keys * 3 + 5 + primvarFloats), 0.0f,
                                pool);
 }
@@ -42,7 +44,9 @@ TOMALES_HOT int fillNormals(const Differences& differences, int first, int end, 
 #pragma GCC ivdep
   for (int k = first; k < end; ++k) {
     const Normal n = normalAt(d, k);
-    nx[k] = n.nx, ny[k] = n.ny, nz[k] = n.nz;
+    nx[k] = n.nx;
+    ny[k] = n.ny;
+    nz[k] = n.nz;
     missing += n.length2 == 0;
   }
   return missing;
@@ -81,7 +85,9 @@ void calculateNormals(const Grid& g, bool flip, float* nx, float* ny, float* nz)
       n = normalAt(around(i, inward_j), inward_j * row + i);
       if (n.length2 == 0) n = normalAt(around(inward_i, inward_j), inward_j * row + inward_i);
     }
-    nx[k] = n.nx, ny[k] = n.ny, nz[k] = n.nz;
+    nx[k] = n.nx;
+    ny[k] = n.ny;
+    nz[k] = n.nz;
   }
 }
 

@@ -60,8 +60,10 @@ void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
     else
       channel.sampling.xWidth = channel.sampling.yWidth = 1;  // only the pixel's own samples count
   }
-  if (channel.kind == ChannelKind::Variable && width)
-    channel.sampling.xWidth = (*width)[0], channel.sampling.yWidth = (*width)[1];
+  if (channel.kind == ChannelKind::Variable && width) {
+    channel.sampling.xWidth = (*width)[0];
+    channel.sampling.yWidth = (*width)[1];
+  }
   if ((filter || width) && channel.kind != ChannelKind::Variable && log)
     log->report(Severity::Warning, "channel-filter", asker.where,
                 fmt::format("{}: Ci and a are filtered by PixelFilter, z by the Hider's depthfilter; \"filter\" is "
@@ -148,7 +150,10 @@ class Planner {
     const Param* given = isDeclared ? findParam(declared->second.params, "source") : nullptr;
     const std::string source = given && !given->strings.empty() ? given->strings[0] : name;
     const SurfaceVariable* shown = surfaceVariable(source);
-    if (shown && shown->kind != ChannelKind::Variable) channel.kind = shown->kind, channel.type = shown->type;
+    if (shown && shown->kind != ChannelKind::Variable) {
+      channel.kind = shown->kind;
+      channel.type = shown->type;
+    }
     channel.composited = channel.type == ValueType::Color || channel.kind == ChannelKind::Alpha;
     channel.sampling = {Reduce::Filter, options_.filter, options_.xFilterWidth, options_.yFilterWidth};
     if (isDeclared) {

@@ -47,7 +47,8 @@ void ShadedPoints::resize(int count) {
   for (int k = 0; k < 3; ++k) {
     Ci[k].assign(static_cast<size_t>(padded(count)), 0.0f);
     Oi[k].assign(static_cast<size_t>(padded(count)), 0.0f);
-    airCi[k].clear(), airOi[k].clear();
+    airCi[k].clear();
+    airOi[k].clear();
   }
 }
 

@@ -95,7 +95,11 @@ class ShadePoints {
   SampleName name(int i) const { return names_[static_cast<size_t>(i)]; }
 
   vec3 get3(int c, int i) const { return {channel(c)[i], channel(c + 1)[i], channel(c + 2)[i]}; }
-  void set3(int c, int i, const vec3& v) { channel(c)[i] = v.x, channel(c + 1)[i] = v.y, channel(c + 2)[i] = v.z; }
+  void set3(int c, int i, const vec3& v) {
+    channel(c)[i] = v.x;
+    channel(c + 1)[i] = v.y;
+    channel(c + 2)[i] = v.z;
+  }
   TmConstVec3 vec(int c) const { return {channel(c), channel(c + 1), channel(c + 2)}; }
 
   vec3 position(int i) const { return get3(kPx, i); }
@@ -137,7 +141,10 @@ struct ShadedPoints {
     return {Ci[0][static_cast<size_t>(i)], Ci[1][static_cast<size_t>(i)], Ci[2][static_cast<size_t>(i)]};
   }
   void set(int i, const vec3& color, const vec3& opacity) {
-    for (int k = 0; k < 3; ++k) Ci[k][static_cast<size_t>(i)] = color[k], Oi[k][static_cast<size_t>(i)] = opacity[k];
+    for (int k = 0; k < 3; ++k) {
+      Ci[k][static_cast<size_t>(i)] = color[k];
+      Oi[k][static_cast<size_t>(i)] = opacity[k];
+    }
   }
   vec3 opacity(int i) const {
     return {Oi[0][static_cast<size_t>(i)], Oi[1][static_cast<size_t>(i)], Oi[2][static_cast<size_t>(i)]};

@@ -35,7 +35,10 @@ struct IndirectAnswer {
 /// The answer as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
 inline IndirectAnswer withGains(IndirectAnswer answer, std::span<const vec3> gains) {
   answer.E = vec3(0.0f);
-  for (size_t g = 0; g < gains.size(); ++g) answer.shares[g] *= gains[g], answer.E += answer.shares[g];
+  for (size_t g = 0; g < gains.size(); ++g) {
+    answer.shares[g] *= gains[g];
+    answer.E += answer.shares[g];
+  }
   return answer;
 }
 

@@ -34,7 +34,10 @@ class GroupHash {
   uint64_t value() const { return value_; }
 
  private:
-  void add(uint64_t x) { value_ = (value_ ^ x) * 0x9e3779b97f4a7c15U, value_ ^= value_ >> 32; }
+  void add(uint64_t x) {
+    value_ = (value_ ^ x) * 0x9e3779b97f4a7c15U;
+    value_ ^= value_ >> 32;
+  }
   void add(float x) { add(uint64_t{__builtin_bit_cast(uint32_t, x + 0.0f)}); }  // -0 equals 0
   void add(const mat4& m) {
     for (int column = 0; column < 4; ++column)
@@ -174,8 +177,14 @@ void Scene::freeze() {
 Expansion Scene::opened(const Procedural& procedural) const {
   Expansion out = procedural.open();
   uint32_t number = 0;
-  for (Object& o : out.objects) derive(o), o.name = hashCombine(procedural.name, number++);
-  for (Procedural& p : out.procedurals) derive(p), p.name = hashCombine(procedural.name, number++);
+  for (Object& o : out.objects) {
+    derive(o);
+    o.name = hashCombine(procedural.name, number++);
+  }
+  for (Procedural& p : out.procedurals) {
+    derive(p);
+    p.name = hashCombine(procedural.name, number++);
+  }
   return out;
 }
 
@@ -192,7 +201,10 @@ std::vector<int> Scene::add(Expansion& expansion) {
 
 int Scene::add(Object object) {
   int index = static_cast<int>(objects.size());
-  if (!dropped_.empty()) index = dropped_.back(), dropped_.pop_back();
+  if (!dropped_.empty()) {
+    index = dropped_.back();
+    dropped_.pop_back();
+  }
   findGroup(object, index);
   if (index == static_cast<int>(objects.size()))
     objects.push_back(std::move(object));
@@ -204,7 +216,9 @@ int Scene::add(Object object) {
 void Scene::drop(int object) {
   Object& o = objects[static_cast<size_t>(object)];
   Object rest;  // loops over all objects still find its attributes, and no shape
-  rest.attributes = o.attributes, rest.where = o.where, rest.group = o.group;
+  rest.attributes = o.attributes;
+  rest.where = o.where;
+  rest.group = o.group;
   o = std::move(rest);
   dropped_.push_back(object);
 }

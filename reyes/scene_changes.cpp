@@ -13,7 +13,8 @@ class ChangedAttributes {
     if (!copy) {
       auto fresh = std::make_shared<Attributes>(*attributes);
       change_(*fresh);
-      original = attributes, copy = std::move(fresh);
+      original = attributes;
+      copy = std::move(fresh);
     }
     attributes = copy;
   }
@@ -51,14 +52,18 @@ bool leavesDisplacementOpen(const Attributes& a) {
 
 std::shared_ptr<const Attributes> withDisplacementForRays(const Attributes& a, float finer) {
   auto out = std::make_shared<Attributes>(a);
-  out->trace.displacements = true, out->trace.tessellation *= finer, out->trace.chosenFiner = finer;
+  out->trace.displacements = true;
+  out->trace.tessellation *= finer;
+  out->trace.chosenFiner = finer;
   return out;
 }
 
 std::shared_ptr<const Attributes> asTheSceneSays(const std::shared_ptr<const Attributes>& a) {
   if (a->trace.chosenFiner == 0) return a;
   auto out = std::make_shared<Attributes>(*a);
-  out->trace.displacements = false, out->trace.tessellation /= out->trace.chosenFiner, out->trace.chosenFiner = 0;
+  out->trace.displacements = false;
+  out->trace.tessellation /= out->trace.chosenFiner;
+  out->trace.chosenFiner = 0;
   return out;
 }
 

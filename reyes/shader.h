@@ -20,7 +20,11 @@ namespace rsl {
 inline TmConstVec3 view(TmVec3 v) { return {v.x, v.y, v.z}; }
 inline Vec3 get(TmConstVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }
 inline Vec3 get(TmVec3 a, int i) { return get(view(a), i); }
-inline void set(TmVec3 a, int i, Vec3 v) { a.x[i] = v.x, a.y[i] = v.y, a.z[i] = v.z; }
+inline void set(TmVec3 a, int i, Vec3 v) {
+  a.x[i] = v.x;
+  a.y[i] = v.y;
+  a.z[i] = v.z;
+}
 
 /// Scratch for one value a point: zero at first, aligned and padded as shader_api.h asks.
 class Array {
@@ -64,7 +68,10 @@ class Batch {
     int i;
     int operator*() const { return i; }
     bool operator!=(const Iterator& other) const { return i != other.i; }
-    Iterator& operator++() { return ++i, skip(); }
+    Iterator& operator++() {
+      ++i;
+      return skip();
+    }
     Iterator& skip() {
       while (i < g->count && !g->active[i]) ++i;
       return *this;

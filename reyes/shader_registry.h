@@ -42,7 +42,7 @@ class ShaderRegistry {
   /// Opens a .so and adds it. Returns false, with a message, if it is not a shader plugin of this ABI.
   bool loadPlugin(const std::string& path);
   /// Adds the shaders of a compiled .sl file, which then come before others of their names.
-  bool addText(std::shared_ptr<const RslFile> file, const std::string& path);
+  bool addText(const std::shared_ptr<const RslFile>& file, const std::string& path);
   /// By name and kind. Shaders that have been loaded come first, and built-in ones whose look RISpec fixes (but with
   /// standardFromFiles); then NAME.so in the trusted folders; then NAME.sl along `searchPath` (the scene's;
   /// folders separated by colons, empty: the working folder), in the trusted folders and in `beside`, the folder of the

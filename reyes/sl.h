@@ -66,7 +66,7 @@ struct Lit : Globals {
   template <class Angle, class Body>
   void illuminance(const char* category, const Point& p, const Vector& axis, const Angle& angle, const LightList& list,
                    const Body& body) {
-    const Vector around = axis;
+    const Vector around = axis;  // NOLINT(performance-unnecessary-copy-initialization): the body may change the axis
     TmIlluminance query = question(category);
     query.axis = around;
     if constexpr (std::is_arithmetic_v<Angle>) {
@@ -115,13 +115,17 @@ struct Lit : Globals {
   }
   template <class Body>
   void forEachSample(TmIlluminance query, const Point& p, const LightList& list, const Body& body) {
-    const Point where = p;  // a copy, since the body may change p
+    const Point where = p;  // NOLINT(performance-unnecessary-copy-initialization): the body may change p
     const std::vector<TmMessage> sent = list.messages();
     query.P = where;
-    query.sent = sent.data(), query.sentCount = int32_t(sent.size()), query.refresh = list.refresh;
+    query.sent = sent.data();
+    query.sentCount = int32_t(sent.size());
+    query.refresh = list.refresh;
     while (grid()->call->illuminance(grid()->host, grid(), &query))
       sl::where(query.lit, true, [&] {
-        L = Vector(query.L), Cl = Color(query.Cl), lightNumber = query.light;
+        L = Vector(query.L);
+        Cl = Color(query.Cl);
+        lightNumber = query.light;
         for (const LightList::Wanted& w : list.wanted) lightsource(lightNumber, w.name.c_str(), w.into.fills);
         body();
       });
@@ -135,22 +139,34 @@ LightList lights(const List&... list) {
 
 struct Surface : Lit {
   Color Ci, Oi;
-  void store() const { Globals::store(Ci, grid()->Ci), Globals::store(Oi, grid()->Oi); }
+  void store() const {
+    Globals::store(Ci, grid()->Ci);
+    Globals::store(Oi, grid()->Oi);
+  }
 };
 
 struct Volume : Lit {
   Color Ci{rsl::view(grid()->Ci)}, Oi{rsl::view(grid()->Oi)};
-  void store() const { Globals::store(Ci, grid()->Ci), Globals::store(Oi, grid()->Oi); }
+  void store() const {
+    Globals::store(Ci, grid()->Ci);
+    Globals::store(Oi, grid()->Oi);
+  }
 };
 
 struct Displacement : Globals {
-  void store() const { Globals::store(P, grid()->P), Globals::store(N, grid()->N); }
+  void store() const {
+    Globals::store(P, grid()->P);
+    Globals::store(N, grid()->N);
+  }
 };
 
 /// P and N are those of the point being lit, or for area lights those of the point on the light.
 struct Light : Globals {
   Light() {
-    if (ofArea()) P = Point(grid()->Pl), N = Normal(grid()->Nl);
+    if (ofArea()) {
+      P = Point(grid()->Pl);
+      N = Normal(grid()->Nl);
+    }
   }
   Point Ps{rsl::view(grid()->P)};
   Vector L{-Vector(rsl::view(grid()->L))};  ///< The vector from the light to Ps. It counts in illuminate() and solar();
@@ -211,7 +227,8 @@ struct Imager : Globals {
   Color Ci{rsl::view(grid()->Ci)}, Oi{rsl::view(grid()->Oi)};
   Float alpha{grid()->alpha};
   void store() const {
-    Globals::store(Ci, grid()->Ci), Globals::store(Oi, grid()->Oi);
+    Globals::store(Ci, grid()->Ci);
+    Globals::store(Oi, grid()->Oi);
     forActive([&](int i) { grid()->alpha[i] = alpha[i]; });
   }
 };

@@ -40,7 +40,8 @@ struct Material {
     const Color tint = bright > 0 ? base / bright : Color{1, 1, 1}, white{1, 1, 1};
     specular0 = rsl::mix(0.08f * in.specular * rsl::mix(white, tint, in.speculartint), base, metal);
     sheen = in.sheen * rsl::mix(white, tint, in.sheentint);
-    coat = 0.25f * in.clearcoat, coatAlpha = rsl::mix(0.1f, 0.001f, in.clearcoatgloss);
+    coat = 0.25f * in.clearcoat;
+    coatAlpha = rsl::mix(0.1f, 0.001f, in.clearcoatgloss);
     matte = 1 - metal;
   }
   /// diffuse() and glossy() are BRDFs times pi, for light that is E/pi. diffuse() includes the sheen.

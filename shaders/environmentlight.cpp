@@ -30,7 +30,10 @@ void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   rsl::Vec3Array sky(g);
   rsl::Array width(g);
-  for (int i : b) sky.set(i, {1, 1, 1}), width[i] = kCell;
+  for (int i : b) {
+    sky.set(i, {1, 1, 1});
+    width[i] = kCell;
+  }
   TmTextureOptions options = tmTextureDefaults();
   options.angle = width.data();
   if (*map(g) != '\0') b.environment(map(g), directions(g), sky, options);

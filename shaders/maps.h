@@ -91,7 +91,8 @@ class ColorPicture {
     picture_.emplace(b.g);
     TmTextureOptions options = tmTextureDefaults();
     if (!b.g->call->texture(b.g->host, b.g, map, &options, at.s, at.t, *picture_) || !isSrgb) return;
-    options.channel = 3, options.fill = 1;
+    options.channel = 3;
+    options.fill = 1;
     rsl::Array alpha(b.g);
     b.g->call->texture(b.g->host, b.g, map, &options, at.s, at.t, {alpha.data(), nullptr, nullptr});
     for (int i : b) picture_->set(i, linearOfSrgb((*picture_)[i] / std::max(alpha[i], 1e-3f)));
@@ -116,7 +117,10 @@ struct NormalMap {
     const auto derive = [&](const float* value, int direction, rsl::Array& out) {
       b.g->call->derivative(b.g->host, b.g, direction, value, out.data());
     };
-    derive(at.s, 0, su), derive(at.s, 1, sv), derive(at.t, 0, tu), derive(at.t, 1, tv);
+    derive(at.s, 0, su);
+    derive(at.s, 1, sv);
+    derive(at.t, 0, tu);
+    derive(at.t, 1, tv);
     for (int i : b) {
       const rsl::Vec3 outward = rsl::normalize(b.N(i)), dPdu = rsl::get(b.g->dPdu, i), dPdv = rsl::get(b.g->dPdv, i);
       // P and (s, t) are functions of (u, v): dP/ds and dP/dt by the inverse of d(s, t)/d(u, v), but for its size.

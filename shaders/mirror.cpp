@@ -11,7 +11,8 @@ void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   rsl::Vec3Array R(g);
   TmRayOptions rays = tmRayDefaults();
-  rays.coneAngle = blur(g), rays.samples = static_cast<int32_t>(samples(g));
+  rays.coneAngle = blur(g);
+  rays.samples = static_cast<int32_t>(samples(g));
   for (int i : b) R.set(i, rsl::reflect(rsl::normalize(b.I(i)), b.facingNormal(i)));
   const rsl::Vec3Array mirrored = b.trace(R, rays);
   for (int i : b) b.output(i, Kr(g, i) * specularcolor(g, i) * mirrored[i], b.Os(i));

@@ -27,14 +27,16 @@ void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   rsl::Vec3Array p = b.positionsIn(space(g));
   rsl::Array amount(g), counts(g), sum(g), weights(g);
-  float most = 0;
+  int most = 0;
   for (int i : b) {
     p.set(i, p[i] * frequency(g, i));
     counts[i] = std::trunc(rsl::clamp(octaves(g, i), 0, 16));
-    most = std::max(most, counts[i]);
+    most = std::max(most, static_cast<int>(counts[i]));
   }
-  for (float k = 0; k < most; ++k)
+  for (int octave = 0; octave < most; ++octave) {
+    const auto k = static_cast<float>(octave);
     addOctave({std::exp2(k), std::exp2(-k), k}, g->count, p, counts.data(), sum.data(), weights.data());
+  }
   for (int i : b) amount[i] = weights[i] > 0 ? Km(g, i) * (sum[i] / weights[i]) : 0.0f;
   moves(g) != 0 ? b.displace(amount) : b.bump(amount);
 }

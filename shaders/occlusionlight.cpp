@@ -16,10 +16,13 @@ rsl::StringParam subset("subset", "", "sets of objects that cover; none: all");
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   TmRayOptions rays = tmRayDefaults();
-  rays.samples = static_cast<int32_t>(samples(g)), rays.coneAngle = coneangle(g);
-  rays.maxDistance = maxdist(g), rays.subset = subset(g);
+  rays.samples = static_cast<int32_t>(samples(g));
+  rays.coneAngle = coneangle(g);
+  rays.maxDistance = maxdist(g);
+  rays.subset = subset(g);
   TmOcclusion options = tmOcclusionDefaults();
-  options.falloff = falloff(g), options.maxVariation = maxvariation(g);
+  options.falloff = falloff(g);
+  options.maxVariation = maxvariation(g);
   const rsl::Array covered = b.occlusion(b.facingNormals(), rays, options);
   for (int i : b) rsl::set(g->Cl, i, intensity(g, i) * (1 - covered[i]) * lightcolor(g, i));
 }

@@ -24,7 +24,8 @@ class Reflections {
         points_(static_cast<size_t>(b.g->count)),
         L_(b.g),
         options_(tmRayDefaults()) {
-    options_.drawn = directions, options_.passLamps = 1;  // samples of the lights bring lamps and sky
+    options_.drawn = directions;
+    options_.passLamps = 1;  // samples of the lights bring lamps and sky
   }
 
   /// Adds a direction of point i, of unit length, drawn by xi0 and xi1 in [0,1). `weight` multiplies what is seen

@@ -16,7 +16,9 @@ struct ShadowParams {
     const TmGrid* g = b.g;
     if (*map == '\0') return;
     TmShadowOptions options = tmShadowDefaults();
-    options.bias = shadowbias(g), options.blur = blur(g), options.width = width(g);
+    options.bias = shadowbias(g);
+    options.blur = blur(g);
+    options.width = width(g);
     options.samples = static_cast<int32_t>(samples(g));
     rsl::Vec3Array shadow(g);
     g->call->shadow(g->host, g, map, &options, rsl::view(g->P), shadow);

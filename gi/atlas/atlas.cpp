@@ -140,7 +140,8 @@ std::set<std::string> MapNames::all() const {
 
 MapNames MapNames::ofSurfaces() const {
   MapNames out = *this;
-  out.caustic.assign(caustic.size(), ""), out.volume.clear();
+  out.caustic.assign(caustic.size(), "");
+  out.volume.clear();
   return out;
 }
 
@@ -187,7 +188,8 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
                              settings.photons.direct ? "" : " but straight from lights"));
   }
   set.finish();
-  stats.photons.emitted += figures.emitted, stats.photons.stored += figures.stored;
+  stats.photons.emitted += figures.emitted;
+  stats.photons.stored += figures.stored;
   stats.photons.groups += static_cast<int64_t>(files.size());
   return figures;
 }

@@ -35,7 +35,10 @@ void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vecto
         continue;
       const double mean = static_cast<double>(weight(m.estimates)) / static_cast<double>(m.estimates.made);
       count += mean > most;
-      if (mean > most && mean > worstMean) worst = &m, worstMean = mean;
+      if (mean > most && mean > worstMean) {
+        worst = &m;
+        worstMean = mean;
+      }
     }
     const Object* o = worst ? objectOf(scene, names, worst->map) : nullptr;
     if (o)

@@ -37,7 +37,8 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
   for (const std::string& name : names.ofReflectors()) byName[name] = open(atlasFile(folder, name, ".bkm"));
   for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
   for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
-  surfaceOfGroup_ = names.surface, world_ = names.world;
+  surfaceOfGroup_ = names.surface;
+  world_ = names.world;
 }
 
 const BrickMap* IrradianceAtlas::open(const fs::path& file) {
@@ -80,11 +81,14 @@ std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, con
 
 void IrradianceAtlas::report(Stats& stats) const {
   int64_t total = 0, onDisk = 0;
-  for (const auto& map : maps_)
-    total += static_cast<int64_t>(map->file().tree().nodes.size()),
-        onDisk += static_cast<int64_t>(map->file().fileBytes());
-  stats.bricks.total += total, stats.bricks.bytesOnDisk += onDisk;
-  stats.bricks.lookups += cache_.lookups(), stats.bricks.misses += cache_.misses();
+  for (const auto& map : maps_) {
+    total += static_cast<int64_t>(map->file().tree().nodes.size());
+    onDisk += static_cast<int64_t>(map->file().fileBytes());
+  }
+  stats.bricks.total += total;
+  stats.bricks.bytesOnDisk += onDisk;
+  stats.bricks.lookups += cache_.lookups();
+  stats.bricks.misses += cache_.misses();
   stats.bricks.cacheBytes += static_cast<int64_t>(cache_.bytes());
 }
 

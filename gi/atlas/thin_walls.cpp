@@ -158,7 +158,10 @@ void warnOfThinWalls(const fs::path& folder, const Scene& scene, const RayScene&
     });
     tested += places.size();
     for (const int object : through)
-      if (object >= 0) ++leaking, ++walls[object];
+      if (object >= 0) {
+        ++leaking;
+        ++walls[object];
+      }
   }
   if (static_cast<double>(leaking) <= kMostArea * static_cast<double>(tested)) return;
   const auto worst =

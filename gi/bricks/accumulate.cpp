@@ -59,8 +59,14 @@ int32_t BrickAccumulator::findNearest(int voxel, const vec3& normal, uint8_t sur
       cosine = dot(mean, normal) / (glm::length(mean) * length);
     else if (!oriented && mean == vec3(0.0f))
       cosine = 1;
-    if (cosine > anyCosine) any = l, anyCosine = cosine;
-    if (cosine > ownCosine && layer.surface == surface) own = l, ownCosine = cosine;
+    if (cosine > anyCosine) {
+      any = l;
+      anyCosine = cosine;
+    }
+    if (cosine > ownCosine && layer.surface == surface) {
+      own = l;
+      ownCosine = cosine;
+    }
   }
   if (ownCosine >= kLayerCosine) return own;
   const bool alike = anyCosine >= kLayerCosine;
@@ -91,7 +97,8 @@ int32_t BrickAccumulator::addToOneOfMany(int voxel, const vec3& normal, float we
 float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
   constexpr int half = kBrickWidth / 2;
   const size_t firstNew = layers_.size();  // the octants of a brick share no voxel, so all layers that get data are new
-  least_.clear(), most_.clear();
+  least_.clear();
+  most_.clear();
   float spread = 0;
   for (int v = 0; v < kBrickVoxels; ++v) {
     if (child.head_[static_cast<size_t>(v)] < 0) continue;
@@ -105,12 +112,15 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
                  into = layer - firstNew;
       layers_[layer].incoherent |= sum.incoherent;
       if (layers_[layer].incoherent) spread = kInfinity;
-      if (least_.size() < (into + 1) * width_)
-        least_.resize((into + 1) * width_, kInfinity), most_.resize((into + 1) * width_, -kInfinity);
+      if (least_.size() < (into + 1) * width_) {
+        least_.resize((into + 1) * width_, kInfinity);
+        most_.resize((into + 1) * width_, -kInfinity);
+      }
       forEachChannel(width_, [&](size_t k) {
         const float mean = data[k] / sum.weight;
         float &lo = least_[into * width_ + k], &hi = most_[into * width_ + k];
-        lo = std::min(lo, mean), hi = std::max(hi, mean);
+        lo = std::min(lo, mean);
+        hi = std::max(hi, mean);
         spread = std::max(spread, hi - lo);
       });
     }
@@ -120,7 +130,9 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
 
 Brick BrickAccumulator::finish(float tolerance) const {
   Brick::Parts parts;
-  parts.voxels.resize(layers_.size()), parts.layers.resize(layers_.size()), parts.data.resize(layers_.size() * width_);
+  parts.voxels.resize(layers_.size());
+  parts.layers.resize(layers_.size());
+  parts.data.resize(layers_.size() * width_);
   size_t i = 0;
   for (size_t v = 0; v < kBrickVoxels; ++v)
     for (int32_t l = head_[v]; l >= 0; l = layers_[static_cast<size_t>(l)].next) {

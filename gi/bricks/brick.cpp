@@ -18,8 +18,12 @@ struct Steps {
     const bool finite = std::all_of(data.begin(), data.end(), [](float v) { return std::isfinite(v); });
     for (size_t k = 0; k < width; ++k) {
       float least = data[k], most = data[k];
-      for (size_t i = k; i < data.size(); i += width) least = std::min(least, data[i]), most = std::max(most, data[i]);
-      low[k] = least, step[k] = finite ? (most - least) / kMostSteps : kInfinity;
+      for (size_t i = k; i < data.size(); i += width) {
+        least = std::min(least, data[i]);
+        most = std::max(most, data[i]);
+      }
+      low[k] = least;
+      step[k] = finite ? (most - least) / kMostSteps : kInfinity;
     }
   }
   bool suffice(float tolerance) const {

@@ -56,7 +56,8 @@ bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, in
     while (sum.acrossWalls && level < static_cast<float>(tree().deepest) && sum.foundLevel == sum.level) {
       level = std::floor(level) + 1;
       std::fill_n(out, width(), 0.0f);
-      sum.weight = 0, sum.acrossWalls = false;
+      sum.weight = 0;
+      sum.acrossWalls = false;
       addBetween(level, P, N, radius, sum);
     }
     *acrossWalls = sum.acrossWalls;
@@ -86,7 +87,7 @@ struct VoxelOverlap {
   /// rounding.
   VoxelOverlap(float center, float half, int end) {
     const float lo = center - half, hi = center + half;
-    first = std::min(static_cast<int>(std::max(lo, 0.0f)), end - 1),
+    first = std::min(static_cast<int>(std::max(lo, 0.0f)), end - 1);
     last = std::min(static_cast<int>(std::max(hi, 0.0f)), end - 1);
     for (int i = first; i <= last; ++i)
       overlap[static_cast<size_t>(i - first)] =

@@ -29,7 +29,8 @@ struct Shares {
   /// `center` and `half` in voxels.
   Shares(float center, float half, float normal) {
     const float lo = center - half, hi = center + half;
-    first = voxelOf(lo), last = voxelOf(hi);
+    first = voxelOf(lo);
+    last = voxelOf(hi);
     const bool hasLength = half > 1e-5f;  // else it lies in one voxel as a whole
     for (size_t i = first; i <= last; ++i) {
       const auto at = static_cast<float>(i);
@@ -75,7 +76,8 @@ class Builder {
   /// Sets the points to work on, and returns the indices of all of them.
   Members use(const PointCloud& cloud) {
     cloud_ = &cloud;
-    spots_.clear(), spots_.reserve(cloud.count());
+    spots_.clear();
+    spots_.reserve(cloud.count());
     for (size_t i = 0; i < cloud.count(); ++i) {
       spots_.push_back(spot(i));
       out_.tree.surfaces.set(spots_.back().surface);

@@ -27,7 +27,11 @@ struct Cluster {
 
   explicit Cluster(std::span<BrightHit> members) : hits(members) {
     const float count = static_cast<float>(std::max<size_t>(hits.size(), 1));
-    for (const BrightHit& h : hits) bound.extend(h.position), mean += h.position / count, normal += h.normal / count;
+    for (const BrightHit& h : hits) {
+      bound.extend(h.position);
+      mean += h.position / count;
+      normal += h.normal / count;
+    }
     for (const BrightHit& h : hits) {
       variance += (h.position - mean) * (h.position - mean);
       turn += (h.normal - normal) * (h.normal - normal);
@@ -64,11 +68,13 @@ struct Cluster {
   BrightSpots::Spot rectangle(const vec3& n, float radiance) const {
     vec3 u(0), v;
     u[widest(bound.size())] = 1;
-    u = normalizeOr(u - dot(u, n) * n, {}), v = cross(n, u);
+    u = normalizeOr(u - dot(u, n) * n, {});
+    v = cross(n, u);
     vec2 low(kInfinity), high(-kInfinity);
     for (const BrightHit& h : hits) {
       const vec2 at(dot(h.position - mean, u), dot(h.position - mean, v));
-      low = glm::min(low, at), high = glm::max(high, at);
+      low = glm::min(low, at);
+      high = glm::max(high, at);
     }
     const vec2 middle = 0.5f * (low + high), found = 0.5f * margin() * (high - low),
                half = glm::max(found, kNarrowest * vec2(found.y, found.x));
@@ -86,7 +92,8 @@ struct Cluster {
 
 void BrightSpots::learn(const std::vector<BrightFind>& finds) {
   for (const BrightFind& find : finds) {
-    irradiance_ += find.irradiance, ++records_;
+    irradiance_ += find.irradiance;
+    ++records_;
     const size_t room = kMostHits - hits_.size();
     hits_.insert(hits_.end(), find.hits.begin(),
                  find.hits.begin() + static_cast<ptrdiff_t>(std::min(room, find.hits.size())));
@@ -133,12 +140,19 @@ SpotAim::SpotAim(const BrightSpots& spots, const vec3& position, const vec3& nor
 
 void SpotAim::settle() {
   irradiance_ = coverage_ = 0;
-  for (Target& t : targets_) irradiance_ += t.share, coverage_ += t.covered, t.upTo = irradiance_;
+  for (Target& t : targets_) {
+    irradiance_ += t.share;
+    coverage_ += t.covered;
+    t.upTo = irradiance_;
+  }
   for (Target& t : targets_) t.density = t.share / irradiance_ * t.densityOfPlace();
 }
 
 void SpotAim::dim(const std::vector<float>& shares) {
-  for (size_t t = 0; t < targets_.size(); ++t) targets_[t].share *= shares[t], targets_[t].covered *= shares[t];
+  for (size_t t = 0; t < targets_.size(); ++t) {
+    targets_[t].share *= shares[t];
+    targets_[t].covered *= shares[t];
+  }
   settle();
 }
 

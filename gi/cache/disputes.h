@@ -13,7 +13,10 @@ class Disputes {
   Disputes(bool on, bool splitSphere, float kappa)
       : on_(on), tolerance_((splitSphere ? 4 * kDisagreement : kDisagreement) / kappa), kappa_(kappa) {}
 
-  void add(float luminance) { luminanceSum_ += luminance, ++records_; }
+  void add(float luminance) {
+    luminanceSum_ += luminance;
+    ++records_;
+  }
 
   /// Compares two values for one place. noise: the standard error of their difference, or more.
   Disagreement of(const vec3& a, const vec3& b, float noise) const {

@@ -39,7 +39,8 @@ class MeanExtrapolation {
   /// Adds extrapolate() of the record with this weight, and returns it.
   vec3 add(const IrradianceRecord& r, float weight) {
     const vec3 E = glm::max(vec3(0.0f), r.E + addLight(r, r, weight));
-    E_ += weight * E, square_ += weight * E * E;
+    E_ += weight * E;
+    square_ += weight * E * E;
     return E;
   }
   /// The same for a share of the record's light. A channel counts where that of the whole does (`whole`, which is what
@@ -67,7 +68,10 @@ class MeanExtrapolation {
   template <class Light>
   vec3 addLight(const IrradianceRecord& r, const Light& light, float weight) {
     const vec3 turn = cross(r.normal, n_), step = x_ - r.position, change = changeBy(light, step, turn);
-    weight_ += weight, step_ += weight * step, turn_ += weight * turn, change_ += weight * change;
+    weight_ += weight;
+    step_ += weight * step;
+    turn_ += weight * turn;
+    change_ += weight * change;
     for (int c = 0; c < 3; ++c)
       translation_[c] += weight * light.translationGradient[c], rotation_[c] += weight * light.rotationGradient[c];
     return change;

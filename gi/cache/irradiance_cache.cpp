@@ -135,7 +135,10 @@ struct IrradianceCache::Impl {
               std::span<const LightShare> light, Vicinity& near, std::vector<Candidate>& found) const {
     Bound3 region;
     float pixelSize = 0;
-    for (const IrradiancePlace& p : places) region.extend(p.position), pixelSize = std::max(pixelSize, p.pixelSize);
+    for (const IrradiancePlace& p : places) {
+      region.extend(p.position);
+      pixelSize = std::max(pixelSize, p.pixelSize);
+    }
     const size_t half = places.size() / 2;
     if (places.size() > kRun || (half > 0 && !(glm::length(region.size()) <= kRunPixels * pixelSize))) {
       lookup(places.first(half), out, wider, light, near, found);

@@ -57,7 +57,8 @@ inline IrradianceRecord withGains(IrradianceRecord record, std::span<const vec3>
     sum.add(scaled, vec3(1.0f));
     most = std::max({most, gains[g].x, gains[g].y, gains[g].z});
   }
-  record.E = sum.E, record.noise *= most;  // which is an upper bound
+  record.E = sum.E;
+  record.noise *= most;  // which is an upper bound
   std::ranges::copy(sum.rotationGradient, record.rotationGradient);
   std::ranges::copy(sum.translationGradient, record.translationGradient);
   std::ranges::copy(sum.hessian, record.hessian);

@@ -80,7 +80,9 @@ PointCloud cloudOf(const fs::path& path, const TmPhotonOptions* photons) {
   if (!photons) return file.readAll();
   requirePhotons(file);
   PhotonIrradianceSettings settings;
-  settings.nearest = photons->estimator, settings.every = 1, settings.maxRadius = photons->maxDistance;
+  settings.nearest = photons->estimator;
+  settings.every = 1;
+  settings.maxRadius = photons->maxDistance;
   return estimateIrradiance(file.readAll(), settings);
 }
 
@@ -155,7 +157,8 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
 
 bool CloudFiles::photons(const CloudQuery& q, const TmPhotonOptions& given, TmVec3 E, std::string& problem) {
   TmPhotonOptions lookup = given;
-  lookup.estimator = std::max(1, lookup.estimator), lookup.maxDistance = std::max(0.0f, lookup.maxDistance);
+  lookup.estimator = std::max(1, lookup.estimator);
+  lookup.maxDistance = std::max(0.0f, lookup.maxDistance);
   const Opened<BrickMap>& file = opened(q.file, &lookup);
   problem = file.problem;
   const auto placeOf = [&](const char* channel) {
@@ -170,7 +173,9 @@ bool CloudFiles::photons(const CloudQuery& q, const TmPhotonOptions& given, TmVe
       if (!q.active[i]) continue;
       file.data->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data());
       const float* e = data.data() + place;
-      E.x[i] = e[0] / kPi, E.y[i] = e[1] / kPi, E.z[i] = e[2] / kPi;
+      E.x[i] = e[0] / kPi;
+      E.y[i] = e[1] / kPi;
+      E.z[i] = e[2] / kPi;
     }
   } catch (const FileError& e) {
     problem = e.what();
@@ -205,7 +210,11 @@ bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* 
     if (!q.active[i] || at(q.N, i) == vec3(0)) continue;
     const HemisphereView seen = file.data->seenFrom(at(q.P, i), at(q.N, i), query);
     covered[i] = seen.covered;
-    if (radiance.x) radiance.x[i] = seen.radiance.x, radiance.y[i] = seen.radiance.y, radiance.z[i] = seen.radiance.z;
+    if (radiance.x) {
+      radiance.x[i] = seen.radiance.x;
+      radiance.y[i] = seen.radiance.y;
+      radiance.z[i] = seen.radiance.z;
+    }
   }
   return true;
 }
@@ -221,7 +230,9 @@ bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurfaceOptions& give
   for (int i = 0; i < q.count; ++i) {
     if (!q.active[i]) continue;
     const vec3 light = file.data->at(at(q.P, i), dipole, given.unitLength, given.maxSolidAngle);
-    out.x[i] = light.x, out.y[i] = light.y, out.z[i] = light.z;
+    out.x[i] = light.x;
+    out.y[i] = light.y;
+    out.z[i] = light.z;
   }
   return true;
 }

@@ -31,7 +31,10 @@ uint32_t Diffusion::build(uint32_t begin, uint32_t end) {
     const Entry& e = entries_[i];
     const float weight = e.flux.x + e.flux.y + e.flux.z;  // so that the group's position is where its light comes from
     group.bound.extend(e.P);
-    group.all.flux += e.flux, group.all.area += e.area, group.all.P += weight * e.P, weights += weight;
+    group.all.flux += e.flux;
+    group.all.area += e.area;
+    group.all.P += weight * e.P;
+    weights += weight;
   }
   group.all.P = weights > 0 ? group.all.P / weights : group.bound.center();
   const vec3 size = group.bound.size();
@@ -67,7 +70,8 @@ vec3 Diffusion::at(const vec3& P, const Dipole& dipole, float millimetres, float
     if (outside != vec3(0) && group.seen < maxSolidAngle * dot(way, way)) {
       sum += from(group.all);
     } else if (group.second != 0) {
-      open[depth++] = group.second, open[depth++] = node + 1;
+      open[depth++] = group.second;
+      open[depth++] = node + 1;
     } else {
       for (uint32_t i = group.begin; i < group.end; ++i) sum += from(entries_[i]);
     }

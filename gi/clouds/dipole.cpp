@@ -60,7 +60,8 @@ Translucency translucencyOf(const vec3& albedo, const vec3& meanFreePath, float 
   for (int k = 0; k < 3; ++k) {
     const float single = albedoOf(albedo[k], innerReflection(ior));
     const float extinction = 1 / (std::max(meanFreePath[k], 1e-6f) * std::sqrt(3 * std::max(1 - single, 1e-6f)));
-    out.scattering[k] = single * extinction, out.absorption[k] = (1 - single) * extinction;
+    out.scattering[k] = single * extinction;
+    out.absorption[k] = (1 - single) * extinction;
   }
   return out;
 }

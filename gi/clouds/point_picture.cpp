@@ -62,7 +62,8 @@ class Splatter {
  public:
   explicit Splatter(const PointPictureSettings& s)
       : depth_(static_cast<size_t>(s.width) * static_cast<size_t>(s.height), kInfinity) {
-    image.width = image.displayWidth = s.width, image.height = image.displayHeight = s.height;
+    image.width = image.displayWidth = s.width;
+    image.height = image.displayHeight = s.height;
     image.channels = {"R", "G", "B", "A"};
     image.pixels.assign(depth_.size() * 4, 0.0f);
   }
@@ -93,7 +94,10 @@ class Splatter {
     if (!(z < nearest)) return;
     nearest = z;
     float* to = image.at(x, y);
-    to[0] = color.x, to[1] = color.y, to[2] = color.z, to[3] = 1;
+    to[0] = color.x;
+    to[1] = color.y;
+    to[2] = color.z;
+    to[3] = 1;
   }
 
   std::vector<float> depth_;

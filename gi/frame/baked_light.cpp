@@ -118,7 +118,8 @@ void bakedIndirect(const GiState& state, const ShadePoints& points, const uint8_
     const float radius = std::sqrt(points.channel(kArea)[i] / kPi);
     const std::optional<vec3> light =
         state.atlas ? state.atlas->bakedOverPi(points.group(), points.position(i), n, radius) : std::nullopt;
-    ++lookups, found += light.has_value();
+    ++lookups;
+    found += light.has_value();
     store(out, i, light.value_or(vec3(0.0f)), dominant);
   }
   state.stats.irradianceCache.lookups += lookups;

@@ -35,7 +35,8 @@ void copyRadii(const IrradianceRecord& first, IrradianceRecord& record) {
   record.closest = first.closest;
   record.harmonicMean = first.harmonicMean;
   record.limit = first.limit;
-  std::fill_n(record.rotationGradient, 3, vec3(0)), std::fill_n(record.translationGradient, 3, vec3(0));
+  std::fill_n(record.rotationGradient, 3, vec3(0));
+  std::fill_n(record.translationGradient, 3, vec3(0));
   for (LightShare& share : record.shares) share = {.E = share.E};
 }
 
@@ -124,7 +125,10 @@ RecordSlice BounceCaches::recordsAt(const RayTools& tools, const std::vector<Gat
 }
 
 void BounceCaches::insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records) {
-  for (const IrradianceRecord& r : records) level.insert(r), light_.back() += luminance(r.E);
+  for (const IrradianceRecord& r : records) {
+    level.insert(r);
+    light_.back() += luminance(r.E);
+  }
 }
 
 void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& candidates,
@@ -155,7 +159,8 @@ bool BounceCaches::settled() const {
 
 void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
                         const GatherSettings& gather, int bounces, const Run& run) {
-  levels_.clear(), alone_.clear();
+  levels_.clear();
+  alone_.clear();
   groups_.assign(run.groups.begin(), run.groups.end());
   light_.assign(1, 0.0);
   points_.clear();

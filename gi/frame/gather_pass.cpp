@@ -183,7 +183,10 @@ class GatherPass {
       return s.cache < sites_.size() && static_cast<size_t>(s.point.group) < cachesOfGroup_.size();
     };
     if (!state_.kept || !state_.kept->take(KeptKind::GatherSites, static_cast<size_t>(phase_), sites)) return false;
-    if (!std::ranges::all_of(sites, fits)) return sites.clear(), false;
+    if (!std::ranges::all_of(sites, fits)) {
+      sites.clear();
+      return false;
+    }
     for (const Site& s : sites) sites_[s.cache].insert(keyOf(s));
     return true;
   }
@@ -224,7 +227,11 @@ class GatherPass {
     for (size_t i = 0; i < finds.size(); ++i)
       if (isLight(sites[i].cache)) std::swap(finds[lights++], finds[i]);
     finds.resize(lights);
-    if (!finds.empty()) state_.spots.learn(finds), finds.clear(), done = makeRecords(sites, records, finds);
+    if (!finds.empty()) {
+      state_.spots.learn(finds);
+      finds.clear();
+      done = makeRecords(sites, records, finds);
+    }
     for (size_t i = 0; i < done; ++i) state_.caches[sites[i].cache].cache.insert(records[i]);
     state_.stats.irradianceCache.samples += static_cast<int64_t>(done);
     report(1);
@@ -244,7 +251,10 @@ class GatherPass {
     std::vector<size_t> asked;
     std::vector<GatherPoint> points;
     for (size_t i = 0; i < sites.size(); ++i)
-      if (isFirst || isPilotRecord(sites[i].cache)) asked.push_back(i), points.push_back(sites[i].point);
+      if (isFirst || isPilotRecord(sites[i].cache)) {
+        asked.push_back(i);
+        points.push_back(sites[i].point);
+      }
     RecordMaking making{!finds.empty(),
                         [&](size_t k, BrightFind* find) {
                           const Site& site = sites[asked[k]];

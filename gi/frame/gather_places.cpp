@@ -34,7 +34,8 @@ int latticePhase(int x, int y) {
 
 GatherPlaces::GatherPlaces(const GiState& state, const ShadePoints& points) : state_(state), points_(points) {
   const ShadeGroup& group = state.scene.groups[static_cast<size_t>(points.group())];
-  positions_ = tripleOf(group.primvars, "gatherP"), normals_ = tripleOf(group.primvars, "gatherN");
+  positions_ = tripleOf(group.primvars, "gatherP");
+  normals_ = tripleOf(group.primvars, "gatherN");
   // The displacement shader of a group without displacement bound moves no point and only bends normals.
   bumped_ = group.attributes->displacement && group.attributes->displacementBound <= 0;
 }

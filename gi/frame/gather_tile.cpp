@@ -35,7 +35,10 @@ GatherTile::GatherTile(const GiState& state, const DeepTile& tile, const std::ve
   std::array<std::vector<Asked>, kGatherPhases> ofPhase;
   const auto ask = [&](int phase, size_t batch, int point, uint32_t pixel) {
     uint32_t& place = placeOf[numbers.of(batch, point)];
-    if (place == kNone) place = static_cast<uint32_t>(places_.size()), keep(placesOf[batch].at(point));
+    if (place == kNone) {
+      place = static_cast<uint32_t>(places_.size());
+      keep(placesOf[batch].at(point));
+    }
     ofPhase[static_cast<size_t>(phase)].push_back({place, pixel});
   };
   for (uint32_t pixel = 0; pixel < tile.pixels.size(); ++pixel) {
@@ -62,7 +65,9 @@ GatherTile::GatherTile(const GiState& state, const DeepTile& tile, const std::ve
     asked_.insert(asked_.end(), ofPhase[phase].begin(), ofPhase[phase].end());
     end_[phase + 1] = static_cast<uint32_t>(asked_.size());
   }
-  places_.shrink_to_fit(), movements_.shrink_to_fit(), asked_.shrink_to_fit();
+  places_.shrink_to_fit();
+  movements_.shrink_to_fit();
+  asked_.shrink_to_fit();
 }
 
 void GatherTile::keep(const GatherPoint& p) {
@@ -77,7 +82,10 @@ void GatherTile::keep(const GatherPoint& p) {
 GatherPoint GatherTile::at(const Camera& camera, uint32_t place) const {
   const Place& p = places_[place];
   GatherPoint out{p.group, p.position, p.normal, p.key, projectedPixelSize(camera, p.position, p.normal), p.edgeLength};
-  if (!movements_.empty()) out.drift = movements_[place].drift, out.time = movements_[place].time;
+  if (!movements_.empty()) {
+    out.drift = movements_[place].drift;
+    out.time = movements_[place].time;
+  }
   return out;
 }
 

@@ -12,7 +12,10 @@ namespace {
 CacheSettings settingsOf(ErrorFunction function, float maxError) {
   const ErrorFunctionInfo& info = infoOf(function);
   CacheSettings out{function, info.kappa, info.maxPixels, info.minPixels, info.enough};
-  if (info.limitsFollowError) out.minPixels *= maxError, out.enough /= std::max(1.0f, maxError);
+  if (info.limitsFollowError) {
+    out.minPixels *= maxError;
+    out.enough /= std::max(1.0f, maxError);
+  }
   return out;
 }
 
@@ -132,9 +135,10 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   plan.gather.seed = settings.seed;
   plan.gather.subset = query.subset.empty() ? attributes.trace.subset : query.subset;
   plan.gather.indirect = bouncesFor(state, query) > 1;
-  if (settings.mode == GiMode::Atlas)
-    plan.gather.light = settings.storesDirect ? Illumination::Stored : Illumination::LightsAndStored,
+  if (settings.mode == GiMode::Atlas) {
+    plan.gather.light = settings.storesDirect ? Illumination::Stored : Illumination::LightsAndStored;
     plan.gather.mirrored = attributes.photon.causticMap.empty();
+  }
   return plan;
 }
 
@@ -159,7 +163,11 @@ vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
 }
 
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]) {
-  const auto put = [i](TmVec3 to, const vec3& v) { to.x[i] = v.x, to.y[i] = v.y, to.z[i] = v.z; };
+  const auto put = [i](TmVec3 to, const vec3& v) {
+    to.x[i] = v.x;
+    to.y[i] = v.y;
+    to.z[i] = v.z;
+  };
   put(out.E, E);
   for (int c = 0; c < 3; ++c)
     if (out.dominant[c].x) put(out.dominant[c], dominant[c]);
@@ -181,7 +189,10 @@ BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const Ga
                    const ShadePoints& points, const uint8_t* active, TmConstVec3 N) {
   BatchLookup out;
   for (int i = 0; i < points.count(); ++i)
-    if (active[i]) out.points.push_back(i), out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
+    if (active[i]) {
+      out.points.push_back(i);
+      out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
+    }
   out.known.resize(out.at.size());
   if (!prepared) return out;
   prepared->cache.lookup(out.at, out.known.data(), kServesWider, mixedLight(state, *prepared));

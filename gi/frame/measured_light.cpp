@@ -49,7 +49,9 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
   std::sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return nameOf(a) < nameOf(b); });
   PhotonSettings settings;
   settings.emit = std::min(passes.photons, kPhotonsOfPass);
-  settings.seed = passes.seed, settings.direct = false, settings.focusedOnly = passes.focusedOnly;
+  settings.seed = passes.seed;
+  settings.direct = false;
+  settings.focusedOnly = passes.focusedOnly;
   settings.mostBounces = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
     index_[nameOf(points_[i])] = static_cast<uint32_t>(i);
@@ -67,7 +69,8 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
     if (progress) progress(std::min(1.0f, static_cast<float>(sent) / static_cast<float>(passes.photons)));
     if (isTimeToAsk(pass) && measurement->noise() >= 0 && measurement->noise() < passes.noise) break;
   }
-  stats.rays.photon += sent, stats.photons.emitted += sent;
+  stats.rays.photon += sent;
+  stats.photons.emitted += sent;
   passes.tell(sent, measurement->size(), measurement->noise());
   measurement_ = std::move(measurement);
 }
@@ -84,7 +87,8 @@ void measureLight(GiState& state, const DeepFrame& layout, const TileReader& til
   state.measured = std::make_unique<MeasuredLight>();
   ShadeContext context;
   context.seed = state.settings.seed;
-  context.direct = false, context.sketch = true;
+  context.direct = false;
+  context.sketch = true;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
     const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
     if (!tile) return;
@@ -120,7 +124,9 @@ void addMeasured(const GiState& state, const ShadePoints& points, const uint8_t*
   for (int i = 0; i < points.count(); ++i) {
     if (!active[i]) continue;
     const vec3 E = state.measured->overPi(pointAt(*tools->rays, places, points, N, i, bounces));
-    out.E.x[i] += E.x, out.E.y[i] += E.y, out.E.z[i] += E.z;
+    out.E.x[i] += E.x;
+    out.E.y[i] += E.y;
+    out.E.z[i] += E.z;
   }
 }
 

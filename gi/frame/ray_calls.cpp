@@ -16,14 +16,18 @@ ShadeContext contextOfHits(const Attributes& own, int group, const RayQuery& que
   ShadeContext hit = context;
   hit.highlights = mode == GiMode::Reference || context.auditPaths > 0;
   hit.kind = query.kind;
-  hit.label = query.label, hit.lampsGlow = query.lampsGlow && context.mirrorsLamps(group);
+  hit.label = query.label;
+  hit.lampsGlow = query.lampsGlow && context.mirrorsLamps(group);
   hit.importance *= query.importance;
   hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
   hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
   if (query.kind == RayKind::Diffuse) {
-    ++hit.depth, hit.lightSamples = 1, hit.indirect = hit.highlights;
+    ++hit.depth;
+    hit.lightSamples = 1;
+    hit.indirect = hit.highlights;
   } else {
-    ++hit.specularDepth, hit.branches = std::min(hit.branches * query.count, kMostBranches);
+    ++hit.specularDepth;
+    hit.branches = std::min(hit.branches * query.count, kMostBranches);
   }
   return hit;
 }
@@ -50,7 +54,8 @@ class ShaderRays {
     for (int layer = 0; layer < (wantsColor ? kMostLayers : 1) && !layers_.rays.empty(); ++layer) {
       meet();
       setLeaves();
-      answers_.mode = query_.mode, answers_.wantsColor = wantsColor || asksForSurface(),
+      answers_.mode = query_.mode;
+      answers_.wantsColor = wantsColor || asksForSurface();
       answers_.elements = layers_.elements;
       answers_.outputs = layer == 0 ? result_.outputs : std::vector<RayOutput>{};
       if (answers_.wantsColor || !answers_.outputs.empty())
@@ -99,14 +104,22 @@ class ShaderRays {
       const vec3 covers = layers_.clear[r] * glm::clamp(answers_.opacity[r], 0.0f, 1.0f),
                  end = layers_.rays[r].origin + hits_[r].t * layers_.rays[r].direction;
       const float share = (covers.x + covers.y + covers.z) / 3;
-      c.share += share, c.distance += share * glm::length(end - c.start);
+      c.share += share;
+      c.distance += share * glm::length(end - c.start);
     }
   }
 
   void add(int i, const vec3& color, const vec3& clear) {
-    if (result_.color.x) result_.color.x[i] += color.x, result_.color.y[i] += color.y, result_.color.z[i] += color.z;
-    if (result_.opacity.x)
-      result_.opacity.x[i] = 1 - clear.x, result_.opacity.y[i] = 1 - clear.y, result_.opacity.z[i] = 1 - clear.z;
+    if (result_.color.x) {
+      result_.color.x[i] += color.x;
+      result_.color.y[i] += color.y;
+      result_.color.z[i] += color.z;
+    }
+    if (result_.opacity.x) {
+      result_.opacity.x[i] = 1 - clear.x;
+      result_.opacity.y[i] = 1 - clear.y;
+      result_.opacity.z[i] = 1 - clear.z;
+    }
   }
 
   const GiState& state_;
@@ -143,7 +156,10 @@ RayFilter filterOf(const RayScene& rays, const RayQuery& query, const Attributes
 }
 
 void setBias(const RayQuery& query, Ray& ray) {
-  if (query.bias >= 0) ray.offset = 0, ray.bias = query.bias;
+  if (query.bias >= 0) {
+    ray.offset = 0;
+    ray.bias = query.bias;
+  }
 }
 
 void traceForShader(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 P,
@@ -162,7 +178,10 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
     const vec3 d{direction.x[i], direction.y[i], direction.z[i]};
     if (!active[i] || d == vec3(0)) continue;
     Ray ray{{P.x[i], P.y[i], P.z[i]}, d};
-    if (query.radius) ray.radius = query.radius[i], ray.spread = query.spread[i];
+    if (query.radius) {
+      ray.radius = query.radius[i];
+      ray.spread = query.spread[i];
+    }
     aim(*tools->rays, points, i, rayTime(*tools->rays, points, i, query.number, query.count, context.seed), ray);
     ray.tMax = query.maxDistance;
     ray.offset = slantedOffset(ray.offset, std::abs(dot(d, points.get3(kNgx, i))));

@@ -26,7 +26,8 @@ void fields(A& a, StoredSlice& x) {
 }  // namespace
 
 size_t RecordSlices::make(const std::vector<GatherPoint>& points, const RecordMaking& making, RecordSlice& out) {
-  out.records.resize(points.size()), out.finds.resize(making.findsLight ? points.size() : 0);
+  out.records.resize(points.size());
+  out.finds.resize(making.findsLight ? points.size() : 0);
   const size_t slices = (points.size() + kPointsPerSlice - 1) / kPointsPerSlice, firstName = made_;
   made_ += slices;
   size_t done = 0;
@@ -44,7 +45,8 @@ size_t RecordSlices::make(const std::vector<GatherPoint>& points, const RecordMa
         before.slice.finds.size() == (making.findsLight ? here.size() : 0)) {
       slice = std::move(before.slice);
     } else {
-      slice.records.resize(here.size()), slice.finds.resize(making.findsLight ? here.size() : 0);
+      slice.records.resize(here.size());
+      slice.finds.resize(making.findsLight ? here.size() : 0);
       for (size_t k = 0; k < here.size(); ++k) {
         slice.records[k] = making.gather(begin + k, making.findsLight ? &slice.finds[k] : nullptr);
         if (making.isCancelled()) return;

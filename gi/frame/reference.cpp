@@ -61,7 +61,8 @@ class PathBatches {
       ray.direction = start.above(local.x * tangent + local.y * bitangent + local.z * normal);
       ray.offset = slantedOffset(ray.offset, local.z);
       layers_.add(static_cast<int>(sums_.size()), ray, {hashCombine(pointKey, number), 0});
-      sums_.push_back(&sum), directions_.push_back(ray.direction);
+      sums_.push_back(&sum);
+      directions_.push_back(ray.direction);
       if (sums_.size() == kRaysPerBatch) flush();
     }
   }
@@ -79,7 +80,9 @@ class PathBatches {
         for (int c = 0; c < 3; ++c) sums_[p]->directions[c] += radiance[c] * directions_[p];
       });
     }
-    layers_ = {}, sums_.clear(), directions_.clear();
+    layers_ = {};
+    sums_.clear();
+    directions_.clear();
   }
 
  private:
@@ -120,7 +123,8 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit =
       bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
-  hitContext.highlights = true, hitContext.lights = context.lights;
+  hitContext.highlights = true;
+  hitContext.lights = context.lights;
   if (!state.focusing.empty()) hitContext.focusing = &state.focusing;
   hitContext.auditPaths = context.auditPaths;
   PathBatches batches(state, *tools, points, N, query, hitContext);
@@ -157,7 +161,9 @@ void traceToStored(const GiState& state, const ShadePoints& points, const std::v
   batches.flush();
   for (const PathSum& sum : sums) {
     const vec3 e = sum.radiance / kGoesOn;
-    E.x[sum.point] = e.x, E.y[sum.point] = e.y, E.z[sum.point] = e.z;
+    E.x[sum.point] = e.x;
+    E.y[sum.point] = e.y;
+    E.z[sum.point] = e.z;
   }
 }
 

@@ -57,13 +57,15 @@ void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const st
 const std::vector<PreparedCache>& GiServices::caches() const { return impl_->caches; }
 std::vector<PreparedCache> GiServices::takeCaches() { return std::exchange(impl_->caches, {}); }
 void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew) {
-  impl_->caches = std::move(caches), impl_->anew = anew;
+  impl_->caches = std::move(caches);
+  impl_->anew = anew;
   impl_->cachesGiven = !impl_->caches.empty();
 }
 void GiServices::keepShares(std::vector<std::string> groups) { impl_->groups = std::move(groups); }
 const std::vector<std::string>& GiServices::shareGroups() const { return impl_->groups; }
 void GiServices::mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew) {
-  impl_->gains = std::move(gains), impl_->gainsOfNew = std::move(ofNew);
+  impl_->gains = std::move(gains);
+  impl_->gainsOfNew = std::move(ofNew);
   impl_->mixed.clear();
   if (impl_->gains.empty()) return;
   for (const PreparedCache& c : impl_->caches)
@@ -102,7 +104,8 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
       ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
       if (rays.query) setBias(*rays.query, ray);
       ray.filter = filter.passesAll() ? nullptr : &filter;
-      shadowRays.push_back(ray), names.push_back(points.name(i));
+      shadowRays.push_back(ray);
+      names.push_back(points.name(i));
     }
   }
   int64_t adjusted = 0;
@@ -111,7 +114,9 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
   for (const auto [i, times] : lit) {
     const vec3 share = std::accumulate(first, first + times, vec3(0)) / static_cast<float>(times);
     first += times;
-    light.x[i] *= share.x, light.y[i] *= share.y, light.z[i] *= share.z;
+    light.x[i] *= share.x;
+    light.y[i] *= share.y;
+    light.z[i] *= share.z;
   }
   impl_->stats.rays.transmission += static_cast<int64_t>(shadowRays.size());
   impl_->stats.rays.hitlistAdjusted += adjusted;
@@ -160,7 +165,9 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
     const vec3 e = impl_->atlas ? impl_->atlas->irradianceOverPi(points.group(), points.position(i),
                                                                  points.facingNormal(i), radius, across)
                                 : vec3(0.0f);
-    E.x[i] = e.x, E.y[i] = e.y, E.z[i] = e.z;
+    E.x[i] = e.x;
+    E.y[i] = e.y;
+    E.z[i] = e.z;
     if (across) acrossWalls.push_back(i);
   }
   if (!acrossWalls.empty()) traceToStored(*impl_, points, acrossWalls, E);

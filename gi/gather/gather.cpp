@@ -290,7 +290,9 @@ LightShare shareOf(const HemisphereSamples& seen, bool curved) {
   std::ranges::copy(record.translationGradient, out.translationGradient);
   if (!curved) return out;
   const IrradianceCurvature curvature = curvatureOf(seen);
-  out.hessian[0] = curvature.xx, out.hessian[1] = curvature.xy, out.hessian[2] = curvature.yy;
+  out.hessian[0] = curvature.xx;
+  out.hessian[1] = curvature.xy;
+  out.hessian[2] = curvature.yy;
   return out;
 }
 

@@ -11,7 +11,11 @@ namespace tomales {
 struct CellSpread {
   int rays = 0;
   float sum = 0, squares = 0;
-  void add(float part) { ++rays, sum += part, squares += part * part; }
+  void add(float part) {
+    ++rays;
+    sum += part;
+    squares += part * part;
+  }
   bool known() const { return rays > 1; }
   float variance() const {
     const float n = static_cast<float>(rays);

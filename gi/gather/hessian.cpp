@@ -34,10 +34,13 @@ bool integrate(const dvec3& r1, const dvec3& d, EdgeIntegrals& out) {
   const double cccc = 0.25 * cccs + 0.75 * cc;                        // integral of cos^4
   const double c3s = 0.25 * (c1 * c1 * c1 * c1 - c2 * c2 * c2 * c2);  // integral of cos^3 sin
   const double over = 1 / (length * h);
-  out.foot = foot / h, out.along = along;
+  out.foot = foot / h;
+  out.along = along;
   out.r4 = over / h * (cc * out.foot + 0.5 * ss * along);
   out.i4 = over / h2 * cc;
-  out.hh = over / h2 * cccc, out.hd = over / h2 * c3s, out.dd = over / h2 * (cc - cccc);
+  out.hh = over / h2 * cccc;
+  out.hd = over / h2 * c3s;
+  out.dd = over / h2 * (cc - cccc);
   return true;
 }
 
@@ -49,7 +52,8 @@ class Mesh {
         N_(samples.cells.sectors),
         n_(samples.normal),
         radiance_(samples.radiance.begin(), samples.radiance.end()) {
-    axes_[0] = samples.tangent, axes_[1] = samples.bitangent;
+    axes_[0] = samples.tangent;
+    axes_[1] = samples.bitangent;
     double farthest = 0;
     for (const float d : s_.distances)
       if (d < kInfinity) farthest = std::max(farthest, static_cast<double>(d));
@@ -84,7 +88,8 @@ class Mesh {
     for (int k = 0; k < N_; ++k) {
       const size_t low = cell(M_ - 1, k);
       const dvec3 flat = points_[low] - dot(points_[low], n_) * n_;
-      reach_.push_back(reach_[low]), radiance_.push_back(radiance_[low]);
+      reach_.push_back(reach_[low]);
+      radiance_.push_back(radiance_[low]);
       points_.push_back(flat * (reach_[low] / std::max(glm::length(flat), 1e-9 * reach_[low])));
     }
   }
@@ -112,7 +117,10 @@ class Mesh {
     const double area = dot(n_, cross(r1, d));
     const dvec3 nd = cross(n_, d);  // n . (d x a) = a . (n x d)
     double turn[2], slope[2];
-    for (int a = 0; a < 2; ++a) turn[a] = dot(nd, axes_[a]), slope[a] = 2 * dot(i.r4, axes_[a]);
+    for (int a = 0; a < 2; ++a) {
+      turn[a] = dot(nd, axes_[a]);
+      slope[a] = 2 * dot(i.r4, axes_[a]);
+    }
     const auto second = [&](int a, int b) {
       const double fa = dot(i.foot, axes_[a]), fb = dot(i.foot, axes_[b]), la = dot(i.along, axes_[a]),
                    lb = dot(i.along, axes_[b]);

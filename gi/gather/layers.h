@@ -26,7 +26,8 @@ struct RayLayers {
   void goOn(const RayScene& scene, const std::vector<Hit>& hits, const HitAnswers& answers, float opacityThreshold,
             const Brings& brings) {
     size_t kept = 0;
-    came.clear(), left.clear();
+    came.clear();
+    left.clear();
     for (size_t r = 0; r < rays.size(); ++r) {
       if (hits[r].object < 0) continue;
       // A shader result that is not finite would cost the whole point.
@@ -34,7 +35,8 @@ struct RayLayers {
       const vec3 passes = clear[r] * (1.0f - glm::clamp(answers.opacity[r], 0.0f, 1.0f));
       brings(elements[r], color, passes);
       if (maxComponent(passes) <= 1 - std::min(opacityThreshold, 0.9999f) || hits[r].t >= rays[r].tMax) continue;
-      came.push_back(rays[r]), left.push_back(hits[r]);
+      came.push_back(rays[r]);
+      left.push_back(hits[r]);
       keep(kept++, r, behind(scene, rays[r], hits[r]), passes);
     }
     resize(kept);

@@ -41,7 +41,10 @@ GatherRays::GatherRays(const RayScene& scene, const ShadingSystem& shading, cons
   const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
   filter_.groups = groupsSeenFrom(scene, point.group, settings);
   if (occlusion) filter_.sides = occlusion->sides;
-  if (occlusion && occlusion->bias >= 0) first_.offset = 0, first_.bias = occlusion->bias;
+  if (occlusion && occlusion->bias >= 0) {
+    first_.offset = 0;
+    first_.bias = occlusion->bias;
+  }
   if (!filter_.passesAll()) first_.filter = &filter_;
   start_ = polygonStart(scene, first_, kMaskDiffuse);
   first_.origin += start_.lift;
@@ -75,7 +78,10 @@ void GatherRays::see(Stats& stats, size_t elements, SeenLight& seen, FirstHits* 
   seen.all.assign(elements, vec3(settings_.occlusion ? 1 : 0));
   seen.shares.resize(groups_.size());
   for (std::vector<vec3>& share : seen.shares) share.assign(elements, vec3(0));
-  if (first) first->distances.assign(elements, kInfinity), first->normals.resize(elements);
+  if (first) {
+    first->distances.assign(elements, kInfinity);
+    first->normals.resize(elements);
+  }
   if (settings_.occlusion)
     uncover(stats, seen.all, first);
   else
@@ -150,13 +156,19 @@ void GatherRays::meet(Stats& stats, FirstHits* first) {
 void GatherRays::answer(const ShadeContext& context) {
   const auto& rays = scratch_.layers.rays;
   if (!known_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
-  scratch_.unknown = scratch_.hits, scratch_.mapped.clear();
+  scratch_.unknown = scratch_.hits;
+  scratch_.mapped.clear();
   vec3 radiance;
   for (size_t r = 0; r < rays.size(); ++r)
-    if (scratch_.hits[r].object >= 0 && known_->lookup(rays[r], scratch_.hits[r], radiance))
-      scratch_.unknown[r].object = -1, scratch_.mapped.emplace_back(r, radiance);
+    if (scratch_.hits[r].object >= 0 && known_->lookup(rays[r], scratch_.hits[r], radiance)) {
+      scratch_.unknown[r].object = -1;
+      scratch_.mapped.emplace_back(r, radiance);
+    }
   scene_.shadeHits(rays, scratch_.unknown, scratch_.layers.names, shading_, context, scratch_.answers);
-  for (const auto& [r, L] : scratch_.mapped) scratch_.answers.color[r] = L, scratch_.answers.opacity[r] = vec3(1);
+  for (const auto& [r, L] : scratch_.mapped) {
+    scratch_.answers.color[r] = L;
+    scratch_.answers.opacity[r] = vec3(1);
+  }
 }
 
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings) {

@@ -51,7 +51,8 @@ TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out
     const float r = swapped ? b : a, x = (kPi / 4) * (swapped ? a : b) / (r == 0 ? 1 : r), x2 = x * x;
     const float sine = x * (1 - x2 * (1.0f / 6 - x2 * (1.0f / 120 - x2 * (1.0f / 5040 - x2 * (1.0f / 362880)))));
     const float cosine = 1 - x2 * (0.5f - x2 * (1.0f / 24 - x2 * (1.0f / 720 - x2 * (1.0f / 40320))));
-    out[i].x = r * (swapped ? sine : cosine), out[i].y = r * (swapped ? cosine : sine);
+    out[i].x = r * (swapped ? sine : cosine);
+    out[i].y = r * (swapped ? cosine : sine);
     out[i].z = std::sqrt(std::max(0.0f, 1 - r * r));
   }
 }
@@ -119,7 +120,8 @@ void LightPhotons::surveyPoint() {
 }
 
 void LightPhotons::askAlong(const vec3& local, const vec3& offset, LightProbe& probe) const {
-  probe.P.push_back(cone_.place(local, cone_.askingDistance()) + offset), probe.N.push_back(-cone_.direction(local));
+  probe.P.push_back(cone_.place(local, cone_.askingDistance()) + offset);
+  probe.N.push_back(-cone_.direction(local));
 }
 
 /// Radiant intensity over pi: Cl r^2, where Cl is E/pi at the distance r.
@@ -175,7 +177,9 @@ void LightPhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton
 
 LightProbe LightPhotons::askedFromMiddle(const std::vector<vec2>& xi) const {
   LightProbe probe;
-  probe.P.assign(xi.size(), center_), probe.N.assign(xi.size(), vec3(0, 0, 1)), probe.xi = xi;
+  probe.P.assign(xi.size(), center_);
+  probe.N.assign(xi.size(), vec3(0, 0, 1));
+  probe.xi = xi;
   shading_.probe(light_, probe);
   for (vec3& L : probe.L) L = kind_ == LightKind::Distant ? normalizeOr(L, vec3(0, 0, -1)) : L;
   return probe;
@@ -220,7 +224,8 @@ void LightPhotons::emitFromDistance(const std::vector<vec2>& a, const std::vecto
     const vec3 d = isDrawn_ ? -sun.L[i] : direction_, across = at.x * tangent + at.y * bitangent;
     const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
     out[i].ray = {center_ + turned - kOutside * radius_ * d, d};
-    probe.P.push_back(out[i].ray.origin), probe.N.push_back(-d);
+    probe.P.push_back(out[i].ray.origin);
+    probe.N.push_back(-d);
   }
   shading_.probe(light_, probe);
   const float area = side * side * static_cast<float>(cells_.total());
@@ -233,7 +238,10 @@ void LightPhotons::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
   std::vector<float> xi0(n), xi1(n), area(n), place[3], normal[3];
   for (auto* v : {place, normal})
     for (int k = 0; k < 3; ++k) v[k].resize(n);
-  for (size_t i = 0; i < n; ++i) xi0[i] = a[i].x, xi1[i] = a[i].y;
+  for (size_t i = 0; i < n; ++i) {
+    xi0[i] = a[i].x;
+    xi1[i] = a[i].y;
+  }
   const TmVec3 P{place[0].data(), place[1].data(), place[2].data()},
       N{normal[0].data(), normal[1].data(), normal[2].data()};
   std::vector<int> group(n);
@@ -256,8 +264,10 @@ void LightPhotons::emitFromArea(const std::vector<vec2>& a, const std::vector<ve
     rays_.prepareOrigin(group[i], ray.origin, 0, ray);
     ray.offset /= std::max(local.z, kLeastCosine);
     out[i].normal = Nl;
-    probe.Pl.push_back(ray.origin), probe.Nl.push_back(Nl);
-    probe.P.push_back(ray.origin + ray.direction), probe.N.push_back(-ray.direction);
+    probe.Pl.push_back(ray.origin);
+    probe.Nl.push_back(Nl);
+    probe.P.push_back(ray.origin + ray.direction);
+    probe.N.push_back(-ray.direction);
   }
   shading_.probe(light_, probe);
   // A Lambertian emitter of radiance L sends pi L from each unit of area.

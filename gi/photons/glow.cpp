@@ -109,7 +109,10 @@ void GlowPhotons::survey(Surface& out, size_t mostProbes) const {
     for (size_t k = begin; k < end; ++k) brightness[k] = double{luminance(radiance[k - begin])};
   });
   double sum = 0, area = 0;
-  for (size_t c = 0; c < cells; ++c) sum += areas[c] * brightness[c / run], area += areas[c];
+  for (size_t c = 0; c < cells; ++c) {
+    sum += areas[c] * brightness[c / run];
+    area += areas[c];
+  }
   if (!(sum > 0)) return;
   for (size_t c = 0; c < cells; ++c)
     out.cells.add(double{kPi} * areas[c] * (brightness[c / run] + kUnseenGlow * sum / area));
@@ -132,9 +135,12 @@ GlowPhotons::Start GlowPhotons::startIn(const Surface& surface, size_t cell, vec
       glm::mix(glm::mix(mesh.N[q[0]], mesh.N[q[1]], uv.x), glm::mix(mesh.N[q[3]], mesh.N[q[2]], uv.x), uv.y);
   Start out;
   out.P = mesh.pointOn(quad, uv.x, uv.y);
-  out.hit.object = lattice.object, out.hit.patch = lattice.patch;
-  out.hit.u = ofPatch.x, out.hit.v = ofPatch.y;
-  out.hit.normal = normalizeOr(normal, geometric), out.hit.geometricNormal = geometric;
+  out.hit.object = lattice.object;
+  out.hit.patch = lattice.patch;
+  out.hit.u = ofPatch.x;
+  out.hit.v = ofPatch.y;
+  out.hit.normal = normalizeOr(normal, geometric);
+  out.hit.geometricNormal = geometric;
   out.hit.atOpen = out.P;
   out.normal = surface.back ? -geometric : geometric;
   out.area = mesh.keeps(quad, uv.x, uv.y) ? glm::length(spanned) / static_cast<float>(n * n) : 0.0f;

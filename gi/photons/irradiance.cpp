@@ -141,7 +141,8 @@ Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const 
   vec3 sum(0.0f), centroid(0.0f);
   for (size_t i = 0; i < inside; ++i) {
     const float* w = tree.photons().at(heap[i].photon) + power;
-    sum += vec3(w[0], w[1], w[2]), centroid += tree.position(heap[i].photon) - P;
+    sum += vec3(w[0], w[1], w[2]);
+    centroid += tree.position(heap[i].photon) - P;
   }
   const float count = static_cast<float>(std::max<size_t>(inside, 1)), distance = glm::length(centroid) / (count * r);
   const float covered =

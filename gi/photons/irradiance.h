@@ -35,7 +35,11 @@ struct EstimateFigures {
   /// clumps where surfaces are smaller than the disk.
   double clumps = 0;
   EstimateFigures& operator+=(const EstimateFigures& o) {
-    return made += o.made, few += o.few, bent += o.bent, clumps += o.clumps, *this;
+    made += o.made;
+    few += o.few;
+    bent += o.bent;
+    clumps += o.clumps;
+    return *this;
   }
 };
 

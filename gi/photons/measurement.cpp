@@ -122,7 +122,8 @@ double PhotonMeasurement::noise() const {
   double difference = 0, mean = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
     const double even = double{luminance(half(i, 0))}, odd = double{luminance(half(i, 1))};
-    difference += std::abs(even - odd) / 2, mean += (even + odd) / 2;
+    difference += std::abs(even - odd) / 2;
+    mean += (even + odd) / 2;
   }
   return passes_ > 1 && mean > 0 ? difference / mean : -1;
 }

@@ -29,7 +29,9 @@ std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) cons
   if (!isDiffuse(group)) return Answer{};
   if (!shading_.reflectsEvenly(group)) return std::nullopt;
   Hit hit;
-  hit.t = 1, hit.object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject, hit.u = hit.v = 0.5f;
+  hit.t = 1;
+  hit.object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject;
+  hit.u = hit.v = 0.5f;
   hit.normal = hit.geometricNormal = {0, 0, -1};
   return ask({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();
 }

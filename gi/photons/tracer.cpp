@@ -58,7 +58,8 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
   const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(source.light()), kBounceStream);
   std::vector<Path> paths;
   Scratch scratch;
-  paths.reserve(count), scratch.flying.reserve(count);
+  paths.reserve(count);
+  scratch.flying.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     const EmittedPhoton& e = emitted[i];
     if (!(maxComponent(e.power) > 0) || !isFinite(e.power)) continue;
@@ -68,7 +69,10 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
     paths.back().ray.time = timeOf(number, stream);
     paths.back().lift = liftOf(e.ray, e.normal);
     // Gather rays see what glows themselves: its photons have left a surface, as all others do once they have arrived.
-    if (source.light() < 0) paths.back().depth = paths.back().bounces = 1, paths.back().specular = false;
+    if (source.light() < 0) {
+      paths.back().depth = paths.back().bounces = 1;
+      paths.back().specular = false;
+    }
   }
   while (!scratch.flying.empty()) {
     throwIfStopped();
@@ -106,7 +110,8 @@ void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
     const Hit& hit = *::new (&s.hits[kept]) Hit(firstHit(paths[i]));
     if (hit.object >= 0) s.flying[kept++] = i;
   }
-  s.flying.resize(kept), s.hits.resize(kept);
+  s.flying.resize(kept);
+  s.hits.resize(kept);
 }
 
 /// Photons leave polygons, not the surfaces that those stand for. From just before its polygon most of them meet
@@ -114,7 +119,10 @@ void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
 Hit PhotonTracer::firstHit(Path& path) const {
   Ray free = path.ray;
   const bool hasList = free.offset > 0;
-  if (hasList) free.origin += path.lift, free.offset = free.bias = 0;
+  if (hasList) {
+    free.origin += path.lift;
+    free.offset = free.bias = 0;
+  }
   Hit hit = rays_.closest(free, kMaskPhoton);
   if (hasList && hit.t <= recordingWindow(path.ray.offset))
     hit = rays_.closest(path.ray, kMaskPhoton);
@@ -129,10 +137,15 @@ vec3 PhotonTracer::liftOf(const Ray& ray, const vec3& normal) {
 
 void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const {
   const size_t count = s.flying.size();
-  s.number.resize(count), s.name.resize(count), s.xi.resize(count), s.direction.resize(count), s.survival.resize(count);
+  s.number.resize(count);
+  s.name.resize(count);
+  s.xi.resize(count);
+  s.direction.resize(count);
+  s.survival.resize(count);
   for (size_t k = 0; k < count; ++k) {
     const Path& path = paths[s.flying[k]];
-    s.number[k] = path.number, s.name[k] = nameOf(path, stream);
+    s.number[k] = path.number;
+    s.name[k] = nameOf(path, stream);
   }
   sobol2(s.number, s.name, s.xi);
   cosineHemispheres(s.xi, s.direction);
@@ -172,7 +185,8 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
   ++path.collisions;
   if (collision.event == Collision::None) {  // the same ray goes on from there
     path.ray.origin = P;
-    path.ray.offset = std::max(0.0f, path.ray.offset - flight), path.ray.bias = std::max(0.0f, path.ray.bias - flight);
+    path.ray.offset = std::max(0.0f, path.ray.offset - flight);
+    path.ray.bias = std::max(0.0f, path.ray.bias - flight);
     return true;
   }
   if (!isLit || ++path.depth >= settings_.maxDepth || !scatters(path)) return false;
@@ -193,7 +207,9 @@ void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch&
     if (s.hits[k].object < 0) continue;
     if ((s.answers[k] = surfaces_.even(groupOf(s.hits[k])))) continue;
     const Path& path = paths[s.flying[k]];
-    rays.push_back(path.ray), hits.push_back(s.hits[k]), which.push_back(k);
+    rays.push_back(path.ray);
+    hits.push_back(s.hits[k]);
+    which.push_back(k);
     names.push_back({hashCombine(stream, path.number, static_cast<uint32_t>(path.depth)), 0});
   }
   if (which.empty()) return;
@@ -258,7 +274,10 @@ bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float 
   const PhotonModel model = surfaces_.model(groupOf(hit));
   const vec3& tint = scene_.groups[static_cast<size_t>(groupOf(hit))].attributes->color;
   if (++path.depth >= settings_.maxDepth || !survives(path, tint, survival)) return false;
-  if (path.specular && !path.focused) path.focused = true, ++path.bounces;
+  if (path.specular && !path.focused) {
+    path.focused = true;
+    ++path.bounces;
+  }
   const vec3 d = path.ray.direction;
   const bool front = dot(d, hit.geometricNormal) < 0;
   const vec3 N = front ? hit.normal : -hit.normal;

@@ -30,11 +30,14 @@ void reorder(PointCloud& photons, std::vector<uint32_t> order) {
     std::copy_n(valuesOf(start), width, data.begin());
     uint32_t to = start;
     for (uint32_t from; (from = std::exchange(order[to], to)) != start; to = from) {
-      photons.position[to] = photons.position[from], photons.normal[to] = photons.normal[from];
+      photons.position[to] = photons.position[from];
+      photons.normal[to] = photons.normal[from];
       photons.radius[to] = photons.radius[from];
       std::copy_n(valuesOf(from), width, valuesOf(to));
     }
-    photons.position[to] = position, photons.normal[to] = normal, photons.radius[to] = radius;
+    photons.position[to] = position;
+    photons.normal[to] = normal;
+    photons.radius[to] = radius;
     std::copy_n(data.begin(), width, valuesOf(to));
   }
 }
@@ -101,7 +104,10 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
       if (distance2 > limit || (oriented && dot(normal(i), N) < kSameSide)) continue;
       heap.push_back({distance2, i});
       std::push_heap(heap.begin(), heap.end());
-      if (heap.size() > most) std::pop_heap(heap.begin(), heap.end()), heap.pop_back();
+      if (heap.size() > most) {
+        std::pop_heap(heap.begin(), heap.end());
+        heap.pop_back();
+      }
       if (heap.size() == most) limit = heap.front().distance2;
     }
   }

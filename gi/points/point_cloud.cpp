@@ -48,16 +48,25 @@ int PointCloud::surface(size_t point) const {
 }
 
 void PointCloud::add(const vec3& P, const vec3& N, float r, const float* values) {
-  position.push_back(P), normal.push_back(N), radius.push_back(r);
+  position.push_back(P);
+  normal.push_back(N);
+  radius.push_back(r);
   data.insert(data.end(), values, values + width());
 }
 
 void PointCloud::reserve(size_t points) {
-  position.reserve(points), normal.reserve(points), radius.reserve(points);
+  position.reserve(points);
+  normal.reserve(points);
+  radius.reserve(points);
   data.reserve(points * static_cast<size_t>(width()));
 }
 
-void PointCloud::clear() { position.clear(), normal.clear(), radius.clear(), data.clear(); }
+void PointCloud::clear() {
+  position.clear();
+  normal.clear();
+  radius.clear();
+  data.clear();
+}
 
 Bound3 PointCloud::bound() const {
   Bound3 b;

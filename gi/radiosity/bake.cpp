@@ -24,14 +24,23 @@ class Samples {
   /// Adds a view of a point from `radius` in front of it. Its share of the colour goes to `sum`, and its share of the
   /// texel if it has a colour.
   void add(const Ray& ray, const Hit& hit, SampleName name, BakedTexel& sum) {
-    rays_.push_back(ray), hits_.push_back(hit), names_.push_back(name), sums_.push_back(&sum);
+    rays_.push_back(ray);
+    hits_.push_back(hit);
+    names_.push_back(name);
+    sums_.push_back(&sum);
     if (rays_.size() == kSamplesPerBatch) flush();
   }
   void flush() {
     bake_.rays.shadeHits(rays_, hits_, names_, bake_.shading, context_, answers_);
     for (size_t i = 0; i < sums_.size(); ++i)
-      if (isFinite(answers_.color[i])) sums_[i]->radiance += kShare * answers_.color[i], sums_[i]->coverage += kShare;
-    rays_.clear(), hits_.clear(), names_.clear(), sums_.clear();
+      if (isFinite(answers_.color[i])) {
+        sums_[i]->radiance += kShare * answers_.color[i];
+        sums_[i]->coverage += kShare;
+      }
+    rays_.clear();
+    hits_.clear();
+    names_.clear();
+    sums_.clear();
   }
 
  private:
@@ -68,10 +77,16 @@ void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, Bak
     if (n == vec3(0)) continue;
     const vec3 out = texel.back ? -n : n;
     Ray ray{surface.P + texel.radius * out, -out};
-    ray.radius = texel.radius, ray.group = object.group;
+    ray.radius = texel.radius;
+    ray.group = object.group;
     Hit hit;
-    hit.t = texel.radius, hit.object = texel.object, hit.patch = texel.patch, hit.u = uv.x, hit.v = uv.y;
-    hit.normal = hit.geometricNormal = n, hit.atOpen = surface.P;
+    hit.t = texel.radius;
+    hit.object = texel.object;
+    hit.patch = texel.patch;
+    hit.u = uv.x;
+    hit.v = uv.y;
+    hit.normal = hit.geometricNormal = n;
+    hit.atOpen = surface.P;
     samples.add(ray, hit, {texel.key, static_cast<uint32_t>(k)}, sum);
   }
 }

@@ -45,9 +45,12 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
   float alongU = 0, alongV = 0;
   for (int j = 0; j <= probes; ++j) {
     float u = 0, v = 0;
-    for (int i = 0; i < probes; ++i)
-      u += glm::length(at[j][i + 1] - at[j][i]), v += glm::length(at[i + 1][j] - at[i][j]);
-    alongU = std::max(alongU, u), alongV = std::max(alongV, v);
+    for (int i = 0; i < probes; ++i) {
+      u += glm::length(at[j][i + 1] - at[j][i]);
+      v += glm::length(at[i + 1][j] - at[i][j]);
+    }
+    alongU = std::max(alongU, u);
+    alongV = std::max(alongV, v);
   }
   const Attributes::Radiosity& asked = scene.objects[static_cast<size_t>(object)].attributes->radiosity;
   // The size depends on the distance alone, so that hidden surfaces are no coarser than visible ones as far away.
@@ -55,7 +58,8 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
                                   : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
   const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);
   RadiosityChart chart;
-  chart.width = powerOfTwoNear(alongU / texel), chart.height = powerOfTwoNear(alongV / texel);
+  chart.width = powerOfTwoNear(alongU / texel);
+  chart.height = powerOfTwoNear(alongV / texel);
   chart.texelSize =
       std::max(std::sqrt(alongU / static_cast<float>(chart.width) * alongV / static_cast<float>(chart.height)), 1e-20f);
   return chart;
@@ -144,9 +148,14 @@ std::vector<TexelRun> texelRuns(std::span<const SurfaceCharts> surfaces) {
       size_t room = 0;
       for (size_t p = 0; p < charts.size(); ++p)
         for (size_t t = 0; t < charts[p].texelCount();) {
-          if (room == 0) runs.push_back({static_cast<int>(object), back, p, t, 0}), room = kTexelsPerRun;
+          if (room == 0) {
+            runs.push_back({static_cast<int>(object), back, p, t, 0});
+            room = kTexelsPerRun;
+          }
           const size_t taken = std::min(room, charts[p].texelCount() - t);
-          runs.back().count += taken, room -= taken, t += taken;
+          runs.back().count += taken;
+          room -= taken;
+          t += taken;
         }
     }
   return runs;

@@ -36,7 +36,10 @@ template <class Visit>
 void forEachTexel(std::span<const RadiosityChart> charts, const TexelRun& run, const Visit& visit) {
   size_t patch = run.patch, t = run.texel;
   for (size_t k = 0; k < run.count; ++k, ++t) {
-    if (t == charts[patch].texelCount()) ++patch, t = 0;
+    if (t == charts[patch].texelCount()) {
+      ++patch;
+      t = 0;
+    }
     visit(static_cast<uint32_t>(patch), t);
   }
 }

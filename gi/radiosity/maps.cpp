@@ -37,7 +37,8 @@ int RadiosityChart::levels() const {
 
 void RadiosityChart::halve() {
   const int before = width * height;
-  width = std::max(1, width / 2), height = std::max(1, height / 2);
+  width = std::max(1, width / 2);
+  height = std::max(1, height / 2);
   texelSize *= std::sqrt(static_cast<float>(before) / static_cast<float>(width * height));
 }
 
@@ -58,14 +59,17 @@ void RadiosityChart::makeLevels() {
   std::vector<Step> steps;
   for (Step s{0, width, height, 1, 1}; s.width > 1 || s.height > 1;
        s = {s.at(0, s.height), s.width / s.sx, s.height / s.sy, 1, 1}) {
-    s.sx = s.width > 1 ? 2 : 1, s.sy = s.height > 1 ? 2 : 1;
+    s.sx = s.width > 1 ? 2 : 1;
+    s.sy = s.height > 1 ? 2 : 1;
     for (int y = 0; y < s.height; y += s.sy)
       for (int x = 0; x < s.width; x += s.sx) {
         vec3 sum(0);
         float known = 0;
         for (int j = 0; j < s.sy; ++j)
-          for (int i = 0; i < s.sx; ++i)
-            sum += coverage[s.at(x + i, y + j)] * texels[s.at(x + i, y + j)], known += coverage[s.at(x + i, y + j)];
+          for (int i = 0; i < s.sx; ++i) {
+            sum += coverage[s.at(x + i, y + j)] * texels[s.at(x + i, y + j)];
+            known += coverage[s.at(x + i, y + j)];
+          }
         texels.push_back(known > 0 ? sum / known : vec3(0));
         coverage.push_back(known / static_cast<float>(s.sx * s.sy));
       }
@@ -81,8 +85,11 @@ void RadiosityChart::makeLevels() {
 vec3 RadiosityChart::atLevel(int level, float u, float v) const {
   size_t from = 0;
   int w = width, h = height;
-  for (; level > 0; --level)
-    from += static_cast<size_t>(w) * static_cast<size_t>(h), w = std::max(1, w / 2), h = std::max(1, h / 2);
+  for (; level > 0; --level) {
+    from += static_cast<size_t>(w) * static_cast<size_t>(h);
+    w = std::max(1, w / 2);
+    h = std::max(1, h / 2);
+  }
   const float x = std::clamp(u * static_cast<float>(w) - 0.5f, 0.0f, static_cast<float>(w - 1));
   const float y = std::clamp(v * static_cast<float>(h) - 0.5f, 0.0f, static_cast<float>(h - 1));
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y), x1 = std::min(x0 + 1, w - 1),
@@ -107,7 +114,10 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
   std::vector<RadiosityChart*> charts;
   for (SurfaceCharts& s : surfaces_)
     for (const bool back : {false, true})
-      for (RadiosityChart& c : s.side(back)) c.allocate(), charts.push_back(&c);
+      for (RadiosityChart& c : s.side(back)) {
+        c.allocate();
+        charts.push_back(&c);
+      }
   const std::vector<TexelRun> runs = texelRuns(surfaces_);
   const RadiosityBake bake{rays, shading, settings};
   std::atomic<size_t> done{0};
@@ -117,7 +127,9 @@ RadiosityMaps::RadiosityMaps(const RayScene& rays, const ShadingSystem& shading,
     const std::vector<BakedTexel> baked = keptTexels(bake, of, runs[r], r);
     size_t k = 0;
     forEachTexel(of, runs[r], [&](uint32_t patch, size_t t) {
-      of[patch].texels[t] = baked[k].radiance, of[patch].coverage[t] = baked[k].coverage, ++k;
+      of[patch].texels[t] = baked[k].radiance;
+      of[patch].coverage[t] = baked[k].coverage;
+      ++k;
     });
     if (settings.progress) settings.progress(static_cast<float>(++done) / static_cast<float>(runs.size()));
   });

@@ -15,8 +15,10 @@ ChartLayout layOutPicture(const std::vector<RadiosityChart>& charts) {
   });
   int64_t area = 0;
   int widest = 1;
-  for (const RadiosityChart& c : charts)
-    area += static_cast<int64_t>(c.width) * c.height, widest = std::max(widest, c.width);
+  for (const RadiosityChart& c : charts) {
+    area += static_cast<int64_t>(c.width) * c.height;
+    widest = std::max(widest, c.width);
+  }
   ChartLayout out;
   out.corner.resize(charts.size());
   out.width =
@@ -24,7 +26,11 @@ ChartLayout layOutPicture(const std::vector<RadiosityChart>& charts) {
   int x = 0, y = 0, rowHeight = 0;
   for (const size_t i : order) {
     const RadiosityChart& c = charts[i];
-    if (x + c.width > out.width || c.height != rowHeight) y += rowHeight, x = 0, rowHeight = c.height;
+    if (x + c.width > out.width || c.height != rowHeight) {
+      y += rowHeight;
+      x = 0;
+      rowHeight = c.height;
+    }
     out.corner[i] = {x, y};
     x += c.width;
   }
@@ -35,7 +41,8 @@ ChartLayout layOutPicture(const std::vector<RadiosityChart>& charts) {
 Image pictureOf(const std::vector<RadiosityChart>& charts) {
   const ChartLayout layout = layOutPicture(charts);
   Image out;
-  out.width = out.displayWidth = layout.width, out.height = out.displayHeight = layout.height;
+  out.width = out.displayWidth = layout.width;
+  out.height = out.displayHeight = layout.height;
   out.channels = {"R", "G", "B"};
   out.pixels.assign(static_cast<size_t>(out.width) * static_cast<size_t>(out.height) * 3, 0.0f);
   for (size_t i = 0; i < charts.size(); ++i) {

@@ -56,7 +56,10 @@ bool readAll(int file, int mostSeconds, std::string& out) {
 
 std::optional<std::string> madeApart(const std::function<std::string()>& make, int mostSeconds, std::string& fate) {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return fate = std::strerror(errno), std::nullopt;
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    fate = std::strerror(errno);
+    return std::nullopt;
+  }
   const pid_t child = fork();
   if (child == 0) makeAndExit(make, ends[1]);
   close(ends[1]);

@@ -140,7 +140,9 @@ struct ChunkReader::Impl {
       const ssize_t got = ::pread(file, out, size, static_cast<off_t>(offset));
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) fail("is truncated");
-      out += got, offset += static_cast<uint64_t>(got), size -= static_cast<size_t>(got);
+      out += got;
+      offset += static_cast<uint64_t>(got);
+      size -= static_cast<size_t>(got);
     }
   }
 

@@ -36,8 +36,14 @@ void put(int number) {
 
 void putBucket() {
   if (bucket.x0 == bucket.x1) return;
-  put(", in the bucket of the pixels "), put(bucket.x0), put(","), put(bucket.y0);
-  put(" to "), put(bucket.x1 - 1), put(","), put(bucket.y1 - 1);
+  put(", in the bucket of the pixels ");
+  put(bucket.x0);
+  put(",");
+  put(bucket.y0);
+  put(" to ");
+  put(bucket.x1 - 1);
+  put(",");
+  put(bucket.y1 - 1);
 }
 
 const char* nameOf(int signal) {
@@ -58,16 +64,33 @@ const char* nameOf(int signal) {
 extern "C" void onCrash(int signal) {
   if (const CrashNote::Text* t = current) {
     put("tomales: error: ");
-    if (t->file) put(t->file), put(":"), put(t->line), put(": ");
+    if (t->file) {
+      put(t->file);
+      put(":");
+      put(t->line);
+      put(": ");
+    }
     put(t->user);
-    if (t->other) put(", on "), put(t->other);
+    if (t->other) {
+      put(", on ");
+      put(t->other);
+    }
     putBucket();
-    put(": "), put(t->kind), put(" \""), put(t->name), put("\" crashes ("), put(nameOf(signal));
+    put(": ");
+    put(t->kind);
+    put(" \"");
+    put(t->name);
+    put("\" crashes (");
+    put(nameOf(signal));
     put("); this ends the program\n");
   } else if (loadedPlugin(0)) {
-    put("tomales: error: the program crashes ("), put(nameOf(signal));
+    put("tomales: error: the program crashes (");
+    put(nameOf(signal));
     put("); it has loaded plugins, one of which may be to blame:");
-    for (int i = 0; loadedPlugin(i); ++i) put(" "), put(loadedPlugin(i));
+    for (int i = 0; loadedPlugin(i); ++i) {
+      put(" ");
+      put(loadedPlugin(i));
+    }
     put("\n");
   }
   raise(signal);  // SA_RESETHAND has restored the default, which kills
@@ -78,7 +101,8 @@ class HandlerStack {
  public:
   HandlerStack() : memory_(new char[kBytes]) {
     stack_t stack{};
-    stack.ss_sp = memory_.get(), stack.ss_size = kBytes;
+    stack.ss_sp = memory_.get();
+    stack.ss_size = kBytes;
     sigaltstack(&stack, nullptr);
   }
   ~HandlerStack() {

@@ -54,8 +54,14 @@ struct Bound3 {
   vec3 lo{kInfinity}, hi{-kInfinity};
 
   bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
-  void extend(const vec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
-  void extend(const Bound3& b) { lo = glm::min(lo, b.lo), hi = glm::max(hi, b.hi); }
+  void extend(const vec3& p) {
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
+  void extend(const Bound3& b) {
+    lo = glm::min(lo, b.lo);
+    hi = glm::max(hi, b.hi);
+  }
   vec3 center() const { return 0.5f * (lo + hi); }
   vec3 size() const { return hi - lo; }
   Bound3 grown(float margin) const { return {lo - vec3(margin), hi + vec3(margin)}; }
@@ -72,7 +78,10 @@ inline Bound3 transformBound(const mat4& m, const Bound3& b) {
 struct Bound2 {
   vec2 lo{kInfinity}, hi{-kInfinity};
   bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y); }
-  void extend(const vec2& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+  void extend(const vec2& p) {
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
 };
 
 /// Pixels x0 <= x < x1, y0 <= y < y1.

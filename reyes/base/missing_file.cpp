@@ -30,7 +30,8 @@ class Listing {
       std::error_code unknown;
       (it->is_directory(unknown) ? below : files).push_back(it->path());
     }
-    std::sort(files.begin(), files.end()), std::sort(below.begin(), below.end());
+    std::sort(files.begin(), files.end());
+    std::sort(below.begin(), below.end());
     files_.insert(files_.end(), files.begin(), files.end());
     for (const fs::path& f : below)
       if (depth > 0 && f.filename().string()[0] != '.') add(f, depth - 1);

@@ -38,7 +38,8 @@ struct Unpacker {
   bool damaged = false;
   void raw(void* data, size_t size) {
     if (size > bytes.size()) {
-      damaged = true, bytes = {};
+      damaged = true;
+      bytes = {};
       if (size > 0) std::memset(data, 0, size);
     } else if (size > 0) {
       std::memcpy(data, bytes.data(), size);

@@ -24,7 +24,8 @@ inline vec3 unpackNormal(uint32_t packed) {
   vec3 n(part(packed >> 16), part(packed), 0);
   n.z = 1 - std::abs(n.x) - std::abs(n.y);
   const float fold = std::max(-n.z, 0.0f);
-  n.x += n.x >= 0 ? -fold : fold, n.y += n.y >= 0 ? -fold : fold;
+  n.x += n.x >= 0 ? -fold : fold;
+  n.y += n.y >= 0 ? -fold : fold;
   return normalizeOr(n, vec3(0, 0, 1));
 }
 

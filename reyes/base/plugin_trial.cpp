@@ -54,7 +54,8 @@ int PluginTrial::end() {
   int status = 0;
   while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
-  child_ = -1, socket_ = -1;
+  child_ = -1;
+  socket_ = -1;
   return status;
 }
 
@@ -64,7 +65,11 @@ bool PluginTrial::begin(const std::string& path) {
 }
 
 std::string PluginTrial::fateOf(const std::string& path) {
-  works_ = begin(path) || (start(), begin(path));
+  works_ = begin(path);
+  if (!works_) {
+    start();
+    works_ = begin(path);
+  }
   if (!works_) return {};
   const Heard heard = hear(socket_);
   if (heard == Heard::Word) return {};

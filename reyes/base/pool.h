@@ -26,7 +26,8 @@ class Pool {
       bytes_ += left_;
     }
     std::byte* const taken = next_;
-    next_ += need, left_ -= need;
+    next_ += need;
+    left_ -= need;
     return taken;
   }
   size_t bytes() const { return bytes_; }

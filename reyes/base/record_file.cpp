@@ -65,7 +65,9 @@ bool readExactly(int file, uint64_t at, void* out, size_t size) {
     const ssize_t n = ::pread(file, p, size, static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
-    p += n, size -= static_cast<size_t>(n), at += static_cast<uint64_t>(n);
+    p += n;
+    size -= static_cast<size_t>(n);
+    at += static_cast<uint64_t>(n);
   }
   return true;
 }
@@ -136,7 +138,8 @@ void RecordWriter::keepWholeRecords() {
 }
 
 bool RecordWriter::restart() {
-  offsets_.clear(), end_ = 0;
+  offsets_.clear();
+  end_ = 0;
   if (::ftruncate(file_->descriptor(), 0) != 0) return fail(lastProblem());
   const Header header = headerOf(kind_);
   return append(&header, sizeof(header));
@@ -153,7 +156,9 @@ bool RecordWriter::append(const void* data, size_t size) {
     const ssize_t n = ::pwrite(file_->descriptor(), p, size, static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return fail(n < 0 ? lastProblem() : "no space left");
-    p += n, size -= static_cast<size_t>(n), at += static_cast<uint64_t>(n);
+    p += n;
+    size -= static_cast<size_t>(n);
+    at += static_cast<uint64_t>(n);
     if (size == 0) end_ = at;
   }
   return true;

@@ -57,7 +57,8 @@ float sobol1(uint32_t index, uint32_t seed) { return onlyOf(index, seed); }
 TOMALES_HOT void sobol2(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<vec2> out) {
   for (size_t i = 0; i < out.size(); ++i) {
     const uint32_t shuffled = scramble(index[i], seed[i]);
-    out[i].x = firstOf(shuffled, seed[i]), out[i].y = secondOf(shuffled, seed[i]);
+    out[i].x = firstOf(shuffled, seed[i]);
+    out[i].y = secondOf(shuffled, seed[i]);
   }
 }
 
@@ -77,10 +78,13 @@ vec3 cosineHemisphere(vec2 xi) {
   const vec2 o = 2.0f * xi - vec2(1.0f);
   if (o.x == 0.0f && o.y == 0.0f) return {0.0f, 0.0f, 1.0f};
   float r, phi;
-  if (std::abs(o.x) > std::abs(o.y))
-    r = o.x, phi = (kPi / 4) * (o.y / o.x);
-  else
-    r = o.y, phi = kPi / 2 - (kPi / 4) * (o.x / o.y);
+  if (std::abs(o.x) > std::abs(o.y)) {
+    r = o.x;
+    phi = (kPi / 4) * (o.y / o.x);
+  } else {
+    r = o.y;
+    phi = kPi / 2 - (kPi / 4) * (o.x / o.y);
+  }
   const float x = r * std::cos(phi), y = r * std::sin(phi);
   return {x, y, std::sqrt(std::max(0.0f, 1.0f - x * x - y * y))};
 }

@@ -11,7 +11,11 @@ namespace tomales {
 
 /// A good 32-bit mix ("lowbias32", C. Wellons).
 inline uint32_t hash32(uint32_t x) {
-  x ^= x >> 16, x *= 0x7feb352dU, x ^= x >> 15, x *= 0x846ca68bU, x ^= x >> 16;
+  x ^= x >> 16;
+  x *= 0x7feb352dU;
+  x ^= x >> 15;
+  x *= 0x846ca68bU;
+  x ^= x >> 16;
   return x;
 }
 inline uint32_t hashCombine(uint32_t a, uint32_t b) {

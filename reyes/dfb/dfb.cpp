@@ -13,15 +13,20 @@ RecordName tileRecord(size_t tile) { return {kTileRecords, static_cast<uint32_t>
 
 RecordFileKind dfbKind() {
   SchemaSum schema;
-  schema.add(schemaOf<Shot>()), schema.add(tileSchema());
+  schema.add(schemaOf<Shot>());
+  schema.add(tileSchema());
   return {"TomalDFB", 1, schema.sum};
 }
 
 /// One empty object for each group, so that messages still name an object and its place.
 Scene withoutGeometry(const Scene& scene) {
   Scene out;
-  out.options = scene.options, out.cameraFromWorld = scene.cameraFromWorld, out.lights = scene.lights;
-  out.worldFromNamed = scene.worldFromNamed, out.where = scene.where, out.groups = scene.groups;
+  out.options = scene.options;
+  out.cameraFromWorld = scene.cameraFromWorld;
+  out.lights = scene.lights;
+  out.worldFromNamed = scene.worldFromNamed;
+  out.where = scene.where;
+  out.groups = scene.groups;
   for (ShadeGroup& group : out.groups) {
     Object empty;
     if (group.exampleObject >= 0) empty.where = scene.objects[static_cast<size_t>(group.exampleObject)].where;

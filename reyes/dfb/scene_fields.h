@@ -45,7 +45,9 @@ void fields(A& a, Scene& x) {
   if constexpr (kUnpacks<A>) {
     for (size_t i = 0; i < std::min(x.groups.size(), places.size()); ++i) {
       Object o;
-      o.attributes = x.groups[i].attributes, o.where = places[i], o.group = static_cast<int>(i);
+      o.attributes = x.groups[i].attributes;
+      o.where = places[i];
+      o.group = static_cast<int>(i);
       x.objects.push_back(std::move(o));
     }
   }

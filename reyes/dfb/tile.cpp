@@ -117,7 +117,8 @@ uint64_t tileSchema() {
   SchemaSum schema;
   DeepTile tile;
   ShadePoints points(0, 0);
-  tileFields(schema, tile), batch(schema, points);
+  tileFields(schema, tile);
+  batch(schema, points);
   return schema.sum;
 }
 

@@ -17,7 +17,9 @@ void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int 
       float* x = values + first * stride + i;
       const vec3 in(x[0], x[stride], x[2 * stride]);
       const vec3 out = point ? transformPoint(m, in) : vector ? transformVector(m, in) : normals * in;
-      x[0] = out.x, x[stride] = out.y, x[2 * stride] = out.z;
+      x[0] = out.x;
+      x[stride] = out.y;
+      x[2 * stride] = out.z;
     }
 }
 

@@ -20,7 +20,9 @@ void transformPoints(const mat4& m, int n, Triple<const float> from, Triple<floa
   if (m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1) return transformAffine(m, n, from, to);
   for (int i = 0; i < n; ++i) {
     const vec3 p = transformPoint(m, {from.x[i], from.y[i], from.z[i]});
-    to.x[i] = p.x, to.y[i] = p.y, to.z[i] = p.z;
+    to.x[i] = p.x;
+    to.y[i] = p.y;
+    to.z[i] = p.z;
   }
 }
 
@@ -110,7 +112,8 @@ Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, in
 
   const int n = g.vertexCount(), ofPiece = g.verticesOfPiece();
   static thread_local AlignedVector<float> u, v;
-  u.resize(static_cast<size_t>(padded(ofPiece))), v.resize(u.size());
+  u.resize(static_cast<size_t>(padded(ofPiece)));
+  v.resize(u.size());
   UvRect laid{0, 0, 0, 0};  // the rectangle that u and v belong to
   /// Calls f(piece, number of its first vertex), with u and v set for the piece.
   const auto forPieces = [&](const auto& f) {

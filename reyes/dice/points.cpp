@@ -25,7 +25,10 @@ struct ShaderParameters {
     float su[3], sv[3];
     prim.surfaceParameters(patch, 3, us, vs, su, sv);
     const float dsu = (su[1] - su[0]) / (us[1] - us[0]), dsv = (sv[2] - sv[0]) / (vs[2] - vs[0]);
-    u = su[0], v = sv[0], perU = dsu != 0 ? dsu : 1.0f, perV = dsv != 0 ? dsv : 1.0f;
+    u = su[0];
+    v = sv[0];
+    perU = dsu != 0 ? dsu : 1.0f;
+    perV = dsv != 0 ? dsv : 1.0f;
   }
 };
 
@@ -111,7 +114,8 @@ void evaluateSteps(const Scene& scene, int object, uint32_t patch, float u, floa
     const vec2 st = o.attributes->textureAt(there.u, there.v) - o.attributes->textureAt(here.u, here.v);
     put(kStepS, s >= 0 ? change(s) : st.x);
     put(kStepT, t >= 0 ? change(t) : st.y);
-    put(kStepU, there.u - here.u), put(kStepV, there.v - here.v);
+    put(kStepU, there.u - here.u);
+    put(kStepV, there.v - here.v);
     batch.channel(alongV ? kDv : kDu)[index] = patchStep * per;
   }
 }

@@ -17,7 +17,10 @@ uint64_t alongHilbertCurve(uint32_t x, uint32_t y, uint32_t side) {
     const uint32_t right = (x & s) != 0, up = (y & s) != 0;
     distance += uint64_t{s} * s * ((3 * right) ^ up);
     if (up) continue;
-    if (right) x = side - 1 - x, y = side - 1 - y;
+    if (right) {
+      x = side - 1 - x;
+      y = side - 1 - y;
+    }
     std::swap(x, y);
   }
   return distance;

@@ -14,7 +14,8 @@ struct Channels {
 
 ShadedPixels rowOf(const Image& image, const Channels& channels, int y) {
   ShadedPixels row;
-  row.x = static_cast<float>(image.originX) + 0.5f, row.y = static_cast<float>(image.originY + y) + 0.5f;
+  row.x = static_cast<float>(image.originX) + 0.5f;
+  row.y = static_cast<float>(image.originY + y) + 0.5f;
   row.colors.resize(image.width);
   row.alpha.assign(row.colors.Ci[0].size(), 0.0f);
   for (int x = 0; x < image.width; ++x) {

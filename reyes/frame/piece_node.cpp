@@ -67,7 +67,8 @@ PieceStack alone(const SubPatch& p) {
 }
 
 void extend(Placement& place, const Placement& by) {
-  place.raster.extend(by.raster.lo), place.raster.extend(by.raster.hi);
+  place.raster.extend(by.raster.lo);
+  place.raster.extend(by.raster.hi);
   place.zMin = std::min(place.zMin, by.zMin);
 }
 

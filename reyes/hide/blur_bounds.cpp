@@ -19,7 +19,9 @@ struct Extents {
   int pitch() const { return columns + 1; }
   int count() const { return pitch() * rows; }
   void resize(int c, int r, int a) {
-    columns = c, rows = r, axes = a;
+    columns = c;
+    rows = r;
+    axes = a;
     for (int key = 0; key < 2; ++key)
       for (int axis = 0; axis < axes; ++axis)
         for (auto* values : {&lo[key][axis], &hi[key][axis]}) values->resize(static_cast<size_t>(count()) + 1);
@@ -55,7 +57,8 @@ void halve(const Extents& from, std::vector<float>& values, const Extreme& extre
   const int columns = from.columns, pitch = from.pitch();
   for (int j = 0; j < from.rows; j += 2, out += (columns + 1) / 2 + 1) {
     float *a = values.data() + j * pitch, *b = values.data() + std::min(j + 1, from.rows - 1) * pitch;
-    a[columns] = a[columns - 1], b[columns] = b[columns - 1];
+    a[columns] = a[columns - 1];
+    b[columns] = b[columns - 1];
     for (int i = 0; i < (columns + 1) / 2; ++i)
       out[i] = extreme(extreme(a[2 * i], a[2 * i + 1]), extreme(b[2 * i], b[2 * i + 1]));
   }
@@ -64,9 +67,10 @@ void halve(const Extents& from, std::vector<float>& values, const Extreme& extre
 void halve(Extents& from, Extents& to) {
   to.resize((from.columns + 1) / 2, (from.rows + 1) / 2, from.axes);
   for (int key = 0; key < 2; ++key)
-    for (int axis = 0; axis < from.axes; ++axis)
-      halve(from, from.lo[key][axis], least, to.lo[key][axis].data()),
-          halve(from, from.hi[key][axis], greatest, to.hi[key][axis].data());
+    for (int axis = 0; axis < from.axes; ++axis) {
+      halve(from, from.lo[key][axis], least, to.lo[key][axis].data());
+      halve(from, from.hi[key][axis], greatest, to.hi[key][axis].data());
+    }
 }
 
 /// Linear motion of boxes: every vertex lies within the box whose sides move linearly. The larger half size serves all
@@ -86,7 +90,9 @@ struct Motions {
                               float* __restrict most) {
     for (int i = 0; i < count; ++i) {
       const float c0 = 0.5f * (lo0[i] + hi0[i]), c1 = 0.5f * (lo1[i] + hi1[i]);
-      center[i] = c0, step[i] = c1 - c0, reach[i] = greatest(hi0[i] - c0, hi1[i] - c1);
+      center[i] = c0;
+      step[i] = c1 - c0;
+      reach[i] = greatest(hi0[i] - c0, hi1[i] - c1);
       most[i] = greatest(greatest(std::abs(lo0[i]), std::abs(hi0[i])), greatest(std::abs(lo1[i]), std::abs(hi1[i])));
     }
   }
@@ -113,7 +119,8 @@ vec2 slantOf(const RasterGrid& r, int firstKey, int lastKey) {
       return vec2(r.x[v], r.y[v]);
     };
     const vec2 a = at(0), b = at(g.nu), c = at(g.nv * (g.nu + 1)), d = at(g.vertexCount() - 1);
-    along += b - a + d - c, across += c - a + d - b;
+    along += b - a + d - c;
+    across += c - a + d - b;
   }
   if (std::abs(along.y * across.x) > std::abs(along.x * across.y)) std::swap(along, across);
   const auto ratio = [](float a, float b) { return std::abs(a) <= std::abs(b) && b != 0 ? -a / b : 0.0f; };
@@ -127,7 +134,8 @@ TOMALES_HOT void slantAll(const float* x, const float* y, const vec2& from, cons
   const vec2 o = from, s = slant;
   for (int v = 0; v < count; ++v) {
     const float dx = x[v] - o.x, dy = y[v] - o.y;
-    slantX[v] = dx + s.x * dy, slantY[v] = dy + s.y * dx;
+    slantX[v] = dx + s.x * dy;
+    slantY[v] = dy + s.y * dx;
   }
 }
 
@@ -155,7 +163,8 @@ TOMALES_HOT void makeBoxes(const Motions& x, const Motions& y, const Frame& fram
 
 void makeBoxes(const Extents& e, const Frame& frame, const vec2& lens, BlurBox* out) {
   static thread_local Motions x, y, d;
-  x.set(e, 0), y.set(e, 1);
+  x.set(e, 0);
+  y.set(e, 1);
   for (int j = 0; j < e.rows; ++j)
     makeBoxes(x, y, frame, static_cast<size_t>(j * e.pitch()), e.columns, out + j * e.columns);
   if (e.axes < 3) return;
@@ -164,8 +173,10 @@ void makeBoxes(const Extents& e, const Frame& frame, const vec2& lens, BlurBox* 
   for (int j = 0; j < e.rows; ++j)
     for (size_t i = static_cast<size_t>(j * e.pitch()), end = i + static_cast<size_t>(e.columns); i < end; ++i, ++out) {
       const float reach = d.reach[i] + kRounding * d.most[i];
-      out->d = d.center[i], out->dStep = d.step[i];
-      out->xReach += blur.x * reach, out->yReach += blur.y * reach;
+      out->d = d.center[i];
+      out->dStep = d.step[i];
+      out->xReach += blur.x * reach;
+      out->yReach += blur.y * reach;
     }
 }
 
@@ -190,7 +201,8 @@ std::shared_ptr<const BlurBounds> boundBlur(const RasterGrid& r, const Camera& c
   bounds->boxes = PooledVector<BlurBox>(bounds->boxesPerSegment * static_cast<size_t>(segments), pool);
   static thread_local Extents fine, coarse;
   static thread_local std::vector<float> slantX, slantY;
-  slantX.resize(static_cast<size_t>(g.vertexCount())), slantY.resize(slantX.size());
+  slantX.resize(static_cast<size_t>(g.vertexCount()));
+  slantY.resize(slantX.size());
   for (int segment = 0; segment < segments; ++segment) {
     const int keys[2] = {std::min(segment, g.keyCount - 1), std::min(segment + 1, g.keyCount - 1)};
     Frame frame{{}, slantOf(r, keys[0], keys[1])};

@@ -37,7 +37,8 @@ struct BlurredQuad {
       for (int c = 0; c < 4; ++c) {
         const size_t v = static_cast<size_t>((key + k) * r.grid->stride() + corner[c]);
         x[k][c] = r.x[v], y[k][c] = r.y[v], d[k][c] = r.d[v];
-        dMin = std::min(dMin, r.d[v]), dMax = std::max(dMax, r.d[v]);
+        dMin = std::min(dMin, r.d[v]);
+        dMax = std::max(dMax, r.d[v]);
       }
     const int ends[5][2] = {{0, 1}, {1, 2}, {2, 0}, {1, 3}, {3, 2}};
     for (int e = 0; e < 5; ++e) swapped[e] = before(ends[e][1], ends[e][0]);
@@ -68,7 +69,8 @@ HWY_INLINE SeenVertex seen(const BlurredQuad<B>& q, int c, const SampleVector& s
   }
   if constexpr (B::kDefocuses) {
     const Floats fromFocus = hn::Sub(v.d, focus);
-    v.x = hn::Add(v.x, hn::Mul(s.lensX, fromFocus)), v.y = hn::Add(v.y, hn::Mul(s.lensY, fromFocus));
+    v.x = hn::Add(v.x, hn::Mul(s.lensX, fromFocus));
+    v.y = hn::Add(v.y, hn::Mul(s.lensY, fromFocus));
   }
   return v;
 }

@@ -206,7 +206,10 @@ void pushBorders(const RasterGrid& r, float mostOfDisplaced_px, float facing, fl
       pushBorder(g, b, x, y, {open, (cut & b.edge) != 0, std::max(kLeastReach_px, displaced_px)}, facing, push);
     }
   }
-  for (size_t v = 0; v < push.size(); ++v) x[v] += push[v].x, y[v] += push[v].y;
+  for (size_t v = 0; v < push.size(); ++v) {
+    x[v] += push[v].x;
+    y[v] += push[v].y;
+  }
 }
 
 float deviation_px(const Grid& g, const float* x, const float* y) {

@@ -34,7 +34,10 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
 
 /// A cell may be seen outside of its corners up to a line at which it ends.
 HWY_INLINE void growBounds(float* lo, float* hi, float by) {
-  for (int i = 0; i < kLanes; ++i) lo[i] -= by, hi[i] += by;
+  for (int i = 0; i < kLanes; ++i) {
+    lo[i] -= by;
+    hi[i] += by;
+  }
 }
 
 /// Finds which of kLanes vertices of a grid begin a cell, and its number.
@@ -90,7 +93,10 @@ HWY_INLINE uint64_t setUp(Corners& q, const RasterGrid& r, const CellNumbers& nu
   loadCorners(q.y, r.y.data() + first, row);
   setBounds(q.x, q.xMin, q.xMax);
   setBounds(q.y, q.yMin, q.yMax);
-  if (!r.lines.empty()) growBounds(q.xMin, q.xMax, kLineReach_px), growBounds(q.yMin, q.yMax, kLineReach_px);
+  if (!r.lines.empty()) {
+    growBounds(q.xMin, q.xMax, kLineReach_px);
+    growBounds(q.yMin, q.yMax, kLineReach_px);
+  }
   const Floats left = all(static_cast<float>(bucket.x0)), right = all(static_cast<float>(bucket.x1));
   const Floats top = all(static_cast<float>(bucket.y0)), bottom = all(static_cast<float>(bucket.y1));
   uint64_t touching = 0;

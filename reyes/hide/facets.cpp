@@ -14,7 +14,8 @@ template <class Steps>
 void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints& points, int i) {
   const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
   const auto put = [&](int value, float u, float v) {
-    points.step(value, false)[i] = u, points.step(value, true)[i] = v;
+    points.step(value, false)[i] = u;
+    points.step(value, true)[i] = v;
   };
   // The grid's N may be of any length; that of a shaded point is 1.
   vec3 n;

@@ -20,8 +20,12 @@ struct VertexSteps {
   VertexSteps(const Grid& g, int vertex) : at(vertex) {
     const int row = g.nu + 1, i = vertex % row, j = vertex / row % (g.nv + 1), first = vertex - j * row - i;
     const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, g.nu), j0 = std::max(j - 1, 0), j1 = std::min(j + 1, g.nv);
-    uLo = first + j * row + i0, uHi = first + j * row + i1, vLo = first + j0 * row + i, vHi = first + j1 * row + i;
-    uScale = 1 / static_cast<float>(i1 - i0), vScale = 1 / static_cast<float>(j1 - j0);
+    uLo = first + j * row + i0;
+    uHi = first + j * row + i1;
+    vLo = first + j0 * row + i;
+    vHi = first + j1 * row + i;
+    uScale = 1 / static_cast<float>(i1 - i0);
+    vScale = 1 / static_cast<float>(j1 - j0);
   }
   float mean(const float* f) const { return f[at]; }
   float uStep(const float* f) const { return uScale * (f[uHi] - f[uLo]); }
@@ -57,11 +61,15 @@ struct alignas(64) Gathered {
     const VertexSteps steps(g, vertex);
     for (int axis = 0; axis < 3; ++axis) {
       const float* p = g.P(0, axis);
-      P[axis][i] = p[vertex], uEdge[axis][i] = steps.uStep(p), vEdge[axis][i] = steps.vStep(p);
+      P[axis][i] = p[vertex];
+      uEdge[axis][i] = steps.uStep(p);
+      vEdge[axis][i] = steps.vStep(p);
       N[axis][i] = g.N(axis)[vertex];
     }
-    u[i] = g.u()[vertex], v[i] = g.v()[vertex];
-    du[i] = steps.uStep(g.u()), dv[i] = steps.vStep(g.v());
+    u[i] = g.u()[vertex];
+    v[i] = g.v()[vertex];
+    du[i] = steps.uStep(g.u());
+    dv[i] = steps.vStep(g.v());
   }
 
   /// Reads the centres of `count` cells whose first vertices follow each other from `a` on.
@@ -85,11 +93,16 @@ struct alignas(64) Gathered {
   void readCell(const Sources& from, int k, int row, int i) {
     for (int axis = 0; axis < 3; ++axis) {
       const MeanAndSteps p = over(from.P[axis], k, row);
-      P[axis][i + k] = p.mean, uEdge[axis][i + k] = p.u, vEdge[axis][i + k] = p.v;
+      P[axis][i + k] = p.mean;
+      uEdge[axis][i + k] = p.u;
+      vEdge[axis][i + k] = p.v;
       N[axis][i + k] = over(from.N[axis], k, row).mean;
     }
     const MeanAndSteps s = over(from.u, k, row), t = over(from.v, k, row);
-    u[i + k] = s.mean, du[i + k] = s.u, v[i + k] = t.mean, dv[i + k] = t.v;
+    u[i + k] = s.mean;
+    du[i + k] = s.u;
+    v[i + k] = t.mean;
+    dv[i + k] = t.v;
   }
 
   void readBlock(const Sources& from, int row, int i);

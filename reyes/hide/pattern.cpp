@@ -55,8 +55,12 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
       seed_(seed) {
   const size_t size = static_cast<size_t>(patterns_) * static_cast<size_t>(padded_);
   // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing can be in front of.
-  x_.assign(size, 0), y_.assign(size, 0), time_.assign(size, 0), lensX_.assign(size, 0), lensY_.assign(size, 0),
-      detail_.assign(size, 0);
+  x_.assign(size, 0);
+  y_.assign(size, 0);
+  time_.assign(size, 0);
+  lensX_.assign(size, 0);
+  lensY_.assign(size, 0);
+  detail_.assign(size, 0);
   const ApertureShape throughAperture(aperture);
   for (uint32_t p = 0; p < static_cast<uint32_t>(patterns_); ++p) {
     const uint32_t name = hashCombine(seed, randomStream("patt"), p);
@@ -80,7 +84,8 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
       const int stratum = throughLens[static_cast<size_t>(s)];
       const vec2 lens = throughAperture(
           {within(stratum % xSamples, xSamples, random(3)), within(stratum / xSamples, ySamples, random(4))});
-      lensX_[at] = lens.x, lensY_[at] = lens.y;
+      lensX_[at] = lens.x;
+      lensY_[at] = lens.y;
       detail_[at] = within(ofDetail[static_cast<size_t>(s)], count_, random(5));
     }
   }

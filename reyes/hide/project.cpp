@@ -27,7 +27,9 @@ TOMALES_HOT bool toRaster(const Vertices& from, const Camera& camera, float* __r
     unseeable |= !good;
     const vec3 p(good ? given.x : harmless.x, good ? given.y : harmless.y, good ? given.z : harmless.z);
     const vec2 at = camera.raster(p);
-    x[v] = at.x, y[v] = at.y, d[v] = camera.depthKey(p.z);
+    x[v] = at.x;
+    y[v] = at.y;
+    d[v] = camera.depthKey(p.z);
   }
   return unseeable == 0;
 }
@@ -46,7 +48,10 @@ bool anyClipped(const Vertices& from, const Camera& camera, bool planes) {
 }
 
 TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {
-  for (int v = 0; v < count; ++v) x[v] = snapToLattice(x[v]), y[v] = snapToLattice(y[v]);
+  for (int v = 0; v < count; ++v) {
+    x[v] = snapToLattice(x[v]);
+    y[v] = snapToLattice(y[v]);
+  }
 }
 
 /// Bounds vertices in focus. Each lane of a vector keeps its own extremes, because the compiler does not vectorise a
@@ -56,16 +61,21 @@ TOMALES_HOT RasterExtent extentOf(const float* x, const float* y, const float* d
   int first = 0;
   if (count >= 2 * kLanes) {
     float lo[3][kLanes], hi[2][kLanes];
-    for (int i = 0; i < kLanes; ++i) lo[0][i] = lo[1][i] = lo[2][i] = kInfinity, hi[0][i] = hi[1][i] = -kInfinity;
+    for (int i = 0; i < kLanes; ++i) {
+      lo[0][i] = lo[1][i] = lo[2][i] = kInfinity;
+      hi[0][i] = hi[1][i] = -kInfinity;
+    }
     for (; first + kLanes <= count; first += kLanes)
       for (int i = 0; i < kLanes; ++i) {
         const int v = first + i;
-        lo[0][i] = x[v] < lo[0][i] ? x[v] : lo[0][i], hi[0][i] = x[v] > hi[0][i] ? x[v] : hi[0][i];
-        lo[1][i] = y[v] < lo[1][i] ? y[v] : lo[1][i], hi[1][i] = y[v] > hi[1][i] ? y[v] : hi[1][i];
+        lo[0][i] = x[v] < lo[0][i] ? x[v] : lo[0][i];
+        hi[0][i] = x[v] > hi[0][i] ? x[v] : hi[0][i];
+        lo[1][i] = y[v] < lo[1][i] ? y[v] : lo[1][i];
+        hi[1][i] = y[v] > hi[1][i] ? y[v] : hi[1][i];
         lo[2][i] = d[v] < lo[2][i] ? d[v] : lo[2][i];
       }
     for (int i = 0; i < kLanes; ++i) {
-      e.bound.lo = glm::min(e.bound.lo, vec2(lo[0][i], lo[1][i])),
+      e.bound.lo = glm::min(e.bound.lo, vec2(lo[0][i], lo[1][i]));
       e.bound.hi = glm::max(e.bound.hi, vec2(hi[0][i], hi[1][i]));
       e.dMin = std::min(e.dMin, lo[2][i]);
     }

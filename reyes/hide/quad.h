@@ -81,7 +81,10 @@ struct FloatEdges {
     if (limit[i] == FLT_MAX) return;
     const bool swapped = q.x < p.x || (q.x == p.x && q.y < p.y);
     const vec2 along = left ? q - p : p - q, origin = swapped ? q : p;
-    ox[i] = origin.x, oy[i] = origin.y, dx[i] = along.x, dy[i] = along.y;
+    ox[i] = origin.x;
+    oy[i] = origin.y;
+    dx[i] = along.x;
+    dy[i] = along.y;
     limit[i] = swapped != left ? 0.0f : -kTiny;
   }
   /// Makes the edges of a mask have no inside.
@@ -182,7 +185,10 @@ struct alignas(64) Triangles {
                  y0 = hn::Mul(hn::Sub(hn::Mul(acz, abx), hn::Mul(abz, acx)), inverse0);
     const Floats x1 = hn::Mul(hn::Sub(hn::Mul(bdz, bcy), hn::Mul(bcz, bdy)), inverse1),
                  y1 = hn::Mul(hn::Sub(hn::Mul(bcz, bdx), hn::Mul(bdz, bcx)), inverse1);
-    hn::Store(x0, kF, gx0 + g), hn::Store(y0, kF, gy0 + g), hn::Store(x1, kF, gx1 + g), hn::Store(y1, kF, gy1 + g);
+    hn::Store(x0, kF, gx0 + g);
+    hn::Store(y0, kF, gy0 + g);
+    hn::Store(x1, kF, gx1 + g);
+    hn::Store(y1, kF, gy1 + g);
     const Floats slope = hn::Max(hn::Add(hn::Abs(x0), hn::Abs(y0)), hn::Add(hn::Abs(x1), hn::Abs(y1)));
     hn::Store(depthErrorBound(slope, hn::Load(kF, q.dMin + g)), kF, depthError + g);
   }

@@ -60,7 +60,10 @@ struct Box {
       cy = hn::Add(cy, hn::Mul(yStep, s.t));
       if constexpr (B::kDefocuses) cd = hn::Add(cd, hn::Mul(dStep, s.t));
     }
-    if constexpr (B::kDefocuses) cx = hn::Add(cx, hn::Mul(s.lensX, cd)), cy = hn::Add(cy, hn::Mul(s.lensY, cd));
+    if constexpr (B::kDefocuses) {
+      cx = hn::Add(cx, hn::Mul(s.lensX, cd));
+      cy = hn::Add(cy, hn::Mul(s.lensY, cd));
+    }
     const Floats dx = hn::Sub(s.x, cx), dy = hn::Sub(s.y, cy);
     return hn::And(hn::Le(hn::Abs(hn::Add(dx, hn::Mul(xSlant, dy))), xReach),
                    hn::Le(hn::Abs(hn::Add(dy, hn::Mul(ySlant, dx))), yReach));
@@ -186,7 +189,8 @@ class Descent {
   void fetch(const BlurBounds::Level& level, int i, int j) const {
     for (int y = j; y < std::min(j + 4, level.rows); ++y) {
       const BlurBox* box = &bounds_.box(key_, level, i, y);
-      __builtin_prefetch(box), __builtin_prefetch(box + 2);
+      __builtin_prefetch(box);
+      __builtin_prefetch(box + 2);
     }
   }
 
@@ -243,7 +247,9 @@ class Descent {
       const uint32_t lane = lanes[s];
       if (depths[s] == depth[lane]) settleTies(job_, lane, 1, cell);
       if (depths[s] >= depth[lane]) continue;
-      depth[lane] = depths[s], cells[lane] = cell, nearer[pixelOf[lane / kLanes]] = 1;
+      depth[lane] = depths[s];
+      cells[lane] = cell;
+      nearer[pixelOf[lane / kLanes]] = 1;
     }
   }
 

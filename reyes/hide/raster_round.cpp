@@ -24,7 +24,7 @@ struct Oval {
     f = 0.5f * (pc - pa);
     area = e.x * f.y - e.y * f.x;
     d = 0.5f * (depth[1] + depth[2]);
-    dMin = std::min({depth[0], depth[1], depth[2], depth[3]}),
+    dMin = std::min({depth[0], depth[1], depth[2], depth[3]});
     dMax = std::max({depth[0], depth[1], depth[2], depth[3]});
     const float alongE = 0.5f * (depth[1] - depth[0]), alongF = 0.5f * (depth[2] - depth[0]);
     slope = vec2(alongE * f.y - alongF * e.y, alongF * e.x - alongE * f.x) / area;

@@ -82,8 +82,10 @@ class TileBuilder {
   void addPixels(size_t begin, size_t end) {
     uint32_t opaque[kRankedTogether];
     size_t count = 0;
-    for (size_t pixel = begin; pixel < end; ++pixel)
-      opaque[count] = static_cast<uint32_t>(pixel), count += !hasLayers(pixel);
+    for (size_t pixel = begin; pixel < end; ++pixel) {
+      opaque[count] = static_cast<uint32_t>(pixel);
+      count += !hasLayers(pixel);
+    }
     RankedCoverages seen[kRankedTogether];
     rankOpaque(samples_, {opaque, count}, seen);
     const RankedCoverages* next = seen;
@@ -168,8 +170,9 @@ class TileBuilder {
     for (uint32_t k = scratch_.firstLayer[pixel]; k < scratch_.firstLayer[pixel + 1]; ++k) {
       // Layers of a pixel are scattered over the list, which is larger than a near cache.
       const uint32_t next = order[std::min(size_t{k} + kAhead, order.size() - 1)];
-      __builtin_prefetch(layers.depths(next)), __builtin_prefetch(layers.cells(next)),
-          __builtin_prefetch(&layers.layer(next));
+      __builtin_prefetch(layers.depths(next));
+      __builtin_prefetch(layers.cells(next));
+      __builtin_prefetch(&layers.layer(next));
       const LayerExtent extent = cullLayer(samples_, grids_, order[k]);
       if (layers.layer(order[k]).samples) ordered.push_back({extent, order[k], layers.layer(order[k]).object});
     }

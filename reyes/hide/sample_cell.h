@@ -67,7 +67,10 @@ HWY_INLINE void write(TransparentLayers& layers, uint32_t layer, bool fresh, siz
   uint32_t* cells = layers.cells(layer) + first;
   Floats otherDepths = all(TransparentLayers::kUncovered_d);
   auto otherCells = hn::Set(kU, kNoCell);
-  if (!fresh) otherDepths = hn::Load(kF, depths), otherCells = hn::Load(kU, cells);
+  if (!fresh) {
+    otherDepths = hn::Load(kF, depths);
+    otherCells = hn::Load(kU, cells);
+  }
   hn::Store(hn::IfThenElse(on, depth, otherDepths), kF, depths);
   hn::Store(hn::IfThenElse(hn::RebindMask(kU, on), hn::Set(kU, cell), otherCells), kU, cells);
 }

@@ -104,7 +104,10 @@ class SolidResolver {
       return false;
     }
     uint32_t& owner = samples_.cell[c.lane];
-    if (c.d < depth || grids_.precedes(c.cell, owner)) depth = c.d, owner = c.cell;
+    if (c.d < depth || grids_.precedes(c.cell, owner)) {
+      depth = c.d;
+      owner = c.cell;
+    }
     return true;
   }
 

@@ -51,7 +51,10 @@ class TransparentLayers {
   const uint32_t* cells(size_t layer) const { return cells_.data() + layer * width_; }
 
   /// Begins a grid: layers of the next grid hold no cells of those before. object: TransparentLayer::object.
-  void beginGrid(int object = -1) { firstOfGrid_ = count_, object_ = object; }
+  void beginGrid(int object = -1) {
+    firstOfGrid_ = count_;
+    object_ = object;
+  }
   /// Reserves memory for `more` layers. take() never allocates: a call there would spill all vectors of its caller's
   /// loops.
   void makeRoom(size_t more) {
@@ -97,7 +100,8 @@ class TransparentLayers {
     }
     for (; open_; open_ &= open_ - 1) {
       const int s = std::countr_zero(open_);
-      depths(layer)[s] = openDepths_[s], cells(layer)[s] = openCell_;
+      depths(layer)[s] = openDepths_[s];
+      cells(layer)[s] = openCell_;
     }
   }
 

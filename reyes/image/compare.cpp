@@ -53,7 +53,8 @@ ComparedPlane blurAlong(const ComparedPlane& in, float sigma, int radius, int st
         const int sx = x + k * stepX, sy = y + k * stepY;
         if (sx < 0 || sy < 0 || sx >= in.width || sy >= in.height) continue;
         const float w = std::exp(-0.5f * static_cast<float>(k * k) / (sigma * sigma));
-        sum += w * in.at(sx, sy), total += w;
+        sum += w * in.at(sx, sy);
+        total += w;
       }
       out.v[static_cast<size_t>(y) * static_cast<size_t>(in.width) + static_cast<size_t>(x)] = sum / total;
     }
@@ -153,7 +154,9 @@ SmoothFigures smoothFigures(const Image& test, const Image& reference) {
       if (!(m > 0 && variance <= kSmooth * kSmooth * m * m)) continue;
       const double ratio = mean([&](int x, int y) { return t.at(x, y); }) / m;
       specks += mean([&](int x, int y) { return std::abs(t.at(x, y) - ratio * r.at(x, y)) > kSpeck * ratio * m; });
-      ++blocks, sum += ratio, squares += ratio * ratio;
+      ++blocks;
+      sum += ratio;
+      squares += ratio * ratio;
     }
   if (!(sum > 0)) return {};
   const double mean = sum / blocks;
@@ -189,7 +192,8 @@ Comparison compare(const Image& test, const Image& reference) {
   out.ssim = ssim(test, reference);
   out.flip = flipLike(test, reference);
   const SmoothFigures smooth = smoothFigures(test, reference);
-  out.smudges = smooth.smudges, out.specks = smooth.specks;
+  out.smudges = smooth.smudges;
+  out.specks = smooth.specks;
   return out;
 }
 

@@ -15,7 +15,8 @@ struct Blend {
   Blend() = default;
   Blend(const Facet& f, const Fragment& fragment) {
     if (isConstant(f)) return;
-    count = 4, weight = fragment.cornerWeights();
+    count = 4;
+    weight = fragment.cornerWeights();
   }
 };
 
@@ -66,8 +67,8 @@ Air Compositor::takeAir(const DeepTile& tile, const Fragment& fragment, FacetSha
   for (size_t i = 0; i < blend.count; ++i)
     for (int k = 0; k < 3; ++k) {
       const auto point = static_cast<size_t>(facet.point[i]);
-      out.color[k] += blend.weight[i] * shaded.airCi[k][point],
-          out.opacity[k] += blend.weight[i] * shaded.airOi[k][point];
+      out.color[k] += blend.weight[i] * shaded.airCi[k][point];
+      out.opacity[k] += blend.weight[i] * shaded.airOi[k][point];
     }
   shade.color -= out.color;
   shade.opacity -= out.opacity;
@@ -118,7 +119,10 @@ void Compositor::shadeFacets(const DeepTile& tile) {
     KnownShade& s = shades_[i];
     const Facet& facet = tile.facets[i];
     s.known = isConstant(facet);
-    if (s.known) s.shade = blendedShade(tile, facet, Blend()), s.deep = hasDepth(s.shade);
+    if (s.known) {
+      s.shade = blendedShade(tile, facet, Blend());
+      s.deep = hasDepth(s.shade);
+    }
   }
 }
 
@@ -178,9 +182,10 @@ void Compositor::noteDepth(const DeepTile& tile, const Fragment& f) {
   for (uint64_t left = f.samples; left; left &= left - 1) {
     const size_t sample = size_t{f.word} * 64 + static_cast<size_t>(lowestBit(left));
     Contribution& s = samples_[sample];
-    if (s.z == kInfinity)
-      s.z = f.z, batchOf_[sample] = facet.batch;
-    else if (facet.batch != batchOf_[sample] || f.z > s.z + overlap)
+    if (s.z == kInfinity) {
+      s.z = f.z;
+      batchOf_[sample] = facet.batch;
+    } else if (facet.batch != batchOf_[sample] || f.z > s.z + overlap)
       s.zSecond = std::min(s.zSecond, f.z);
   }
 }

@@ -84,8 +84,10 @@ void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOff
           return a.coverage != b.coverage ? a.coverage > b.coverage : a.id < b.id;
         });
         float* out = band.at(x - band.originX, y - band.originY) + first;
-        for (size_t rank = 0; rank < std::min<size_t>(shares.size(), kCryptoFloats / 2); ++rank)
-          out[2 * rank] = shares[rank].id, out[2 * rank + 1] = shares[rank].coverage / total;
+        for (size_t rank = 0; rank < std::min<size_t>(shares.size(), kCryptoFloats / 2); ++rank) {
+          out[2 * rank] = shares[rank].id;
+          out[2 * rank + 1] = shares[rank].coverage / total;
+        }
       }
   });
 }

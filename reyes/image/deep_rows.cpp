@@ -28,8 +28,14 @@ class Merger {
     count_ = 0;
     for (const Share& s : shares) {
       if (open_ && !joins(s)) close();
-      if (!open_) start_ = s.z, color_ = coverage_ = vec3(0.0f), open_ = true;
-      end_ = s.z, color_ += s.color, coverage_ += s.coverage;
+      if (!open_) {
+        start_ = s.z;
+        color_ = coverage_ = vec3(0.0f);
+        open_ = true;
+      }
+      end_ = s.z;
+      color_ += s.color;
+      coverage_ += s.coverage;
     }
     if (open_) close();
     out_.counts.push_back(count_);
@@ -115,7 +121,10 @@ DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOf
               if (w > 0) shares.push_back({l.z, w * l.color, w * l.coverage});
             }
           });
-          for (Share& s : shares) s.color /= total, s.coverage /= total;
+          for (Share& s : shares) {
+            s.color /= total;
+            s.coverage /= total;
+          }
           merger.pixel(shares);
         }
     }

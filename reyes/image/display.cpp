@@ -75,7 +75,9 @@ Metadata matrix(const char* name, const mat4& m) {
 /// window and (1, 1) at the bottom right.
 std::vector<Metadata> cameraOf(const View& view) {
   mat4 ndcFromScreen(1.0f);
-  ndcFromScreen[0][0] = 0.5f, ndcFromScreen[1][1] = -0.5f, ndcFromScreen[3] = {0.5f, 0.5f, 0, 1};
+  ndcFromScreen[0][0] = 0.5f;
+  ndcFromScreen[1][1] = -0.5f;
+  ndcFromScreen[3] = {0.5f, 0.5f, 0, 1};
   return {matrix("worldtocamera", view.cameraFromWorld),
           matrix("worldToNDC", ndcFromScreen * view.screenFromWorld),
           {"near", "", {view.near}},
@@ -90,14 +92,16 @@ struct DisplayFile::Impl {
     if (driver.empty()) {
       warnOfRefusedDriver(display, options, trust, log);
       warnAboutParams(display, log);
-      path = fileOf(display), format = formatOf(display, log);
+      path = fileOf(display);
+      format = formatOf(display, log);
     } else {
       format = {&driverFormat(), SampleType::Float};
       format.driver = {driver, display, view};
     }
     format.pixelAspect = options.pixelAspect;
     shape = whole;
-    shape.channels.clear(), shape.pixels.clear();
+    shape.channels.clear();
+    shape.pixels.clear();
     if (writesDeep(display)) openDeep();
     for (Metadata& m : cameraOf(view)) format.metadata.push_back(std::move(m));
     if (writesDeep(display) || writesShadowMap(display))
@@ -140,7 +144,10 @@ struct DisplayFile::Impl {
   }
 
   void openDeep() {
-    format.deep = true, format.tile = 0, format.multipart = false, format.compression.clear();
+    format.deep = true;
+    format.tile = 0;
+    format.multipart = false;
+    format.compression.clear();
     format.precise = {"Z", "ZBack"};
     merge.opacityOnly = writesMap(display);
     if (const Param* p = findParam(display.params, "mergedepth")) merge.depth = std::max(0.0f, p->number(0));
@@ -160,7 +167,8 @@ struct DisplayFile::Impl {
     bool floats = mixed, wide = false;
     for (size_t i = 0; i < selection.size(); ++i) {
       Quantize q = selection[i].encoding.quantize.value_or(depth[i] ? options.depthQuantize : options.rgbaQuantize);
-      floats = floats || q.one <= 0, wide = wide || q.one > 255 || q.max > 255;
+      floats = floats || q.one <= 0;
+      wide = wide || q.one > 255 || q.max > 255;
       quantizers.push_back(q);
     }
     if (floats && format.kind->floats) {
@@ -189,7 +197,8 @@ struct DisplayFile::Impl {
 
   Image picked(const Image& rows) const {
     Image out = shape;
-    out.originY = rows.originY, out.height = rows.height;
+    out.originY = rows.originY;
+    out.height = rows.height;
     const size_t step = rows.channels.size(), pixels = rows.pixels.size() / step;
     out.pixels.resize(pixels * from.size());
     for (size_t c = 0; c < from.size(); ++c) {
@@ -271,11 +280,16 @@ View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
   const vec2 center = camera.raster({0, 0, 1}), scale = camera.raster({1, 1, 1}) - center;
   const vec2 toScreen(2 / size.x, -2 / size.y), origin = center * toScreen + vec2(-1, 1), stretch = scale * toScreen;
   mat4 screenFromCamera(1.0f);
-  screenFromCamera[0][0] = stretch.x, screenFromCamera[1][1] = stretch.y;
+  screenFromCamera[0][0] = stretch.x;
+  screenFromCamera[1][1] = stretch.y;
   const int last = camera.perspective() ? 2 : 3;  // index of the component that divides x and y: z, or none
-  screenFromCamera[last][0] = origin.x, screenFromCamera[last][1] = origin.y;
-  if (camera.perspective())
-    screenFromCamera[2][3] = 1, screenFromCamera[3][3] = 0, screenFromCamera[3][2] = -camera.nearClip();
+  screenFromCamera[last][0] = origin.x;
+  screenFromCamera[last][1] = origin.y;
+  if (camera.perspective()) {
+    screenFromCamera[2][3] = 1;
+    screenFromCamera[3][3] = 0;
+    screenFromCamera[3][2] = -camera.nearClip();
+  }
   return {cameraFromWorld, screenFromCamera * cameraFromWorld, camera.nearClip(), camera.farClip()};
 }
 

@@ -154,7 +154,9 @@ std::string partialName(const std::string& path) {
 void addHeader(DisplayCall& display, const std::string& name, const std::string& text) {
   if (!formatOf(display).carriesNames) return;
   Param p;
-  p.name = std::string(kHeader) + name, p.type = ValueType::String, p.strings = {text};
+  p.name = std::string(kHeader) + name;
+  p.type = ValueType::String;
+  p.strings = {text};
   display.params.push_back(std::move(p));
 }
 

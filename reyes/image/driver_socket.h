@@ -52,7 +52,8 @@ inline bool sendAll(int socket, const void* data, size_t size) {
     const ssize_t n = ::send(socket, at, size, MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
-    at += n, size -= static_cast<size_t>(n);
+    at += n;
+    size -= static_cast<size_t>(n);
   }
   return true;
 }
@@ -62,7 +63,8 @@ inline bool receiveAll(int socket, void* data, size_t size) {
     const ssize_t n = ::recv(socket, at, size, 0);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
-    at += n, size -= static_cast<size_t>(n);
+    at += n;
+    size -= static_cast<size_t>(n);
   }
   return true;
 }

@@ -23,7 +23,8 @@ class PartPixels {
  public:
   explicit PartPixels(const Imf::Header& header) : header_(header) {
     const Imath::Box2i& w = header.dataWindow();
-    width_ = w.max.x - w.min.x + 1, height_ = w.max.y - w.min.y + 1;
+    width_ = w.max.x - w.min.x + 1;
+    height_ = w.max.y - w.min.y + 1;
     const Imf::ChannelList& list = header.channels();
     for (auto c = list.begin(); c != list.end(); ++c) {
       std::vector<char>& plane = planes_[c.name()];

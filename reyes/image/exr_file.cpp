@@ -201,7 +201,10 @@ class ExrFile : public FormatWriter {
       Plane& plane = planes.emplace_back(type, samples + 1);
       for (size_t i = 0; i < samples; ++i) plane.set(i, rows.values[i * channels + c]);
       size_t first = 0;
-      for (const unsigned count : counts) pointers[c].push_back(plane.at(first)), first += count;
+      for (const unsigned count : counts) {
+        pointers[c].push_back(plane.at(first));
+        first += count;
+      }
       buffer.insert(shape.channels[c], Imf::DeepSlice(type, reinterpret_cast<char*>(pointers[c].data() - back),
                                                       sizeof(char*), sizeof(char*) * row, plane.valueBytes()));
     }

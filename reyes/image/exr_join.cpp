@@ -160,13 +160,15 @@ class TileRows {
 
   Image bandOf(int y0, int height) const {
     Image out = shape_;
-    out.originY = y0, out.height = height;
+    out.originY = y0;
+    out.height = height;
     return out;
   }
 
   Image flatOf(const PictureTile& t, int begin, int end) const {
     Image out = bandOf(std::max(begin, t.window.y0), 0);
-    out.originX = t.window.x0, out.width = t.window.width();
+    out.originX = t.window.x0;
+    out.width = t.window.width();
     out.height = std::max(0, std::min(end, t.window.y1) - out.originY);
     const size_t channels = out.channels.size();
     out.pixels.resize(static_cast<size_t>(out.width) * static_cast<size_t>(out.height) * channels);
@@ -259,7 +261,8 @@ void joinPictures(const std::vector<std::string>& files, const std::string& outp
   for (const PictureTile& tile : tiles) refuseStranger(tiles.front(), tile);
   const Imf::Header& first = tiles.front().in->header(0);
   Options options;
-  options.xResolution = first.displayWindow().max.x + 1, options.yResolution = first.displayWindow().max.y + 1;
+  options.xResolution = first.displayWindow().max.x + 1;
+  options.yResolution = first.displayWindow().max.y + 1;
   if (crop) options.cropWindow = *crop;
   const PixelRect whole = Camera(options).crop();
   refuseGaps(tiles, whole);

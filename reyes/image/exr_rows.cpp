@@ -63,7 +63,10 @@ Bytes rawRows(const Image& rows, int first, int count, const std::vector<FileCha
 /// even number.
 TOMALES_HOT void predict(const unsigned char* __restrict raw, size_t half, unsigned char* __restrict split,
                          unsigned char* __restrict out) {
-  for (size_t i = 0; i < half; ++i) split[i] = raw[2 * i], split[half + i] = raw[2 * i + 1];
+  for (size_t i = 0; i < half; ++i) {
+    split[i] = raw[2 * i];
+    split[half + i] = raw[2 * i + 1];
+  }
   out[0] = split[0];
   for (size_t i = 1; i < 2 * half; ++i) out[i] = static_cast<unsigned char>(split[i] - split[i - 1] + 128);
 }

@@ -102,7 +102,10 @@ PixelFilter::PixelFilter(const std::string& name, float xWidth, float yWidth, bo
     : kind_(0), xWidth_(usableWidth(xWidth)), yWidth_(usableWidth(yWidth)) {
   bool found = false;
   for (size_t i = 0; i < kFilters.size() && !found; ++i)
-    if (name == kFilters[i].name) kind_ = static_cast<int>(i), found = true;
+    if (name == kFilters[i].name) {
+      kind_ = static_cast<int>(i);
+      found = true;
+    }
   if (known) *known = found;
 }
 

@@ -80,7 +80,8 @@ struct FrameFilter::Impl {
         addReduction(channel, 4 + e);
     }
     const auto reach = [this](const WeightTable& w) {
-      reachX = std::max(reachX, w.reachX), reachY = std::max(reachY, w.reachY);
+      reachX = std::max(reachX, w.reachX);
+      reachY = std::max(reachY, w.reachY);
     };
     for (const Pass& p : passes) reach(p.weights);
     for (const Reduction& r : reductions) reach(r.weights);
@@ -94,7 +95,10 @@ struct FrameFilter::Impl {
   }
   void addReduction(const Channel& channel, size_t from) {
     Reduction& r = reductions.emplace_back(channel.sampling, samples);
-    r.from = from, r.to = channel.first, r.width = channel.width(), r.fill = channel.fill;
+    r.from = from;
+    r.to = channel.first;
+    r.width = channel.width();
+    r.fill = channel.fill;
   }
 
   void filter(const Pass& pass, const PixelRect& block, const std::function<float*(int x, int y)>& at) const {
@@ -131,7 +135,10 @@ struct FrameFilter::Impl {
       resolved.forRow(around.rect.x0, around.rect.x1, y, [&](int x, const Seen& here) {
         const size_t count = here.list.size();
         if (count == 0) return;
-        if (weights.size() < count * places) weights.resize(count * places), values.resize(count * wide);
+        if (weights.size() < count * places) {
+          weights.resize(count * places);
+          values.resize(count * wide);
+        }
         for (size_t c = 0; c < count; ++c)
           pass.weights.sums(patterns[x], here.list[c].samples, here.list[c].word, weights.data() + c * places);
         if (!copies)
@@ -200,10 +207,12 @@ struct FrameFilter::Impl {
       if (c.z == kInfinity) continue;
       const bool midpoint = options.depthFilter == DepthFilter::Midpoint;
       const float z = midpoint ? 0.5f * c.z + 0.5f * std::min(c.zSecond, options.farClip) : c.z;
-      low = std::min(low, z), high = std::max(high, z);
+      low = std::min(low, z);
+      high = std::max(high, z);
       if (options.depthFilter != DepthFilter::Average) continue;
       const auto count = static_cast<float>(__builtin_popcountll(c.samples));
-      sum += count * z, weight += count;
+      sum += count * z;
+      weight += count;
     }
     if (low == kInfinity) return kInfinity;
     if (options.depthFilter == DepthFilter::Max) return high;
@@ -237,7 +246,8 @@ Image FrameFilter::rows(int y0, int y1) {
   const PixelRect& crop = impl_->frame.crop;
   CHECK_EQ(impl_->resolved.reaches(y0 - impl_->reachY), true);
   Image image = shape();
-  image.originY = y0, image.height = y1 - y0;
+  image.originY = y0;
+  image.height = y1 - y0;
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * image.channels.size());
   const auto across = static_cast<size_t>((crop.width() + kFilterBlockColumns - 1) / kFilterBlockColumns);
   const auto down = static_cast<size_t>((image.height + kFilterBlockRows - 1) / kFilterBlockRows);

@@ -77,7 +77,10 @@ struct PictureFile::Impl {
     if (failed || !guarded([&] { writer->close(); })) return false;
     const bool whole = finished >= 1;
     std::string why;
-    if (file && !whole) tellShare(file->descriptor(), finished), file->finishAs(partialName(path));
+    if (file && !whole) {
+      tellShare(file->descriptor(), finished);
+      file->finishAs(partialName(path));
+    }
     std::error_code none;  // there may be no such file
     if (file && whole) fs::remove(throughLinks(path).replace_filename(partialName(path)), none);
     return !file || file->finish(why) || fail(why);
@@ -126,8 +129,10 @@ Making copyShadowMap(const std::string& from, const std::string& to, std::string
     float matrix[16];
     if (!in) return Making::Unreadable;
     const std::vector<std::string>& channels = in->shape().channels;
-    if (std::find(channels.begin(), channels.end(), "Z") == channels.end() || !in->matrix("worldtocamera", matrix))
-      return error = "it is no shadow map: depth or the matrices of its camera are missing", Making::Unreadable;
+    if (std::find(channels.begin(), channels.end(), "Z") == channels.end() || !in->matrix("worldtocamera", matrix)) {
+      error = "it is no shadow map: depth or the matrices of its camera are missing";
+      return Making::Unreadable;
+    }
   }
   std::error_code problem;
   if (fs::equivalent(from, to, problem)) return Making::Done;
@@ -145,7 +150,10 @@ std::optional<Image> readImage(const std::string& path, std::string& error) {
   const PictureShape& s = in->shape();
   Image image{s.width, s.height, s.channels, {}, s.x, s.y, s.fullWidth, s.fullHeight};
   image.pixels.resize(static_cast<size_t>(s.width) * static_cast<size_t>(s.height) * s.channels.size());
-  if (!in->read(0, image.channelCount(), image.pixels.data())) return error = in->error(), std::nullopt;
+  if (!in->read(0, image.channelCount(), image.pixels.data())) {
+    error = in->error();
+    return std::nullopt;
+  }
   return image;
 }
 

@@ -55,7 +55,9 @@ class PngFile : public FormatWriter {
                      static_cast<png_uint_32>(std::lround(kUnits * format_.pixelAspect)), PNG_RESOLUTION_UNKNOWN);
       char key[] = "Software", text[] = "Tomales";
       png_text software{};
-      software.compression = PNG_TEXT_COMPRESSION_NONE, software.key = key, software.text = text;
+      software.compression = PNG_TEXT_COMPRESSION_NONE;
+      software.key = key;
+      software.text = text;
       png_set_text(file_.png, file_.info, &software, 1);
       png_write_info(file_.png, file_.info);
       if (std::endian::native == std::endian::little) png_set_swap(file_.png);

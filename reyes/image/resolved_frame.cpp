@@ -10,7 +10,8 @@ namespace tomales {
 ResolvedFrame::ResolvedFrame(const DeepFrame& frame, const FrameOutput& output, const Options& options)
     : frame_(frame), output_(output), options_(options), resolved_(frame.tileCount()), noise_(frame.tileCount()) {
   compositors_.push_back(takeCompositor());
-  width_ = compositors_[0]->width(), extras_ = compositors_[0]->extras();
+  width_ = compositors_[0]->width();
+  extras_ = compositors_[0]->extras();
 }
 
 void ResolvedFrame::resolve(size_t index, const DeepTile& tile) {
@@ -30,11 +31,14 @@ ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const 
       const float* color = tile.values.data() + c * static_cast<size_t>(width_);
       const float light = luminance(vec3(color[0], color[1], color[2])),
                   count = static_cast<float>(std::popcount(tile.contributions[c].samples));
-      sum += count * light, squares += count * light * light;
+      sum += count * light;
+      squares += count * light * light;
     }
     const float mean = sum / all, variance = (squares / all - mean * mean) / (all - 1);
     if (!(mean > 0)) continue;
-    out.sums.light += mean, out.sums.error += std::sqrt(std::max(variance, 0.0f)), ++out.lit;
+    out.sums.light += mean;
+    out.sums.error += std::sqrt(std::max(variance, 0.0f));
+    ++out.lit;
   }
   return out;
 }
@@ -43,7 +47,11 @@ PixelNoise ResolvedFrame::noise() const {
   constexpr int64_t kEnough = 1000;
   PixelNoise out;
   int64_t lit = 0;
-  for (const TileNoise& tile : noise_) out.light += tile.sums.light, out.error += tile.sums.error, lit += tile.lit;
+  for (const TileNoise& tile : noise_) {
+    out.light += tile.sums.light;
+    out.error += tile.sums.error;
+    lit += tile.lit;
+  }
   return lit < kEnough ? PixelNoise{} : out;
 }
 

@@ -73,7 +73,9 @@ void compositeAt(const ShadedLayer& l, const LayerExtras& more, Mask covered, Sa
   }
   put(hn::Min(before, all(l.z)), on, before, nearest);
   const Clear behind = clear.behind(l.shade->opacity);
-  put(behind.x, on, clear.x, cx), put(behind.y, on, clear.y, cy), put(behind.z, on, clear.z, cz);
+  put(behind.x, on, clear.x, cx);
+  put(behind.y, on, clear.y, cy);
+  put(behind.z, on, clear.z, cz);
 }
 
 void composite(const ShadedLayer& l, const LayerExtras& more, SampleStack& stack) {

@@ -24,9 +24,11 @@ TOMALES_HOT void addRows(const float* rows, int stride, uint64_t mask, float* ou
     Vector<kHalf> low{}, high{};
     for (uint64_t left = mask; left; left &= left - 1) {
       const float* row = rows + lowestBit(left) * stride + k;
-      low += vectorAt<kHalf>(row), high += vectorAt<kHalf>(row + kHalf);
+      low += vectorAt<kHalf>(row);
+      high += vectorAt<kHalf>(row + kHalf);
     }
-    vectorAt<kHalf>(out + k) = low, vectorAt<kHalf>(out + k + kHalf) = high;
+    vectorAt<kHalf>(out + k) = low;
+    vectorAt<kHalf>(out + k + kHalf) = high;
   }
 }
 

@@ -67,9 +67,15 @@ bool isSealed(const std::string& file) {
 /// since an ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
 bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
-  if (!in) return error = oiioError(), false;
+  if (!in) {
+    error = oiioError();
+    return false;
+  }
   OIIO::ImageSpec spec = in->spec();
-  if (spec.deep) return error = "it is a deep picture", false;
+  if (spec.deep) {
+    error = "it is a deep picture";
+    return false;
+  }
   spec.channelformats.clear();
   picture.reset(spec);
   const bool read = in->read_image(0, 0, 0, spec.nchannels, spec.format, picture.localpixels());
@@ -141,7 +147,10 @@ bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std
 
 bool isTiledMip(const std::string& file, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
-  if (!in) return error = oiioError(), false;
+  if (!in) {
+    error = oiioError();
+    return false;
+  }
   return in->spec().tile_width > 0 && in->seek_subimage(0, 1);
 }
 
@@ -167,7 +176,10 @@ std::string tiledFile(const std::string& picture, const std::string& folder, std
   if (isTiledMip(picture, error)) return picture;
   if (!error.empty()) return {};
   const auto content = bytesOf(picture);
-  if (!content) return error = "it cannot be read", std::string();
+  if (!content) {
+    error = "it cannot be read";
+    return std::string();
+  }
   const std::string name = fmt::format("{:016x}.tx", checksum(*content));
   const fs::path file = fs::path(folder) / name.substr(0, 2) / name;
   std::error_code problem;
@@ -181,10 +193,15 @@ std::string tiledFile(const std::string& picture, const std::string& folder, std
   TextureRecipe recipe;
   // Beyond its edges a picture is black, as the tools of other renderers have it, unless its file says otherwise.
   const std::string wraps = whole.spec().get_string_attribute("wrapmodes");
-  if (const size_t comma = wraps.find(','); comma != std::string::npos)
-    recipe.sWrap = wraps.substr(0, comma), recipe.tWrap = wraps.substr(comma + 1);
+  if (const size_t comma = wraps.find(','); comma != std::string::npos) {
+    recipe.sWrap = wraps.substr(0, comma);
+    recipe.tWrap = wraps.substr(comma + 1);
+  }
   // A cache that cannot be written only costs time and memory: OpenImageIO makes the levels in memory.
-  if (problem || !write(whole, recipe, file.string(), folder, true, error)) return error.clear(), picture;
+  if (problem || !write(whole, recipe, file.string(), folder, true, error)) {
+    error.clear();
+    return picture;
+  }
   return file.string();
 }
 

@@ -66,7 +66,10 @@ class ExrReader : public PictureReader {
   }
   bool pair(const char* name, float* out) const override {
     const auto* found = header().findTypedAttribute<Imf::V2fAttribute>(name);
-    if (found) out[0] = found->value().x, out[1] = found->value().y;
+    if (found) {
+      out[0] = found->value().x;
+      out[1] = found->value().y;
+    }
     return found;
   }
 
@@ -133,7 +136,8 @@ class ExrReader : public PictureReader {
       calls();
       return true;
     } catch (const std::exception& e) {
-      return error_ = e.what(), false;
+      error_ = e.what();
+      return false;
     }
   }
 
@@ -151,7 +155,8 @@ std::unique_ptr<PictureReader> openExrPicture(const std::string& path, std::stri
     auto reader = std::make_unique<ExrReader>(path);
     return reader->plain() ? std::move(reader) : nullptr;
   } catch (const std::exception& e) {
-    return error = e.what(), nullptr;
+    error = e.what();
+    return nullptr;
   }
 }
 

@@ -49,7 +49,10 @@ class Library : public PictureLibrary {
  public:
   std::unique_ptr<PictureReader> open(const std::string& path, std::string& error) const override {
     auto in = OIIO::ImageInput::open(path);
-    if (!in) return error = OIIO::geterror(), nullptr;
+    if (!in) {
+      error = OIIO::geterror();
+      return nullptr;
+    }
     return std::make_unique<Reader>(std::move(in));
   }
   std::unique_ptr<TextureCache> textures(const TextureSettings& settings) const override {

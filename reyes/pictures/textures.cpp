@@ -35,7 +35,10 @@ std::string cacheFolderOf(const TextureSettings& settings) {
 /// Returns the position of a tile's number in a name; npos if it has none.
 size_t tileMark(const std::string& name, size_t& length) {
   for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
-    if (const size_t at = name.find(mark); at != std::string::npos) return length = mark.size(), at;
+    if (const size_t at = name.find(mark); at != std::string::npos) {
+      length = mark.size();
+      return at;
+    }
   return std::string::npos;
 }
 
@@ -101,14 +104,23 @@ class SharedSystem {
 OIIO::TextureOpt optionsOf(const TextureQuery& q) {
   using Opt = OIIO::TextureOpt;
   Opt o;
-  o.firstchannel = q.channel, o.fill = q.fill;
-  o.swidth = q.sWidth, o.twidth = q.tWidth, o.sblur = q.sBlur, o.tblur = q.tBlur;
+  o.firstchannel = q.channel;
+  o.fill = q.fill;
+  o.swidth = q.sWidth;
+  o.twidth = q.tWidth;
+  o.sblur = q.sBlur;
+  o.tblur = q.tBlur;
   const std::string_view filter = q.filter ? q.filter : "";
   const bool straight = filter.empty() || filter == "box" || filter == "disk" || filter == "lerp";
   o.interpmode = straight ? Opt::InterpBilinear : Opt::InterpSmartBicubic;
-  if (q.sWidth == 0 && q.tWidth == 0 && q.sBlur == 0 && q.tBlur == 0)
-    o.mipmode = Opt::MipModeNoMIP, o.interpmode = Opt::InterpClosest;
-  if (q.latlong) o.swrap = Opt::WrapPeriodic, o.twrap = Opt::WrapClamp;
+  if (q.sWidth == 0 && q.tWidth == 0 && q.sBlur == 0 && q.tBlur == 0) {
+    o.mipmode = Opt::MipModeNoMIP;
+    o.interpmode = Opt::InterpClosest;
+  }
+  if (q.latlong) {
+    o.swrap = Opt::WrapPeriodic;
+    o.twrap = Opt::WrapClamp;
+  }
   return o;
 }
 
@@ -209,7 +221,11 @@ bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::str
       const auto tile = column >= 0 && column < 10 && row >= 0 && row < 10
                             ? known.tiles.find(1001 + static_cast<int>(column) + 10 * static_cast<int>(row))
                             : known.tiles.end();
-      if (tile != known.tiles.end()) file = tile->second, s -= column, t -= row;
+      if (tile != known.tiles.end()) {
+        file = tile->second;
+        s -= column;
+        t -= row;
+      }
     } else {
       file = known.tiles.begin()->second;
     }
@@ -232,22 +248,28 @@ bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::str
 bool Cache::info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) {
   const Picture& known = picture(name);
   const bool there = !known.tiles.empty();
-  numbers.clear(), text.clear();
-  if (what == "exists") return numbers = {there ? 1.0f : 0.0f}, true;
+  numbers.clear();
+  text.clear();
+  if (what == "exists") {
+    numbers = {there ? 1.0f : 0.0f};
+    return true;
+  }
   if (!there) return false;
   Handle* handle = known.tiles.begin()->second.handle;
   const auto get = [&](const char* fact, OIIO::TypeDesc type, void* to) {
     return system->get_texture_info(handle, nullptr, 0, OIIO::ustring(fact), type, to);
   };
   const auto matrix = [&](const char* fact) {
-    return numbers.resize(16), get(fact, OIIO::TypeMatrix44, numbers.data());
+    numbers.resize(16);
+    return get(fact, OIIO::TypeMatrix44, numbers.data());
   };
   if (what == "viewingmatrix") return matrix("worldtocamera");
   if (what == "projectionmatrix") return matrix("worldtoscreen");
   if (what == "resolution") {
     int size[2] = {0, 0};
     const bool good = get("resolution", OIIO::TypeDesc(OIIO::TypeDesc::INT, 2), size);
-    return numbers = {static_cast<float>(size[0]), static_cast<float>(size[1])}, good;
+    numbers = {static_cast<float>(size[0]), static_cast<float>(size[1])};
+    return good;
   }
   if (what == "channels" || what == "bitsperchannel") {
     int value = 0;
@@ -255,7 +277,8 @@ bool Cache::info(const std::string& name, const std::string& what, std::vector<f
         get(what == "channels" ? "channels" : "oiio:BitsPerSample", OIIO::TypeInt, &value) ||
         (what != "channels" && get("cachedpixeltype", OIIO::TypeInt, &value) &&
          (value = static_cast<int>(8 * OIIO::TypeDesc(static_cast<OIIO::TypeDesc::BASETYPE>(value)).size()), true));
-    return numbers = {static_cast<float>(value)}, good;
+    numbers = {static_cast<float>(value)};
+    return good;
   }
   if (what != "type" && what != "textureformat") return false;
   const char* format = nullptr;

@@ -166,7 +166,8 @@ Bound3 boundBicubic(const BezierPatch& patch, const UvRect& rect) {
     for (size_t k = 0; k < 4; ++k) restrictCurve(&net[4 * k], 1, rect.u0, rect.u1);
     for (size_t k = 0; k < 4; ++k) restrictCurve(&net[k], 4, rect.v0, rect.v1);
     const auto [lo, hi] = std::minmax_element(net.begin(), net.end());
-    bound.lo[axis] = *lo, bound.hi[axis] = *hi;
+    bound.lo[axis] = *lo;
+    bound.hi[axis] = *hi;
   }
   return paddedForRounding(bound, whole);
 }

@@ -81,7 +81,10 @@ class Blobby : public Prim {
       std::vector<double> weights = field.leafWeights(pointOn(field, wayAt(patch, u[i], v[i])).p);
       double sum = 0;
       for (const double w : weights) sum += w;
-      if (!(sum > 0)) weights.assign(weights.size(), 1), sum = static_cast<double>(weights.size());
+      if (!(sum > 0)) {
+        weights.assign(weights.size(), 1);
+        sum = static_cast<double>(weights.size());
+      }
       for (int c = 0; c < var.width; ++c) {
         double value = 0;
         for (size_t leaf = 0; leaf < weights.size(); ++leaf)

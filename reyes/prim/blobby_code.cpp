@@ -106,7 +106,8 @@ class CodeReader {
     const dvec3 extent = radius * dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
     for (const dvec3& end : {from, to}) {
       const dvec3 p = axes * end + center;
-      box_.extend(vec3(p - extent)), box_.extend(vec3(p + extent));
+      box_.extend(vec3(p - extent));
+      box_.extend(vec3(p + extent));
     }
     return BlobLeaf{inverse, -(inverse * center), from, to, radius};
   }

@@ -172,7 +172,8 @@ BlobField BlobField::within(const Box& box) const {
     for (const uint32_t k : operands[index]) needed[k] = 1;
   }
   BlobField out(*this);
-  out.code_.clear(), out.operands_.clear();
+  out.code_.clear();
+  out.operands_.clear();
   std::vector<uint32_t> copied(code_.size());
   for (size_t index = 0; index < code_.size(); ++index) {
     if (!needed[index]) continue;
@@ -185,7 +186,8 @@ BlobField BlobField::within(const Box& box) const {
     else
       out.addOperation(code_[index].op, operands[index]);
   }
-  out.code_.shrink_to_fit(), out.operands_.shrink_to_fit();
+  out.code_.shrink_to_fit();
+  out.operands_.shrink_to_fit();
   return out;
 }
 

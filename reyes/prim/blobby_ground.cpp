@@ -65,9 +65,11 @@ BlobGround::BlobGround(GroundPicture picture, const Repulsion& repulsion)
         for (int j = 2 * y; j < std::min(2 * y + 2, fine.rows); ++j)
           for (int i = 2 * x; i < std::min(2 * x + 2, fine.columns); ++i) {
             const auto at = static_cast<size_t>(j) * static_cast<size_t>(fine.columns) + static_cast<size_t>(i);
-            least = std::min(least, fine.least[at]), greatest = std::max(greatest, fine.greatest[at]);
+            least = std::min(least, fine.least[at]);
+            greatest = std::max(greatest, fine.greatest[at]);
           }
-        coarse.least.push_back(least), coarse.greatest.push_back(greatest);
+        coarse.least.push_back(least);
+        coarse.greatest.push_back(greatest);
       }
     levels_.push_back(std::move(coarse));
   }
@@ -87,8 +89,9 @@ FieldPoint BlobGround::at(const dvec3& p) const {
                 texelY = std::clamp(row + j - 1, 0, map.rows - 1);
       const double d =
           map.least[static_cast<size_t>(texelY) * static_cast<size_t>(map.columns) + static_cast<size_t>(texelX)];
-      depth += across.value[i] * down.value[j] * d, byX += across.slope[i] * down.value[j] * d,
-          byY += across.value[i] * down.slope[j] * d;
+      depth += across.value[i] * down.value[j] * d;
+      byX += across.slope[i] * down.value[j] * d;
+      byY += across.value[i] * down.slope[j] * d;
     }
   if (!std::isfinite(depth)) return {};
   const auto rowOf = [](const glm::dmat4& m, int k) { return dvec3(m[0][k], m[1][k], m[2][k]); };
@@ -113,12 +116,19 @@ FieldRange BlobGround::over(const Box& box) const {
     const glm::dvec4 corner(k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z, 1);
     const glm::dvec4 h = texelFromObject_ * corner;
     const double z = (cameraFromObject_ * corner).z;
-    near = std::min(near, z), far = std::max(far, z);
+    near = std::min(near, z);
+    far = std::max(far, z);
     behind = behind || !(h.w > 0);
-    x0 = std::min(x0, h.x / h.w), x1 = std::max(x1, h.x / h.w), y0 = std::min(y0, h.y / h.w),
+    x0 = std::min(x0, h.x / h.w);
+    x1 = std::max(x1, h.x / h.w);
+    y0 = std::min(y0, h.y / h.w);
     y1 = std::max(y1, h.y / h.w);
   }
-  if (behind) x0 = y0 = 0, x1 = map.columns, y1 = map.rows;
+  if (behind) {
+    x0 = y0 = 0;
+    x1 = map.columns;
+    y1 = map.rows;
+  }
   if (x1 < 0 || y1 < 0 || x0 >= map.columns || y0 >= map.rows) return {0, 0};
   const bool inside = !behind && x0 >= 0 && y0 >= 0 && x1 < map.columns && y1 < map.rows;
   const FieldRange depths = depthsOver(x0, x1, y0, y1);
@@ -134,7 +144,12 @@ FieldRange BlobGround::depthsOver(double x0, double x1, double y0, double y1) co
   int a = std::max(0, texel(x0, map.columns) - 1), b = std::min(map.columns - 1, texel(x1, map.columns) + 1);
   int c = std::max(0, texel(y0, map.rows) - 1), d = std::min(map.rows - 1, texel(y1, map.rows) + 1);
   size_t level = 0;
-  for (; level + 1 < levels_.size() && (b - a > 3 || d - c > 3); ++level) a /= 2, b /= 2, c /= 2, d /= 2;
+  for (; level + 1 < levels_.size() && (b - a > 3 || d - c > 3); ++level) {
+    a /= 2;
+    b /= 2;
+    c /= 2;
+    d /= 2;
+  }
   const Level& blocks = levels_[level];
   FieldRange out{HUGE_VAL, -HUGE_VAL};
   for (int y = c; y <= d; ++y)

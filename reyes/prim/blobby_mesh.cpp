@@ -212,7 +212,8 @@ class Contourer {
     for (uint32_t k = 0; k < 4; ++k) {
       Lattice halves{2 * from[0], 2 * from[1], 2 * from[2]};
       halves[axis] += cell.size;
-      halves[y] += k & 1 ? 1 : ~0u, halves[z] += k & 2 ? 1 : ~0u;
+      halves[y] += k & 1 ? 1 : ~0u;
+      halves[z] += k & 2 ? 1 : ~0u;
       if (halves[y] > 2 * cells_[0].size || halves[z] > 2 * cells_[0].size) return;  // outside of the root
       around[k] = cellAround(halves);
       const Cell& other = cells_[around[k]];
@@ -255,8 +256,11 @@ std::optional<double> meetSurface(const BlobField& field, const dvec3& p, const 
     double slopeThere;
     if (const double there = at(t, slopeThere); (there > 0) != inside)
       far = t;
-    else
-      near = t, value = there, slope = slopeThere;
+    else {
+      near = t;
+      value = there;
+      slope = slopeThere;
+    }
   }
   if (far == 0) return {};
   double t = near;
@@ -282,7 +286,8 @@ BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobFie
     const double steepness = glm::length(gradient);
     const dvec3 outward = steepness > 0 ? -gradient / steepness : dvec3(v.outward);
     const dvec3 p = start + meetSurface(moved, start, outward, v.reach).value_or(0) * outward;
-    v.position = vec3(p), v.outward = vec3(outwardAt(moved, p));
+    v.position = vec3(p);
+    v.outward = vec3(outwardAt(moved, p));
   }
   return out;
 }

@@ -50,7 +50,9 @@ class LayoutMaker {
             vertex_ + (k * static_cast<uint32_t>(step_) + std::min(i, static_cast<uint32_t>(span_ - 1))) % n;
       out_.segments.push_back(s);
     }
-    ++curve_, corner_ += corners, vertex_ += n;
+    ++curve_;
+    corner_ += corners;
+    vertex_ += n;
   }
 
   const int span_, step_;
@@ -90,8 +92,12 @@ CurveSegments::CurveSegments(bool cubic, const Basis& basis, const std::vector<i
 }
 
 void CurveSegments::direction(size_t k, float v, vec3& along, vec3& slope) const {
-  along = vec3(slopeAt(lines_[k], v)), slope = vec3(curvatureAt(lines_[k], v));
-  if (!cubic_) along = glm::mix(mitres_[k][0], mitres_[k][1], v), slope = mitres_[k][1] - mitres_[k][0];
+  along = vec3(slopeAt(lines_[k], v));
+  slope = vec3(curvatureAt(lines_[k], v));
+  if (!cubic_) {
+    along = glm::mix(mitres_[k][0], mitres_[k][1], v);
+    slope = mitres_[k][1] - mitres_[k][0];
+  }
   if (along == vec3(0)) along = vec3(slopeAt(lines_[k], v + (0.5f - v) * 1e-2f));
 }
 

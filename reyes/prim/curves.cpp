@@ -12,7 +12,11 @@ namespace {
 struct Vectors {
   float *x, *y, *z;
   vec3 get(int i) const { return {x[i], y[i], z[i]}; }
-  void set(int i, const vec3& v) const { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+  void set(int i, const vec3& v) const {
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  }
 };
 
 /// Cross sections of a ribbon: the unit vector `side`, and `up`, to which it faces; slopes are derivatives by v. The
@@ -23,7 +27,9 @@ class Sections {
     static thread_local AlignedVector<float> memory;
     if (memory.size() < kArrays * stride_) memory.resize(kArrays * stride_);
     next_ = memory.data();
-    v = array(), width = array(), widthSlope = array();
+    v = array();
+    width = array();
+    widthSlope = array();
     for (Vectors* vectors : {&center, &slope, &along, &alongSlope, &up, &upSlope, &side, &sideSlope})
       *vectors = {array(), array(), array()};
   }
@@ -68,7 +74,9 @@ TOMALES_HOT void turnSides(int n, const Sections& c) {
     const float length2 = x * x + y * y + z * z, length = std::sqrt(length2);
     const bool turns = length2 > 1e-12f * (ax * ax + ay * ay + az * az) * (ux * ux + uy * uy + uz * uz);
     const float nx = x / length, ny = y / length, nz = z / length, slip = nx * sx + ny * sy + nz * sz;
-    side.x[i] = turns ? nx : 0.0f, side.y[i] = turns ? ny : 0.0f, side.z[i] = turns ? nz : 0.0f;
+    side.x[i] = turns ? nx : 0.0f;
+    side.y[i] = turns ? ny : 0.0f;
+    side.z[i] = turns ? nz : 0.0f;
     ss.x[i] = turns ? (sx - nx * slip) / length : 0.0f;
     ss.y[i] = turns ? (sy - ny * slip) / length : 0.0f;
     ss.z[i] = turns ? (sz - nz * slip) / length : 0.0f;
@@ -94,10 +102,15 @@ TOMALES_HOT void spread(int n, const float* u, const int* section, const Section
     const float fx = ux - sx * lean, fy = uy - sy * lean, fz = uz - sz * lean, facing2 = fx * fx + fy * fy + fz * fz;
     const bool faces = facing2 > 0.0f && facing2 < kInfinity;
     const float facing = std::sqrt(faces ? facing2 : 1.0f);
-    out.px[i] = c.center.x[k] + across * sx, out.py[i] = c.center.y[k] + across * sy,
+    out.px[i] = c.center.x[k] + across * sx;
+    out.py[i] = c.center.y[k] + across * sy;
     out.pz[i] = c.center.z[k] + across * sz;
-    out.dux[i] = dux, out.duy[i] = duy, out.duz[i] = duz;
-    out.dvx[i] = dvx, out.dvy[i] = dvy, out.dvz[i] = dvz;
+    out.dux[i] = dux;
+    out.duy[i] = duy;
+    out.duz[i] = duz;
+    out.dvx[i] = dvx;
+    out.dvy[i] = dvy;
+    out.dvz[i] = dvz;
     out.nx[i] = turns ? nx : faces ? fx / facing : 0.0f;
     out.ny[i] = turns ? ny : faces ? fy / facing : 0.0f;
     out.nz[i] = turns ? nz : faces ? fz / facing : 1.0f;
@@ -127,7 +140,10 @@ class Ribbons : public Prim {
   Bound3 bound(uint32_t patch, const UvRect& r) const override {
     Bound3 line;
     float width = 0;
-    for (const vec4& c : piece(segments_.line(patch), r.v0, r.v1)) line.extend(vec3(c)), width = std::max(width, c.w);
+    for (const vec4& c : piece(segments_.line(patch), r.v0, r.v1)) {
+      line.extend(vec3(c));
+      width = std::max(width, c.w);
+    }
     const float longer =
         segments_.cubic() ? 1 : std::max(mitreAt(patch, false).length(), mitreAt(patch, true).length());
     const Bound3 ribbon = line.grown(longer * width * std::max(std::abs(r.u0 - 0.5f), std::abs(r.u1 - 0.5f)));
@@ -174,7 +190,8 @@ class Ribbons : public Prim {
       if (slope != vec3(0)) continue;
       vec3 along, alongSlope;
       segments_.direction(patch, c.v[i], along, alongSlope);
-      c.along.set(i, along), c.alongSlope.set(i, alongSlope);
+      c.along.set(i, along);
+      c.alongSlope.set(i, alongSlope);
     }
     setUp(patch, n, c);
     turnSides(n, c);

@@ -38,13 +38,18 @@ TOMALES_HOT void evaluateDisk(const Disk& disk, int n, const float* u, const flo
     const float sx = std::sqrt(1 - 0.5f * b * b), sy = std::sqrt(1 - 0.5f * a * a);
     const float x = a * sx, y = b * sy;
     const float xByU = 2 * sx, yByU = 2 * (-0.5f * a * b / sy), xByV = 2 * (-0.5f * a * b / sx), yByV = 2 * sy;
-    out.px[i] = c.x + r * (x * s.x + y * t.x), out.py[i] = c.y + r * (x * s.y + y * t.y),
+    out.px[i] = c.x + r * (x * s.x + y * t.x);
+    out.py[i] = c.y + r * (x * s.y + y * t.y);
     out.pz[i] = c.z + r * (x * s.z + y * t.z);
-    out.dux[i] = r * (xByU * s.x + yByU * t.x), out.duy[i] = r * (xByU * s.y + yByU * t.y),
+    out.dux[i] = r * (xByU * s.x + yByU * t.x);
+    out.duy[i] = r * (xByU * s.y + yByU * t.y);
     out.duz[i] = r * (xByU * s.z + yByU * t.z);
-    out.dvx[i] = r * (xByV * s.x + yByV * t.x), out.dvy[i] = r * (xByV * s.y + yByV * t.y),
+    out.dvx[i] = r * (xByV * s.x + yByV * t.x);
+    out.dvy[i] = r * (xByV * s.y + yByV * t.y);
     out.dvz[i] = r * (xByV * s.z + yByV * t.z);
-    out.nx[i] = disk.normal.x, out.ny[i] = disk.normal.y, out.nz[i] = disk.normal.z;
+    out.nx[i] = disk.normal.x;
+    out.ny[i] = disk.normal.y;
+    out.nz[i] = disk.normal.z;
   }
 }
 

@@ -35,7 +35,10 @@ class PointGrid {
  public:
   PointGrid(const std::vector<Point2>& p) : p_(p), lo_(p.at(0)) {
     Point2 hi = lo_;
-    for (const Point2& q : p) lo_ = glm::min(lo_, q), hi = glm::max(hi, q);
+    for (const Point2& q : p) {
+      lo_ = glm::min(lo_, q);
+      hi = glm::max(hi, q);
+    }
     side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(p.size()))), 1, 1024);
     const Point2 size = hi - lo_;
     scale_ = {size.x > 0 ? side_ / size.x : 0, size.y > 0 ? side_ / size.y : 0};
@@ -73,9 +76,10 @@ class EarClipper {
   /// The search for ears begins at position `start`.
   EarClipper(const Outlines& keys, int start)
       : p_(keys), left_(keys.begin(), keys.end()), count_(keys[0].size()), next_(start) {
-    for (size_t i = 0; i < count_; ++i)
-      before_.push_back(static_cast<int>((i + count_ - 1) % count_)),
-          after_.push_back(static_cast<int>((i + 1) % count_));
+    for (size_t i = 0; i < count_; ++i) {
+      before_.push_back(static_cast<int>((i + count_ - 1) % count_));
+      after_.push_back(static_cast<int>((i + 1) % count_));
+    }
     suspects_ = before_;
     dropSpikes();
   }

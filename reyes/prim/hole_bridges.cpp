@@ -83,7 +83,10 @@ class Bridger {
       const Point2 &a = corner(i), &b = corner(i + 1);
       if (!(a.y <= m.y && m.y <= b.y && a.y < b.y)) continue;  // the inside is to the left of an edge that rises
       const double x = a.x + (m.y - a.y) / (b.y - a.y) * (b.x - a.x);
-      if (x >= m.x && x < hit) hit = x, edge = i;
+      if (x >= m.x && x < hit) {
+        hit = x;
+        edge = i;
+      }
     }
     return edge < 0 ? -1 : nearestToRay(m, {hit, m.y}, edge);
   }
@@ -150,7 +153,10 @@ class Bridger {
     if (hole.size() * walk_.size() <= kMostPairs)
       for (size_t k = 0; k < hole.size(); ++k, std::rotate(turned.begin(), turned.begin() + 1, turned.end()))
         for (int at = 0; at < size(); ++at)
-          if (isClear(turned, at, later)) return hole = turned, at;
+          if (isClear(turned, at, later)) {
+            hole = turned;
+            return at;
+          }
     simple_ = false;
     return fallback;
   }

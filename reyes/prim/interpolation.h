@@ -34,12 +34,20 @@ void crossDerivatives(int n, SurfacePoints points);
 Bound3 paddedForRounding(const Bound3& bound, const Bound3& whole);
 
 inline void setFrame(SurfacePoints points, int i, const vec3& p, const vec3& du, const vec3& dv) {
-  points.px[i] = p.x, points.py[i] = p.y, points.pz[i] = p.z;
-  points.dux[i] = du.x, points.duy[i] = du.y, points.duz[i] = du.z;
-  points.dvx[i] = dv.x, points.dvy[i] = dv.y, points.dvz[i] = dv.z;
+  points.px[i] = p.x;
+  points.py[i] = p.y;
+  points.pz[i] = p.z;
+  points.dux[i] = du.x;
+  points.duy[i] = du.y;
+  points.duz[i] = du.z;
+  points.dvx[i] = dv.x;
+  points.dvy[i] = dv.y;
+  points.dvz[i] = dv.z;
 }
 inline void setNormal(SurfacePoints points, int i, const vec3& normal) {
-  points.nx[i] = normal.x, points.ny[i] = normal.y, points.nz[i] = normal.z;
+  points.nx[i] = normal.x;
+  points.ny[i] = normal.y;
+  points.nz[i] = normal.z;
 }
 inline vec3 normalOf(SurfacePoints points, int i) { return {points.nx[i], points.ny[i], points.nz[i]}; }
 

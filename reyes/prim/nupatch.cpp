@@ -70,7 +70,10 @@ class NuPatch : public Prim {
   }
 
   void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
-    for (int k = 0; k < n; ++k) su[k] = u_.parameter(column(patch), u[k]), sv[k] = v_.parameter(row(patch), v[k]);
+    for (int k = 0; k < n; ++k) {
+      su[k] = u_.parameter(column(patch), u[k]);
+      sv[k] = v_.parameter(row(patch), v[k]);
+    }
   }
 
   Kept kept(uint32_t patch, const UvRect& r) const override {

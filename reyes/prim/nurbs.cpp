@@ -127,7 +127,9 @@ RationalPoint evaluateRational(const RationalNet& net, double u, double v) {
       row += bu[i] * c;
       rowByU += du[i] * c;
     }
-    h += bv[j] * row, hu += bv[j] * rowByU, hv += dv[j] * row;
+    h += bv[j] * row;
+    hu += bv[j] * rowByU;
+    hv += dv[j] * row;
   }
   const glm::dvec3 p = glm::dvec3(h) / h.w;
   return {p, (glm::dvec3(hu) - p * hu.w) / h.w, (glm::dvec3(hv) - p * hv.w) / h.w};

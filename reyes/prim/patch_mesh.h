@@ -49,7 +49,10 @@ class PatchMesh : public Prim {
                 nu = static_cast<float>(mesh_.u.patches);
     const float j = static_cast<float>(static_cast<int>(patch) / mesh_.u.patches),
                 nv = static_cast<float>(mesh_.v.patches);
-    for (int k = 0; k < n; ++k) su[k] = (i + u[k]) / nu, sv[k] = (j + v[k]) / nv;
+    for (int k = 0; k < n; ++k) {
+      su[k] = (i + u[k]) / nu;
+      sv[k] = (j + v[k]) / nv;
+    }
   }
 
   void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,

@@ -112,7 +112,10 @@ class Disks : public FlatPoints<Disks> {
     }
     const Disk disk = diskOf(patch);
     const auto range = [](float t0, float t1, float s0, float s1) {  // range of t * sqrt(1 - s * s / 2)
-      t0 = 2 * t0 - 1, t1 = 2 * t1 - 1, s0 = 2 * s0 - 1, s1 = 2 * s1 - 1;
+      t0 = 2 * t0 - 1;
+      t1 = 2 * t1 - 1;
+      s0 = 2 * s0 - 1;
+      s1 = 2 * s1 - 1;
       const auto factor = [](float s) { return std::sqrt(1 - 0.5f * s * s); };
       const float least = std::min(factor(s0), factor(s1)),
                   most = s0 < 0 && s1 > 0 ? 1 : std::max(factor(s0), factor(s1));
@@ -193,7 +196,8 @@ class Squares : public FlatPoints<Squares> {
     const vec3 normal = normalOf(patch);
     vec3 right, down;
     orthonormalBasis(normal, right, down);
-    right = normalizeOr(cross(normal, vec3(0, 1, 0)), right), down = cross(normal, right);
+    right = normalizeOr(cross(normal, vec3(0, 1, 0)), right);
+    down = cross(normal, right);
     const float turn = glm::radians(valueOf(angle_degrees_, patch)), width = 2 * radiusOf(patch);
     const float c = std::cos(turn), s = std::sin(turn);
     return {points_[patch], width * (c * right - s * down), width / valueOf(aspect_, patch) * (c * down + s * right)};

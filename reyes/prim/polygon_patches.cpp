@@ -132,7 +132,8 @@ class Decomposer {
       const std::vector<Point2> loops = std::exchange(p, {});
       for (const uint32_t at : outline.order) p.push_back(loops[at]);
     }
-    corner_ = std::move(corner), open_ = std::move(open);
+    corner_ = std::move(corner);
+    open_ = std::move(open);
   }
 
   glm::dvec3 normalAt(const Points& key) {
@@ -160,7 +161,9 @@ class Decomposer {
   }
 
   bool addFace(uint32_t first, std::span<const int> counts) {
-    corner_.clear(), open_.clear(), loopStart_.clear();
+    corner_.clear();
+    open_.clear();
+    loopStart_.clear();
     disjoint_ = true;
     gather(first, static_cast<uint32_t>(counts[0]));
     out_.faces.push_back({vec3(0), true});
@@ -218,7 +221,8 @@ class Decomposer {
     const size_t n = piece.size();
     if (n == 3) return addTriangle(piece);
     std::vector<uint32_t>&at = at_, &middle = middle_;
-    at.clear(), middle.clear();
+    at.clear();
+    middle.clear();
     for (int k : piece) at.push_back(cornerAt(k));
     for (size_t k = 0; k < n; ++k) middle.push_back(make(std::array{at[k], at[(k + 1) % n]}));
     const uint32_t center = make(at);

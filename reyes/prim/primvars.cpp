@@ -45,7 +45,9 @@ void divideByWeight(Primvar& p) {
   points.reserve(p.values.size() / 4 * 3);
   for (size_t k = 0; k < p.values.size(); k += 4)
     for (size_t c = 0; c < 3; ++c) points.push_back(p.values[k + c] / p.values[k + 3]);
-  p.type = ValueType::Point, p.width = p.width / 4 * 3, p.values = std::move(points);
+  p.type = ValueType::Point;
+  p.width = p.width / 4 * 3;
+  p.values = std::move(points);
 }
 
 bool hasWeights(const std::vector<float>& values) {

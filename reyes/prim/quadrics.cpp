@@ -41,11 +41,17 @@ class ArcRevolution : public Revolution {
     const float flip = std::copysign(1.0f, speed);
     for (int i = 0; i < n; ++i) {
       const float sine = m.nz[i], cosine = m.nx[i];
-      m.x[i] = center_ + radius_ * cosine, m.y[i] = 0, m.z[i] = radius_ * sine;
-      m.dx[i] = -speed * sine, m.dy[i] = 0, m.dz[i] = speed * cosine;
+      m.x[i] = center_ + radius_ * cosine;
+      m.y[i] = 0;
+      m.z[i] = radius_ * sine;
+      m.dx[i] = -speed * sine;
+      m.dy[i] = 0;
+      m.dz[i] = speed * cosine;
       // dPdu changes side where the arc crosses the axis (a spindle torus), and with it dPdu x dPdv.
       const float side = m.x[i] == 0 ? (radius_ < 0 ? -flip : flip) : m.x[i] < 0 ? -flip : flip;
-      m.nx[i] = side * cosine, m.ny[i] = 0, m.nz[i] = side * sine;
+      m.nx[i] = side * cosine;
+      m.ny[i] = 0;
+      m.nz[i] = side * sine;
     }
   }
 
@@ -91,10 +97,16 @@ class LineRevolution : public Revolution {
     const vec3 d = b_ - a_;
     for (int i = 0; i < n; ++i) {
       const vec3 p = a_ * (1 - v[i]) + b_ * v[i];
-      m.x[i] = p.x, m.y[i] = p.y, m.z[i] = p.z;
-      m.dx[i] = d.x, m.dy[i] = d.y, m.dz[i] = d.z;
+      m.x[i] = p.x;
+      m.y[i] = p.y;
+      m.z[i] = p.z;
+      m.dx[i] = d.x;
+      m.dy[i] = d.y;
+      m.dz[i] = d.z;
       const vec2 r = awayFromAxis(v[i]);
-      m.nx[i] = r.x * d.z, m.ny[i] = r.y * d.z, m.nz[i] = -(r.x * d.x + r.y * d.y);
+      m.nx[i] = r.x * d.z;
+      m.ny[i] = r.y * d.z;
+      m.nz[i] = -(r.x * d.x + r.y * d.y);
     }
   }
 
@@ -132,10 +144,16 @@ class Paraboloid : public Revolution {
     const float flip = std::copysign(1.0f, range) * std::copysign(1.0f, rmax_);
     for (int i = 0; i < n; ++i) {
       const float z = zmin_ * (1 - v[i]) + zmax_ * v[i], root = std::sqrt(std::max(0.0f, z / zmax_));
-      m.x[i] = rmax_ * root, m.y[i] = 0, m.z[i] = z;
+      m.x[i] = rmax_ * root;
+      m.y[i] = 0;
+      m.z[i] = z;
       // dr/dz is infinite at the apex; below a thousandth of the radius it keeps that radius's value.
-      m.dx[i] = range * slope / (rmax_ * std::max(root, 1e-3f)), m.dy[i] = 0, m.dz[i] = range;
-      m.nx[i] = flip * std::abs(rmax_) * root, m.ny[i] = 0, m.nz[i] = -flip * slope;
+      m.dx[i] = range * slope / (rmax_ * std::max(root, 1e-3f));
+      m.dy[i] = 0;
+      m.dz[i] = range;
+      m.nx[i] = flip * std::abs(rmax_) * root;
+      m.ny[i] = 0;
+      m.nz[i] = -flip * slope;
     }
   }
 

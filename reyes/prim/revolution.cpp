@@ -22,7 +22,11 @@ TOMALES_HOT void rotate(int n, const float* sine, const float* cosine, const flo
 
 TOMALES_HOT void sweepDerivative(int n, float scale, const float* px, const float* py, float* __restrict dux,
                                  float* __restrict duy, float* __restrict duz) {
-  for (int i = 0; i < n; ++i) dux[i] = -scale * py[i], duy[i] = scale * px[i], duz[i] = 0;
+  for (int i = 0; i < n; ++i) {
+    dux[i] = -scale * py[i];
+    duy[i] = scale * px[i];
+    duz[i] = 0;
+  }
 }
 
 /// Extends a bound by the arc of a point that turns from `turn0` to `turn1`.

@@ -121,7 +121,9 @@ void CrowdedFaces::evaluate(const Values& values, int face, int corner, float u,
   };
   // Far measures a corner's part of a face in halves of its coordinates.
   const float scale = whole ? 1 : 0.5f;
-  sum(weight, 1, value), sum(weightByU, scale, byU), sum(weightByV, scale, byV);
+  sum(weight, 1, value);
+  sum(weightByU, scale, byU);
+  sum(weightByV, scale, byV);
 }
 
 size_t CrowdedFaces::bytes() const {

@@ -65,7 +65,9 @@ FaceMap::FaceMap(const Bfr::Parameterization& face, int corner) {
     static constexpr vec2 kCorners[] = {{0, 0}, {1, 0}, {0, 1}};
     const vec2 here = kCorners[corner], next = kCorners[(corner + 1) % 3], last = kCorners[(corner + 2) % 3];
     const vec2 center(1 / 3.0f);
-    origin_ = here, alongU_ = 0.5f * (next - here), alongV_ = 0.5f * (last - here);
+    origin_ = here;
+    alongU_ = 0.5f * (next - here);
+    alongV_ = 0.5f * (last - here);
     twist_ = center - here - alongU_ - alongV_;
   } else if (face.HasSubFaces()) {
     const float zero[2] = {0, 0}, one[2] = {1, 1};

@@ -157,7 +157,9 @@ BezierPatch reflected(const int (&controls)[16], bool atX, bool atY) {
     for (int column = 0; column < 4; ++column) {
       const float* p = kPoints[controls[4 * row + (atX == atY ? column : 3 - column)]];
       const size_t k = static_cast<size_t>(4 * row + column);
-      patch[0][k] = atX ? -p[0] : p[0], patch[1][k] = atY ? -p[1] : p[1], patch[2][k] = p[2];
+      patch[0][k] = atX ? -p[0] : p[0];
+      patch[1][k] = atY ? -p[1] : p[1];
+      patch[2][k] = p[2];
     }
   return patch;
 }

@@ -121,7 +121,8 @@ bool TrimRegion::touches(const Segment& s, const vec2& lo, const vec2& hi) const
   for (const vec2& corner : {lo, hi, vec2(lo.x, hi.y), vec2(hi.x, lo.y)}) {
     const glm::dvec2 e = glm::dvec2(corner) - glm::dvec2(s.a);
     const double side = d.x * e.y - d.y * e.x;
-    left += side > 0, right += side < 0;
+    left += side > 0;
+    right += side < 0;
   }
   return left < 4 && right < 4;
 }

@@ -43,8 +43,10 @@ class Tubes : public Prim {
     const float v = end && end->last ? 1.0f : 0.0f;
     Bound3 line;
     float width = 0;
-    for (const vec4& c : end ? piece(segments_.line(segment), v, v) : piece(segments_.line(segment), r.v0, r.v1))
-      line.extend(vec3(c)), width = std::max(width, c.w);
+    for (const vec4& c : end ? piece(segments_.line(segment), v, v) : piece(segments_.line(segment), r.v0, r.v1)) {
+      line.extend(vec3(c));
+      width = std::max(width, c.w);
+    }
     const bool around = r.u0 <= 0 && r.u1 >= 1;
     const float mitred =
         segments_.cubic() || end ? 1 : std::max(joints_[segment][0].longer, joints_[segment][1].longer);
@@ -132,7 +134,8 @@ class Tubes : public Prim {
     const vec3 axis = cross(chord, mitre);
     if (!(glm::length(axis) > 1e-4f)) return {};
     Joint j{glm::normalize(axis), {}, {}, std::min(1 / std::max(dot(chord, mitre), 1e-4f), kMostLonger)};
-    j.inPlane = cross(j.axis, chord), j.inMitre = cross(j.axis, mitre);
+    j.inPlane = cross(j.axis, chord);
+    j.inMitre = cross(j.axis, mitre);
     return j;
   }
 
@@ -183,7 +186,9 @@ class Tubes : public Prim {
     if (end) {
       // Seen from outside the disk runs around the other way than the tube.
       const float radius = 0.5f * value.w * (1 - v);
-      p = vec3(value) + radius * out, du = radius * around, dv = -0.5f * value.w * out;
+      p = vec3(value) + radius * out;
+      du = radius * around;
+      dv = -0.5f * value.w * out;
       normal = end->last ? f.along : -f.along;
     } else if (!segments_.cubic()) {
       const auto onRim = [&](size_t k, const vec3& x) {
@@ -193,12 +198,15 @@ class Tubes : public Prim {
       };
       const vec3 x(cosine, sine, 0), byU(-turn * sine, turn * cosine, 0);
       const vec3 a = onRim(0, x), b = onRim(1, x);
-      p = vec3(value) + glm::mix(a, b, v), du = glm::mix(onRim(0, byU), onRim(1, byU), v), dv = vec3(slope) + b - a;
+      p = vec3(value) + glm::mix(a, b, v);
+      du = glm::mix(onRim(0, byU), onRim(1, byU), v);
+      dv = vec3(slope) + b - a;
       normal = cross(du, dv);
       if (!(glm::length(normal) > 1e-4f * glm::length(du) * glm::length(dv))) normal = out;
     } else {
       const float radius = 0.5f * value.w;
-      p = vec3(value) + radius * out, du = radius * around;
+      p = vec3(value) + radius * out;
+      du = radius * around;
       dv = vec3(slope) + 0.5f * slope.w * out + radius * (cosine * f.sideSlope + sine * f.upSlope);
       normal = cross(around, dv);
       // it has no length, or is a cone without slope
@@ -246,8 +254,10 @@ class Tubes : public Prim {
         side = e > 0 ? reflected - 2 / e * dot(back, reflected) * back : reflected;
       }
       side = normalizeOr(side - next * dot(next, side), acrossOf(next));
-      p = nextP, along = next;
-      sides.push_back(side), alongs.push_back(along);
+      p = nextP;
+      along = next;
+      sides.push_back(side);
+      alongs.push_back(along);
     }
     float excess = 0;
     if (!segments_[first].first) excess = std::atan2(dot(cross(firstSide, side), firstAlong), dot(firstSide, side));

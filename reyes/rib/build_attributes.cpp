@@ -166,7 +166,8 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
       {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
       {"trace:displacements",
        [](Attributes& a, const Param& p) {
-         a.trace.displacements = p.number(0) != 0, a.trace.displacementsGiven = true;
+         a.trace.displacements = p.number(0) != 0;
+         a.trace.displacementsGiven = true;
        }},
       {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
       {"trace:maxdiffusedepth",

@@ -13,7 +13,9 @@ constexpr float kMostTracedSamples = 64;  // samples of a pixel: a path tracer a
 
 Param floats(const char* name, std::vector<float> values) {
   Param p;
-  p.name = name, p.arrayLength = static_cast<int>(values.size()), p.floats = std::move(values);
+  p.name = name;
+  p.arrayLength = static_cast<int>(values.size());
+  p.floats = std::move(values);
   return p;
 }
 

@@ -119,7 +119,9 @@ PrimPtr lightShape(const std::string& name, const Request& r, Problems& problems
   if (name != "rectlight") return nullptr;
   ParamList params = r.params;
   Param& p = params.emplace_back();
-  p.name = "P", p.type = ValueType::Point, p.storage = Storage::Vertex;
+  p.name = "P";
+  p.type = ValueType::Point;
+  p.storage = Storage::Vertex;
   p.floats = {-.5f, -.5f, 0, .5f, -.5f, 0, -.5f, .5f, 0, .5f, .5f, 0};
   return makeBilinearPatchMesh(2, false, 2, false, params, problems);
 }

@@ -212,7 +212,10 @@ void SceneBuilder::beginMotion(const Request& r) {
 
 void SceneBuilder::collectKey(const Request& r) {
   motion_->keys.push_back(r);
-  if (motion_->keys.size() > motion_->begin.args[0].numbers.size()) motion_->keys.pop_back(), motion_->surplus = true;
+  if (motion_->keys.size() > motion_->begin.args[0].numbers.size()) {
+    motion_->keys.pop_back();
+    motion_->surplus = true;
+  }
 }
 
 void SceneBuilder::endMotion() {

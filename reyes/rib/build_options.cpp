@@ -62,7 +62,11 @@ void pxrLens(Options& o, const ParamList& params) {
     return value > 0 && value < 1e30f ? value : 0;
   };
   const float stop = positive("fStop"), length = positive("focalLength"), distance = positive("focalDistance");
-  if (stop > 0 && length > 0 && distance > 0) o.fStop = stop, o.focalLength = length, o.focalDistance = distance;
+  if (stop > 0 && length > 0 && distance > 0) {
+    o.fStop = stop;
+    o.focalLength = length;
+    o.focalDistance = distance;
+  }
 }
 
 void projection(GraphicsState& s, const Request& r) {

@@ -19,30 +19,48 @@ void restoreTransform(Scope& to, const Scope& from) {
 void restoreShading(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
   const Attributes& b = *from.attributes;
-  a.color = b.color, a.opacity = b.opacity, a.surface = b.surface, a.lights = b.lights, a.areaLight = b.areaLight,
-  a.interior = b.interior, a.exterior = b.exterior;
-  a.shadingRate = b.shadingRate, a.interpolation = b.interpolation, a.indirect = b.indirect, a.trace = b.trace;
-  a.irradianceMaxError = b.irradianceMaxError, a.irradianceMaxPixelDist = b.irradianceMaxPixelDist;
-  to.shadingRate = from.shadingRate, to.relativeShadingRate = from.relativeShadingRate;
+  a.color = b.color;
+  a.opacity = b.opacity;
+  a.surface = b.surface;
+  a.lights = b.lights;
+  a.areaLight = b.areaLight;
+  a.interior = b.interior;
+  a.exterior = b.exterior;
+  a.shadingRate = b.shadingRate;
+  a.interpolation = b.interpolation;
+  a.indirect = b.indirect;
+  a.trace = b.trace;
+  a.irradianceMaxError = b.irradianceMaxError;
+  a.irradianceMaxPixelDist = b.irradianceMaxPixelDist;
+  to.shadingRate = from.shadingRate;
+  to.relativeShadingRate = from.relativeShadingRate;
   to.lightsCastShadows = from.lightsCastShadows;
 }
 
 void restoreGeometryModification(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
   const Attributes& b = *from.attributes;
-  a.displacement = b.displacement, a.displacementBound = b.displacementBound;
-  a.displacementBoundSpace = b.displacementBoundSpace, a.rasterOrient = b.rasterOrient, a.binaryDice = b.binaryDice;
+  a.displacement = b.displacement;
+  a.displacementBound = b.displacementBound;
+  a.displacementBoundSpace = b.displacementBoundSpace;
+  a.rasterOrient = b.rasterOrient;
+  a.binaryDice = b.binaryDice;
 }
 
 void restoreGeometryDefinition(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
-  a.textureCoordinates = from.attributes->textureCoordinates, a.insideOut = from.attributes->insideOut;
-  to.uBasis = from.uBasis, to.vBasis = from.vBasis, to.roundCurves = from.roundCurves;
+  a.textureCoordinates = from.attributes->textureCoordinates;
+  a.insideOut = from.attributes->insideOut;
+  to.uBasis = from.uBasis;
+  to.vBasis = from.vBasis;
+  to.roundCurves = from.roundCurves;
 }
 
 void restoreHiding(Scope& to, const Scope& from) {
   Attributes& a = to.edit();
-  a.matte = from.attributes->matte, a.sides = from.attributes->sides, a.visibility = from.attributes->visibility;
+  a.matte = from.attributes->matte;
+  a.sides = from.attributes->sides;
+  a.visibility = from.attributes->visibility;
 }
 
 const std::unordered_map<std::string_view, Restore>& subsets() {

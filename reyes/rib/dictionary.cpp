@@ -99,9 +99,10 @@ bool lookUp(const Table& table, std::string_view word, Value& out) {
 std::vector<std::string_view> words(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
   std::vector<std::string_view> out;
-  while ((text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size())), !text.empty())) {
-    out.push_back(text.substr(0, text.find_first_of(kBlanks)));
-    text.remove_prefix(out.back().size());
+  for (size_t begin = text.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
+    const size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+    out.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kBlanks, end);
   }
   return out;
 }
@@ -136,7 +137,8 @@ bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool&
   const bool classed = take(kStorages, d.storage);
   typed = take(kTypes, d.type);
   if (d.reference && !typed && !list.empty() && list[0] == "struct") {  // a manifold of PRMan's patterns
-    d.type = ValueType::String, typed = true;
+    d.type = ValueType::String;
+    typed = true;
     list.erase(list.begin());
   }
   return classed || typed;

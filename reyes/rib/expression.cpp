@@ -40,11 +40,14 @@ bool matches(std::string_view text, std::string_view pattern) {
   size_t t = 0, p = 0, star = std::string_view::npos, starText = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
-      star = p++, starText = t;
+      star = p++;
+      starText = t;
     } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
-      ++p, ++t;
+      ++p;
+      ++t;
     } else if (star != std::string_view::npos) {
-      p = star + 1, t = ++starText;
+      p = star + 1;
+      t = ++starText;
     } else {
       return false;
     }

@@ -62,7 +62,10 @@ bool Lexer::readBytes(int count, uint64_t& out) {
   out = 0;
   for (int i = 0; i < count; ++i) {
     const int c = stream_.get();
-    if (c == ByteStream::kEnd) return junk("an encoded token that is cut off"), false;
+    if (c == ByteStream::kEnd) {
+      junk("an encoded token that is cut off");
+      return false;
+    }
     out = out << 8 | static_cast<uint64_t>(c);
   }
   return true;
@@ -82,14 +85,18 @@ bool Lexer::readStringOf(uint64_t length) {
   token_.kind = Token::Kind::String;
   token_.text.clear();
   for (uint64_t left = length; left > 0;) {
-    if (stream_.peek() == ByteStream::kEnd) return junk("an encoded string that is cut off"), false;
+    if (stream_.peek() == ByteStream::kEnd) {
+      junk("an encoded string that is cut off");
+      return false;
+    }
     const auto n = std::min<uint64_t>(left, static_cast<uint64_t>(stream_.end() - stream_.begin()));
     if (length <= kLongestString) token_.text.append(stream_.begin(), n);
     stream_.skipTo(stream_.begin() + n);
     left -= n;
   }
   if (length <= kLongestString) return true;
-  return junk(fmt::format("an encoded string of {} bytes", length)), false;
+  junk(fmt::format("an encoded string of {} bytes", length));
+  return false;
 }
 
 bool Lexer::readDefinition() {

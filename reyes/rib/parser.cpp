@@ -181,7 +181,10 @@ bool Parser::readArray(RibArg::Kind kind) {
   }
   for (; !wantsNumbers && at(Kind::String); lexer_.advance()) {
     out.strings.push_back(lexer_.peek().text);
-    if (!bracketed) return lexer_.advance(), true;
+    if (!bracketed) {
+      lexer_.advance();
+      return true;
+    }
   }
   if (!bracketed || !at(Kind::Close)) return fail(wantsNumbers ? "an array of numbers" : "an array of strings");
   lexer_.advance();
@@ -207,11 +210,12 @@ bool Parser::readParameter(const std::string& category) {
   }
   lexer_.advance();
   if (!readValues(param)) return fail(fmt::format("a value of \"{}\"", token));
-  if (!declaration && !valuesTell)
-    return warn("rib-undeclared", where,
-                fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)),
-                Severity::Missing),
-           true;
+  if (!declaration && !valuesTell) {
+    warn("rib-undeclared", where,
+         fmt::format("{}: parameter \"{}\" is not declared; ignored", request_.name, token.substr(0, 80)),
+         Severity::Missing);
+    return true;
+  }
   if (!declared && !(declaration && valuesFit(param))) param = typedByValues(token, std::move(param));
   if (!fitsDeclaration(token, param)) return true;
   if (declaration && declaration->reference) request_.references.emplace_back(param.name, declaration->type);
@@ -231,7 +235,8 @@ Param Parser::typedByValues(const std::string& name, Param values) {
   Param out;
   out.name = name;
   out.type = values.strings.empty() ? ValueType::Float : ValueType::String;
-  out.floats = std::move(values.floats), out.strings = std::move(values.strings);
+  out.floats = std::move(values.floats);
+  out.strings = std::move(values.strings);
   out.floats.insert(out.floats.end(), values.ints.begin(), values.ints.end());
   return out;
 }
@@ -241,9 +246,10 @@ bool Parser::readValues(Param& param) {
   const auto readNumbers = [&](auto& out) { bracketed ? lexer_.takeNumbers(out) : lexer_.takeNumber(out); };
   if (bracketed) lexer_.advance();
   while (lexer_.atNumbers() || at(Kind::String)) {
-    if (at(Kind::String))
-      param.strings.push_back(lexer_.peek().text), lexer_.advance();
-    else if (param.type == ValueType::Integer)
+    if (at(Kind::String)) {
+      param.strings.push_back(lexer_.peek().text);
+      lexer_.advance();
+    } else if (param.type == ValueType::Integer)
       readNumbers(param.ints);
     else
       readNumbers(param.floats);

@@ -43,18 +43,22 @@ Program::Program(const std::string& command) {
   }
   if (pipe2(out, O_CLOEXEC) != 0) {
     startError_ = errno;
-    close(in[0]), close(in[1]);
+    close(in[0]);
+    close(in[1]);
     return;
   }
-  toChild_ = in[0], fromChild_ = out[0];
+  toChild_ = in[0];
+  fromChild_ = out[0];
   id_ = startChild({"/bin/sh", {"sh", "-c", forShell(command)}, {{in[1], STDIN_FILENO}, {out[1], STDOUT_FILENO}}},
                    startError_);
   if (id_ > 0) guard_.emplace(id_);
-  close(in[1]), close(out[1]);
+  close(in[1]);
+  close(out[1]);
 }
 
 void Program::ask(std::string text, double patience_s) {
-  input_ = std::move(text), written_ = 0;
+  input_ = std::move(text);
+  written_ = 0;
   patience_s_ = patience_s;
 }
 

@@ -288,7 +288,10 @@ RtVoid RiSubdivisionMeshV(RtToken scheme, RtInt nfaces, const RtInt nvertices[],
                           const RtToken tags[], const RtInt nargs[], const RtInt intargs[], const RtFloat floatargs[],
                           RI_ARRAYS) {
   size_t ints = 0, floats = 0;
-  for (size_t i = 0; i < count(ntags); ++i) ints += count(nargs[2 * i]), floats += count(nargs[2 * i + 1]);
+  for (size_t i = 0; i < count(ntags); ++i) {
+    ints += count(nargs[2 * i]);
+    floats += count(nargs[2 * i + 1]);
+  }
   const size_t corners = sum(nvertices, nfaces);
   say("SubdivisionMesh",
       {text(scheme), integers(nvertices, count(nfaces)), integers(vertices, corners), texts(tags, count(ntags)),

@@ -40,7 +40,9 @@ ParamList Recorder::params(const char* request, RI_ARRAYS, const ValueCounts& co
     Param p;
     const auto declaration = context_.dictionary.find(tokens[i], category, p.name);
     if (declaration && values[i]) {
-      p.storage = declaration->storage, p.type = declaration->type, p.arrayLength = declaration->arrayLength;
+      p.storage = declaration->storage;
+      p.type = declaration->type;
+      p.arrayLength = declaration->arrayLength;
       fill(p, values[i], counts.of(p.storage) * widthOf(p));
       out.push_back(std::move(p));
     } else {

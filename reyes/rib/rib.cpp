@@ -15,7 +15,10 @@ class PlainParse {
 
   bool read(rib::ByteStream* stream, const std::string& name) {
     const SourceLoc whole{std::make_shared<const std::string>(name), 0};
-    if (!stream) return log_.report(Severity::Error, "rib-open", whole, "the file cannot be opened"), false;
+    if (!stream) {
+      log_.report(Severity::Error, "rib-open", whole, "the file cannot be opened");
+      return false;
+    }
     rib::Parser parser(*stream, name, dictionary_, log_);
     bool any = false;
     while (const std::optional<Request> request = parser.next()) {

@@ -58,7 +58,8 @@ Source follow(const Request& r, const char* name, const Patterns& patterns) {
   if (it == patterns.end()) {
     Note none = note(
         r, fmt::format("refers to a pattern \"{}\", which there is not: \"{}\" keeps its default", reference, name));
-    none.key += " " + reference, none.code = "rib-reference";
+    none.key += " " + reference;
+    none.code = "rib-reference";
     return {{}, "", false, {none}};
   }
   const Request& pattern = it->second;
@@ -175,7 +176,8 @@ Translation risBxdf(const Request& r, const Patterns& patterns) {
   } else if (!base.texture.empty()) {
     shader = "paintedplastic";
     params.push_back(param("texturename", base.texture));
-    params.push_back(param("Ks", ValueType::Float, {0})), params.push_back(param("Kd", ValueType::Float, {1}));
+    params.push_back(param("Ks", ValueType::Float, {0}));
+    params.push_back(param("Kd", ValueType::Float, {1}));
   }
   Script script(r);
   if (!base.own) script.say("Color", {numbers(base.color)});

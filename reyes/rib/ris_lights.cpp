@@ -82,7 +82,10 @@ Translation envSphere(const Request& r, Patterns& patterns) {
   if (light == patterns.end() || light->second.args[0].strings[0].find("PxrStdAreaLight") == std::string::npos)
     return {};
   Translation sky = domeLight(light->second);
-  for (Note& n : sky.notes) n.key += " envsphere", n.where = r.where;
+  for (Note& n : sky.notes) {
+    n.key += " envsphere";
+    n.where = r.where;
+  }
   return sky;
 }
 

@@ -7,12 +7,16 @@ namespace tomales::rib {
 
 inline Param param(const std::string& name, ValueType type, std::vector<float> floats) {
   Param p;
-  p.name = name, p.type = type, p.floats = std::move(floats);
+  p.name = name;
+  p.type = type;
+  p.floats = std::move(floats);
   return p;
 }
 inline Param param(const std::string& name, const std::string& value) {
   Param p;
-  p.name = name, p.type = ValueType::String, p.strings = {value};
+  p.name = name;
+  p.type = ValueType::String;
+  p.strings = {value};
   return p;
 }
 

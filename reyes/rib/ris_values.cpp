@@ -39,9 +39,18 @@ bool say(Script& script, const Request& r, const Param& p) {
   const std::vector<float> v = values(p);
   const std::string word = p.strings.empty() ? "" : p.strings[0];
   if (sayNumbers(script, p, v)) return true;
-  if (p.name == "FormatResolution" && v.size() == 2) return script.say("Format", {numbers({v[0], v[1], -1})}), true;
-  if (p.name == "FormatPixelAspectRatio" && v.size() == 1) return script.say("Format", {numbers({-1, -1, v[0]})}), true;
-  if (p.name == "Orientation") return script.say("Orientation", {string(word)}), true;
+  if (p.name == "FormatResolution" && v.size() == 2) {
+    script.say("Format", {numbers({v[0], v[1], -1})});
+    return true;
+  }
+  if (p.name == "FormatPixelAspectRatio" && v.size() == 1) {
+    script.say("Format", {numbers({-1, -1, v[0]})});
+    return true;
+  }
+  if (p.name == "Orientation") {
+    script.say("Orientation", {string(word)});
+    return true;
+  }
   if (p.name == "Basis") return sayBasis(script, word);
   if (p.name == "ReverseOrientation" && v.size() == 1) return v[0] == 0 || (script.say("ReverseOrientation"), true);
   if (p.name != "PixelFilterName" && p.name != "PixelFilterWidth") return false;

@@ -116,7 +116,10 @@ bool SceneBuilder::refuse(const Request& r) {
   const auto among = [&](const auto& names) {
     return std::find(std::begin(names), std::end(names), r.name) != std::end(names);
   };
-  if (among(kFrame)) return state_.warn(r, "rib-unbalanced", "inside a procedural, ignored"), true;
+  if (among(kFrame)) {
+    state_.warn(r, "rib-unbalanced", "inside a procedural, ignored");
+    return true;
+  }
   if (!among(kLights)) return false;
   state_.warnOnce("procedural " + r.name, r, "rib-procedural-light",
                   r.name + " inside a procedural is ignored: lights are read with the world", Severity::Missing);

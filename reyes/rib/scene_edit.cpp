@@ -70,7 +70,8 @@ class SceneEditor : public RiSink {
       if (light->handle != handle) continue;
       auto copy = std::make_shared<LightCall>(*light);
       copy->shader = merged(light->shader, r, state_);
-      light = std::move(copy), found = true;
+      light = std::move(copy);
+      found = true;
     }
     if (!found) state_.warn(r, "edit-light", "no light has the handle \"" + handle + "\"; ignored");
   }

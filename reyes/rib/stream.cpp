@@ -63,7 +63,10 @@ bool ByteStream::fill() {
   if (closed_) return false;
   if (!inflater_) {
     size_t n = source_(raw_.get(), kBufferSize);
-    if (n == kBrokenZip) damaged_ = true, n = 0;
+    if (n == kBrokenZip) {
+      damaged_ = true;
+      n = 0;
+    }
     next_ = raw_.get();
     end_ = next_ + n;
     const bool isGzip = !started_ && n >= 2 && raw_[0] == '\x1f' && raw_[1] == '\x8b';

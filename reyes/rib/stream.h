@@ -35,7 +35,10 @@ class ByteStream {
   void skipTo(const char* position) { next_ = position; }
 
   bool isProgram() const { return isProgram_; }
-  void close() { next_ = end_, closed_ = true; }
+  void close() {
+    next_ = end_;
+    closed_ = true;
+  }
   bool closed() const { return closed_; }
   /// True if the compressed data broke off, made no sense or was a bomb; the bytes before that have been read.
   bool damaged() const { return damaged_; }

@@ -163,7 +163,8 @@ Builtin readingOf(std::string_view signature, Base letter) {
         slot.base = base;
         out.slots.push_back(slot);
       }
-      first = false, slot = {};
+      first = false;
+      slot = {};
     }
   }
   return out;
@@ -171,7 +172,9 @@ Builtin readingOf(std::string_view signature, Base letter) {
 
 Builtin readingOf(const Row& row, Base letter) {
   Builtin out = readingOf(row.signature, letter);
-  out.op = row.op, out.emit = row.emit, out.number = row.number;
+  out.op = row.op;
+  out.emit = row.emit;
+  out.number = row.number;
   return out;
 }
 
@@ -203,7 +206,9 @@ std::optional<Builtin> builtinOf(const TmFunction& function) {
       R"((\s*(output\s+(float|color|point|vector|normal)|float|color|point|vector|normal|matrix|string)\s*(,(?!\s*\))|(?=\))))*)\)\s*)");
   if (!function.prototype || !function.call || !std::regex_match(function.prototype, kForm)) return {};
   Builtin out = readingOf(function.prototype, Base::Float);
-  out.op = Op::Plugin, out.emit = Emit::Plugin, out.plugin = &function;
+  out.op = Op::Plugin;
+  out.emit = Emit::Plugin;
+  out.plugin = &function;
   return out;
 }
 

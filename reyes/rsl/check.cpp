@@ -18,7 +18,9 @@ Checker::Checker(Checked& checked, const File* prelude, const RslFunctions* plug
   for (int32_t k = 0; k < kGlobals; ++k) {
     const GlobalInfo& g = info(static_cast<Global>(k));
     Variable& v = globals_.emplace_back();
-    v.name = g.name, v.type = {g.base}, v.global = k;
+    v.name = g.name;
+    v.type = {g.base};
+    v.global = k;
     v.detail = g.uniform ? Detail::Uniform : Detail::Varying;
     v.used = v.assigned = true;
     outermost.variables.emplace(v.name, &v);
@@ -101,7 +103,8 @@ void Checker::function(Function& f) {
                       fmt::format("\"{}\" gives a {}, and has no 'return': it gives 0", f.name, name(f.result)),
                       static_cast<int32_t>(f.name.size()));
   scopes_.pop_back();
-  current_ = outer, loops_ = loops;
+  current_ = outer;
+  loops_ = loops;
 }
 
 void Checker::shader(Shader& s) {
@@ -172,13 +175,17 @@ void Checker::statement(Stmt& s) {
       return;
     case StmtKind::While:
       condition(*s.exprs[0]);
-      ++loops_, statement(*s.body[0]), --loops_;
+      ++loops_;
+      statement(*s.body[0]);
+      --loops_;
       return;
     case StmtKind::For:
       if (s.exprs[0]) type(*s.exprs[0]);
       if (s.exprs[1]) condition(*s.exprs[1]);
       if (s.exprs[2]) type(*s.exprs[2]);
-      ++loops_, statement(*s.body[0]), --loops_;
+      ++loops_;
+      statement(*s.body[0]);
+      --loops_;
       return;
     case StmtKind::Break:
     case StmtKind::Continue:
@@ -235,7 +242,9 @@ void Checker::illuminance(Stmt& s) {
     expect(*e[at++], {Base::Float}, "as the angle of illuminance()");
   }
   list(e, at, "illuminance");
-  ++loops_, statement(*s.body[0]), --loops_;
+  ++loops_;
+  statement(*s.body[0]);
+  --loops_;
 }
 
 void Checker::illuminate(Stmt& s) {
@@ -253,8 +262,10 @@ void Checker::illuminate(Stmt& s) {
 void Checker::solar(Stmt& s) {
   auto& e = s.exprs;
   if (!e.empty() && e.size() != 2) return messages_.error(s.place, "solar() takes nothing, or an axis and an angle");
-  if (!e.empty())
-    expect(*e[0], {Base::Vector}, "as the axis of solar()"), expect(*e[1], {Base::Float}, "as the angle of solar()");
+  if (!e.empty()) {
+    expect(*e[0], {Base::Vector}, "as the axis of solar()");
+    expect(*e[1], {Base::Float}, "as the angle of solar()");
+  }
   statement(*s.body[0]);
 }
 
@@ -266,7 +277,9 @@ void Checker::gather(Stmt& s) {
   const Base wanted[5] = {Base::String, Base::Point, Base::Vector, Base::Float, Base::Float};
   for (size_t i = 0; i < 5; ++i) expect(*e[i], {wanted[i]}, fmt::format("as argument {} of gather()", i + 1).c_str());
   list(e, 5, "gather");
-  ++loops_, statement(*s.body[0]), --loops_;
+  ++loops_;
+  statement(*s.body[0]);
+  --loops_;
   if (s.body.size() > 1) statement(*s.body[1]);
 }
 
@@ -286,7 +299,8 @@ void Checker::refuseRecursion() {
         break;
       }
     }
-    open.erase(f), done.insert(f);
+    open.erase(f);
+    done.insert(f);
   };
   std::vector<const Function*> all;
   for (const auto& [f, callees] : calls_) all.push_back(f);

@@ -109,7 +109,10 @@ Type Checker::typeOfCall(Expr& e) {
   const Function* best = nullptr;
   int least = -1;
   for (const Function* f : own)
-    if (const int far = fit(e, *f); far >= 0 && (!best || far < least)) best = f, least = far;
+    if (const int far = fit(e, *f); far >= 0 && (!best || far < least)) {
+      best = f;
+      least = far;
+    }
   if (best) return typeOfFunction(e, *best);
 
   std::vector<const Function*> all = own;
@@ -117,15 +120,24 @@ Type Checker::typeOfCall(Expr& e) {
     for (const auto& f : prelude_->functions) {
       if (f->name != e.text) continue;
       all.push_back(f.get());
-      if (const int far = fit(e, *f); far >= 0 && (!best || far < least)) best = f.get(), least = far;
+      if (const int far = fit(e, *f); far >= 0 && (!best || far < least)) {
+        best = f.get();
+        least = far;
+      }
     }
   const std::vector<const Builtin*> rows = builtinsOf(e.text);
   const Builtin* chosen = nullptr;
   for (const Builtin* b : rows)
-    if (const int far = fit(e, *b); far >= 0 && (least < 0 || far < least)) chosen = b, least = far;
+    if (const int far = fit(e, *b); far >= 0 && (least < 0 || far < least)) {
+      chosen = b;
+      least = far;
+    }
   if (chosen) return typeOfBuiltin(e, *chosen);
   if (best) return typeOfFunction(e, *best);
-  if (rows.empty() && all.empty()) return unknownFunction(e), Type{Base::Float};
+  if (rows.empty() && all.empty()) {
+    unknownFunction(e);
+    return Type{Base::Float};
+  }
   noFit(e, all);
   return kUnknown;
 }
@@ -150,8 +162,10 @@ std::vector<const Builtin*> Checker::builtinsOf(const std::string& name) {
   const auto [known, isNew] = plugged_.try_emplace(name);
   if (isNew) {
     for (const TmFunction* f : plugins_->named(name))
-      if (const std::optional<Builtin> b = builtinOf(*f))
-        pluginRows_->push_back(*b), known->second.push_back(&pluginRows_->back());
+      if (const std::optional<Builtin> b = builtinOf(*f)) {
+        pluginRows_->push_back(*b);
+        known->second.push_back(&pluginRows_->back());
+      }
   }
   return known->second;
 }

@@ -50,7 +50,8 @@ Type Checker::type(Expr& e) {
 Type Checker::typeOfName(Expr& e) {
   Variable* v = find(e.text);
   if (!v && e.text == "PI") {
-    e.kind = ExprKind::Number, e.number = 3.14159265358979f;
+    e.kind = ExprKind::Number;
+    e.number = 3.14159265358979f;
     return {Base::Float};
   }
   if (!v) {
@@ -63,7 +64,10 @@ Type Checker::typeOfName(Expr& e) {
     }
     return kUnknown;
   }
-  while (v->outer) v->used = true, v = v->outer;
+  while (v->outer) {
+    v->used = true;
+    v = v->outer;
+  }
   v->used = true;
   e.variable = v;
   return v->type;
@@ -107,7 +111,8 @@ Type Checker::typeOfUnary(Expr& e) {
 
 Type Checker::typeOfBinary(Expr& e) {
   Expr &a = *e.args[0], &b = *e.args[1];
-  type(a), type(b);
+  type(a);
+  type(b);
   // A bare (x, y, z) takes the type of the other side.
   if (isTriplet(a) && !isTriplet(b) && b.type.isTriple()) a.type = b.type;
   if (isTriplet(b) && !isTriplet(a) && a.type.isTriple()) b.type = a.type;
@@ -125,9 +130,16 @@ Type Checker::typeOfBinary(Expr& e) {
 Type Checker::typeOfConditional(Expr& e) {
   condition(*e.args[0]);
   Expr &a = *e.args[1], &b = *e.args[2];
-  type(a), type(b);
-  if (distance(b, a.type) >= 0 && !(a.type.is(Base::Float) && b.type.isTriple())) return retarget(b, a.type), a.type;
-  if (distance(a, b.type) >= 0) return retarget(a, b.type), b.type;
+  type(a);
+  type(b);
+  if (distance(b, a.type) >= 0 && !(a.type.is(Base::Float) && b.type.isTriple())) {
+    retarget(b, a.type);
+    return a.type;
+  }
+  if (distance(a, b.type) >= 0) {
+    retarget(a, b.type);
+    return b.type;
+  }
   messages_.error(e.place, fmt::format("the two values of '?:' are a {} and a {}", name(a.type), name(b.type)),
                   e.length);
   return kUnknown;
@@ -202,7 +214,8 @@ void Checker::retarget(Expr& e, const Type& wanted) {
       return;
     }
     case ExprKind::Conditional:
-      retarget(*e.args[1], wanted), retarget(*e.args[2], wanted);
+      retarget(*e.args[1], wanted);
+      retarget(*e.args[2], wanted);
       if (e.args[1]->type == e.args[2]->type) e.type = e.args[1]->type;
       return;
     case ExprKind::Comma:
@@ -217,7 +230,10 @@ void Checker::retarget(Expr& e, const Type& wanted) {
       for (const Builtin* b : builtinsOf(e.text)) {
         const int far = fit(e, *b);
         if (far < 0 || Type{b->result} != wanted) continue;
-        if (best < 0 || far < best) best = far, chosen = b;
+        if (best < 0 || far < best) {
+          best = far;
+          chosen = b;
+        }
       }
       if (chosen) e.type = typeOfBuiltin(e, *chosen);
       return;

@@ -90,11 +90,16 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
   if (hasExtent) declareExtent();
   TmShader& host = host_.shader;
   host_.program = this;
-  host.abi = TM_SHADER_ABI, host.structBytes = sizeof host;
-  host.kind = kindOf(lowered_.kind), host.capabilities = code().capabilities;
-  host.paramCount = static_cast<int32_t>(params_.size()), host.paramBytes = sizeof(TmParamDecl);
+  host.abi = TM_SHADER_ABI;
+  host.structBytes = sizeof host;
+  host.kind = kindOf(lowered_.kind);
+  host.capabilities = code().capabilities;
+  host.paramCount = static_cast<int32_t>(params_.size());
+  host.paramBytes = sizeof(TmParamDecl);
   host.params = params_.data();
-  host.shade = shade, host.name = lowered_.name.c_str(), host.doc = lowered_.doc.c_str();
+  host.shade = shade;
+  host.name = lowered_.name.c_str();
+  host.doc = lowered_.doc.c_str();
   if (hasExtent) host.capabilities |= TM_LIGHT_SHADOWED;
   if (lowered_.onGeometry) host.capabilities |= TM_LIGHT_AREA;
 }

@@ -54,7 +54,8 @@ int32_t Lowering::global(Global g) {
   if (!isNew) return it->second;
   const GlobalInfo& about = info(g);
   Register r{.shape = shapeOf({about.base}), .origin = Origin::Global, .varying = !about.uniform};
-  r.name = about.name, r.index = static_cast<int32_t>(g);
+  r.name = about.name;
+  r.index = static_cast<int32_t>(g);
   it->second = add(std::move(r));
   code_.registers[static_cast<size_t>(it->second)].depth = 0;
   return it->second;
@@ -62,7 +63,10 @@ int32_t Lowering::global(Global g) {
 
 int32_t Lowering::variable(const Variable& v) {
   Register r{.shape = shapeOf(v.type), .origin = Origin::Variable};
-  r.length = v.type.length, r.name = v.name, r.declared = v.detail, r.place = v.place;
+  r.length = v.type.length;
+  r.name = v.name;
+  r.declared = v.detail;
+  r.place = v.place;
   return registers_[&v] = add(std::move(r));
 }
 

@@ -33,8 +33,10 @@ int returnsIn(const Stmt& s) {
 int32_t Lowering::inlined(const Expr& e, const Function& f) {
   std::vector<const Expr*> arguments;
   std::vector<Type> types;
-  for (size_t i = 0; i < e.args.size(); ++i)
-    arguments.push_back(e.args[i].get()), types.push_back(f.parameters[i]->type);
+  for (size_t i = 0; i < e.args.size(); ++i) {
+    arguments.push_back(e.args[i].get());
+    types.push_back(f.parameters[i]->type);
+  }
   std::vector<int32_t> given;
   std::vector<std::pair<const Expr*, int32_t>> after;
   if (!arguments.empty()) given = values(arguments, types);

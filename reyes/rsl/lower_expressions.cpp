@@ -132,7 +132,8 @@ int32_t Lowering::ofLamp(Global g) {
   const int32_t own = constant(Shape::Triple, {0, 0, position ? 0.0f : 1.0f}), current = temporary(Shape::Triple);
   it->second = add({.shape = Shape::Triple, .origin = Origin::Variable});
   Register& r = code_.registers[static_cast<size_t>(it->second)];
-  r.name = info(g).name, r.depth = 0;
+  r.name = info(g).name;
+  r.depth = 0;
   Instruction first{.op = Op::TransformSpace, .out = {current}, .in = {text("shader"), text("current"), own}};
   first.extra = position ? TM_AS_POINT : TM_AS_NORMAL;
   Instruction second{.op = Op::Copy, .out = {it->second}, .in = {current}};

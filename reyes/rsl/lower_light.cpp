@@ -31,7 +31,10 @@ void Lowering::illuminance(const Stmt& s) {
   size_t at = e[0]->type.is(Base::String) ? 1 : 0;
   const int32_t category = at == 1 ? value(*e[0]) : -1, position = value(*e[at++]);
   int32_t axis = -1, angle = -1;
-  if (at < e.size() && !e[at]->type.is(Base::String)) axis = value(*e[at++]), angle = value(*e[at++]);
+  if (at < e.size() && !e[at]->type.is(Base::String)) {
+    axis = value(*e[at++]);
+    angle = value(*e[at++]);
+  }
   std::vector<std::pair<const Expr*, int32_t>> after;
   const std::vector<Setting> list = settings(e, at, "illuminance", after);
   const int32_t L = global(Global::L), Cl = global(Global::Cl);

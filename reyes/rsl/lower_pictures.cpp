@@ -28,8 +28,10 @@ int32_t Lowering::texture(const Expr& e, const Builtin& b) {
   };
   if (at.size() == 8) {
     for (const auto& weights :
-         {std::array{.25f, .25f, .25f, .25f}, std::array{-.5f, .5f, -.5f, .5f}, std::array{-.5f, -.5f, .5f, .5f}})
-      in.push_back(mean(0, weights)), in.push_back(mean(1, weights));
+         {std::array{.25f, .25f, .25f, .25f}, std::array{-.5f, .5f, -.5f, .5f}, std::array{-.5f, -.5f, .5f, .5f}}) {
+      in.push_back(mean(0, weights));
+      in.push_back(mean(1, weights));
+    }
   } else {
     const int32_t s = global(Global::s), t = global(Global::t);
     const int32_t x = at.empty() ? s : at[0], y = at.empty() ? t : at[1];
@@ -38,8 +40,10 @@ int32_t Lowering::texture(const Expr& e, const Builtin& b) {
     if (known) {
       in.insert(in.end(), 4, -1);
     } else {
-      for (const Op step : {Op::StepU, Op::StepV})
-        in.push_back(compute(step, {x}, Shape::Number)), in.push_back(compute(step, {y}, Shape::Number));
+      for (const Op step : {Op::StepU, Op::StepV}) {
+        in.push_back(compute(step, {x}, Shape::Number));
+        in.push_back(compute(step, {y}, Shape::Number));
+      }
     }
   }
   std::vector<std::pair<const Expr*, int32_t>> after;

@@ -26,7 +26,9 @@ bool namesSpace(const Expr& e) {
 }  // namespace
 
 void Lowering::shader(const Shader& s) {
-  code_.kind = s.kind, code_.name = s.name, code_.doc = s.doc;
+  code_.kind = s.kind;
+  code_.name = s.name;
+  code_.doc = s.doc;
   for (const auto& p : s.parameters) parameter(*p);
   functions_.push_back({-1, code_.labels++});
   if (contains(*s.body, {StmtKind::Return})) {
@@ -70,22 +72,31 @@ void Lowering::parameter(const Variable& v) {
 
 int32_t Lowering::outputParameter(const Variable& v) {
   Parameter p;
-  p.name = v.name, p.type = v.type, p.output = true, p.place = v.place;
+  p.name = v.name;
+  p.type = v.type;
+  p.output = true;
+  p.place = v.place;
   const int32_t reg = variable(v);
   Register& r = code_.registers[static_cast<size_t>(reg)];
-  r.origin = Origin::Parameter, r.index = static_cast<int32_t>(code_.parameters.size());
+  r.origin = Origin::Parameter;
+  r.index = static_cast<int32_t>(code_.parameters.size());
   code_.parameters.push_back(std::move(p));
   return reg;
 }
 
 void Lowering::givenParameter(const Variable& v) {
   Parameter p;
-  p.name = v.name, p.type = v.type, p.detail = v.detail, p.place = v.place;
+  p.name = v.name;
+  p.type = v.type;
+  p.detail = v.detail;
+  p.place = v.place;
   if (p.type.length == kOpenArray) p.type.length = 1;
   const bool constantValue = constantDefault(v, p);
   const int32_t reg = variable(v);
   Register& r = code_.registers[static_cast<size_t>(reg)];
-  r.origin = Origin::Parameter, r.index = static_cast<int32_t>(code_.parameters.size()), r.length = p.type.length;
+  r.origin = Origin::Parameter;
+  r.index = static_cast<int32_t>(code_.parameters.size());
+  r.length = p.type.length;
   p.computed = !constantValue;
   code_.parameters.push_back(std::move(p));
   if (!constantValue) computedDefault(v, reg);

@@ -130,9 +130,11 @@ template <class Body>
 Block Lowering::block(const Body& body) {
   Block out;
   Block* const outer = block_;
-  block_ = &out, ++depth_;
+  block_ = &out;
+  ++depth_;
   body();
-  block_ = outer, --depth_;
+  block_ = outer;
+  --depth_;
   return out;
 }
 

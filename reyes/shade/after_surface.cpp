@@ -37,9 +37,12 @@ void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out, con
   air.resize(points.count());
   if (!run(air)) return;
   for (int k = 0; k < 3; ++k) {
-    out.airCi[k] = std::move(air.Ci[k]), out.airOi[k] = std::move(air.Oi[k]);
-    for (size_t i = 0; i < out.airCi[k].size(); ++i)
-      out.airCi[k][i] *= 1 - before.Oi[k][i], out.airOi[k][i] *= 1 - before.Oi[k][i];
+    out.airCi[k] = std::move(air.Ci[k]);
+    out.airOi[k] = std::move(air.Oi[k]);
+    for (size_t i = 0; i < out.airCi[k].size(); ++i) {
+      out.airCi[k][i] *= 1 - before.Oi[k][i];
+      out.airOi[k][i] *= 1 - before.Oi[k][i];
+    }
   }
 }
 

@@ -71,7 +71,8 @@ void measureAreaLights(Scene& scene, ShaderRegistry& registry, Log& log) {
     if (!(area > 0)) continue;
     auto measured = std::make_shared<LightCall>(*light);
     Param p;
-    p.name = taken->name, p.floats = {static_cast<float>(area)};
+    p.name = taken->name;
+    p.floats = {static_cast<float>(area)};
     measured->shader.params.push_back(std::move(p));
     light = std::move(measured);
     if (guessed)

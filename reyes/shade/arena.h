@@ -33,7 +33,10 @@ class Arena {
     size_t block, used;
   };
   Mark mark() const { return {block_, used_}; }
-  void restore(Mark m) { block_ = m.block, used_ = m.used; }
+  void restore(Mark m) {
+    block_ = m.block;
+    used_ = m.used;
+  }
 
  private:
   void nextBlock(size_t need) {

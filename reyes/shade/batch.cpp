@@ -30,7 +30,9 @@ Batch::~Batch() = default;
 
 TmConstVec3 Batch::constant(const vec3& v) {
   const TmVec3 out = arena.vec3(tm.count);
-  std::fill_n(out.x, tm.padded, v.x), std::fill_n(out.y, tm.padded, v.y), std::fill_n(out.z, tm.padded, v.z);
+  std::fill_n(out.x, tm.padded, v.x);
+  std::fill_n(out.y, tm.padded, v.y);
+  std::fill_n(out.z, tm.padded, v.z);
   return view(out);
 }
 
@@ -39,16 +41,21 @@ void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Ov
   tm = {};
   own = &shader;
   tm.structBytes = sizeof(TmGrid);
-  tm.count = count, tm.padded = padded(count);
+  tm.count = count;
+  tm.padded = padded(count);
   uint8_t* active = arena.bytes(tm.padded);
   std::fill_n(active, count, uint8_t{1});
   tm.active = active;
-  tm.call = &kServices, tm.host = this;
+  tm.call = &kServices;
+  tm.host = this;
   const Options& options = scene.scene.options;
-  tm.time = options.shutterOpen, tm.dtime = options.shutterClose - options.shutterOpen;
-  tm.clip[0] = scene.scene.options.nearClip, tm.clip[1] = scene.scene.options.farClip;
+  tm.time = options.shutterOpen;
+  tm.dtime = options.shutterClose - options.shutterOpen;
+  tm.clip[0] = scene.scene.options.nearClip;
+  tm.clip[1] = scene.scene.options.farClip;
   lights = {};
-  stencil = {}, wide_.reset();
+  stencil = {};
+  wide_.reset();
   gathered.who = nullptr;
 
   params_ = shader.values;
@@ -67,7 +74,8 @@ void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Ov
     if (offset < 0) return constant(attribute);
     return TmConstVec3{primvar(offset), primvar(offset + 1), primvar(offset + 2)};
   };
-  tm.Cs = color(group.CsOffset, a.color), tm.Os = color(group.OsOffset, a.opacity);
+  tm.Cs = color(group.CsOffset, a.color);
+  tm.Os = color(group.OsOffset, a.opacity);
 }
 
 void Batch::setPoints(ShadePoints& p, const BoundShader& shader, const std::vector<Override>& overrides,
@@ -80,16 +88,24 @@ void Batch::setPoints(ShadePoints& p, const BoundShader& shader, const std::vect
   points = &p;
   tm.P = {all.channel(kPx), all.channel(kPy), all.channel(kPz)};
   tm.N = {all.channel(kNx), all.channel(kNy), all.channel(kNz)};
-  tm.Ng = all.vec(kNgx), tm.I = all.vec(kIx);
-  tm.dPdu = all.vec(kDpduX), tm.dPdv = all.vec(kDpdvX);
-  tm.u = all.channel(kU), tm.v = all.channel(kV), tm.s = all.channel(kS), tm.t = all.channel(kT);
-  tm.du = all.channel(kDu), tm.dv = all.channel(kDv);
+  tm.Ng = all.vec(kNgx);
+  tm.I = all.vec(kIx);
+  tm.dPdu = all.vec(kDpduX);
+  tm.dPdv = all.vec(kDpdvX);
+  tm.u = all.channel(kU);
+  tm.v = all.channel(kV);
+  tm.s = all.channel(kS);
+  tm.t = all.channel(kT);
+  tm.du = all.channel(kDu);
+  tm.dv = all.channel(kDv);
   tm.dPdtime = velocity();
   tm.Ci = {out.Ci[0].data() + begin, out.Ci[1].data() + begin, out.Ci[2].data() + begin};
   tm.Oi = {out.Oi[0].data() + begin, out.Oi[1].data() + begin, out.Oi[2].data() + begin};
   if (!wide) return;
-  tm.Ci = arena.vec3(tm.count), tm.Oi = arena.vec3(tm.count);
-  wide_ = std::move(neighbours), stencil = wide_->stencil;
+  tm.Ci = arena.vec3(tm.count);
+  tm.Oi = arena.vec3(tm.count);
+  wide_ = std::move(neighbours);
+  stencil = wide_->stencil;
 }
 
 TmConstVec3 Batch::velocity() {
@@ -135,7 +151,8 @@ void Batch::closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoin
 }
 
 void Batch::setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved) {
-  own = asking.own, running = asking.running;
+  own = asking.own;
+  running = asking.running;
   points = &moved;
   tm = asking.tm;
   tm.host = this;
@@ -147,7 +164,9 @@ void Batch::setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints
     for (int i = 0; i < moved.count(); ++i) set(to, i, moved.get3(channel, i));
     return to;
   };
-  tm.P = copy(kPx), tm.N = copy(kNx), tm.Ng = view(copy(kNgx));
+  tm.P = copy(kPx);
+  tm.N = copy(kNx);
+  tm.Ng = view(copy(kNgx));
 }
 
 void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
@@ -159,33 +178,45 @@ void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
     for (int i = 0; i < n; ++i) set(to, i, from[static_cast<size_t>(i)]);
     return to;
   };
-  tm.P = copy(probe.P), tm.N = copy(probe.N);
+  tm.P = copy(probe.P);
+  tm.N = copy(probe.N);
   tm.Ng = view(tm.N);
   tm.I = tm.dPdu = tm.dPdv = tm.dPdtime = zero;
   tm.u = tm.v = tm.s = tm.t = tm.du = tm.dv = zero.x;
-  if (!probe.Pl.empty()) tm.Pl = view(copy(probe.Pl)), tm.Nl = view(copy(probe.Nl));
-  tm.L = arena.vec3(n), tm.Cl = arena.vec3(n);
-  tm.sample = 0, tm.samples = 1;
+  if (!probe.Pl.empty()) {
+    tm.Pl = view(copy(probe.Pl));
+    tm.Nl = view(copy(probe.Nl));
+  }
+  tm.L = arena.vec3(n);
+  tm.Cl = arena.vec3(n);
+  tm.sample = 0;
+  tm.samples = 1;
   float *xi0 = arena.floats(n), *xi1 = arena.floats(n);
-  for (size_t i = 0; i < probe.P.size(); ++i)
-    xi0[i] = probe.xi.empty() ? 0.5f : probe.xi[i].x, xi1[i] = probe.xi.empty() ? 0.5f : probe.xi[i].y;
-  tm.xi0 = xi0, tm.xi1 = xi1;
+  for (size_t i = 0; i < probe.P.size(); ++i) {
+    xi0[i] = probe.xi.empty() ? 0.5f : probe.xi[i].x;
+    xi1[i] = probe.xi.empty() ? 0.5f : probe.xi[i].y;
+  }
+  tm.xi0 = xi0;
+  tm.xi1 = xi1;
 }
 
 void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
   const int n = static_cast<int>(p.alpha.size());
   setCommon(n, shader, {}, [](int) { return nullptr; });
   const TmConstVec3 zero = constant(vec3(0.0f));
-  tm.P = arena.vec3(n), tm.N = arena.vec3(n);
+  tm.P = arena.vec3(n);
+  tm.N = arena.vec3(n);
   for (int i = 0; i < n; ++i) set(tm.P, i, {p.x + static_cast<float>(i), p.y, 0});
   tm.Ng = tm.I = tm.dPdu = tm.dPdv = tm.dPdtime = zero;
   tm.du = tm.dv = zero.x;
   // For an imager u and v run over the picture, from its top left corner.
   float *u = arena.floats(n), *v = arena.floats(n);
-  for (int i = 0; i < n; ++i)
-    u[i] = tm.P.x[i] / static_cast<float>(scene.scene.options.xResolution),
+  for (int i = 0; i < n; ++i) {
+    u[i] = tm.P.x[i] / static_cast<float>(scene.scene.options.xResolution);
     v[i] = tm.P.y[i] / static_cast<float>(scene.scene.options.yResolution);
-  tm.u = tm.s = u, tm.v = tm.t = v;
+  }
+  tm.u = tm.s = u;
+  tm.v = tm.t = v;
   tm.Ci = {p.colors.Ci[0].data(), p.colors.Ci[1].data(), p.colors.Ci[2].data()};
   tm.Oi = {p.colors.Oi[0].data(), p.colors.Oi[1].data(), p.colors.Oi[2].data()};
   tm.alpha = p.alpha.data();
@@ -212,16 +243,21 @@ bool Batch::stepsOf(const TmGrid* g, bool alongV, const float* value, float* out
   if (!points) return false;
   const ShadePoints& p = *points;
   const auto is = [&](const float* known) { return known == value || std::equal(known, known + n, value); };
-  const auto take = [&](const float* steps) { return std::copy_n(steps, n, out), true; };
+  const auto take = [&](const float* steps) {
+    std::copy_n(steps, n, out);
+    return true;
+  };
   for (int k = 0; k < 3; ++k) {
     if (!is(p.channel(kPx + k))) continue;
     for (int i = 0; i < n; ++i) out[i] = p.channel((alongV ? kDpdvX : kDpduX) + k)[i] * (alongV ? g->dv : g->du)[i];
     return true;
   }
   if (!p.hasSteps()) {
-    if (is(g->u)) return alongV ? (std::fill_n(out, n, 0.0f), true) : take(g->du);
-    if (is(g->v)) return alongV ? take(g->dv) : (std::fill_n(out, n, 0.0f), true);
-    return false;
+    const bool isU = is(g->u);
+    if (!isU && !is(g->v)) return false;
+    if (isU != alongV) return take(alongV ? g->dv : g->du);
+    std::fill_n(out, n, 0.0f);
+    return true;
   }
   if (is(p.channel(kS))) return take(p.step(kStepS, alongV));
   if (is(p.channel(kT))) return take(p.step(kStepT, alongV));

@@ -80,7 +80,10 @@ class Batch {
   class Scratch {
    public:
     explicit Scratch(Batch& batch) : batch_(batch), mark_(batch.arena.mark()), gathered_(batch.gathered) {}
-    ~Scratch() { batch_.arena.restore(mark_), batch_.gathered = gathered_; }
+    ~Scratch() {
+      batch_.arena.restore(mark_);
+      batch_.gathered = gathered_;
+    }
     Scratch(const Scratch&) = delete;
 
    private:
@@ -117,6 +120,10 @@ Options givenOptions(const Batch& batch, Options options, const Options* given) 
 inline TmConstVec3 view(TmVec3 v) { return {v.x, v.y, v.z}; }
 inline vec3 get(TmConstVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }
 inline vec3 get(TmVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }
-inline void set(TmVec3 a, int i, const vec3& v) { a.x[i] = v.x, a.y[i] = v.y, a.z[i] = v.z; }
+inline void set(TmVec3 a, int i, const vec3& v) {
+  a.x[i] = v.x;
+  a.y[i] = v.y;
+  a.z[i] = v.z;
+}
 
 }  // namespace tomales

@@ -71,7 +71,8 @@ IndirectRequest requestOf(const BoundShader& light, const IndirectQuery& query, 
 /// Finds by "lighting" whether it lights what the camera sees, and what gather rays see.
 void setLighting(BoundLight& light, Log& log) {
   const std::string lighting = light.bound->text(TM_ROLE_LIGHTING, "both");
-  light.direct = lighting != "indirect", light.indirect = lighting != "direct";
+  light.direct = lighting != "indirect";
+  light.indirect = lighting != "direct";
   if (lighting != "both" && light.direct && light.indirect)
     log.report(Severity::Warning, "light-lighting", light.bound->where,
                fmt::format("{}: lighting \"{}\" is none of both, direct, indirect; both is used", light.bound->user,
@@ -149,7 +150,8 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
       bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT, call.area);
   if (!bound) return nullptr;
   auto light = std::make_unique<BoundLight>();
-  light->bound = bound, light->index = index;
+  light->bound = bound;
+  light->index = index;
   light->group = bound->text(TM_ROLE_GROUP, call.handle);
   light->category = bound->text(TM_ROLE_CATEGORY, "");
   if (light->can(TM_LIGHT_INDIRECT)) light->category += (light->category.empty() ? "" : ",") + std::string(kIndirect);
@@ -165,7 +167,8 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
     light->samples = countOf(*bound, TM_ROLE_SAMPLES, kLightSamples, 1, kMostLightSamples, log_);
   if (light->can(TM_OCCLUDED)) light->maxVariation = bound->number(TM_ROLE_MAX_VARIATION, 1);
   if (!light->can(TM_LIGHT_INDIRECT)) return light;
-  light->shadows = false, light->samples = kColours;
+  light->shadows = false;
+  light->samples = kColours;
   light->query = queryOf(*bound, scene_.options.indirectSamples, log_);
   light->request = requestOf(*bound, light->query, log_);
   light->filters = bound->find(TM_ROLE_INDIRECT_SOURCE) != nullptr;
@@ -174,7 +177,8 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
 
 std::unique_ptr<const BoundLight> Binder::addedIndirectLight(int index) {
   LightCall call;
-  call.shader.name = "indirectlight", call.shader.where = scene_.where;
+  call.shader.name = "indirectlight";
+  call.shader.where = scene_.where;
   call.handle = "--gi";
   return light(call, index);
 }

@@ -40,7 +40,10 @@ class Binder {
   BoundShaderPtr indirectSurface(const Attributes& a, const SourceLoc& object, const std::string& user) {
     if (a.indirect.surface.empty()) return nullptr;
     ShaderCall call{a.indirect.surface, {}, {}, object};
-    if (a.surface) call.worldFromShader = a.surface->worldFromShader, call.where = a.surface->where;
+    if (a.surface) {
+      call.worldFromShader = a.surface->worldFromShader;
+      call.where = a.surface->where;
+    }
     return bind(&call, call.where, user, TM_SURFACE);
   }
   /// Notes a shader that is about to be bound. prepare() compiles the texts of all of them side by side, so that

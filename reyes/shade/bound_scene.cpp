@@ -111,7 +111,8 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
   connectFilters(*this);
   if (scene.options.wantsIndirect) addIndirectLight();
   stored.bound = storedLight();
-  pixels.group = &picture, pixels.object = "the picture";
+  pixels.group = &picture;
+  pixels.object = "the picture";
   imager = binder_->imager(scene.options.imager, pixels.object);
   bindNewGroups();
   grows_ = !scene.procedurals.empty();
@@ -133,7 +134,8 @@ void BoundScene::addIndirectLight() {
 void BoundScene::bindNewGroups() {
   for (size_t k = groups.size(); k < scene.groups.size(); ++k) {
     const Attributes& a = *scene.groups[k].attributes;
-    binder_->expect(a.surface.get(), TM_SURFACE), binder_->expect(a.displacement.get(), TM_DISPLACEMENT);
+    binder_->expect(a.surface.get(), TM_SURFACE);
+    binder_->expect(a.displacement.get(), TM_DISPLACEMENT);
     for (const auto& air : {a.atmosphere, a.interior, a.exterior}) binder_->expect(air.get(), TM_VOLUME);
   }
   binder_->prepare();
@@ -147,7 +149,8 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) const {
   SourceLoc where;
   if (group.exampleObject >= 0) {
     const Object& o = scene.objects[static_cast<size_t>(group.exampleObject)];
-    g.object = objectName(o), where = o.where;
+    g.object = objectName(o);
+    where = o.where;
   }
   g.surface = binder_->surface(a.surface, where, g.object);
   g.indirectSurface = binder_->indirectSurface(a, where, g.object);

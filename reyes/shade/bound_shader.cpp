@@ -21,7 +21,9 @@ void toCurrent(int32_t type, const mat4& currentFromShader, std::vector<float>& 
   } else if (floatsOf(type) == 3) {
     for (size_t k = 0; k + 3 <= v.size(); k += 3) {
       const vec3 p = transformAs(static_cast<TmType>(type), currentFromShader, {v[k], v[k + 1], v[k + 2]});
-      v[k] = p.x, v[k + 1] = p.y, v[k + 2] = p.z;
+      v[k] = p.x;
+      v[k + 1] = p.y;
+      v[k + 2] = p.z;
     }
   }
 }
@@ -98,7 +100,9 @@ class Binding {
   void bind() {
     const TmShader& shader = *bound_.shader;
     const size_t n = paramCount();
-    bound_.floats.resize(n), bound_.strings.resize(n), bound_.values.resize(n + 1);
+    bound_.floats.resize(n);
+    bound_.strings.resize(n);
+    bound_.values.resize(n + 1);
     bound_.values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // null, so that a shader that reads it crashes
     for (size_t i = 0; i < n; ++i) bindDeclared(shader.params[i], i);
     if (!call_) return;
@@ -181,7 +185,10 @@ class Binding {
 BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
                           const std::string& user, const mat4& currentFromShader, Log& log) {
   auto bound = std::make_shared<BoundShader>();
-  bound->shader = &shader, bound->where = where, bound->user = user, bound->currentFromShader = currentFromShader;
+  bound->shader = &shader;
+  bound->where = where;
+  bound->user = user;
+  bound->currentFromShader = currentFromShader;
   Binding(*bound, call, log).bind();
   return bound;
 }

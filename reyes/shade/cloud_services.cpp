@@ -46,8 +46,12 @@ bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmCo
                          : batch.points ? micropolygonRadius(*batch.points, g, i)
                                         : 0.0f);
   });
-  query.file = file, query.count = g->count, query.active = g->active;
-  query.P = view(p), query.N = view(n), query.radius = radius;
+  query.file = file;
+  query.count = g->count;
+  query.active = g->active;
+  query.P = view(p);
+  query.N = view(n);
+  query.radius = radius;
   return true;
 }
 

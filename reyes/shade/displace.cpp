@@ -22,7 +22,8 @@ TOMALES_HOT void derivatives(int n, const Stencil& stencil, int direction, const
     const auto span = static_cast<float>(b - a);
     const float step = (of[b] - of[a]) * next / span, by = step != 0 ? step : 1.0f;
     d[i] = by;
-    x[i] = (P.x[b] - P.x[a]) * next / span / by, y[i] = (P.y[b] - P.y[a]) * next / span / by,
+    x[i] = (P.x[b] - P.x[a]) * next / span / by;
+    y[i] = (P.y[b] - P.y[a]) * next / span / by;
     z[i] = (P.z[b] - P.z[a]) * next / span / by;
   }
 }
@@ -82,7 +83,8 @@ void repair(Batch& batch, Grid& g, TmConstVec3 P, TmConstVec3 N, bool all) {
   if (!all && allFinite(n, {g.P(0, 0), g.P(0, 1), g.P(0, 2)}) && allFinite(n, {g.N(0), g.N(1), g.N(2)})) return;
   for (int i = 0; i < n; ++i) {
     if (!all && isFinite(g.position(0, i)) && isFinite(g.normal(i))) continue;
-    set(batch.tm.P, i, get(P, i)), set(batch.tm.N, i, get(N, i));
+    set(batch.tm.P, i, get(P, i));
+    set(batch.tm.N, i, get(N, i));
   }
   if (!all)
     batch.report(Severity::Warning, "shader-not-finite", "moved points to NaN or infinity; they stay where they were");
@@ -96,7 +98,8 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   setCommon(n, shader, overrides, [&](int offset) { return g.primvar(offset); });
   tm.P = {g.P(0, 0), g.P(0, 1), g.P(0, 2)};
   tm.N = {g.N(0), g.N(1), g.N(2)};
-  tm.u = g.u(), tm.v = g.v();
+  tm.u = g.u();
+  tm.v = g.v();
   const TmVec3 Ng = arena.vec3(n), I = arena.vec3(n), dPdu = arena.vec3(n), dPdv = arena.vec3(n);
   calculateNormals(g, scene.scene.objects[static_cast<size_t>(g.object)].flipsNormal, Ng.x, Ng.y, Ng.z);
   stencil = stencilOf(g, arena);
@@ -114,10 +117,14 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
     else
       std::fill_n(to, n, parallel);
   }
-  tm.Ng = view(Ng), tm.I = view(I), tm.dPdu = view(dPdu), tm.dPdv = view(dPdv);
+  tm.Ng = view(Ng);
+  tm.I = view(I);
+  tm.dPdu = view(dPdu);
+  tm.dPdv = view(dPdv);
   tm.s = group.sOffset < 0 ? s : g.primvar(group.sOffset);
   tm.t = group.tOffset < 0 ? t : g.primvar(group.tOffset);
-  tm.du = du, tm.dv = dv;
+  tm.du = du;
+  tm.dv = dv;
   tm.dPdtime = constant(vec3(0));
 }
 

@@ -37,7 +37,10 @@ void moveTo(TmConstVec3 P, const uint8_t* active, bool inAir, ShadePoints& point
     const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
     points.rename(i, {hashCombine(name.key, bits(P.x[i]), bits(P.y[i]), bits(P.z[i])), name.sequence});
     points.set3(kPx, i, get(P, i));
-    if (inAir) points.set3(kNx, i, vec3(0.0f)), points.set3(kNgx, i, vec3(0.0f));
+    if (inAir) {
+      points.set3(kNx, i, vec3(0.0f));
+      points.set3(kNgx, i, vec3(0.0f));
+    }
   }
 }
 

@@ -34,8 +34,11 @@ int32_t gatherEnvironment(Batch& batch, const TmGrid* all, TmConstVec3 P, const 
   forActive(g, [&](int i) {
     float density = 0;
     const vec3 L = sky.sample(vec3(0.0f), vec3(0.0f), randomOf(batch, i, ray, options.samples), density);
-    set(along, i, L), set(direction, i, normalizeOr(currentFromMap * L, L));
-    solidAngle[i] = 1 / (density * static_cast<float>(options.samples)), width[i] = kSkyCell, far[i] = kFarAway;
+    set(along, i, L);
+    set(direction, i, normalizeOr(currentFromMap * L, L));
+    solidAngle[i] = 1 / (density * static_cast<float>(options.samples));
+    width[i] = kSkyCell;
+    far[i] = kFarAway;
     hit[i] = 0;
   });
   TmTextureOptions lookup = tmTextureDefaults();

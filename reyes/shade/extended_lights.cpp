@@ -10,7 +10,10 @@ bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || lig
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
   const int n = g.count;
   const EmitterPoints points{batch.arena.vec3(n), batch.arena.vec3(n), batch.arena.floats(n), batch.arena.floats(n)};
-  if (light.can(TM_LIGHT_AREA)) g.Pl = view(points.P), g.Nl = view(points.N);
+  if (light.can(TM_LIGHT_AREA)) {
+    g.Pl = view(points.P);
+    g.Nl = view(points.N);
+  }
   return points;
 }
 

@@ -49,7 +49,9 @@ TOMALES_HOT void normalizeAll(int n, TmConstVec3 from, TmVec3 to) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const float x = from.x[i], y = from.y[i], z = from.z[i], inverse = inverseLength(x, y, z);
-    to.x[i] = x * inverse, to.y[i] = y * inverse, to.z[i] = z * inverse;
+    to.x[i] = x * inverse;
+    to.y[i] = y * inverse;
+    to.z[i] = z * inverse;
   }
 }
 
@@ -75,8 +77,9 @@ TOMALES_HOT void addDiffuse(int n, const float* share, TmConstVec3 N, TmConstVec
   for (int i = 0; i < n; ++i) {
     const float weight = share[i] * (L.x[i] * N.x[i] + L.y[i] * N.y[i] + L.z[i] * N.z[i]);
     const bool counts = share[i] != 0.0f;
-    out.x[i] += where(counts, Cl.x[i] * weight), out.y[i] += where(counts, Cl.y[i] * weight),
-        out.z[i] += where(counts, Cl.z[i] * weight);
+    out.x[i] += where(counts, Cl.x[i] * weight);
+    out.y[i] += where(counts, Cl.y[i] * weight);
+    out.z[i] += where(counts, Cl.z[i] * weight);
   }
 }
 
@@ -89,8 +92,9 @@ TOMALES_HOT void addHighlight(int n, const float* share, TmConstVec3 N, TmConstV
     const float positive = cosine > FLT_MIN ? cosine : FLT_MIN, within = positive < 1.0f ? positive : 1.0f;
     const float weight = share[i] * power(within, exponent[i]);
     const bool counts = (share[i] != 0.0f) & (cosine > 0.0f);
-    out.x[i] += where(counts, Cl.x[i] * weight), out.y[i] += where(counts, Cl.y[i] * weight),
-        out.z[i] += where(counts, Cl.z[i] * weight);
+    out.x[i] += where(counts, Cl.x[i] * weight);
+    out.y[i] += where(counts, Cl.y[i] * weight);
+    out.z[i] += where(counts, Cl.z[i] * weight);
   }
 }
 

@@ -41,7 +41,8 @@ std::vector<Halves> halvesOf(Batch& batch, const std::vector<LightSample>& sampl
     const BoundLight& which = *samples[begin].light;
     const Halves& light = out.emplace_back(
         Halves{&which, isDrawn(which) && end - begin > 1, batch.arena.floats(n), batch.arena.floats(n)});
-    std::fill_n(light.first, n, 0.0f), std::fill_n(light.second, n, 0.0f);
+    std::fill_n(light.first, n, 0.0f);
+    std::fill_n(light.second, n, 0.0f);
     for (size_t s = begin; s < end; ++s)
       addSample(batch, samples[s], 2 * (s - begin) < end - begin ? light.first : light.second);
   }

@@ -55,12 +55,14 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
     for (size_t i = 0; i < n; ++i) set(batch.tm.L, static_cast<int>(i), probe.Pl[i] - probe.P[i]);
   const bool finished = batch.run(shader, batch.tm);
   if (finished && isMean(*shader.shader)) meanToRadiance(batch.tm, impl_->services, light);
-  probe.L.assign(n, vec3(0.0f)), probe.Cl.assign(n, vec3(0.0f));
+  probe.L.assign(n, vec3(0.0f));
+  probe.Cl.assign(n, vec3(0.0f));
   for (size_t i = 0; finished && i < n; ++i) {
     const vec3 L = get(batch.tm.L, static_cast<int>(i)), Cl = get(batch.tm.Cl, static_cast<int>(i));
-    if (isFinite(L) && isFinite(Cl))
-      probe.L[i] = L, probe.Cl[i] = glm::max(Cl, vec3(0.0f));
-    else
+    if (isFinite(L) && isFinite(Cl)) {
+      probe.L[i] = L;
+      probe.Cl[i] = glm::max(Cl, vec3(0.0f));
+    } else
       probe.finite = false;
   }
 }
@@ -78,8 +80,10 @@ void ShadingSystem::emission(const ShadePoints& points, std::vector<vec3>& radia
     const vec3 P = points.position(i), I = points.get3(kIx, i), N = points.get3(kNgx, i);
     if (dot(I, N) >= 0) continue;
     front.push_back(static_cast<size_t>(i));
-    seen.P.push_back(P - I), seen.N.push_back(normalizeOr(I, I));
-    seen.Pl.push_back(P), seen.Nl.push_back(normalizeOr(N, N));
+    seen.P.push_back(P - I);
+    seen.N.push_back(normalizeOr(I, I));
+    seen.Pl.push_back(P);
+    seen.Nl.push_back(normalizeOr(N, N));
   }
   radiance.assign(static_cast<size_t>(points.count()), vec3(0.0f));
   if (!front.empty()) probe(index, seen);

@@ -51,7 +51,8 @@ void gather(Batch& batch, const TmGrid* g, TmConstVec3 N) {
   last.who = batch.running;
   last.active = batch.arena.bytes(g->count);
   std::copy_n(g->active, g->count, last.active);
-  last.N = batch.arena.vec3(g->count), last.E = batch.arena.vec3(g->count);
+  last.N = batch.arena.vec3(g->count);
+  last.E = batch.arena.vec3(g->count);
   for (TmVec3& d : last.dominant) d = batch.arena.vec3(g->count);
   for (int i = 0; i < g->count; ++i) {
     set(last.N, i, get(N, i));
@@ -138,11 +139,19 @@ int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   place.lights.shadow(place, sample, lit);
   const bool distant = sample.light->can(TM_LIGHT_SOLAR) || sample.light->can(TM_LIGHT_INDIRECT);
   const TmVec3 L = distant ? sample.L : sample.far;
-  primary.spread(L), primary.spread(sample.L), primary.spread(sample.Cl), primary.spread(const_cast<uint8_t*>(lit));
-  out->next = static_cast<int32_t>(next) + 1, out->light = lightNumber(batch, place, next);
-  out->L = view(L), out->direction = view(sample.L), out->Cl = view(sample.Cl), out->lit = lit;
+  primary.spread(L);
+  primary.spread(sample.L);
+  primary.spread(sample.Cl);
+  primary.spread(const_cast<uint8_t*>(lit));
+  out->next = static_cast<int32_t>(next) + 1;
+  out->light = lightNumber(batch, place, next);
+  out->L = view(L);
+  out->direction = view(sample.L);
+  out->Cl = view(sample.Cl);
+  out->lit = lit;
   out->isIndirect = sample.light->can(TM_LIGHT_INDIRECT);
-  out->nondiffuse = sample.light->nondiffuse, out->nonspecular = sample.light->nonspecular;
+  out->nondiffuse = sample.light->nondiffuse;
+  out->nonspecular = sample.light->nonspecular;
   return 1;
 }
 

@@ -60,8 +60,10 @@ void Lights::shadow(Batch& batch, LightSample& sample, const uint8_t* want) cons
     sample.pending[i] = 0;
     if (sample.tally && settled(*sample.tally, i, sample.light->shadowVariance))
       set(sample.Cl, i, get(sample.Cl, i) * get(sample.tally->passed, i) / sample.tally->traced[i]);
-    else
-      trace[i] = 1, any = true;
+    else {
+      trace[i] = 1;
+      any = true;
+    }
   }
   if (!any) return;
   const TmVec3 passed = batch.arena.vec3(n);

@@ -42,7 +42,10 @@ std::string around(const Scene& scene, const vec3& place) {
         !box.empty() && glm::all(glm::greaterThan(place, box.lo)) && glm::all(glm::lessThan(place, box.hi));
     const vec3 size = box.hi - box.lo;
     const float volume = size.x * size.y * size.z;
-    if (inside && volume < least) smallest = &o, least = volume;
+    if (inside && volume < least) {
+      smallest = &o;
+      least = volume;
+    }
   }
   return smallest ? objectName(*smallest) : "";
 }

@@ -42,7 +42,8 @@ bool shines(const BoundLight& light, const Batch& batch) {
 TmGrid lightGrid(Batch& batch, const BoundLight& light) {
   TmGrid g = *Primary(batch, &batch.tm).grid();
   g.params = light.bound->values.data();
-  g.L = batch.arena.vec3(batch.tm.count), g.Cl = batch.arena.vec3(batch.tm.count);
+  g.L = batch.arena.vec3(batch.tm.count);
+  g.Cl = batch.arena.vec3(batch.tm.count);
   return g;
 }
 
@@ -60,7 +61,10 @@ void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& p
 void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
   if (allFinite(g.count, view(g.Cl)) && allFinite(g.count, view(g.L))) return;
   for (int i = 0; i < g.count; ++i)
-    if (!isFinite(get(g.Cl, i)) || !isFinite(get(g.L, i))) set(g.Cl, i, vec3(0)), set(g.L, i, vec3(0));
+    if (!isFinite(get(g.Cl, i)) || !isFinite(get(g.L, i))) {
+      set(g.Cl, i, vec3(0));
+      set(g.L, i, vec3(0));
+    }
   const BoundShader* caller = std::exchange(batch.running, &light);
   batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; it casts no light there");
   batch.running = caller;
@@ -74,9 +78,11 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
     const SampleName name = batch.points->name(i);
     const uint32_t stream = hashCombine(name.key, static_cast<uint32_t>(light.index), batch.context.seed);
     const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(g.samples) + static_cast<uint32_t>(g.sample), stream);
-    xi0[i] = xi.x, xi1[i] = xi.y;
+    xi0[i] = xi.x;
+    xi1[i] = xi.y;
   }
-  g.xi0 = xi0, g.xi1 = xi1;
+  g.xi0 = xi0;
+  g.xi1 = xi1;
 }
 
 int samplesOf(const BoundLight& light, const Batch& batch) {
@@ -106,7 +112,8 @@ void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
 std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
   if (!evaluated_ && batch.points && batch.context.light != Illumination::Lights) substitute(batch);
   const bool runsDirect = !evaluated_, runsIndirect = indirect && !indirectEvaluated_;
-  evaluated_ = true, indirectEvaluated_ |= indirect;
+  evaluated_ = true;
+  indirectEvaluated_ |= indirect;
   for (const BoundLight* light : batch.group.lights)
     if ((light->can(TM_LIGHT_INDIRECT) ? runsIndirect : runsDirect) && !light->can(TM_LIGHT_AMBIENT) &&
         applies(*light, batch) && shines(*light, batch) &&
@@ -144,8 +151,10 @@ void Lights::tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& 
                         (m.value.step == 0 || !isUniform(decl));
       if (!fits)
         unfit.push_back(fmt::format("\"{}\"", m.name));
-      else
-        params[k] = m.value, params[k].string = m.type == TM_STRING ? m.text.c_str() : nullptr;
+      else {
+        params[k] = m.value;
+        params[k].string = m.type == TM_STRING ? m.text.c_str() : nullptr;
+      }
     }
   if (!unfit.empty())
     batch.report(Severity::Warning, "shader-sends",
@@ -165,7 +174,8 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     openOutputs(batch, *light.bound, params_.emplace_back(light.bound->values));
     tell(batch, *light.bound, params_.back());
     g.params = params_.back().data();
-    g.sample = s, g.samples = n;
+    g.sample = s;
+    g.samples = n;
     EmitterPoints points{};
     if (area || sky || light.can(TM_LIGHT_SAMPLED)) drawSample(batch, light, g);
     if (area || sky) points = emitterPoints(batch, light, g);
@@ -174,8 +184,10 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     if (!runWithExtent(batch, light, g)) return;
     darkenNonFinite(batch, *light.bound, g);
     if (area || sky) {
-      for (int i = 0; i < g.count; ++i)
-        points.density[i] *= static_cast<float>(n), points.meetDensity[i] *= static_cast<float>(n);
+      for (int i = 0; i < g.count; ++i) {
+        points.density[i] *= static_cast<float>(n);
+        points.meetDensity[i] *= static_cast<float>(n);
+      }
       radianceToSample(g, points.density);
     }
     LightSample sample{&light,
@@ -240,7 +252,8 @@ void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves
 
 void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl) {
   TmGrid g = lightGrid(batch, light);
-  g.sample = lobe.sample, g.samples = lobe.samples;
+  g.sample = lobe.sample;
+  g.samples = lobe.samples;
   const EmitterPoints points = emitterPoints(batch, light, g);
   if (!meetLight(batch, light, g, lobe, points)) return;
   uint8_t* met = batch.arena.bytes(g.count);

@@ -36,7 +36,8 @@ void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, fl
     const SampleName name = nameOf(batch, g, i);
     const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(samples) + static_cast<uint32_t>(sample),
                            hashCombine(name.key, kLobeStream, batch.context.seed));
-    xi0[i] = xi.x, xi1[i] = xi.y;
+    xi0[i] = xi.x;
+    xi1[i] = xi.y;
   });
 }
 

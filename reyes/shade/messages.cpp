@@ -34,7 +34,7 @@ int32_t tell(Batch& batch, const Param& p, int32_t* type, TmValue* out) {
   return 1;
 }
 
-int32_t tell(Batch& batch, std::vector<float> numbers, TmType as, int32_t* type, TmValue* out) {
+int32_t tell(Batch& batch, const std::vector<float>& numbers, TmType as, int32_t* type, TmValue* out) {
   batch.answer(numbers, "", as, *type, *out);
   return 1;
 }
@@ -43,13 +43,15 @@ int32_t tell(Batch& batch, std::vector<float> numbers, TmType as, int32_t* type,
 int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view name, int32_t* type, TmValue* out) {
   if (!shader) return 0;
   if (name == "__shadername") {
-    *type = TM_STRING, *out = {{nullptr, nullptr, nullptr}, 0, 1, shader->shader->name};
+    *type = TM_STRING;
+    *out = {{nullptr, nullptr, nullptr}, 0, 1, shader->shader->name};
     return 1;
   }
   for (int i = 0; i < shader->shader->paramCount; ++i) {
     const TmParamDecl& decl = shader->shader->params[i];
     if (decl.name != name || (isOutput(decl) && !values[i].c[0])) continue;
-    *type = TM_TYPE_OF(decl.type), *out = values[i];
+    *type = TM_TYPE_OF(decl.type);
+    *out = values[i];
     return 1;
   }
   return 0;
@@ -77,7 +79,8 @@ int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValu
                              : name == "Orientation"                           ? (a.insideOut ? "inside" : "outside")
                              : a.interpolation == ShadingInterpolation::Smooth ? "smooth"
                                                                                : "constant";
-    return batch.answer({}, text, TM_STRING, *type, *out), 1;
+    batch.answer({}, text, TM_STRING, *type, *out);
+    return 1;
   }
   if (name == "DetailRange") return tell(batch, {a.detail.lo, a.detail.hi}, TM_FLOAT, type, out);
   if (name == "TextureCoordinates") {
@@ -115,8 +118,14 @@ int32_t tellOption(Batch& batch, std::string_view name, int32_t* type, TmValue* 
 }
 
 int32_t tellRenderer(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
-  if (name == "renderer") return batch.answer({}, "Tomales", TM_STRING, *type, *out), 1;
-  if (name == "versionstring") return batch.answer({}, TOMALES_VERSION, TM_STRING, *type, *out), 1;
+  if (name == "renderer") {
+    batch.answer({}, "Tomales", TM_STRING, *type, *out);
+    return 1;
+  }
+  if (name == "versionstring") {
+    batch.answer({}, TOMALES_VERSION, TM_STRING, *type, *out);
+    return 1;
+  }
   if (name != "version") return 0;
   std::vector<float> version(4, 0.0f);
   const std::string_view text = TOMALES_VERSION;
@@ -140,7 +149,8 @@ int32_t tellVolume(Batch& batch, const TmGrid* g, bool incident, std::string_vie
   while (first + 1 < g->count && !g->active[first]) ++first;
   const int chosen = inside(first);
   if (!has[chosen]) return 0;
-  *type = types[chosen], *out = side[chosen];
+  *type = types[chosen];
+  *out = side[chosen];
   if (!has[!chosen] || types[0] != types[1] || !side[0].c[0] || side[0].length != 1 || *type == TM_MATRIX) return 1;
   for (int k = 0; k < 3 && side[0].c[k]; ++k) {
     float* values = batch.arena.floats(g->count);

@@ -16,8 +16,10 @@ void move(const ShadePoints& from, int i, bool alongV, float half, bool parallel
   out.set3(kPx, to, from.position(i) + half * edge);
   if (!parallel) out.set3(kIx, to, from.get3(kIx, i) + half * edge);
   const auto step = [&](int value) { return half * from.step(value, alongV)[i]; };
-  out.channel(kU)[to] += step(kStepU), out.channel(kV)[to] += step(kStepV);
-  out.channel(kS)[to] += step(kStepS), out.channel(kT)[to] += step(kStepT);
+  out.channel(kU)[to] += step(kStepU);
+  out.channel(kV)[to] += step(kStepV);
+  out.channel(kS)[to] += step(kStepS);
+  out.channel(kT)[to] += step(kStepT);
   const vec3 N = from.get3(kNx, i);
   out.set3(kNx, to, normalizeOr(N + vec3(step(kStepN), step(kStepN + 1), step(kStepN + 2)), N));
   for (int k = 0; k < from.primvarFloats(); ++k) out.primvar(k)[to] += step(kStepPrimvars + k);
@@ -32,8 +34,10 @@ Stencil stencilOf(const Grid& g, Arena& arena) {
   for (int j = 0, k = 0; j <= g.nv; ++j) {
     const int before = std::max(j - 1, 0) * row, here = j * row, behind = std::min(j + 1, g.nv) * row;
     for (int i = 0; i <= g.nu; ++i, ++k) {
-      index[0][k] = here + std::max(i - 1, 0), index[1][k] = here + std::min(i + 1, g.nu);
-      index[2][k] = before + i, index[3][k] = behind + i;
+      index[0][k] = here + std::max(i - 1, 0);
+      index[1][k] = here + std::min(i + 1, g.nu);
+      index[2][k] = before + i;
+      index[3][k] = behind + i;
     }
   }
   return {{index[0], index[2]}, {index[1], index[3]}, {1, row}};

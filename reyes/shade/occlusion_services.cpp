@@ -68,8 +68,10 @@ struct OpenSky {
   }
 };
 
-void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options,
+/// Returns false where nothing can be traced.
+bool traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options,
                      const TmOcclusion& out) {
+  if (!traces(batch)) return false;
   const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x),
              directs = out.environmentDirection.x != nullptr;
   RayQuery query = rayQuery(options, RayKind::Diffuse);
@@ -77,7 +79,7 @@ void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
   TmGrid traced = *g;
   if (out.covered && !out.radiance.x && !looksUp && !directs)
     traced.active = interpolate(batch, g, P, N, options, asked, out.covered);
-  if (std::none_of(traced.active, traced.active + traced.count, [](uint8_t a) { return a != 0; })) return;
+  if (std::none_of(traced.active, traced.active + traced.count, [](uint8_t a) { return a != 0; })) return true;
   setFootprints(batch, &traced, N, options, query);
   RayResult result;
   result.distance = batch.arena.floats(g->count);
@@ -108,6 +110,7 @@ void traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
   if (directs)
     forActive(&traced,
               [&](int i) { set(out.environmentDirection, i, normalizeOr(get(out.environmentDirection, i), vec3(0))); });
+  return true;
 }
 
 /// Does the same with a point cloud.
@@ -135,9 +138,8 @@ int32_t occlusion(void* host, const TmGrid* all, const TmRayOptions* given, TmCo
     for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection})
       if (v.x) set(v, i, vec3(0));
   });
-  const bool known = out.pointCloud
-                         ? hemisphereOfDisks(batch, primary.grid(), P, N, options, out)
-                         : traces(batch) && (traceHemisphere(batch, primary.grid(), P, N, options, out), true);
+  const auto hemisphere = out.pointCloud ? hemisphereOfDisks : traceHemisphere;
+  const bool known = hemisphere(batch, primary.grid(), P, N, options, out);
   primary.spread(out.covered);
   for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection}) primary.spread(v);
   return known;

@@ -20,11 +20,17 @@ TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, cons
   const bool names = filter != options.end() && !filter->second.strings.empty();
   TextureQuery q;
   q.name = name;
-  q.channel = o.channel, q.channels = out.y ? 3 : 1, q.fill = o.fill;
+  q.channel = o.channel;
+  q.channels = out.y ? 3 : 1;
+  q.fill = o.fill;
   q.filter = !o.filter && names ? filter->second.strings[0].c_str() : o.filter;
   const float level = scale * std::exp2(-o.mipBias);
-  q.sWidth = level * o.swidth, q.tWidth = level * o.twidth, q.sBlur = o.sblur, q.tBlur = o.tblur;
-  q.count = g->count, q.active = g->active;
+  q.sWidth = level * o.swidth;
+  q.tWidth = level * o.twidth;
+  q.sBlur = o.sblur;
+  q.tBlur = o.tblur;
+  q.count = g->count;
+  q.active = g->active;
   return q;
 }
 
@@ -40,7 +46,9 @@ int32_t lookUpBelow(Batch& batch, const TextureQuery& query, float most, TmVec3 
   float *s = batch.arena.floats(n), *t = batch.arena.floats(n);
   const TmVec3 texel = batch.arena.vec3(n), sum = batch.arena.vec3(n), counted = batch.arena.vec3(n);
   TextureQuery point = query;
-  point.s = s, point.t = t, point.su = point.tu = point.sv = point.tv = nullptr;
+  point.s = s;
+  point.t = t;
+  point.su = point.tu = point.sv = point.tv = nullptr;
   point.sWidth = point.tWidth = point.sBlur = point.tBlur = 0;
   const auto edge = [](const float* e, int i) { return e ? e[i] : 0.0f; };
   const auto channel = [](TmVec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; };
@@ -55,8 +63,10 @@ int32_t lookUpBelow(Batch& batch, const TextureQuery& query, float most, TmVec3 
     if (!lookUp(batch, point, texel)) return lookUp(batch, query, out);
     for (int c = 0; c < query.channels; ++c)
       for (int i = 0; i < n; ++i)
-        if (const float value = channel(texel, c)[i]; query.active[i] && value <= most)
-          channel(sum, c)[i] += value, channel(counted, c)[i] += 1;
+        if (const float value = channel(texel, c)[i]; query.active[i] && value <= most) {
+          channel(sum, c)[i] += value;
+          channel(counted, c)[i] += 1;
+        }
   }
   for (int c = 0; c < query.channels; ++c)
     for (int i = 0; i < n; ++i)
@@ -81,12 +91,18 @@ int32_t lookUpLatLong(Batch& batch, const TmGrid* g, const char* name, const TmT
   forActive(g, [&](int i) {
     const vec3 d = normalizeOr(worldFromCurrent * get(direction, i), vec3(0, 0, 1));
     const vec2 st = latLong(d);
-    s[i] = st.x, t[i] = st.y;
+    s[i] = st.x;
+    t[i] = st.y;
     tv[i] = std::min(1.0f, angle[i] / kPi);
     su[i] = std::min(1.0f, angle[i] / (2 * kPi * std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f)));
   });
   TextureQuery query = queryOf(batch, g, name, options, out);
-  query.s = s, query.t = t, query.su = su, query.tu = zero, query.sv = zero, query.tv = tv;
+  query.s = s;
+  query.t = t;
+  query.su = su;
+  query.tu = zero;
+  query.sv = zero;
+  query.tv = tv;
   query.latlong = true;
   return lookUp(batch, query, options, out);
 }
@@ -97,10 +113,13 @@ void setMicropolygon(Batch& batch, const TmGrid* g, const float* s, const float*
   for (float*& step : steps) step = batch.arena.floats(g->count);
   const bool known = batch.stepsOf(g, false, s, steps[0]) && batch.stepsOf(g, false, t, steps[1]) &&
                      batch.stepsOf(g, true, s, steps[2]) && batch.stepsOf(g, true, t, steps[3]);
-  if (known)
-    query.su = steps[0], query.tu = steps[1], query.sv = steps[2], query.tv = steps[3];
-  else if (batch.points && batch.running->shader->kind != TM_LIGHT &&
-           (batch.points->hasSteps() || !(batch.running->can(TM_DERIVATIVES) || batch.running->can(TM_NEIGHBOURS))))
+  if (known) {
+    query.su = steps[0];
+    query.tu = steps[1];
+    query.sv = steps[2];
+    query.tv = steps[3];
+  } else if (batch.points && batch.running->shader->kind != TM_LIGHT &&
+             (batch.points->hasSteps() || !(batch.running->can(TM_DERIVATIVES) || batch.running->can(TM_NEIGHBOURS))))
     batch.report(Severity::Warning, "shader-footprint",
                  "looks a picture up at places that it has computed, without TM_NEIGHBOURS (or at s, t without "
                  "TM_DERIVATIVES); it is not filtered");
@@ -111,11 +130,15 @@ int32_t texture(void* host, const TmGrid* g, const char* name, const TmTextureOp
   Batch& batch = batchOf(host);
   const TmTextureOptions options = givenOptions(batch, tmTextureDefaults(), given);
   TextureQuery query = queryOf(batch, g, name, options, out);
-  query.s = s, query.t = t;
+  query.s = s;
+  query.t = t;
   const float* const* sides = options.region;
-  if (sides[0])
-    query.su = sides[0], query.tu = sides[1], query.sv = sides[2], query.tv = sides[3];
-  else
+  if (sides[0]) {
+    query.su = sides[0];
+    query.tu = sides[1];
+    query.sv = sides[2];
+    query.tv = sides[3];
+  } else
     setMicropolygon(batch, g, s, t, query);
   return lookUp(batch, query, options, out);
 }
@@ -124,7 +147,8 @@ int32_t texture(void* host, const TmGrid* g, const char* name, const TmTextureOp
 void traceEnvironment(const TmGrid* g, const TmTextureOptions& options, TmConstVec3 direction, TmVec3 out,
                       TmVec3 color) {
   TmRayOptions rays = tmRayDefaults();
-  rays.samples = options.samples, rays.coneAngle = std::min(options.sblur, 1.0f) * kPi;
+  rays.samples = options.samples;
+  rays.coneAngle = std::min(options.sblur, 1.0f) * kPi;
   g->call->trace(g->host, g, &rays, view(g->P), direction, out.y ? out : color, nullptr);
   const int channel = std::clamp(options.channel, 0, 2);
   if (!out.y) forActive(g, [&](int i) { out.x[i] = get(color, i)[channel]; });
@@ -145,8 +169,10 @@ int32_t environment(void* host, const TmGrid* g, const char* name, const TmTextu
                     TmVec3 out) {
   Batch& batch = batchOf(host);
   const TmTextureOptions options = givenOptions(batch, tmTextureDefaults(), given);
-  if (std::string_view(name) == "raytrace")
-    return traceEnvironment(g, options, direction, out, batch.arena.vec3(g->count)), 1;
+  if (std::string_view(name) == "raytrace") {
+    traceEnvironment(g, options, direction, out, batch.arena.vec3(g->count));
+    return 1;
+  }
   if (options.angle) return lookUpLatLong(batch, g, name, options, direction, options.angle, out);
   float* angle = batch.arena.floats(g->count);
   turnOf(batch, g, direction, angle);

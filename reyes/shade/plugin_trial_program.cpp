@@ -19,7 +19,8 @@ void read(const char* text) {
 }
 
 void read(const TmParamDecl& p) {
-  read(p.name), read(p.doc);
+  read(p.name);
+  read(p.doc);
   const bool texts = TM_TYPE_OF(p.type) == TM_STRING;
   for (int32_t i = 0; texts && p.strings && i < p.arrayLength; ++i) read(p.strings[i]);
   for (int32_t i = 0; !texts && p.floats && i < p.arrayLength; ++i) read_bytes = read_bytes + (p.floats[i] != 0);
@@ -32,7 +33,9 @@ void read(const TmShaderLibrary* library) {
   for (int32_t k = 0; k < library->count; ++k) {
     const TmShader* s = library->shaders[k];
     if (!s || s->abi != TM_SHADER_ABI || s->structBytes < sizeof(TmShader)) continue;
-    read(s->name), read(s->doc), read(s->fault);
+    read(s->name);
+    read(s->doc);
+    read(s->fault);
     for (int32_t i = 0; s->params && s->paramBytes == sizeof(TmParamDecl) && i < s->paramCount; ++i) read(s->params[i]);
   }
 }

@@ -57,7 +57,8 @@ vec3 Portals::sample(const vec3& P, const vec3& N, vec2 xi) const {
   for (size_t k = 0; k < portals_.size(); ++k) {
     const float weight = weightOf(portals_[k], P, N);
     if (!(weight > 0)) continue;
-    last = k, xi.x = std::min(left / weight, 1.0f);
+    last = k;
+    xi.x = std::min(left / weight, 1.0f);
     if (left < weight) break;
     left -= weight;
   }

@@ -9,7 +9,8 @@ class Primary {
  public:
   Primary(const Batch& batch, const TmGrid* g) : all_(g), grid_(*g) {
     if (!batch.points || g->count <= batch.points->count()) return;
-    grid_.count = batch.points->count(), grid_.padded = padded(grid_.count);
+    grid_.count = batch.points->count();
+    grid_.padded = padded(grid_.count);
   }
   const TmGrid* grid() const { return &grid_; }
 
@@ -20,7 +21,11 @@ class Primary {
     for (int i = grid_.count; i < all_->count; ++i)
       if (all_->active[i]) out[i] = out[i % grid_.count];
   }
-  void spread(TmVec3 out) const { spread(out.x), spread(out.y), spread(out.z); }
+  void spread(TmVec3 out) const {
+    spread(out.x);
+    spread(out.y);
+    spread(out.z);
+  }
 
  private:
   const TmGrid* all_;

@@ -51,7 +51,10 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
   setFootprints(batch, g, direction, options, query);
   RayResult result;
   result.distance = batch.arena.floats(g->count);
-  if (color.x) result.color = batch.arena.vec3(g->count), result.opacity = batch.arena.vec3(g->count);
+  if (color.x) {
+    result.color = batch.arena.vec3(g->count);
+    result.opacity = batch.arena.vec3(g->count);
+  }
   // Diffuse rays bring no sky, as they bring no area lights: diffuse() has asked for that light.
   if (color.x && query.kind == RayKind::Specular && query.lampsGlow &&
       batch.context.mirrorsLamps(batch.points->group()) && query.maxDistance >= kFarAway)
@@ -69,7 +72,8 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
       if (distance) distance[i] = std::min(distance[i], result.distance[i]);
     });
   }
-  primary.spread(color), primary.spread(distance);
+  primary.spread(color);
+  primary.spread(distance);
 }
 
 int32_t gather(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3 P, TmConstVec3 axis, int32_t ray,
@@ -95,7 +99,10 @@ int32_t gather(void* host, const TmGrid* all, const TmRayOptions* given, TmConst
     if (!name.starts_with("ray:") && name != "effectivedistance")
       result.outputs.push_back({o.name, floatsOf(o), {o.value.x, o.value.y, o.value.z}});
   }
-  if (wantsEffective) result.effective = batch.arena.floats(g->count), result.color = batch.arena.vec3(g->count);
+  if (wantsEffective) {
+    result.effective = batch.arena.floats(g->count);
+    result.color = batch.arena.vec3(g->count);
+  }
   std::fill_n(result.distance, g->count, kInfinity);
   if (options.maxDistance > 0)
     batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context,

@@ -33,8 +33,11 @@ RayQuery rayQuery(const TmRayOptions& o, RayKind kind) {
   const auto text = [](const char* s) { return std::string(s ? s : ""); };
   RayQuery q;
   q.kind = kind;
-  q.maxDistance = o.maxDistance, q.bias = o.bias;
-  q.label = text(o.label), q.subset = text(o.subset), q.excludeSubset = text(o.excludeSubset);
+  q.maxDistance = o.maxDistance;
+  q.bias = o.bias;
+  q.label = text(o.label);
+  q.subset = text(o.subset);
+  q.excludeSubset = text(o.excludeSubset);
   q.sides = o.hitSides == TM_HIT_FRONT ? HitSides::Front : o.hitSides == TM_HIT_BACK ? HitSides::Back : HitSides::Both;
   if (o.hitMode != TM_HIT_DEFAULT) q.mode = o.hitMode == TM_HIT_PRIMITIVE ? HitMode::Primitive : HitMode::Shader;
   q.opacityThreshold = o.opacityThreshold;
@@ -99,9 +102,11 @@ void setFootprints(Batch& batch, const TmGrid* g, TmConstVec3 axis, const TmRayO
   turnOf(batch, g, axis, spread);
   const float share = options.coneAngle / std::sqrt(static_cast<float>(options.samples));
   forActive(g, [&](int i) {
-    radius[i] = micropolygonRadius(*batch.points, g, i), spread[i] = std::min(0.5f * spread[i] + share, 1.0f);
+    radius[i] = micropolygonRadius(*batch.points, g, i);
+    spread[i] = std::min(0.5f * spread[i] + share, 1.0f);
   });
-  query.radius = radius, query.spread = spread;
+  query.radius = radius;
+  query.spread = spread;
 }
 
 bool traces(const Batch& batch) {

@@ -46,9 +46,12 @@ bool ShaderRegistry::loadPlugin(const std::string& path) {
   return impl_->load(path);
 }
 
-bool ShaderRegistry::addText(std::shared_ptr<const RslFile> file, const std::string& path) {
+bool ShaderRegistry::addText(const std::shared_ptr<const RslFile>& file, const std::string& path) {
   const std::lock_guard lock(impl_->mutex);
-  if (file->errors() > 0) return impl_->refuseText(path, "does not compile:\n" + file->messages()), false;
+  if (file->errors() > 0) {
+    impl_->refuseText(path, "does not compile:\n" + file->messages());
+    return false;
+  }
   impl_->texts.push_back(file);
   impl_->answers.clear();
   return impl_->add(file->library(), path);
@@ -108,7 +111,10 @@ void ShaderRegistry::Impl::tellOfStandardName(const TmShader& used, const std::s
 const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kind, const std::string& searchPath,
                                              const std::string& beside) {
   const TmShader* const own = known(name, kind);
-  if (own && comesBeforeTexts(*own)) return tellOfStandardName(*own, searchPath, beside), own;
+  if (own && comesBeforeTexts(*own)) {
+    tellOfStandardName(*own, searchPath, beside);
+    return own;
+  }
   if (!leavesFolders(name))
     for (const std::string& file : pluginFiles(name, trust.folders))
       if (load(file))

@@ -49,9 +49,14 @@ std::string lackOf(const TmShader& s) {
 
 bool ShaderRegistry::Impl::add(const TmShaderLibrary* library, const std::string& origin,
                                std::vector<const TmShader*>* added) {
-  if (const std::string problem = otherVersion(library); !problem.empty())
-    return refuse(origin, "the shader library " + problem), false;
-  if (library->fault) return refuse(origin, library->fault), false;
+  if (const std::string problem = otherVersion(library); !problem.empty()) {
+    refuse(origin, "the shader library " + problem);
+    return false;
+  }
+  if (library->fault) {
+    refuse(origin, library->fault);
+    return false;
+  }
   for (int32_t i = 0; i < library->count; ++i) {
     const TmShader* shader = library->shaders[i];
     if (const std::string problem = otherVersion(shader); !problem.empty())
@@ -81,17 +86,27 @@ bool ShaderRegistry::Impl::load(const std::string& path) {
     refuse(path, "cannot be loaded: " + problem);
     return false;
   }
-  if (const std::string fate = trial.fateOf(path); !fate.empty()) return refuse(path, fate + "; it is left out"), false;
-  if (!trial.works() && !untriedSaid)
-    untriedSaid = true,
+  if (const std::string fate = trial.fateOf(path); !fate.empty()) {
+    refuse(path, fate + "; it is left out");
+    return false;
+  }
+  if (!trial.works() && !untriedSaid) {
+    untriedSaid = true;
     log.report(Severity::Warning, "shader-plugin", {std::make_shared<const std::string>(path), 0},
                "plugins are loaded untried, and may end the program: tomales_plugin_trial cannot be started");
+  }
   noteLoadedPlugin(path);
   const CrashNote note({"shader plugin", path.c_str(), "while plugins are loaded", nullptr, nullptr, 0});
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) return refuse(path, fmt::format("cannot be loaded: {}", dlerror())), false;
+  if (!handle) {
+    refuse(path, fmt::format("cannot be loaded: {}", dlerror()));
+    return false;
+  }
   const auto function = reinterpret_cast<TmShadersFunction>(dlsym(handle, TM_SHADERS_SYMBOL));
-  if (!function) return refuse(path, "is not a shader plugin: it does not export " TM_SHADERS_SYMBOL), false;
+  if (!function) {
+    refuse(path, "is not a shader plugin: it does not export " TM_SHADERS_SYMBOL);
+    return false;
+  }
   return plugin.loaded = add(function(), path, &plugin.shaders);
 }
 

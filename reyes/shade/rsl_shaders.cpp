@@ -190,7 +190,10 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
   for (const std::string& file : candidates(name, folders)) {
     const std::shared_ptr<const RslFile> compiled = files().compiled(file, folders, functions);
     if (compiled->errors() > 0) {
-      if (out.file.empty()) out.file = file, out.problem = compiled->messages();
+      if (out.file.empty()) {
+        out.file = file;
+        out.problem = compiled->messages();
+      }
       continue;
     }
     const TmShaderLibrary& library = *compiled->library();
@@ -203,9 +206,11 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
         return {s, compiled->displacementOf(s->name), file, {}, {}};
       others += fmt::format("{}{} \"{}\"", others.empty() ? "" : ", ", kindName(static_cast<TmKind>(s->kind)), s->name);
     }
-    if (out.file.empty())
-      out.file = file, out.problem = fmt::format("has no {} \"{}\", but {}", kindName(kind), shaderName,
-                                                 others.empty() ? "no shader at all" : others);
+    if (out.file.empty()) {
+      out.file = file;
+      out.problem = fmt::format("has no {} \"{}\", but {}", kindName(kind), shaderName,
+                                others.empty() ? "no shader at all" : others);
+    }
   }
   if (out.file.empty())
     if (const std::string other = compiledElsewhere(name, folders); !other.empty())

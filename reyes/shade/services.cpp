@@ -22,7 +22,9 @@ TOMALES_HOT void transformActive(const TmGrid* g, const mat3& m, const vec3& ori
     const float tx = (m[0][0] * x + m[1][0] * y) + (m[2][0] * z + origin.x),
                 ty = (m[0][1] * x + m[1][1] * y) + (m[2][1] * z + origin.y),
                 tz = (m[0][2] * x + m[1][2] * y) + (m[2][2] * z + origin.z);
-    out.x[i] = active[i] ? tx : out.x[i], out.y[i] = active[i] ? ty : out.y[i], out.z[i] = active[i] ? tz : out.z[i];
+    out.x[i] = active[i] ? tx : out.x[i];
+    out.y[i] = active[i] ? ty : out.y[i];
+    out.z[i] = active[i] ? tz : out.z[i];
   }
 }
 
@@ -76,8 +78,9 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
     Grid moved;
     moved.allocate(batch.grid->nu, batch.grid->nv, 1, 0);
     const size_t bytes = static_cast<size_t>(g->count) * sizeof(float);
-    std::memcpy(moved.P(0, 0), P.x, bytes), std::memcpy(moved.P(0, 1), P.y, bytes),
-        std::memcpy(moved.P(0, 2), P.z, bytes);
+    std::memcpy(moved.P(0, 0), P.x, bytes);
+    std::memcpy(moved.P(0, 1), P.y, bytes);
+    std::memcpy(moved.P(0, 2), P.z, bytes);
     const bool flip = batch.scene.scene.objects[static_cast<size_t>(batch.grid->object)].flipsNormal;
     calculateNormals(moved, flip, moved.N(0), moved.N(1), moved.N(2));
     return forActive(g, [&](int i) { set(out, i, moved.normal(i)); });

@@ -32,23 +32,37 @@ std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::s
   auto map = std::make_unique<ShadowMap>();
   const auto channel = [&](const char* name) { return channelOf(shape, name); };
   const std::optional<DepthCamera> camera = depthCameraOf(*in);
-  if (!camera) return error = "it is no shadow map: depth or the matrices of its camera are missing", nullptr;
-  map->cameraFromWorld_ = camera->cameraFromWorld, map->ndcFromWorld_ = camera->ndcFromWorld;
+  if (!camera) {
+    error = "it is no shadow map: depth or the matrices of its camera are missing";
+    return nullptr;
+  }
+  map->cameraFromWorld_ = camera->cameraFromWorld;
+  map->ndcFromWorld_ = camera->ndcFromWorld;
   map->cameraNormalFromWorld_ = glm::transpose(glm::inverse(mat3(map->cameraFromWorld_)));
-  map->width_ = shape.fullWidth, map->height_ = shape.fullHeight;
-  map->x0_ = shape.x, map->y0_ = shape.y, map->columns_ = shape.width, map->rows_ = shape.height;
+  map->width_ = shape.fullWidth;
+  map->height_ = shape.fullHeight;
+  map->x0_ = shape.x;
+  map->y0_ = shape.y;
+  map->columns_ = shape.width;
+  map->rows_ = shape.height;
   const mat4 ndcFromCamera = map->ndcFromWorld_ * glm::inverse(map->cameraFromWorld_);
   map->perspective_ = std::abs(ndcFromCamera[2][3]) > 1e-6f * std::abs(ndcFromCamera[3][3]);
   if (!in->deep()) {
     const int z = camera->depth;
     map->depth_.resize(static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height));
-    if (!in->read(z, z + 1, map->depth_.data())) return error = in->error(), nullptr;
+    if (!in->read(z, z + 1, map->depth_.data())) {
+      error = in->error();
+      return nullptr;
+    }
     return map;
   }
   in->pair(kSampleRegion, &map->spread_.x);
   std::vector<uint32_t> counts;
   std::vector<float> values;
-  if (!in->readDeep(counts, values)) return error = in->error(), nullptr;
+  if (!in->readDeep(counts, values)) {
+    error = in->error();
+    return nullptr;
+  }
   const int z = camera->depth, back = channel("ZBack") < 0 ? z : channel("ZBack"), alpha = channel("A");
   const int opacity[3] = {channel("AR"), channel("AG"), channel("AB")};
   map->first_.push_back(0);
@@ -116,12 +130,14 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
     const vec2 moved = texelOf(project(ndcFromWorld_, r.P + e)) - view.at;
     return std::isfinite(moved.x + moved.y) ? lookup.width * moved : vec2(0.0f);
   };
-  view.u = edge(r.edgeU), view.v = edge(r.edgeV);
+  view.u = edge(r.edgeU);
+  view.v = edge(r.edgeV);
   const mat4 worldFromCamera = glm::inverse(cameraFromWorld_);
   const auto texelOfCamera = [&](const vec3& p) {
     return texelOf(project(ndcFromWorld_, transformPoint(worldFromCamera, p)));
   };
-  view.center = texelOfCamera({0, 0, 1}), view.scale = texelOfCamera({1, 1, 1}) - view.center;
+  view.center = texelOfCamera({0, 0, 1});
+  view.scale = texelOfCamera({1, 1, 1}) - view.center;
   view.texel = (perspective_ ? view.P.z : 1) / std::min(std::abs(view.scale.x), std::abs(view.scale.y));
 
   // At least a texel, so that texels do not show.

@@ -53,8 +53,13 @@ Sky::Sky(const Textures& textures, const std::string& picture, const SourceLoc& 
   for (int j = 0; j < kRows && read; ++j) {
     std::fill(t.begin(), t.end(), center(j, kRows));
     TextureQuery query{picture.c_str()};
-    query.count = kColumns, query.active = active.data(), query.s = s.data(), query.t = t.data();
-    query.su = width.data(), query.tv = height.data(), query.latlong = true;
+    query.count = kColumns;
+    query.active = active.data();
+    query.s = s.data();
+    query.t = t.data();
+    query.su = width.data();
+    query.tv = height.data();
+    query.latlong = true;
     read = textures.lookup(query, where, user, {rgb[0].data(), rgb[1].data(), rgb[2].data()});
     Distribution& row = row_.emplace_back();
     for (size_t i = 0; i < kColumns; ++i) {

@@ -8,7 +8,8 @@ namespace {
 /// The raster units of one unit of the space, and the raster position of its origin.
 void rasterScale(const Batch& batch, Space::Kind kind, vec2& scale, vec2& origin) {
   const Camera& camera = batch.scene.camera;
-  scale = vec2(1.0f), origin = vec2(0.0f);
+  scale = vec2(1.0f);
+  origin = vec2(0.0f);
   if (kind == Space::Ndc) scale = {camera.xResolution(), camera.yResolution()};
   if (kind != Space::Screen) return;
   // Screen space is the image plane at z = 1 (orthographic: any), times the focal length.

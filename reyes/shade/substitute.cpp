@@ -12,7 +12,9 @@ void shadeSubstitute(const TmGrid* g) {
     if (!g->active[i]) continue;
     const float parity = std::fmod(std::floor(g->u[i] * 8) + std::floor(g->v[i] * 8), 2.0f);
     const float bright = parity == 0.0f ? 1.0f : 0.1f;
-    g->Ci.x[i] = bright, g->Ci.y[i] = 0, g->Ci.z[i] = bright;
+    g->Ci.x[i] = bright;
+    g->Ci.y[i] = 0;
+    g->Ci.z[i] = bright;
     g->Oi.x[i] = g->Oi.y[i] = g->Oi.z[i] = 1;
   }
 }

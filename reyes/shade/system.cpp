@@ -12,7 +12,10 @@ constexpr int kChunk = 256;  // points: a few hundred kB of light samples, so a 
 /// Replaces bad results: by the substitute if the shader has thrown; else points that are not finite become black.
 void repair(Batch& batch, const BoundShader& shader, bool finished) {
   if (finished) return batch.blackOutNonFinite(shader);
-  for (int i = 0; i < batch.tm.count; ++i) set(batch.tm.Ci, i, vec3(0.0f)), set(batch.tm.Oi, i, vec3(0.0f));
+  for (int i = 0; i < batch.tm.count; ++i) {
+    set(batch.tm.Ci, i, vec3(0.0f));
+    set(batch.tm.Oi, i, vec3(0.0f));
+  }
   substituteSurface().shade(&batch.tm);
 }
 

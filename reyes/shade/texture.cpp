@@ -31,7 +31,10 @@ struct Textures::Impl {
     return cache.get();
   }
   bool lookup(const TextureQuery& query, TmVec3 out, std::string& remark) {
-    if (!open()) return remark = problem, false;
+    if (!open()) {
+      remark = problem;
+      return false;
+    }
     int64_t lookups = 0;
     const bool found = cache->lookup(query, out, lookups, remark);
     stats.textures.lookups += lookups;
@@ -45,7 +48,9 @@ Textures::~Textures() {
   if (!impl_->cache) return;
   const TextureFigures figures = impl_->cache->takeFigures();
   auto& s = impl_->stats.textures;
-  s.tileRequests += figures.tileRequests, s.tileMisses += figures.tileMisses, s.bytesRead += figures.bytesRead;
+  s.tileRequests += figures.tileRequests;
+  s.tileMisses += figures.tileMisses;
+  s.bytesRead += figures.bytesRead;
 }
 
 bool Textures::info(const std::string& name, const std::string& what, std::vector<float>& numbers,
@@ -65,7 +70,10 @@ void fill(const TextureQuery& q, const vec3& value, TmVec3 out) {
 }  // namespace
 
 bool Textures::lookup(const TextureQuery& q, const SourceLoc& where, const std::string& user, TmVec3 out) const {
-  if (!*q.name) return fill(q, vec3(q.fill), out), true;  // shaders that are given no picture look up ""
+  if (!*q.name) {
+    fill(q, vec3(q.fill), out);
+    return true;
+  }  // shaders that are given no picture look up ""
   std::string remark;
   if (impl_->lookup(q, out, remark)) {
     if (!remark.empty())

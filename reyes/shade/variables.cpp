@@ -10,21 +10,27 @@ constexpr std::string_view kLightGroup = "lightgroup:";
 
 void find(const Variable& wanted, const BoundGroup& group, BoundVariable& out) {
   if (const int output = group.surface->output(wanted.source, wanted.type); output >= 0) {
-    out.from = From::Output, out.index = output;
+    out.from = From::Output;
+    out.index = output;
     return;
   }
   if (wanted.source.starts_with(kLightGroup) && out.width == 3) {
-    out.from = From::LightGroup, out.lights = wanted.source.substr(kLightGroup.size());
+    out.from = From::LightGroup;
+    out.lights = wanted.source.substr(kLightGroup.size());
     return;
   }
   const SurfaceVariable* known = surfaceVariable(wanted.source);
   if (known && known->kind == ChannelKind::Variable && floatsPerValue(known->type) == out.width) {
-    out.from = known->source, out.index = known->channel;
+    out.from = known->source;
+    out.index = known->channel;
     return;
   }
   int offset = kFixedChannels;
   for (const Primvar& p : group.group->primvars) {
-    if (p.name == wanted.source && p.width == out.width) out.from = From::Channel, out.index = offset;
+    if (p.name == wanted.source && p.width == out.width) {
+      out.from = From::Channel;
+      out.index = offset;
+    }
     offset += p.width;
   }
 }
@@ -62,7 +68,8 @@ class LightGroups {
     for (size_t i = 0; i < paramCount; ++i)
       if (isOutput(shader_.shader->params[i])) params[i].step = 0;
     g.params = params.data();
-    g.Ci = batch_.arena.vec3(n), g.Oi = batch_.arena.vec3(n);
+    g.Ci = batch_.arena.vec3(n);
+    g.Oi = batch_.arena.vec3(n);
     batch_.lights.restrictTo(&group);
     if (!batch_.run(shader_, g)) g.Ci = batch_.arena.vec3(n);
     batch_.lights.restrictTo(nullptr);
@@ -80,7 +87,9 @@ std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundG
   std::vector<BoundVariable> out;
   for (const Variable& wanted : output.variables) {
     BoundVariable v;
-    v.first = wanted.first, v.width = floatsPerValue(wanted.type), v.fill = wanted.fill,
+    v.first = wanted.first;
+    v.width = floatsPerValue(wanted.type);
+    v.fill = wanted.fill;
     v.composited = wanted.type == ValueType::Color;
     find(wanted, group, v);
     out.push_back(std::move(v));
@@ -94,12 +103,18 @@ std::vector<BoundVariable> bindOutputs(const std::vector<RayOutput>& told, const
   int first = 0;
   for (const RayOutput& o : told) {
     BoundVariable v;
-    v.first = first, v.width = o.floats, v.fill = std::numeric_limits<float>::quiet_NaN();
+    v.first = first;
+    v.width = o.floats;
+    v.fill = std::numeric_limits<float>::quiet_NaN();
     first += o.floats;
     for (const ValueType type : {ValueType::Float, ValueType::Color, ValueType::Vector}) {
       if (!o.name.starts_with(kSurface) || floatsPerValue(type) != o.floats) continue;
       const int index = shader.output(std::string_view(o.name).substr(kSurface.size()), type);
-      if (index >= 0) v.from = From::Output, v.index = index, v.fill = 0;
+      if (index >= 0) {
+        v.from = From::Output;
+        v.index = index;
+        v.fill = 0;
+      }
     }
     out.push_back(std::move(v));
   }

@@ -36,7 +36,8 @@ void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& whi
     const int i = which[static_cast<size_t>(k)];
     for (int c = 0; c < from.channelCount(); ++c) ends.channel(c)[k] = from.channel(c)[i];
     const vec3 I = distance[i] * get(direction, i);
-    ends.set3(kPx, k, get(origin, i) + I), ends.set3(kIx, k, I);
+    ends.set3(kPx, k, get(origin, i) + I);
+    ends.set3(kIx, k, I);
     out.set(k, get(color, i), opacity.x ? get(opacity, i) : vec3(1));
   }
   ShadeContext context = asking.context;

@@ -24,15 +24,25 @@ class Setting {
   Setting(TmConstVec3 all, TmType t, Color first)
       : type(t), varying{all.x, all.y, all.z}, number_(first.x), color_(first) {}
 
-  float number() const { return wanted(TM_FLOAT), number_; }
+  float number() const {
+    wanted(TM_FLOAT);
+    return number_;
+  }
   /// Returns 0 for a number that does not fit an int.
   int whole() const {
     const float x = number();
     return x > -1e9f && x < 1e9f ? static_cast<int>(x) : 0;
   }
-  const char* text() const { return wanted(TM_STRING), text_; }
+  const char* text() const {
+    wanted(TM_STRING);
+    return text_;
+  }
   /// A number stands for all three components.
-  Color color() const { return isNumber() ? Color{number(), number(), number()} : (wanted(type), color_); }
+  Color color() const {
+    if (isNumber()) return {number(), number(), number()};
+    wanted(type);
+    return color_;
+  }
 
   bool isNumber() const { return type == TM_FLOAT; }
   bool isText() const { return type == TM_STRING; }
@@ -48,7 +58,10 @@ class Setting {
   mutable bool tookFirst = false;  ///< True once a reader has wanted one value although the points' values differ.
 
  private:
-  void wanted(TmType as) const { fits = fits && as == type, tookFirst = tookFirst || varying[0]; }
+  void wanted(TmType as) const {
+    fits = fits && as == type;
+    tookFirst = tookFirst || varying[0];
+  }
   float number_ = 0;
   const char* text_ = "";
   Color color_{};
@@ -225,7 +238,10 @@ inline Entry set(TmShadowOptions& o, std::string_view name, const Setting& v) {
 inline Entry set(TmSubsurfaceOptions& o, std::string_view name, const Setting& v) {
   const auto setColor = [&](float(&to)[3]) {
     const Color c = v.color();
-    to[0] = c.x, to[1] = c.y, to[2] = c.z, o.material = nullptr;
+    to[0] = c.x;
+    to[1] = c.y;
+    to[2] = c.z;
+    o.material = nullptr;
   };
   if (name == "coordsystem")
     o.coordSystem = v.text();

@@ -13,7 +13,11 @@ namespace rsl {
 RSL_INLINE uint32_t latticeHash(int32_t x, int32_t y, int32_t z) {
   const auto mixIn = [](uint32_t h, int32_t c) {
     h = (h ^ static_cast<uint32_t>(c)) * 0x9e3779b9U;
-    h ^= h >> 16, h *= 0x7feb352dU, h ^= h >> 15, h *= 0x846ca68bU, h ^= h >> 16;
+    h ^= h >> 16;
+    h *= 0x7feb352dU;
+    h ^= h >> 15;
+    h *= 0x846ca68bU;
+    h ^= h >> 16;
     return h;
   };
   return mixIn(mixIn(mixIn(0, x), y), z);
@@ -78,7 +82,11 @@ namespace noise_detail {
 /// latticeHash() with a fourth coordinate.
 RSL_INLINE uint32_t hash4(int32_t x, int32_t y, int32_t z, int32_t w) {
   uint32_t h = (latticeHash(x, y, z) ^ static_cast<uint32_t>(w)) * 0x9e3779b9U;
-  h ^= h >> 16, h *= 0x7feb352dU, h ^= h >> 15, h *= 0x846ca68bU, h ^= h >> 16;
+  h ^= h >> 16;
+  h *= 0x7feb352dU;
+  h ^= h >> 15;
+  h *= 0x846ca68bU;
+  h ^= h >> 16;
   return h;
 }
 
@@ -90,7 +98,9 @@ struct Axis {
     const float cell = wholeBelow(x), p = wholeBelow(period);
     const auto wrapped = [&](float c)
                              RSL_INLINED { return latticeCoordinate(chosen(p >= 1, c - p * wholeBelow(c / p), c)); };
-    f = x - cell, lo = wrapped(cell), hi = wrapped(cell + 1);
+    f = x - cell;
+    lo = wrapped(cell);
+    hi = wrapped(cell + 1);
   }
   RSL_INLINE int32_t at(int end) const { return end ? hi : lo; }
   RSL_INLINE float from(int end) const { return f - static_cast<float>(end); }
@@ -202,19 +212,33 @@ inline void splineWeights(Basis basis, float t, float* w) {
   const float t2 = t * t, t3 = t2 * t, s = 1 - t;
   switch (basis) {
     case Basis::Bezier:
-      w[0] = s * s * s, w[1] = 3 * t * s * s, w[2] = 3 * t2 * s, w[3] = t3;
+      w[0] = s * s * s;
+      w[1] = 3 * t * s * s;
+      w[2] = 3 * t2 * s;
+      w[3] = t3;
       break;
     case Basis::BSpline:
-      w[0] = s * s * s / 6, w[1] = (3 * t3 - 6 * t2 + 4) / 6, w[2] = (-3 * t3 + 3 * t2 + 3 * t + 1) / 6, w[3] = t3 / 6;
+      w[0] = s * s * s / 6;
+      w[1] = (3 * t3 - 6 * t2 + 4) / 6;
+      w[2] = (-3 * t3 + 3 * t2 + 3 * t + 1) / 6;
+      w[3] = t3 / 6;
       break;
     case Basis::Hermite:
-      w[0] = 2 * t3 - 3 * t2 + 1, w[1] = t3 - 2 * t2 + t, w[2] = -2 * t3 + 3 * t2, w[3] = t3 - t2;
+      w[0] = 2 * t3 - 3 * t2 + 1;
+      w[1] = t3 - 2 * t2 + t;
+      w[2] = -2 * t3 + 3 * t2;
+      w[3] = t3 - t2;
       break;
     case Basis::Linear:
-      w[0] = 0, w[1] = s, w[2] = t, w[3] = 0;
+      w[0] = 0;
+      w[1] = s;
+      w[2] = t;
+      w[3] = 0;
       break;
     default:
-      w[0] = 0.5f * (-t3 + 2 * t2 - t), w[1] = 0.5f * (3 * t3 - 5 * t2 + 2), w[2] = 0.5f * (-3 * t3 + 4 * t2 + t),
+      w[0] = 0.5f * (-t3 + 2 * t2 - t);
+      w[1] = 0.5f * (3 * t3 - 5 * t2 + 2);
+      w[2] = 0.5f * (-3 * t3 + 4 * t2 + t);
       w[3] = 0.5f * (t3 - t2);
   }
 }

@@ -93,7 +93,7 @@ class StringParam : public Param {
 
 class FloatArrayParam : public Param {
  public:
-  FloatArrayParam(const char* name, std::vector<float> values, const char* doc)
+  FloatArrayParam(const char* name, const std::vector<float>& values, const char* doc)
       : FloatArrayParam(name, values, int(values.size()), doc) {}
   float operator()(const TmGrid* g, int element) const { return value(g).c[0][element]; }
   int length(const TmGrid* g) const { return value(g).length; }
@@ -155,7 +155,7 @@ class Output : public Param {
   /// To be called only if wanted().
   void set(const TmGrid* g, int i, const T& v) const {
     const float* from = reinterpret_cast<const float*>(&v);
-    for (size_t k = 0; k < sizeof(T) / sizeof(float); ++k) const_cast<float*>(value(g).c[k])[i] = from[k];
+    for (size_t k = 0; k < (type == TM_FLOAT ? 1 : 3); ++k) const_cast<float*>(value(g).c[k])[i] = from[k];
   }
 };
 using FloatOutput = Output<TM_FLOAT, float>;

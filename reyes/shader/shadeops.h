@@ -69,8 +69,10 @@ inline Vec3 rotate(Vec3 Q, float angle, Vec3 P0, Vec3 P1) {
 /// The shares of reflected and of transmitted light, and their directions. I and N are unit vectors. The change of the
 /// solid angle by refraction is not accounted for.
 inline void fresnel(Vec3 I, Vec3 N, float eta, float& Kr, float& Kt, Vec3& R, Vec3& T) {
-  Kr = fresnel(I, N, eta), Kt = 1 - Kr;
-  R = reflect(I, N), T = refract(I, N, eta);
+  Kr = fresnel(I, N, eta);
+  Kt = 1 - Kr;
+  R = reflect(I, N);
+  T = refract(I, N, eta);
 }
 
 // --- Matrices: rows act on points from the right, as RIB writes them; the translation is the last row
@@ -99,14 +101,23 @@ inline float invert(const Matrix& a, Matrix* inverse) {
     for (int r = c + 1; r < 4; ++r)
       if (std::abs(left.m[r][c]) > std::abs(left.m[pivot][c])) pivot = r;
     if (left.m[pivot][c] == 0) return 0;
-    if (pivot != c)
-      std::swap(left.m[pivot], left.m[c]), std::swap(right.m[pivot], right.m[c]), determinant = -determinant;
+    if (pivot != c) {
+      std::swap(left.m[pivot], left.m[c]);
+      std::swap(right.m[pivot], right.m[c]);
+      determinant = -determinant;
+    }
     determinant *= left.m[c][c];
     const float by = 1 / left.m[c][c];
-    for (int k = 0; k < 4; ++k) left.m[c][k] *= by, right.m[c][k] *= by;
+    for (int k = 0; k < 4; ++k) {
+      left.m[c][k] *= by;
+      right.m[c][k] *= by;
+    }
     for (int r = 0; r < 4; ++r) {
       const float f = left.m[r][c];
-      for (int k = 0; r != c && k < 4; ++k) left.m[r][k] -= f * left.m[c][k], right.m[r][k] -= f * right.m[c][k];
+      for (int k = 0; r != c && k < 4; ++k) {
+        left.m[r][k] -= f * left.m[c][k];
+        right.m[r][k] -= f * right.m[c][k];
+      }
     }
   }
   if (inverse) *inverse = right;
@@ -116,12 +127,16 @@ inline float determinant(const Matrix& a) { return invert(a, nullptr); }
 /// The new transformation comes before those of `a`, as in RIB.
 inline Matrix translate(const Matrix& a, Vec3 t) {
   Matrix b;
-  b.m[3][0] = t.x, b.m[3][1] = t.y, b.m[3][2] = t.z;
+  b.m[3][0] = t.x;
+  b.m[3][1] = t.y;
+  b.m[3][2] = t.z;
   return b * a;
 }
 inline Matrix scale(const Matrix& a, Vec3 s) {
   Matrix b;
-  b.m[0][0] = s.x, b.m[1][1] = s.y, b.m[2][2] = s.z;
+  b.m[0][0] = s.x;
+  b.m[1][1] = s.y;
+  b.m[2][2] = s.z;
   return b * a;
 }
 /// Rotates by an angle of this cosine and sine.
@@ -129,7 +144,11 @@ inline Matrix rotate(const Matrix& a, float cosine, float sine, Vec3 axis) {
   Matrix b;
   const Vec3 rows[3] = {rotated({1, 0, 0}, cosine, sine, {}, axis), rotated({0, 1, 0}, cosine, sine, {}, axis),
                         rotated({0, 0, 1}, cosine, sine, {}, axis)};
-  for (int i = 0; i < 3; ++i) b.m[i][0] = rows[i].x, b.m[i][1] = rows[i].y, b.m[i][2] = rows[i].z;
+  for (int i = 0; i < 3; ++i) {
+    b.m[i][0] = rows[i].x;
+    b.m[i][1] = rows[i].y;
+    b.m[i][2] = rows[i].z;
+  }
   return b * a;
 }
 inline Matrix rotate(const Matrix& a, float angle, Vec3 axis) {

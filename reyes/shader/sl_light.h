@@ -20,7 +20,8 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   Color sum;
   if (!rsl::Batch(grid()).wantsHighlights()) return sum;
   TmIlluminance query = tmIlluminanceDefaults();
-  query.axis = N, query.angle = float(rsl::kPi / 2);
+  query.axis = N;
+  query.angle = float(rsl::kPi / 2);
   while (grid()->call->illuminance(grid()->host, grid(), &query)) {
     if (query.nonspecular) continue;
     where(query.lit, true, [&] { sum += Color(query.Cl) * pow(max(0, dot(R, normalize(Vector(query.L)))), size); });
@@ -119,7 +120,8 @@ template <class Hit, class Miss>
 void gather(const char* category, const Point& p, const Vector& direction, float angle, int samples,
             const TmRayOptions& list, std::initializer_list<Gathered> wanted, const Hit& hit, const Miss& miss) {
   TmRayOptions options = list;
-  options.samples = samples, options.coneAngle = angle;
+  options.samples = samples;
+  options.coneAngle = angle;
   constexpr std::string_view kEnvironment = "environment:";
   const std::string_view kind(category);
   if (kind == "samplepattern")

@@ -45,8 +45,12 @@ struct FilterRegion {
   /// Sets it to the region of a micropolygon whose points were at s, t.
   void calculate2d(const Float& atS, const Float& atT) {
     const Float du(grid()->du), dv(grid()->dv);
-    s = atS, t = atT;
-    sides[0] = Du(s) * du, sides[1] = Du(t) * du, sides[2] = Dv(s) * dv, sides[3] = Dv(t) * dv;
+    s = atS;
+    t = atT;
+    sides[0] = Du(s) * du;
+    sides[1] = Du(t) * du;
+    sides[2] = Dv(s) * dv;
+    sides[3] = Dv(t) * dv;
   }
   void scale(const Float& by) {
     for (Float& side : sides) side *= by;

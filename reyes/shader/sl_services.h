@@ -85,8 +85,14 @@ inline bool rayinfo(const char* name, Float& out) {
 /// Looks up "type" (camera, diffuse, specular or transmission) or "label".
 inline bool rayinfo(const char* name, std::string& out) {
   static const char* const kTypes[] = {"camera", "diffuse", "specular", "transmission"};
-  if (std::string_view(name) == "label") return out = grid()->call->rayLabel(grid()->host, grid()), true;
-  if (std::string_view(name) == "type") return out = kTypes[rsl::Batch(grid()).rayNumber("type")], true;
+  if (std::string_view(name) == "label") {
+    out = grid()->call->rayLabel(grid()->host, grid());
+    return true;
+  }
+  if (std::string_view(name) == "type") {
+    out = kTypes[rsl::Batch(grid()).rayNumber("type")];
+    return true;
+  }
   return false;
 }
 inline int raydepth() { return rsl::Batch(grid()).rayDepth(); }

@@ -229,7 +229,8 @@ inline void fresnel(const Triple& I, const Triple& N, const Float& eta, Float& K
 }
 inline void fresnel(const Triple& I, const Triple& N, const Float& eta, Float& Kr, Float& Kt, Triple& R, Triple& T) {
   fresnel(I, N, eta, Kr, Kt);
-  R = reflect(I, N), T = refract(I, N, eta);
+  R = reflect(I, N);
+  T = refract(I, N, eta);
 }
 
 // --- Colour

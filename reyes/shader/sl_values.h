@@ -35,7 +35,8 @@ class Lanes {
   Lanes() : size_(grid()->padded) {
     auto& list = spare();
     if (!list.empty() && list.back().first >= size_) {
-      data_ = list.back().second, capacity_ = list.back().first;
+      data_ = list.back().second;
+      capacity_ = list.back().first;
       list.pop_back();
     } else {
       capacity_ = std::max(size_, 512);
@@ -190,18 +191,21 @@ class Triple {
  public:
   Triple() : Triple(rsl::Vec3{}) {}
   Triple(rsl::Vec3 v) {
-    sl::fill(x_.data(), [&](int) { return v.x; }), sl::fill(y_.data(), [&](int) { return v.y; }),
-        sl::fill(z_.data(), [&](int) { return v.z; });
+    sl::fill(x_.data(), [&](int) { return v.x; });
+    sl::fill(y_.data(), [&](int) { return v.y; });
+    sl::fill(z_.data(), [&](int) { return v.z; });
   }
   explicit Triple(double v) : Triple(rsl::Vec3{float(v), float(v), float(v)}) {}
   explicit Triple(const Float& v) : Triple(v, v, v) {}
   Triple(const Float& x, const Float& y, const Float& z) {
-    std::copy_n(x.data(), x_.size(), x_.data()), std::copy_n(y.data(), x_.size(), y_.data()),
-        std::copy_n(z.data(), x_.size(), z_.data());
+    std::copy_n(x.data(), x_.size(), x_.data());
+    std::copy_n(y.data(), x_.size(), y_.data());
+    std::copy_n(z.data(), x_.size(), z_.data());
   }
   explicit Triple(TmConstVec3 v) {
-    std::copy_n(v.x, x_.size(), x_.data()), std::copy_n(v.y, x_.size(), y_.data()),
-        std::copy_n(v.z, x_.size(), z_.data());
+    std::copy_n(v.x, x_.size(), x_.data());
+    std::copy_n(v.y, x_.size(), y_.data());
+    std::copy_n(v.z, x_.size(), z_.data());
   }
   template <TmType type>
   Triple(const rsl::TripleParam<type>& p) {
@@ -245,7 +249,11 @@ class Triple {
 
  private:
   Triple(Lanes&& x, Lanes&& y, Lanes&& z) : x_(std::move(x)), y_(std::move(y)), z_(std::move(z)) {}
-  void set(int i, rsl::Vec3 v) { x_.data()[i] = v.x, y_.data()[i] = v.y, z_.data()[i] = v.z; }
+  void set(int i, rsl::Vec3 v) {
+    x_.data()[i] = v.x;
+    y_.data()[i] = v.y;
+    z_.data()[i] = v.z;
+  }
   template <class Op>
   void setAll(const Op& op) {
     for (int i = 0, n = grid()->padded; i < n; ++i) set(i, op(i));

@@ -49,7 +49,8 @@ inline std::string formatTexts(const std::string& pattern, const std::vector<std
       const bool whole = pattern[++i] == 'd' && value.find_first_not_of("-0123456789.") == value.npos;
       out += whole ? value.substr(0, value.find('.')) : value;
     } else {
-      out += pattern[i], i += letter && pattern[i + 1] == '%';
+      out += pattern[i];
+      i += letter && pattern[i + 1] == '%';
     }
   }
   return out;

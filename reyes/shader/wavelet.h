@@ -24,7 +24,9 @@ class WaveletTile {
       const float rest = x[k] - kSize * wholeBelow(x[k] / kSize), at = std::abs(rest) <= kSize ? rest : 0,
                   m = -wholeBelow(0.5f - at), t = m - (at - 0.5f);
       middle[k] = static_cast<int>(m);
-      weight[k][0] = t * t / 2, weight[k][2] = (1 - t) * (1 - t) / 2, weight[k][1] = 1 - weight[k][0] - weight[k][2];
+      weight[k][0] = t * t / 2;
+      weight[k][2] = (1 - t) * (1 - t) / 2;
+      weight[k][1] = 1 - weight[k][0] - weight[k][2];
     }
     float sum = 0;
     for (int k = -1; k <= 1; ++k)

@@ -35,7 +35,8 @@ Cells fewest(float alongU, float alongV, int leastU, int leastV) {
     const float edge = std::max(alongU / static_cast<float>(nu), alongV / static_cast<float>(nv));
     const int64_t count = int64_t{nu} * nv, fewestYet = int64_t{best.nu} * best.nv;
     if (best.nu > 0 && (count > fewestYet || (count == fewestYet && edge >= kSquarer * bestEdge))) continue;
-    best = {nu, nv}, bestEdge = edge;
+    best = {nu, nv};
+    bestEdge = edge;
   }
   return best;
 }

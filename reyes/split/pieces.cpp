@@ -122,7 +122,10 @@ class Splitter {
   void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known,
                    std::vector<SubPatch>& out) {
     const auto first = static_cast<ptrdiff_t>(out.size());
-    start_ = depth, budget_ = visits, flat_ = isFlat(object_, patch), alone_ = isAlone(object_, patch);
+    start_ = depth;
+    budget_ = visits;
+    flat_ = isFlat(object_, patch);
+    alone_ = isAlone(object_, patch);
     split(patch, rect, depth, known, out);
     const auto share = [this](const SubPatch& p) { return p.coarse ? visits_.expected(p) : 0.0; };
     double shares = 0;
@@ -231,7 +234,8 @@ class Splitter {
     const float from = begin, to = end;
     end = begin;
     for (int k = 1; k <= parts; ++k) {
-      begin = end, end = k == parts ? to : lerp(from, to, static_cast<float>(k) / static_cast<float>(parts));
+      begin = end;
+      end = k == parts ? to : lerp(from, to, static_cast<float>(k) / static_cast<float>(parts));
       --budget_;
       ++stats_.geometry.piecesVisited;
       const Bound3 bare = cameraBound(object_, patch, part);
@@ -320,8 +324,10 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
                     std::vector<Bound3> bounds;
                     const bool dots = !patches.empty() && splitter.hasDots(patches[0]);
                     for (size_t i = 0; dots && i < patches.size(); ++i)
-                      if (const auto bare = splitter.takeDot(patches[i], out))
-                        others.push_back(patches[i]), bounds.push_back(*bare);
+                      if (const auto bare = splitter.takeDot(patches[i], out)) {
+                        others.push_back(patches[i]);
+                        bounds.push_back(*bare);
+                      }
                     const std::span<const uint32_t> left = dots ? std::span<const uint32_t>(others) : patches;
                     const std::vector<PatchSize> sizes = measureWhole(o, camera, left);
                     for (size_t i = 0; i < left.size(); ++i)

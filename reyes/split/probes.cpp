@@ -104,7 +104,9 @@ template <class L>
     float *x = at.x[k], *y = at.y[k], *z = at.z[k];
     for (int i = 0; !affine && i < L::kPatches; ++i) {
       const vec3 p = transformPoint(m, {x[i], y[i], z[i]});
-      x[i] = p.x, y[i] = p.y, z[i] = p.z;
+      x[i] = p.x;
+      y[i] = p.y;
+      z[i] = p.z;
     }
     for (int i = 0; affine && i < L::kPatches; ++i) {
       const float px = x[i], py = y[i], pz = z[i];
@@ -122,7 +124,10 @@ template <class L>
 template <size_t kCount, size_t kPatches>
 [[gnu::always_inline]] inline void boundPoints(const float (&at)[kCount][kPatches], float* __restrict lo,
                                                float* __restrict hi) {
-  for (size_t i = 0; i < kPatches; ++i) lo[i] = kInfinity, hi[i] = -kInfinity;
+  for (size_t i = 0; i < kPatches; ++i) {
+    lo[i] = kInfinity;
+    hi[i] = -kInfinity;
+  }
   for (size_t k = 0; k < kCount; ++k)
     for (size_t i = 0; i < kPatches; ++i)
       lo[i] = at[k][i] < lo[i] ? at[k][i] : lo[i], hi[i] = hi[i] < at[k][i] ? at[k][i] : hi[i];

@@ -48,8 +48,10 @@ PointCloud photonsInARoom(uint32_t count) {
     }
     vec3 p, n(0.0f);
     const int axis = static_cast<int>(face % 3);
-    p[axis] = face < 3 ? 0.0f : 1.0f, n[axis] = face < 3 ? 1.0f : -1.0f;
-    p[(axis + 1) % 3] = at.x, p[(axis + 2) % 3] = at.y;
+    p[axis] = face < 3 ? 0.0f : 1.0f;
+    n[axis] = face < 3 ? 1.0f : -1.0f;
+    p[(axis + 1) % 3] = at.x;
+    p[(axis + 2) % 3] = at.y;
     cloud.add(p, n, 0, &power.x);
   }
   return cloud;
@@ -85,15 +87,20 @@ void bench(uint32_t count) {
   const BrickMap map(bricks, cache);
   vec3 E, sum(0.0f);
   const auto lookAll = [&](float radius, size_t step) {
-    for (size_t i = 0; i < read.count(); i += step)
-      map.lookup(read.position[i], read.normal[i], radius, &E.x), sum += E;
+    for (size_t i = 0; i < read.count(); i += step) {
+      map.lookup(read.position[i], read.normal[i], radius, &E.x);
+      sum += E;
+    }
   };
-  lookAll(0.002f, 1), lookAll(0.02f, 1);
+  lookAll(0.002f, 1);
+  lookAll(0.02f, 1);
   measure("lookups, coherent, fine", static_cast<double>(read.count()), [&] { lookAll(0.002f, 1); });
   measure("lookups, coherent, wide", static_cast<double>(read.count()), [&] { lookAll(0.02f, 1); });
   measure("lookups, incoherent", static_cast<double>(read.count()), [&] {
-    for (size_t i = 0, at = 0; i < read.count(); ++i, at = (at + 7919) % read.count())
-      map.lookup(read.position[at], read.normal[at], 0.01f, &E.x), sum += E;
+    for (size_t i = 0, at = 0; i < read.count(); ++i, at = (at + 7919) % read.count()) {
+      map.lookup(read.position[at], read.normal[at], 0.01f, &E.x);
+      sum += E;
+    }
   });
   fs::remove_all(folder);
 }

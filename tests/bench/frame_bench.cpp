@@ -82,7 +82,7 @@ void measure(const Bench& bench, int runs) {
     const double begin_s = userSeconds();
     hideTiles(layout, scene, shading, {}, stats, log, {{}, [](size_t, DeepTile&&) {}, {}});
     least_s = std::min(least_s, userSeconds() - begin_s);
-    diced = static_cast<double>(stats.geometry.micropolygonsDiced),
+    diced = static_cast<double>(stats.geometry.micropolygonsDiced);
     visible = static_cast<double>(stats.geometry.micropolygonsVisible);
   }
   fmt::print("{:16} {:5.2f} M diced, {:5.2f} M seen, {:.3f} user s", bench.name, diced * 1e-6, visible * 1e-6, least_s);

@@ -122,7 +122,10 @@ Pixel joined(int root, uint32_t pixel) {
   };
   for (Sample& s : out) {
     const auto same = std::find_if(net.begin(), net.end(), [&](const Sample& o) { return cell(o) == cell(s); });
-    if (same != net.end()) s.time = same->time, s.lens = same->lens;
+    if (same != net.end()) {
+      s.time = same->time;
+      s.lens = same->lens;
+    }
   }
   return out;
 }
@@ -161,7 +164,8 @@ double rms(const Pattern& pattern, const Edge& edge, int root, const std::vector
     int in = 0;
     for (const Sample& s : pattern(root, hash32(pixel))) in += edge(s, pixel);
     const double error = in / static_cast<double>(root * root) - area;
-    squares += error * error, ++crossed;
+    squares += error * error;
+    ++crossed;
   }
   return std::sqrt(squares / crossed);
 }

@@ -52,15 +52,25 @@ struct BareScene {
     }
     rtcCommitScene(scene);
   }
-  ~BareScene() { rtcReleaseScene(scene), rtcReleaseDevice(device); }
+  ~BareScene() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
 
   bool hits(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit r{};
-    r.ray.org_x = ray.origin.x, r.ray.org_y = ray.origin.y, r.ray.org_z = ray.origin.z, r.ray.tnear = ray.bias;
-    r.ray.dir_x = ray.direction.x, r.ray.dir_y = ray.direction.y, r.ray.dir_z = ray.direction.z;
-    r.ray.tfar = kInfinity, r.ray.mask = ~0U, r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    r.ray.org_x = ray.origin.x;
+    r.ray.org_y = ray.origin.y;
+    r.ray.org_z = ray.origin.z;
+    r.ray.tnear = ray.bias;
+    r.ray.dir_x = ray.direction.x;
+    r.ray.dir_y = ray.direction.y;
+    r.ray.dir_z = ray.direction.z;
+    r.ray.tfar = kInfinity;
+    r.ray.mask = ~0U;
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context, &r);
     return r.hit.geomID != RTC_INVALID_GEOMETRY_ID;
   }

@@ -59,7 +59,8 @@ void handLoop(const ShadePoints& p, std::vector<float>& sum, ShadedPoints& out) 
       for (const rsl::Vec3& L : lights) {
         const float cosine = rsl::dot(N, L);
         if (cosine <= 0) continue;
-        diffuse += cosine, specular += std::pow(std::max(0.0f, rsl::dot(N, rsl::normalize(L + V))), 80.0f);
+        diffuse += cosine;
+        specular += std::pow(std::max(0.0f, rsl::dot(N, rsl::normalize(L + V))), 80.0f);
       }
       const float c = sum[static_cast<size_t>(i)] * 0.5f * diffuse + 0.5f * specular;
       for (auto& channel : out.Ci) channel[static_cast<size_t>(first + i)] = c;

@@ -30,9 +30,12 @@ struct Row {
   explicit Row(int y) : r(kBatch), g(kBatch), b(kBatch), active(kBatch, 1) {
     for (int x = 0; x < kBatch; ++x) {
       const float u = (static_cast<float>(x) + 0.5f) / kBatch, v = (static_cast<float>(y) + 0.5f) / kBatch;
-      s.push_back(0.1f + 0.7f * u + 0.1f * v), t.push_back(0.1f + 0.1f * u + 0.7f * v);
-      su.push_back(0.7f / kBatch), tu.push_back(0.1f / kBatch), sv.push_back(0.1f / kBatch),
-          tv.push_back(2.8f / kBatch);
+      s.push_back(0.1f + 0.7f * u + 0.1f * v);
+      t.push_back(0.1f + 0.1f * u + 0.7f * v);
+      su.push_back(0.7f / kBatch);
+      tu.push_back(0.1f / kBatch);
+      sv.push_back(0.1f / kBatch);
+      tv.push_back(2.8f / kBatch);
     }
   }
 };
@@ -52,8 +55,10 @@ int main() {
     }
   const std::string source = (folder / "source.tif").string(), file = (folder / "picture.tx").string();
   std::string error;
-  if (!picture.write(source) || makeTexture({TextureRecipe::Shape::Picture, {source}, file}, error) != Making::Done)
-    return std::puts(error.c_str()), 1;
+  if (!picture.write(source) || makeTexture({TextureRecipe::Shape::Picture, {source}, file}, error) != Making::Done) {
+    std::puts(error.c_str());
+    return 1;
+  }
 
   Log log;
   Stats stats;
@@ -66,8 +71,14 @@ int main() {
   const auto ours = [&] {
     for (Row& row : rows) {
       TextureQuery q{file.c_str()};
-      q.count = kBatch, q.active = row.active.data(), q.s = row.s.data(), q.t = row.t.data();
-      q.su = row.su.data(), q.tu = row.tu.data(), q.sv = row.sv.data(), q.tv = row.tv.data();
+      q.count = kBatch;
+      q.active = row.active.data();
+      q.s = row.s.data();
+      q.t = row.t.data();
+      q.su = row.su.data();
+      q.tu = row.tu.data();
+      q.sv = row.sv.data();
+      q.tv = row.tv.data();
       textures.lookup(q, {}, "bench", {row.r.data(), row.g.data(), row.b.data()});
     }
   };
@@ -78,10 +89,13 @@ int main() {
       for (size_t i = 0; i < kBatch; ++i) {
         float c[3];
         bare->texture(handle, thread, options, row.s[i], row.t[i], row.su[i], row.tu[i], row.sv[i], row.tv[i], 3, c);
-        row.r[i] = c[0], row.g[i] = c[1], row.b[i] = c[2];
+        row.r[i] = c[0];
+        row.g[i] = c[1];
+        row.b[i] = c[2];
       }
   };
-  ours(), theirs();
+  ours();
+  theirs();
   for (int run = 0; run < 5; ++run) {
     const double a = secondsOf(ours), b = secondsOf(theirs);
     std::puts(fmt::format("{:.0f} ns a lookup, bare loop {:.0f} ns, ratio {:.2f}", 1e9 * a / (kBatch * kBatch),
@@ -103,8 +117,14 @@ int main() {
         Row row(y);
         const std::string name = fmt::format("{}.tx", k);
         TextureQuery q{name.c_str()};
-        q.count = kBatch, q.active = row.active.data(), q.s = row.s.data(), q.t = row.t.data();
-        q.su = row.su.data(), q.tu = row.tu.data(), q.sv = row.sv.data(), q.tv = row.tv.data();
+        q.count = kBatch;
+        q.active = row.active.data();
+        q.s = row.s.data();
+        q.t = row.t.data();
+        q.su = row.su.data();
+        q.tu = row.tu.data();
+        q.sv = row.sv.data();
+        q.tv = row.tv.data();
         little.lookup(q, {}, "bench", {row.r.data(), row.g.data(), row.b.data()});
       }
   }

@@ -40,7 +40,10 @@ constexpr double kFar = 1e30, kNear = 1e-7, kPi = 3.14159265358979323846;
 // PCG of 32 bits (O'Neill 2014).
 struct Random {
   uint64_t state;
-  explicit Random(uint64_t seed) : state(seed * 0x9E3779B97F4A7C15ull + 1442695040888963407ull) { next(), next(); }
+  explicit Random(uint64_t seed) : state(seed * 0x9E3779B97F4A7C15ull + 1442695040888963407ull) {
+    next();
+    next();
+  }
   double next() {
     const uint64_t s = state;
     state = s * 6364136223846793005ull + 1442695040888963407ull;
@@ -74,8 +77,13 @@ struct Shape {
       lo = {std::min(lo.x, p.x - r), std::min(lo.y, p.y - r), std::min(lo.z, p.z - r)};
       hi = {std::max(hi.x, p.x + r), std::max(hi.y, p.y + r), std::max(hi.z, p.z + r)};
     };
-    if (ball) return add(a, radius), add(a + v, radius);
-    add(a, 0), add(a + u, 0), add(a + v, 0);
+    if (ball) {
+      add(a, radius);
+      return add(a + v, radius);
+    }
+    add(a, 0);
+    add(a + u, 0);
+    add(a + v, 0);
     if (whole) add(a + u + v, 0);
   }
 };
@@ -126,15 +134,20 @@ struct Scene {
         double x = (at(n.lo, k) - 1e-9 - at(O, k)) * at(inverse, k),
                y = (at(n.hi, k) + 1e-9 - at(O, k)) * at(inverse, k);
         if (x > y) std::swap(x, y);
-        near = std::max(near, x), far = std::min(far, y);
+        near = std::max(near, x);
+        far = std::min(far, y);
       }
       if (!(near <= far)) continue;
       if (n.left >= 0) {
-        stack[depth++] = n.left, stack[depth++] = n.end;
+        stack[depth++] = n.left;
+        stack[depth++] = n.end;
         continue;
       }
       for (int i = n.begin; i < n.end; ++i)
-        if (const double t = shapes[i].meet(O, D, time); t < most) most = t, what = &shapes[i];
+        if (const double t = shapes[i].meet(O, D, time); t < most) {
+          most = t;
+          what = &shapes[i];
+        }
     }
     return most;
   }
@@ -208,14 +221,18 @@ void read(Scene& scene) {
     else if (word == "point")
       std::cin >> scene.point >> scene.power;
     else if (word == "sphere") {
-      std::cin >> s.a >> s.radius >> s.albedo >> s.emitted >> s.v, s.ball = true;
+      std::cin >> s.a >> s.radius >> s.albedo >> s.emitted >> s.v;
+      s.ball = true;
       scene.shapes.push_back(s);
     } else {
-      std::cin >> s.a >> b >> c, s.whole = word != "triangle", s.lamp = word == "lamp";
+      std::cin >> s.a >> b >> c;
+      s.whole = word != "triangle";
+      s.lamp = word == "lamp";
       V d;
       if (s.whole) std::cin >> d;
       std::cin >> s.albedo >> s.emitted;
-      s.u = b - s.a, s.v = (s.whole ? d : c) - s.a;
+      s.u = b - s.a;
+      s.v = (s.whole ? d : c) - s.a;
       scene.shapes.push_back(s);
       if (s.lamp) scene.lamps.push_back(s);
     }
@@ -240,7 +257,8 @@ int main(int argc, char** argv) {
           Random r((static_cast<uint64_t>(block) * 64 + i) * 1000003ull + k);
           round += scene.pixel(block % columns * 8 + i % 8, block / columns * 8 + i / 8, r) / 64;
         }
-        sum += round, squares += round * round;
+        sum += round;
+        squares += round * round;
       }
       const double mean = sum / paths;
       blocks[block] = {mean, std::sqrt(std::max(0.0, squares / paths - mean * mean) / paths)};

@@ -39,8 +39,10 @@ void expectPatchSound(const Prim& prim, uint32_t patch) {
     const float u0 = k ? random(k, 1) : 0, v0 = k ? random(k, 2) : 0,
                 size = k ? std::ldexp(1.0f, -static_cast<int>(k)) : 1;
     const UvRect r{u0, std::min(u0 + size, 1.0f), v0, std::min(v0 + size, 1.0f)};
-    for (int i = 0; i < kCount; ++i)
-      u[i] = lerp(r.u0, r.u1, static_cast<float>(i % 6) / 5), v[i] = lerp(r.v0, r.v1, static_cast<float>(i / 6) / 5);
+    for (int i = 0; i < kCount; ++i) {
+      u[i] = lerp(r.u0, r.u1, static_cast<float>(i % 6) / 5);
+      v[i] = lerp(r.v0, r.v1, static_cast<float>(i / 6) / 5);
+    }
     prim.evaluate(patch, kCount, u, v, {f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9], f[10], f[11]});
     const Bound3 b = prim.bound(patch, r);
     int outside = 0, unsound = 0;

@@ -20,7 +20,10 @@ class LocalRun {
   LocalRun(const BatchPlan& plan, int processes) : plan_(plan), processes_(processes), states_(statesOf(plan)) {
     for (size_t i = 0; i < states_.size(); ++i) {
       index_[plan.tasks[i].name] = i;
-      if (states_[i].kind != TaskState::Done) states_[i] = {}, open_.push_back(i);
+      if (states_[i].kind != TaskState::Done) {
+        states_[i] = {};
+        open_.push_back(i);
+      }
     }
   }
 
@@ -45,7 +48,8 @@ class LocalRun {
         ++it;
         continue;
       }
-      states_[i] = task->state(), any = true;
+      states_[i] = task->state();
+      any = true;
       if (states_[i].kind == TaskState::Failed && states_[i].attempts < kMostAttempts) {
         notBefore_[i] = Clock::now() + kRetryAfter;
         open_.push_back(i);

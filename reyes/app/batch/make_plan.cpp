@@ -104,18 +104,20 @@ class PlanMaker {
     for (const auto& [number, frame] : frames_)
       for (const std::string& file : frame.files)
         if (const auto [at, isNew] = writers.emplace(fs::path(file).lexically_normal().string(), number);
-            !isNew && at->second != number)
-          return refuse("batch-same-file", fmt::format("frames {} and {} both write \"{}\": # in the name of -o stands "
-                                                       "for the number of the frame; nothing was begun",
-                                                       at->second, number, file)),
-                 false;
+            !isNew && at->second != number) {
+          refuse("batch-same-file", fmt::format("frames {} and {} both write \"{}\": # in the name of -o stands "
+                                                "for the number of the frame; nothing was begun",
+                                                at->second, number, file));
+          return false;
+        }
     if (tileCount() == 1) return true;
     for (const auto& [number, frame] : frames_)
-      if (!frame.maps && (!frame.joins || frame.worlds > 1))
-        return refuse("batch-tiles", fmt::format("--tiles: frame {} has {}; nothing was begun", number,
-                                                 frame.worlds > 1 ? "several worlds"
-                                                                  : "pictures that are not OpenEXR files, or maps")),
-               false;
+      if (!frame.maps && (!frame.joins || frame.worlds > 1)) {
+        refuse("batch-tiles",
+               fmt::format("--tiles: frame {} has {}; nothing was begun", number,
+                           frame.worlds > 1 ? "several worlds" : "pictures that are not OpenEXR files, or maps"));
+        return false;
+      }
     return true;
   }
 
@@ -129,7 +131,8 @@ class PlanMaker {
     to.insert(to.end(), more.begin(), more.end());
   }
   std::vector<std::string> withScene(std::vector<std::string> arguments, int frame) const {
-    append(arguments, options_.pictureArguments), append(arguments, options_.lightArguments);
+    append(arguments, options_.pictureArguments);
+    append(arguments, options_.lightArguments);
     append(arguments, {"--frames", std::to_string(frame), "--progress"});
     append(arguments, options_.render.files);
     return arguments;
@@ -150,14 +153,16 @@ class PlanMaker {
     plan_.tasks.push_back(
         {hide, "hide", number, withScene({"hide", "--resume", "-o", shot}, number), maps, {shot}, {}});
     std::vector<std::string> light{"gather", "-o", cache};
-    append(light, options_.lightArguments), light.push_back(shot);
+    append(light, options_.lightArguments);
+    light.push_back(shot);
     plan_.tasks.push_back({gather, "gather", number, light, {hide}, {cache}, {}});
     std::vector<std::string> before, unneeded{shot, cache};
     for (int i = 0; i < tileCount(); ++i) {
       const std::vector<std::string>& files = frame.tiles[static_cast<size_t>(i)];
       std::vector<std::string> shade{"shade", "--irradiance", cache, "--crop", cropText(options_.tiles, i),
                                      "-o",    files.front()};
-      append(shade, options_.lightArguments), shade.push_back(shot);
+      append(shade, options_.lightArguments);
+      shade.push_back(shot);
       before.push_back(nameOf(number, fmt::format("t{:03}", i)));
       plan_.tasks.push_back({before.back(), "shade", number, shade, {gather}, files, {}});
       append(unneeded, files);

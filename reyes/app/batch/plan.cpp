@@ -156,8 +156,12 @@ TaskState readState(const BatchPlan& plan, const BatchTask& task) {
     const auto kind = std::find(std::begin(kStates), std::end(kStates), json.at("state").get<std::string>());
     if (kind == std::end(kStates)) return {};
     out.kind = static_cast<TaskState::Kind>(kind - std::begin(kStates));
-    out.attempts = json.at("attempts"), out.code = json.at("exit_code"), out.wall_s = json.at("wall_s");
-    out.cpu_s = json.at("cpu_s"), out.peak_bytes = json.at("peak_bytes"), out.host = json.at("host");
+    out.attempts = json.at("attempts");
+    out.code = json.at("exit_code");
+    out.wall_s = json.at("wall_s");
+    out.cpu_s = json.at("cpu_s");
+    out.peak_bytes = json.at("peak_bytes");
+    out.host = json.at("host");
     out.sum = json.at("sum");
   } catch (const Json::exception&) {
     return {};

@@ -35,9 +35,13 @@ std::map<int, FrameFigures> figuresOf(const BatchPlan& plan, const std::vector<T
   for (size_t i = 0; i < states.size(); ++i) {
     FrameFigures& f = out[plan.tasks[i].frame];
     const TaskState& s = states[i];
-    f.allDone &= s.kind == TaskState::Done, f.anyDone |= s.kind == TaskState::Done;
-    f.anyFailed |= s.kind == TaskState::Failed, f.anyRunning |= s.kind == TaskState::Running;
-    f.cpu_s += s.cpu_s, f.wall_s += s.wall_s, f.peak_bytes = std::max(f.peak_bytes, s.peak_bytes);
+    f.allDone &= s.kind == TaskState::Done;
+    f.anyDone |= s.kind == TaskState::Done;
+    f.anyFailed |= s.kind == TaskState::Failed;
+    f.anyRunning |= s.kind == TaskState::Running;
+    f.cpu_s += s.cpu_s;
+    f.wall_s += s.wall_s;
+    f.peak_bytes = std::max(f.peak_bytes, s.peak_bytes);
     f.worstCode = std::max(f.worstCode, s.code);
   }
   return out;
@@ -96,7 +100,8 @@ BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states
      : f.anyRunning || f.anyDone ? out.running
                                  : out.waiting)
         .push_back(number);
-    out.cpu_s += f.cpu_s, out.peak_bytes = std::max(out.peak_bytes, f.peak_bytes);
+    out.cpu_s += f.cpu_s;
+    out.peak_bytes = std::max(out.peak_bytes, f.peak_bytes);
   }
   std::map<std::string, std::pair<double, int>> timesOfStage;
   int atOnce = 0;
@@ -105,7 +110,8 @@ BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states
     if (states[i].kind == TaskState::Running) ++atOnce;
     if (states[i].kind != TaskState::Done) continue;
     auto& [sum, count] = timesOfStage[plan.tasks[i].stage];
-    sum += states[i].wall_s, ++count;
+    sum += states[i].wall_s;
+    ++count;
   }
   double left = 0;
   bool known = !timesOfStage.empty();

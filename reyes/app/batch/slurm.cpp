@@ -220,13 +220,17 @@ size_t submitToSlurm(const BatchPlan& plan, const SlurmOptions& options) {
       takeBack(fmt::format("\"{}\" could not be written: {}", script, why));
     std::vector<std::string> command{"sbatch", "--parsable", "--chdir=" + plan.workingFolder};
     const std::string after = dependencyOf(*array, arrays);
-    if (!after.empty()) command.push_back("--dependency=" + after), command.push_back("--kill-on-invalid-dep=yes");
+    if (!after.empty()) {
+      command.push_back("--dependency=" + after);
+      command.push_back("--kill-on-invalid-dep=yes");
+    }
     command.push_back(script);
     int code = 0;
     const std::string said = outputOf(command, code);
     if (code != 0) takeBack("Slurm refuses \"" + script + "\": " + said);
     array->job = said.substr(0, said.find(';'));
-    jobs.push_back(array->job), tasks += array->tasks.size();
+    jobs.push_back(array->job);
+    tasks += array->tasks.size();
   }
   std::string why;
   if (!writeFile(jobsFile(plan).string(), fmt::format("{}\n", fmt::join(jobs, "\n")), why))

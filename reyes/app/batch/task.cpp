@@ -42,7 +42,9 @@ RunningTask::RunningTask(const BatchPlan& plan, const BatchTask& task, int attem
     closeBoth();
     throw WriteError(fmt::format("\"{}\" could not be written: {}", log.string(), why));
   }
-  state_.kind = TaskState::Running, state_.attempts = attempt, state_.host = hostName();
+  state_.kind = TaskState::Running;
+  state_.attempts = attempt;
+  state_.host = hostName();
   writeState(plan, task, state_);
   ChildProgram program{"/proc/self/exe", {"tomales"}, {{in, 0}, {out, 1}, {out, 2}}};
   program.arguments.insert(program.arguments.end(), task.arguments.begin(), task.arguments.end());

@@ -74,7 +74,9 @@ class Chart {
   Chart(const ChartSettings& settings, const ChartSweep& sweep)
       : settings_(settings), sweep_(sweep), labSettings_(labOf(settings, sweep)), lab_(labSettings_) {
     report_.scene = fs::path(settings.files.front()).filename().string();
-    report_.title = sweep.title, report_.oneKnob = sweep.oneKnob(), report_.budget_s = settings.budget_s;
+    report_.title = sweep.title;
+    report_.oneKnob = sweep.oneKnob();
+    report_.budget_s = settings.budget_s;
     report_.commandLine = joined(Arguments{"tomales", "chart"} + settings.files + Arguments{"--sweep", sweep.name} +
                                  sharedArguments(settings) +
                                  Arguments{"--budget", fmt::format("{:g}s", settings.budget_s), "-o", settings.output});
@@ -163,8 +165,10 @@ class Chart {
     takeWarnings(*run);
     const auto image = readImage(run->picture, badBatch_);
     if (!image) return false;
-    if (!reference_.add(*image))
-      return badBatch_ = "\"" + run->picture + "\" has another size than the batches before it", false;
+    if (!reference_.add(*image)) {
+      badBatch_ = "\"" + run->picture + "\" has another size than the batches before it";
+      return false;
+    }
     log("reference", fmt::format("batch {}, noise {:.3g} %", reference_.batches(), 100 * reference_.noiseFloor()));
     return true;
   }
@@ -228,13 +232,15 @@ class Chart {
       const auto image = readImage(p.run.picture, error);
       if (!image) continue;
       p.error = reference_.errorOf(*image);
-      p.picture = p.run.picture + ".thumb.png", p.errorMap = p.run.picture + ".error.png";
+      p.picture = p.run.picture + ".thumb.png";
+      p.errorMap = p.run.picture + ".error.png";
       writeImage(p.picture, thumbnail(*image, kPictureSize, gain), true, log_);
       writeImage(p.errorMap, thumbnail(reference_.errorMap(*image, report_.mapRange), kPictureSize), true, log_);
     }
     report_.referencePicture = (fs::path(labSettings_.folder) / "reference.thumb.png").string();
     writeImage(report_.referencePicture, thumbnail(reference_.mean(), kPictureSize, gain), true, log_);
-    report_.referenceBatches = reference_.batches(), report_.noiseFloor = reference_.noiseFloor();
+    report_.referenceBatches = reference_.batches();
+    report_.noiseFloor = reference_.noiseFloor();
     report_.referenceCommandLine =
         commandLine(referenceArguments_ + Arguments{sweep_.seed, fmt::format("1..{}", reference_.batches())});
     markBest(report_);

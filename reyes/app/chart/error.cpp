@@ -32,7 +32,9 @@ Image blank(const Image& like) {
 
 void set(Image& image, int x, int y, const vec3& color) {
   float* p = image.at(x, y);
-  p[0] = color.x, p[1] = color.y, p[2] = color.z;
+  p[0] = color.x;
+  p[1] = color.y;
+  p[2] = color.z;
 }
 
 /// Calls visit(test, reference) for each colour of each pixel where `lit` has any light. Returns the number of pixels
@@ -45,7 +47,10 @@ int64_t eachValue(const Image& test, const Image& reference, const Image& lit, V
     for (int x = 0; x < reference.width; ++x) {
       vec3 a = colorAt(test, t, x, y);
       const vec3 b = colorAt(reference, r, x, y);
-      if (!isFinite(a) || !isFinite(b)) ++notFinite, a = vec3(0);
+      if (!isFinite(a) || !isFinite(b)) {
+        ++notFinite;
+        a = vec3(0);
+      }
       if (!isFinite(b) || colorAt(lit, l, x, y) == vec3(0)) continue;
       for (int c = 0; c < 3; ++c) visit(a[c], b[c]);
     }
@@ -70,7 +75,8 @@ MeanErrors meanErrors(const Image& test, const Image& reference, const Image& li
   int64_t count = 0;
   eachValue(test, reference, lit, [&](float t, float r) {
     sum.relative += std::abs(t - r) / (std::abs(r) + ChartReference::kFloor);
-    sum.square += double{t - r} * (t - r), ++count;
+    sum.square += double{t - r} * (t - r);
+    ++count;
   });
   const double n = static_cast<double>(std::max<int64_t>(count, 1));
   return {sum.relative / n, sum.square / n};
@@ -125,11 +131,15 @@ ErrorFigures ChartReference::errorOf(const Image& test) const {
   double squares = 0, tests = 0, references = 0;
   out.notFinite = eachValue(test, mean_, mean_, [&](float t, float r) {
     errors.push_back(std::abs(t - r) / (std::abs(r) + kFloor));
-    out.measured += errors.back(), squares += double{t - r} * (t - r), tests += t, references += r;
+    out.measured += errors.back();
+    squares += double{t - r} * (t - r);
+    tests += t;
+    references += r;
   });
   if (errors.empty()) return out;
   const double count = static_cast<double>(errors.size());
-  out.mean = out.measured /= count, squares /= count;
+  out.mean = out.measured /= count;
+  squares /= count;
   const auto p99 = errors.begin() + static_cast<ptrdiff_t>(0.99 * (count - 1));
   std::nth_element(errors.begin(), p99, errors.end());
   out.p99 = *p99;
@@ -138,7 +148,8 @@ ErrorFigures ChartReference::errorOf(const Image& test) const {
     for (size_t b = 0; b < batches_.size(); ++b) {
       const MeanErrors e = meanErrors(test, meanWithout(b), mean_);
       out.without.push_back(e.relative);
-      others.relative += e.relative * e.relative / batches(), others.square += e.square / batches();
+      others.relative += e.relative * e.relative / batches();
+      others.square += e.square / batches();
     }
     out.mean = std::sqrt(withoutNoise(out.measured * out.measured, others.relative, batches()));
     squares = withoutNoise(squares, others.square, batches());
@@ -195,7 +206,8 @@ float brightness(const Image& image) {
 Image thumbnail(const Image& image, int size, float gain) {
   const int step = (std::max(image.width, image.height) + size - 1) / size;
   Image out{image.width / step, image.height / step, {}, {}, 0, 0, 0, 0};
-  out.width = std::max(1, out.width), out.height = std::max(1, out.height);
+  out.width = std::max(1, out.width);
+  out.height = std::max(1, out.height);
   out = blank(out);
   const auto c = colors(image);
   for (int y = 0; y < out.height; ++y)
@@ -203,7 +215,10 @@ Image thumbnail(const Image& image, int size, float gain) {
       vec3 sum(0);
       int count = 0;
       for (int j = y * step; j < std::min((y + 1) * step, image.height); ++j)
-        for (int i = x * step; i < std::min((x + 1) * step, image.width); ++i) sum += colorAt(image, c, i, j), ++count;
+        for (int i = x * step; i < std::min((x + 1) * step, image.width); ++i) {
+          sum += colorAt(image, c, i, j);
+          ++count;
+        }
       set(out, x, y, gain * sum / static_cast<float>(std::max(count, 1)));
     }
   return out;

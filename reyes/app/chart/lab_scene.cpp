@@ -56,7 +56,8 @@ bool take(LabScene& scene, const std::string& word, const std::string& rest) {
     scene.methods.push_back({name, wordsOf(arguments)});
   } else if (word == "knob") {
     const auto [name, values] = named(rest);
-    scene.knob = name, scene.values = wordsOf(values);
+    scene.knob = name;
+    scene.values = wordsOf(values);
     return !scene.values.empty() && std::all_of(scene.values.begin(), scene.values.end(), isNumber);
   } else if (word == "limit") {
     const auto [warning, value] = named(rest);

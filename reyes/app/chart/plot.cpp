@@ -21,12 +21,15 @@ struct LogAxis {
 
   void extend(double v) {
     if (!(v > 0)) return;
-    low = std::min(low, v), high = std::max(high, v);
+    low = std::min(low, v);
+    high = std::max(high, v);
   }
   void settle(double pixelBegin, double pixelEnd) {
-    begin = pixelBegin, end = pixelEnd;
+    begin = pixelBegin;
+    end = pixelEnd;
     if (high == 0) low = high = 1;
-    low /= 1.25, high *= 1.25;
+    low /= 1.25;
+    high *= 1.25;
   }
   double at(double v) const {
     const double share = (std::log(std::clamp(v, low, high)) - std::log(low)) / (std::log(high) - std::log(low));
@@ -48,9 +51,14 @@ class Drawing : Markup {
  public:
   Drawing(const Plot& plot, int width, int height) : plot_(plot), width_(width), height_(height) {
     for (const PlotCurve& curve : plot.curves)
-      for (const PlotPoint& p : curve.points) x_.extend(p.x), y_.extend(p.y);
-    y_.extend(plot.floor), x_.extend(plot.limit);
-    x_.settle(kLeft, width - kRight), y_.settle(height - kBottom, kTop);
+      for (const PlotPoint& p : curve.points) {
+        x_.extend(p.x);
+        y_.extend(p.y);
+      }
+    y_.extend(plot.floor);
+    x_.extend(plot.limit);
+    x_.settle(kLeft, width - kRight);
+    y_.settle(height - kBottom, kTop);
   }
 
   std::string draw() {
@@ -181,8 +189,10 @@ std::string drawDifferences(const std::string& title, const std::vector<PlotDiff
   constexpr int kRow = 26, kNames = 190, kEnd = 170, kSize = 13;
   Markup out;
   double low = 0, high = 0;
-  for (const PlotDifference& r : rows)
-    low = std::min(low, r.mean - r.interval), high = std::max(high, r.mean + r.interval);
+  for (const PlotDifference& r : rows) {
+    low = std::min(low, r.mean - r.interval);
+    high = std::max(high, r.mean + r.interval);
+  }
   const double scale = (width - kNames - kEnd) / std::max(high - low, 1e-12);
   const auto at = [&](double v) { return kNames + (v - low) * scale; };
   const int height = kRow * static_cast<int>(rows.size()) + kSize;

@@ -80,7 +80,11 @@ bool isFlat(const ChartReport& report, size_t curve) {
   double least = kInfinity, most = 0;
   int count = 0;
   for (const ChartPoint& p : report.points)
-    if (p.curve == curve) least = std::min(least, p.error.mean), most = std::max(most, p.error.mean), ++count;
+    if (p.curve == curve) {
+      least = std::min(least, p.error.mean);
+      most = std::max(most, p.error.mean);
+      ++count;
+    }
   return count > 1 && most - least <= 1e-3 * most;
 }
 

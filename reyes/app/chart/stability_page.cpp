@@ -51,7 +51,8 @@ class StabilityPage : Markup {
             escapeXml(c.scene.methods[p.method].name), escapeXml(c.scene.knob), p.knob, notFiniteNote(p.error));
     Plot plot{c.scene.title, c.scene.knob, "mean relative error", {}, c.noiseFloor};
     if (c.scene.limit) {
-      plot.limit = std::stod(c.scene.limit->value), plot.limitName = "limit: " + c.scene.limit->warning;
+      plot.limit = std::stod(c.scene.limit->value);
+      plot.limitName = "limit: " + c.scene.limit->warning;
       put("<p>Limit: at {} {} and beyond the renderer warns (<code>{}</code>, red rings).</p>\n",
           escapeXml(c.scene.knob), c.scene.limit->value, escapeXml(c.scene.limit->warning));
     }

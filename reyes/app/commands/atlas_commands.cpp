@@ -196,7 +196,8 @@ int viewCommand(const ViewCommand& command) {
       look.files = {command.camera};
       scene = firstScene(look, log);
       if (!scene) return;
-      scene->options.xResolution = command.size[0], scene->options.yResolution = command.size[1];
+      scene->options.xResolution = command.size[0];
+      scene->options.yResolution = command.size[1];
       camera.emplace(scene->options);
       settings.project = [&](const vec3& p) -> std::optional<vec3> {
         const vec3 at = transformPoint(scene->cameraFromWorldAtOpen(), p);

@@ -74,8 +74,13 @@ class GuardedBatch {
       : grid(*g), active_(static_cast<size_t>(g->padded), 0), params_(g->params, g->params + paramCount() + 1) {
     for (int i = 0; i < g->count; ++i) active_[static_cast<size_t>(i)] = g->active[i] && i % 3 != 1;
     grid.active = active_.data();
-    guard("P", grid.P), guard("N", grid.N), guard("Ci", grid.Ci), guard("Oi", grid.Oi), guard("L", grid.L),
-        guard("Cl", grid.Cl), guard("alpha", grid.alpha);
+    guard("P", grid.P);
+    guard("N", grid.N);
+    guard("Ci", grid.Ci);
+    guard("Oi", grid.Oi);
+    guard("L", grid.L);
+    guard("Cl", grid.Cl);
+    guard("alpha", grid.alpha);
     for (int i = 0; i < paramCount(); ++i) guardOutput(watched.real->params[i], params_[static_cast<size_t>(i)]);
     grid.params = params_.data();
   }
@@ -97,7 +102,11 @@ class GuardedBatch {
   void guard(const std::string& name, float*& array) {
     if (array) array = arrays_.emplace_back(name, array, grid.padded).data();
   }
-  void guard(const std::string& name, TmVec3& v) { guard(name, v.x), guard(name, v.y), guard(name, v.z); }
+  void guard(const std::string& name, TmVec3& v) {
+    guard(name, v.x);
+    guard(name, v.y);
+    guard(name, v.z);
+  }
   /// Sets the array of an output that a Display wants, so that the shader writes to it.
   void guardOutput(const TmParamDecl& decl, TmValue& value) {
     if (!(decl.type & TM_OUTPUT)) return;

@@ -95,11 +95,15 @@ std::string wrapped(const std::string& text, size_t indent, size_t width) {
   std::string out;
   size_t column = indent;
   for (std::string word; words >> word;) {
-    if (!out.empty() && column + 1 + word.size() > width)
-      out += "\n" + std::string(indent, ' '), column = indent;
-    else if (!out.empty())
-      out += ' ', ++column;
-    out += word, column += word.size();
+    if (!out.empty() && column + 1 + word.size() > width) {
+      out += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!out.empty()) {
+      out += ' ';
+      ++column;
+    }
+    out += word;
+    column += word.size();
   }
   return out;
 }

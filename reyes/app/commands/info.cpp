@@ -29,7 +29,10 @@ Json channelInfo(const Image& image, size_t channel) {
       ++strange;
       continue;
     }
-    low = std::min(low, v), high = std::max(high, v), sum += static_cast<double>(v), ++finite;
+    low = std::min(low, v);
+    high = std::max(high, v);
+    sum += static_cast<double>(v);
+    ++finite;
   }
   return {{"name", image.channels[channel]},
           {"min", low},
@@ -64,14 +67,21 @@ void unreadable(const std::string& file, const char* kind, const std::string& er
 Json dfbInfo(const std::string& file, Log& log) {
   std::string error;
   const auto dfb = DfbFile::open(file, error);
-  if (!dfb) return unreadable(file, "a deep frame buffer", error, log), Json{};
+  if (!dfb) {
+    unreadable(file, "a deep frame buffer", error, log);
+    return Json{};
+  }
   const Shot& shot = dfb->shot();
   int64_t points = 0, facets = 0, fragments = 0;
   for (size_t i = 0; i < shot.frame.tileCount(); ++i) {
     const auto tile = dfb->tile(i, error);
-    if (!tile) return unreadable(file, "a deep frame buffer", error, log), Json{};
+    if (!tile) {
+      unreadable(file, "a deep frame buffer", error, log);
+      return Json{};
+    }
     for (const ShadePoints& batch : tile->batches) points += batch.count();
-    facets += static_cast<int64_t>(tile->facets.size()), fragments += static_cast<int64_t>(tile->fragments.size());
+    facets += static_cast<int64_t>(tile->facets.size());
+    fragments += static_cast<int64_t>(tile->fragments.size());
   }
   Json sources = Json::array(), lights = Json::array(), objects = Json::array();
   for (const SourceFile& source : shot.sources) sources.push_back(source.path);
@@ -103,7 +113,10 @@ Json dfbInfo(const std::string& file, Log& log) {
 Json icfInfo(const std::string& file, Log& log) {
   std::string error;
   const auto icf = IcfFile::open(file, error);
-  if (!icf || !icf->intact(error)) return unreadable(file, "an irradiance cache", error, log), Json{};
+  if (!icf || !icf->intact(error)) {
+    unreadable(file, "an irradiance cache", error, log);
+    return Json{};
+  }
   Json caches = Json::array();
   for (const PreparedCache& c : icf->shot().caches) {
     vec3 mean(0.0f);
@@ -200,7 +213,8 @@ int infoCommand(const InfoCommand& command) {
     std::puts(info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   } else if (!info.is_null()) {
     const Json needs = info.value("needs", Json());
-    info.erase("needs"), info.erase("missing");
+    info.erase("needs");
+    info.erase("missing");
     printText(info, 0);
     if (!needs.is_null()) printNeeds(needs);
   }

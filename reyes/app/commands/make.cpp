@@ -48,7 +48,9 @@ TextureRecipe recipeOf(const Request& r, Log& log) {
   if (r.name == "MakeCubeFaceEnvironment") {
     recipe.shape = TextureRecipe::Shape::Cube;
     for (size_t face = 0; face < 6; ++face) recipe.pictures.push_back(text(face));
-    recipe.file = text(6), recipe.fov_degrees = r.args[7].number(), recipe.filter = filterOf(r, text(8), log);
+    recipe.file = text(6);
+    recipe.fov_degrees = r.args[7].number();
+    recipe.filter = filterOf(r, text(8), log);
     if (!(recipe.fov_degrees >= 90 && recipe.fov_degrees < 179)) {
       log.report(Severity::Warning, "make-fov", r.where,
                  fmt::format("{}: faces of {} degrees do not close a cube; 90 is used", r.name, recipe.fov_degrees));
@@ -56,13 +58,20 @@ TextureRecipe recipeOf(const Request& r, Log& log) {
     }
   } else if (r.name == "MakeLatLongEnvironment") {
     recipe.shape = TextureRecipe::Shape::LatLong;
-    recipe.pictures = {text(0)}, recipe.file = text(1), recipe.filter = filterOf(r, text(2), log);
+    recipe.pictures = {text(0)};
+    recipe.file = text(1);
+    recipe.filter = filterOf(r, text(2), log);
   } else {
-    recipe.pictures = {text(0)}, recipe.file = text(1);
-    recipe.sWrap = wrapOf(r, text(2), log), recipe.tWrap = wrapOf(r, text(3), log),
+    recipe.pictures = {text(0)};
+    recipe.file = text(1);
+    recipe.sWrap = wrapOf(r, text(2), log);
+    recipe.tWrap = wrapOf(r, text(3), log);
     recipe.filter = filterOf(r, text(4), log);
   }
-  if (recipe.shape != TextureRecipe::Shape::Picture) recipe.sWrap = "periodic", recipe.tWrap = "clamp";
+  if (recipe.shape != TextureRecipe::Shape::Picture) {
+    recipe.sWrap = "periodic";
+    recipe.tWrap = "clamp";
+  }
   return recipe;
 }
 

@@ -247,7 +247,10 @@ void addTarget(CLI::App& app, RenderSettings& s) {
                                   "Choose them for the least error that a frame reaches in this time");
   budget->excludes(target);
   for (const char* chosen : {"--samples", "--max-error", "--light-samples", "--irradiance", "--draft"})
-    if (CLI::Option* option = app.get_option_no_throw(chosen)) target->excludes(option), budget->excludes(option);
+    if (CLI::Option* option = app.get_option_no_throw(chosen)) {
+      target->excludes(option);
+      budget->excludes(option);
+    }
 }
 
 void addWatching(CLI::App& app, RenderSettings& s) {

@@ -87,7 +87,8 @@ void SceneNeeds::add(const Attributes& a, const Scene& scene) {
   const auto take = [&](const std::shared_ptr<const ShaderCall>& call, TmKind kind) {
     if (call && seen_.insert(call.get()).second) addShader(*call, kind, scene.options);
   };
-  take(a.surface, TM_SURFACE), take(a.displacement, TM_DISPLACEMENT);
+  take(a.surface, TM_SURFACE);
+  take(a.displacement, TM_DISPLACEMENT);
   for (const auto& volume : {a.atmosphere, a.interior, a.exterior}) take(volume, TM_VOLUME);
 }
 
@@ -102,7 +103,8 @@ void SceneNeeds::add(const Scene& scene, const std::vector<Procedural>& procedur
 }
 
 void SceneNeeds::add(const Scene& scene) {
-  seen_.clear(), attributes_.clear();  // the pointers of earlier frames are dangling
+  seen_.clear();
+  attributes_.clear();  // the pointers of earlier frames are dangling
   for (const auto& light : scene.lights) addShader(light->shader, TM_LIGHT, scene.options);
   if (scene.options.imager) addShader(*scene.options.imager, TM_IMAGER, scene.options);
   for (const Object& o : scene.objects) add(*o.attributes, scene);

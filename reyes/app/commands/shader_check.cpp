@@ -81,7 +81,10 @@ class Check {
   /// Returns a line for each fault.
   std::string runAll() const {
     run({});
-    if (shader_.kind == TM_SURFACE) checkEmission(), checkEvenness();
+    if (shader_.kind == TM_SURFACE) {
+      checkEmission();
+      checkEvenness();
+    }
     std::string out;
     for (const std::string& fault : guardedFaults()) out += fmt::format("shader \"{}\" {}\n", shader_.name, fault);
     for (const LogEntry& e : log_.entries())  // adds the messages of the renderer, not those of the shader
@@ -96,7 +99,8 @@ class Check {
     }
     if (shader_.kind == TM_IMAGER) {
       Image image;
-      image.width = image.displayWidth = kGrid[0], image.height = image.displayHeight = kGrid[1];
+      image.width = image.displayWidth = kGrid[0];
+      image.height = image.displayHeight = kGrid[1];
       image.channels = {"R", "G", "B", "A"};
       image.pixels.assign(static_cast<size_t>(4 * kGrid[0] * kGrid[1]), 0.5f);
       return runImager(image, shading_);
@@ -112,7 +116,8 @@ class Check {
   void checkEmission() const {
     if (shader_.capabilities & TM_EMITS) return;
     ShadeContext dark;
-    dark.kind = RayKind::Diffuse, dark.light = Illumination::None;
+    dark.kind = RayKind::Diffuse;
+    dark.light = Illumination::None;
     run(dark);
     for (int i = 0; i < kPoints; ++i)
       if (out_.color(i) != vec3(0)) return noteFault("adds light where there is none, and has not declared TM_EMITS");
@@ -121,7 +126,8 @@ class Check {
   void checkEvenness() const {
     if (!(shader_.capabilities & TM_EVEN)) return;
     ShadeContext even;
-    even.kind = RayKind::Diffuse, even.light = Illumination::Unit;
+    even.kind = RayKind::Diffuse;
+    even.light = Illumination::Unit;
     run(even, true);
     const auto differ = [](const vec3& a, const vec3& b) {
       return glm::any(glm::greaterThan(glm::abs(a - b), 1e-4f * glm::max(vec3(1), glm::abs(a))));

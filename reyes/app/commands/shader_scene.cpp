@@ -45,8 +45,11 @@ class EmptySpace final : public ShadeServices {
     for (int i = 0; i < count; ++i) {
       const vec3 P(xi0[i] - 0.5f, xi1[i] - 0.5f, kLampDistance), way = vec3(from.x[i], from.y[i], from.z[i]) - P;
       const float cosine = glm::normalize(way).z;
-      out.P.x[i] = P.x, out.P.y[i] = P.y, out.P.z[i] = P.z;
-      out.N.x[i] = out.N.y[i] = 0, out.N.z[i] = 1;
+      out.P.x[i] = P.x;
+      out.P.y[i] = P.y;
+      out.P.z[i] = P.z;
+      out.N.x[i] = out.N.y[i] = 0;
+      out.N.z[i] = 1;
       out.density[i] = cosine > 0 ? glm::dot(way, way) / cosine : 0.0f;
       out.meetDensity[i] = 0;
     }
@@ -88,7 +91,8 @@ ShadePoints shaderScenePoints(const Scene& scene, const ShadingSystem& shading, 
         evaluateSteps(scene, object, 0, u, v, 0.5f / static_cast<float>(std::max(size[0], size[1])), points, k);
       points.channel(kDu)[k] = 1 / static_cast<float>(size[0]);
       points.channel(kDv)[k] = 1 / static_cast<float>(size[1]);
-      points.set3(kIx, k, points.position(k)), points.channel(kTime)[k] = -1;
+      points.set3(kIx, k, points.position(k));
+      points.channel(kTime)[k] = -1;
     }
   return points;
 }

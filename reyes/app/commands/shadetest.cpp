@@ -146,16 +146,21 @@ void testColors(const ShadetestCommand& command, const Trial& trial, const std::
   for (size_t i = 0; i < count; ++i) {
     const float* pixel = image.pixels.data() + i * image.channels.size();
     const vec3 c(pixel[0], pixel[1], pixel[2]);
-    low = glm::min(low, c), high = glm::max(high, c), mean += c / static_cast<float>(count);
+    low = glm::min(low, c);
+    high = glm::max(high, c);
+    mean += c / static_cast<float>(count);
   }
   std::puts(fmt::format("nanoseconds a point: {:.1f}", time_ns / static_cast<double>(count)).c_str());
-  say("Ci least", low), say("Ci mean", mean), say("Ci greatest", high);
+  say("Ci least", low);
+  say("Ci mean", mean);
+  say("Ci greatest", high);
   if (!command.output.empty()) writeImage(command.output, image, isForScreens(command.output), log);
 }
 
 Image blankImage(const std::array<int, 2>& size, std::vector<std::string> channels) {
   Image image;
-  image.width = image.displayWidth = size[0], image.height = image.displayHeight = size[1];
+  image.width = image.displayWidth = size[0];
+  image.height = image.displayHeight = size[1];
   image.channels = std::move(channels);
   return image;
 }

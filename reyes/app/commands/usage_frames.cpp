@@ -167,7 +167,10 @@ void buildBatch(CLI::App& app, Invocation& in, int& code) {
   c->add_flag("--json", b.json, "Report as JSON");
   addParsed(*c, "--html", b.page, parseNamed(".html"), "FILE.html", "Write the report as a page with small pictures");
   const auto picture = added(*c, [&] { addFrameSize(*c, s); });
-  const auto light = added(*c, [&] { addLightOptions(*c, s), addTrust(*c, s.trust); });
+  const auto light = added(*c, [&] {
+    addLightOptions(*c, s);
+    addTrust(*c, s.trust);
+  });
   c->add_option("SCENE", b.what,
                 "RIB files, or a plan to go on with; or status, cancel, retry, log with a PLAN (log PLAN FRAME)")
       ->required();

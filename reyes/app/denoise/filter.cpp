@@ -217,7 +217,10 @@ Candidate judged(Color a, Color b, const HalfBuffers& in, const Color& variance,
 std::vector<Plane> scaled(std::vector<Plane> guides) {
   for (Plane& g : guides) {
     double sum = 0, squares = 0;
-    for (const float v : g) sum += v, squares += double{v} * v;
+    for (const float v : g) {
+      sum += v;
+      squares += double{v} * v;
+    }
     const double n = static_cast<double>(g.size()), mean = sum / n,
                  deviation = std::sqrt(std::max(0.0, squares / n - mean * mean));
     for (float& v : g) v = deviation > 0 ? static_cast<float>((v - mean) / deviation) : 0.0f;
@@ -251,8 +254,10 @@ Denoised denoise(const HalfBuffers& in) {
     out.color[c].resize(size.count());
     for (size_t i = 0; i < size.count(); ++i) {
       float a = 0, b = 0;
-      for (size_t k = 0; k < candidates.size(); ++k)
-        a += chosen[k][i] * candidates[k].a[c][i], b += chosen[k][i] * candidates[k].b[c][i];
+      for (size_t k = 0; k < candidates.size(); ++k) {
+        a += chosen[k][i] * candidates[k].a[c][i];
+        b += chosen[k][i] * candidates[k].b[c][i];
+      }
       out.color[c][i] = 0.5f * (a + b);
       const double da = a - in.b[c][i], db = b - in.a[c][i], apart = a - b, noise = in.a[c][i] - in.b[c][i];
       sum += 0.5 * (double{in.a[c][i]} + in.b[c][i]);
@@ -265,7 +270,8 @@ Denoised denoise(const HalfBuffers& in) {
   }
   const double n = 3 * static_cast<double>(size.count()), mean = std::abs(sum) / n;
   const auto relative = [&](double squares) { return mean > 0 ? std::sqrt(std::max(0.0, squares) / n) / mean : 0.0; };
-  out.before = relative(before), out.after = relative(left + std::max(0.0, bias));
+  out.before = relative(before);
+  out.after = relative(left + std::max(0.0, bias));
   return out;
 }
 

@@ -94,12 +94,16 @@ std::vector<AuditedError> Audit::errorsOf(std::initializer_list<const FoundLight
     for (const FoundLight* light : {&direct_, &indirect_})
       if (light->rays > 0) right += light->missing(p);
     for (const FoundLight* light : kinds)
-      if (light->rays > 0) off += light->missing(p), noise += light->noise(p);
+      if (light->rays > 0) {
+        off += light->missing(p);
+        noise += light->noise(p);
+      }
     if (right == vec3(0.0f)) continue;
     AuditedError& e = out.emplace_back();
     for (int c = 0; c < 3; ++c) {
       const float unit = 3 * (std::abs(right[c]) + kAuditFloor);
-      e.error += std::abs(off[c]) / unit, e.noise += std::abs(noise[c]) / unit;
+      e.error += std::abs(off[c]) / unit;
+      e.noise += std::abs(noise[c]) / unit;
     }
   }
   return out;
@@ -109,7 +113,8 @@ void recordAudit(const AuditReport& r, Stats& stats) {
   const auto add = [&](const char* light, const ErrorEstimate& e) {
     stats.addAudit(light, {e.mean, e.low, e.high, e.noise, e.p99});
   };
-  stats.audit.pixels = static_cast<int64_t>(r.pixels), stats.audit.paths = r.paths;
+  stats.audit.pixels = static_cast<int64_t>(r.pixels);
+  stats.audit.paths = r.paths;
   add("picture", r.picture);
   if (r.indirect) add("indirect", *r.indirect);
   if (r.direct) add("direct", *r.direct);

@@ -16,14 +16,17 @@ constexpr double kOutside = 0.05;  ///< Share of the resamples on each side of t
 /// The sums of errors and of noise over some places.
 struct ErrorSums {
   double error = 0, noise = 0;
-  void add(const AuditedError& e) { error += double{e.error}, noise += double{e.noise}; }
+  void add(const AuditedError& e) {
+    error += double{e.error};
+    noise += double{e.noise};
+  }
   double mean(size_t places) const {
     return std::sqrt(std::max(0.0, error * error - noise * noise)) / static_cast<double>(places);
   }
 };
 
 double percentile(std::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -35,7 +38,10 @@ ErrorEstimate estimateError(std::span<const AuditedError> places) {
   if (places.empty()) return out;
   ErrorSums all;
   std::vector<double> errors;
-  for (const AuditedError& e : places) all.add(e), errors.push_back(double{e.error});
+  for (const AuditedError& e : places) {
+    all.add(e);
+    errors.push_back(double{e.error});
+  }
   out.mean = all.mean(places.size());
   out.noise = all.noise / static_cast<double>(places.size());
   out.p99 = percentile(errors, 0.99);

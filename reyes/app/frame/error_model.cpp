@@ -105,7 +105,10 @@ LightQuality ErrorModel::search(const Better& better) const {
     for (int m = narrowest; m <= widest; ++m)
       for (int l = fewestLight; l <= mostLight; l += 2) {
         LightQuality q = base;
-        if (base_.indirect == 0) q.samples = 0, q.maxError = -1;
+        if (base_.indirect == 0) {
+          q.samples = 0;
+          q.maxError = -1;
+        }
         if (base_.direct == 0) q.lightSamples = 0;
         if (q.samples > 0) q.samples = static_cast<int>(rounded(q.samples * halfOctaves(s)));
         if (q.maxError > 0) q.maxError = static_cast<float>(rounded(q.maxError * halfOctaves(m)));

@@ -176,7 +176,8 @@ void FrameJob::gatherRecords(const DeepFrame& layout, const TileReader& tiles,
 AuditPlan FrameJob::auditPlan(uint32_t seed) const {
   AuditPlan plan;
   if (settings_.audit > 0) plan.pixels = static_cast<size_t>(settings_.audit);
-  plan.seed = seed, plan.indirect = false;
+  plan.seed = seed;
+  plan.indirect = false;
   for (size_t g = 0; g < scene_.groups.size() && mode() != GiMode::None; ++g)
     plan.indirect |= shading_->indirectQuery(static_cast<int>(g)) != nullptr;
   return plan;

@@ -38,7 +38,10 @@ class FrameJob {
   ~FrameJob();
 
   /// Sets the shares of the progress at which all is hidden, and then gathered, for commands that do not do it all.
-  void setShares(float hidden, float gathered) { hidden_ = hidden, gathered_ = gathered; }
+  void setShares(float hidden, float gathered) {
+    hidden_ = hidden;
+    gathered_ = gathered;
+  }
   /// Reads all procedurals that are still closed. Call it before `hide` if tiles leave that one by one, to a file or
   /// shaded: it then finds no new shade groups on its way.
   void openAll();

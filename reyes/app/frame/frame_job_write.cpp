@@ -87,7 +87,8 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
 void FrameJob::show(const DeepFrame& layout, const ShownTiles& tiles, const ShownPart& part, const RowViewer& viewer,
                     const std::atomic<bool>& cancelled) {
   ShadeContext context = shadeContext();
-  context.lights = part.lights, context.indirect = part.indirect;
+  context.lights = part.lights;
+  context.indirect = part.indirect;
   DeepFrame frame = layout;
   frame.crop = part.window;
   const FrameControl control{{}, &cancelled, settings_.seed};

@@ -38,9 +38,11 @@ void setPhotons(GiServices& services, const FrameOfLight& frame) {
   if (!countsPhotons(methodOf(frame.settings, frame.shading), frame.scene)) return;
   const bool causticsAlone = methodOf(frame.settings, frame.shading).causticsAlone;
   PhotonPasses passes;
-  passes.photons = frame.settings.photons, passes.noise = frame.settings.photonNoise;
+  passes.photons = frame.settings.photons;
+  passes.noise = frame.settings.photonNoise;
   passes.seed = lightSeedOf(frame.settings);
-  passes.focusedOnly = causticsAlone, passes.shrinks = !causticsAlone;
+  passes.focusedOnly = causticsAlone;
+  passes.shrinks = !causticsAlone;
   passes.log = &frame.log;
   passes.tell = [log = &frame.log](int64_t sent, size_t points, double noise) {
     std::string text = fmt::format("{} photons were counted at {} points", sent, points);

@@ -61,7 +61,10 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
     const IrradianceRecords& records = c.cache.records();
     if (records.size() < kFewRecords) continue;
     double sum = 0, noise = 0;
-    for (const IrradianceRecord& r : records) sum += luminance(r.E), noise += r.noise;
+    for (const IrradianceRecord& r : records) {
+      sum += luminance(r.E);
+      noise += r.noise;
+    }
     const float dark = kDark * static_cast<float>(sum / static_cast<double>(records.size()));
     const auto uncertain = std::count_if(records.begin(), records.end(), [&](const IrradianceRecord& r) {
       return r.noise > kUncertain * std::max(luminance(r.E), dark);
@@ -99,7 +102,10 @@ void warnOfThinWalls(const RayScene& rays, Log& log) {
     const auto [at, first] = thin.try_emplace(objectName(o), Thin{&o, share, 0});
     if (first) continue;
     ++at->second.others;
-    if (share > at->second.share) at->second.worst = &o, at->second.share = share;
+    if (share > at->second.share) {
+      at->second.worst = &o;
+      at->second.share = share;
+    }
   }
   for (const auto& [name, t] : thin)
     log.report(Severity::Warning, "offset-thin", t.worst->where,

@@ -27,7 +27,9 @@ void writeForScreens(DisplayCall& display, const Options& options) {
   display.mode = "rgb";
   if (options.exposureGamma != 1 || findParam(display.params, "transfer")) return;
   Param transfer;
-  transfer.name = "transfer", transfer.type = ValueType::String, transfer.strings = {"sRGB"};
+  transfer.name = "transfer";
+  transfer.type = ValueType::String;
+  transfer.strings = {"sRGB"};
   display.params.push_back(std::move(transfer));
 }
 
@@ -56,7 +58,8 @@ std::set<std::string> replaceByOutput(Options& options, const RenderSettings& se
     other->name = beside(output, first->name, other->name);
     names.insert(other->name);
   }
-  first->name = output, first->type = "file";
+  first->name = output;
+  first->type = "file";
   if (isForScreens(settings.output)) writeForScreens(*first, options);
   return names;
 }

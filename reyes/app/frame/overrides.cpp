@@ -13,9 +13,13 @@ void makeDraft(Scene& scene) {
   constexpr float kCoarser = 16;
   constexpr int kSamples = 2, kRays = 50;
   Options& o = scene.options;
-  o.xSamples = std::min(o.xSamples, kSamples), o.ySamples = std::min(o.ySamples, kSamples);
-  changeAttributes(scene,
-                   [](Attributes& a) { a.displacement = nullptr, a.displacementBound = 0, a.shadingRate *= kCoarser; });
+  o.xSamples = std::min(o.xSamples, kSamples);
+  o.ySamples = std::min(o.ySamples, kSamples);
+  changeAttributes(scene, [](Attributes& a) {
+    a.displacement = nullptr;
+    a.displacementBound = 0;
+    a.shadingRate *= kCoarser;
+  });
   o.indirectSamples = kRays;
 }
 
@@ -34,7 +38,8 @@ void limitTextures(Options& options, int64_t limit_bytes) {
   const float most_KB = static_cast<float>(textureShare(limit_bytes)) / 1024;
   const float asked_KB = p.number(most_KB);
   p = {};
-  p.name = "texturememory", p.floats = {std::min(asked_KB, most_KB)};
+  p.name = "texturememory";
+  p.floats = {std::min(asked_KB, most_KB)};
 }
 
 RaySettings raySettings(const RenderSettings& settings, const Options& options) {
@@ -57,7 +62,9 @@ bool tracesFullGeometry(const RenderSettings& settings) {
 void setWord(Options& options, const std::string& key, const std::string& value) {
   if (value.empty()) return;
   Param p;
-  p.name = key.substr(key.find(':') + 1), p.type = ValueType::String, p.strings = {value};
+  p.name = key.substr(key.find(':') + 1);
+  p.type = ValueType::String;
+  p.strings = {value};
   options.user[key] = p;
 }
 
@@ -67,7 +74,8 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   setWord(scene.options, "shade:arealight", settings.arealight);
   if (settings.textureMemory) {
     Param kilobytes;
-    kilobytes.name = "texturememory", kilobytes.type = ValueType::Float;
+    kilobytes.name = "texturememory";
+    kilobytes.type = ValueType::Float;
     kilobytes.floats = {static_cast<float>(*settings.textureMemory >> 10)};
     scene.options.user["limits:texturememory"] = kilobytes;
   }
@@ -75,16 +83,25 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
   Options& o = scene.options;
   if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
   if (!writesMapsAlone(o, settings)) {
-    if (settings.format) o.xResolution = (*settings.format)[0], o.yResolution = (*settings.format)[1];
+    if (settings.format) {
+      o.xResolution = (*settings.format)[0];
+      o.yResolution = (*settings.format)[1];
+    }
     if (settings.crop) o.cropWindow = *settings.crop;
   }
   if (settings.gi && settings.gi->mode != GiMode::None) o.wantsIndirect = true;
   if (settings.draft) makeDraft(scene);
-  if (settings.pixelSamples) o.xSamples = (*settings.pixelSamples)[0], o.ySamples = (*settings.pixelSamples)[1];
+  if (settings.pixelSamples) {
+    o.xSamples = (*settings.pixelSamples)[0];
+    o.ySamples = (*settings.pixelSamples)[1];
+  }
   if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
   if (settings.shadingRate) changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
   if (tracesFullGeometry(settings))
-    changeAttributes(scene, [](Attributes& a) { a.trace.displacements = true, a.trace.rate = TessellationMode::Full; });
+    changeAttributes(scene, [](Attributes& a) {
+      a.trace.displacements = true;
+      a.trace.rate = TessellationMode::Full;
+    });
   if (settings.gi && settings.gi->mode == GiMode::Reference && scene.shutterIsOpen())
     changeAttributes(scene, [](Attributes& a) { a.trace.sampleMotion = true; });
 }

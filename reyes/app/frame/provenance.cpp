@@ -32,18 +32,24 @@ std::string settingsText(const RenderSettings& s) {
     if (value != unasked) out += fmt::format("{}{} {}", out.empty() ? "" : " ", option, value);
   };
   add("--gi", std::string_view(s.gi ? s.gi->name : "scene"), std::string_view("scene"));
-  add("--samples", s.samples, usual.samples), add("--bounces", s.bounces, usual.bounces);
+  add("--samples", s.samples, usual.samples);
+  add("--bounces", s.bounces, usual.bounces);
   add("--max-error", s.maxError, usual.maxError);
   add("--error-function", s.errorFunction ? static_cast<int>(*s.errorFunction) : -1, -1);
-  add("--target-error", s.targetError, usual.targetError), add("--time-budget", s.timeBudget_s, usual.timeBudget_s);
-  add("--light-samples", s.lightSamples, usual.lightSamples), add("--indirect-only", !s.direct, false);
-  add("--seed", s.seed, usual.seed), add("--light-seed", lightSeedOf(s), s.seed);
-  add("--photons", s.photons, usual.photons), add("--photon-noise", s.photonNoise, usual.photonNoise);
+  add("--target-error", s.targetError, usual.targetError);
+  add("--time-budget", s.timeBudget_s, usual.timeBudget_s);
+  add("--light-samples", s.lightSamples, usual.lightSamples);
+  add("--indirect-only", !s.direct, false);
+  add("--seed", s.seed, usual.seed);
+  add("--light-seed", lightSeedOf(s), s.seed);
+  add("--photons", s.photons, usual.photons);
+  add("--photon-noise", s.photonNoise, usual.photonNoise);
   add("--atlas-direct", s.atlasDirect, usual.atlasDirect);
   add("--brick-maxerror", s.brickMaxError, usual.brickMaxError);
   add("--radiosity-texels", s.radiosityTexels, usual.radiosityTexels);
   add("--irradiance-append", s.appendIrradiance, usual.appendIrradiance);
-  add("--no-hit-list", !s.hitList, false), add("--ray-geometry full", s.fullGeometry.value_or(false), false);
+  add("--no-hit-list", !s.hitList, false);
+  add("--ray-geometry full", s.fullGeometry.value_or(false), false);
   add("--standard-shaders files", s.standardFromFiles, usual.standardFromFiles);
   return out;
 }
@@ -67,7 +73,8 @@ uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
   if (scene.options.imager) add(&*scene.options.imager, TM_IMAGER);
   for (const ShadeGroup& group : scene.groups) {
     const Attributes& a = *group.attributes;
-    add(a.surface.get(), TM_SURFACE), add(a.displacement.get(), TM_DISPLACEMENT);
+    add(a.surface.get(), TM_SURFACE);
+    add(a.displacement.get(), TM_DISPLACEMENT);
     for (const auto& volume : {a.atmosphere, a.interior, a.exterior}) add(volume.get(), TM_VOLUME);
   }
   shaders.prepare(names, path);
@@ -100,11 +107,16 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
   if (!scene.procedurals.empty() || !given.empty()) return {};
   Options options = scene.options;
   const Options usual;
-  options.bucketWidth = usual.bucketWidth, options.bucketHeight = usual.bucketHeight;
+  options.bucketWidth = usual.bucketWidth;
+  options.bucketHeight = usual.bucketHeight;
   options.bucketOrder = usual.bucketOrder;
-  options.searchPaths.clear(), options.user.clear();  // worldSum() has what counts of them
-  options.cropWindow = usual.cropWindow;              // pictures have windows of their own
-  for (DisplayCall& d : options.displays) d.where = {}, d.name.clear();
+  options.searchPaths.clear();
+  options.user.clear();                   // worldSum() has what counts of them
+  options.cropWindow = usual.cropWindow;  // pictures have windows of their own
+  for (DisplayCall& d : options.displays) {
+    d.where = {};
+    d.name.clear();
+  }
   Motion camera = scene.cameraFromWorld;
   const std::string version = std::string(kVersion) + sourceCommit(), text = settingsText(settings);
   return fmt::format("{:016x}",
@@ -112,7 +124,8 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
 }
 
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {
-  addToPictures(options, kVersionOf, kVersion, settings), addToPictures(options, kCommit, sourceCommit(), settings);
+  addToPictures(options, kVersionOf, kVersion, settings);
+  addToPictures(options, kCommit, sourceCommit(), settings);
   addToPictures(options, kScene, sceneText(settings), settings);
   addToPictures(options, kFrame, std::to_string(options.frame), settings);
   addToPictures(options, kFinishedShare, kAllFinished, settings);

@@ -94,7 +94,10 @@ void ShotJob::prepareLight() {
     if (given.emitters && files_->hasAnswers()) job_->services()->useEmitters(*given.emitters);
     moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
     std::optional<PixelRect> anew;
-    if (gathersAnew_) dropRecordsOfCrop(given.caches), anew = shot_.frame.crop;
+    if (gathersAnew_) {
+      dropRecordsOfCrop(given.caches);
+      anew = shot_.frame.crop;
+    }
     if (gathers_) takeEdits(given.caches);
     job_->services()->useCaches(std::move(given.caches), anew);
   }
@@ -158,7 +161,8 @@ void ShotJob::prepareToShow() {
 }
 
 void ShotJob::choose(const std::string* lights, bool indirect) {
-  shownLights_ = lights, showsIndirect_ = indirect;
+  shownLights_ = lights;
+  showsIndirect_ = indirect;
   const std::vector<std::string>& groups = shareGroups();
   if (groups.empty()) return;
   std::vector<vec3> gains = lightEdits_.gains, chosen;
@@ -230,7 +234,8 @@ void ShotJob::gatherIrradiance() {
   std::string error;
   const auto out = IcfWriter::create(settings_.output, error);
   if (!out) return unwritten(error);
-  gathers_ = true, gathersAnew_ = settings_.crop.has_value();
+  gathers_ = true;
+  gathersAnew_ = settings_.crop.has_value();
   prepareLight();
   const RayTools* tools = world_->tools();
   if (!tools) return;

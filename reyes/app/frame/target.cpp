@@ -127,7 +127,8 @@ void useTimeBudget(FrameJob& job, const DeepFrame& layout, const TileReader& til
     const LightQuality better = trials.model.best(left_s());
     if (trials.model.error(better) < trials.model.error(quality)) {
       quality = better;
-      job.setQuality(quality), job.gather(layout, tiles);
+      job.setQuality(quality);
+      job.gather(layout, tiles);
     }
   }
   const int fewest = quality.lightSamples / kMostCutOfLamps;

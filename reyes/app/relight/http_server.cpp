@@ -81,7 +81,7 @@ struct HttpServer::Impl {
       reply = {400, "text/plain", "this is not the JSON that is expected here"};
     }
     response.status = reply.status;
-    response.set_content(std::move(reply.body), reply.type.c_str());
+    response.set_content(reply.body, reply.type);
   }
 };
 

@@ -144,7 +144,8 @@ class Relight {
     if (!ended_) relighting_.layers().wait(after);
     std::string blocks = relighting_.layers().blocksAfter(after, kMostBlocks_bytes);
     Json status = relighting_.status();
-    status["after"] = after, status["editor"] = editor_.page();
+    status["after"] = after;
+    status["editor"] = editor_.page();
     std::string text = status.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const auto length = static_cast<uint32_t>(text.size());

@@ -42,7 +42,8 @@ bool Relighting::prepare() {
     job.reset();
     if (gathers) {
       RenderSettings gather = settings_;
-      gather.output = (folder_.path() / "shot.icf").string(), gather.byLight = true;
+      gather.output = (folder_.path() / "shot.icf").string();
+      gather.byLight = true;
       if ((job = ShotJob::open(gather, stats_, log_))) job->gatherIrradiance();
       job.reset();
       settings_.irradiance = gather.output;
@@ -57,7 +58,8 @@ bool Relighting::prepare() {
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings_, log_);
   editable_ = editableOf(job->shot().scene, *shaders);
   window_ = job->shot().frame.crop;
-  pointerX_ = window_.x0 + window_.width() / 2, pointerY_ = window_.y0 + window_.height() / 2;
+  pointerX_ = window_.x0 + window_.width() / 2;
+  pointerY_ = window_.y0 + window_.height() / 2;
   listLayers(*job);
   layers_ = std::make_unique<LayerStore>(window_, list_.size());
   return true;
@@ -87,8 +89,8 @@ EditState Relighting::relevant(const Layer& layer, const EditState& state) const
   for (const auto& [handle, params] : state.lights) {
     const EditableShader& light = *std::ranges::find(editable_.lights, handle, &EditableShader::owner);
     const bool own = std::ranges::count(layer.handles, handle) > 0;
-    const bool direct =
-        std::ranges::any_of(list_, [&](const Layer& l) { return std::ranges::count(l.handles, handle) > 0; });
+    const bool direct = std::ranges::any_of(
+        list_, [owner = handle](const Layer& l) { return std::ranges::count(l.handles, owner) > 0; });
     if (!whole && !own && direct) continue;
     // The page mixes a layer by the factor of its light. Lights of one layer may each have another.
     const bool mixed = own && layer.handles.size() == 1;
@@ -122,9 +124,14 @@ void Relighting::work() {
       changed_.wait(lock);
       continue;
     }
-    cancel_ = false, done_ = 0;
+    cancel_ = false;
+    done_ = 0;
     doing_ = pass ? list_[pass->layer].name : "checking that light adds up";
-    if (pass) running_ = pass->layer, list_[pass->layer].begun = pass->state, ++list_[pass->layer].version;
+    if (pass) {
+      running_ = pass->layer;
+      list_[pass->layer].begun = pass->state;
+      ++list_[pass->layer].version;
+    }
     lock.unlock();
     try {
       pass ? run(*pass) : checkLinearity();
@@ -266,7 +273,8 @@ EditState Relighting::present() const {
 
 void Relighting::pointAt(int x, int y) {
   const std::lock_guard lock(mutex_);
-  pointerX_ = window_.x0 + x, pointerY_ = window_.y0 + y;
+  pointerX_ = window_.x0 + x;
+  pointerY_ = window_.y0 + y;
 }
 
 void Relighting::askForWhole() {

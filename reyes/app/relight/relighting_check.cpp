@@ -42,7 +42,8 @@ void Relighting::checkLinearity() {
         vec3 mixed(0.0f), rounding(kLeastDifference);
         for (size_t i = 1; i < weights.size(); ++i) {
           const vec3 share = weights[i] * layers_->at(i, rows.originX + x, rows.originY + y);
-          mixed += share, rounding += kHalfRounding * glm::abs(share);
+          mixed += share;
+          rounding += kHalfRounding * glm::abs(share);
         }
         if (!glm::any(glm::greaterThan(glm::abs(mixed - colorAt(rows, x, y)), rounding))) continue;
         const std::optional<int> group = groupAt(rows.originX + x, rows.originY + y);

@@ -42,7 +42,10 @@ std::string pixelReport(const DeepTile& tile, int x, int y, int samplesPerPixel,
         text(mean(facet, [&](int p) { return points.get3(kNx, p); })));
     for (uint64_t left = f.samples; left; left &= left - 1) {
       vec3& through = clear[size_t{f.word} * 64 + static_cast<size_t>(std::countr_zero(left))];
-      if (!facet.matte) color += through * Ci, alpha += through * Oi;
+      if (!facet.matte) {
+        color += through * Ci;
+        alpha += through * Oi;
+      }
       through *= vec3(1.0f) - Oi;
     }
   }

@@ -11,7 +11,9 @@ constexpr size_t kChannels = 4;               ///< R G B A, the first of a frame
 
 DriverPicture pictureOf(const std::string& address, const std::string& name, const DeepFrame& layout) {
   Param title;
-  title.name = "title", title.type = ValueType::String, title.strings = {name};
+  title.name = "title";
+  title.type = ValueType::String;
+  title.strings = {name};
   const PixelRect& crop = layout.crop;
   return {.name = address,
           .mode = "rgba",

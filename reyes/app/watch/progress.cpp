@@ -75,7 +75,11 @@ void ProgressMeter::report(const char* pass, float share, float frame) {
   tellFrame(frame);
 }
 
-void ProgressMeter::enter(const char* pass) { pass_ = pass, passStart_ = Clock::now(), passPercent_ = -1; }
+void ProgressMeter::enter(const char* pass) {
+  pass_ = pass;
+  passStart_ = Clock::now();
+  passPercent_ = -1;
+}
 
 void ProgressMeter::tellPass(float share) {
   const int percent = percentOf(share), step = terminal_ ? 1 : kStepOfPass;

@@ -33,7 +33,10 @@ std::vector<LogEntry> newOf(const std::vector<LogEntry>& before, std::vector<Log
     now[i].count -= before[i].count;
     auto& places = now[i].places;
     const auto old = static_cast<std::ptrdiff_t>(before[i].places.size());
-    if (std::ssize(places) > old) places.erase(places.begin(), places.begin() + old), now[i].where = places.front();
+    if (std::ssize(places) > old) {
+      places.erase(places.begin(), places.begin() + old);
+      now[i].where = places.front();
+    }
   }
   std::erase_if(now, [](const LogEntry& e) { return e.count == 0; });
   return now;
@@ -109,7 +112,8 @@ void RunReport::finish() {
 }
 
 void RunReport::startFrame() {
-  frameStart_ = Clock::now(), frameCpuStart_ = processCpuSeconds();
+  frameStart_ = Clock::now();
+  frameCpuStart_ = processCpuSeconds();
   peak_ = std::max(peak_, peakResidentBytes());
   restartPeak();
 }
@@ -117,7 +121,10 @@ void RunReport::startFrame() {
 void RunReport::startFigures() {
   startFrame();
   stats_.emplace();
-  start_ = frameStart_, cpuStart_ = frameCpuStart_, peak_ = 0, outputsSaid_ = 0;
+  start_ = frameStart_;
+  cpuStart_ = frameCpuStart_;
+  peak_ = 0;
+  outputsSaid_ = 0;
   before_ = log_.entries();
 }
 

@@ -40,7 +40,10 @@ void fill(Image& image, const PixelRect& square, const vec3& color, float alpha)
   for (int y = std::max(square.y0, image.originY); y < std::min(square.y1, image.originY + image.height); ++y)
     for (int x = std::max(square.x0, image.originX); x < std::min(square.x1, image.originX + image.width); ++x) {
       float* pixel = image.at(x - image.originX, y - image.originY);
-      pixel[0] = color.x, pixel[1] = color.y, pixel[2] = color.z, pixel[3] = alpha;
+      pixel[0] = color.x;
+      pixel[1] = color.y;
+      pixel[2] = color.z;
+      pixel[3] = alpha;
     }
 }
 

@@ -138,11 +138,15 @@ void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
   const float cutoff = number(material, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5f);
   const bool isMask = alphaMode(material) == "MASK";
   if (alphaMode(material) == "OPAQUE" || (isMask && cutoff <= 0)) {
-    look.opacity = 1, look.usesVertexAlpha = false;
+    look.opacity = 1;
+    look.usesVertexAlpha = false;
     return;
   }
   painter.add({aiTextureType_BASE_COLOR, "opacitymap", "opacity", "opacitychannel", 3});
-  if (isMask) look.shader = "disneycutout", look.parameters.push_back(param("opacitycutoff", cutoff));
+  if (isMask) {
+    look.shader = "disneycutout";
+    look.parameters.push_back(param("opacitycutoff", cutoff));
+  }
 }
 
 /// What is not lit glows in its colour. Its picture is the only one.
@@ -156,7 +160,8 @@ void makeUnlit(Look& look) {
       if (p.name == "texturename") p.name = "emissionmap";
       out.push_back(p);
     }
-  look.parameters = std::move(out), look.color = vec3(0.0f);
+  look.parameters = std::move(out);
+  look.color = vec3(0.0f);
 }
 
 void addPictures(const aiMaterial& material, Textures& textures, bool pictureReplaces, Look& look) {

@@ -13,7 +13,8 @@ RibArg argOf(RibArg::Kind kind) {
 
 Param paramOf(std::string name, ValueType type) {
   Param out;
-  out.name = std::move(name), out.type = type;
+  out.name = std::move(name);
+  out.type = type;
   return out;
 }
 
@@ -73,7 +74,9 @@ Param param(std::string name, ValueType type, const vec3& value) {
 }
 Param variable(std::string name, Storage storage, ValueType type, std::vector<float> values, int arrayLength) {
   Param out = paramOf(std::move(name), type);
-  out.storage = storage, out.arrayLength = arrayLength, out.floats = std::move(values);
+  out.storage = storage;
+  out.arrayLength = arrayLength;
+  out.floats = std::move(values);
   return out;
 }
 

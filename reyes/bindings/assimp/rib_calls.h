@@ -28,7 +28,8 @@ Param variable(std::string name, Storage storage, ValueType type, std::vector<fl
 template <class... Args>
 Request callWith(ParamList params, std::string name, Args&&... args) {
   Request out;
-  out.name = std::move(name), out.params = std::move(params);
+  out.name = std::move(name);
+  out.params = std::move(params);
   (out.args.push_back(arg(std::forward<Args>(args))), ...);
   return out;
 }

@@ -35,7 +35,10 @@ std::vector<vec3> smoothNormals(const std::vector<vec3>& points, const std::vect
   for (const int count : counts) {
     const int* face = corners.data() + first;
     const vec3 n = faceNormal(points, face, count);
-    for (int k = 0; k < count; ++k, ++first) normal[first] = n, weighted[first] = angleAt(points, face, count, k) * n;
+    for (int k = 0; k < count; ++k, ++first) {
+      normal[first] = n;
+      weighted[first] = angleAt(points, face, count, k) * n;
+    }
   }
   std::vector<int> begin(points.size() + 1, 0), around(corners.size());  // corners by point
   for (const int p : corners) ++begin[static_cast<size_t>(p) + 1];

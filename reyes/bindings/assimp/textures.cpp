@@ -54,7 +54,9 @@ std::string foundBeside(const std::string& model, const std::string& name) {
 /// Uncompressed Targa, whose order of channels is that of aiTexel.
 std::string targaOf(const aiTexture& texture) {
   std::string out(18, '\0');
-  out[2] = 2, out[16] = 32, out[17] = 0x28;
+  out[2] = 2;
+  out[16] = 32;
+  out[17] = 0x28;
   for (int k = 0; k < 2; ++k) {
     out[static_cast<size_t>(12 + k)] = static_cast<char>(texture.mWidth >> (8 * k));
     out[static_cast<size_t>(14 + k)] = static_cast<char>(texture.mHeight >> (8 * k));
@@ -95,7 +97,10 @@ std::string Textures::convert(const std::string& name, const char* sWrap, const 
   if (picture.empty()) return report("is neither in the model nor beside it");
   const Parts::Place place = parts_.reserve(fs::path(name).stem().string(), ".tx");
   TextureRecipe recipe;
-  recipe.pictures = {picture}, recipe.file = place.path, recipe.sWrap = sWrap, recipe.tWrap = tWrap;
+  recipe.pictures = {picture};
+  recipe.file = place.path;
+  recipe.sWrap = sWrap;
+  recipe.tWrap = tWrap;
   std::string error;
   if (makeTexture(recipe, error) != Making::Done) return report("cannot be read: " + error);
   return place.name;

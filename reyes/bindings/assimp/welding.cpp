@@ -36,7 +36,8 @@ Welded weld(const aiMesh& mesh, const std::vector<int>& corners) {
     while (table[at] >= 0 && !lies(table[at])) at = (at + 1) & (size - 1);
     if (table[at] < 0) {
       table[at] = static_cast<int>(out.points.size());
-      out.points.emplace_back(p.x, p.y, p.z), out.vertexOf.push_back(corner);
+      out.points.emplace_back(p.x, p.y, p.z);
+      out.vertexOf.push_back(corner);
     } else {
       out.oneToOne = false;
     }

@@ -13,7 +13,8 @@ struct Angles {
     uint32_t far = 0;
     RSL_LANES for (int k = 0; k < kBlock; ++k) {
       const Angle a = angleOf(x[k]);
-      rest[k] = a.rest, quarters[k] = a.quarters;
+      rest[k] = a.rest;
+      quarters[k] = a.quarters;
       far |= std::abs(x[k]) < kFar ? 0u : 1u;
     }
     if (far) takeFar(x);

@@ -70,7 +70,9 @@ RSL_KERNEL(RotateMatrix) {
       float *x = m.at[i][0], *y = m.at[i][1], *z = m.at[i][2];
       RSL_LANES for (int k = 0; k < kBlock; ++k) {
         const Vec3 row = rsl::rotated(unit, cosineOf(angles[k]), sineOf(angles[k]), {}, axis.get(k));
-        x[k] = row.x, y[k] = row.y, z[k] = row.z;
+        x[k] = row.x;
+        y[k] = row.y;
+        z[k] = row.z;
       }
     }
   });

@@ -48,12 +48,15 @@ RSL_INLINE void invert(MatrixBlock& left, MatrixBlock& right, float* determinant
   for (int k = 0; k < kBlock; ++k) determinant[k] = exists[k] = 1;
   for (int c = 0; c < 4; ++c) {
     float pivot[kBlock], largest[kBlock], by[kBlock];
-    RSL_LANES for (int k = 0; k < kBlock; ++k) pivot[k] = static_cast<float>(c),
-                                               largest[k] = std::abs(left.at[c][c][k]);
+    RSL_LANES for (int k = 0; k < kBlock; ++k) {
+      pivot[k] = static_cast<float>(c);
+      largest[k] = std::abs(left.at[c][c][k]);
+    }
     for (int r = c + 1; r < 4; ++r) RSL_LANES for (int k = 0; k < kBlock; ++k) {
         const float size = std::abs(left.at[r][c][k]);
         const bool larger = size > largest[k];
-        pivot[k] = larger ? static_cast<float>(r) : pivot[k], largest[k] = larger ? size : largest[k];
+        pivot[k] = larger ? static_cast<float>(r) : pivot[k];
+        largest[k] = larger ? size : largest[k];
       }
     for (int r = c + 1; r < 4; ++r)
       for (int j = 0; j < 8; ++j) {
@@ -61,22 +64,27 @@ RSL_INLINE void invert(MatrixBlock& left, MatrixBlock& right, float* determinant
         RSL_LANES for (int k = 0; k < kBlock; ++k) {
           const bool swap = pivot[k] == static_cast<float>(r);
           const float x = above[k], y = below[k];
-          above[k] = swap ? y : x, below[k] = swap ? x : y;
+          above[k] = swap ? y : x;
+          below[k] = swap ? x : y;
         }
       }
     RSL_LANES for (int k = 0; k < kBlock; ++k) {
       const float d = left.at[c][c][k], so = pivot[k] != static_cast<float>(c) ? -determinant[k] : determinant[k];
       exists[k] = largest[k] == 0 ? 0 : exists[k];
-      determinant[k] = so * d, by[k] = 1 / d;
+      determinant[k] = so * d;
+      by[k] = 1 / d;
     }
-    for (int j = 0; j < 4; ++j)
-      RSL_LANES for (int k = 0; k < kBlock; ++k) left.at[c][j][k] *= by[k], right.at[c][j][k] *= by[k];
+    for (int j = 0; j < 4; ++j) RSL_LANES for (int k = 0; k < kBlock; ++k) {
+        left.at[c][j][k] *= by[k];
+        right.at[c][j][k] *= by[k];
+      }
     for (int r = 0; r < 4; ++r) {
       if (r == c) continue;
       float factor[kBlock];
       copyBlock(factor, left.at[r][c]);
       for (int j = 0; j < 4; ++j) RSL_LANES for (int k = 0; k < kBlock; ++k) {
-          left.at[r][j][k] -= factor[k] * left.at[c][j][k], right.at[r][j][k] -= factor[k] * right.at[c][j][k];
+          left.at[r][j][k] -= factor[k] * left.at[c][j][k];
+          right.at[r][j][k] -= factor[k] * right.at[c][j][k];
         }
     }
   }

@@ -15,16 +15,16 @@ RSL_INLINE float cellOf(const rsl::LatticePlace& p) { return rsl::cellnoiseAt(p,
 
 /// Makes kernels of noise that give a number or a triple: value(at) is the noise at a LatticePlace, `place` the
 /// position that `parameters` mean. The components of a triple look at places far from each other.
-#define RSL_LATTICE_NOISE(name, parameters, place, value)                                          \
-  RSL_INLINE void name##At(int blocks, const Lanes& out, const Lanes* in, Vec3 far) {              \
-    eachByReach(                                                                                   \
-        blocks, out, in, [far] parameters RSL_INLINED { return rsl::isNearLattice(place + far); }, \
-        [far] parameters RSL_INLINED { return value(nearLatticePlace(place + far)); },             \
-        [far] parameters RSL_INLINED { return value(latticePlace(place + far)); });                \
-  }                                                                                                \
-  RSL_KERNEL(name##F) { name##At(blocks, out, in, Vec3{}); }                                       \
-  RSL_KERNEL(name##T) {                                                                            \
-    for (int c = 0; c < 3; ++c) name##At(blocks, componentOf(out, c), in, rsl::kTriplePlaces[c]);  \
+#define RSL_LATTICE_NOISE(name, parameters, place, value)                                            \
+  RSL_INLINE void name##At(int blocks, const Lanes& out, const Lanes* in, Vec3 far) {                \
+    eachByReach(                                                                                     \
+        blocks, out, in, [far] parameters RSL_INLINED { return rsl::isNearLattice((place) + far); }, \
+        [far] parameters RSL_INLINED { return value(nearLatticePlace((place) + far)); },             \
+        [far] parameters RSL_INLINED { return value(latticePlace((place) + far)); });                \
+  }                                                                                                  \
+  RSL_KERNEL(name##F) { name##At(blocks, out, in, Vec3{}); }                                         \
+  RSL_KERNEL(name##T) {                                                                              \
+    for (int c = 0; c < 3; ++c) name##At(blocks, componentOf(out, c), in, rsl::kTriplePlaces[c]);    \
   }
 
 RSL_LATTICE_NOISE(Noise1, (float x), (Vec3{x, kNoiseCut, kNoiseCut}), rsl::noiseAt)
@@ -46,7 +46,7 @@ RSL_LATTICE_NOISE(Cell3, (Vec3 p), p, cellOf)
     for (int c = 0; c < 3; ++c) {                                          \
       const Vec3 far = rsl::kTriplePlaces[c];                              \
       each(blocks, componentOf(out, c), in, [far] parameters RSL_INLINED { \
-        const Vec3 q = place + far;                                        \
+        const Vec3 q = (place) + far;                                      \
         return value;                                                      \
       });                                                                  \
     }                                                                      \

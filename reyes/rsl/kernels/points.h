@@ -48,7 +48,11 @@ struct Plane<rsl::Vec3> {
   float *x, *y, *z;
   RSL_INLINE Plane(const Lanes& l, int b) : x(planeOf(l, b, 0)), y(planeOf(l, b, 1)), z(planeOf(l, b, 2)) {}
   RSL_INLINE rsl::Vec3 get(int k) const { return {x[k], y[k], z[k]}; }
-  RSL_INLINE void set(int k, rsl::Vec3 v) const { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
+  RSL_INLINE void set(int k, rsl::Vec3 v) const {
+    x[k] = v.x;
+    y[k] = v.y;
+    z[k] = v.z;
+  }
 };
 
 template <class Op, class Out, class... In>

@@ -29,7 +29,8 @@ void Angles::takeFar(const float* x) {
   for (int k = 0; k < kBlock; ++k) {
     if (std::abs(x[k]) < kFar) continue;
     const Angle a = farAngleOf(x[k]);
-    rest[k] = a.rest, quarters[k] = a.quarters;
+    rest[k] = a.rest;
+    quarters[k] = a.quarters;
   }
 }
 

@@ -25,7 +25,9 @@ TmConstVec3 Call::copied(size_t k) {
   const auto n = static_cast<size_t>(run.padded);
   const TmConstVec3 from = triple(k);
   float* const to = run.memory.floats(3 * n);
-  std::copy_n(from.x, n, to), std::copy_n(from.y, n, to + n), std::copy_n(from.z, n, to + 2 * n);
+  std::copy_n(from.x, n, to);
+  std::copy_n(from.y, n, to + n);
+  std::copy_n(from.z, n, to + 2 * n);
   return {to, to + n, to + 2 * n};
 }
 

@@ -49,7 +49,10 @@ struct Run {
     return memory.text(texts + static_cast<size_t>(program.located(r).at + element));
   }
   /// The batch with its present mask, for a call of a service.
-  const TmGrid* asking() { return grid.active = mask->on, &grid; }
+  const TmGrid* asking() {
+    grid.active = mask->on;
+    return &grid;
+  }
   int32_t firstActive() const;
   void warn(const std::string& message);
   void missing(const std::string& message);

@@ -209,8 +209,9 @@ void storeOutput(Run& run, int32_t r) {
 void storeOwnColors(Run& run, bool Ci, bool Oi) {
   const TmGrid& g = run.given;
   const auto copy = [&](TmConstVec3 from, TmVec3 to) {
-    storeComponent(run, from.x, true, to.x), storeComponent(run, from.y, true, to.y),
-        storeComponent(run, from.z, true, to.z);
+    storeComponent(run, from.x, true, to.x);
+    storeComponent(run, from.y, true, to.y);
+    storeComponent(run, from.z, true, to.z);
   };
   if (!Ci) copy(g.Cs, g.Ci);
   if (!Oi) copy(g.Os, g.Oi);
@@ -247,7 +248,8 @@ void store(Run& run) {
     if (l.global < 0 || !l.assigned) continue;
     const auto global = static_cast<Global>(l.global);
     storeGlobal(run, global, r);
-    Ci |= global == Global::Ci, Oi |= global == Global::Oi;
+    Ci |= global == Global::Ci;
+    Oi |= global == Global::Oi;
   }
   if (run.program.code().kind == ShaderKind::Surface) storeOwnColors(run, Ci, Oi);
 }

@@ -19,8 +19,10 @@ TOMALES_HOT bool narrow(int n, const uint8_t* outer, const float* condition, uin
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const uint8_t on = outer[i], holds = condition[i] != 0.0f, in = on & holds, out = on & (holds ^ 1);
-    inner[i] = in, other[i] = out;
-    some |= in, rest |= out;
+    inner[i] = in;
+    other[i] = out;
+    some |= in;
+    rest |= out;
   }
   anyOther = rest != 0;
   return some != 0;

@@ -22,7 +22,8 @@ class Narrowed {
   explicit Narrowed(Run& run, int32_t label = -1)
       : Narrowed(run, run.memory.bytes(static_cast<size_t>(run.padded)), label) {
     std::copy_n(mask_.outer->on, run.padded, mask_.on);
-    mask_.any = mask_.outer->any, mask_.full = mask_.outer->full;
+    mask_.any = mask_.outer->any;
+    mask_.full = mask_.outer->full;
   }
   /// Narrows to these points, of which there must be some.
   Narrowed(Run& run, uint8_t* on, int32_t label = -1) : run_(run), mask_{on, true, false, run.mask, label} {

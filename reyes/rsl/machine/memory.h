@@ -45,7 +45,11 @@ class Memory {
     size_t block, used, texts;
   };
   Mark mark() const { return {block_, used_, openTexts_}; }
-  void restore(Mark m) { block_ = m.block, used_ = m.used, openTexts_ = m.texts; }
+  void restore(Mark m) {
+    block_ = m.block;
+    used_ = m.used;
+    openTexts_ = m.texts;
+  }
 
  private:
   static constexpr size_t kLeast = 1 << 16;

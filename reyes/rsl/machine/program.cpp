@@ -54,12 +54,16 @@ void Program::find(const Block& block) {
     used_[static_cast<size_t>(r)] = true;
     Located& l = located_[static_cast<size_t>(r)];
     if (assigned) l.once = !l.assigned;
-    l.assigned |= assigned, l.partly |= partly;
+    l.assigned |= assigned;
+    l.partly |= partly;
   };
   for (const Instruction& i : block) {
     for (const int32_t r : i.out) use(r, true, i.op == Op::Copy && i.masked);
     for (const int32_t r : i.in) use(r, false);
-    for (const Setting& s : i.settings) use(s.name, false), use(s.value, s.fills);
+    for (const Setting& s : i.settings) {
+      use(s.name, false);
+      use(s.value, s.fills);
+    }
     if (i.op == Op::Leave) left_[static_cast<size_t>(i.extra)] = true;
     for (const Block& inner : i.blocks) find(inner);
   }
@@ -75,7 +79,8 @@ void Program::findOverwritten() {
     for (const Block& inner : i.blocks)
       forEach(inner, [&](const Instruction& within) {
         const auto touch = [&](int32_t r) { touched[static_cast<size_t>(r)] = true; };
-        forEachRead(within, touch), forEachWrite(within, touch);
+        forEachRead(within, touch);
+        forEachWrite(within, touch);
         loops |= within.op == Op::Loop || within.op == Op::Gather;
       });
     if (loops) return;
@@ -89,7 +94,8 @@ void Program::findOverwritten() {
 }
 
 void Program::locate() {
-  varying_ = code_.varyingFloats, uniform_ = code_.uniformFloats;
+  varying_ = code_.varyingFloats;
+  uniform_ = code_.uniformFloats;
   std::vector<std::pair<size_t, float>> constants;
   for (size_t k = 0; k < located_.size(); ++k) {
     const Register& r = code_.registers[k];
@@ -101,10 +107,12 @@ void Program::locate() {
       l.global = static_cast<int32_t>(global->global);
     if (l.global >= 0 || r.origin == Origin::Parameter) ofHost_.push_back(static_cast<int32_t>(k));
     if (r.shape == Shape::Text) {
-      l.where = Where::Texts, l.at = texts_;
+      l.where = Where::Texts;
+      l.at = texts_;
       if (r.origin != Origin::Constant) texts_ += elementsOf(r);
     } else if (r.origin == Origin::Constant) {
-      l.where = Where::Constant, l.at = static_cast<int32_t>(constants_.size());
+      l.where = Where::Constant;
+      l.at = static_cast<int32_t>(constants_.size());
       for (size_t f = 0; f < static_cast<size_t>(size); ++f)
         constants_.insert(constants_.end(), kBlock, f < r.floats.size() ? r.floats[f] : 0.0f);
     } else {

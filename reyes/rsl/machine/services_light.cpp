@@ -90,7 +90,8 @@ void runLit(Run& run, const Step& s, const TmIlluminance& sample, const rsl::Lig
   const bool all = std::memcmp(lit, run.mask->on, static_cast<size_t>(run.padded)) == 0;
   std::optional<Narrowed> inner;
   if (!all) inner.emplace(run, lit);
-  assign(run, s.of->out[0], sample.L), assign(run, s.of->out[1], sample.Cl);
+  assign(run, s.of->out[0], sample.L);
+  assign(run, s.of->out[1], sample.Cl);
   run.light = sample.light;
   tellOfLight(run, list.wanted);
   execute(run, s.blocks[0]);
@@ -105,7 +106,9 @@ void illuminance(Run& run, const Step& s) {
   list.padded = run.padded;
   list = listed(call, std::move(list));
   const std::vector<TmMessage> sent = list.messages();
-  query.sent = sent.data(), query.sentCount = static_cast<int32_t>(sent.size()), query.refresh = list.refresh;
+  query.sent = sent.data();
+  query.sentCount = static_cast<int32_t>(sent.size());
+  query.refresh = list.refresh;
   // The mask must be the same until there are no more samples, whatever points leave in between.
   const auto n = static_cast<size_t>(run.padded);
   uint8_t *const asked = run.memory.bytes(n), *const lit = run.memory.bytes(n);
@@ -133,7 +136,9 @@ void coneLight(Run& run, const Step& s) {
   const TmVec3 out = call.giveTriple();
   const auto n = static_cast<size_t>(run.padded);
   if (!run.grid.xi0) {
-    std::copy_n(axis.x, n, out.x), std::copy_n(axis.y, n, out.y), std::copy_n(axis.z, n, out.z);
+    std::copy_n(axis.x, n, out.x);
+    std::copy_n(axis.y, n, out.y);
+    std::copy_n(axis.z, n, out.z);
     return;
   }
   float *const turn = run.memory.floats(n), *const cosine = run.memory.floats(n), *const x = run.memory.floats(n),
@@ -142,7 +147,8 @@ void coneLight(Run& run, const Step& s) {
   apply(run, Op::Cos, turn, cosine);
   for (size_t i = 0; i < n; ++i)
     turn[i] = 2 * std::numbers::pi_v<float> * run.grid.xi1[std::min<size_t>(i, static_cast<size_t>(run.count) - 1)];
-  apply(run, Op::Cos, turn, x), apply(run, Op::Sin, turn, y);
+  apply(run, Op::Cos, turn, x);
+  apply(run, Op::Sin, turn, y);
   for (int32_t i = 0; i < run.count; ++i) {
     const float z = 1 - run.grid.xi0[i] * (1 - cosine[i]), r = std::sqrt(std::max(0.0f, 1 - z * z));
     const rsl::Vec3 along = rsl::normalize(rsl::get(axis, i));

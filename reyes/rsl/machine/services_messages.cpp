@@ -31,7 +31,10 @@ void shaderName(Run& run, const Step& s) {
 /// Answers the names that are texts in RSL and numbers to the host.
 bool rayText(Call& call, const std::string& name, std::string& out) {
   static const char* const kTypes[] = {"camera", "diffuse", "specular", "transmission"};
-  if (name == "label") return out = call.services.rayLabel(call.host, call.g), true;
+  if (name == "label") {
+    out = call.services.rayLabel(call.host, call.g);
+    return true;
+  }
   if (name != "type") return false;
   const auto n = static_cast<size_t>(call.run.padded);
   float* const x = call.run.memory.floats(3 * n);

@@ -18,7 +18,10 @@ TmValue valueOf(const Run& run, int32_t r, Base base) {
   const Lanes& l = run.lane(r);
   TmValue v{{l.data, nullptr, nullptr}, l.block != 0, 1, nullptr};
   // A number counts for all components where a triple is wanted.
-  if (base != Base::Float) v.c[1] = l.data + l.component, v.c[2] = l.data + 2 * static_cast<ptrdiff_t>(l.component);
+  if (base != Base::Float) {
+    v.c[1] = l.data + l.component;
+    v.c[2] = l.data + 2 * static_cast<ptrdiff_t>(l.component);
+  }
   return v;
 }
 

@@ -23,8 +23,11 @@ void transmission(Run& run, const Step& s) {
   const TmConstVec3 from = call.triple(0), to = call.triple(1);
   const auto n = static_cast<size_t>(run.padded);
   float* const toward = run.memory.floats(3 * n);
-  for (size_t i = 0; i < n; ++i)
-    toward[i] = to.x[i] - from.x[i], toward[n + i] = to.y[i] - from.y[i], toward[2 * n + i] = to.z[i] - from.z[i];
+  for (size_t i = 0; i < n; ++i) {
+    toward[i] = to.x[i] - from.x[i];
+    toward[n + i] = to.y[i] - from.y[i];
+    toward[2 * n + i] = to.z[i] - from.z[i];
+  }
   call.services.transmission(call.host, call.g, &options, from, {toward, toward + n, toward + 2 * n},
                              call.giveTriple());
 }
@@ -71,7 +74,8 @@ void gather(Run& run, const Step& s) {
     if (value.fills.x) outputs.push_back({name.c_str(), value.fills});
     return value.fills.x != nullptr;
   });
-  options.coneAngle = call.one(3, "angles of a cone"), options.samples = call.whole(4, "numbers of samples");
+  options.coneAngle = call.one(3, "angles of a cone");
+  options.samples = call.whole(4, "numbers of samples");
   if (!setCategory(category, options)) return run.missing("gathers \"" + category + "\", which there is not");
   const TmConstVec3 P = call.copied(1), direction = call.copied(2);
   const auto n = static_cast<size_t>(run.padded);

@@ -40,7 +40,9 @@ void colorTransform(Run& run, const Step& s) {
   const Reader color(run, s.of->in[2]);
   for (int32_t i = 0; i < pointsOf(run, to); ++i) {
     const rsl::Color c = rsl::ctransform(from, into, {color(i, 0), color(i, 1), color(i, 2)});
-    write(run, to, i, 0, c.x), write(run, to, i, 1, c.y), write(run, to, i, 2, c.z);
+    write(run, to, i, 0, c.x);
+    write(run, to, i, 1, c.y);
+    write(run, to, i, 2, c.z);
   }
 }
 

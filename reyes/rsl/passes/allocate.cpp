@@ -31,12 +31,14 @@ class Lives {
     for (const Instruction& i : block) {
       ++at_;
       const auto touchThis = [&](int32_t r) { touch(r); };
-      forEachRead(i, touchThis), forEachWrite(i, touchThis);
+      forEachRead(i, touchThis);
+      forEachWrite(i, touchThis);
       if (i.blocks.empty()) continue;
       const int32_t from = at_;
       for (const Block& inner : i.blocks) visit(inner);
       ++at_;
-      forEachRead(i, touchThis), forEachWrite(i, touchThis);  // a loop reads its condition again and again
+      forEachRead(i, touchThis);
+      forEachWrite(i, touchThis);  // a loop reads its condition again and again
       if (i.op == Op::If || i.op == Op::Scope) continue;
       for (Life& life : lives) {
         if (life.first < 0 || life.last < from) continue;
@@ -93,7 +95,8 @@ void allocateSlots(Code& code) {
     const int32_t width = floatsOf(r.shape) * std::max(1, r.length);
     r.slot = (r.varying ? varying : uniform).take(width, lives[k]);
   }
-  code.varyingFloats = varying.size, code.uniformFloats = uniform.size;
+  code.varyingFloats = varying.size;
+  code.uniformFloats = uniform.size;
 }
 
 }  // namespace tomales::compiler

@@ -85,7 +85,10 @@ class Analysis {
     for (bool changed = true; changed;) {
       changed = false;
       const auto drop = [&](int32_t r) {
-        if (in[static_cast<size_t>(r)]) in[static_cast<size_t>(r)] = 0, changed = true;
+        if (in[static_cast<size_t>(r)]) {
+          in[static_cast<size_t>(r)] = 0;
+          changed = true;
+        }
       };
       for (size_t k = 0; k < in.size(); ++k)
         if (code_.registers[k].origin != Origin::Temporary && code_.registers[k].origin != Origin::Variable &&
@@ -199,7 +202,8 @@ class Analysis {
         forEachRead(at, [&](int32_t r) { touched |= is(r, g); });
         forEachWrite(at, [&](int32_t r) { touched |= is(r, g); });
       };
-      const bool reads = (look(i), touched);
+      look(i);
+      const bool reads = touched;
       for (const Block& inner : i.blocks) forEach(inner, look);
       if (!touched) continue;
       bool itself = false;

@@ -78,7 +78,8 @@ class Derivation {
   void makeRegisters() {
     steps_.assign(code_.registers.size(), {});
     zero_ = add(Shape::Number, Origin::Constant, 0, 0);
-    code_.registers.back().floats = {0}, code_.registers.back().varying = false;
+    code_.registers.back().floats = {0};
+    code_.registers.back().varying = false;
     for (const int32_t r : needed_) {
       const Register reg = at(r);  // a copy: the list grows
       const Origin origin = reg.origin == Origin::Temporary ? Origin::Temporary : Origin::Variable;

@@ -54,14 +54,16 @@ class Folding {
     code_.registers.push_back(
         {.shape = shape, .origin = Origin::Constant, .varying = false, .floats = std::move(floats)});
     const auto reg = static_cast<int32_t>(code_.registers.size()) - 1;
-    by_.push_back(reg), writes_.push_back(0);
+    by_.push_back(reg);
+    writes_.push_back(0);
     return reg;
   }
   int32_t text(std::string value) {
     code_.registers.push_back(
         {.shape = Shape::Text, .origin = Origin::Constant, .varying = false, .texts = {std::move(value)}});
     const auto reg = static_cast<int32_t>(code_.registers.size()) - 1;
-    by_.push_back(reg), writes_.push_back(0);
+    by_.push_back(reg);
+    writes_.push_back(0);
     return reg;
   }
 
@@ -86,7 +88,10 @@ class Folding {
         Instruction& next = block[n];
         bool touched = false;
         const auto touch = [&](int32_t r) { touched |= r == v; };
-        const auto look = [&](const Instruction& i) { forEachRead(i, touch), forEachWrite(i, touch); };
+        const auto look = [&](const Instruction& i) {
+          forEachRead(i, touch);
+          forEachWrite(i, touch);
+        };
         look(next);
         for (const Block& inner : next.blocks) forEach(inner, look);
         if (!touched) continue;
@@ -118,23 +123,33 @@ class Folding {
   }
 
   bool compute(const Instruction& i) {
-    if (i.op == Op::StepU || i.op == Op::StepV) return become(i, constant(at(i.out[0]).shape, zeros(i))), true;
-    if (const Kernel kernel = kernelOf(i.op)) return become(i, byKernel(i, kernel)), true;
-    if (i.op == Op::TextEqual)
-      return become(i, constant(Shape::Number, {at(i.in[0]).texts[0] == at(i.in[1]).texts[0] ? 1.0f : 0.0f})), true;
+    if (i.op == Op::StepU || i.op == Op::StepV) {
+      become(i, constant(at(i.out[0]).shape, zeros(i)));
+      return true;
+    }
+    if (const Kernel kernel = kernelOf(i.op)) {
+      become(i, byKernel(i, kernel));
+      return true;
+    }
+    if (i.op == Op::TextEqual) {
+      become(i, constant(Shape::Number, {at(i.in[0]).texts[0] == at(i.in[1]).texts[0] ? 1.0f : 0.0f}));
+      return true;
+    }
     if (i.op == Op::Concat) {
       std::string all;
       for (const int32_t r : i.in) {
         if (at(r).shape != Shape::Text) return false;
         all += at(r).texts[0];
       }
-      return become(i, text(all)), true;
+      become(i, text(all));
+      return true;
     }
     if (i.op == Op::ColorTransform) {
       const std::vector<float>& c = at(i.in[2]).floats;
       const ::rsl::Vec3 in = c.size() == 1 ? ::rsl::Vec3{c[0], c[0], c[0]} : ::rsl::Vec3{c[0], c[1], c[2]};
       const ::rsl::Vec3 out = ::rsl::ctransform(at(i.in[0]).texts[0], at(i.in[1]).texts[0], in);
-      return become(i, constant(Shape::Triple, {out.x, out.y, out.z})), true;
+      become(i, constant(Shape::Triple, {out.x, out.y, out.z}));
+      return true;
     }
     return false;
   }

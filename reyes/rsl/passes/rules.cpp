@@ -209,9 +209,9 @@ int32_t byDifference(RuleContext& c, Rule& rule) {
     const bool picture = c.i.op == Op::TextureF || c.i.op == Op::TextureT;
     if (picture && moved.in[4] < 0) {  // half a micropolygon away, the region is as large as in the middle
       const Shape number = Shape::Number;
-      moved.in[4] = rule.compute(Op::StepU, {c.i.in[2]}, number),
+      moved.in[4] = rule.compute(Op::StepU, {c.i.in[2]}, number);
       moved.in[5] = rule.compute(Op::StepU, {c.i.in[3]}, number);
-      moved.in[6] = rule.compute(Op::StepV, {c.i.in[2]}, number),
+      moved.in[6] = rule.compute(Op::StepV, {c.i.in[2]}, number);
       moved.in[7] = rule.compute(Op::StepV, {c.i.in[3]}, number);
     }
     c.code.registers.push_back({.shape = rule.shape(rule.y())});

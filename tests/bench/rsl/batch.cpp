@@ -43,8 +43,16 @@ TmVec3 Batch::triple() {
 }
 
 Batch::Batch() : active_(static_cast<size_t>(kPoints), 1) {
-  grid.structBytes = sizeof grid, grid.count = grid.padded = kPoints, grid.clip[0] = 1, grid.clip[1] = 100;
-  grid.P = triple(), grid.N = triple(), grid.Ci = triple(), grid.Oi = triple(), grid.L = triple(), grid.Cl = triple();
+  grid.structBytes = sizeof grid;
+  grid.count = grid.padded = kPoints;
+  grid.clip[0] = 1;
+  grid.clip[1] = 100;
+  grid.P = triple();
+  grid.N = triple();
+  grid.Ci = triple();
+  grid.Oi = triple();
+  grid.L = triple();
+  grid.Cl = triple();
   const TmVec3 Ng = triple(), I = triple(), dPdu = triple(), dPdv = triple(), dPdtime = triple(), Cs = triple(),
                Os = triple(), stepU = triple(), stepV = triple();
   float *const u = array(), *const v = array(), *const du = array(), *const dv = array(), *const ds = array(),
@@ -57,15 +65,32 @@ Batch::Batch() : active_(static_cast<size_t>(kPoints), 1) {
     du[i] = dv[i] = ds[i] = dt[i] = kStep;
     const auto x = 4 * u[i] - 2, y = 4 * v[i] - 2, slope = 1.2f * std::cos(12 * u[i]);
     const rsl::Vec3 P = {x, y, 5 + 0.1f * std::sin(12 * u[i])}, across = {4, 0, slope}, along = {0, 4, 0};
-    rsl::set(grid.P, i, P), rsl::set(I, i, P), rsl::set(dPdu, i, across), rsl::set(dPdv, i, along);
-    rsl::set(stepU, i, kStep * across), rsl::set(stepV, i, kStep * along);
-    rsl::set(grid.N, i, rsl::cross(along, across)), rsl::set(Ng, i, rsl::cross(along, across));
-    rsl::set(Cs, i, {0.8f, 0.7f, 0.6f}), rsl::set(Os, i, {1, 1, 1});
+    rsl::set(grid.P, i, P);
+    rsl::set(I, i, P);
+    rsl::set(dPdu, i, across);
+    rsl::set(dPdv, i, along);
+    rsl::set(stepU, i, kStep * across);
+    rsl::set(stepV, i, kStep * along);
+    rsl::set(grid.N, i, rsl::cross(along, across));
+    rsl::set(Ng, i, rsl::cross(along, across));
+    rsl::set(Cs, i, {0.8f, 0.7f, 0.6f});
+    rsl::set(Os, i, {1, 1, 1});
   }
-  grid.Ng = rsl::view(Ng), grid.I = rsl::view(I), grid.dPdu = rsl::view(dPdu), grid.dPdv = rsl::view(dPdv),
-  grid.dPdtime = rsl::view(dPdtime), grid.Cs = rsl::view(Cs), grid.Os = rsl::view(Os);
-  grid.u = grid.s = u, grid.v = grid.t = v, grid.du = du, grid.dv = dv, sStep = ds, tStep = dt;
-  PStepU = rsl::view(stepU), PStepV = rsl::view(stepV);
+  grid.Ng = rsl::view(Ng);
+  grid.I = rsl::view(I);
+  grid.dPdu = rsl::view(dPdu);
+  grid.dPdv = rsl::view(dPdv);
+  grid.dPdtime = rsl::view(dPdtime);
+  grid.Cs = rsl::view(Cs);
+  grid.Os = rsl::view(Os);
+  grid.u = grid.s = u;
+  grid.v = grid.t = v;
+  grid.du = du;
+  grid.dv = dv;
+  sStep = ds;
+  tStep = dt;
+  PStepU = rsl::view(stepU);
+  PStepV = rsl::view(stepV);
   grid.active = active_.data();
   const rsl::Vec3 towards[kLights] = {{0.3f, 0.2f, -1}, {-0.5f, 0.5f, -1}, {0, -0.7f, -1}, {1, 0.1f, -0.3f}};
   for (const rsl::Vec3& L : towards) {
@@ -74,7 +99,8 @@ Batch::Batch() : active_(static_cast<size_t>(kPoints), 1) {
     lights.push_back({rsl::view(to), {0.5f, 0.6f, 0.7f}});
   }
   setServices();
-  grid.call = &services_, grid.host = this;
+  grid.call = &services_;
+  grid.host = this;
 }
 
 void Batch::bind(const TmShader& shader) {
@@ -87,7 +113,8 @@ void Batch::bind(const TmShader& shader) {
     if (type == TM_STRING) value.string = p.strings[0];
     params_.push_back(value);
   }
-  grid.params = params_.data(), grid.shader = &shader;
+  grid.params = params_.data();
+  grid.shader = &shader;
 }
 
 void Batch::lookUp(const TmGrid* g, const float* s, const float* t, TmVec3 out) {
@@ -98,7 +125,8 @@ void Batch::lookUp(const TmGrid* g, const float* s, const float* t, TmVec3 out) 
 }
 
 void Batch::setServices() {
-  services_.structBytes = sizeof services_, services_.abi = TM_SHADER_ABI;
+  services_.structBytes = sizeof services_;
+  services_.abi = TM_SHADER_ABI;
   services_.report = [](void*, const TmGrid*, int32_t, const char*) {};
   services_.ambient = [](void*, const TmGrid*, TmVec3 out) {
     for (float* c : {out.x, out.y, out.z}) std::fill_n(c, kPoints, 0.1f);
@@ -118,7 +146,10 @@ void Batch::setServices() {
     const float color[3] = {light.Cl.x, light.Cl.y, light.Cl.z};
     for (int c = 0; c < 3; ++c) std::fill_n(Cl[c], kPoints, color[c]);
     std::memcpy(lit, g->active, sizeof lit);
-    q->L = q->direction = light.L, q->Cl = {Cl[0], Cl[1], Cl[2]}, q->lit = lit, q->light = q->next++;
+    q->L = q->direction = light.L;
+    q->Cl = {Cl[0], Cl[1], Cl[2]};
+    q->lit = lit;
+    q->light = q->next++;
     return 1;
   };
   services_.transform = [](void*, const TmGrid* g, int32_t kind, const char*, const char*, TmConstVec3 in,

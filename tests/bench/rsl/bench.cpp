@@ -55,7 +55,10 @@ struct Row {
 
 Row measured(const std::string& file, const Loop& fused, const Loop& vectors) {
   const auto text = RslFile::compile(file, {});
-  if (text->errors() > 0) std::fputs(text->messages().c_str(), stderr), std::exit(2);
+  if (text->errors() > 0) {
+    std::fputs(text->messages().c_str(), stderr);
+    std::exit(2);
+  }
   const TmShader& shader = *text->library()->shaders[0];
   Batch batch;
   batch.bind(shader);
@@ -79,7 +82,10 @@ Row measured(const std::string& file, const Loop& fused, const Loop& vectors) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return std::fputs("bench_rsl tests/bench/rsl/shaders [NAME...]\n", stderr), 2;
+  if (argc < 2) {
+    std::fputs("bench_rsl tests/bench/rsl/shaders [NAME...]\n", stderr);
+    return 2;
+  }
   const auto wanted = [&](std::string_view name) {
     return argc == 2 || std::find(argv + 2, argv + argc, name) != argv + argc;
   };
@@ -96,7 +102,8 @@ int main(int argc, char** argv) {
         count++ ? "," : "", r.name, r.rsl, r.vectors, r.fused, r.rsl / r.vectors, r.rsl / r.fused, r.vectorDifference,
         r.fusedDifference);
     std::fflush(stdout);
-    toVectors += std::log(r.rsl / r.vectors), toFused += std::log(r.rsl / r.fused);
+    toVectors += std::log(r.rsl / r.vectors);
+    toFused += std::log(r.rsl / r.fused);
   }
   fmt::print("],\n\"geometric mean of rsl/vectors\": {:.2f}, \"of rsl/fused\": {:.2f}}}\n", std::exp(toVectors / count),
              std::exp(toFused / count));

@@ -85,7 +85,8 @@ float nearestOf(const PointCloud& points, const vec3& P, const vec3& N) {
   for (size_t i = 0; i < points.count(); ++i) {
     const vec3 off = points.position[i] - P;
     if (dot(points.normal[i], N) < kLayerCosine || dot(off, off) >= best) continue;
-    best = dot(off, off), E = points.at(i)[0];
+    best = dot(off, off);
+    E = points.at(i)[0];
   }
   return E;
 }
@@ -106,12 +107,14 @@ Errors errorsOf(const LabScene& scene, const Lookup& lookup) {
     for (uint32_t i = 0; i < kPlaces; ++i) {
       const vec3 P = s.at(sobol2(i, hashCombine(static_cast<uint32_t>(k), 99u)));
       const double E = double{lookup(P, s)}, error = E - double{s.E};
-      out.mean += std::abs(error), ++all;
+      out.mean += std::abs(error);
+      ++all;
       const bool leaf = std::strcmp(scene.name, "leaf") == 0;
       const float apart =
           std::strcmp(scene.name, "thin wall") == 0 ? std::abs(P.x - 0.5f) - 0.5f * kWall : std::max(P.x, P.z);
       if (s.E == 1 || (!leaf && apart > 2 * kWall)) continue;
-      out.leak += std::max(0.0, error), ++near;
+      out.leak += std::max(0.0, error);
+      ++near;
     }
   }
   return {out.mean / all, out.leak / std::max(near, 1)};

@@ -138,7 +138,8 @@ Row runMoving(const std::string& name, const mat4& atClose, int rays, double lim
 /// The x axis goes to the y axis, about the point (1, 0, 0).
 mat4 aroundRim(float angle) {
   mat4 turn(1.0f);
-  turn[0] = vec4(std::cos(angle), std::sin(angle), 0, 0), turn[1] = vec4(-std::sin(angle), std::cos(angle), 0, 0);
+  turn[0] = vec4(std::cos(angle), std::sin(angle), 0, 0);
+  turn[1] = vec4(-std::sin(angle), std::cos(angle), 0, 0);
   return translation({1, 0, 0}) * turn * translation({-1, 0, 0});
 }
 
@@ -251,8 +252,10 @@ int lab(int argc, char** argv) {
   for (const Row& r : rows) {
     fmt::print("| {} | {:.2f} % | {:.2f} % | {:.2f} % |\n", r.name, 100 * r.wrong[kBias], 100 * r.wrong[kIgnore],
                100 * r.wrong[kHitList]);
-    if (r.wrong[kHitList] > r.limit)
-      fmt::print(stderr, "{}: more than {} % wrong\n", r.name, 100 * r.limit), fine = false;
+    if (r.wrong[kHitList] > r.limit) {
+      fmt::print(stderr, "{}: more than {} % wrong\n", r.name, 100 * r.limit);
+      fine = false;
+    }
   }
   if (picture && !draw(rows, picture)) return 2;
   return check && !fine ? 1 : 0;

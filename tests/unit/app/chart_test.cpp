@@ -80,7 +80,8 @@ TEST(ChartError, PixelsThatAreNoNumbersCountAsBlackAndAreToldOf) {
   reference.add(grey(4, 4, 0.99f));
   reference.add(grey(4, 4, 0.99f));
   Image test = grey(4, 4, 0.99f);
-  test.pixels[0] = std::numeric_limits<float>::quiet_NaN(), test.pixels[4] = kInfinity;
+  test.pixels[0] = std::numeric_limits<float>::quiet_NaN();
+  test.pixels[4] = kInfinity;
   const ErrorFigures error = reference.errorOf(test);
   EXPECT_EQ(error.notFinite, 2);
   EXPECT_NEAR(error.mean, 0.99 * 2 / 16, 1e-5);
@@ -116,7 +117,8 @@ TEST(ChartReport, ThePointsThatNothingBeatsAreMarked) {
   report.curves = {"a"};
   const auto point = [](double cpu, double error) {
     ChartPoint p{};
-    p.run.cpu_s = cpu, p.error.mean = error;
+    p.run.cpu_s = cpu;
+    p.error.mean = error;
     return p;
   };
   report.points = {point(1, 0.1), point(2, 0.2), point(4, 0.025)};
@@ -134,10 +136,15 @@ TEST(ChartReport, ACurveOfOneErrorIsFlat) {
   report.curves = {"even", "steep", "alone"};
   const auto add = [&](size_t curve, double error) {
     ChartPoint p{};
-    p.curve = curve, p.error.mean = error;
+    p.curve = curve;
+    p.error.mean = error;
     report.points.push_back(p);
   };
-  add(0, 0.1), add(0, 0.1), add(1, 0.1), add(1, 0.05), add(2, 0.1);
+  add(0, 0.1);
+  add(0, 0.1);
+  add(1, 0.1);
+  add(1, 0.05);
+  add(2, 0.1);
   EXPECT_TRUE(isFlat(report, 0));
   EXPECT_FALSE(isFlat(report, 1));
   EXPECT_FALSE(isFlat(report, 2)) << "one point says nothing";

@@ -37,8 +37,10 @@ struct TestHalves {
   double rms(const std::array<Plane, 3>& color) const {
     double squares = 0, sum = 0;
     for (size_t c = 0; c < 3; ++c)
-      for (size_t i = 0; i < truth[c].size(); ++i)
-        squares += std::pow(double{color[c][i]} - truth[c][i], 2), sum += truth[c][i];
+      for (size_t i = 0; i < truth[c].size(); ++i) {
+        squares += std::pow(double{color[c][i]} - truth[c][i], 2);
+        sum += truth[c][i];
+      }
     return std::sqrt(squares / (3.0 * kSize * kSize)) / (sum / (3.0 * kSize * kSize));
   }
   std::array<Plane, 3> mean() const {
@@ -68,7 +70,8 @@ TEST(Denoise, WhatGuidesTellIsNotBlurred) {
   double step = 0, right = 0;
   for (size_t y = 0; y < kSize; ++y) {
     const size_t i = y * kSize + kSize / 2;
-    step += out.color[0][i] - out.color[0][i - 1], right += halves.truth[0][i] - halves.truth[0][i - 1];
+    step += out.color[0][i] - out.color[0][i - 1];
+    right += halves.truth[0][i] - halves.truth[0][i - 1];
   }
   EXPECT_NEAR(step / right, 1, 0.06);
 }

@@ -93,7 +93,9 @@ TEST(ErrorModel, LeavesRaysAndRecordsAloneWhereOnlyLampsErr) {
   Frame frame;
   const auto lampsOnly = [&](int lightSamples) {
     QualityTrial out = frame.trial({150, 1, lightSamples});
-    out.quality.samples = 0, out.quality.maxError = -1, out.indirect = out.gatherCost = 0;
+    out.quality.samples = 0;
+    out.quality.maxError = -1;
+    out.indirect = out.gatherCost = 0;
     return out;
   };
   const ErrorModel model(lampsOnly(4), lampsOnly(16), {});
@@ -110,7 +112,8 @@ TEST(ErrorModel, SurvivesTrialsThatSawNothing) {
 TEST(ErrorModel, SurvivesAFinerTrialThatErrsMore) {
   const Frame frame;
   QualityTrial unlucky = frame.trial({600, 1, 16});
-  unlucky.indirect = 2 * frame.trial({150, 1, 4}).indirect, unlucky.direct = 1;
+  unlucky.indirect = 2 * frame.trial({150, 1, 4}).indirect;
+  unlucky.direct = 1;
   const ErrorModel model(frame.trial({150, 1, 4}), unlucky, frame.trial({150, 2, 4}));
   const LightQuality chosen = model.cheapest(0.01);
   EXPECT_GT(chosen.samples, 0);

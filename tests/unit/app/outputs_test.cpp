@@ -11,7 +11,8 @@ Options displaysOf(const std::vector<std::pair<std::string, std::string>>& names
   Options out;
   for (const auto& [name, type] : namesAndTypes) {
     out.displays.emplace_back();
-    out.displays.back().name = name, out.displays.back().type = type;
+    out.displays.back().name = name;
+    out.displays.back().type = type;
   }
   return out;
 }
@@ -39,7 +40,8 @@ TEST(Outputs, TakeTheNameOfTheCommandLineAndStandBesideIt) {
 TEST(Outputs, OfOnePictureKeepTheMapsThatLaterFramesRead) {
   Options o = displaysOf({{"m.exr", "file"}, {"lamp.z", "shadow"}, {"z.exr", "file"}});
   RenderSettings settings;
-  settings.output = "look.exr", settings.onePicture = true;
+  settings.output = "look.exr";
+  settings.onePicture = true;
   Log log(Log::Verbosity::Quiet);
   nameOutputs(o, settings, log);
   EXPECT_EQ(namesIn(o), (std::vector<std::string>{"look.exr", "lamp.z"}));
@@ -48,7 +50,8 @@ TEST(Outputs, OfOnePictureKeepTheMapsThatLaterFramesRead) {
 TEST(Outputs, ThatMakeRequestsReadKeepTheirNames) {
   Options o = displaysOf({{"./face.tif", "tiff"}, {"m.exr", "file"}});
   RenderSettings settings;
-  settings.output = "look.exr", settings.sources = {"face.tif"};
+  settings.output = "look.exr";
+  settings.sources = {"face.tif"};
   Log log(Log::Verbosity::Quiet);
   nameOutputs(o, settings, log);
   EXPECT_EQ(namesIn(o), (std::vector<std::string>{"./face.tif", "look.exr"}));

@@ -41,10 +41,13 @@ TEST(StableVector, IsAVectorWhoseElementsStayWhereTheyAre) {
     if (what < 16) {
       for (uint32_t i = hashCombine(step, 2) % 40; i > 0; --i) {
         EXPECT_EQ(v.push_back(i), i);
-        plain.push_back(i), places.push_back(&v.back());
+        plain.push_back(i);
+        places.push_back(&v.back());
       }
     } else if (what == 16 && step % 3 == 0) {
-      v.clear(), plain.clear(), places.clear();
+      v.clear();
+      plain.clear();
+      places.clear();
     } else if (what == 17 && !plain.empty()) {
       const size_t at = hashCombine(step, 3) % plain.size();
       v[at] = plain[at] = step;

@@ -7,7 +7,10 @@ namespace {
 
 TEST(Rng, ManyNumbersAtOnceAreThoseOneByOne) {
   std::vector<uint32_t> index, seed;
-  for (uint32_t i = 0; i < 100; ++i) index.push_back(i * 0x01000193U), seed.push_back(hash32(i / 3));
+  for (uint32_t i = 0; i < 100; ++i) {
+    index.push_back(i * 0x01000193U);
+    seed.push_back(hash32(i / 3));
+  }
   std::vector<vec2> pairs(index.size());
   std::vector<float> singles(index.size());
   sobol2(index, seed, pairs);

@@ -14,23 +14,35 @@ namespace fs = std::filesystem;
 Shot smallShot() {
   Shot shot;
   Options& o = shot.scene.options;
-  o.xResolution = 4, o.yResolution = 2, o.frame = 7;
+  o.xResolution = 4;
+  o.yResolution = 2;
+  o.frame = 7;
   o.screenWindow = {-1.0f, 1.0f, -0.5f, 0.5f};
   o.searchPaths["texture"] = "here:there";
   auto attributes = std::make_shared<Attributes>();
-  attributes->name = "ball", attributes->color = {0.1f, 0.2f, 0.3f}, attributes->trace.bias = 0.25f;
+  attributes->name = "ball";
+  attributes->color = {0.1f, 0.2f, 0.3f};
+  attributes->trace.bias = 0.25f;
   attributes->surface = std::make_shared<ShaderCall>(
       ShaderCall{"plastic", {{"Ks", Storage::Uniform, ValueType::Float, 1, {0.5f}, {}, {}}}, {}, {}});
   Object object;
-  object.attributes = attributes, object.where = {std::make_shared<std::string>("a.rib"), 12}, object.group = 0;
-  shot.scene.objects.push_back(object), shot.scene.objects.push_back(object);
+  object.attributes = attributes;
+  object.where = {std::make_shared<std::string>("a.rib"), 12};
+  object.group = 0;
+  shot.scene.objects.push_back(object);
+  shot.scene.objects.push_back(object);
   attributes->membership = {"toys"};
   shot.scene.groups.push_back({attributes, mat4(2.0f), {{"s", Storage::Vertex, ValueType::Float, 1, {}}}, 1});
   shot.scene.lights = {std::make_shared<LightCall>(LightCall{{"pointlight", {}, {}, {}}, "key", false, true, 0})};
   shot.scene.worldFromNamed["table"] = mat4(3.0f);
   shot.frame.crop = shot.frame.padded = {0, 0, 4, 2};
-  shot.frame.bucketWidth = shot.frame.bucketHeight = 2, shot.frame.columns = 2, shot.frame.rows = 1;
-  shot.seed = 5, shot.sources = {{"/a.rib", 99}}, shot.folder = "/tmp", shot.world = 2;
+  shot.frame.bucketWidth = shot.frame.bucketHeight = 2;
+  shot.frame.columns = 2;
+  shot.frame.rows = 1;
+  shot.seed = 5;
+  shot.sources = {{"/a.rib", 99}};
+  shot.folder = "/tmp";
+  shot.world = 2;
   return shot;
 }
 
@@ -40,7 +52,8 @@ DeepTile smallTile(const DeepFrame& frame, size_t index) {
   if (index > 0) return tile;
   ShadePoints points(0, 1);
   points.add({1234, 5});
-  points.set3(kPx, 0, {1, 2, 3}), points.primvar(0)[0] = 0.75f;
+  points.set3(kPx, 0, {1, 2, 3});
+  points.primvar(0)[0] = 0.75f;
   tile.batches.push_back(points);
   tile.facets.push_back({0, {0, 0, 0, 0}, true});
   tile.fragments.push_back({0, 2.5f, 0xf0, 1, 10, 20});

@@ -20,7 +20,8 @@ Seen look(const DeepFrame& f) {
     for (int x = f.crop.x0; x < f.crop.x1; ++x)
       forFragments(f, x, y, [&](const DeepTile&, const Fragment& g) {
         s.area += std::popcount(g.samples) / (kUnit_px * kUnit_px * f.samplesPerPixel);
-        s.nearest = std::min(s.nearest, double{g.z}), s.farthest = std::max(s.farthest, double{g.z});
+        s.nearest = std::min(s.nearest, double{g.z});
+        s.farthest = std::max(s.farthest, double{g.z});
       });
   return s;
 }

@@ -149,7 +149,10 @@ TEST(Overlap, OfTheMeridiansOfATransparentParaboloidIsNoneAtItsTip) {
   const DeepFrame frame = hide("Opacity 0.5 0.5 0.5 Paraboloid 1 0 1 360", "", "Translate 0 0 3 ");
   int layers = 0, samples = 0;
   for (int y = 44; y < 84; ++y)
-    for (int x = 44; x < 84; ++x) layers += covered(frame, x, y), samples += frame.samplesPerPixel;
+    for (int x = 44; x < 84; ++x) {
+      layers += covered(frame, x, y);
+      samples += frame.samplesPerPixel;
+    }
   EXPECT_NEAR(layers, samples, samples / 5000);
 }
 

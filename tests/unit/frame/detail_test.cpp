@@ -25,7 +25,8 @@ Parts parts(const std::string& body, const std::string& options = {}) {
     for (int x = 44; x < 84; ++x) {
       uint64_t near = 0, far = 0;
       forFragments(f, x, y, [&](const DeepTile&, const Fragment& g) { (g.z < 10.5f ? near : far) |= g.samples; });
-      p.near += sample * std::popcount(near), p.far += sample * std::popcount(far);
+      p.near += sample * std::popcount(near);
+      p.far += sample * std::popcount(far);
       p.twice += sample * std::popcount(near & far);
     }
   return p;

@@ -73,7 +73,10 @@ inline Holes holes(const DeepFrame& frame, int margin = 2) {
   };
   for (int y = r.y0; y < r.y1; ++y)
     for (int x = r.x0; x < r.x1; ++x)
-      if (inside(x, y)) ++found.inside_px, found.samples += frame.samplesPerPixel - covered(frame, x, y);
+      if (inside(x, y)) {
+        ++found.inside_px;
+        found.samples += frame.samplesPerPixel - covered(frame, x, y);
+      }
   return found;
 }
 

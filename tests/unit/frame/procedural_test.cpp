@@ -20,7 +20,9 @@ mat4 translation(const vec3& t) {
 
 PrimPtr heightField(int n) {
   Param P;
-  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+  P.name = "P";
+  P.type = ValueType::Point;
+  P.storage = Storage::Vertex;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
       for (const float x :
@@ -69,11 +71,13 @@ struct Squares {
 
 TEST(Procedural, OffScreenOrHiddenIsNeverOpened) {
   Squares squares;
-  squares.add({20, 0, 1}), squares.add({0, 0, -5});
+  squares.add({20, 0, 1});
+  squares.add({0, 0, -5});
   Stats stats;
   squares.hide(stats);
   EXPECT_EQ(squares.opened, 0);
-  squares.add({0.25f, 0.25f, 1}), squares.scene.procedurals.back().bound = {vec3(0.2f), vec3(0.4f, 0.4f, 0.2f)};
+  squares.add({0.25f, 0.25f, 1});
+  squares.scene.procedurals.back().bound = {vec3(0.2f), vec3(0.4f, 0.4f, 0.2f)};
   squares.add({0, 0, 0.5f});
   squares.hide(stats);
   EXPECT_EQ(squares.opened, 1) << "the nearer square hides the bound of the other";
@@ -108,7 +112,8 @@ TEST(Procedural, GivesTheSamePictureForAnyNumberOfThreads) {
       for (const Fragment& f : tile.fragments) {
         const Facet& facet = tile.facets[f.facet];
         const ShadePoints& points = tile.batches[static_cast<size_t>(facet.batch)];
-        out.push_back(f.z), out.push_back(points.get3(kPx, facet.point[0]).x);
+        out.push_back(f.z);
+        out.push_back(points.get3(kPx, facet.point[0]).x);
         out.push_back(static_cast<float>(points.key(facet.point[0])));
       }
     return out;

@@ -49,7 +49,8 @@ Measured measure(const DeepFrame& frame) {
   for (int y = frame.crop.y0; y < frame.crop.y1; ++y)
     for (int x = frame.crop.x0; x < frame.crop.x1; ++x)
       forFragments(frame, x, y, [&](const DeepTile&, const Fragment& f) {
-        m.area += cell * std::popcount(f.samples), m.volume += cell * std::popcount(f.samples) * (10 - double{f.z});
+        m.area += cell * std::popcount(f.samples);
+        m.volume += cell * std::popcount(f.samples) * (10 - double{f.z});
       });
   return m;
 }
@@ -192,7 +193,10 @@ TEST(Solids, AreOutOfFocusAsAWhole) {
   const DeepFrame sharp = hide(""), blurred = hide("DepthOfField 1 0.6 6");
   double a = 0, b = 0;
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) a += covered(sharp, x, y), b += covered(blurred, x, y);
+    for (int x = 0; x < 64; ++x) {
+      a += covered(sharp, x, y);
+      b += covered(blurred, x, y);
+    }
   EXPECT_NEAR(b / a, 1, 0.03);
   EXPECT_LT(covered(blurred, 32, 13), 36);  // At the rim of the ball, half of the lens sees past it.
 }

@@ -16,8 +16,10 @@ namespace {
 struct EmptyFrame {
   EmptyFrame() {
     Options& o = scene.options;
-    o.xResolution = 16 * o.bucketWidth, o.yResolution = 4 * o.bucketHeight;
-    o.filter = "box", o.xFilterWidth = o.yFilterWidth = 1;
+    o.xResolution = 16 * o.bucketWidth;
+    o.yResolution = 4 * o.bucketHeight;
+    o.filter = "box";
+    o.xFilterWidth = o.yFilterWidth = 1;
     o.displays = {{}};
     o.displays[0].type = "null";
   }

@@ -14,7 +14,8 @@ std::string circle(float u, float v, float radius) {
   std::string us, vs, ws;
   for (int k = 0; k < 9; ++k) {
     const double w = k % 2 ? h : 1;
-    us += fmt::format("{:.9f} ", (u + radius * x[k]) * w), vs += fmt::format("{:.9f} ", (v + radius * y[k]) * w);
+    us += fmt::format("{:.9f} ", (u + radius * x[k]) * w);
+    vs += fmt::format("{:.9f} ", (v + radius * y[k]) * w);
     ws += fmt::format("{:.9f} ", w);
   }
   return fmt::format("TrimCurve [1] [3] [0 0 0 1 1 2 2 3 3 4 4 4] [0] [4] [9] [{}] [{}] [{}] ", us, vs, ws);

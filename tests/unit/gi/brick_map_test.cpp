@@ -266,7 +266,10 @@ TEST(BrickCache, KeepsWhatIsAskedForAgainAndAgain) {
   int read = 0;
   const auto make = [&] { return Brick(someParts(1), 2, 0); };
   for (uint32_t i = 1; i < 2000; ++i) {
-    cache.get(0, 0, [&] { return ++read, make(); });
+    cache.get(0, 0, [&] {
+      ++read;
+      return make();
+    });
     cache.get(0, i, make);
     ASSERT_LE(cache.bytes(), size_t{16 * 20'000});
   }
@@ -281,7 +284,8 @@ TEST(Brick, IsMadeOfItsBytesAndOfNoOthers) {
   EXPECT_FALSE(Brick::of(brick.bytes(), 3));
   EXPECT_FALSE(Brick::of({}, 2));
   std::vector<std::byte> longer = brick.bytes(), shorter = brick.bytes();
-  longer.push_back({}), shorter.pop_back();
+  longer.push_back({});
+  shorter.pop_back();
   EXPECT_FALSE(Brick::of(longer, 2));
   EXPECT_FALSE(Brick::of(shorter, 2));
   for (size_t at = 0; at < brick.bytes().size(); ++at) {  // whatever is in them, no voxel has layers that are not there
@@ -344,7 +348,10 @@ TEST_F(BrickMaps, EveryPointLiesInOneTileAndCompactChunksHoldTheSamePoints) {
     const PointCloud near = tiles.around(tiles.box(level, place), 0.01f);
     uint64_t here = 0;
     for (size_t i = 0; i < near.count(); ++i)
-      if (tiles.contains(level, place, near.position[i])) ++times[static_cast<size_t>(near.at(i)[0])], ++here;
+      if (tiles.contains(level, place, near.position[i])) {
+        ++times[static_cast<size_t>(near.at(i)[0])];
+        ++here;
+      }
     EXPECT_EQ(here, tiles.count(level, place));
     found += here;
   });

@@ -106,7 +106,8 @@ TEST(Gather, SpotsBehindAScreenTakeNoRaysFromWhatCanBeSeen) {
       const double E = luminance(gather(world.rays, world.shading, {0, {0, -1, 1.5f}, {0, 1, 0}, i, 0.01f, 0.01f},
                                         settings, {&spots}, world.stats)
                                      .E);
-      sum += E, squares += E * E;
+      sum += E;
+      squares += E * E;
     }
     return std::sqrt(std::max(0.0, squares / 300 - sum * sum / 90000)) / (sum / 300);
   };
@@ -161,7 +162,8 @@ TEST(Gather, LargeSpotsThatAreMostlyHiddenAreAimedAtWhereTheyAreNot) {
       GatherPoint point = kBelow;
       point.key = i;
       const double E = luminance(gather(world.rays, world.shading, point, settings, {&known}, world.stats).E);
-      sum += E / kCount, squares += E * E / kCount;
+      sum += E / kCount;
+      squares += E * E / kCount;
     }
     return std::pair(sum, std::sqrt(std::max(0.0, squares - sum * sum)) / sum);
   };
@@ -224,7 +226,8 @@ TEST(Gather, RaysAimedAtABrightSpotKeepTheMeanAndTakeTheNoise) {
   std::vector<BrightFind> finds(64);
   for (uint32_t i = 0; i < finds.size(); ++i) {
     GatherPoint point = from;
-    point.key = 1000 + i, point.position.x += 0.01f * static_cast<float>(i);
+    point.key = 1000 + i;
+    point.position.x += 0.01f * static_cast<float>(i);
     gather(world.rays, world.shading, point, settings, {}, world.stats, &finds[i]);
   }
   BrightSpots spots;
@@ -237,7 +240,8 @@ TEST(Gather, RaysAimedAtABrightSpotKeepTheMeanAndTakeTheNoise) {
       GatherPoint point = from;
       point.key = static_cast<uint32_t>(i);
       const double E = luminance(gather(world.rays, world.shading, point, settings, {&aimedAt}, world.stats).E);
-      sum += E, squares += E * E;
+      sum += E;
+      squares += E * E;
     }
     const double mean = sum / count;
     return std::pair(mean, std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean);

@@ -21,8 +21,12 @@ struct Wall {
     for (int i = 0; i < count; ++i) {
       const float px = static_cast<float>(i % n) / static_cast<float>(n),
                   py = static_cast<float>(i / n) / static_cast<float>(n);
-      x.push_back(px), y.push_back(py), zero.push_back(0), one.push_back(1),
-          radius.push_back(0.8f / static_cast<float>(n)), value.push_back(px + 2 * py);
+      x.push_back(px);
+      y.push_back(py);
+      zero.push_back(0);
+      one.push_back(1);
+      radius.push_back(0.8f / static_cast<float>(n));
+      value.push_back(px + 2 * py);
     }
   }
   CloudQuery query(const std::string& file, int begin, int end) {
@@ -70,7 +74,10 @@ TEST_F(Clouds, PointsThatAreNotNumbersAreLeftOutAndCounted) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   CloudFiles files("");
   std::string problem;
-  wall.value[3] = nan, wall.radius[7] = nan, wall.radius[8] = -1, wall.x[20] = std::numeric_limits<float>::infinity();
+  wall.value[3] = nan;
+  wall.radius[7] = nan;
+  wall.radius[8] = -1;
+  wall.x[20] = std::numeric_limits<float>::infinity();
   ASSERT_TRUE(files.bake(wall.query(path("wall.ptc"), 0, wall.count), wall.values(0), problem)) << problem;
   files.write(log);
   EXPECT_EQ(PointFile(path("wall.ptc")).count(), static_cast<uint64_t>(wall.count - 4));

@@ -136,8 +136,12 @@ TEST(Diffusion, FilesAreAskedThroughTheSeamOfShaders) {
   float r[] = {-1, -1, -1}, g[] = {-1, -1, -1}, b[] = {-1, -1, -1};
   const CloudQuery query{file, 3, active, {x, x, z}, {none, none, none}, none};
   TmSubsurfaceOptions material = tmSubsurfaceDefaults();
-  material.material = nullptr, material.ior = 1.3f;
-  for (int k = 0; k < 3; ++k) material.albedo[k] = 0.6f, material.meanFreePath[k] = 1;
+  material.material = nullptr;
+  material.ior = 1.3f;
+  for (int k = 0; k < 3; ++k) {
+    material.albedo[k] = 0.6f;
+    material.meanFreePath[k] = 1;
+  }
   std::string problem;
   ASSERT_TRUE(files.subsurface(query, material, {r, g, b}, problem)) << problem;
   EXPECT_NEAR(r[0], 0.6f, 0.02f);

@@ -23,15 +23,18 @@ PointCloud sphere(int count, const vec3& center) {
   return cloudOf(count, std::sqrt(2 * kPi / static_cast<float>(count)), [&](int i, vec3& P, vec3& N, vec3& light) {
     const float z = 1 - 2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count), r = std::sqrt(1 - z * z),
                 phi = 2.39996f * static_cast<float>(i);
-    N = {r * std::cos(phi), r * std::sin(phi), z}, P = center + N, light = {2, 1, 0};
+    N = {r * std::cos(phi), r * std::sin(phi), z};
+    P = center + N;
+    light = {2, 1, 0};
   });
 }
 /// The plane x = 1 from -size to size, facing -x.
 PointCloud wall(int n, float size) {
   const float step = 2 * size / static_cast<float>(n);
   return cloudOf(n * n, step / std::sqrt(2.0f), [&](int i, vec3& P, vec3& N, vec3& light) {
-    P = {1, -size + (static_cast<float>(i % n) + 0.5f) * step, -size + (static_cast<float>(i / n) + 0.5f) * step},
-    N = {-1, 0, 0}, light = {0, 3, 0};
+    P = {1, -size + (static_cast<float>(i % n) + 0.5f) * step, -size + (static_cast<float>(i / n) + 0.5f) * step};
+    N = {-1, 0, 0};
+    light = {0, 3, 0};
   });
 }
 const vec3 kAxis{0, 0, 1};
@@ -82,19 +85,23 @@ TEST(Disks, SidesDistancesConesAndFalloffAreObeyed) {
   EXPECT_NEAR(covered(query), 1, 0.02f);
   query.falloff.sides = HitSides::Back;
   EXPECT_NEAR(covered(query), 0, 0.02f);
-  query = {}, query.falloff.maxDistance = 2;  // to 60 degrees from the normal
+  query = {};
+  query.falloff.maxDistance = 2;  // to 60 degrees from the normal
   EXPECT_NEAR(covered(query), 0.75f, 0.03f);
-  query.falloff.falloffMode = 1,
+  query.falloff.falloffMode = 1;
   query.falloff.falloff = 1;  // the mean of 1 - 1 / (2 cos) there, by the cosine: 3/4 - 1/2
   EXPECT_NEAR(covered(query), 0.25f, 0.03f);
-  query = {}, query.coneAngle = 0.5f, query.falloff.maxDistance = 1.2f;
+  query = {};
+  query.coneAngle = 0.5f;
+  query.falloff.maxDistance = 1.2f;
   EXPECT_NEAR(covered(query), 1, 0.02f);
 }
 
 TEST(Disks, CoarserIsNearlyTheSame) {
   const Disks disks(sphere(20000, {0, 0, 2}), "_radiosity");
   DisksQuery coarse, fine;
-  coarse.maxSolidAngle = 0.01f, fine.maxSolidAngle = 0.0005f;
+  coarse.maxSolidAngle = 0.01f;
+  fine.maxSolidAngle = 0.0005f;
   EXPECT_NEAR(disks.seenFrom(vec3(0), kAxis, coarse).covered, disks.seenFrom(vec3(0), kAxis, fine).covered, 0.02f);
 }
 

@@ -30,14 +30,16 @@ class SceneBuilder {
   }
   void light(const std::string& shader, ParamList params) {
     auto l = std::make_shared<LightCall>();
-    l->shader = call(shader, std::move(params)), l->index = static_cast<int>(scene.lights.size());
+    l->shader = call(shader, std::move(params));
+    l->index = static_cast<int>(scene.lights.size());
     l->castsShadows = shader == "pointlight" && shadows;
     lights.push_back(l->index);
     scene.lights.push_back(std::move(l));
   }
   void add(PrimPtr prim, const vec3& color, const vec3& center = vec3(0)) {
     auto attributes = std::make_shared<Attributes>();
-    attributes->color = color, attributes->lights = lights;
+    attributes->color = color;
+    attributes->lights = lights;
     attributes->surface = std::make_shared<ShaderCall>(call("matte"));
     Object o;
     o.shapes = {std::move(prim)};
@@ -138,7 +140,8 @@ inline DeepFrame frameOf(const World& world, int bucket) {
   DeepFrame frame;
   frame.crop = frame.padded = {0, 0, world.camera.xResolution(), world.camera.yResolution()};
   frame.bucketWidth = frame.bucketHeight = bucket;
-  frame.columns = (frame.crop.width() + bucket - 1) / bucket, frame.rows = (frame.crop.height() + bucket - 1) / bucket;
+  frame.columns = (frame.crop.width() + bucket - 1) / bucket;
+  frame.rows = (frame.crop.height() + bucket - 1) / bucket;
   for (int t = 0; t < frame.columns * frame.rows; ++t) {
     DeepTile tile;
     const int x0 = t % frame.columns * bucket, y0 = t / frame.columns * bucket;
@@ -155,13 +158,18 @@ inline DeepFrame frameOf(const World& world, int bucket) {
         int& b = batchOfGroup[static_cast<size_t>(group)];
         int floats = 0;
         for (const Primvar& p : world.scene.groups[static_cast<size_t>(group)].primvars) floats += p.width;
-        if (b < 0) b = static_cast<int>(tile.batches.size()), tile.batches.emplace_back(group, floats);
+        if (b < 0) {
+          b = static_cast<int>(tile.batches.size());
+          tile.batches.emplace_back(group, floats);
+        }
         ShadePoints& batch = tile.batches[static_cast<size_t>(b)];
         const int i = batch.add(static_cast<uint32_t>(y * 10000 + x));
         if (floats > 0) evaluatePoint(world.scene, hit.object, hit.patch, hit.u, hit.v, batch, i);
         const vec3 P = ray.origin + hit.t * ray.direction;
-        batch.set3(kPx, i, P), batch.set3(kIx, i, P);
-        batch.set3(kNx, i, hit.normal), batch.set3(kNgx, i, hit.geometricNormal);
+        batch.set3(kPx, i, P);
+        batch.set3(kIx, i, P);
+        batch.set3(kNx, i, hit.normal);
+        batch.set3(kNgx, i, hit.geometricNormal);
         tile.fragments.push_back({static_cast<uint32_t>(tile.facets.size()), P.z, 1});
         tile.facets.push_back({b, {i, i, i, i}});
       }
@@ -180,7 +188,10 @@ inline std::vector<vec3> indirectAt(const GiServices& services, const ShadePoint
   const size_t n = static_cast<size_t>(points.count());
   std::vector<uint8_t> active(n, 1);
   AlignedVector<float> N[3], E[3];
-  for (int c = 0; c < 3; ++c) N[c].resize(n), E[c].resize(n);
+  for (int c = 0; c < 3; ++c) {
+    N[c].resize(n);
+    E[c].resize(n);
+  }
   for (int i = 0; i < points.count(); ++i)
     for (int c = 0; c < 3; ++c) N[c][static_cast<size_t>(i)] = points.facingNormal(i)[c];
   services.indirectDiffuse(points, active.data(), {N[0].data(), N[1].data(), N[2].data()}, query, context,

@@ -217,8 +217,10 @@ TEST(GatherPass, BumpsTakeNoRecordsAndAreStillSeen) {
   const auto everyPoint = bumps.world.use({.maxError = 0});
   const std::vector<vec3> truth = indirectOf(*everyPoint, bumps.world, bumps.frame);
   float error = 0, mean = 0;
-  for (size_t i = 0; i < E.size(); ++i)
-    error += std::abs(luminance(E[i]) - luminance(truth[i])), mean += luminance(truth[i]);
+  for (size_t i = 0; i < E.size(); ++i) {
+    error += std::abs(luminance(E[i]) - luminance(truth[i]));
+    mean += luminance(truth[i]);
+  }
   EXPECT_LT(error / mean, 0.08f);
 }
 

@@ -35,9 +35,10 @@ SceneBuilder meadow(bool rooted, int blades) {
             {},
             {}};
     ParamList params{P};
-    if (rooted)
-      params.push_back(triple("gatherP", ValueType::Point, {x + 0.05f, kGround, z})),
-          params.push_back(triple("gatherN", ValueType::Normal, {0, 2, 0}));
+    if (rooted) {
+      params.push_back(triple("gatherP", ValueType::Point, {x + 0.05f, kGround, z}));
+      params.push_back(triple("gatherN", ValueType::Normal, {0, 2, 0}));
+    }
     b.add(makePolygons({4}, {0, 1, 2, 3}, params, problems), vec3(0.5f));
     auto hidden = std::make_shared<Attributes>(*b.scene.objects.back().attributes);
     hidden->visibility.diffuse = false;
@@ -103,7 +104,8 @@ TEST(GatherPlaces, TheReferenceGathersThereToo) {
   const auto cached = world.use({});
   gatherFrame(*cached, frame);
   GiSettings settings;
-  settings.mode = GiMode::Reference, settings.samples = 4096;
+  settings.mode = GiMode::Reference;
+  settings.samples = 4096;
   const auto reference = world.use(settings);
   int found = 0;
   for (const ShadePoints& batch : frame.tiles[0].batches) {
@@ -127,11 +129,16 @@ DeepTile tileOfPairs(float drift) {
   ShadePoints& batch = tile.batches.emplace_back(0, 0);
   for (int i = 0; i <= kPixels; ++i) {
     batch.add(hash32(static_cast<uint32_t>(i)));
-    batch.set3(kPx, i, {static_cast<float>(i), 0, 5}), batch.set3(kIx, i, {0, 0, 5});
-    batch.set3(kNx, i, {0, 0, -1}), batch.set3(kNgx, i, {0, 0, -1});
-    batch.set3(kDpduX, i, {1, 0, 0}), batch.set3(kDpdvX, i, {0, 0, 0});
+    batch.set3(kPx, i, {static_cast<float>(i), 0, 5});
+    batch.set3(kIx, i, {0, 0, 5});
+    batch.set3(kNx, i, {0, 0, -1});
+    batch.set3(kNgx, i, {0, 0, -1});
+    batch.set3(kDpduX, i, {1, 0, 0});
+    batch.set3(kDpdvX, i, {0, 0, 0});
     batch.set3(kDriftX, i, {i < 20 ? drift : 0, 0, 0});
-    batch.channel(kDu)[i] = 0.5f, batch.channel(kDv)[i] = 0.5f, batch.channel(kTime)[i] = -1;
+    batch.channel(kDu)[i] = 0.5f;
+    batch.channel(kDv)[i] = 0.5f;
+    batch.channel(kTime)[i] = -1;
     tile.facets.push_back({0, {i, i, i, i}});
   }
   for (uint32_t p = 0; p < kPixels; ++p) {

@@ -13,7 +13,8 @@ struct Table {
     SceneBuilder b(32);
     auto lamp = std::make_shared<LightCall>();
     lamp->shader = call("arealight", {floatParam("samples", static_cast<float>(samples))});
-    lamp->area = true, lamp->index = 0;
+    lamp->area = true;
+    lamp->index = 0;
     b.scene.lights.push_back(lamp);
     b.lights.push_back(0);
     b.quad({-4, -4, 5}, {4, -4, 5}, {4, 4, 5}, {-4, 4, 5}, vec3(1));
@@ -39,8 +40,10 @@ struct Table {
     ShadePoints points(world->scene.objects[0].group, 0);
     for (int k = 0; k < count; ++k) {
       const int i = points.add(hash32(static_cast<uint32_t>(k)));
-      points.set3(kPx, i, P), points.set3(kIx, i, P);
-      points.set3(kNx, i, {0, 0, -1}), points.set3(kNgx, i, {0, 0, -1});
+      points.set3(kPx, i, P);
+      points.set3(kIx, i, P);
+      points.set3(kNx, i, {0, 0, -1});
+      points.set3(kNgx, i, {0, 0, -1});
     }
     ShadedPoints out;
     world->shading.shade(points, {}, out);

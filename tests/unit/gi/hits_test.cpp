@@ -13,12 +13,18 @@ struct Furnace {
     const vec3 lo(-1, -1, 2), hi(1, 1, 4), s = hi - lo;
     const auto wall = [&](const vec3& o, const vec3& u, const vec3& v) { b.quad(o, o + u, o + u + v, o + v, vec3(1)); };
     const vec3 x(s.x, 0, 0), y(0, s.y, 0), z(0, 0, s.z);
-    wall(lo, x, y), wall(lo + z, y, x), wall(lo, y, z), wall(lo + x, z, y), wall(lo, z, x), wall(lo + y, x, z);
+    wall(lo, x, y);
+    wall(lo + z, y, x);
+    wall(lo, y, z);
+    wall(lo + x, z, y);
+    wall(lo, z, x);
+    wall(lo + y, x, z);
     for (auto& o : b.scene.objects) attributes(o).surface = std::make_shared<ShaderCall>(call("constant"));
     b.sphere(0.6f, color, {0, 0, 3});
     Attributes& ball = attributes(b.scene.objects.back());
     ball.surface = std::make_shared<ShaderCall>(call(ballShader));
-    ball.opacity = opacity, ball.trace.maxSpecularDepth = 12;
+    ball.opacity = opacity;
+    ball.trace.maxSpecularDepth = 12;
     b.scene.options.maxRayDepth = 16;
     world = std::make_unique<World>(std::move(b.scene));
   }
@@ -29,8 +35,10 @@ struct Furnace {
     const auto services = world->use({mode, 4096});
     ShadePoints points(world->scene.objects[0].group, 0);
     points.add(7U);
-    points.set3(kPx, 0, {0.1f, 0.999f, 3.05f}), points.set3(kIx, 0, {0, 1, 0});
-    points.set3(kNx, 0, {0, -1, 0}), points.set3(kNgx, 0, {0, -1, 0});
+    points.set3(kPx, 0, {0.1f, 0.999f, 3.05f});
+    points.set3(kIx, 0, {0, 1, 0});
+    points.set3(kNx, 0, {0, -1, 0});
+    points.set3(kNgx, 0, {0, -1, 0});
     std::vector<float> out(12 * kLanes);
     const auto vec = [&](size_t k) {
       return TmVec3{&out[3 * k * kLanes], &out[(3 * k + 1) * kLanes], &out[(3 * k + 2) * kLanes]};

@@ -116,8 +116,9 @@ TEST(IrradianceCache, BumpsThatRaysDoNotSeeLieBehindNoRecord) {
 
 TEST(IrradianceCache, TheFloorOfTheRadiusDoesNotSpanASlotOfParallelSides) {
   for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
-    auto record = recordAt(vec3(0), vec3(1), 0.02f);    // of the ceiling, 2 cm over a lamp
-    record.smoothRadius = 0.02f, record.limit = 0.02f;  // as gather() makes it
+    auto record = recordAt(vec3(0), vec3(1), 0.02f);  // of the ceiling, 2 cm over a lamp
+    record.smoothRadius = 0.02f;
+    record.limit = 0.02f;  // as gather() makes it
     EXPECT_EQ(weightOfOne({function, 1}, record, {0.01f, 0, 0.02f}, kUp, 0.04f), 0) << "the lamp";
     EXPECT_GT(weightOfOne({function, 1}, record, {0.01f, 0, 0.005f}, kUp, 0.04f), 0) << "a bump of the ceiling";
   }
@@ -348,7 +349,9 @@ TEST(IrradianceCache, AQuadraticFieldIsReproducedByRecordsThatKnowTheirSecondDer
     record.smoothRadius = 0.3f;
     record.tangent = normalizeOr(vec3(1, 2, 0), vec3(0));
     // This is the Hessian of 0.8 xx - 0.6 xy + 0.4 yy, whose axes are (1, 2) and (-2, 1).
-    record.hessian[0] = vec3(0.48f), record.hessian[1] = vec3(0.04f), record.hessian[2] = vec3(1.92f);
+    record.hessian[0] = vec3(0.48f);
+    record.hessian[1] = vec3(0.04f);
+    record.hessian[2] = vec3(1.92f);
     cache.insert(record);
   }
   for (uint32_t i = 0; i < 100; ++i) {
@@ -440,7 +443,10 @@ TEST(IrradianceCache, PlainIsScreenAsPublished) {
     return r;
   };
   IrradianceCache screen(kBox, {}), plain(kBox, {ErrorFunction::Plain});
-  for (auto* cache : {&screen, &plain}) cache->insert(bent(-0.05f)), cache->insert(bent(0.05f));
+  for (auto* cache : {&screen, &plain}) {
+    cache->insert(bent(-0.05f));
+    cache->insert(bent(0.05f));
+  }
   const IrradianceEstimate between = plain.lookup(vec3(0), kUp, 0.01f);
   EXPECT_FLOAT_EQ(between.weight, screen.lookup(vec3(0), kUp, 0.01f).weight);
   EXPECT_NEAR(between.E.x, 0.9f, 1e-5f) << "each record says 1.1 - 0.2; blended to the second order it is 1";

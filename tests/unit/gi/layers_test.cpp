@@ -17,7 +17,8 @@ TEST(RayLayers, ARayBehindATransparentSurfaceIsAsWideAsItWasThere) {
   World world(std::move(b.scene));
   RayLayers layers;
   Ray ray{vec3(0), {0, 0, 1}};
-  ray.spread = 0.1f, ray.radius = 0.05f;
+  ray.spread = 0.1f;
+  ray.radius = 0.05f;
   layers.add(0, ray, {});
   std::vector<Hit> hits;
   layers.meet(world.rays, kMaskSpecular, hits);

@@ -33,7 +33,10 @@ float light(const GiServices& services, const ShadePoints& points, int i, const 
   active[static_cast<size_t>(i)] = 1;
   const auto n = active.size();
   std::vector<float> t[3], out[3];
-  for (int c = 0; c < 3; ++c) t[c].assign(n, toward[c]), out[c].assign(n, 1);
+  for (int c = 0; c < 3; ++c) {
+    t[c].assign(n, toward[c]);
+    out[c].assign(n, 1);
+  }
   services.transmission(points, active.data(), {t[0].data(), t[1].data(), t[2].data()}, rays, {},
                         {out[0].data(), out[1].data(), out[2].data()});
   return out[0][static_cast<size_t>(i)];
@@ -41,8 +44,12 @@ float light(const GiServices& services, const ShadePoints& points, int i, const 
 
 int addPoint(ShadePoints& points, const vec3& P, const vec3& N, const vec3& drift = vec3(0)) {
   const int i = points.add(static_cast<uint32_t>(points.count()) * 7919u + 1);
-  points.set3(kPx, i, P), points.set3(kNx, i, N), points.set3(kNgx, i, N), points.set3(kIx, i, -N);
-  points.set3(kDriftX, i, drift), points.channel(kTime)[i] = -1;
+  points.set3(kPx, i, P);
+  points.set3(kNx, i, N);
+  points.set3(kNgx, i, N);
+  points.set3(kIx, i, -N);
+  points.set3(kDriftX, i, drift);
+  points.channel(kTime)[i] = -1;
   return i;
 }
 
@@ -62,7 +69,8 @@ TEST(MotionInShadows, TheShadowOfAMovingEdgeIsALinearRamp) {
     // Light at (0, 2, 0): the way to it passes the height of the edge at x / 2, and the edge is there at (x/2 + 1) / 2.
     const float lit = std::clamp((x / 2 + 1) / 2, 0.0f, 1.0f);
     const float is = light(*services, points, i, vec3(0, 2, 0) - points.position(i));
-    worst = std::max(worst, double{std::abs(is - lit)}), bias += (is - lit) / 400;
+    worst = std::max(worst, double{std::abs(is - lit)});
+    bias += (is - lit) / 400;
   }
   EXPECT_LT(worst, 1.0 / 16 + 1e-3) << "sixteen strata of the shutter";
   EXPECT_LT(std::abs(bias), 0.002);

@@ -25,8 +25,10 @@ struct Floor {
   float clear(const vec3& P) const {
     ShadePoints points(world->scene.objects[object].group, 0);
     points.add(11U);
-    points.set3(kPx, 0, P), points.set3(kIx, 0, {0, 1, 0}), points.set3(kNx, 0, {0, -1, 0}),
-        points.set3(kNgx, 0, {0, -1, 0});
+    points.set3(kPx, 0, P);
+    points.set3(kIx, 0, {0, 1, 0});
+    points.set3(kNx, 0, {0, -1, 0});
+    points.set3(kNgx, 0, {0, -1, 0});
     ShadedPoints out;
     world->shading.shade(points, {}, out);
     return out.color(0).x;
@@ -95,7 +97,9 @@ Error errorOnFloor(const World& world, const DeepFrame& frame) {
         if (P.y > -0.999f || P.z > 6) continue;
         const float x2 = P.x * P.x + (P.z - 3) * (P.z - 3), clear = 1 - 0.125f * std::pow(0.25f + x2, -1.5f);
         const float off = std::abs(out.color(i).x - clear);
-        error.mean += off, error.most = std::max(error.most, off), ++error.points;
+        error.mean += off;
+        error.most = std::max(error.most, off);
+        ++error.points;
       }
     }
   error.mean /= static_cast<float>(error.points);

@@ -38,7 +38,8 @@ Scene hollowLamp(const vec3& radii, float albedo, float scale = 1) {
   b.scene.objects[0].worldFromObject = Motion::still(m);
   b.scene.cameraFromWorld = Motion::still(glm::mat4(mat3(scale)));
   Attributes& lamp = latest(b);
-  lamp.areaLight = 0, lamp.insideOut = true;
+  lamp.areaLight = 0;
+  lamp.insideOut = true;
   return b.scene;
 }
 
@@ -132,8 +133,11 @@ TEST(PhotonEmission, TheSunSendsPhotonsAtWhatItsWidthReaches) {
     World world(b.scene);
     ASSERT_EQ(world.shading.lightKind(0), LightKind::Distant);
     LightProbe probe;
-    for (uint32_t i = 0; i < 4096; ++i)
-      probe.P.emplace_back(0, 0, 5), probe.N.emplace_back(0, 0, -1), probe.xi.push_back(sobol2(i, 3U));
+    for (uint32_t i = 0; i < 4096; ++i) {
+      probe.P.emplace_back(0, 0, 5);
+      probe.N.emplace_back(0, 0, -1);
+      probe.xi.push_back(sobol2(i, 3U));
+    }
     world.shading.probe(0, probe);
     double E = 0;  // on what faces the middle
     for (size_t i = 0; i < probe.L.size(); ++i) E -= double{kPi} / 4096 * double{probe.Cl[i].y * probe.L[i].z};
@@ -172,7 +176,9 @@ SceneBuilder roomWithAWindow(const std::string& portals, const std::string& shad
     b.quad(at(1, -0.2f, s), at(1, 0.2f, s), at(1, 0.2f, s * 0.3f), at(1, -0.2f, s * 0.3f), black);
   }
   mat4 window(1.0f);
-  window[0] = vec4(0, 0.4f, 0, 0), window[1] = vec4(0, 0, 0.6f, 0), window[2] = vec4(1, 0, 0, 0);
+  window[0] = vec4(0, 0.4f, 0, 0);
+  window[1] = vec4(0, 0, 0.6f, 0);
+  window[2] = vec4(1, 0, 0, 0);
   window[3] = vec4(at(1, 0, 0), 1);
   b.scene.worldFromNamed["window"] = window;
   return b;
@@ -187,7 +193,8 @@ TEST(PhotonEmission, ASkySendsPhotonsThroughItsPortals) {
     for (const StoredPhoton& p : traced(world, {200000, 1})) {
       const vec3 off = p.P - kMiddle;
       if (dot(off, p.N) > 0) continue;
-      power += double{p.power.y}, squares += double{p.power.y} * double{p.power.y};
+      power += double{p.power.y};
+      squares += double{p.power.y} * double{p.power.y};
     }
     noise[portals] = std::sqrt(squares);
     EXPECT_NEAR(power, truth, (portals.empty() ? 0.15 : 0.01) * truth) << portals;
@@ -312,7 +319,8 @@ TEST(PhotonEmission, OfAnInvisibleSheetNothingIsStored) {
 TEST(PhotonEmission, TransparentObjectsAreNoBounceAndMakeNoCaustic) {
   SceneBuilder b = shaded();
   Attributes& glass = latest(b);
-  glass.photon.shadingModel = "transparent", glass.color = vec3(1, 0.5f, 0.25f);
+  glass.photon.shadingModel = "transparent";
+  glass.color = vec3(1, 0.5f, 0.25f);
   World world(b.scene);
   vec3 onWall(0);
   for (const StoredPhoton& p : traced(world, {50000, 1})) {

@@ -33,7 +33,10 @@ TEST(PhotonIrradiance, UniformPhotonsGiveTheirIrradiance) {
   vec3 sum(0.0f);
   int count = 0;
   for (size_t i = 0; i < out.count(); ++i)
-    if (inMiddle(out.position[i])) sum += vec3(out.at(i)[0], out.at(i)[1], out.at(i)[2]), ++count;
+    if (inMiddle(out.position[i])) {
+      sum += vec3(out.at(i)[0], out.at(i)[1], out.at(i)[2]);
+      ++count;
+    }
   EXPECT_NEAR(sum.x / static_cast<float>(count), 1, 0.02);
   EXPECT_NEAR(sum.z / static_cast<float>(count), 3, 0.06);
 }
@@ -45,7 +48,8 @@ TEST(PhotonIrradiance, TheFarthestOfFewWithinReachGivesTheRadiusAndDoesNotCount)
   for (int i = 0; i < 21 * 21; ++i)
     photons.add({static_cast<float>(i % 21), static_cast<float>(i / 21), 0}, {0, 0, 1}, 0, &power.x);
   PhotonIrradianceSettings settings;
-  settings.maxRadius = 3.7f, settings.every = 1;  // 45 photons, the farthest at the root of 13
+  settings.maxRadius = 3.7f;
+  settings.every = 1;  // 45 photons, the farthest at the root of 13
   const PointCloud out = estimateIrradiance(photons, settings);
   ASSERT_EQ(out.count(), photons.count());
   const auto middle =
@@ -62,8 +66,14 @@ TEST(PhotonIrradiance, BordersAreNotDark) {
   int edges = 0, corners = 0;
   for (size_t i = 0; i < out.count(); ++i) {
     const vec3 p = out.position[i];
-    if (p.x < 0.005f && p.y > 0.1f && p.y < 0.9f) edge += out.at(i)[0], ++edges;
-    if (p.x < 0.02f && p.y < 0.02f) corner += out.at(i)[0], ++corners;
+    if (p.x < 0.005f && p.y > 0.1f && p.y < 0.9f) {
+      edge += out.at(i)[0];
+      ++edges;
+    }
+    if (p.x < 0.02f && p.y < 0.02f) {
+      corner += out.at(i)[0];
+      ++corners;
+    }
   }
   ASSERT_GT(edges, 20);
   ASSERT_GT(corners, 1);
@@ -109,7 +119,8 @@ TEST(PhotonIrradiance, ABallOnASheetDoesNotTakeTheLightOfItsOtherSide) {
     for (size_t i = 0; i < out.count(); ++i) {
       const float off = glm::length(vec2(out.position[i]) - vec2(0.5f));
       if (out.position[i].z == 0 || out.normal[i].z > -0.5f || off < 0.02f || off > 0.1f) continue;
-      near += double{out.at(i)[0]}, ++count;
+      near += double{out.at(i)[0]};
+      ++count;
     }
     ASSERT_GT(count, 20);
     if (told)
@@ -174,7 +185,10 @@ TEST(PhotonIrradiance, TilesOfTwoColoursShareTheLightOfTheirFloor) {
   double sum = 0;
   int count = 0;
   for (size_t i = 0; i < out.count(); ++i)
-    if (inMiddle(out.position[i])) sum += double{out.at(i)[0]}, ++count;
+    if (inMiddle(out.position[i])) {
+      sum += double{out.at(i)[0]};
+      ++count;
+    }
   EXPECT_NEAR(sum / count, 1, 0.02);
 }
 
@@ -223,7 +237,8 @@ TEST(PhotonTree, FindsTheSamePhotonsAsABruteForceSearch) {
       const vec3 off = tree.position(i) - P;
       all.push_back({dot(off, off) + 15.0f * off.z * off.z, i});
     }
-    std::sort(all.begin(), all.end()), std::sort(heap.begin(), heap.end());
+    std::sort(all.begin(), all.end());
+    std::sort(heap.begin(), heap.end());
     ASSERT_EQ(heap.size(), 20u);
     for (size_t i = 0; i < heap.size(); ++i) EXPECT_EQ(heap[i].photon, all[i].photon);
   }

@@ -143,7 +143,8 @@ TEST(Photons, NoneComesIntoAClosedBody) {
   for (const StoredPhoton& p : traced(world, {50000, 10})) {
     const vec3 off = p.P - vec3(0, 0, 2);
     if (glm::length(off) > 1) continue;
-    ++onBall, inside += dot(off, p.N) < 0;
+    ++onBall;
+    inside += dot(off, p.N) < 0;
   }
   EXPECT_GT(onBall, 1000);
   EXPECT_EQ(inside, 0);
@@ -158,7 +159,8 @@ TEST(Photons, NoneLeavesAClosedBoxByItsEdges) {
     constexpr int kFaces[6][4] = {{0, 4, 5, 1}, {2, 3, 7, 6}, {4, 6, 7, 5}, {0, 1, 3, 2}, {0, 2, 6, 4}, {5, 7, 3, 1}};
     for (const auto& f : kFaces) b.quad(at(f[0]), at(f[1]), at(f[2]), at(f[3]), vec3(0.75f));
   };
-  box(1), box(3);
+  box(1);
+  box(3);
   World world(b.scene);
   const std::vector<StoredPhoton> photons = traced(world, {150000, 200});
   EXPECT_GT(photons.size(), 590000u);
@@ -378,7 +380,9 @@ std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation, boo
     const vec3 d = glm::normalize(vec3(static_cast<float>(i) - 2.5f, 0.5f, 1));
     const int k = points.add(i + 1);
     points.set3(kPx, k, vec3(0, 0, 0.5f) + kRadius * d);
-    points.set3(kNx, k, d), points.set3(kNgx, k, d), points.set3(kIx, k, d);
+    points.set3(kNx, k, d);
+    points.set3(kNgx, k, d);
+    points.set3(kIx, k, d);
   }
   IndirectQuery query;
   query.samples = 1000;
@@ -474,8 +478,10 @@ TEST_F(Atlas, CausticsHaveMapsOfTheirOwn) {
   b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
   auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes),
        wall = std::make_shared<Attributes>(*b.scene.objects[1].attributes);
-  mirror->photon.shadingModel = "chrome", wall->photon.causticMap = "wall";
-  b.scene.objects[0].attributes = mirror, b.scene.objects[1].attributes = wall;
+  mirror->photon.shadingModel = "chrome";
+  wall->photon.causticMap = "wall";
+  b.scene.objects[0].attributes = mirror;
+  b.scene.objects[1].attributes = wall;
   World world(b.scene);
   const auto services = world.use({.mode = GiMode::None});
   AtlasSettings settings;

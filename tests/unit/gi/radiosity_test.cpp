@@ -15,7 +15,9 @@ using namespace test;
 
 RadiosityChart gradient(int width, int height) {
   RadiosityChart c;
-  c.width = width, c.height = height, c.texelSize = 1;
+  c.width = width;
+  c.height = height;
+  c.texelSize = 1;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       c.texels.emplace_back((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
@@ -38,14 +40,18 @@ TEST(RadiosityChart, InterpolatesAGradientAtEveryLevelThatItFits) {
 
 TEST(RadiosityChart, OfOneTexelIsThatTexel) {
   RadiosityChart c;
-  c.width = c.height = 1, c.texelSize = 1, c.texels = {vec3(3, 2, 1)};
+  c.width = c.height = 1;
+  c.texelSize = 1;
+  c.texels = {vec3(3, 2, 1)};
   c.makeLevels();
   EXPECT_EQ(c.lookup(0.9f, 0.1f, 5), vec3(3, 2, 1));
 }
 
 TEST(RadiosityChart, WhatIsUnknownHasNoSayAndTakesWhatIsAround) {
   RadiosityChart c;
-  c.width = 4, c.height = 2, c.texelSize = 1;
+  c.width = 4;
+  c.height = 2;
+  c.texelSize = 1;
   c.texels = {vec3(1), vec3(0), vec3(0), vec3(0), vec3(5), vec3(0), vec3(0), vec3(0)};
   c.coverage = {1, 0, 0, 0, 0.5f, 0, 0, 0};
   c.makeLevels();
@@ -59,7 +65,8 @@ TEST(RadiosityPicture, ChartsLieAtMultiplesOfTheirSizeAndDoNotOverlap) {
   std::vector<RadiosityChart> charts;
   for (uint32_t k = 0; k < 200; ++k) {
     RadiosityChart c;
-    c.width = 1 << (hash32(k) % 6), c.height = 1 << (hash32(k + 1000) % 5);
+    c.width = 1 << (hash32(k) % 6);
+    c.height = 1 << (hash32(k + 1000) % 5);
     c.texels.assign(static_cast<size_t>(c.width * c.height), vec3(static_cast<float>(k + 1)));
     charts.push_back(c);
   }
@@ -95,8 +102,8 @@ TEST(RadiosityMaps, HoldWhatAHitSendsBack) {
     if (hit.object < 0 || !maps.lookup(ray, hit, mapped)) continue;
     std::vector<vec3> truth;
     world.rays.shadeHits({ray}, {hit}, {{k, 0}}, world.shading, context, truth);
-    sum += static_cast<double>(luminance(truth[0])),
-        off += static_cast<double>(std::abs(luminance(truth[0]) - luminance(mapped)));
+    sum += static_cast<double>(luminance(truth[0]));
+    off += static_cast<double>(std::abs(luminance(truth[0]) - luminance(mapped)));
     ++found;
   }
   EXPECT_GT(found, 2000);
@@ -132,9 +139,13 @@ TEST(RadiosityMaps, DoNotAnswerForTheBackOfWhatIsOneSided) {
 TEST(RadiosityMaps, OfATrimmedPatchAreNotDarkAlongItsEdge) {
   SceneBuilder b;
   TrimLoops triangle;
-  triangle.loops.resize(1), triangle.keepsInside = true;
+  triangle.loops.resize(1);
+  triangle.keepsInside = true;
   TrimCurve& edges = triangle.loops[0].emplace_back();
-  edges.line.controls = 4, edges.line.order = 2, edges.line.min = 0, edges.line.max = 3;
+  edges.line.controls = 4;
+  edges.line.order = 2;
+  edges.line.min = 0;
+  edges.line.max = 3;
   edges.line.knots = {0, 0, 1, 2, 3, 3};
   edges.controls = {{0.13f, 0.17f, 1}, {0.91f, 0.32f, 1}, {0.41f, 0.87f, 1}, {0.13f, 0.17f, 1}};
   const Param P{"P", Storage::Vertex, ValueType::Point, 1, {-1, -1, 3, 1, -1, 3, -1, 1, 3, 1, 1, 3}, {}, {}};
@@ -168,9 +179,10 @@ TEST(RadiosityMaps, GatherAsShadersDoForNoShaderAtHits) {
   const std::vector<vec3> found = indirectOf(*mapped, world, frame);
   EXPECT_EQ(world.stats.shade.verticesShaded, before);
   double sum = 0, off = 0;
-  for (size_t i = 0; i < truth.size(); ++i)
-    sum += static_cast<double>(luminance(truth[i])),
-        off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
+  for (size_t i = 0; i < truth.size(); ++i) {
+    sum += static_cast<double>(luminance(truth[i]));
+    off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
+  }
   EXPECT_LT(off / sum, 0.02);
 }
 
@@ -204,9 +216,10 @@ TEST(RadiosityBricks, GatherAsShadersDoForNoShaderAtHits) {
   const std::vector<vec3> found = indirectOf(*baked, world, frame);
   EXPECT_EQ(world.stats.shade.verticesShaded, before);
   double sum = 0, off = 0;
-  for (size_t i = 0; i < truth.size(); ++i)
-    sum += static_cast<double>(luminance(truth[i])),
-        off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
+  for (size_t i = 0; i < truth.size(); ++i) {
+    sum += static_cast<double>(luminance(truth[i]));
+    off += static_cast<double>(std::abs(luminance(truth[i]) - luminance(found[i])));
+  }
   EXPECT_LT(off / sum, 0.025) << "voxels, not texels, blur the shadow";
 }
 
@@ -298,7 +311,8 @@ TEST(RadiosityMaps, OfASmallPictureAreFewerThanOfALargeOne) {
   Scene fine = cornell().scene;
   for (Object& o : fine.objects) {
     auto a = std::make_shared<Attributes>(*o.attributes);
-    a->radiosity.screen = false, a->radiosity.texelSize = 1e-4f;
+    a->radiosity.screen = false;
+    a->radiosity.texelSize = 1e-4f;
     o.attributes = a;
   }
   fine.options.xResolution = fine.options.yResolution = 16;

@@ -32,7 +32,10 @@ void coloredQuad(SceneBuilder& b, const vec3 (&corner)[4], const vec3 (&color)[4
 
 int addPoint(ShadePoints& points, const vec3& P, const vec3& N, const vec3& I) {
   const int i = points.add(static_cast<uint32_t>(points.count()) * 7919u + 3);
-  points.set3(kPx, i, P), points.set3(kNx, i, N), points.set3(kNgx, i, N), points.set3(kIx, i, I);
+  points.set3(kPx, i, P);
+  points.set3(kNx, i, N);
+  points.set3(kNgx, i, N);
+  points.set3(kIx, i, I);
   return i;
 }
 
@@ -101,7 +104,8 @@ TEST(RayCalls, AnEmitterThatAMirrorShowsCountsOnce) {
   surface(b, "mirror");
   auto light = std::make_shared<LightCall>();
   light->shader = call("arealight", {floatParam("intensity", 3)});
-  light->area = true, light->index = 0;
+  light->area = true;
+  light->index = 0;
   b.scene.lights.push_back(light);
   change(b, [](Attributes& a) { a.lights = {0}; });
   b.quad({-9, 4, -9}, {-9, 4, 9}, {9, 4, 9}, {9, 4, -9}, vec3(0));
@@ -143,14 +147,16 @@ TEST(RayCalls, AirBetweenLayersIsThatOfTheSideOnWhichTheRayLeavesEach) {
       b.quad({-1, -1, s.z}, {1, -1, s.z}, {1, 1, s.z}, {-1, 1, s.z}, s.color);
       surface(b, "constant");
       change(b, [&](Attributes& a) {
-        a.opacity = vec3(s.opacity), a.insideOut = s.turned != flipped;
+        a.opacity = vec3(s.opacity);
+        a.insideOut = s.turned != flipped;
         const auto volume = [&](float distance) {
           Param background{"background", Storage::Uniform, ValueType::Color, 1, {fog.x, fog.y, fog.z}, {}, {}};
           return distance > 0
                      ? std::make_shared<ShaderCall>(call("fog", {floatParam("distance", distance), background}))
                      : nullptr;
         };
-        a.exterior = volume(s.thick[0]), a.interior = volume(s.thick[1]);
+        a.exterior = volume(s.thick[0]);
+        a.interior = volume(s.thick[1]);
       });
     }
     World world(b.scene);
@@ -164,7 +170,9 @@ TEST(RayCalls, AirBetweenLayersIsThatOfTheSideOnWhichTheRayLeavesEach) {
       const float distance = last ? last->thick[entersFirst != last->turned] : 0,
                   passes = distance > 0 ? std::exp((before - s.z) / distance) : 1;
       color += clear * ((1 - passes) * fog + passes * s.opacity * s.color);
-      clear *= passes * (1 - s.opacity), before = s.z, last = &s;
+      clear *= passes * (1 - s.opacity);
+      before = s.z;
+      last = &s;
     }
     const Answer is = traceOne(*services, vec3(0), {0, 0, 1}, {});
     for (int k = 0; k < 3; ++k)
@@ -213,8 +221,10 @@ TEST(RayCalls, LightPassesLayersByTheProductOfTheirClearness) {
       // The mean distance of layers 1/2 apart, by what each covers: the mean over the colours.
       double covered = 0, distances = 0;
       for (int k = 1; k <= through; ++k)
-        for (const double clear : {0.8, 0.6, 0.4})
-          covered += (1 - clear) * std::pow(clear, k - 1), distances += 0.5 * k * (1 - clear) * std::pow(clear, k - 1);
+        for (const double clear : {0.8, 0.6, 0.4}) {
+          covered += (1 - clear) * std::pow(clear, k - 1);
+          distances += 0.5 * k * (1 - clear) * std::pow(clear, k - 1);
+        }
       if (through > 0) {
         EXPECT_NEAR(a.effective, distances / covered, 1e-4);
       } else

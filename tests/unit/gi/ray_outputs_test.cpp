@@ -27,10 +27,13 @@ struct Shot {
        std::vector<std::pair<std::string, int>> names = {}, const ShadeContext& context = {}) {
     ShadePoints points(0, 0);
     const int i = points.add(5U);
-    points.set3(kPx, i, from), points.set3(kNx, i, {0, 0, 1}), points.set3(kNgx, i, {0, 0, 1}),
-        points.set3(kIx, i, {0, 0, -1});
+    points.set3(kPx, i, from);
+    points.set3(kNx, i, {0, 0, 1});
+    points.set3(kNgx, i, {0, 0, 1});
+    points.set3(kIx, i, {0, 0, -1});
     RayResult result;
-    result.distance = &distance, result.color = {&color.x, &color.y, &color.z},
+    result.distance = &distance;
+    result.color = {&color.x, &color.y, &color.z};
     result.opacity = {&opacity.x, &opacity.y, &opacity.z};
     for (const auto& [name, floats] : names) {
       vec3& value = outputs[name];
@@ -96,8 +99,10 @@ TEST(RayOutputs, AreWhatTheSceneSaysOfThePlaceThatIsMet) {
   EXPECT_NEAR(std::abs(shot.outputs.at("primitive:Ng").z), 1, 1e-5f);
   is("primitive:dPdu", {4, 0, 0});
   is("primitive:dPdv", {0, 2, 0});
-  number("primitive:u", u), number("primitive:v", v);
-  number("primitive:s", 10 + 2 * u), number("primitive:t", 20 + 4 * v);
+  number("primitive:u", u);
+  number("primitive:v", v);
+  number("primitive:s", 10 + 2 * u);
+  number("primitive:t", 20 + 4 * v);
   is("primitive:Cs", color);
   is("primitive:Os", opacity);
   number("primitive:wet", u);
@@ -134,7 +139,7 @@ TEST(RayOutputs, TheShaderRunsWhereTheCallOrElseTheAttributesOfTheObjectSaySo) {
     SceneBuilder b;
     sheet(b, 2, {0.2f, 0.4f, 0.8f});
     attributes(b).surface = std::make_shared<ShaderCall>(call("matte"));  // black without light
-    attributes(b).diffuseHitMode = own,
+    attributes(b).diffuseHitMode = own;
     attributes(b).specularHitMode = own == HitMode::Shader ? HitMode::Primitive : HitMode::Shader;
     World world(b.scene);
     const auto services = world.use({});
@@ -179,7 +184,8 @@ TEST(RayOutputs, DiffuseRaysAreAsDeepAsTheObjectsOnTheWayAllow) {
     query.kind = RayKind::Diffuse;
     for (int depth = 0; depth < 5; ++depth) {
       ShadeContext context;  // of a point that a ray of this depth has met, whose path allows two more
-      context.depth = depth, context.diffuseLimit = depth + 2;
+      context.depth = depth;
+      context.diffuseLimit = depth + 2;
       EXPECT_EQ(Shot(*services, vec3(0), query, {}, context).distance < kInfinity, limit >= 1)
           << "limit " << limit << ", depth " << depth;
       context.diffuseLimit = depth;
@@ -193,7 +199,8 @@ TEST(RayOutputs, DisplacementIsMetWhereTheObjectAsksForIt) {
     SceneBuilder b(256);
     b.quad({-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}, vec3(1));
     attributes(b).displacement = std::make_shared<ShaderCall>(call("noisybump", {floatParam("Km", 0.2f)}));
-    attributes(b).displacementBound = 0.2f, attributes(b).trace.displacements = displaced,
+    attributes(b).displacementBound = 0.2f;
+    attributes(b).trace.displacements = displaced;
     attributes(b).trace.tessellation = 16;
     World world(b.scene);
     Grid truth = dice(world.scene, 0, 0, UvRect{}, 64, 64, 1);

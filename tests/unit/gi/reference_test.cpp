@@ -14,7 +14,9 @@ struct OverFloor {
     SceneBuilder b(32);
     if (areaLamp) {
       auto lamp = std::make_shared<LightCall>();
-      lamp->shader = call("arealight"), lamp->area = true, lamp->index = 0;
+      lamp->shader = call("arealight");
+      lamp->area = true;
+      lamp->index = 0;
       b.scene.lights.push_back(lamp);
     } else {
       b.light("pointlight", {floatParam("intensity", 3), pointParam("from", kLamp)});
@@ -36,8 +38,10 @@ struct OverFloor {
     const auto services = world->use({mode, 1 << 16});
     ShadePoints points(world->scene.objects[1].group, 0);
     points.add(11U);
-    points.set3(kPx, 0, {0, 0, 4}), points.set3(kIx, 0, {0, 0, -1});
-    points.set3(kNx, 0, {0, 0, 1}), points.set3(kNgx, 0, {0, 0, 1});
+    points.set3(kPx, 0, {0, 0, 4});
+    points.set3(kIx, 0, {0, 0, -1});
+    points.set3(kNx, 0, {0, 0, 1});
+    points.set3(kNgx, 0, {0, 0, 1});
     std::vector<float> out(12 * kLanes);
     const auto vec = [&](size_t k) {
       return TmVec3{&out[3 * k * kLanes], &out[(3 * k + 1) * kLanes], &out[(3 * k + 2) * kLanes]};
@@ -107,8 +111,10 @@ TEST(Reference, AGlassSlabPassesWhatItsFirstSurfaceDoesNotMirror) {
   ShadePoints points(world.scene.objects[0].group, 0);
   points.add(1U);
   const vec3 P(0.01f, 0.02f, 4);
-  points.set3(kPx, 0, P), points.set3(kIx, 0, P);
-  points.set3(kNx, 0, {0, 0, -1}), points.set3(kNgx, 0, {0, 0, -1});
+  points.set3(kPx, 0, P);
+  points.set3(kIx, 0, P);
+  points.set3(kNx, 0, {0, 0, -1});
+  points.set3(kNgx, 0, {0, 0, -1});
   ShadedPoints out;
   world.shading.shade(points, {}, out);
   EXPECT_NEAR(out.color(0).x, 0.96, 0.002);

@@ -29,7 +29,9 @@ ShadePoints pointsInside() {
     const vec3 d = glm::normalize(vec3(static_cast<float>(i) - 1.5f, 0.5f, 1));
     const int k = points.add(i + 1);
     points.set3(kPx, k, vec3(0, 0, 0.5f) + kBallRadius * d);
-    points.set3(kNx, k, d), points.set3(kNgx, k, d), points.set3(kIx, k, d);
+    points.set3(kNx, k, d);
+    points.set3(kNgx, k, d);
+    points.set3(kIx, k, d);
   }
   return points;
 }
@@ -119,7 +121,8 @@ TEST(GiServices, BeyondTheLastBounceThereIsNothing) {
 TEST(GiServices, MaxdistEndsRays) {
   World world(litBall({0, 0, 0.5f}));
   IndirectQuery query;
-  query.samples = 300, query.maxDistance = kBallRadius;  // cos(theta) > 1/2 is farther: E = (3/4 missing)
+  query.samples = 300;
+  query.maxDistance = kBallRadius;  // cos(theta) > 1/2 is farther: E = (3/4 missing)
   for (const GiMode mode : {GiMode::Gather, GiMode::Reference}) {
     const auto services = world.use({.mode = mode});
     for (const vec3& E : indirectAt(*services, pointsInside(), query))

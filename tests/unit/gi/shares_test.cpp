@@ -32,11 +32,18 @@ IrradianceCache plane(ErrorFunction function) {
   for (uint32_t i = 0; i < 200; ++i) {
     IrradianceRecord r{};
     r.position = {2 * unitFloat(hashCombine(i, 11u)) - 1, 2 * unitFloat(hashCombine(i, 12u)) - 1, 0};
-    r.normal = {0, 0, 1}, r.tangent = {1, 0, 0};
+    r.normal = {0, 0, 1};
+    r.tangent = {1, 0, 0};
     for (vec3& d : r.dominant) d = r.normal;
-    r.harmonicMean = r.closest = 0.5f, r.smoothRadius = 0.4f, r.pixelSize = 0.02f, r.noise = 0.3f;
+    r.harmonicMean = r.closest = 0.5f;
+    r.smoothRadius = 0.4f;
+    r.pixelSize = 0.02f;
+    r.noise = 0.3f;
     LightShare all;
-    for (uint32_t g = 0; g < 3; ++g) r.shares.push_back(someShare(3 * i + g)), all.add(r.shares.back(), vec3(1));
+    for (uint32_t g = 0; g < 3; ++g) {
+      r.shares.push_back(someShare(3 * i + g));
+      all.add(r.shares.back(), vec3(1));
+    }
     r.E = all.E;
     std::copy_n(all.rotationGradient, 3, r.rotationGradient);
     std::copy_n(all.translationGradient, 3, r.translationGradient);

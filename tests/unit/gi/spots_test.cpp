@@ -202,7 +202,8 @@ TEST(SpotAim, PlacesAndTargetsAreChosenByTheirShares) {
     for (size_t t = 0; t < 4; ++t)
       if (shares[t] == 1) {
         const vec3 p = aim.probe(t, sobol2(i, 5));
-        low = glm::min(low, vec2(p) / p.z * 40.0f), high = glm::max(high, vec2(p) / p.z * 40.0f);
+        low = glm::min(low, vec2(p) / p.z * 40.0f);
+        high = glm::max(high, vec2(p) / p.z * 40.0f);
       }
   EXPECT_LT(glm::length(low - vec2(-21, -21)), 0.02f) << "probes go where hits were";
   EXPECT_LT(glm::length(high - vec2(-19, -19)), 0.02f);

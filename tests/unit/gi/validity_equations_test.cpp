@@ -93,8 +93,10 @@ struct Equations {
     std::vector<std::pair<const IrradianceRecord*, double>> used;
     double W = 0;
     for (const IrradianceRecord& r : records)
-      if (const double w = weight(r, at.position, at.normal, at.pixelSize, wider); w > 0)
-        used.emplace_back(&r, w), W += w;
+      if (const double w = weight(r, at.position, at.normal, at.pixelSize, wider); w > 0) {
+        used.emplace_back(&r, w);
+        W += w;
+      }
     IrradianceEstimate out{};
     out.weight = static_cast<float>(W);
     if (W == 0) return out;
@@ -106,7 +108,9 @@ struct Equations {
       const Triple light = lightAt(*r, at.position, at.shadingNormal);
       const double distance = glm::length(Triple(at.position) - Triple(r->position));
       if (before > 0) worst = std::max(worst, disagreement(light, E / before, 2 * noiseAt(*r, at.position)));
-      before += w, E += w * light, squares += w * light * light;
+      before += w;
+      E += w * light;
+      squares += w * light * light;
       step += w / W * (Triple(at.position) - Triple(r->position));
       turn += w / W * cross(Triple(r->normal), Triple(at.shadingNormal));
       changes += w / W * changeAt(*r, at.position, at.shadingNormal);
@@ -196,7 +200,10 @@ TEST(CacheEquations, SayHowFarEachRecordIsValid) {
   for (const Kind& kind : kKinds) {
     IrradianceCache cache({vec3(-0.9f), vec3(0.9f)}, kind.settings);
     Equations plain{kind.settings, {}};
-    for (uint32_t i = 0; i < 400; ++i) cache.insert(record(i)), plain.insert(record(i));
+    for (uint32_t i = 0; i < 400; ++i) {
+      cache.insert(record(i));
+      plain.insert(record(i));
+    }
     int limited = 0;
     for (size_t i = 0; i < 400; ++i) {
       const IrradianceRecord &a = cache.records()[i], &b = plain.records[i];
@@ -219,9 +226,13 @@ TEST(CacheEquations, DimLightHasTheLimitsOfBrightLight) {
       IrradianceRecord r = record(i);
       bright.insert(r);
       const float scale = std::exp2(-20.0f);
-      r.E *= scale, r.noise *= scale;
-      for (size_t c = 0; c < 3; ++c)
-        r.translationGradient[c] *= scale, r.rotationGradient[c] *= scale, r.hessian[c] *= scale;
+      r.E *= scale;
+      r.noise *= scale;
+      for (size_t c = 0; c < 3; ++c) {
+        r.translationGradient[c] *= scale;
+        r.rotationGradient[c] *= scale;
+        r.hessian[c] *= scale;
+      }
       dim.insert(r);
     }
     for (size_t i = 0; i < 100; ++i) EXPECT_EQ(bright.records()[i].limit, dim.records()[i].limit) << kind.name;
@@ -243,7 +254,8 @@ TEST(CacheEquations, SayWhatALookupFinds) {
         const IrradianceEstimate b = plain.lookup(at, info.published || info.curvature ? 1 : wider);
         EXPECT_NEAR(a.weight, b.weight, 1e-3f * (1 + b.weight)) << kind.name << ' ' << i;
         if (b.weight < 0.01f) continue;
-        ++found, inconsistent += b.inconsistent;
+        ++found;
+        inconsistent += b.inconsistent;
         EXPECT_LT(glm::length(a.E - b.E), 2e-3f * (1 + glm::length(b.E))) << kind.name << ' ' << i;
         for (int c = 0; c < 3; ++c) EXPECT_GT(dot(a.dominant[c], b.dominant[c]), 0.9999f);
         EXPECT_EQ(a.closest, b.closest);

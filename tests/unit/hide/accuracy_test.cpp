@@ -25,9 +25,12 @@ Error errorOf(const World& w, const RasterGrid& surface, const Coverage& exact, 
       const double area = exact(x, y);
       if (area < 1e-6 || area > 1 - 1e-6) continue;
       const double error = coverage(t, x, y, n * n) - area;
-      e.rms += error * error, e.bias += error, ++e.pixels;
+      e.rms += error * error;
+      e.bias += error;
+      ++e.pixels;
     }
-  e.rms = std::sqrt(e.rms / e.pixels), e.bias /= e.pixels;
+  e.rms = std::sqrt(e.rms / e.pixels);
+  e.bias /= e.pixels;
   return e;
 }
 
@@ -133,7 +136,9 @@ TEST(Accuracy, OfADefocusedEdge) {
   Options o;
   o.xResolution = o.yResolution = 64;
   o.projection = ProjectionKind::Perspective;
-  o.focalDistance = kFocus, o.focalLength = 2 * kLens, o.fStop = 1;
+  o.focalDistance = kFocus;
+  o.focalLength = 2 * kLens;
+  o.fStop = 1;
   World w(o);
   w.add();
   w.freeze();

@@ -28,7 +28,9 @@ TEST(Aperture, APolygonIsFilledEvenlyUpToItsSides) {
         const vec2 p = shape(sobol2(i, 3));
         const float r = glm::length(p) / chordAlong(p, sides, degrees * kPi / 180);
         ASSERT_LE(r, 1.001f);
-        farthest = std::max(farthest, r), inner += r < std::sqrt(0.5f), sum += p;
+        farthest = std::max(farthest, r);
+        inner += r < std::sqrt(0.5f);
+        sum += p;
       }
       EXPECT_GT(farthest, 0.99f);
       EXPECT_NEAR(static_cast<double>(inner) / n, 0.5, 0.002) << "half of the area, half of the points";
@@ -78,7 +80,10 @@ TEST(Aperture, ADefocusedPointTakesItsShape) {
   Options o;
   o.xResolution = o.yResolution = 64;
   o.projection = ProjectionKind::Perspective;
-  o.focalDistance = 5, o.focalLength = 5, o.fStop = 1, o.dofAspect = 1.44f;
+  o.focalDistance = 5;
+  o.focalLength = 5;
+  o.fStop = 1;
+  o.dofAspect = 1.44f;
   World w(o);
   w.add();
   w.freeze();

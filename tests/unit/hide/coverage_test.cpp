@@ -33,7 +33,9 @@ TEST(Coverage, OfAHalfPlaneIsItsAreaWithinTheErrorOfStratification) {
         ASSERT_EQ(error, 0) << x << "," << y;
         continue;
       }
-      ++crossed, squares += error * error, bias += error;
+      ++crossed;
+      squares += error * error;
+      bias += error;
     }
   ASSERT_GT(crossed, 60);
   EXPECT_LT(std::sqrt(squares / crossed), 0.035);  // Without strata: 0.05 and more.
@@ -117,7 +119,8 @@ int samplesThatFallThrough(uint8_t innerOpen, uint8_t outerOpen) {
     };
   };
   const auto inner = makeGrid(0, 1, 5, 4, ring(10, 20)), outer = makeGrid(0, 2, 8, 4, ring(20, 30));
-  inner->pieces[0].openEdges = innerOpen, outer->pieces[0].openEdges = outerOpen;
+  inner->pieces[0].openEdges = innerOpen;
+  outer->pieces[0].openEdges = outerOpen;
   const SamplePattern pattern(8, 8, true, 2);
   const DeepTile t = hide(w, pattern, {0, 0, 40, 40}, {raster(w, inner), raster(w, outer)});
   int through = 0;
@@ -231,8 +234,12 @@ TEST(Coverage, OfStackedPiecesIsThatOfTheirCells) {
   for (int nu = 1; nu < 20; nu += 3)
     for (int nv = 1; nv < 5; ++nv) {
       const auto g = std::make_shared<Grid>();
-      g->object = 0, g->pieces.resize(3);
-      for (uint32_t p = 0; p < 3; ++p) g->pieces[p].name = p, g->pieces[p].openEdges = kAllEdges;
+      g->object = 0;
+      g->pieces.resize(3);
+      for (uint32_t p = 0; p < 3; ++p) {
+        g->pieces[p].name = p;
+        g->pieces[p].openEdges = kAllEdges;
+      }
       g->allocate(nu, nv, 1, 0);
       const int row = nu + 1;
       for (int k = 0; k < g->vertexCount(); ++k) {

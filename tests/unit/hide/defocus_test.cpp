@@ -15,7 +15,9 @@ World lensWorld(float lensRadius = kLensRadius) {
   Options o;
   o.xResolution = o.yResolution = 64;
   o.projection = ProjectionKind::Perspective;
-  o.focalDistance = kFocus, o.focalLength = 2 * lensRadius, o.fStop = lensRadius > 0 ? 1 : kInfinity;
+  o.focalDistance = kFocus;
+  o.focalLength = 2 * lensRadius;
+  o.fStop = lensRadius > 0 ? 1 : kInfinity;
   World w(o);
   w.scene.options.shutterClose = 1;
   w.add();
@@ -46,7 +48,8 @@ TEST(Defocus, ASmallSquareSpreadsEvenlyOverTheCircleOfConfusion) {
     forSamples(pattern, kAll, [&](int x, int y, int s, vec2 p, float) {
       if (!hits(t, x, y, s)) return;
       const float r = glm::length(p - vec2(32));
-      all += 1.0 / 64, inner += r < radius * std::sqrt(0.5f) ? 1.0 / 64 : 0;
+      all += 1.0 / 64;
+      inner += r < radius * std::sqrt(0.5f) ? 1.0 / 64 : 0;
       farthest = std::max(farthest, r);
     });
     EXPECT_NEAR(all, 1, 0.2) << z;  // Energy: the square's own area, a pixel; 64 hits in the mean.

@@ -50,7 +50,9 @@ using Surface = std::function<vec3(float u, float v, int key)>;
 /// Vertices P = surface(u, v, key) on a regular lattice of (u,v) in 0..1; normals towards the viewer.
 inline std::shared_ptr<Grid> makeGrid(int object, uint32_t name, int nu, int nv, const Surface& surface, int keys = 1) {
   auto g = std::make_shared<Grid>();
-  g->object = object, g->pieces[0].name = name, g->pieces[0].openEdges = kAllEdges;
+  g->object = object;
+  g->pieces[0].name = name;
+  g->pieces[0].openEdges = kAllEdges;
   g->allocate(nu, nv, keys, 0);
   for (int k = 0; k < g->vertexCount(); ++k) {
     const float u = static_cast<float>(k % (nu + 1)) / static_cast<float>(nu);
@@ -58,7 +60,8 @@ inline std::shared_ptr<Grid> makeGrid(int object, uint32_t name, int nu, int nv,
     for (int key = 0; key < keys; ++key)
       for (int axis = 0; axis < 3; ++axis) g->P(key, axis)[k] = surface(u, v, key)[axis];
     g->N(2)[k] = -1;
-    g->u()[k] = u, g->v()[k] = v;
+    g->u()[k] = u;
+    g->v()[k] = v;
   }
   return g;
 }

@@ -11,7 +11,8 @@ struct Moving {
   std::shared_ptr<Grid> grid;
 
   Moving(const std::vector<float>& times, const std::vector<float>& offset, float height = 1) {
-    world.scene.options.shutterOpen = 2, world.scene.options.shutterClose = 4;
+    world.scene.options.shutterOpen = 2;
+    world.scene.options.shutterClose = 4;
     world.add();
     world.freeze();
     world.scene.objects[0].keyTimes.clear();
@@ -35,7 +36,8 @@ TEST(Motion, ASquareThatCrossesPixelsCoversThemAsLongAsItIsThere) {
     float sum = 0, squares = 0;
     for (int y = 10; y < 42; ++y) {
       const float error = coverage(t, 10 + k, y, 256) - expected[k];
-      sum += error, squares += error * error;
+      sum += error;
+      squares += error * error;
     }
     EXPECT_NEAR(sum / 32, 0, 0.007f) << k;
     EXPECT_LT(std::sqrt(squares / 32), 0.017f) << k;  // Times independent of columns: 0.027.

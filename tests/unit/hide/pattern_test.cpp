@@ -41,7 +41,8 @@ TEST(SamplePattern, LensPointsFillTheUnitDiskEvenlyAndInEveryPattern) {
       ASSERT_LE(r2, 1.0f);
       rings[std::min(3, static_cast<int>(r2 * 4))] += 1;
       ++quadrants[(x + y < 0) + 2 * (x - y < 0)];  // The quarters of the square that the disk is bent from.
-      correlation[0] += x * (p.x(k)[s] - 0.5), correlation[1] += x * (p.time(k)[s] - 0.5);
+      correlation[0] += x * (p.x(k)[s] - 0.5);
+      correlation[1] += x * (p.time(k)[s] - 0.5);
       correlation[2] += y * (p.y(k)[s] - 0.5);
     }
     for (const int n : quadrants) ASSERT_NEAR(n, 4, 2);
@@ -77,8 +78,13 @@ TEST(SamplePattern, PositionsAndTimesHaveTheMomentsOfUniformNumbersAndAreUncorre
   for (int k = 0; k < 256; ++k)
     for (int s = 0; s < 16; ++s) {
       const double v[3] = {p.x(k)[s] - 0.5, p.y(k)[s] - 0.5, p.time(k)[s] - 0.5};
-      for (int c = 0; c < 3; ++c) sum[c] += v[c], square[c] += v[c] * v[c];
-      xt += v[0] * v[2], yt += v[1] * v[2], xy += v[0] * v[1];
+      for (int c = 0; c < 3; ++c) {
+        sum[c] += v[c];
+        square[c] += v[c] * v[c];
+      }
+      xt += v[0] * v[2];
+      yt += v[1] * v[2];
+      xy += v[0] * v[1];
     }
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(sum[c] / n, 0, 0.004);

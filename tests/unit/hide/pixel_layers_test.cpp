@@ -26,7 +26,7 @@ struct Crossing {
       for (uint64_t left = samples; left; left &= left - 1) {
         const int k = std::countr_zero(left);
         d[static_cast<size_t>(k)] = static_cast<float>(hashCombine(seed, cell, 3U, static_cast<uint32_t>(k)) % 50);
-        nearest = std::min(nearest, d[static_cast<size_t>(k)]),
+        nearest = std::min(nearest, d[static_cast<size_t>(k)]);
         farthest = std::max(farthest, d[static_cast<size_t>(k)]);
       }
       coverages.push_back({cell, word, samples, nearest, nullptr, seed % 2 ? farthest : kInfinity});

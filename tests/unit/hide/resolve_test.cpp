@@ -238,7 +238,8 @@ std::shared_ptr<Grid> oneCell() {
     g->N(2)[k] = -2;
     g->u()[k] = 0.5f + 0.25f * static_cast<float>(k % 2);
     g->v()[k] = 0.5f * static_cast<float>(k / 2);
-    g->primvar(0)[k] = static_cast<float>(k), g->primvar(1)[k] = 7;
+    g->primvar(0)[k] = static_cast<float>(k);
+    g->primvar(1)[k] = 7;
   }
   return g;
 }
@@ -336,7 +337,10 @@ TEST(Resolve, FacesTheGeometricNormalAsTheShadingNormal) {
   w.add({}, twoPrimvars());
   w.freeze();
   const auto g = oneCell();
-  for (int k = 0; k < 4; ++k) g->N(2)[k] = 1, g->N(0)[k] = 0.5f;
+  for (int k = 0; k < 4; ++k) {
+    g->N(2)[k] = 1;
+    g->N(0)[k] = 0.5f;
+  }
   const DeepTile t = hide(w, SamplePattern(2, 2, true, 1), {0, 0, 4, 2}, {raster(w, g)});
   EXPECT_EQ(t.batches[0].get3(kNgx, 0), vec3(0, 0, 1));
 }

@@ -64,13 +64,17 @@ TEST(Compare, SmudgesAreWhatSmoothBlocksDifferByFromEachOther) {
 
 TEST(Compare, SpecksAreThePixelsThatStandOutOfASmoothBlock) {
   std::vector<float> even(64, 0.5f), speck = even;
-  speck[20] = 0.65f, speck[40] = 0.55f;
+  speck[20] = 0.65f;
+  speck[40] = 0.55f;
   EXPECT_NEAR(compare(grey(8, 8, speck), grey(8, 8, even)).specks, 1.0 / 64, 1e-9);
 }
 
 TEST(Compare, GreenAgainstBlueIsTheLargestPerceptualDifference) {
   Image green = grey(8, 8, std::vector<float>(64, 0.0f)), blue = green;
-  for (size_t i = 0; i < green.pixels.size(); i += 3) green.pixels[i + 1] = 1, blue.pixels[i + 2] = 1;
+  for (size_t i = 0; i < green.pixels.size(); i += 3) {
+    green.pixels[i + 1] = 1;
+    blue.pixels[i + 2] = 1;
+  }
   EXPECT_NEAR(compare(green, blue).flip, 1, 1e-4);
 }
 

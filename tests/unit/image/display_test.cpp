@@ -49,7 +49,10 @@ TEST_F(Display, ExrKeepsEveryBitAndNoTemporaryFileStays) {
 
 TEST_F(Display, ACropIsADataWindowInsideTheDisplayWindow) {
   Image image = gradient();
-  image.originX = 30, image.originY = 20, image.displayWidth = 640, image.displayHeight = 480;
+  image.originX = 30;
+  image.originY = 20;
+  image.displayWidth = 640;
+  image.displayHeight = 480;
   ASSERT_TRUE(writeDisplay(image, {path("a.exr"), "openexr", "rgb", {}, {}}, options_, log_));
   const Image back = read("a.exr");
   EXPECT_EQ(back.originX, 30);
@@ -60,7 +63,9 @@ TEST_F(Display, ACropIsADataWindowInsideTheDisplayWindow) {
 
 TEST_F(Display, HalfKeepsElevenBitsOfColourAndAllOfDepth) {
   Param half;
-  half.name = "exrpixeltype", half.type = ValueType::String, half.strings = {"half"};
+  half.name = "exrpixeltype";
+  half.type = ValueType::String;
+  half.strings = {"half"};
   ASSERT_TRUE(writeDisplay(gradient(), {path("a.exr"), "file", "rgbaz", {half}, {}}, options_, log_));
   const Image back = read("a.exr");
   EXPECT_NEAR(back.at(2, 0)[0], 2.0f / 7, 2e-4f);
@@ -72,7 +77,8 @@ TEST_F(Display, EightBitFilesRoundToTheNearestLevelAndClamp) {
   options_.rgbaQuantize.dither = 0;
   for (const char* name : {"a.tif", "a.png"}) {
     Image image = gradient();
-    image.at(0, 0)[0] = -1, image.at(1, 0)[0] = 7;
+    image.at(0, 0)[0] = -1;
+    image.at(1, 0)[0] = 7;
     ASSERT_TRUE(writeDisplay(image, {path(name), "file", "rgb", {}, {}}, options_, log_));
     const Image back = read(name);
     EXPECT_EQ(back.at(0, 0)[0], 0) << name;
@@ -95,7 +101,8 @@ TEST_F(Display, TiffHoldsFloatsWhenQuantizeIsZero) {
 
 TEST_F(Display, DitherKeepsTheMeanAndTheEndsOfTheRange) {
   Image image{128, 128, {"R"}, std::vector<float>(128 * 128, 100.3f / 255), 0, 0, 128, 128};
-  image.pixels[0] = 0, image.pixels[1] = 1;
+  image.pixels[0] = 0;
+  image.pixels[1] = 1;
   image.channels = {"R"};
   options_.rgbaQuantize.dither = 0.5f;
   ASSERT_TRUE(writeDisplay(image, {path("a.tif"), "file", "r", {}, {}}, options_, log_));
@@ -119,7 +126,9 @@ TEST_F(Display, SrgbIsTheStandardTransfer) {
 TEST_F(Display, TransferSrgbEncodesColourDividedByAlpha) {
   Image image{2, 1, {"R", "G", "B", "A"}, {0.25f, 0.25f, 0.25f, 0.5f, 0, 0, 0, 0}, 0, 0, 2, 1};
   Param transfer;
-  transfer.name = "transfer", transfer.type = ValueType::String, transfer.strings = {"sRGB"};
+  transfer.name = "transfer";
+  transfer.type = ValueType::String;
+  transfer.strings = {"sRGB"};
   options_.rgbaQuantize.dither = 0;
   ASSERT_TRUE(writeDisplay(image, {path("a.png"), "png", "rgba", {transfer}, {}}, options_, log_));
   EXPECT_EQ(log_.entries().size(), 0u);
@@ -142,7 +151,9 @@ TEST_F(Display, TiffKeepsItsWindowAndEveryBitUnderEachCompression) {
   options_.rgbaQuantize = {0, 0, 0, 0};
   for (const char* name : {"", "none", "rle", "zip", "lzw"}) {
     Param compression;
-    compression.name = "compression", compression.type = ValueType::String, compression.strings = {name};
+    compression.name = "compression";
+    compression.type = ValueType::String;
+    compression.strings = {name};
     ASSERT_TRUE(writeDisplay(large, {path("a.tif"), "tiff", "rgbaz", {compression}, {}}, options_, log_)) << name;
     const Image back = read("a.tif");
     EXPECT_EQ(back.originX, 3);
@@ -156,8 +167,12 @@ TEST_F(Display, TiffKeepsItsWindowAndEveryBitUnderEachCompression) {
 
 TEST_F(Display, WhatOtherFormatsCannotHoldIsNamed) {
   Param compression, tiled;
-  compression.name = "compression", compression.type = ValueType::String, compression.strings = {"piz"};
-  tiled.name = "tiled", tiled.type = ValueType::Integer, tiled.ints = {1};
+  compression.name = "compression";
+  compression.type = ValueType::String;
+  compression.strings = {"piz"};
+  tiled.name = "tiled";
+  tiled.type = ValueType::Integer;
+  tiled.ints = {1};
   ASSERT_TRUE(writeDisplay(gradient(), {path("a.tif"), "tiff", "rgba", {compression, tiled}, {}}, options_, log_));
   EXPECT_EQ(log_.count("display-compression"), 1);
   EXPECT_EQ(log_.count("display-parameter"), 1);
@@ -180,7 +195,10 @@ TEST_F(Display, ATypeThatNobodyKnowsIsToldWithTheFileThatIsWritten) {
 
 TEST_F(Display, AnOriginInAFrameBufferIsToldToBeIgnored) {
   Param origin;
-  origin.name = "origin", origin.type = ValueType::Integer, origin.arrayLength = 2, origin.ints = {0, 0};
+  origin.name = "origin";
+  origin.type = ValueType::Integer;
+  origin.arrayLength = 2;
+  origin.ints = {0, 0};
   ASSERT_TRUE(writeDisplay(gradient(), {path("a.exr"), "file", "rgba", {origin}, {}}, options_, log_));
   EXPECT_EQ(log_.count("display-parameter"), 0);
   origin.ints = {0, 20};
@@ -206,8 +224,12 @@ TEST_F(Display, TilesPartsAndCompressionsKeepEveryBit) {
   for (int i = 0; i < 150 * 130 * 5; ++i) large.pixels.push_back(static_cast<float>(i % 977) / 977);
   for (const char* option : {"tiled", "multipart"}) {
     Param p, compression;
-    p.name = option, p.type = ValueType::Integer, p.ints = {1};
-    compression.name = "compression", compression.type = ValueType::String, compression.strings = {"piz"};
+    p.name = option;
+    p.type = ValueType::Integer;
+    p.ints = {1};
+    compression.name = "compression";
+    compression.type = ValueType::String;
+    compression.strings = {"piz"};
     ASSERT_TRUE(writeDisplay(large, {path("a.exr"), "openexr", "rgba", {p, compression}, {}}, options_, log_))
         << option;
     const Image back = read("a.exr");
@@ -220,8 +242,10 @@ TEST_F(Display, TilesPartsAndCompressionsKeepEveryBit) {
 
 TEST_F(Display, AChannelMayBeExposedAndQuantisedOnItsOwn) {
   Param exposure, quantize, dither;
-  exposure.name = "exposure", exposure.floats = {2, 1};
-  quantize.name = "quantize", quantize.floats = {100, 200, 0, 255};
+  exposure.name = "exposure";
+  exposure.floats = {2, 1};
+  quantize.name = "quantize";
+  quantize.floats = {100, 200, 0, 255};
   ASSERT_TRUE(writeDisplay(gradient(), {path("a.tif"), "tiff", "rgb", {exposure, quantize}, {}}, options_, log_));
   EXPECT_FLOAT_EQ(read("a.tif").at(1, 0)[0], std::round(100 + 100 * 2.0f / 7) / 255);
 }
@@ -247,7 +271,8 @@ TEST_F(Display, UnknownModesAndParametersWarnAndWriteRgba) {
 
 TEST_F(Display, ExposureScalesThenAppliesGammaToColourAlone) {
   Image image{1, 1, {"R", "G", "B", "A", "Z"}, {0.25f, -1, 0, 0.5f, 7}, 0, 0, 1, 1};
-  options_.exposureGain = 4, options_.exposureGamma = 2;
+  options_.exposureGain = 4;
+  options_.exposureGamma = 2;
   expose(image, options_);
   EXPECT_FLOAT_EQ(image.pixels[0], 1);
   image.pixels[0] = 1;

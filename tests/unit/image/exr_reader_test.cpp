@@ -53,10 +53,15 @@ TEST_F(ExrReader, PicturesAreWhatOpenImageIOReads) {
   for (int i = 0; i < 70 * 65 * 11; ++i) image.pixels.push_back(static_cast<float>(i % 977) / 977);
   FileFormat half{formatOfType("openexr"), SampleType::Half}, tiled{formatOfType("openexr"), SampleType::Float},
       parts = tiled;
-  half.precise = {"Z"}, half.metadata = {camera_, screen_};
-  tiled.tile = 64, parts.multipart = true;
+  half.precise = {"Z"};
+  half.metadata = {camera_, screen_};
+  tiled.tile = 64;
+  parts.multipart = true;
   for (const FileFormat& format : {half, tiled, parts}) {
-    if (format.tile > 0) image.height = 64, image.pixels.resize(70 * 64 * 11);
+    if (format.tile > 0) {
+      image.height = 64;
+      image.pixels.resize(70 * 64 * 11);
+    }
     write(image, format);
     const auto [ours, theirs] = both();
     expectSameShape(*ours, *theirs);
@@ -87,7 +92,9 @@ TEST_F(ExrReader, NoiseThatDoesNotCompressAndLongNamesAreWhatOpenImageIOReads) {
 
 TEST_F(ExrReader, DeepPixelsAreWhatOpenImageIOReads) {
   FileFormat format{formatOfType("openexr"), SampleType::Half};
-  format.deep = true, format.precise = {"Z", "ZBack"}, format.metadata = {camera_, screen_};
+  format.deep = true;
+  format.precise = {"Z", "ZBack"};
+  format.metadata = {camera_, screen_};
   const Image shape{5, 3, {"AR", "AG", "AB", "Z", "ZBack"}, {}, 2, 1, 9, 8};
   DeepRows rows{2, 1, 5, 3, {}, {}};
   for (uint32_t i = 0; i < 15; ++i) {

@@ -88,7 +88,8 @@ TEST(FilterFrame, SmoothFacetsAreBilinearInTheirFourPoints) {
     tile.shaded[0].Ci[0][static_cast<size_t>(i)] = static_cast<float>(i);  // u + 2 v
     for (auto& channel : tile.shaded[0].Oi) channel[static_cast<size_t>(i)] = 1;
   }
-  tile.fragments[0].u = 51, tile.fragments[0].v = 102;
+  tile.fragments[0].u = 51;
+  tile.fragments[0].v = 102;
   const Image image = filterFrame(frame, filtered("box", 1), jittered(1, 1));
   EXPECT_NEAR(image.at(0, 0)[0], 51.5f / 256 + 2 * 102.5f / 256, 1e-6f);
 }
@@ -110,8 +111,11 @@ TEST(FilterFrame, TilesThatAnInterruptionLeftEmptyAreBackground) {
 Options showing(const std::string& filter, float fill = 0, ValueType type = ValueType::Float) {
   Options o = filtered("box", 1);
   Param f, value;
-  f.name = "filter", f.type = ValueType::String, f.strings = {filter};
-  value.name = "fill", value.floats = {fill};
+  f.name = "filter";
+  f.type = ValueType::String;
+  f.strings = {filter};
+  value.name = "fill";
+  value.floats = {fill};
   o.channels["x"] = {"x", type, {f, value}, {}};
   o.displays.push_back({"a.exr", "openexr", "x", {}, {}});
   return o;
@@ -164,7 +168,8 @@ TEST(FilterFrame, DepthFiltersLookAtWhatIsOpaque) {
                                   {vec3(0.2f), vec3(1.0f), 5, 0b11}};
   const auto depth = [&](DepthFilter filter, float threshold) {
     Options o = filtered("box", 1);
-    o.depthFilter = filter, o.depthThreshold = vec3(threshold);
+    o.depthFilter = filter;
+    o.depthThreshold = vec3(threshold);
     return filterFrame(frameOf(layers, 1, 0, 2), o, jittered(2, 2)).at(0, 0)[4];
   };
   EXPECT_EQ(depth(DepthFilter::Min, 1), 2);
@@ -176,7 +181,8 @@ TEST(FilterFrame, DepthFiltersLookAtWhatIsOpaque) {
 
 TEST(FilterFrame, TheMidpointOfASingleSurfaceAndTheFarPlane) {
   Options o = filtered("box", 1);
-  o.depthFilter = DepthFilter::Midpoint, o.farClip = 100;
+  o.depthFilter = DepthFilter::Midpoint;
+  o.farClip = 100;
   EXPECT_EQ(filterFrame(frameOf({{vec3(0.1f), vec3(1.0f), 2, 1}}, 1, 0, 1), o, jittered(1, 1)).at(0, 0)[4], 51);
 }
 
@@ -197,7 +203,8 @@ TEST(FilterFrame, BandsOfRowsAreThePicture) {
 DeepFrame cut(DeepFrame frame, int size) {
   const DeepTile whole = frame.tiles[0];
   frame.bucketWidth = frame.bucketHeight = size;
-  frame.columns = (frame.padded.width() + size - 1) / size, frame.rows = (frame.padded.height() + size - 1) / size;
+  frame.columns = (frame.padded.width() + size - 1) / size;
+  frame.rows = (frame.padded.height() + size - 1) / size;
   frame.holdAll();
   for (size_t i = 0; i < frame.tileCount(); ++i) {
     DeepTile& tile = frame.tiles[i] = whole;

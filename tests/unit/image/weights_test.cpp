@@ -45,7 +45,10 @@ TEST(Weights, WhatIsScatteredIsWhatAPixelWouldGather) {
   };
   for (int y = around.y0; y < around.y1; ++y)
     for (int x = around.x0; x < around.x1; ++x) {
-      for (size_t k = 0; k < 3; ++k) values[k] = valueAt(x, y, static_cast<int>(k)), values[wide + k] = 2 * values[k];
+      for (size_t k = 0; k < 3; ++k) {
+        values[k] = valueAt(x, y, static_cast<int>(k));
+        values[wide + k] = 2 * values[k];
+      }
       for (size_t c = 0; c < 2; ++c)
         std::copy_n(table.sums(samples.patternOf(x, y)), places, weights.data() + c * places);
       scattered.add(x, y, {2, weights.data(), values.data(), wide});

@@ -99,7 +99,8 @@ TEST(Motion, KeyTimesOutsideTheShutterAreNotDiced) {
 
 TEST(Motion, WithoutSamplemotionTheCameraSeesTheOpeningOfTheShutter) {
   Scene scene;
-  scene.options.shutterClose = 1, scene.options.sampleMotion = false;
+  scene.options.shutterClose = 1;
+  scene.options.sampleMotion = false;
   Problems problems;
   Object o;
   o.shapes = {makeSphere(1, -1, 1, 360, {}, problems)};

@@ -7,7 +7,9 @@ namespace {
 
 Param text(const std::string& name, const std::string& value) {
   Param p;
-  p.name = name, p.type = ValueType::String, p.strings = {value};
+  p.name = name;
+  p.type = ValueType::String;
+  p.strings = {value};
   return p;
 }
 
@@ -58,7 +60,8 @@ TEST_F(Output, AVariableIsStoredOnceHoweverManyDisplaysShowIt) {
 TEST_F(Output, ADisplayChannelSaysHowItIsSampledAndTheDisplayHasTheLastWord) {
   Options o = showing("mine", {text("filter", "box")});
   Param width;
-  width.name = "filterwidth", width.floats = {3, 1};
+  width.name = "filterwidth";
+  width.floats = {3, 1};
   o.channels["mine"] = {"mine", ValueType::Float, {text("filter", "triangle"), width, text("source", "s")}, {}};
   const FrameOutput output = outputOf(o);
   EXPECT_EQ(output.channels.back().sampling, (Sampling{Reduce::Filter, "box", 3, 1}));

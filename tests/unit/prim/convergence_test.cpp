@@ -23,8 +23,10 @@ Measured diced(const Prim& prim, int side) {
   Measured out;
   const int row = side + 1;
   std::vector<float> u, v;
-  for (int k = 0; k < row * row; ++k)
-    u.push_back(static_cast<float>(k % row) / side), v.push_back(static_cast<float>(k / row) / side);
+  for (int k = 0; k < row * row; ++k) {
+    u.push_back(static_cast<float>(k % row) / side);
+    v.push_back(static_cast<float>(k / row) / side);
+  }
   for (uint32_t patch = 0; patch < prim.patchCount(); ++patch) {
     const std::vector<Sample> s = samplesAt(prim, patch, u, v);
     const glm::dvec3 origin = sampleAt(prim, 0, 0, 0).p;
@@ -38,7 +40,8 @@ Measured diced(const Prim& prim, int side) {
     for (int j = 0; j < side; ++j)
       for (int i = 0; i < side; ++i) {
         const int k = j * row + i;
-        triangle(k, k + 1, k + row), triangle(k + 1, k + row + 1, k + row);
+        triangle(k, k + 1, k + row);
+        triangle(k + 1, k + row + 1, k + row);
       }
   }
   return out;

@@ -218,8 +218,10 @@ TEST(Tubes, OfAFewSidesAreAsWideAsTheyShouldOnAverage) {
   for (const int nu : {3, 4, 7}) {
     std::vector<float> u, v, f(12 * size_t{100});
     for (int j = 0; j <= 1; ++j)
-      for (int i = 0; i <= nu; ++i)
-        u.push_back(static_cast<float>(i) / static_cast<float>(nu)), v.push_back(static_cast<float>(j));
+      for (int i = 0; i <= nu; ++i) {
+        u.push_back(static_cast<float>(i) / static_cast<float>(nu));
+        v.push_back(static_cast<float>(j));
+      }
     const auto a = [&](size_t k) { return &f[100 * k]; };
     prim->evaluateLattice(0, nu, 1, u.data(), v.data(),
                           {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)});

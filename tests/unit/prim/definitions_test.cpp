@@ -12,15 +12,19 @@ using Definition = std::function<glm::dvec3(double u, double v)>;  ///< On one p
 
 void expectDefinition(const Prim& prim, uint32_t patch, const Definition& p, int points) {
   std::vector<float> u, v;
-  for (uint32_t k = 0; k < static_cast<uint32_t>(points); ++k)
-    u.push_back(unitFloat(hashCombine(k, patch, 1u))), v.push_back(unitFloat(hashCombine(k, patch, 2u)));
+  for (uint32_t k = 0; k < static_cast<uint32_t>(points); ++k) {
+    u.push_back(unitFloat(hashCombine(k, patch, 1u)));
+    v.push_back(unitFloat(hashCombine(k, patch, 2u)));
+  }
   const std::vector<Sample> got = samplesAt(prim, patch, u, v);
   double size = 0, du = 0, dv = 0, worst = 0, worstDu = 0, worstDv = 0;
   for (size_t k = 0; k < got.size(); ++k) {
     constexpr double h = 1e-5;
     const glm::dvec3 at = p(u[k], v[k]), byU = (p(u[k] + h, v[k]) - p(u[k] - h, v[k])) / (2 * h),
                      byV = (p(u[k], v[k] + h) - p(u[k], v[k] - h)) / (2 * h);
-    size = std::max(size, glm::length(at)), du = std::max(du, glm::length(byU)), dv = std::max(dv, glm::length(byV));
+    size = std::max(size, glm::length(at));
+    du = std::max(du, glm::length(byU));
+    dv = std::max(dv, glm::length(byV));
     worst = std::max(worst, glm::length(glm::dvec3(got[k].p) - at));
     worstDu = std::max(worstDu, glm::length(glm::dvec3(got[k].du) - byU));
     worstDv = std::max(worstDv, glm::length(glm::dvec3(got[k].dv) - byV));
@@ -205,7 +209,8 @@ TEST(Definition, OfRationalBSplinesOfOrdersTwoToTen) {
       NurbsDirection d{controls, n, {}, 0, 0};
       for (int k = 0; k < controls + n; ++k)
         d.knots.push_back(static_cast<float>(k + 0.3 * noise(static_cast<uint32_t>(k))));
-      d.min = d.knots[static_cast<size_t>(n - 1)], d.max = d.knots[static_cast<size_t>(controls)];
+      d.min = d.knots[static_cast<size_t>(n - 1)];
+      d.max = d.knots[static_cast<size_t>(controls)];
       return d;
     };
     const NurbsDirection u = direction(order, order + 1), v = direction(12 - order, 13 - order);
@@ -317,8 +322,10 @@ double dicedVolume(const Prim& prim, int side) {
   double volume = 0;
   for (uint32_t patch = 0; patch < prim.patchCount(); ++patch) {
     std::vector<float> u, v;
-    for (int k = 0; k < (side + 1) * (side + 1); ++k)
-      u.push_back(static_cast<float>(k % (side + 1)) / side), v.push_back(static_cast<float>(k / (side + 1)) / side);
+    for (int k = 0; k < (side + 1) * (side + 1); ++k) {
+      u.push_back(static_cast<float>(k % (side + 1)) / side);
+      v.push_back(static_cast<float>(k / (side + 1)) / side);
+    }
     const std::vector<Sample> s = samplesAt(prim, patch, u, v);
     for (int j = 0; j < side; ++j)
       for (int i = 0; i < side; ++i) {

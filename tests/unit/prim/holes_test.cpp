@@ -36,7 +36,10 @@ PrimPtr polygon(const std::vector<Loop>& loops, Problems& problems, ParamList pa
   std::vector<float> p;
   for (const Loop& loop : loops) {
     counts.push_back(static_cast<int>(loop.size()));
-    for (const vec2& q : loop) vertices.push_back(static_cast<int>(vertices.size())), p.insert(p.end(), {q.x, q.y, 0});
+    for (const vec2& q : loop) {
+      vertices.push_back(static_cast<int>(vertices.size()));
+      p.insert(p.end(), {q.x, q.y, 0});
+    }
   }
   params.push_back(positions(p));
   return makeGeneralPolygons({static_cast<int>(loops.size())}, counts, vertices, params, problems);
@@ -188,7 +191,10 @@ TEST(PolygonWithHoles, ValuesAreCountedByLoop) {
   Problems problems;
   std::vector<float> x, faceVarying;
   for (const Loop& loop : {kSquare, kHole})
-    for (const vec2& p : loop) x.push_back(p.x), faceVarying.push_back(p.y);
+    for (const vec2& p : loop) {
+      x.push_back(p.x);
+      faceVarying.push_back(p.y);
+    }
   const PrimPtr prim = polygon({kSquare, kHole}, problems,
                                {floats("x", Storage::Varying, ValueType::Float, x),
                                 floats("y", Storage::FaceVarying, ValueType::Float, faceVarying)});

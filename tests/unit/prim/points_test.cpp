@@ -31,7 +31,10 @@ TEST(Points, AreDisksOfTheirWidth) {
 double latticeArea(const Prim& prim, uint32_t patch, int nu, int nv) {
   std::vector<float> u, v;
   for (int j = 0; j <= nv; ++j)
-    for (int i = 0; i <= nu; ++i) u.push_back(static_cast<float>(i) / nu), v.push_back(static_cast<float>(j) / nv);
+    for (int i = 0; i <= nu; ++i) {
+      u.push_back(static_cast<float>(i) / nu);
+      v.push_back(static_cast<float>(j) / nv);
+    }
   std::vector<float> f[12];
   for (auto& array : f) array.resize(u.size());
   prim.evaluateLattice(patch, nu, nv, u.data(), v.data(),
@@ -59,7 +62,10 @@ TEST(Points, FewPolygonsHaveTheAreaOfTheDiskTheyStandFor) {
 
 Param typed(const char* name) {
   Param type;
-  type.name = "type", type.storage = Storage::Constant, type.type = ValueType::String, type.strings = {name};
+  type.name = "type";
+  type.storage = Storage::Constant;
+  type.type = ValueType::String;
+  type.strings = {name};
   return type;
 }
 

@@ -92,10 +92,15 @@ TEST(Polygon, AllKeysOfAMotionAreCutAlike) {
     std::vector<float> before, after;
     std::vector<int> vertices;
     Param share;  // another number for every vertex: which ones a point is made of
-    share.name = "share", share.storage = Storage::Vertex;
+    share.name = "share";
+    share.storage = Storage::Vertex;
     for (int i = 0; i < n; ++i) {
-      vertices.push_back(i), share.floats.push_back(static_cast<float>(1 << (2 * i)));
-      for (int axis = 0; axis < 3; ++axis) before.push_back(at(rng)), after.push_back(at(rng));
+      vertices.push_back(i);
+      share.floats.push_back(static_cast<float>(1 << (2 * i)));
+      for (int axis = 0; axis < 3; ++axis) {
+        before.push_back(at(rng));
+        after.push_back(at(rng));
+      }
     }
     Problems problems;
     const PointKeys keys = {pointsOf(before), pointsOf(after)};

@@ -24,14 +24,20 @@ TEST(Primvars, PositionsAreNotAmongThem) {
 
 TEST(Primvars, IntegersBecomeFloats) {
   Param p;
-  p.name = "id", p.storage = Storage::Uniform, p.type = ValueType::Integer, p.ints = {7};
+  p.name = "id";
+  p.storage = Storage::Uniform;
+  p.type = ValueType::Integer;
+  p.ints = {7};
   Problems problems;
   EXPECT_EQ(takePrimvars({p}, {}, problems).at(0).values, (std::vector<float>{7}));
 }
 
 TEST(Primvars, StringsAndWrongCountsAreDroppedWithASentence) {
   Param text;
-  text.name = "label", text.storage = Storage::Varying, text.type = ValueType::String, text.strings = {"a"};
+  text.name = "label";
+  text.storage = Storage::Varying;
+  text.type = ValueType::String;
+  text.strings = {"a"};
   Problems problems;
   const auto vars = takePrimvars({text, floats("Cs", Storage::Varying, ValueType::Color, {1, 2, 3}),
                                   floats("k", Storage::Constant, ValueType::Float, {4})},
@@ -44,7 +50,9 @@ TEST(Primvars, StringsAndWrongCountsAreDroppedWithASentence) {
 
 TEST(Primvars, AStringOfTheWholePrimitiveIsLeftToItsShaders) {
   Param text;
-  text.name = "label", text.type = ValueType::String, text.strings = {"a"};
+  text.name = "label";
+  text.type = ValueType::String;
+  text.strings = {"a"};
   Problems problems;
   for (const Storage storage : {Storage::Constant, Storage::Uniform}) {
     text.storage = storage;
@@ -85,8 +93,10 @@ TEST(Primitives, TellHowMuchTheyHold) {
   };
   const auto strip = [](int faces) {  // counts and vertices of quadrilaterals between two rows of points
     std::pair<std::vector<int>, std::vector<int>> out;
-    for (int i = 0; i < faces; ++i)
-      out.first.push_back(4), out.second.insert(out.second.end(), {i, i + 1, i + faces + 2, i + faces + 1});
+    for (int i = 0; i < faces; ++i) {
+      out.first.push_back(4);
+      out.second.insert(out.second.end(), {i, i + 1, i + faces + 2, i + faces + 1});
+    }
     return out;
   };
   const struct {

@@ -138,7 +138,10 @@ TEST(Quadric, OnlyEdgesThatEndTheSurfaceAreOpen) {
 
 TEST(Quadric, ManyPointsGiveTheBitsOfOne) {
   std::vector<float> u, v;
-  for (uint32_t i = 0; i < 301; ++i) u.push_back(unitFloat(hash32(i))), v.push_back(unitFloat(hash32(i + 1000)));
+  for (uint32_t i = 0; i < 301; ++i) {
+    u.push_back(unitFloat(hash32(i)));
+    v.push_back(unitFloat(hash32(i + 1000)));
+  }
   for (const PrimPtr& prim : manyQuadrics()) {
     const std::vector<Sample> together = samplesAt(*prim, 0, u, v);
     for (size_t i = 0; i < u.size(); i += 7) EXPECT_EQ(together[i].p, sampleAt(*prim, 0, u[i], v[i]).p);

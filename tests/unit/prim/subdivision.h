@@ -40,7 +40,8 @@ struct Cage {
 inline PrimPtr meshOf(const Cage& cage, const char* scheme) {
   SubdivisionTags tags{{"interpolateboundary"}, {1, 0, 0}, {1}, {}, {}};
   for (size_t k = 0; k < cage.sharpness.size(); ++k) {
-    tags.names.push_back("crease"), tags.argCounts.insert(tags.argCounts.end(), {2, 1, 0});
+    tags.names.push_back("crease");
+    tags.argCounts.insert(tags.argCounts.end(), {2, 1, 0});
     tags.ints.insert(tags.ints.end(), {cage.creaseEdges[2 * k], cage.creaseEdges[2 * k + 1]});
     tags.floats.push_back(cage.sharpness[k]);
   }

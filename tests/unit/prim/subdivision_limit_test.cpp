@@ -24,10 +24,13 @@ class FarLimit {
  public:
   FarLimit(const Cage& cage, Sdc::SchemeType scheme) {
     Far::TopologyDescriptor d;
-    d.numVertices = static_cast<int>(cage.points.size() / 3), d.numFaces = static_cast<int>(cage.counts.size());
-    d.numVertsPerFace = cage.counts.data(), d.vertIndicesPerFace = cage.vertices.data();
+    d.numVertices = static_cast<int>(cage.points.size() / 3);
+    d.numFaces = static_cast<int>(cage.counts.size());
+    d.numVertsPerFace = cage.counts.data();
+    d.vertIndicesPerFace = cage.vertices.data();
     d.numCreases = static_cast<int>(cage.sharpness.size());
-    d.creaseVertexIndexPairs = cage.creaseEdges.data(), d.creaseWeights = cage.sharpness.data();
+    d.creaseVertexIndexPairs = cage.creaseEdges.data();
+    d.creaseWeights = cage.sharpness.data();
     Sdc::Options options;
     options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
     using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
@@ -51,7 +54,9 @@ class FarLimit {
     const Far::ConstIndexArray controls = table_->GetPatchVertices(*handle);
     for (int k = 0; k < controls.size(); ++k) {
       const glm::dvec3& c = points_[static_cast<size_t>(controls[k])].p;
-      p += weight[k] * c, du += byU[k] * c, dv += byV[k] * c;
+      p += weight[k] * c;
+      du += byU[k] * c;
+      dv += byV[k] * c;
     }
     return {vec3(p), vec3(du), vec3(dv), {}};
   }
@@ -118,7 +123,8 @@ TEST(SubdivisionLimit, OfACubeIsFars) {
 
 TEST(SubdivisionLimit, NextToCreasesIsFars) {
   Cage cage = kCubeCage;
-  cage.creaseEdges = {4, 5, 5, 6, 0, 3}, cage.sharpness = {10, 2.5f, 1};
+  cage.creaseEdges = {4, 5, 5, 6, 0, 3};
+  cage.sharpness = {10, 2.5f, 1};
   const Errors errors = quadrilateralErrors(cage, 2);
   EXPECT_LT(errors.position, 1e-5);
   EXPECT_LT(errors.derivative, 1e-4);

@@ -29,7 +29,10 @@ struct Stepped {
         r.facesOfEdge[edge(faces[f][k], faces[f][(k + 1) % faces[f].size()])].push_back(f);
         r.facesOf[faces[f][k]].push_back(f);
       }
-    for (const auto& [e, unused] : r.facesOfEdge) r.edgesOf[e.first].push_back(e), r.edgesOf[e.second].push_back(e);
+    for (const auto& [e, unused] : r.facesOfEdge) {
+      r.edgesOf[e.first].push_back(e);
+      r.edgesOf[e.second].push_back(e);
+    }
     return r;
   }
   bool sharp(const Edge& e) const { return sharpness.contains(e); }
@@ -75,7 +78,9 @@ struct Stepped {
         quads.push_back({v, middle[edge(v, after)], center, middle[edge(before, v)]});
       }
     }
-    p = std::move(next), faces = std::move(quads), sharpness = std::move(sharper);
+    p = std::move(next);
+    faces = std::move(quads);
+    sharpness = std::move(sharper);
   }
 
   /// Pre: nothing is sharp any more, all faces are quadrilaterals (Halstead et al. 1993).

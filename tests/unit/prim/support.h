@@ -44,8 +44,10 @@ inline double dicedArea(const Prim& prim, int side) {
   for (uint32_t patch = 0; patch < prim.patchCount(); ++patch) {
     std::vector<float> u, v;
     for (int j = 0; j <= side; ++j)
-      for (int i = 0; i <= side; ++i)
-        u.push_back(static_cast<float>(i) / side), v.push_back(static_cast<float>(j) / side);
+      for (int i = 0; i <= side; ++i) {
+        u.push_back(static_cast<float>(i) / side);
+        v.push_back(static_cast<float>(j) / side);
+      }
     const std::vector<Sample> s = samplesAt(prim, patch, u, v);
     for (int j = 0; j < side; ++j)
       for (int i = 0; i < side; ++i) {
@@ -92,12 +94,16 @@ inline void expectBoundsContainTheSurface(const Prim& prim, int total = 10000) {
     const uint32_t patch = static_cast<uint32_t>(k) % prim.patchCount();
     const float size = k % 4 == 0 ? 1.0f : k % 4 == 1 ? 0.5f : k % 4 == 2 ? 0.1f : 0.01f;
     UvRect r;
-    r.u0 = (1 - size) * random(0, 0), r.u1 = r.u0 + size * random(1, 0);
-    r.v0 = (1 - size) * random(2, 0), r.v1 = r.v0 + size * random(3, 0);
+    r.u0 = (1 - size) * random(0, 0);
+    r.u1 = r.u0 + size * random(1, 0);
+    r.v0 = (1 - size) * random(2, 0);
+    r.v1 = r.v0 + size * random(3, 0);
     if (k % 8 == 0) r = {};
     std::vector<float> u = {r.u0, r.u1, r.u0, r.u1}, v = {r.v0, r.v0, r.v1, r.v1};
-    for (uint32_t i = 0; i < kPoints; ++i)
-      u.push_back(lerp(r.u0, r.u1, random(4, i))), v.push_back(lerp(r.v0, r.v1, random(5, i)));
+    for (uint32_t i = 0; i < kPoints; ++i) {
+      u.push_back(lerp(r.u0, r.u1, random(4, i)));
+      v.push_back(lerp(r.v0, r.v1, random(5, i)));
+    }
     const Bound3 b = prim.bound(patch, r);
     for (const Sample& s : samplesAt(prim, patch, u, v))
       for (int axis = 0; axis < 3; ++axis) outside += !(s.p[axis] >= b.lo[axis] && s.p[axis] <= b.hi[axis]);
@@ -109,7 +115,10 @@ inline void expectBoundsContainTheSurface(const Prim& prim, int total = 10000) {
 inline void expectSoundEverywhere(const Prim& prim) {
   std::vector<float> u, v;
   for (int j = 0; j <= 8; ++j)
-    for (int i = 0; i <= 8; ++i) u.push_back(i / 8.0f), v.push_back(j / 8.0f);
+    for (int i = 0; i <= 8; ++i) {
+      u.push_back(i / 8.0f);
+      v.push_back(j / 8.0f);
+    }
   for (uint32_t patch = 0; patch < prim.patchCount(); ++patch) {
     const Bound3 bound = prim.bound(patch, {});
     EXPECT_TRUE(isFinite(bound.lo) && isFinite(bound.hi));
@@ -122,7 +131,10 @@ inline void expectSoundEverywhere(const Prim& prim) {
 
 inline Param floats(std::string name, Storage storage, ValueType type, std::vector<float> values, int arrayLength = 1) {
   Param p;
-  p.name = std::move(name), p.storage = storage, p.type = type, p.arrayLength = arrayLength,
+  p.name = std::move(name);
+  p.storage = storage;
+  p.type = type;
+  p.arrayLength = arrayLength;
   p.floats = std::move(values);
   return p;
 }

@@ -22,7 +22,8 @@ TEST(Teapot, StandsOnTheGroundAndHasItsSize) {
           return glm::dvec3(q);
         };
         const glm::dvec3 a = p(0, 0), b = p(1, 0), c = p(1, 1), d = p(0, 1), n = 0.5 * glm::cross(c - a, d - b);
-        area += n, volume += glm::dot(0.25 * (a + b + c + d), n) / 3;
+        area += n;
+        volume += glm::dot(0.25 * (a + b + c + d), n) / 3;
       }
   EXPECT_LT(glm::length(box.lo - vec3(-3, -2, 0)), 0.02f);
   EXPECT_LT(glm::length(box.hi - vec3(3.434f, 2, 3.15f)), 0.02f);

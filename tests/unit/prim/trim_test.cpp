@@ -16,8 +16,10 @@ TrimCurve circle(const vec2& centre, float radius) {
 }
 TrimCurve polyline(const std::vector<vec2>& points) {
   TrimCurve c{{static_cast<int>(points.size()), 2, {0}, 0, static_cast<float>(points.size() - 1)}, {}};
-  for (size_t k = 0; k < points.size(); ++k)
-    c.line.knots.push_back(static_cast<float>(k)), c.controls.emplace_back(points[k], 1);
+  for (size_t k = 0; k < points.size(); ++k) {
+    c.line.knots.push_back(static_cast<float>(k));
+    c.controls.emplace_back(points[k], 1);
+  }
   c.line.knots.push_back(c.line.max);
   return c;
 }

@@ -21,7 +21,8 @@ Samples sample(const World& world, int light, int count) {
   out.area.resize(n);
   for (size_t i = 0; i < n; ++i) {
     const vec2 xi = sobol2(static_cast<uint32_t>(i), 11);
-    xi0[i] = xi.x, xi1[i] = xi.y;
+    xi0[i] = xi.x;
+    xi1[i] = xi.y;
   }
   EXPECT_TRUE(world.rays->emitters().sample(light, count, xi0.data(), xi1.data(),
                                             {data[0].data(), data[1].data(), data[2].data()},

@@ -91,7 +91,8 @@ TEST(HitList, HundredsOfHitsAreAllKept) {
 TEST(HitList, IsCrowdedWhereASecondSurfaceLiesWithinTheOffset) {
   const auto hit = [](float t, bool leaving) {
     PolygonHit h;
-    h.t = t, h.leaving = leaving;
+    h.t = t;
+    h.leaving = leaving;
     return h;
   };
   const RayStart start{1, 1e-6f, -1};

@@ -12,8 +12,11 @@ struct Sheets : World {
     for (int i = 0; i < 4; ++i) {
       attributes.color = colors[i];
       if (i == 2) attributes.areaLight = addAreaLight();
-      if (i == 3)
-        attributes.areaLight = -1, attributes.indirect.bleeding = 0, attributes.indirect.bleedingColor = {1, 0.5f, 2};
+      if (i == 3) {
+        attributes.areaLight = -1;
+        attributes.indirect.bleeding = 0;
+        attributes.indirect.bleedingColor = {1, 0.5f, 2};
+      }
       add(parallelogram({static_cast<float>(i), -1, 3}, {0, 2, 0}, {1, 0, 0}));  // normal towards -z
     }
     build();

@@ -8,9 +8,11 @@ namespace {
 
 TEST(Instances, AreMetWhereObjectsOfTheirOwnAreAndOnTheSameSide) {
   mat4 turned = translation({-1.5f, 0, 5}), mirrored = translation({1.5f, 0.3f, 6}), squeezed = translation({0, 2, 7});
-  turned[0] = {0.8f, 0, 0.6f, 0}, turned[2] = {-0.6f, 0, 0.8f, 0};
+  turned[0] = {0.8f, 0, 0.6f, 0};
+  turned[2] = {-0.6f, 0, 0.8f, 0};
   mirrored[0] = {-1, 0, 0, 0};
-  squeezed[0] = {1.5f, 0.2f, 0, 0}, squeezed[1] = {0, 0.4f, 0.1f, 0};
+  squeezed[0] = {1.5f, 0.2f, 0, 0};
+  squeezed[1] = {0, 0.4f, 0.1f, 0};
   World shared, alone;
   const PrimPtr one = waves();
   for (const bool insideOut : {false, true})
@@ -18,9 +20,11 @@ TEST(Instances, AreMetWhereObjectsOfTheirOwnAreAndOnTheSameSide) {
       if (insideOut) m[3].y -= 2.5f;
       shared.attributes.insideOut = alone.attributes.insideOut = insideOut;
       shared.attributes.trace.tessellation = alone.attributes.trace.tessellation = 8;
-      shared.add(one, m), alone.add(waves(), m);
+      shared.add(one, m);
+      alone.add(waves(), m);
     }
-  shared.build(), alone.build();
+  shared.build();
+  alone.build();
   EXPECT_LT(shared.stats.raytrace.coarsePolygons, alone.stats.raytrace.coarsePolygons / 2);
   int hits = 0;
   for (uint32_t i = 0; i < 4096; ++i) {

@@ -117,7 +117,8 @@ TEST(GeometryCache, ASmallOneGivesTheSameHitsForAnyNumberOfThreads) {
       ASSERT_EQ(found[i].normal, expected[i].normal);
     }
   }
-  large.rays->report(large.stats), small.rays->report(small.stats);
+  large.rays->report(large.stats);
+  small.rays->report(small.stats);
   EXPECT_GT(small.stats.geometryCache.misses, 4 * large.stats.geometryCache.misses) << "and had to build again";
   EXPECT_LE(small.stats.geometryCache.bytes, 600000);
   EXPECT_GT(large.stats.geometryCache.bytes, 700000);
@@ -213,7 +214,13 @@ TEST(ResidentCache, KeepsWhatWasUsedLast) {
   ResidentCache<Block> cache(4, 25);
   int made = 0;
   const auto get = [&](size_t i) {
-    return cache.get(i, [&] { return ++made, std::make_shared<const Block>(Block{static_cast<int>(i)}); })->name;
+    return cache
+        .get(i,
+             [&] {
+               ++made;
+               return std::make_shared<const Block>(Block{static_cast<int>(i)});
+             })
+        ->name;
   };
   EXPECT_EQ(get(0), 0);
   EXPECT_EQ(get(1), 1);
@@ -235,7 +242,11 @@ TEST(ResidentCache, MakesRoomForMoreThanOne) {
     cache.get(i, [&] { return std::make_shared<const Block>(Block{static_cast<int>(i)}); });
   int made = 0;
   const auto holds = [&](size_t i) {
-    return cache.get(i, [&] { return ++made, std::make_shared<const Block>(Block{static_cast<int>(i)}); }), made == 0;
+    cache.get(i, [&] {
+      ++made;
+      return std::make_shared<const Block>(Block{static_cast<int>(i)});
+    });
+    return made == 0;
   };
   EXPECT_TRUE(holds(16));
   EXPECT_TRUE(holds(3)) << "the fourth oldest";

@@ -44,7 +44,8 @@ TEST(Offset, FromTheLineWhereTwoWallsMeetRaysStayInTheRoom) {
     for (uint32_t i = 0; i < 2000; ++i) {
       const vec3 P(1, -1, 2.1f + 9e-4f * static_cast<float>(i)), l = cosineHemisphere(sobol2(i, 1));
       const Ray ray = world.rayFrom(4, transformPoint(turn, P), transformVector(turn, {l.x, l.z, l.y}));
-      ++rays, lost += world.rays->closest(ray, kMaskDiffuse).object < 0;
+      ++rays;
+      lost += world.rays->closest(ray, kMaskDiffuse).object < 0;
     }
     // Rounding puts some of the points outside the room. By the closest hit alone 38 % are lost.
     EXPECT_LT(lost * 20, rays) << "inside out: " << insideOut;

@@ -96,10 +96,14 @@ TEST(SolidsForRays, ARayLeavesTheirSurfaceWithoutMeetingIt) {
 TEST(SolidsForRays, PartsThatShareAShapeAreCutNevertheless) {
   World w;
   const PrimPtr sheet = waves();
-  w.add(sheet, translation({0, 0, 5})), w.add(sheet, translation({0, 0, 6}));
+  w.add(sheet, translation({0, 0, 5}));
+  w.add(sheet, translation({0, 0, 6}));
   Solid solid;
   solid.add(SolidOperation::Union, -1);
-  for (Object& o : w.scene.objects) o.solid = 0, o.solidBlock = solid.add(SolidOperation::Primitive, 0);
+  for (Object& o : w.scene.objects) {
+    o.solid = 0;
+    o.solidBlock = solid.add(SolidOperation::Primitive, 0);
+  }
   w.scene.solids.push_back(solid);
   w.build();
   // What lies before the sheets is inside: the whole ends at the second.
@@ -137,7 +141,8 @@ TEST(DetailForRays, EachRaySeesOneLevelInTheShareOfSamples) {
   for (uint32_t k = 0; k < 4000; ++k) {
     const vec3 d = cosineHemisphere({unitFloat(hash32(2 * k)), unitFloat(hash32(2 * k + 1))});
     const Hit hit = w.rays->closest({d * -5.0f, d}, kMaskDiffuse);
-    hits += hit.object >= 0, first += hit.object == 0;
+    hits += hit.object >= 0;
+    first += hit.object == 0;
   }
   EXPECT_EQ(hits, 4000);
   EXPECT_NEAR(first / 4000.0, 0.25, 0.02);

@@ -30,7 +30,9 @@ void compare(const World& world, int object, const vec3& P, Differences& out, co
     ray.surroundings = &around;
     const Hit with = world.rays->closest(ray, kMaskDiffuse);
     const bool same = with.object == without.object && with.adjusted == without.adjusted;
-    ++out.rays, out.adjusted += with.adjusted, out.wrong += !same;
+    ++out.rays;
+    out.adjusted += with.adjusted;
+    out.wrong += !same;
     if (same && with.object >= 0) out.farthest = std::max(out.farthest, std::abs(with.t - without.t));
   }
 }
@@ -90,7 +92,8 @@ TEST(Surroundings, PlaceAndSenseOfAHitAreThoseOfAnyOther) {
     Ray ray{P, d};
     ray.offset = 1e-3f;  // what is met lies behind it
     const Hit far = world.rays->closest(ray, kMaskDiffuse);
-    ray.offset = 1, ray.origin += 1.5f * d;
+    ray.offset = 1;
+    ray.origin += 1.5f * d;
     Surroundings around;
     world.rays->lookAround(ray, 1, kMaskDiffuse, around);
     HitList list;

@@ -106,7 +106,10 @@ TEST(Tessellate, DisplacedPolygonsReachTheRateOfMicropolygons) {
   const float side_px = 2 / world.camera->pixelSize({0, 0, 3});
   EXPECT_GT(static_cast<float>(groups[0].quads.size()), 0.9f * side_px * side_px);
   float lowest = 3, highest = 3;
-  for (const vec3& p : groups[0].P) lowest = std::min(lowest, p.z), highest = std::max(highest, p.z);
+  for (const vec3& p : groups[0].P) {
+    lowest = std::min(lowest, p.z);
+    highest = std::max(highest, p.z);
+  }
   EXPECT_GT(highest - lowest, 0.05f);
   EXPECT_LT(groups[0].deviation, 0.01f);
 }

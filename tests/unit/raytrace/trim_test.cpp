@@ -53,7 +53,10 @@ TEST(TrimmedForRays, ALampShinesWithItsTrimmedArea) {
   constexpr int kCount = 8192;
   std::vector<float> xi0, xi1, data[6], area(kCount);
   for (auto& d : data) d.resize(kCount);
-  for (uint32_t i = 0; i < kCount; ++i) xi0.push_back(sobol2(i, 11).x), xi1.push_back(sobol2(i, 11).y);
+  for (uint32_t i = 0; i < kCount; ++i) {
+    xi0.push_back(sobol2(i, 11).x);
+    xi1.push_back(sobol2(i, 11).y);
+  }
   ASSERT_TRUE(world.rays->emitters().sample(0, kCount, xi0.data(), xi1.data(),
                                             {data[0].data(), data[1].data(), data[2].data()},
                                             {data[3].data(), data[4].data(), data[5].data()}, area.data()));

@@ -15,7 +15,10 @@ inline mat4 translation(const vec3& t) {
 
 inline Param floatsParam(std::string name, ValueType type, Storage storage, std::vector<float> values) {
   Param p;
-  p.name = std::move(name), p.type = type, p.storage = storage, p.floats = std::move(values);
+  p.name = std::move(name);
+  p.type = type;
+  p.storage = storage;
+  p.floats = std::move(values);
   return p;
 }
 
@@ -74,9 +77,12 @@ struct World {
   /// Six walls of the box lo..hi, normals inwards.
   void addRoom(const vec3& lo, const vec3& hi) {
     const vec3 s = hi - lo, x(s.x, 0, 0), y(0, s.y, 0), z(0, 0, s.z);
-    add(parallelogram(lo, x, y)), add(parallelogram(lo + z, y, x));
-    add(parallelogram(lo, y, z)), add(parallelogram(lo + x, z, y));
-    add(parallelogram(lo, z, x)), add(parallelogram(lo + y, x, z));
+    add(parallelogram(lo, x, y));
+    add(parallelogram(lo + z, y, x));
+    add(parallelogram(lo, y, z));
+    add(parallelogram(lo + x, z, y));
+    add(parallelogram(lo, z, x));
+    add(parallelogram(lo + y, x, z));
   }
 
   int addAreaLight() {

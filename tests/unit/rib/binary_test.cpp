@@ -57,7 +57,8 @@ void expectSame(const std::vector<Request>& a, const std::vector<Request>& b) {
     for (size_t k = 0; k < a[i].params.size(); ++k) {
       Param x = a[i].params[k], y = b[i].params[k];
       EXPECT_TRUE(same(x.floats, y.floats)) << x.name;
-      x.floats.clear(), y.floats.clear();
+      x.floats.clear();
+      y.floats.clear();
       EXPECT_EQ(x, y) << x.name << " " << y.name;
     }
   }

@@ -28,7 +28,10 @@ std::vector<Documented> documented(const std::string& heading) {
     for (std::string word; std::getline(names, word, ',');) {
       word = std::regex_replace(word, std::regex(R"(\(.*\)|\s)"), "");
       const size_t colon = word.find(':');
-      if (colon != std::string::npos) category = word.substr(0, colon), word.erase(0, colon + 1);
+      if (colon != std::string::npos) {
+        category = word.substr(0, colon);
+        word.erase(0, colon + 1);
+      }
       if (!category.empty()) out.push_back({category, word == "*" ? "any" : word, line.substr(bar)});
     }
   }
@@ -79,7 +82,8 @@ std::string messages(const Log& log) {
 /// What an attribute may change that can be seen without rendering; user attributes are kept as they are given.
 bool same(const Scene& a, const Scene& b) {
   Attributes left = *a.objects.at(0).attributes, right = *b.objects.at(0).attributes;
-  left.user.clear(), right.user.clear();
+  left.user.clear();
+  right.user.clear();
   return left == right && a.lights.at(0)->castsShadows == b.lights.at(0)->castsShadows;
 }
 

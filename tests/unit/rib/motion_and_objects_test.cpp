@@ -157,7 +157,10 @@ TEST(Objects, AreTubesWhereTheInstanceSaysSoAndRibbonsElsewhere) {
 
 TEST(Objects, StandForAMillionRequestsAtMost) {
   std::string many = "ObjectBegin 1\n", thousands = "ObjectBegin 2\n";
-  for (int i = 0; i < 1000; ++i) many += "Matte 1 ", thousands += "ObjectInstance 1 ";
+  for (int i = 0; i < 1000; ++i) {
+    many += "Matte 1 ";
+    thousands += "ObjectInstance 1 ";
+  }
   const Reading r(inWorld(many + "ObjectEnd " + thousands + kSphere + "ObjectEnd\nObjectInstance 2\n" +
                           "ObjectBegin 3 ObjectInstance 1 Sphere 2 -2 2 360 ObjectEnd ObjectInstance 3 " + kSphere));
   ASSERT_EQ(r.scene().objects.size(), 2u) << "the sphere after the millionth request is left out";

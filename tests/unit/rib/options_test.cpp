@@ -198,11 +198,14 @@ TEST(Transformations, InAnyNumberAndOrderAreTheProductOfTheirMatrices) {
         m[3] = {x, y, z, 1};
         text += fmt::format("Translate {} {} {} ", x, y, z);
       } else if (i % 4 == 1) {
-        m[0][0] = x, m[1][1] = y, m[2][2] = z;
+        m[0][0] = x;
+        m[1][1] = y;
+        m[2][2] = z;
         text += fmt::format("Scale {} {} {} ", x, y, z);
       } else if (i % 4 == 2) {
         const double c = std::cos(x), s = std::sin(x);
-        m[0] = {c, s, 0, 0}, m[1] = {-s, c, 0, 0};
+        m[0] = {c, s, 0, 0};
+        m[1] = {-s, c, 0, 0};
         text += fmt::format("Rotate {} 0 0 {} ", x * 180 / kPi, z);
       } else {
         m[1][0] = std::tan(0.5);

@@ -117,7 +117,10 @@ Cases controlCases() {
        "float a = 0, b = 1, k; for (k = 0; k < mod(s, 12); k += 1) { b += a; a = b - a; } x = a;",
        [](float i) {
          float a = 0, b = 1;
-         for (float k = 0; k < std::fmod(i, 12.0f); ++k) b += a, a = b - a;
+         for (float k = 0; k < std::fmod(i, 12.0f); ++k) {
+           b += a;
+           a = b - a;
+         }
          return a;
        }},
       {"Collatz",

@@ -177,8 +177,12 @@ TEST(Given, ParametersOfPrimitiveVariablesVary) {
     g.maskAtRandom();
     g.bindOutputs(compiled.shader().lowered());
     float *const p = g.array(), *const q = g.array();
-    for (int i = 0; i < count; ++i) p[i] = static_cast<float>(i % 4), q[i] = static_cast<float>(i);
-    g.params[0].c[0] = p, g.params[0].step = 1;
+    for (int i = 0; i < count; ++i) {
+      p[i] = static_cast<float>(i % 4);
+      q[i] = static_cast<float>(i);
+    }
+    g.params[0].c[0] = p;
+    g.params[0].step = 1;
     g.runBound(compiled.shader());
     for (int i = 0; i < count; ++i) {
       const bool on = g.active[static_cast<size_t>(i)] != 0;
@@ -186,7 +190,8 @@ TEST(Given, ParametersOfPrimitiveVariablesVary) {
       EXPECT_EQ(g.output(c)[i], on ? p[i] : FakeGrid::kBefore.x);
     }
     g.bindOutputs(compiled.shader().lowered());
-    g.params[1].c[0] = g.params[1].c[1] = g.params[1].c[2] = q, g.params[1].step = 1;
+    g.params[1].c[0] = g.params[1].c[1] = g.params[1].c[2] = q;
+    g.params[1].step = 1;
     g.runBound(compiled.shader());
     for (int i = 0; i < count; ++i)
       EXPECT_EQ(g.output(c)[i], g.active[static_cast<size_t>(i)] ? 3 * q[i] : FakeGrid::kBefore.x);

@@ -64,18 +64,26 @@ class Patterns : public Stage {
     EXPECT_TRUE(registry.addText(file, path));
   }
   std::vector<vec3> seen(const std::string& name) {
-    shading.reset(), scene.objects.clear();
+    shading.reset();
+    scene.objects.clear();
     surface(name);
     system();
     ShadePoints p(0, 0, true);
     for (int k = 0; k < kPoints; ++k) {
       const int i = p.add(static_cast<uint32_t>(k));
       const float u = static_cast<float>(k) / kPoints, v = std::sin(float(k)), du = 0.001f * float(k), dv = 0.02f;
-      p.channel(kU)[i] = p.channel(kS)[i] = u, p.channel(kV)[i] = p.channel(kT)[i] = v;
-      p.channel(kDu)[i] = du, p.channel(kDv)[i] = dv;
-      p.step(kStepU, false)[i] = du, p.step(kStepV, true)[i] = dv;
-      p.set3(kPx, i, {2 * u, 4 * v, 5}), p.set3(kDpduX, i, {2, 0, 0}), p.set3(kDpdvX, i, {0, 4, 0});
-      p.set3(kNx, i, {0, 0, -1}), p.set3(kNgx, i, {0, 0, -1}), p.set3(kIx, i, p.position(i));
+      p.channel(kU)[i] = p.channel(kS)[i] = u;
+      p.channel(kV)[i] = p.channel(kT)[i] = v;
+      p.channel(kDu)[i] = du;
+      p.channel(kDv)[i] = dv;
+      p.step(kStepU, false)[i] = du;
+      p.step(kStepV, true)[i] = dv;
+      p.set3(kPx, i, {2 * u, 4 * v, 5});
+      p.set3(kDpduX, i, {2, 0, 0});
+      p.set3(kDpdvX, i, {0, 4, 0});
+      p.set3(kNx, i, {0, 0, -1});
+      p.set3(kNgx, i, {0, 0, -1});
+      p.set3(kIx, i, p.position(i));
     }
     const ShadedPoints out = shade(p);
     std::vector<vec3> colors;
@@ -90,7 +98,8 @@ TEST_F(Patterns, OfBothLanguagesAreTheSame) {
     float least = 1e9f, most = -1e9f;
     for (size_t i = 0; i < is.size(); ++i) {
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(is[i][k], should[i][k], 2e-5f) << name << " " << i << " " << k;
-      least = std::min(least, is[i].x), most = std::max(most, is[i].x);
+      least = std::min(least, is[i].x);
+      most = std::max(most, is[i].x);
     }
     EXPECT_GT(most, least) << name << " does not vary";
   }

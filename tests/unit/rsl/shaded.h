@@ -42,8 +42,12 @@ class ServedGrid : public FakeGrid {
     lights = {{[](int) { return true; }, {0, 0, -2}, {1, 2, 3}, 0.25f},
               {[](int i) { return i % 2 == 1; }, {0, -3, 0}, {0.5f, 0.5f, 0.5f}, 0.75f}};
     const TmVec3 across = triples(), along = triples();
-    for (int i = 0; i < n; ++i) rsl::set(across, i, {4, 0, 0}), rsl::set(along, i, {0, 4, 0});
-    grid.dPdu = rsl::view(across), grid.dPdv = rsl::view(along);
+    for (int i = 0; i < n; ++i) {
+      rsl::set(across, i, {4, 0, 0});
+      rsl::set(along, i, {0, 4, 0});
+    }
+    grid.dPdu = rsl::view(across);
+    grid.dPdv = rsl::view(along);
     changes = {{grid.s, 1, 0}, {grid.t, 0, 3}, {grid.P.x, 1, 0}, {grid.P.y, 0, 2}};
     services.derivative = [](void* h, const TmGrid* g, int32_t direction, const float* x, float* out) {
       const ServedGrid& me = *static_cast<ServedGrid*>(static_cast<FakeGrid*>(h));

@@ -94,9 +94,12 @@ std::string ownFile(const char* ending) {
 class Studio : public Stage {
  public:
   explicit Studio(bool written) {
-    attributes.color = {0.8f, 0.5f, 0.3f}, attributes.opacity = {0.9f, 0.6f, 1};
+    attributes.color = {0.8f, 0.5f, 0.3f};
+    attributes.opacity = {0.9f, 0.6f, 1};
     attributes.displacementBound = 10;
-    scene.options.projection = ProjectionKind::Perspective, scene.options.nearClip = 2, scene.options.farClip = 12;
+    scene.options.projection = ProjectionKind::Perspective;
+    scene.options.nearClip = 2;
+    scene.options.farClip = 12;
     services.seen = [](const vec3& d) { return vec3(0.5f) + 0.5f * glm::normalize(d); };
     if (!written) return;
     const std::string path = ownFile(".sl");
@@ -129,12 +132,15 @@ class Studio : public Stage {
     ShadePoints out = points(P);
     for (int i = 0; i < 64; ++i) {
       const vec3 any = 3.0f * vector() + vec3(0, 0, 0.1f), N = hits ? glm::normalize(any) : any;
-      out.set3(kNx, i, N), out.set3(kNgx, i, glm::normalize(N)), out.set3(kIx, i, 5.0f * vector() + vec3(0, 0.1f, 0));
+      out.set3(kNx, i, N);
+      out.set3(kNgx, i, glm::normalize(N));
+      out.set3(kIx, i, 5.0f * vector() + vec3(0, 0.1f, 0));
     }
     return out;
   }
   ShadedPoints surfaceOf(const std::string& name, const ParamList& params, const ShadeContext& context = {}) {
-    surface(name, params), shine();
+    surface(name, params);
+    shine();
     return shade(somewhere(context.kind == RayKind::Diffuse), context);
   }
   ShadedPoints volumeOf(const std::string& name, const ParamList& params) {
@@ -156,7 +162,12 @@ class Studio : public Stage {
       for (int i = 0; i <= n; ++i) {
         const int k = j * (n + 1) + i;
         const float u = static_cast<float>(i) / n, v = static_cast<float>(j) / n;
-        g.P(0, 0)[k] = u, g.P(0, 1)[k] = 1 - v, g.P(0, 2)[k] = 5, g.N(2)[k] = -1, g.u()[k] = u, g.v()[k] = v;
+        g.P(0, 0)[k] = u;
+        g.P(0, 1)[k] = 1 - v;
+        g.P(0, 2)[k] = 5;
+        g.N(2)[k] = -1;
+        g.u()[k] = u;
+        g.v()[k] = v;
       }
     system().displace(g);
     return g;
@@ -217,7 +228,8 @@ TEST_P(StandardShaders, AreFoundToBeWhatTheyAre) {
   const auto shaded = [&, name = name, params = params](Illumination light) {
     Studio studio(true);
     ShadeContext context;
-    context.kind = RayKind::Diffuse, context.light = light;
+    context.kind = RayKind::Diffuse;
+    context.light = light;
     return studio.surfaceOf(name, params, context);
   };
   const uint32_t found = Studio(true).shader(name, kind).capabilities;

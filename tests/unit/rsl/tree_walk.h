@@ -184,7 +184,8 @@ class TreeWalk {
       case StmtKind::Illuminance:
         for (const Light& light : lights_) {
           if (!light.lit) continue;
-          globals_[Global::L] = light.L, globals_[Global::Cl] = light.Cl;
+          globals_[Global::L] = light.L;
+          globals_[Global::Cl] = light.Cl;
           if (const auto [left, way] = round(*s.body[0]); left) return way;
         }
         return {};

@@ -17,8 +17,11 @@ class WrittenProgram {
  public:
   explicit WrittenProgram(const Choose& choose) : choose_(choose) {
     for (uint32_t k = pick(3); k > 0; --k) function();
-    reads_ = {"s", "t", "u", "p"}, writes_ = {"r0", "r1", "r2", "v0", "v1", "v2"}, colors_ = {"q0", "c0", "c1"};
-    array_ = true, lights_ = true;
+    reads_ = {"s", "t", "u", "p"};
+    writes_ = {"r0", "r1", "r2", "v0", "v1", "v2"};
+    colors_ = {"q0", "c0", "c1"};
+    array_ = true;
+    lights_ = true;
     text_ +=
         "surface test(float p = 2; output varying float r0 = 0, r1 = 1, r2 = 2; output varying color q0 = 0) {\n"
         "float v0; uniform float v1 = 1; float v2 = s; color c0, c1 = Cs; float n[3] = {1, 2, 3}; float o0 = 4;\n";
@@ -34,12 +37,17 @@ class WrittenProgram {
   }
 
   void function() {
-    reads_ = {"s", "a", "b"}, writes_ = {"o", "l"}, colors_ = {"m"}, array_ = lights_ = false, inFunction_ = true;
+    reads_ = {"s", "a", "b"};
+    writes_ = {"o", "l"};
+    colors_ = {"m"};
+    array_ = lights_ = false;
+    inFunction_ = true;
     const std::string name = fmt::format("f{}", functions_.size());
     text_ += fmt::format("float {}(float a, b; output float o) {{\nfloat l = b; color m = a;\n", name);
     block(2);
     text_ += fmt::format("return l + {}; }}\n", number(1));
-    functions_.push_back(name), inFunction_ = false;
+    functions_.push_back(name);
+    inFunction_ = false;
   }
 
   static std::string held(const std::string& x) { return fmt::format("clamp({}, -8, 8)", x); }
@@ -136,20 +144,24 @@ class WrittenProgram {
   void loop(int depth) {
     const std::string counter = fmt::format("k{}", counters_++), until = std::to_string(1 + pick(4));
     const std::string further = pick(2) ? " && " + condition(1) : "";
-    reads_.push_back(counter), ++loops_;
+    reads_.push_back(counter);
+    ++loops_;
     if (pick(2))
       text_ += fmt::format("{{ float {0}; for ({0} = 0; {0} < {1}{2}; {0} += 1)\n", counter, until, further);
     else
       text_ += fmt::format("{{ float {0} = 0; while (({0} += 1) <= {1}{2})\n", counter, until, further);
     nested(depth);
     text_ += "}\n";
-    reads_.pop_back(), --loops_;
+    reads_.pop_back();
+    --loops_;
   }
   void lightLoop(int depth) {
     text_ += "illuminance (P)\n";
-    inLight_ = true, ++loops_;
+    inLight_ = true;
+    ++loops_;
     nested(depth);
-    inLight_ = false, --loops_;
+    inLight_ = false;
+    --loops_;
   }
   void leave() {
     if (inFunction_ && pick(3) == 0)
@@ -164,9 +176,11 @@ class WrittenProgram {
       const uint32_t what = pick(depth < 4 ? 12 : 6);
       if (what < 5)
         assignment();
-      else if (what == 5)
-        text_ += fmt::format("if ({})\n{{\n", condition(1)), leave(), text_ += "}\n";
-      else if (what < 9)
+      else if (what == 5) {
+        text_ += fmt::format("if ({})\n{{\n", condition(1));
+        leave();
+        text_ += "}\n";
+      } else if (what < 9)
         branch(depth);
       else if (what < 11 || !lights_ || inLight_)
         loop(depth);

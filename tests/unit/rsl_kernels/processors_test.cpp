@@ -64,7 +64,8 @@ void expectSameBits(const std::string& processor) {
     }
     for (Values& v : in) lanes.push_back(v.lanes());
     Values a(entry.floatsOut(), kBlocks, true), b = a;
-    one(kBlocks, a.lanes(), lanes.data()), other(kBlocks, b.lanes(), lanes.data());
+    one(kBlocks, a.lanes(), lanes.data());
+    other(kBlocks, b.lanes(), lanes.data());
     for (size_t i = 0; i < a.data.size(); ++i) {
       if (a.data[i] != a.data[i] && b.data[i] != b.data[i]) continue;
       ASSERT_EQ(std::memcmp(&a.data[i], &b.data[i], sizeof(float)), 0)

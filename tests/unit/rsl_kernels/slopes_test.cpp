@@ -55,7 +55,8 @@ TEST_F(Slopes, OfPlacesThatAreNoNumbersDoNoHarm) {
   Numbers numbers(10);
   for (float& x : p.data) x = numbers.any();
   for (float& x : d.data) x = numbers.any();
-  run(Op::Slope3F), run(Op::Slope3T);
+  run(Op::Slope3F);
+  run(Op::Slope3T);
 }
 
 }  // namespace

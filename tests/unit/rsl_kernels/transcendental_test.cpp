@@ -103,7 +103,10 @@ double largestErrorOfPairs(Op op, int n, const At& at, const Exact& exact, std::
     kernelOf(op)(kExactBlocks, out.lanes(), from);
     for (size_t i = 0; i < kExactPoints; ++i) {
       const double error = errorOf(out.data[i], exact(static_cast<double>(a.data[i]), static_cast<double>(b.data[i])));
-      if (!(error <= largest)) largest = error, worst = {a.data[i], b.data[i]};
+      if (!(error <= largest)) {
+        largest = error;
+        worst = {a.data[i], b.data[i]};
+      }
     }
   }
   return largest;
@@ -143,11 +146,17 @@ TEST(TranscendentalKernels, Atan2OfAnyBitsIsAsInC) {
 
 TEST(TranscendentalKernels, WholePowersAndRootsAreExact) {
   Values x(1, 1, true), y(1, 1, true), out(1, 1, true);
-  for (size_t k = 0; k < kBlock; ++k) x.data[k] = static_cast<float>(k), y.data[k] = 3;
+  for (size_t k = 0; k < kBlock; ++k) {
+    x.data[k] = static_cast<float>(k);
+    y.data[k] = 3;
+  }
   const Lanes from[] = {x.lanes(), y.lanes()};
   kernelOf(Op::Pow)(1, out.lanes(), from);
   for (size_t k = 0; k < kBlock; ++k) EXPECT_EQ(out.data[k], static_cast<float>(k * k * k));
-  for (size_t k = 0; k < kBlock; ++k) x.data[k] = static_cast<float>(k * k), y.data[k] = 0.5f;
+  for (size_t k = 0; k < kBlock; ++k) {
+    x.data[k] = static_cast<float>(k * k);
+    y.data[k] = 0.5f;
+  }
   kernelOf(Op::Pow)(1, out.lanes(), from);
   for (size_t k = 0; k < kBlock; ++k) EXPECT_EQ(out.data[k], static_cast<float>(k));
 }

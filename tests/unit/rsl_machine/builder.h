@@ -10,7 +10,8 @@ namespace tomales::compiler {
 class Builder {
  public:
   explicit Builder(ShaderKind kind = ShaderKind::Surface) {
-    code.kind = kind, code.name = "built";
+    code.kind = kind;
+    code.name = "built";
     blocks_ = {&code.body};
   }
   Builder(const Builder&) = delete;
@@ -49,7 +50,10 @@ class Builder {
                                                : Shape::Triple;
     const auto length = static_cast<int32_t>(value.size()) / std::max(1, floatsOf(shape));
     Parameter p;
-    p.name = name, p.type = {base, length > 1 ? length : 0}, p.output = output, p.floats = std::move(value);
+    p.name = name;
+    p.type = {base, length > 1 ? length : 0};
+    p.output = output;
+    p.floats = std::move(value);
     code.parameters.push_back(p);
     return add({.shape = shape,
                 .origin = Origin::Parameter,

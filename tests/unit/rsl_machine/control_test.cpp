@@ -143,7 +143,8 @@ TEST(Control, ProgramsRunWithinServicesOfOthers) {
   static int depth, runs;
   const auto ambient = [](void*, const TmGrid* g, TmVec3) {
     if (depth == 3) return;
-    ++depth, ++runs;
+    ++depth;
+    ++runs;
     FakeGrid inner(300);
     inner.services.ambient = g->call->ambient;
     inner.bind(running->code());
@@ -157,7 +158,8 @@ TEST(Control, ProgramsRunWithinServicesOfOthers) {
   fake.bind(b.code);
   fake.services.ambient = ambient;
   const Program program(std::move(b.code));
-  running = &program, depth = runs = 0;
+  running = &program;
+  depth = runs = 0;
   run(program, fake.grid);
   EXPECT_EQ(runs, 2 + 4 + 8);
   for (int i = 0; i < 64; ++i) EXPECT_EQ(fake.output(0)[i], fake.grid.u[i] < 0.7f ? 0.25f : 0.0f);

@@ -14,32 +14,61 @@ namespace tomales::compiler {
 class FakeGrid {
  public:
   explicit FakeGrid(int count) : n(padded(count)) {
-    grid.structBytes = sizeof grid, grid.count = count, grid.padded = n;
-    grid.time = 0.25f, grid.dtime = 0.5f, grid.clip[0] = 1, grid.clip[1] = 100;
-    grid.P = scattered(), grid.N = triples(), grid.Ci = triples(), grid.Oi = triples(), grid.L = triples(),
+    grid.structBytes = sizeof grid;
+    grid.count = count;
+    grid.padded = n;
+    grid.time = 0.25f;
+    grid.dtime = 0.5f;
+    grid.clip[0] = 1;
+    grid.clip[1] = 100;
+    grid.P = scattered();
+    grid.N = triples();
+    grid.Ci = triples();
+    grid.Oi = triples();
+    grid.L = triples();
     grid.Cl = triples();
     const TmVec3 Ng = triples(), I = triples(), dPdu = triples(), dPdv = triples(), dPdtime = triples(), Cs = triples(),
                  Os = triples();
-    grid.Ng = rsl::view(Ng), grid.I = rsl::view(I), grid.dPdu = rsl::view(dPdu), grid.dPdv = rsl::view(dPdv),
-    grid.dPdtime = rsl::view(dPdtime), grid.Cs = rsl::view(Cs), grid.Os = rsl::view(Os);
+    grid.Ng = rsl::view(Ng);
+    grid.I = rsl::view(I);
+    grid.dPdu = rsl::view(dPdu);
+    grid.dPdv = rsl::view(dPdv);
+    grid.dPdtime = rsl::view(dPdtime);
+    grid.Cs = rsl::view(Cs);
+    grid.Os = rsl::view(Os);
     float *const u = array(), *const v = array(), *const s = array(), *const t = array(), *const du = array(),
                  *const dv = array();
-    grid.u = u, grid.v = v, grid.s = s, grid.t = t, grid.du = du, grid.dv = dv;
+    grid.u = u;
+    grid.v = v;
+    grid.s = s;
+    grid.t = t;
+    grid.du = du;
+    grid.dv = dv;
     grid.alpha = array();
     for (int i = 0; i < n; ++i) {
       const auto x = static_cast<float>(i);
-      u[i] = x / static_cast<float>(count), v[i] = 0.5f, s[i] = x, t[i] = -x, du[i] = 0.25f, dv[i] = 0.5f;
-      rsl::set(grid.P, i, {x, 2 * x, 3}), rsl::set(grid.N, i, {0, 0, -1}), rsl::set(Ng, i, {0, 0, -2}),
-          rsl::set(I, i, {0, 0, 1});
-      rsl::set(Cs, i, {0.25f, 0.5f, 1}), rsl::set(Os, i, {1, 0.5f, 0.25f});
-      rsl::set(grid.Ci, i, kBefore), rsl::set(grid.Oi, i, kBefore);
+      u[i] = x / static_cast<float>(count);
+      v[i] = 0.5f;
+      s[i] = x;
+      t[i] = -x;
+      du[i] = 0.25f;
+      dv[i] = 0.5f;
+      rsl::set(grid.P, i, {x, 2 * x, 3});
+      rsl::set(grid.N, i, {0, 0, -1});
+      rsl::set(Ng, i, {0, 0, -2});
+      rsl::set(I, i, {0, 0, 1});
+      rsl::set(Cs, i, {0.25f, 0.5f, 1});
+      rsl::set(Os, i, {1, 0.5f, 0.25f});
+      rsl::set(grid.Ci, i, kBefore);
+      rsl::set(grid.Oi, i, kBefore);
       grid.alpha[i] = 0.125f;
     }
     active.assign(static_cast<size_t>(n), 0);
     std::fill_n(active.begin(), count, uint8_t{1});
     grid.active = active.data();
     setServices();
-    grid.call = &services, grid.host = this;
+    grid.call = &services;
+    grid.host = this;
   }
   FakeGrid(const FakeGrid&) = delete;
 

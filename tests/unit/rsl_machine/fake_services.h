@@ -5,7 +5,8 @@
 namespace tomales::compiler {
 
 inline void FakeGrid::setServices() {
-  services.structBytes = sizeof services, services.abi = TM_SHADER_ABI;
+  services.structBytes = sizeof services;
+  services.abi = TM_SHADER_ABI;
   services.report = [](void* h, const TmGrid*, int32_t, const char* what) { of(h).reports.emplace_back(what); };
   services.print = [](void* h, const TmGrid*, const char* what) { of(h).printed.emplace_back(what); };
   services.ambient = [](void* h, const TmGrid* g, TmVec3 out) {
@@ -28,8 +29,15 @@ inline void FakeGrid::setServices() {
     const FakeLight& light = me.lights[static_cast<size_t>(q->next)];
     const TmVec3 L = me.triples(), Cl = me.triples();
     uint8_t* const lit = reinterpret_cast<uint8_t*>(me.array());
-    each(g, [&](int i) { rsl::set(L, i, light.L), rsl::set(Cl, i, light.Cl), lit[i] = light.lit(i); });
-    q->L = q->direction = rsl::view(L), q->Cl = rsl::view(Cl), q->lit = lit, q->light = q->next++;
+    each(g, [&](int i) {
+      rsl::set(L, i, light.L);
+      rsl::set(Cl, i, light.Cl);
+      lit[i] = light.lit(i);
+    });
+    q->L = q->direction = rsl::view(L);
+    q->Cl = rsl::view(Cl);
+    q->lit = lit;
+    q->light = q->next++;
     return 1;
   };
   services.transform = [](void*, const TmGrid* g, int32_t kind, const char*, const char* to, TmConstVec3 in,
@@ -49,25 +57,37 @@ inline void FakeGrid::setServices() {
     each(g, [&](int i) { rsl::set(out, i, -rsl::get(P, i)); });
   };
   services.stratified = [](void*, const TmGrid* g, int32_t, int32_t, float* x, float* y) {
-    each(g, [&](int i) { x[i] = static_cast<float>(i % 16) / 16, y[i] = static_cast<float>(i / 16 % 16) / 16; });
+    each(g, [&](int i) {
+      x[i] = static_cast<float>(i % 16) / 16;
+      y[i] = static_cast<float>(i / 16 % 16) / 16;
+    });
   };
   services.texture = [](void* h, const TmGrid* g, const char* name, const TmTextureOptions* o, const float* s,
                         const float* t, TmVec3 out) -> int32_t {
     FakeGrid& me = of(h);
     me.seen(g);
-    me.asked = name, me.textureOptions = *o, me.filter = o->filter ? o->filter : "";
+    me.asked = name;
+    me.textureOptions = *o;
+    me.filter = o->filter ? o->filter : "";
     each(g, [&](int i) {
       out.x[i] = s[i];
-      if (out.y) out.y[i] = t[i], out.z[i] = static_cast<float>(o->channel);
+      if (out.y) {
+        out.y[i] = t[i];
+        out.z[i] = static_cast<float>(o->channel);
+      }
     });
     return 1;
   };
   services.environment = [](void* h, const TmGrid* g, const char* name, const TmTextureOptions* o, TmConstVec3 d,
                             TmVec3 out) -> int32_t {
-    of(h).asked = name, of(h).textureOptions = *o;
+    of(h).asked = name;
+    of(h).textureOptions = *o;
     each(g, [&](int i) {
       out.x[i] = d.x[i];
-      if (out.y) out.y[i] = d.y[i], out.z[i] = d.z[i];
+      if (out.y) {
+        out.y[i] = d.y[i];
+        out.z[i] = d.z[i];
+      }
     });
     return 1;
   };
@@ -86,7 +106,8 @@ inline void FakeGrid::setServices() {
   };
   services.occlusion = [](void* h, const TmGrid* g, const TmRayOptions* rays, TmConstVec3, TmConstVec3 N,
                           const TmOcclusion* o) -> int32_t {
-    of(h).rayOptions = *rays, of(h).occlusionOptions = *o;
+    of(h).rayOptions = *rays;
+    of(h).occlusionOptions = *o;
     each(g, [&](int i) {
       if (o->covered) o->covered[i] = 0.5f;
       if (o->radiance.x) rsl::set(o->radiance, i, rsl::get(N, i));
@@ -117,7 +138,8 @@ inline void FakeGrid::setServices() {
                     TmValue* out) -> int32_t {
     FakeGrid& me = of(h);
     if (whom == TM_OF_LIGHT && light >= 0 && std::string_view(name) == "dimmed") {
-      *type = TM_FLOAT, *out = {{&me.lights[static_cast<size_t>(light)].dimmed, nullptr, nullptr}, 0, 1, nullptr};
+      *type = TM_FLOAT;
+      *out = {{&me.lights[static_cast<size_t>(light)].dimmed, nullptr, nullptr}, 0, 1, nullptr};
       return 1;
     }
     const auto it = me.answers.find(std::to_string(whom) + ":" + name);
@@ -142,7 +164,8 @@ inline void FakeGrid::setServices() {
                             TmValue* out) -> int32_t {
     static const float resolution[2] = {640, 480};
     if (std::string_view(what) != "resolution") return 0;
-    *type = TM_FLOAT, *out = {{resolution, nullptr, nullptr}, 0, 2, nullptr};
+    *type = TM_FLOAT;
+    *out = {{resolution, nullptr, nullptr}, 0, 2, nullptr};
     return 1;
   };
   services.shadow = [](void* h, const TmGrid* g, const char* name, const TmShadowOptions* o, TmConstVec3 P,
@@ -154,7 +177,8 @@ inline void FakeGrid::setServices() {
                        const TmChannel* values, int32_t count) -> int32_t {
     FakeGrid& me = of(h);
     me.seen(g);
-    me.asked = file, me.channels.clear();
+    me.asked = file;
+    me.channels.clear();
     for (int k = 0; k < count; ++k)
       me.channels.emplace_back(std::string(values[k].name) + (values[k].value.y ? " 3 " : " 1 ") +
                                std::to_string(values[k].value.x[0]));

@@ -36,13 +36,16 @@ TEST_F(IlluminanceTest, RunsItsBodyForThePointsThatASampleReaches) {
 TEST_F(IlluminanceTest, AsksElsewhereWithACopyOfThePlace) {
   const int32_t place = b.variable(Shape::Triple), out = triple();
   b.copy(place, b.triple(1, 1, 1));
-  loop({b.text("key"), place, b.triple(0, 0, 1), b.global("u", Shape::Number)},
-       [&] { b.copy(place, b.number(7)), b.copy(out, place); });
+  loop({b.text("key"), place, b.triple(0, 0, 1), b.global("u", Shape::Number)}, [&] {
+    b.copy(place, b.number(7));
+    b.copy(out, place);
+  });
   bool moved = false;
   const auto ask = fake.services.illuminance;
   static std::remove_const_t<decltype(ask)> inner;
   static bool* wrong;
-  inner = ask, wrong = &moved;
+  inner = ask;
+  wrong = &moved;
   fake.services.illuminance = [](void* h, const TmGrid* g, TmIlluminance* q) -> int32_t {
     *wrong |= std::string_view(q->category) != "key" || q->P.x[2] != 1 || q->axis.z[3] != 1 || q->angles[10] != 0.5f;
     return inner(h, g, q);
@@ -93,8 +96,12 @@ TEST_F(IlluminanceTest, ListsSendAndAskAndTheBodyAsksTheLight) {
 TEST_F(Services, ConesOfLightAreSampledEvenly) {
   const int32_t out = triple();
   float *const x = fake.array(), *const y = fake.array();
-  x[0] = 0, x[1] = 1, x[2] = 1, y[2] = 0.25f;
-  fake.grid.xi0 = x, fake.grid.xi1 = y;
+  x[0] = 0;
+  x[1] = 1;
+  x[2] = 1;
+  y[2] = 0.25f;
+  fake.grid.xi0 = x;
+  fake.grid.xi1 = y;
   b.copy(out, b.value(Op::ConeLight, {b.triple(0, 0, 2), b.number(1)}, Shape::Triple));
   run();
   expect(at(0, 0), {0, 0, 1});

@@ -13,7 +13,10 @@ TEST_F(Services, AskFillsWhatFitsAndLeavesTheRest) {
   const auto ask = [&](int32_t out, const char* name, int32_t value) {
     b.emit(Op::Ask, {out}, {b.text(name)}, TM_OF_ATTRIBUTES).settings = {setting("", value, true)};
   };
-  b.branch(where(0.5f), [&] { ask(told[0], "user:size", n), ask(told[1], "Ri:Color", c); });
+  b.branch(where(0.5f), [&] {
+    ask(told[0], "user:size", n);
+    ask(told[1], "Ri:Color", c);
+  });
   ask(told[2], "user:size", c);
   ask(told[3], "identifier:name", text);
   b.copy(same, b.value(Op::TextEqual, {text, b.text("thing")}));

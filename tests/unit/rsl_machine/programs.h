@@ -91,7 +91,8 @@ class MadeProgram {
     b.copy(counter, b.number(0));
     const int32_t holds = b.temporary(Shape::Number, varying || !uniform);
     within(ofSome, [&] {
-      labels_.push_back({label, ofSome}), labels_.push_back({label + 1, ofSome});
+      labels_.push_back({label, ofSome});
+      labels_.push_back({label + 1, ofSome});
       b.loop(
           holds, label,
           [&] {
@@ -103,7 +104,8 @@ class MadeProgram {
           [&] {
             b.copy(counter, b.value(Op::Add, {counter, b.number(1)}, Shape::Number, varying));
           });
-      labels_.pop_back(), labels_.pop_back();
+      labels_.pop_back();
+      labels_.pop_back();
     });
   }
   void scope(int depth) {
@@ -200,9 +202,11 @@ class OnePoint {
         return left == i.extra ? kGoesOn : left;
       }
       case Op::SetElement:
-        return element(i.out[0], x(0)) = x(1), kGoesOn;
+        element(i.out[0], x(0)) = x(1);
+        return kGoesOn;
       case Op::ElementF:
-        return at(i.out[0]) = element(i.in[0], x(1)), kGoesOn;
+        at(i.out[0]) = element(i.in[0], x(1));
+        return kGoesOn;
       default:
         break;
     }

@@ -37,7 +37,8 @@ TEST_F(Services, TheHemisphereGivesWhatIsCoveredAndWhatArrives) {
 TEST_F(Services, GatherRunsOneBodyForHitsAndTheOtherForMisses) {
   const int32_t hits = number(), misses = number(), color = triple(), value = number(),
                 P = b.global("P", Shape::Triple);
-  b.copy(hits, b.number(0)), b.copy(misses, b.number(0));
+  b.copy(hits, b.number(0));
+  b.copy(misses, b.number(0));
   const auto more = [&](int32_t to) { return [&, to] { b.copy(to, b.value(Op::Add, {to, b.number(1)})); }; };
   b.branch(where(0.5f), [&] {
     b.nest(Op::Gather, {b.text("samplepattern"), P, b.triple(0, 0, 1), b.number(0.5f), b.number(3)}, 0,

@@ -110,9 +110,13 @@ TEST_F(Values, ALightsLPointsFromTheLightAndIsStoredTowardsIt) {
 TEST_F(Values, AnAreaLightsPAndNAreThoseOfTheLightAndItsLIsTheHosts) {
   b.code.kind = ShaderKind::Light;
   const TmVec3 Pl = fake.triples(), Nl = fake.triples();
-  for (int i = 0; i < 20; ++i)
-    rsl::set(Pl, i, {9, 9, 9}), rsl::set(Nl, i, {0, 1, 0}), rsl::set(fake.grid.L, i, {0, 0, 4});
-  fake.grid.Pl = rsl::view(Pl), fake.grid.Nl = rsl::view(Nl);
+  for (int i = 0; i < 20; ++i) {
+    rsl::set(Pl, i, {9, 9, 9});
+    rsl::set(Nl, i, {0, 1, 0});
+    rsl::set(fake.grid.L, i, {0, 0, 4});
+  }
+  fake.grid.Pl = rsl::view(Pl);
+  fake.grid.Nl = rsl::view(Nl);
   const int32_t P = output({0, 0, 0}), N = output({0, 0, 0}), Ps = output({0, 0, 0}), Ns = output({0, 0, 0}),
                 along = output({0, 0, 0});
   const int32_t L = b.global("L", Shape::Triple);
@@ -138,9 +142,11 @@ TEST_F(Values, ParametersAreUniformOrVaryingAndMayBeAssigned) {
   given = [&] {
     float* const x = fake.array();
     for (int i = 0; i < 20; ++i) x[i] = static_cast<float>(i);
-    fake.params[0].c[0] = x, fake.params[0].step = 1;
+    fake.params[0].c[0] = x;
+    fake.params[0].step = 1;
   };
-  b.copy(first, a), b.copy(second, v);
+  b.copy(first, a);
+  b.copy(second, v);
   b.branch(b.value(Op::Less, {a, b.number(10)}), [&] { b.copy(w, a); });
   b.copy(third, w);
   run();
@@ -173,7 +179,8 @@ TEST_F(Values, ArraysAndMatricesAndTextsOfParameters) {
   const int32_t f = b.parameter("f", Base::Float, {1, 2, 3}), c = b.parameter("c", Base::Color, {1, 2, 3, 4, 5, 6}),
                 matrix = b.parameter("m", Base::Matrix, m), t = b.parameter("t", Base::String, {});
   b.code.registers[static_cast<size_t>(t)].length = 3;
-  b.code.parameters.back().type.length = 2, b.code.parameters.back().texts = {"one", "two"};
+  b.code.parameters.back().type.length = 2;
+  b.code.parameters.back().texts = {"one", "two"};
   b.emit(Op::Print, {}, {b.text("%f|%c|%m|%s"), f, c, matrix, t});
   std::fill_n(fake.active.begin(), 19, uint8_t{0});
   run();
@@ -300,8 +307,10 @@ TEST_P(Values, BatchesOfAnySizeAndSlotsThatTheCodeGives) {
   v.copy(k, v.number(2));
   v.copy(sum, v.value(Op::Mul, {P, v.value(Op::Add, {k, v.number(1)}, Shape::Number, false)}, Shape::Triple));
   v.copy(o, v.value(Op::Add, {sum, k}, Shape::Triple));
-  v.code.registers[static_cast<size_t>(sum)].slot = 4, v.code.registers[static_cast<size_t>(k)].slot = 1;
-  v.code.varyingFloats = 7, v.code.uniformFloats = 2;
+  v.code.registers[static_cast<size_t>(sum)].slot = 4;
+  v.code.registers[static_cast<size_t>(k)].slot = 1;
+  v.code.varyingFloats = 7;
+  v.code.uniformFloats = 2;
   grid.bind(v.code);
   const Program program(std::move(v.code));
   compiler::run(program, grid.grid);

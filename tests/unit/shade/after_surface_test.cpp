@@ -58,7 +58,8 @@ TEST_F(Atmosphere, FogIsMeasuredInDepthWhereRaysAreParallel) {
 }
 
 TEST_F(Atmosphere, DepthcueIsLinearBetweenTheClippingPlanes) {
-  scene.options.nearClip = 2, scene.options.farClip = 12;
+  scene.options.nearClip = 2;
+  scene.options.farClip = 12;
   atmosphere("depthcue", {number("mindistance", 0.2f), color("background", {1, 0, 0})});
   const float d = (0.6f - 0.2f) / 0.8f;
   expectColor(seen({0, 0, 8}).color(0), glm::mix(vec3(0.5f), vec3(1, 0, 0), d));
@@ -82,7 +83,8 @@ class Imager : public Stage {
   ShadedPixels run(const std::string& name, ParamList params = {}) {
     scene.options.imager = call(name, std::move(params));
     ShadedPixels p;
-    p.x = 10.5f, p.y = 3.5f;
+    p.x = 10.5f;
+    p.y = 3.5f;
     p.colors.resize(2);
     p.alpha.assign(p.colors.Ci[0].size(), 0.25f);
     for (int c = 0; c < 3; ++c) p.colors.Ci[c][0] = 0.5f;
@@ -93,7 +95,8 @@ class Imager : public Stage {
 
 TEST_F(Imager, BackgroundFillsWhatAlphaLeavesUnderEitherName) {
   for (const char* name : {"background", "bgcolor"}) {
-    shading.reset(), scene.objects.clear();
+    shading.reset();
+    scene.objects.clear();
     const ShadedPixels p = run("background", {color(name, {0.1f, 0.2f, 0.4f})});
     expectColor(p.colors.color(0), vec3(0.5f) + 0.75f * vec3(0.1f, 0.2f, 0.4f));
     EXPECT_EQ(p.alpha[0], 1);
@@ -122,10 +125,12 @@ TEST_F(Imager, SeesRasterPositionsAndOneThatThrowsChangesNothing) {
   static const TmShaderLibrary library = rsl::libraryOf(shaders);
   registry.addLibrary(&library, "test");
   EXPECT_FALSE(system().hasImager());
-  shading.reset(), scene.objects.clear();
+  shading.reset();
+  scene.objects.clear();
   expectColor(run("place").colors.color(1), {11.5f, 3.5f, 0}, 0);
   EXPECT_TRUE(system().hasImager());
-  shading.reset(), scene.objects.clear();
+  shading.reset();
+  scene.objects.clear();
   expectColor(run("thrower").colors.color(0), vec3(0.5f), 0);
 }
 

@@ -54,7 +54,8 @@ TEST_F(BatchLights, TheLobeHasTheExponentThatTheSceneChoosesAsSpecularHas) {
 
 TEST_F(BatchLights, LightsInRslsMannerShineIntoTheirConeAndFromTheirDirection) {
   surface("matte");
-  light("coned"), light("sunny");
+  light("coned");
+  light("sunny");
   const ShadedPoints out = shade(points({vec3(0, 0, 4), vec3(3, 0, 4)}));
   const vec3 sun = 0.8f * vec3(1, 0.5f, 0.25f);
   expectColor(out.color(0), vec3(2 / 16.0f) + sun);

@@ -41,9 +41,11 @@ TEST_F(BatchPictures, PicturesAreLookedUpOverRegionsCornersAndChannels) {
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     FilterRegion wide;
     for (Float& side : wide.sides) side = 0.1;
-    wide.s = 0.5, wide.t = 0.5;
+    wide.s = 0.5;
+    wide.t = 0.5;
     const Float step = xcomp(texture(path.c_str(), wide));
-    wide.s = 0.53, wide.scale(2);
+    wide.s = 0.53;
+    wide.scale(2);
     const Float wider = xcomp(texture(path.c_str(), wide));
     s.Ci = Color(step, wider, ftexture(path.c_str(), 1, 0.25, 0.5, "blur", 0.02));
   });
@@ -67,10 +69,12 @@ TEST_F(BatchPictures, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) 
   });
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     FilterRegion region;
-    region.s = 128.5 / 256, region.t = 0.5;
+    region.s = 128.5 / 256;
+    region.t = 0.5;
     const auto look = [&](double texels, const auto&... list) {
       for (Float& side : region.sides) side = 0;
-      region.sides[0] = texels / 256, region.sides[3] = texels / 256;
+      region.sides[0] = texels / 256;
+      region.sides[3] = texels / 256;
       return texture(path.c_str(), region, list...);
     };
     s.Ci = Color(xcomp(look(16)), xcomp(look(16, "mipbias", 10)), xcomp(look(1, "mipbias", -4)));
@@ -115,7 +119,8 @@ TEST_F(BatchPictures, AnOptionNamesTheFilterOfLookupsThatNameNone) {
   scene.options.user["texture:filter"] = text("filter", "gaussian");
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     FilterRegion spot;
-    spot.s = 0.5 + 0.25 / 256, spot.t = 0.5;
+    spot.s = 0.5 + 0.25 / 256;
+    spot.t = 0.5;
     for (int k = 0; k < 4; ++k) spot.sides[k] = k == 0 || k == 3 ? 1e-4 : 0.0;
     s.Ci = Color(xcomp(texture(path.c_str(), spot)), xcomp(texture(path.c_str(), spot, "filter", "box")), 0);
   });

@@ -103,7 +103,10 @@ TEST_F(BatchRays, GatherDrawsTheLightOfAnEnvironment) {
             {"ray:direction", &direction},
             {"ray:length", &length}},
            [&] { hits += 1; },
-           [&] { sum += color * solidAngle, redDirection += xcomp(color) * solidAngle * direction; });
+           [&] {
+             sum += color * solidAngle;
+             redDirection += xcomp(color) * solidAngle * direction;
+           });
     EXPECT_EQ(hits[0], 0);
     EXPECT_EQ(length[0], 1e30f);
     EXPECT_NEAR(redDirection[0].x, 0, 0.05f);
@@ -138,7 +141,10 @@ TEST_F(BatchRays, ImportanceIsTheProductOfWeights) {
 
 TEST_F(BatchRays, PointsKnowTheRayThatCame) {
   ShadeContext context;
-  context.kind = RayKind::Diffuse, context.depth = 2, context.specularDepth = 1, context.label = "here";
+  context.kind = RayKind::Diffuse;
+  context.depth = 2;
+  context.specularDepth = 1;
+  context.label = "here";
   const std::vector<vec3> c = asked(
       2,
       [](sl::Surface& s) {
@@ -202,12 +208,15 @@ TEST_F(BatchRays, RaysAreAsWideAsWhatTheyLeave) {
   const Widths wide;
   body = [](sl::Surface& s) {
     TmRayOptions cone = tmRayDefaults();
-    cone.coneAngle = 0.1f, cone.samples = 4;
+    cone.coneAngle = 0.1f;
+    cone.samples = 4;
     s.Ci = trace(s.P, -s.I);
     s.Ci += trace(s.P, -s.I, cone);
   };
   ShadePoints p = points({vec3(0, 0, 5)});
-  p.set3(kDpduX, 0, {3, 0, 0}), p.set3(kDpdvX, 0, {0, 4, 0}), p.set3(kIx, 0, {0, 0, 5});
+  p.set3(kDpduX, 0, {3, 0, 0});
+  p.set3(kDpdvX, 0, {0, 4, 0});
+  p.set3(kIx, 0, {0, 0, 5});
   p.channel(kDu)[0] = p.channel(kDv)[0] = 0.01f;
   system().setServices(&wide);
   shade(p);

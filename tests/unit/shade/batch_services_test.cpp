@@ -44,10 +44,14 @@ TEST_F(BatchServices, RandomNumbersDoNotRepeatAndKnowNothingOfTheDirectionsOfLob
 }
 
 TEST_F(BatchServices, FilterstepAveragesOverTheMicropolygonAndDepthCountsBetweenTheClippingPlanes) {
-  scene.options.nearClip = 1, scene.options.farClip = 21;
+  scene.options.nearClip = 1;
+  scene.options.farClip = 21;
   body = [](sl::Surface& s) { s.Ci = Color(filterstep(0.5, s.u), depth(s.P), filterstep(0.5, s.v)); };
   ShadePoints p = points(std::vector<vec3>(10, vec3(0, 0, 5)));
-  for (int i = 0; i < 10; ++i) p.channel(kDu)[i] = 0.4f, p.channel(kDv)[i] = 0.1f;
+  for (int i = 0; i < 10; ++i) {
+    p.channel(kDu)[i] = 0.4f;
+    p.channel(kDv)[i] = 0.1f;
+  }
   const ShadedPoints out = shade(p);
   for (int i = 0; i < 10; ++i) {
     const double u = 0.1 * i;
@@ -91,7 +95,8 @@ TEST_F(BatchServices, ParameterListsSetWhatTheyName) {
 
 TEST_F(BatchServices, ANameThatAParameterListDoesNotKnowIsReportedOnce) {
   body = [](sl::Surface& s) { s.Ci = trace(s.P, s.I, "smaples", 2); };
-  shadeOne(), shadeOne();
+  shadeOne();
+  shadeOne();
   ASSERT_EQ(log.entries().size(), 1u);
   EXPECT_NE(log.entries()[0].message.find("\"smaples\""), std::string::npos) << log.entries()[0].message;
 }
@@ -102,7 +107,8 @@ TEST_F(BatchServices, NamesThatChangeNothingAreReportedOnceEach) {
     s.Ci = transmission(s.P, s.P + s.I, "minsamples", 2, "raydepth", 1);
     bake3d("unused.ptc", s.P, s.N, {}, "interpolate", 1);
   };
-  shadeOne(), shadeOne();
+  shadeOne();
+  shadeOne();
   int minsamples = 0, interpolate = 0;
   for (const auto& e : log.entries()) {
     minsamples += e.message.find("\"minsamples\" has no effect") != std::string::npos;
@@ -121,7 +127,9 @@ TEST_F(BatchServices, MessagesHaveRslsNames) {
   const auto fog = [&](float distance) {
     return std::make_shared<const ShaderCall>(call("fog", {number("distance", distance)}));
   };
-  attributes.atmosphere = fog(7), attributes.exterior = fog(11), attributes.interior = fog(13);
+  attributes.atmosphere = fog(7);
+  attributes.exterior = fog(11);
+  attributes.interior = fog(13);
   asked(4, [](sl::Surface& s) {
     Float x;
     const auto is = [&](double value) { return std::abs(double(x[0]) - value) < 1e-6; };

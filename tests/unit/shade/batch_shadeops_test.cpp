@@ -253,7 +253,9 @@ const std::vector<Case>& cases() {
       {"setcomp",
        [](const Values& v) {
          Triple t = v.p;
-         setxcomp(t, v.a), setycomp(t, v.b), setzcomp(t, v.c);
+         setxcomp(t, v.a);
+         setycomp(t, v.b);
+         setzcomp(t, v.c);
          return t;
        },
        [](const In& in) {
@@ -383,7 +385,8 @@ struct trial : sl::Surface {
     const Float x = uniform ? Float(0.375) : u, y = uniform ? Float(0.25) : v;
     const Values values{0.05 + 0.9 * x, 0.3 + 0.6 * y, 0.1 + 0.3 * x + 0.4 * y,
                         Triple(0.2 + x, 0.9 - y, 0.4 + 0.5 * x * y), Triple(0.7 - 0.6 * x, 0.15 + y, 0.3 + 0.2 * y)};
-    Ci = Triple(double{kAlone}), Oi = Triple(1.0);
+    Ci = Triple(double{kAlone});
+    Oi = Triple(1.0);
     sl::If(v > 0.35, [&] { Ci = trying->run(values); });
   }
 };
@@ -407,7 +410,8 @@ TEST_F(BatchShadeops, AreWhatTheyAreByOtherMeansAtThePointsOfTheMaskAndNoOthers)
   }
   for (const Case& c : cases())
     for (const bool same : {false, true}) {
-      trying = &c, uniform = same;
+      trying = &c;
+      uniform = same;
       const ShadedPoints out = shade(grid);
       for (int i = 0; i < grid.count(); ++i) {
         const double u = static_cast<double>(grid.channel(kU)[i]), v = static_cast<double>(grid.channel(kV)[i]);
@@ -437,7 +441,8 @@ TEST_F(BatchShadeops, WaveletNoiseFadesToItsMeanBeyondItsBand) {
     if (w > 0 && w < 1) {
       ASSERT_NEAR(rsl::wnoise(p, 0.75f) - 0.5f, 0.5f * (w - 0.5f), 1e-6f);
     }
-    sum += w, squares += (w - 0.5) * (w - 0.5);
+    sum += w;
+    squares += (w - 0.5) * (w - 0.5);
   }
   EXPECT_NEAR(sum / kMany, 0.5, 0.01);
   EXPECT_NEAR(std::sqrt(squares / kMany), 1.0 / 6, 0.01);
@@ -461,9 +466,11 @@ TEST(WaveletNoise, IsOrthogonalToEveryCoarserGrid) {
       const rsl::Vec3 p{float(x[0] + 2 * place - 0.5), float(x[1] - 4 * place - 0.5),
                         float(x[2] + 5.5)};  // coarse ones stand halfway between fine ones
       const double noise = rsl::WaveletTile::get()(p);
-      held += weight * noise / 64, both += weight * std::fabs(noise) / 64;
+      held += weight * noise / 64;
+      both += weight * std::fabs(noise) / 64;
     }
-    worst = std::max(worst, std::fabs(held)), mean += both / 20;
+    worst = std::max(worst, std::fabs(held));
+    mean += both / 20;
   }
   EXPECT_LT(worst, 0.02 * mean);
 }

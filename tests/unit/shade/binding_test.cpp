@@ -13,10 +13,13 @@ using Binding = Stage;
 TEST_F(Binding, AVaryingPrimitiveVariableOverridesTheParameterAndColour) {
   surface("matte", {number("Kd", 0.5f)});
   light("distantlight");
-  primvar("Cs", ValueType::Color), primvar("Kd", ValueType::Float);
+  primvar("Cs", ValueType::Color);
+  primvar("Kd", ValueType::Float);
   ShadePoints p = points({vec3(0, 0, 5), vec3(1, 0, 5)});
-  p.primvar(0)[0] = 1, p.primvar(1)[1] = 3;
-  p.primvar(3)[0] = 0.25f, p.primvar(3)[1] = 2;
+  p.primvar(0)[0] = 1;
+  p.primvar(1)[1] = 3;
+  p.primvar(3)[0] = 0.25f;
+  p.primvar(3)[1] = 2;
   const ShadedPoints out = shade(p);
   expectColor(out.color(0), {0.25f, 0, 0});
   expectColor(out.color(1), {0, 6, 0});
@@ -44,11 +47,14 @@ TEST_F(Binding, APointAmongThePrimitiveVariablesArrivesAsThePointsHoldIt) {
 TEST_F(Binding, OpaqueNeedsOpacityOneEverywhereAndAShaderThatKeepsIt) {
   surface("matte");
   EXPECT_TRUE(system().opaque(0));
-  shading.reset(), scene.objects.clear();
+  shading.reset();
+  scene.objects.clear();
   attributes.opacity = {1, 1, 0.9f};
   EXPECT_FALSE(system().opaque(0));
-  shading.reset(), scene.objects.clear();
-  attributes.opacity = vec3(1), primvar("Os", ValueType::Color);
+  shading.reset();
+  scene.objects.clear();
+  attributes.opacity = vec3(1);
+  primvar("Os", ValueType::Color);
   EXPECT_FALSE(system().opaque(0));
 }
 
@@ -59,7 +65,9 @@ TEST_F(Binding, WithoutASurfaceTheHeadlightShaderIsUsed) {
 }
 
 TEST_F(Binding, UnknownShadersAreReportedWithPlaceAndObjectAndReplacedLoudly) {
-  surface("nosuch"), displacement("nobump"), light("nolight");
+  surface("nosuch");
+  displacement("nobump");
+  light("nolight");
   const vec3 c = shadeOne();
   EXPECT_EQ(c.y, 0) << "magenta";
   EXPECT_GT(c.x, 0);
@@ -111,7 +119,9 @@ TEST_F(Binding, WhatPhotonsReadOfAMediumIsKnownToEveryVolumeShader) {
 
 Param given(ValueType type, std::vector<float> floats) {
   Param p;
-  p.name = "x", p.type = type, p.floats = std::move(floats);
+  p.name = "x";
+  p.type = type;
+  p.floats = std::move(floats);
   return p;
 }
 
@@ -155,9 +165,11 @@ TEST(ParameterValues, NumbersAreConvertedWhereTheSpecificationAllows) {
     bool remarked;
   };
   Param integer;
-  integer.type = ValueType::Integer, integer.ints = {7};
+  integer.type = ValueType::Integer;
+  integer.ints = {7};
   Param word;
-  word.type = ValueType::String, word.strings = {"red"};
+  word.type = ValueType::String;
+  word.strings = {"red"};
   const Case cases[] = {
       {TM_FLOAT, 1, given(ValueType::Float, {3}), {3}, false},
       {TM_FLOAT, 1, integer, {7}, false},
@@ -219,10 +231,15 @@ TEST_F(Shapes, ArraysAndMatricesHaveDefaultsAndValues) {
   EXPECT_EQ(heard, (std::vector<std::string>{"one", "two"}));
   Param array = given(ValueType::Float, {4, 5, 6}), pair = given(ValueType::Color, {0, 0, 0, 0, 7, 0}),
         m = given(ValueType::Matrix, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1});
-  array.name = "floats", pair.name = "colors", m.name = "matrix";
+  array.name = "floats";
+  pair.name = "colors";
+  m.name = "matrix";
   Param said;
-  said.name = "words", said.type = ValueType::String, said.strings = {"", "three"};
-  shading.reset(), scene.objects.clear();
+  said.name = "words";
+  said.type = ValueType::String;
+  said.strings = {"", "three"};
+  shading.reset();
+  scene.objects.clear();
   surface("shapes", {array, pair, m, said, number("count", 9)});
   const ShadedPoints out = shade(points({vec3(0, 0, 5)}));
   expectColor(out.color(0), {6, 7, 9});
@@ -245,7 +262,9 @@ TEST(ParameterValues, StringsStayStrings) {
   Param p = given(ValueType::Float, {1});
   EXPECT_EQ(parameterValue({"x", TM_STRING, 2, nullptr, defaults, "", TM_ROLE_NONE}, &p).strings,
             (std::vector<std::string>{"a", "b"}));
-  p = Param{}, p.type = ValueType::String, p.strings = {"c"};
+  p = Param{};
+  p.type = ValueType::String;
+  p.strings = {"c"};
   const ParameterValue value = parameterValue({"x", TM_STRING, 2, nullptr, defaults, "", TM_ROLE_NONE}, &p);
   EXPECT_EQ(value.strings, (std::vector<std::string>{"c", "b"}));
   EXPECT_FALSE(value.remark.empty());
@@ -268,13 +287,15 @@ TEST_F(Binding, PaintedPlasticMultipliesByTheTextureAndAMissingOneIsMagenta) {
   light("distantlight");
   ShadePoints p = points({vec3(0, 0, 5), vec3(0, 0, 5)});
   p.channel(kS)[0] = p.channel(kS)[1] = 0.5f;
-  p.channel(kT)[0] = 0.25f, p.channel(kT)[1] = 0.75f;
+  p.channel(kT)[0] = 0.25f;
+  p.channel(kT)[1] = 0.75f;
   const ShadedPoints out = shade(p);
   expectColor(out.color(0), {1, 0.5f, 0.25f});  // t runs down the picture
   expectColor(out.color(1), {0, 0, 1});
   EXPECT_EQ(stats.textures.lookups, 2);
 
-  shading.reset(), scene.objects.clear();
+  shading.reset();
+  scene.objects.clear();
   surface("paintedplastic", {number("Ks", 0), number("Kd", 1), text("texturename", "absent.tif")});
   expectColor(shadeOne(), {1, 0, 1});
   shadeOne();

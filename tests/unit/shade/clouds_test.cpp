@@ -15,13 +15,19 @@ class FakeClouds : public CloudServices {
   std::vector<Baked> baked;
 
   bool bake(const CloudQuery& q, const std::vector<CloudValue>& values, std::string& problem) override {
-    if (q.file == "full.ptc") return problem = "the disk is full", false;
+    if (q.file == "full.ptc") {
+      problem = "the disk is full";
+      return false;
+    }
     for (int i = 0; i < q.count; ++i)
       if (q.active[i]) baked.push_back({at(q.P, i), at(q.N, i), q.radius[i], values.at(0).c[0][i]});
     return true;
   }
   bool lookUp(const CloudQuery& q, const std::vector<CloudValue>& values, float* found, std::string& problem) override {
-    if (q.file != "known.ptc") return problem = "is not there", false;
+    if (q.file != "known.ptc") {
+      problem = "is not there";
+      return false;
+    }
     for (int i = 0; i < q.count; ++i) {
       if (!q.active[i]) continue;
       found[i] = q.P.x[i] > 0.5f ? 1 : 0;
@@ -31,32 +37,46 @@ class FakeClouds : public CloudServices {
   }
   bool photons(const CloudQuery& q, const TmPhotonOptions& lookup, TmVec3 E, std::string&) override {
     for (int i = 0; i < q.count; ++i)
-      if (q.active[i]) E.x[i] = static_cast<float>(lookup.estimator), E.y[i] = q.N.z[i], E.z[i] = lookup.maxDistance;
+      if (q.active[i]) {
+        E.x[i] = static_cast<float>(lookup.estimator);
+        E.y[i] = q.N.z[i];
+        E.z[i] = lookup.maxDistance;
+      }
     return true;
   }
   /// Tells what it was asked.
   bool occlusion(const CloudQuery& q, const DisksQuery& d, float* covered, TmVec3 radiance,
                  std::string& problem) override {
-    if (q.file != "known.ptc") return problem = "is not there", false;
+    if (q.file != "known.ptc") {
+      problem = "is not there";
+      return false;
+    }
     for (int i = 0; i < q.count; ++i) {
       if (!q.active[i]) continue;
       covered[i] = d.clamp ? 0.25f : 0.5f;
       if (d.falloff.maxDistance < 1e30f)
         covered[i] = 100 * d.falloff.maxDistance + 10 * d.falloff.bias + d.falloff.falloff;
-      if (radiance.x)
-        radiance.x[i] = d.maxSolidAngle, radiance.y[i] = q.P.x[i],
+      if (radiance.x) {
+        radiance.x[i] = d.maxSolidAngle;
+        radiance.y[i] = q.P.x[i];
         radiance.z[i] = d.channel == "_radiosity" ? 1.0f : 2.0f;
+      }
     }
     return true;
   }
 
   /// Tells what it was asked.
   bool subsurface(const CloudQuery& q, const TmSubsurfaceOptions& s, TmVec3 out, std::string& problem) override {
-    if (q.file != "known.ptc") return problem = "is not there", false;
+    if (q.file != "known.ptc") {
+      problem = "is not there";
+      return false;
+    }
     for (int i = 0; i < q.count; ++i)
-      if (q.active[i])
-        out.x[i] = q.P.x[i], out.y[i] = s.unitLength * s.ior,
+      if (q.active[i]) {
+        out.x[i] = q.P.x[i];
+        out.y[i] = s.unitLength * s.ior;
         out.z[i] = s.material ? 0 : s.scattering[1] + s.absorption[2] + s.albedo[1] * s.meanFreePath[2];
+      }
     return true;
   }
 
@@ -70,20 +90,23 @@ struct baking : sl::Surface {
     TmCloudOptions object = tmCloudDefaults();
     object.coordSystem = "object";
     sl::If(u < 0.5, [&] { sl::bake3d(file(sl::grid()), P, N, {{"u", u}}, object); });
-    Ci = sl::diffuse(N), Oi = sl::Color(1.0);
+    Ci = sl::diffuse(N);
+    Oi = sl::Color(1.0);
   }
 };
 struct finding : sl::Surface {
   void main() {
     sl::Float x = -1, found = -1;
     sl::If(u < 0.7, [&] { found = sl::texture3d(file(sl::grid()), P, N, {{"x", x}}); });
-    Ci = sl::Color(x, found, 0) + sl::photonmap("photons.ptc", P, N, 7) * sl::Color(0, 0, 1), Oi = sl::Color(1.0);
+    Ci = sl::Color(x, found, 0) + sl::photonmap("photons.ptc", P, N, 7) * sl::Color(0, 0, 1);
+    Oi = sl::Color(1.0);
     sl::setzcomp(Ci, sl::xcomp(sl::photonmap("photons.ptc", P, N, 7)));
   }
 };
 struct wax : sl::Surface {
   void main() {
-    Ci = sl::Color(-1.0), Oi = sl::Color(1.0);
+    Ci = sl::Color(-1.0);
+    Oi = sl::Color(1.0);
     sl::If(u < 0.7, [&] {
       Ci = sl::subsurface(P, N, file(sl::grid()), "coordsystem", "object", "scattering", rsl::Color{1, 2, 3},
                           "absorption", rsl::Color{4, 5, 6}, "ior", 1.5, "unitlength", 10);
@@ -91,11 +114,15 @@ struct wax : sl::Surface {
   }
 };
 struct causticlight : sl::Surface {
-  void main() { Ci = sl::caustic(P, N), Oi = sl::Color(1.0); }
+  void main() {
+    Ci = sl::caustic(P, N);
+    Oi = sl::Color(1.0);
+  }
 };
 struct pointbased : sl::Surface {
   void main() {
-    Ci = sl::Color(-1.0), Oi = sl::Color(1.0);
+    Ci = sl::Color(-1.0);
+    Oi = sl::Color(1.0);
     sl::If(u < 0.7, [&] {
       const sl::Float covered = sl::occlusion(P, N, 0, "pointbased", 1, "filename", file(sl::grid()), "clamp", 0);
       Ci = sl::indirectdiffuse(P, N, 0, "filename", file(sl::grid()), "pointbased", 1, "maxsolidangle", 0.125,
@@ -112,7 +139,8 @@ struct listing : sl::Surface {
     const sl::Float found =
         sl::texture3d("known.ptc", P, N, {{"x", x}}, "coordsystem", "object", "filterradius", &radius);
     Ci = sl::photonmap("photons.ptc", P, N, "estimator", 9, "maxdist", 2.5);
-    sl::setycomp(Ci, x + 10 * found), Oi = sl::Color(1.0);
+    sl::setycomp(Ci, x + 10 * found);
+    Oi = sl::Color(1.0);
   }
   sl::Float radius = 1;
 };
@@ -145,7 +173,8 @@ class CloudCalls : public Stage {
   ShadePoints row() {
     ShadePoints p = points({vec3(0, 0, 5), vec3(1, 0, 5), vec3(2, 0, 5), vec3(3, 0, 5)});
     for (int i = 0; i < 4; ++i) {
-      p.set3(kDpduX, i, {3, 0, 0}), p.set3(kDpdvX, i, {0, 4, 0});
+      p.set3(kDpduX, i, {3, 0, 0});
+      p.set3(kDpdvX, i, {0, 4, 0});
       p.channel(kDu)[i] = p.channel(kDv)[i] = 2;
     }
     return p;
@@ -212,8 +241,10 @@ TEST_F(CloudCalls, TheBuiltInBodyAsksByItsMaterialAndWithoutOneByItsColours) {
   system().setClouds(&clouds);
   expectColor(shade(row()).color(1), {1, 2 * 15, 0});
   params.push_back(text("material", ""));
-  params.push_back(color("albedo", {0.2f, 0.5f, 0.3f})), params.push_back(color("meanfreepath", {1, 2, 4}));
-  shading.reset(), scene.objects.clear();
+  params.push_back(color("albedo", {0.2f, 0.5f, 0.3f}));
+  params.push_back(color("meanfreepath", {1, 2, 4}));
+  shading.reset();
+  scene.objects.clear();
   surface("subsurface", params);
   system().setClouds(&clouds);
   expectColor(shade(row()).color(1), {1, 2 * 15, 0.5f * 4});
@@ -221,7 +252,8 @@ TEST_F(CloudCalls, TheBuiltInBodyAsksByItsMaterialAndWithoutOneByItsColours) {
 }
 
 TEST_F(CloudCalls, ABodyBakesWhatEntersForLaterFrames) {
-  light("ambientlight"), light("distantlight", {point("to", {0, 0, 1})});
+  light("ambientlight");
+  light("distantlight", {point("to", {0, 0, 1})});
   surface("subsurface", {text("cloudname", "entering.ptc"), number("baking", 1)});
   system().setClouds(&clouds);
   shade(row());
@@ -289,7 +321,8 @@ TEST_F(CloudCalls, WithoutAMapThereAreNoCaustics) {
 TEST_F(CloudCalls, WhatCannotBeIsReportedOnceWithShaderAndFile) {
   surface("finding", {text("file", "absent.ptc")});
   system().setClouds(&clouds);
-  shade(row()), shade(row());
+  shade(row());
+  shade(row());
   ASSERT_EQ(log.entries().size(), 1u);
   EXPECT_NE(log.entries()[0].message.find("\"absent.ptc\": is not there"), std::string::npos)
       << log.entries()[0].message;

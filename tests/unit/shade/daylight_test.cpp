@@ -12,7 +12,9 @@ class Daylight : public Stage {
   /// What white paper with normal N reflects, the sun `zenithAngle_degrees` from straight up (y) towards x.
   vec3 onPaper(const std::string& shader, float zenithAngle_degrees, const vec3& N = {0, 1, 0}, float turbidity = 2,
                int samples = 1024) {
-    scene = Scene(), attributes = Attributes(), shading.reset();
+    scene = Scene();
+    attributes = Attributes();
+    shading.reset();
     surface("matte");
     const float a = glm::radians(zenithAngle_degrees);
     light(shader, {vector("sundirection", {std::sin(a), std::cos(a), 0}), number("turbidity", turbidity)});

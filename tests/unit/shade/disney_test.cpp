@@ -8,7 +8,10 @@ class Disney : public Stage {
  protected:
   /// Radiance of a point whose light comes along its normal, seen along it too.
   vec3 facing(ParamList params) {
-    shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
+    shading.reset();
+    scene.objects.clear();
+    scene.lights.clear();
+    attributes.lights.clear();
     surface("disney", std::move(params));
     light("distantlight");
     return shadeOne();
@@ -43,7 +46,10 @@ TEST_F(Disney, LightsThatAreNoSpecularLeaveTheMattePart) {
   expectColor(shadeOne(), vec3(0.5f), 1e-5f);
   ShadeContext gather;
   gather.kind = RayKind::Diffuse;
-  shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
+  shading.reset();
+  scene.objects.clear();
+  scene.lights.clear();
+  attributes.lights.clear();
   light("distantlight");
   expectColor(shadeOne(gather), vec3(0.5f), 1e-5f);
 }
@@ -53,7 +59,10 @@ TEST_F(Disney, ReflectsNoMoreThanItGets) {
   attributes.color = vec3(1.0f);
   for (const float rough : {0.3f, 0.6f, 1.0f})
     for (const float metal : {0.0f, 1.0f}) {
-      shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
+      shading.reset();
+      scene.objects.clear();
+      scene.lights.clear();
+      attributes.lights.clear();
       surface("disney", {number("roughness", rough), number("metallic", metal)});
       light("environmentlight", {number("samples", 1024)});
       const float L = shadeOne().x;
@@ -79,10 +88,14 @@ TEST_F(Disney, ReflectedRaysTellOfTheSameWorldAsHighlights) {
     for (const float coat : {0.0f, 1.0f}) {
       const ParamList look{number("metallic", 1), number("roughness", rough), number("clearcoat", coat),
                            number("reflections", 2048)};
-      shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
+      shading.reset();
+      scene.objects.clear();
+      scene.lights.clear();
+      attributes.lights.clear();
       surface("disney", look);
       const float mirrored = shadeOne().x;
-      shading.reset(), scene.objects.clear();
+      shading.reset();
+      scene.objects.clear();
       surface("disney", {look.begin(), look.end() - 1});
       light("environmentlight", {number("samples", 2048)});
       EXPECT_NEAR(shadeOne().x, mirrored, 0.01f) << rough << " " << coat;
@@ -98,8 +111,10 @@ TEST_F(Disney, ASharpLobeUnderASkyIsFreeOfNoise) {
   light("environmentlight", {number("samples", 16)});
   const ShadedPoints seen = shade(points(std::vector<vec3>(200, vec3(0, 0, 5))));
   double mean = 0, square = 0;
-  for (int i = 0; i < 200; ++i)
-    mean += double{seen.color(i).x} / 200, square += std::pow(double{seen.color(i).x} - 1, 2) / 200;
+  for (int i = 0; i < 200; ++i) {
+    mean += double{seen.color(i).x} / 200;
+    square += std::pow(double{seen.color(i).x} - 1, 2) / 200;
+  }
   EXPECT_NEAR(mean, 1, 0.02);
   EXPECT_LT(std::sqrt(square), 0.06);
 }
@@ -114,8 +129,10 @@ TEST_F(Disney, WhatHidesAWhiteSkyIsMirroredAlongTheSameDirections) {
   light("environmentlight", {number("samples", 64)});
   const ShadedPoints seen = shade(points(std::vector<vec3>(200, vec3(0, 0, 5))));
   double mean = 0, square = 0;
-  for (int i = 0; i < 200; ++i)
-    mean += double{seen.color(i).x} / 200, square += std::pow(double{seen.color(i).x} - 1, 2) / 200;
+  for (int i = 0; i < 200; ++i) {
+    mean += double{seen.color(i).x} / 200;
+    square += std::pow(double{seen.color(i).x} - 1, 2) / 200;
+  }
   EXPECT_NEAR(mean, 1, 0.01);
   EXPECT_LT(std::sqrt(square), 0.03) << "0.09 by 8 directions of their own";
 }
@@ -126,8 +143,11 @@ TEST_F(Disney, WhatIsMirroredInPartIsRightInTheMean) {
   services.met = [](const vec3&, const vec3& d) { return d.x > 0 ? 1.0f : kInfinity; };
   services.seen = [](const vec3& d) { return d.x > 0 ? vec3(1 + d.x + 2 * d.y) : vec3(0.0f); };
   const auto meanOf = [&](float rays, int n) {
-    shading.reset(), scene.objects.clear(), services.asked.clear();
-    scene.lights.clear(), attributes.lights.clear();
+    shading.reset();
+    scene.objects.clear();
+    services.asked.clear();
+    scene.lights.clear();
+    attributes.lights.clear();
     surface("disney", {number("roughness", 0.5f), number("clearcoat", 1), number("reflections", rays)});
     light("environmentlight", {number("intensity", 0), number("samples", 128)});
     const ShadedPoints seen = shade(points(std::vector<vec3>(static_cast<size_t>(n), vec3(0.5f, 0.4f, 5))));

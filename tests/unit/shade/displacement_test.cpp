@@ -21,7 +21,9 @@ void raising(const TmGrid* g) {
 void measuring(const TmGrid* g) {
   for (int i : rsl::Batch(g)) {
     const float along = g->dPdu.x[i] * g->du[i], across = g->dPdv.y[i] * g->dv[i];
-    g->P.x[i] = g->du[i], g->P.y[i] = g->dv[i], g->P.z[i] = 5 + along + 2 * across;
+    g->P.x[i] = g->du[i];
+    g->P.y[i] = g->dv[i];
+    g->P.z[i] = 5 + along + 2 * across;
   }
 }
 struct rough : sl::Displacement {
@@ -52,10 +54,14 @@ class Displacement : public Stage {
         const int k = j * (n + 1) + i;
         const float u = static_cast<float>(i) / static_cast<float>(n),
                     v = static_cast<float>(j) / static_cast<float>(n);
-        for (int key = 0; key < 2; ++key)
-          g.P(key, 0)[k] = u + static_cast<float>(key), g.P(key, 1)[k] = 1 - v, g.P(key, 2)[k] = 5;
+        for (int key = 0; key < 2; ++key) {
+          g.P(key, 0)[k] = u + static_cast<float>(key);
+          g.P(key, 1)[k] = 1 - v;
+          g.P(key, 2)[k] = 5;
+        }
         g.N(2)[k] = -1;
-        g.u()[k] = u, g.v()[k] = v;
+        g.u()[k] = u;
+        g.v()[k] = v;
       }
     return g;
   }
@@ -98,10 +104,14 @@ TEST_F(Displacement, LeavesTheNormalToTheShader) {
 TEST_F(Displacement, RandomNumbersGoByThePlaceOnTheObject) {
   displacement("rough");
   Grid fine = plane(8), coarse = plane(4);
-  system().displace(fine), system().displace(coarse);
+  system().displace(fine);
+  system().displace(coarse);
   std::set<float> heights;
   float mean = 0;
-  for (int k = 0; k < 81; ++k) heights.insert(fine.P(0, 2)[k]), mean += (5 - fine.P(0, 2)[k]) / 81;
+  for (int k = 0; k < 81; ++k) {
+    heights.insert(fine.P(0, 2)[k]);
+    mean += (5 - fine.P(0, 2)[k]) / 81;
+  }
   EXPECT_GT(heights.size(), 78u) << "each vertex has its own";
   EXPECT_NEAR(mean, 0.5f, 0.13f) << "four standard deviations";
   for (int j = 0; j <= 4; ++j)
@@ -121,7 +131,8 @@ TEST_F(Displacement, BeyondItsBoundIsWarnedAboutOnceAnObject) {
   worldFromObject = Motion::still(glm::scale(mat4(1.0f), vec3(0.5f)));
   displacement("raising");
   Grid a = plane(), b = plane();
-  system().displace(a), system().displace(b);
+  system().displace(a);
+  system().displace(b);
   ASSERT_EQ(log.entries().size(), 1u);
   const LogEntry e = log.entries()[0];
   EXPECT_EQ(e.count, 2);
@@ -143,10 +154,12 @@ TEST_F(Displacement, BumpyRaisesByItsTexture) {
 TEST_F(Displacement, NoisyBumpStaysWithinKmVariesAndRepeats) {
   displacement("noisybump", {number("Km", 0.2f), number("frequency", 5), number("octaves", 3)});
   Grid a = plane(32), b = plane(32);
-  system().displace(a), system().displace(b);
+  system().displace(a);
+  system().displace(b);
   float lo = 9, hi = 0;
   for (int k = 0; k < a.vertexCount(); ++k) {
-    lo = std::min(lo, a.P(0, 2)[k]), hi = std::max(hi, a.P(0, 2)[k]);
+    lo = std::min(lo, a.P(0, 2)[k]);
+    hi = std::max(hi, a.P(0, 2)[k]);
     ASSERT_EQ(a.position(0, k), b.position(0, k));
   }
   EXPECT_GE(lo, 4.8f);
@@ -182,7 +195,10 @@ const rsl::Shader travellingShader(TM_SURFACE, "travelling", "", 0, travelling, 
 
 // Ci: the right upper corner of the picture in screen space; Oi: its centre in current space.
 void cornering(const TmGrid* g) {
-  for (int i = 0; i < g->count; ++i) rsl::set(g->Ci, i, {1, 0, 0}), rsl::set(g->Oi, i, {0.5f, 0.5f, 0});
+  for (int i = 0; i < g->count; ++i) {
+    rsl::set(g->Ci, i, {1, 0, 0});
+    rsl::set(g->Oi, i, {0.5f, 0.5f, 0});
+  }
   g->call->transform(g->host, g, TM_AS_POINT, "NDC", "screen", rsl::view(g->Ci), g->Ci);
   g->call->transform(g->host, g, TM_AS_POINT, "NDC", "current", rsl::view(g->Oi), g->Oi);
 }
@@ -195,7 +211,8 @@ class Spaces : public Stage {
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     scene.options.projection = ProjectionKind::Perspective;
-    scene.options.xResolution = 200, scene.options.yResolution = 100;
+    scene.options.xResolution = 200;
+    scene.options.yResolution = 100;
     scene.cameraFromWorld = Motion::still(glm::translate(mat4(1.0f), vec3(0, 0, 3)));
     worldFromObject = Motion::still(glm::scale(mat4(1.0f), vec3(1, 2, 4)));
     scene.worldFromNamed["here"] = glm::rotate(mat4(1.0f), 1.0f, glm::normalize(vec3(1, 2, 3)));
@@ -203,7 +220,8 @@ class Spaces : public Stage {
   /// (1, 2, 5) of current in a space, having checked the way back.
   vec3 travel(const std::string& space, TmTransformKind as = TM_AS_POINT) {
     surface("travelling", {text("there", space), number("kind", static_cast<float>(as))});
-    shading.reset(), scene.objects.clear();
+    shading.reset();
+    scene.objects.clear();
     const ShadedPoints out = shade(points({vec3(1, 2, 5)}));
     expectColor(out.opacity(0), {1, 2, 5}, 1e-4f);
     return out.color(0);

@@ -9,7 +9,11 @@ namespace tomales {
 inline std::function<void(sl::Surface&)> onSurface;
 inline std::function<void(sl::Volume&)> inVolume;
 struct outside : sl::Surface {
-  void main() { Ci = sl::Color(-1.0), Oi = sl::Color(1.0), onSurface(*this); }
+  void main() {
+    Ci = sl::Color(-1.0);
+    Oi = sl::Color(1.0);
+    onSurface(*this);
+  }
 };
 struct between : sl::Volume {
   void main() { inVolume(*this); }
@@ -27,7 +31,8 @@ inline void shadeCounting(const TmGrid* g) {
   for (int i : b) {
     ++litPoints;
     const rsl::Vec3 P = rsl::get(g->P, i), N = rsl::get(g->N, i);
-    doubled.set(g, i, 2 * power(g, i)), normalLength.set(g, i, rsl::length(N));
+    doubled.set(g, i, 2 * power(g, i));
+    normalLength.set(g, i, rsl::length(N));
     b.illuminate(i, rsl::Vec3{0, 0, -1} - P,
                  (std::string_view(word(g)) == "said" ? 100.0f : 1.0f) * power(g, i) * tint(g, i));
   }

@@ -42,11 +42,19 @@ TEST_F(Elsewhere, LightIsKeptForThePlacesThatWereAskedLast) {
   light("counting");
   asked(4, [](sl::Surface& s) {
     const auto ask = [&](double y) { s.illuminance(s.P + Vector(0, y, 0), [] {}); };
-    ask(0), ask(0);
+    ask(0);
+    ask(0);
     EXPECT_EQ(litPoints, 4) << "that is where the batch is";
-    ask(1), ask(1), ask(2), ask(1);
+    ask(1);
+    ask(1);
+    ask(2);
+    ask(1);
     EXPECT_EQ(litPoints, 12);
-    ask(3), ask(4), ask(5), ask(6), ask(1);
+    ask(3);
+    ask(4);
+    ask(5);
+    ask(6);
+    ask(1);
     EXPECT_EQ(litPoints, 32) << "forgotten, and asked again";
     If(s.u < 0.5, [&] { ask(1); });
     EXPECT_EQ(litPoints, 32) << "a part of them";
@@ -104,16 +112,21 @@ TEST_F(Elsewhere, LightsTakeWhatTheyAreSent) {
 }
 
 TEST_F(Elsewhere, WhatIsSentIsKeptUntilTheLastLightHasRunAndBelongsToItsPlace) {
-  light("counting"), light("counting");
+  light("counting");
+  light("counting");
   const ShadedPoints out = asked(2, [](sl::Surface& s) {
     Float sent = 3;
     Color sum, here, there;
-    s.illuminance(s.P, lights("send:light:power", sent), [&] { sum += s.Cl, sent = 100; });
+    s.illuminance(s.P, lights("send:light:power", sent), [&] {
+      sum += s.Cl;
+      sent = 100;
+    });
     s.illuminance(s.P + Vector(0, 8, 0), lights("send:light:power", 2), [&] { there += Color(length(s.L)); });
     const float two = 2;
     const TmMessage message{"power", {{&two, nullptr, nullptr}, 0, 1, nullptr}, TM_FLOAT};
     TmIlluminance query = tmIlluminanceDefaults();
-    query.sent = &message, query.sentCount = 1;
+    query.sent = &message;
+    query.sentCount = 1;
     while (grid()->call->illuminance(grid()->host, grid(), &query)) here += Color(length(Vector(query.L)));
     s.Ci = Color(xcomp(sum), xcomp(here), xcomp(there));
     EXPECT_THROW(lights("send:light:power", &sent), std::invalid_argument);
@@ -128,7 +141,9 @@ TEST_F(Elsewhere, WhatIsSentIsKeptUntilTheLastLightHasRunAndBelongsToItsPlace) {
 TEST_F(Elsewhere, WhatAPointGetsDoesNotDependOnTheOthers) {
   light("arealight", {number("samples", 4)}, true);
   services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) {
-    P = {-1 + 2 * a, -0.5f + b, 3}, N = {0, 0, 1}, area = 2;
+    P = {-1 + 2 * a, -0.5f + b, 3};
+    N = {0, 0, 1};
+    area = 2;
   };
   attributes.atmosphere = std::make_shared<const ShaderCall>(call("between", {}));
   onSurface = [](sl::Surface& s) {
@@ -174,7 +189,8 @@ TEST_F(Elsewhere, ALightThatAsksHearsOfThoseThatHaveRun) {
   static const TmShader* const shaders[] = {nosyShader};
   static const TmShaderLibrary library = rsl::libraryOf(shaders);
   registry.addLibrary(&library, "test");
-  light("counting"), light("nosy");
+  light("counting");
+  light("nosy");
   const ShadedPoints out = asked(1, [](sl::Surface& s) {
     Color own, away;
     s.illuminance(s.P, [&] { own += s.Cl; });
@@ -189,9 +205,11 @@ TEST_F(Elsewhere, RefreshedLightsRunAgain) {
   asked(4, [](sl::Surface& s) {
     int seen = 0;
     const auto ask = [&](const char* cache) { s.illuminance(s.P, lights("lightcache", cache), [&] { ++seen; }); };
-    ask("reuse"), ask("reuse");
+    ask("reuse");
+    ask("reuse");
     EXPECT_EQ(litPoints, 4);
-    ask("refresh"), ask("refresh");
+    ask("refresh");
+    ask("refresh");
     EXPECT_EQ(litPoints, 12);
     EXPECT_EQ(seen, 4) << "each light once";
     EXPECT_THROW(lights("lightcash", "reuse"), std::invalid_argument);

@@ -71,7 +71,8 @@ TEST_F(Environment, AsksForItsOwnNumberOfSamplesAndShadowsThemToInfinity) {
   EXPECT_EQ(services.shadowRays, 9);
   EXPECT_TRUE(services.lastSolar);
   ShadeContext gather;
-  gather.kind = RayKind::Diffuse, gather.lightSamples = 1;
+  gather.kind = RayKind::Diffuse;
+  gather.lightSamples = 1;
   shadeOne(gather);
   EXPECT_EQ(services.shadowRays, 10);
 }
@@ -172,7 +173,8 @@ TEST_F(Environment, AMirrorSeesTheSkyWhereItsRaysLeaveTheScene) {
   services.seen = [](const vec3& d) { return d.x > 0 ? vec3(0) : vec3(0.25f, 0, 0); };
   services.met = [](const vec3&, const vec3& d) { return d.x > 0 ? kInfinity : 3.0f; };
   ShadePoints p = points({vec3(0, 0, 5), vec3(0, 0, 5)}, glm::normalize(vec3(1, 0, -1)));
-  p.set3(kNx, 1, glm::normalize(vec3(-1, 0, -1))), p.set3(kNgx, 1, glm::normalize(vec3(-1, 0, -1)));
+  p.set3(kNx, 1, glm::normalize(vec3(-1, 0, -1)));
+  p.set3(kNgx, 1, glm::normalize(vec3(-1, 0, -1)));
   const ShadedPoints out = shade(p);
   expectColor(out.color(0), {2, 1, 1}, 4e-3f);  // R = +x
   expectColor(out.color(1), {0.125f, 0, 0});    // R = -x, where something is
@@ -197,7 +199,9 @@ TEST_F(Environment, WideRaysLeaveTheSkyToDiffuse) {
 // samples bring the sky once.
 TEST_F(Environment, RaysThatPassLampsPassTheSky) {
   const auto lit = [&](float rays) {
-    shading.reset(), scene = {}, attributes = {};
+    shading.reset();
+    scene = {};
+    attributes = {};
     surface("disney", {number("metallic", 1), number("roughness", 0.2f), number("reflections", rays)});
     light("environmentlight", {number("samples", 256)});
     return litBy({0, 0, -1}, 256).x;

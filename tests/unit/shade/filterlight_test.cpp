@@ -8,7 +8,8 @@ class FilterLight : public Stage {
  protected:
   FilterLight() {
     services.E = {0.5f, 0.25f, 0.125f};
-    services.dominant[0] = glm::normalize(vec3(1, 0, -1)), services.dominant[1] = {1, 0, 0.1f};
+    services.dominant[0] = glm::normalize(vec3(1, 0, -1));
+    services.dominant[1] = {1, 0, 0.1f};
     surface("matte");
   }
   /// The source is switched off, as by Illuminate.

@@ -130,7 +130,10 @@ TEST(Ggx, NormalsAreDrawnByTheirDensity) {
       double sum = 0;
       int bins = 0;
       for (size_t b = 0; b < drawn.size(); ++b)
-        if (expected[b] > 20) sum += (drawn[b] - expected[b]) * (drawn[b] - expected[b]) / expected[b], ++bins;
+        if (expected[b] > 20) {
+          sum += (drawn[b] - expected[b]) * (drawn[b] - expected[b]) / expected[b];
+          ++bins;
+        }
       // A right sampler exceeds this once in some ten thousand: the mean is `bins`, the variance twice that.
       EXPECT_LT(sum, bins + 4 * std::sqrt(2.0 * bins) + 0.15 * bins) << alpha << " " << NV;
       EXPECT_GT(bins, 15) << alpha << " " << NV;

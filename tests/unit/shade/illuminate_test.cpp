@@ -27,9 +27,12 @@ struct Lit {
   explicit Lit(float least) {
     for (size_t i = 0; i < kCount; ++i) {
       const double angle = least * std::exp(0.45 * static_cast<double>(i));
-      L.x[i] = static_cast<float>(std::sin(std::min(angle, 2.0))),
+      L.x[i] = static_cast<float>(std::sin(std::min(angle, 2.0)));
       L.z[i] = static_cast<float>(std::cos(std::min(angle, 2.0)));
-      N.z[i] = 1, Cl.x[i] = 1, Cl.y[i] = 2, Cl.z[i] = 3;
+      N.z[i] = 1;
+      Cl.x[i] = 1;
+      Cl.y[i] = 2;
+      Cl.z[i] = 3;
     }
   }
   /// As addHighlight has it: what the power is taken of.

@@ -96,7 +96,9 @@ class AreaLight : public Stage {
   // A rectangle in z = 3 that faces +z, as the floor at z = 5 faces -z.
   void rectangle(const vec3& normal) {
     services.emitter = [normal](float a, float b, vec3& P, vec3& N, float& area) {
-      P = {-1 + 2 * a, -0.5f + b, 3}, N = normal, area = 2;
+      P = {-1 + 2 * a, -0.5f + b, 3};
+      N = normal;
+      area = 2;
     };
   }
 };
@@ -161,7 +163,8 @@ TEST_F(AreaLight, GlowsForTheCameraUnlessInvisible) {
   attributes.areaLight = 0;
   EXPECT_EQ(emissionOf(system(), points({vec3(0, 0, 5)})), std::vector<vec3>{vec3(3, 6, 12)});
   EXPECT_TRUE(system().needsRays());
-  shading.reset(), scene.objects.clear();
+  shading.reset();
+  scene.objects.clear();
   attributes.areaLight = 1;
   EXPECT_TRUE(emissionOf(system(), points({vec3(0, 0, 5)})).empty());
 }
@@ -224,14 +227,16 @@ TEST_F(Lights, IndirectLightGivesItsIrradianceBackToDiffuse) {
   light("indirectlight");
   expectColor(shadeOne(), attributes.color * 0.5f * services.E, 2e-6f);
   EXPECT_EQ(services.gathers, 1);  // one gather serves three colours
-  shading.reset(), scene.objects.clear();
+  shading.reset();
+  scene.objects.clear();
   surface("plastic", {number("Kd", 0.5f), number("Ks", 0)});
   expectColor(shadeOne(), attributes.color * 0.5f * services.E, 2e-6f);
 }
 
 TEST_F(Lights, IndirectLightFromBelowTheHorizonStillGivesItsIrradianceBack) {
   services.E = {1, 2, 3};
-  services.dominant[0] = {1, 0, 0}, services.dominant[1] = glm::normalize(vec3(1, 0, 1)),
+  services.dominant[0] = {1, 0, 0};
+  services.dominant[1] = glm::normalize(vec3(1, 0, 1));
   services.dominant[2] = {0, 0, 1};
   surface("matte");
   light("indirectlight");
@@ -247,7 +252,8 @@ TEST_F(Lights, NondiffuseAndNonspecularLightsAreLeftOut) {
 }
 
 TEST_F(Lights, MistakenLightsAreWarnedAbout) {
-  light("arealight"), light("pointlight", {}, true);
+  light("arealight");
+  light("pointlight", {}, true);
   light("distantlight", {text("lighting", "sideways"), text("shadowname", "map.shd")});
   system();
   EXPECT_EQ(log.count("light-area"), 2);
@@ -272,7 +278,8 @@ TEST_F(Lights, IndirectLightObeysReceiveGainContextAndItsOwnTint) {
   ShadeContext direct;
   direct.indirect = false;
   expectColor(shadeOne(direct), vec3(0.0f));
-  shading.reset(), scene.objects.clear();
+  shading.reset();
+  scene.objects.clear();
   attributes.indirect.receive = false;
   expectColor(shadeOne(), vec3(0.0f));
   EXPECT_EQ(system().indirectQuery(0), nullptr);

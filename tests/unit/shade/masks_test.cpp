@@ -90,8 +90,12 @@ void maskedRun(const TmGrid* g) {
   some.active = active.data();
   rsl::Vec3Array toEye(g);
   rsl::Array tenth(g);
-  for (int i = 0; i < g->count; ++i) toEye.set(i, {0, 0, -1}), tenth[i] = 0.1f;
-  axis = &toEye, oneNumber = &tenth;
+  for (int i = 0; i < g->count; ++i) {
+    toEye.set(i, {0, 0, -1});
+    tenth[i] = 0.1f;
+  }
+  axis = &toEye;
+  oneNumber = &tenth;
   for (const Asked& asked : calls()) {
     rsl::Vec3Array out(g);
     std::vector<uint8_t> flags(static_cast<size_t>(g->padded), 0);
@@ -115,7 +119,8 @@ TEST_F(Masks, AreObeyedByEveryService) {
   static const TmShaderLibrary library = rsl::libraryOf(shaders);
   registry.addLibrary(&library, "test");
   surface("maskedrun");
-  light("ambientlight"), light("distantlight");
+  light("ambientlight");
+  light("distantlight");
   services.met = [](const vec3&, const vec3&) { return 1.0f; };
   shade(points({vec3(0, 0, 5), vec3(0, 0, 6), vec3(0, 0, 7)}));
 }

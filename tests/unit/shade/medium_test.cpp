@@ -5,7 +5,8 @@ namespace tomales {
 namespace {
 
 ParamList even(float scattering, float absorption, ParamList more = {}) {
-  more.push_back(color("scattering", vec3(scattering))), more.push_back(color("absorption", vec3(absorption)));
+  more.push_back(color("scattering", vec3(scattering)));
+  more.push_back(color("absorption", vec3(absorption)));
   return more;
 }
 
@@ -16,8 +17,11 @@ class Medium : public Stage {
     attributes.atmosphere = std::make_shared<const ShaderCall>(call("medium", std::move(params)));
     const ShadePoints p = points({vec3(0, 0, depth)});
     ShadedPoints out;
-    out.resize(1), out.set(0, behind, vec3(1));
-    shading.reset(), scene.objects.clear(), scene.groups.clear();
+    out.resize(1);
+    out.set(0, behind, vec3(1));
+    shading.reset();
+    scene.objects.clear();
+    scene.groups.clear();
     system().atmosphere(p, out);
     EXPECT_EQ(log.entries().size(), 0u);
     return out.color(0);
@@ -57,7 +61,8 @@ TEST_F(Medium, TakesEachChannelByItself) {
 // L. Henyey and J. Greenstein: (1 - g^2) / (1 + g^2 - 2 g cos)^1.5 times what is scattered evenly.
 TEST_F(Medium, ScattersByThePhaseFunction) {
   const auto towards = [&](const vec3& to, float g) {
-    scene.lights.clear(), attributes.lights.clear();
+    scene.lights.clear();
+    attributes.lights.clear();
     light("distantlight", {point("to", to)});
     return seen(1, even(1, 0, {number("anisotropy", g)})).x;
   };

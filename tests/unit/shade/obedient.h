@@ -11,7 +11,8 @@ namespace tomales {
 inline std::function<void(sl::Surface&)> body;
 struct obedient : sl::Surface {
   void main() {
-    Ci = sl::Color(-1.0), Oi = sl::Color(1.0);
+    Ci = sl::Color(-1.0);
+    Oi = sl::Color(1.0);
     body(*this);
   }
 };

@@ -19,7 +19,10 @@ namespace fs = std::filesystem;
 
 void throwing(const TmGrid*) { throw std::runtime_error("no bananas"); }
 void dividing(const TmGrid* g) {
-  for (int i : rsl::Batch(g)) rsl::set(g->Oi, i, {1, 1, 1}), rsl::set(g->Ci, i, {i == 1 ? std::nanf("") : 1.0f, 1, 1});
+  for (int i : rsl::Batch(g)) {
+    rsl::set(g->Oi, i, {1, 1, 1});
+    rsl::set(g->Ci, i, {i == 1 ? std::nanf("") : 1.0f, 1, 1});
+  }
 }
 
 // Asks every service with point 1 switched off; Ci.x tells whether anything was written there.
@@ -34,7 +37,8 @@ void masked(const TmGrid* g) {
   rsl::Vec3Array N(g), outs[7] = {rsl::Vec3Array(g), rsl::Vec3Array(g), rsl::Vec3Array(g), rsl::Vec3Array(g),
                                   rsl::Vec3Array(g), rsl::Vec3Array(g), rsl::Vec3Array(g)};
   for (int i : rsl::Batch(g)) {
-    N.set(i, {0, 0, -1}), roughness[i] = 0.1f;
+    N.set(i, {0, 0, -1});
+    roughness[i] = 0.1f;
     for (auto& out : outs) out.set(i, {kUnwritten, kUnwritten, kUnwritten});
   }
   call.diffuse(g->host, &some, TM_ALL_LIGHT, N, outs[0]);
@@ -47,7 +51,8 @@ void masked(const TmGrid* g) {
   for (int i : rsl::Batch(g)) {
     int touched = 0;
     for (const auto& out : outs) touched += out[i].x != kUnwritten;
-    rsl::set(g->Oi, i, {1, 1, 1}), rsl::set(g->Ci, i, {static_cast<float>(touched), 0, 0});
+    rsl::set(g->Oi, i, {1, 1, 1});
+    rsl::set(g->Ci, i, {static_cast<float>(touched), 0, 0});
   }
 }
 
@@ -98,7 +103,8 @@ TEST_F(Plugins, NotANumberIsBlackAndReportedOnceWithShaderAndObject) {
 
 TEST_F(Plugins, ServicesLeaveInactivePointsAlone) {
   surface("masked");
-  light("ambientlight"), light("distantlight").castsShadows = true;
+  light("ambientlight");
+  light("distantlight").castsShadows = true;
   const ShadedPoints out = shade(points({vec3(0, 0, 5), vec3(0, 0, 6), vec3(0, 0, 7)}));
   EXPECT_EQ(out.color(0).x, 7);
   EXPECT_EQ(out.color(1).x, 0);
@@ -110,7 +116,9 @@ TEST_F(Plugins, AnIlluminanceLoopVisitsEverySampleShadowed) {
   surface("looping");
   services.visible = [](const vec3&, const vec3&) { return 0.5f; };
   services.E = {4, 0, 0};
-  light("ambientlight"), light("distantlight").castsShadows = true, light("indirectlight");
+  light("ambientlight");
+  light("distantlight").castsShadows = true;
+  light("indirectlight");
   expectColor(shadeOne(), {4, 4.5f, 3});
 }
 
@@ -125,10 +133,15 @@ const T* poison() {
 
 TEST_F(Plugins, ALibraryOfAnotherAbiOrSizeIsRefusedBeforeAnythingElseIsRead) {
   TmShaderLibrary otherAbi{}, tooSmall{};
-  otherAbi.abi = TM_SHADER_ABI + 1, otherAbi.structBytes = sizeof otherAbi;
-  tooSmall.abi = TM_SHADER_ABI, tooSmall.structBytes = sizeof tooSmall - 1;
-  for (TmShaderLibrary* l : {&otherAbi, &tooSmall})
-    l->shaders = poison<const TmShader*>(), l->fault = poison<char>(), l->count = 1;
+  otherAbi.abi = TM_SHADER_ABI + 1;
+  otherAbi.structBytes = sizeof otherAbi;
+  tooSmall.abi = TM_SHADER_ABI;
+  tooSmall.structBytes = sizeof tooSmall - 1;
+  for (TmShaderLibrary* l : {&otherAbi, &tooSmall}) {
+    l->shaders = poison<const TmShader*>();
+    l->fault = poison<char>();
+    l->count = 1;
+  }
   EXPECT_FALSE(registry.addLibrary(&otherAbi, "a.so"));
   EXPECT_FALSE(registry.addLibrary(&tooSmall, "b.so"));
   EXPECT_FALSE(registry.addLibrary(nullptr, "c.so"));
@@ -143,8 +156,12 @@ TEST_F(Plugins, ALibraryOfAnotherAbiOrSizeIsRefusedBeforeAnythingElseIsRead) {
 
 TEST_F(Plugins, AShaderOfAnotherAbiOrSizeIsSkippedAndItsNeighboursStay) {
   TmShader otherAbi{}, tooSmall{};
-  otherAbi.abi = TM_SHADER_ABI + 1, otherAbi.structBytes = sizeof(TmShader), otherAbi.name = poison<char>();
-  tooSmall.abi = TM_SHADER_ABI, tooSmall.structBytes = 8, tooSmall.name = poison<char>();
+  otherAbi.abi = TM_SHADER_ABI + 1;
+  otherAbi.structBytes = sizeof(TmShader);
+  otherAbi.name = poison<char>();
+  tooSmall.abi = TM_SHADER_ABI;
+  tooSmall.structBytes = 8;
+  tooSmall.name = poison<char>();
   TmShader good = *loopingShader;
   good.name = "good";
   const TmShader* const shaders[] = {&otherAbi, &good, &tooSmall};

@@ -13,7 +13,9 @@ const vec3 kUp(0, 1, 0);
 /// A window of width x height, `away` to the side of the origin, its sill at y = 0.
 mat4 window(float width, float height, float away) {
   mat4 m(1.0f);
-  m[0] = vec4(0, 0, width, 0), m[1] = vec4(0, height, 0, 0), m[2] = vec4(1, 0, 0, 0),
+  m[0] = vec4(0, 0, width, 0);
+  m[1] = vec4(0, height, 0, 0);
+  m[2] = vec4(1, 0, 0, 0);
   m[3] = vec4(away, height / 2, 0, 1);
   return m;
 }
@@ -41,7 +43,8 @@ Estimate integrate(const Sky& sky, const vec3& P, const vec3& N, const F& f) {
     EXPECT_EQ(density, sky.density(P, N, L));
     const double x =
         dot(N, L) > 0 && density > 0 ? double{f(L)} * double{dot(N, L)} / (double{kPi} * double{density}) : 0.0;
-    sum += x, squares += x * x;
+    sum += x;
+    squares += x * x;
   }
   const double mean = sum / kSamples;
   return {mean, std::sqrt(std::max(0.0, squares / kSamples - mean * mean))};

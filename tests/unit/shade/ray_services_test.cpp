@@ -44,7 +44,8 @@ class RayServices : public Stage {
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     surface("probe");
-    options = tmRayDefaults(), falloff = tmOcclusionDefaults();
+    options = tmRayDefaults();
+    falloff = tmOcclusionDefaults();
   }
   /// Points all alike look along -z; their results are averaged.
   vec3 mean(Ask question, int points_ = 16, const ShadeContext& context = {}) {
@@ -57,7 +58,8 @@ class RayServices : public Stage {
 };
 
 TEST_F(RayServices, ACosineConeFillsItsProjectedDiskAndAUniformOneItsSolidAngle) {
-  options.coneAngle = 1.0f, options.samples = 256;
+  options.coneAngle = 1.0f;
+  options.samples = 256;
   for (const bool uniform : {false, true}) {
     options.uniform = uniform;
     const float half = 0.5f;  // what lies within half of the angle is met
@@ -77,7 +79,9 @@ TEST_F(RayServices, OcclusionFallsOffWithDistance) {
   EXPECT_NEAR(mean(Ask::Occlusion).x, 1, 1e-5f);
   falloff.falloff = 0.5f;
   EXPECT_NEAR(mean(Ask::Occlusion).x, std::exp(-1.0f), 1e-5f);
-  falloff.falloffMode = 1, options.maxDistance = 8, falloff.falloff = 2;
+  falloff.falloffMode = 1;
+  options.maxDistance = 8;
+  falloff.falloff = 2;
   EXPECT_NEAR(mean(Ask::Occlusion).x, 0.5625f, 1e-5f);
 }
 
@@ -87,8 +91,13 @@ TEST_F(RayServices, WideRaysAreDiffuseAndNarrowOnesSpecular) {
     mean(Ask::Trace, 1);
     EXPECT_EQ(services.asked.back().kind, angle > 0.175f ? RayKind::Diffuse : RayKind::Specular);
   }
-  options.label = "here", options.subset = "a", options.excludeSubset = "b", options.hitSides = TM_HIT_BACK;
-  options.hitMode = TM_HIT_PRIMITIVE, options.bias = 0.5f, options.maxDistance = 7;
+  options.label = "here";
+  options.subset = "a";
+  options.excludeSubset = "b";
+  options.hitSides = TM_HIT_BACK;
+  options.hitMode = TM_HIT_PRIMITIVE;
+  options.bias = 0.5f;
+  options.maxDistance = 7;
   mean(Ask::Trace, 1);
   const RayQuery& q = services.asked.back();
   EXPECT_TRUE(q.label == "here" && q.subset == "a" && q.excludeSubset == "b" && q.sides == HitSides::Back &&
@@ -96,7 +105,8 @@ TEST_F(RayServices, WideRaysAreDiffuseAndNarrowOnesSpecular) {
 }
 
 TEST_F(RayServices, TraceTellsTheLeastDistanceAndGatherEveryOne) {
-  options.samples = 10, options.coneAngle = 0.1f;
+  options.samples = 10;
+  options.coneAngle = 0.1f;
   int ray = 0;
   services.met = [&](const vec3&, const vec3&) { return ++ray % 2 ? 3.0f : kInfinity; };
   EXPECT_EQ(mean(Ask::Trace, 1).x, 3);
@@ -110,13 +120,17 @@ TEST_F(RayServices, TraceTellsTheLeastDistanceAndGatherEveryOne) {
 TEST_F(RayServices, APointKnowsTheRayThatCame) {
   EXPECT_EQ(mean(Ask::Info, 1), vec3(0));
   ShadeContext context;
-  context.kind = RayKind::Specular, context.depth = 1, context.specularDepth = 2, context.label = "here";
+  context.kind = RayKind::Specular;
+  context.depth = 1;
+  context.specularDepth = 2;
+  context.label = "here";
   EXPECT_EQ(mean(Ask::Info, 1, context), vec3(2, 3, 1));
 }
 
 TEST_F(RayServices, OptionsOfAnotherReleaseAreReadAsFarAsTheyGo) {
   options.structBytes = offsetof(TmRayOptions, maxDistance);
-  options.bias = 0.5f, options.maxDistance = 5;
+  options.bias = 0.5f;
+  options.maxDistance = 5;
   mean(Ask::Trace, 1);
   EXPECT_EQ(services.asked.back().bias, 0.5f);
   EXPECT_EQ(services.asked.back().maxDistance, 1e30f) << "the default";
@@ -124,7 +138,8 @@ TEST_F(RayServices, OptionsOfAnotherReleaseAreReadAsFarAsTheyGo) {
     TmRayOptions known = tmRayDefaults();
     float more = 7;
   } later;
-  later.known.structBytes = sizeof later, later.known.bias = 0.25f;
+  later.known.structBytes = sizeof later;
+  later.known.bias = 0.25f;
   options = later.known;
   mean(Ask::Trace, 1);
   EXPECT_EQ(services.asked.back().bias, 0.25f);
@@ -133,7 +148,8 @@ TEST_F(RayServices, OptionsOfAnotherReleaseAreReadAsFarAsTheyGo) {
 
 TEST_F(RayServices, OptionsThatNoFunctionOfDefaultsHasMadeAreReportedAndNotUsed) {
   options = TmRayOptions{};
-  options.samples = 5, options.coneAngle = 0.1f;
+  options.samples = 5;
+  options.coneAngle = 0.1f;
   mean(Ask::Trace, 1);
   EXPECT_EQ(services.asked.size(), 1u) << "one ray, the default";
   ASSERT_EQ(log.entries().size(), 1u);

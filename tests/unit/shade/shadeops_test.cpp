@@ -127,7 +127,8 @@ TEST(Noise, OfAllDimensionsIsBetween0And1AndHalfOnTheLattice) {
     for (const float n : {rsl::noise(p.x), rsl::noise(p.x, p.y), rsl::noise(p), rsl::noise(p, p.x * 0.7f)}) {
       EXPECT_GE(n, 0);
       EXPECT_LE(n, 1);
-      lo = std::min(lo, n), hi = std::max(hi, n);
+      lo = std::min(lo, n);
+      hi = std::max(hi, n);
     }
   }
   EXPECT_LT(lo, 0.2f);
@@ -168,7 +169,8 @@ TEST(Noise, OfThreeDimensionsIsPerlinsByItsDefinition) {
       float* o[3] = {&offset.x, &offset.y, &offset.z};
       for (int a = 0; a < 3; ++a) {
         const double fade = f[a] * f[a] * f[a] * (f[a] * (f[a] * 6 - 15) + 10);
-        weight *= c[a] ? fade : 1 - fade, *o[a] = float(f[a] - c[a]);
+        weight *= c[a] ? fade : 1 - fade;
+        *o[a] = float(f[a] - c[a]);
       }
       const uint32_t hash =
           rsl::latticeHash(int(std::floor(p.x)) + c[0], int(std::floor(p.y)) + c[1], int(std::floor(p.z)) + c[2]);

@@ -36,10 +36,17 @@ struct placed : sl::Light {
   void main() { Cl = Color(length(P - Ps), length(L), dot(normalize(L), N)); }
 };
 struct dimmer : sl::Imager {
-  void main() { Ci = Ci * xcomp(P), alpha = 0.5 * alpha, Oi = Color(alpha); }
+  void main() {
+    Ci = Ci * xcomp(P);
+    alpha = 0.5 * alpha;
+    Oi = Color(alpha);
+  }
 };
 struct inquiring : sl::Surface {
-  void main() { Ci = Color(time, dtime, xcomp(dPdtime)), Oi = Color(xcomp(E), ycomp(E), ncomps); }
+  void main() {
+    Ci = Color(time, dtime, xcomp(dPdtime));
+    Oi = Color(xcomp(E), ycomp(E), ncomps);
+  }
 };
 const rsl::Shader hazysunShader(TM_LIGHT, "hazysun", "", TM_LIGHT_SOLAR | TM_LIGHT_SAMPLED, sl::shade<hazysun>,
                                 {&sunSamples});
@@ -58,7 +65,9 @@ class SlKinds : public Stage {
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) {
-      P = {-1 + 2 * a, -0.5f + b, 3}, N = {0, 0, 1}, area = 2;
+      P = {-1 + 2 * a, -0.5f + b, 3};
+      N = {0, 0, 1};
+      area = 2;
     };
   }
 };
@@ -75,8 +84,11 @@ TEST_F(SlKinds, LightsThatAreSampledMayBeAskedAlone) {
   light("hazysun");
   EXPECT_EQ(system().lightKind(0), LightKind::Distant);
   LightProbe probe;
-  for (uint32_t i = 0; i < 1024; ++i)
-    probe.P.emplace_back(0, 0, 5), probe.N.emplace_back(0, 0, -1), probe.xi.push_back(sobol2(i, 3U));
+  for (uint32_t i = 0; i < 1024; ++i) {
+    probe.P.emplace_back(0, 0, 5);
+    probe.N.emplace_back(0, 0, -1);
+    probe.xi.push_back(sobol2(i, 3U));
+  }
   system().probe(0, probe);
   float mean = 0;
   for (const vec3& L : probe.L) mean -= normalizeOr(L, vec3(0)).z / 1024;
@@ -97,11 +109,19 @@ TEST_F(SlKinds, AreaLightsKnowThePointOnTheLight) {
   surface("matte");
   light("panel", {}, true);
   const vec3 own = shadeOne();
-  attributes.lights.clear(), scene.lights.clear(), scene.objects.clear(), scene.groups.clear(), shading.reset();
+  attributes.lights.clear();
+  scene.lights.clear();
+  scene.objects.clear();
+  scene.groups.clear();
+  shading.reset();
   light("arealight", {number("intensity", 4)}, true);
   expectColor(own, shadeOne());
   EXPECT_GT(own.x, 0.1f);
-  attributes.lights.clear(), scene.lights.clear(), scene.objects.clear(), scene.groups.clear(), shading.reset();
+  attributes.lights.clear();
+  scene.lights.clear();
+  scene.objects.clear();
+  scene.groups.clear();
+  shading.reset();
   light("placed", {}, true);
   const vec3 place = shadeOne();
   EXPECT_NEAR(place.x, place.y, 1e-5f) << "from P to Ps, with no illuminate()";
@@ -111,9 +131,11 @@ TEST_F(SlKinds, AreaLightsKnowThePointOnTheLight) {
 TEST_F(SlKinds, ImagersReadAndWritePixels) {
   scene.options.imager = call("dimmer", {});
   ShadedPixels pixels;
-  pixels.x = 2.5f, pixels.y = 1.5f;
+  pixels.x = 2.5f;
+  pixels.y = 1.5f;
   pixels.colors.resize(2);
-  pixels.colors.set(0, vec3(1), vec3(1)), pixels.colors.set(1, vec3(2), vec3(1));
+  pixels.colors.set(0, vec3(1), vec3(1));
+  pixels.colors.set(1, vec3(2), vec3(1));
   pixels.alpha.assign(pixels.colors.Ci[0].size(), 1.0f);
   system().image(pixels);
   expectColor(pixels.colors.color(0), vec3(2.5f));
@@ -124,7 +146,8 @@ TEST_F(SlKinds, ImagersReadAndWritePixels) {
 
 TEST_F(SlKinds, SurfacesKnowTheEyeTheTimeAndTheirVelocity) {
   surface("inquiring");
-  scene.options.shutterOpen = 1, scene.options.shutterClose = 3;
+  scene.options.shutterOpen = 1;
+  scene.options.shutterClose = 3;
   ShadePoints p = points({vec3(0, 0, 5)});
   p.set3(kDriftX, 0, vec3(4, 0, 0));
   const ShadedPoints out = shade(p);

@@ -29,7 +29,8 @@ struct conditional : sl::Surface {
               u > 0.2, [&] { x += Float(lift); }, [&] { x += 10; });
         },
         [&] { x = 2 * u; });
-    Ci = Color(x), Oi = Color(1);
+    Ci = Color(x);
+    Oi = Color(1);
   }
 };
 
@@ -51,7 +52,8 @@ struct looping : sl::Surface {
     If(
         q == Color(3, 3, 2), [&] { q /= 2; }, [&] { q /= Color(1, 1, 2); });
     If(u > 0.65, [&] { output(quotient, q); });
-    Ci = Color(n, sum, zcomp(q)), Oi = Color(1);
+    Ci = Color(n, sum, zcomp(q));
+    Oi = Color(1);
   }
 };
 
@@ -64,7 +66,8 @@ struct asking : sl::Surface {
       touched += ambient() + texture("absent.tif", s, t) + transmission(P, P + I);
       touched += Color(occlusion(P, N, 2)) + trace(P, I);
     });
-    Ci = touched, Oi = Color(1);
+    Ci = touched;
+    Oi = Color(1);
   }
 };
 
@@ -90,15 +93,19 @@ struct choosing : sl::Surface {
       samples += 1;
       if (ask(TM_OF_LIGHT, "dimmed", dim, lightNumber)) heard += dim;
     });
-    Ci = Color(xcomp(sum), samples, heard), Oi = Color(1);
+    Ci = Color(xcomp(sum), samples, heard);
+    Oi = Color(1);
   }
 };
 
 rsl::FloatOutput dimmed("dimmed", ""), nondiffuse("__nondiffuse", "");
 void shadeTalkative(const TmGrid* g) {
   const rsl::Batch b(g);
-  for (int i : b)
-    dimmed.set(g, i, 0.25f), nondiffuse.set(g, i, g->u[i] < 0.5f ? 1.0f : 0.0f), b.illuminate(i, {0, 0, -2}, {1, 1, 1});
+  for (int i : b) {
+    dimmed.set(g, i, 0.25f);
+    nondiffuse.set(g, i, g->u[i] < 0.5f ? 1.0f : 0.0f);
+    b.illuminate(i, {0, 0, -2}, {1, 1, 1});
+  }
 }
 void shadeNanLight(const TmGrid* g) {
   const rsl::Batch b(g);
@@ -118,7 +125,8 @@ struct curious : sl::Surface {
     EXPECT_EQ(askText(TM_OF_INCIDENT, "__shadername"), "fog");
     Color tint;
     EXPECT_TRUE(ask(TM_OF_ATTRIBUTES, "Ri:Color", tint));
-    Ci = Color(rate, mine, frame), Oi = tint;
+    Ci = Color(rate, mine, frame);
+    Oi = tint;
   }
 };
 
@@ -203,10 +211,18 @@ TEST_F(Sl, DerivativesAreCentredDifferencesOverTheMicropolygon) {
   for (int k = 0; k < 20; ++k) {
     const int i = p.add(static_cast<uint32_t>(k));
     const float u = static_cast<float>(k) / 20, v = 0.3f;
-    p.channel(kU)[i] = u, p.channel(kV)[i] = v, p.channel(kDu)[i] = du, p.channel(kDv)[i] = dv;
-    p.step(kStepU, false)[i] = du, p.step(kStepV, true)[i] = dv;
-    p.set3(kPx, i, {2 * u, 4 * v, 5}), p.set3(kDpduX, i, {2, 0, 0}), p.set3(kDpdvX, i, {0, 4, 0});
-    p.set3(kNx, i, {0, 0, -1}), p.set3(kNgx, i, {0, 0, -1}), p.set3(kIx, i, p.position(i));
+    p.channel(kU)[i] = u;
+    p.channel(kV)[i] = v;
+    p.channel(kDu)[i] = du;
+    p.channel(kDv)[i] = dv;
+    p.step(kStepU, false)[i] = du;
+    p.step(kStepV, true)[i] = dv;
+    p.set3(kPx, i, {2 * u, 4 * v, 5});
+    p.set3(kDpduX, i, {2, 0, 0});
+    p.set3(kDpdvX, i, {0, 4, 0});
+    p.set3(kNx, i, {0, 0, -1});
+    p.set3(kNgx, i, {0, 0, -1});
+    p.set3(kIx, i, p.position(i));
   }
   const ShadedPoints out = shade(p);
   for (int i = 0; i < 20; ++i) {
@@ -220,9 +236,11 @@ TEST_F(Sl, DerivativesAreCentredDifferencesOverTheMicropolygon) {
 }
 
 TEST_F(Sl, CategoriesChooseLightsAndLightsAreAsked) {
-  light("distantlight", {text("__category", "key,warm")}), light("talkative", {text("__category", "fill")});
+  light("distantlight", {text("__category", "key,warm")});
+  light("talkative", {text("__category", "fill")});
   const auto chosen = [&](const std::string& expression) {
-    shading.reset(), scene.objects.clear();
+    shading.reset();
+    scene.objects.clear();
     surface("choosing", {text("category", expression)});
     return shade(points(std::vector<vec3>(1, vec3(0, 0, 5)))).color(0);
   };
@@ -244,14 +262,16 @@ TEST_F(Sl, AnOutputOfALightTakesItOutOfDiffusePointByPoint) {
 
 TEST_F(Sl, ALightThatReturnsNanIsDarkAndNamed) {
   surface("matte");
-  light("nanlight"), light("distantlight");
+  light("nanlight");
+  light("distantlight");
   expectColor(shadeOne(), vec3(1));
   ASSERT_EQ(log.entries().size(), 1u);
   EXPECT_EQ(log.entries()[0].code, "shader-not-finite");
 }
 
 TEST_F(Sl, ShadersLearnOfAttributesOptionsAndEachOther) {
-  attributes.shadingRate = 7, attributes.color = {0.5f, 0.25f, 1};
+  attributes.shadingRate = 7;
+  attributes.color = {0.5f, 0.25f, 1};
   attributes.exterior = std::make_shared<const ShaderCall>(call("fog", {}));
   scene.options.user["user:shot"] = number("shot", 12);
   surface("curious", {number("lift", 5)});
@@ -262,7 +282,8 @@ TEST_F(Sl, ShadersLearnOfAttributesOptionsAndEachOther) {
 
 TEST_F(Sl, TheRispecExponentIsAnOption) {
   const auto shine = [&] {
-    shading.reset(), scene.objects.clear();
+    shading.reset();
+    scene.objects.clear();
     surface("metal", {number("roughness", 0.5f), number("Ka", 0)});
     return shade(points({vec3(0, 0, 5)}, glm::normalize(vec3(0.5f, 0, -1)))).color(0).x;
   };
@@ -301,7 +322,9 @@ TEST_F(Sl, TheExamplesCompileOutOfTree) {
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     EXPECT_TRUE(registry.loadPlugin(plugin.string()));
   }
-  surface("wood"), displacement("ripple"), light("flame", {point("from", {0, 0, -1})});
+  surface("wood");
+  displacement("ripple");
+  light("flame", {point("from", {0, 0, -1})});
   attributes.atmosphere = std::make_shared<const ShaderCall>(call("murk", {}));
   const ShadedPoints out = shade(points({vec3(0.2f, 0, 5), vec3(0.4f, 0, 5)}));
   EXPECT_GT(out.color(0).x, 0);

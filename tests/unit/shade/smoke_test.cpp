@@ -32,8 +32,11 @@ TEST_F(Smoke, IndirectLightReachesSurfacesAndNotTheAir) {
   };
   ShadePoints p = points({vec3(0, 0, 5)});
   ShadedPoints out;
-  out.resize(1), out.set(0, vec3(0), vec3(1));
-  shading.reset(), scene.objects.clear(), scene.groups.clear();
+  out.resize(1);
+  out.set(0, vec3(0), vec3(1));
+  shading.reset();
+  scene.objects.clear();
+  scene.groups.clear();
   system().atmosphere(p, out);
   EXPECT_EQ(inAir, 1);
 }
@@ -63,7 +66,8 @@ TEST_F(Smoke, WhatAnsweredToAVolumeIsNotRememberedOfTheSurface) {
         .color(1);
   };
   expectColor(lit(), vec3(1));
-  answers.recording = false, services.shadowRays = 0;
+  answers.recording = false;
+  services.shadowRays = 0;
   expectColor(lit(), vec3(1));
   EXPECT_EQ(services.shadowRays, 2) << "those of the volume";
 }

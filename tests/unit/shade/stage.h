@@ -13,19 +13,24 @@ namespace tomales {
 
 inline Param number(const std::string& name, float v) {
   Param p;
-  p.name = name, p.floats = {v};
+  p.name = name;
+  p.floats = {v};
   return p;
 }
 inline Param triple(const std::string& name, ValueType type, const vec3& v) {
   Param p;
-  p.name = name, p.type = type, p.floats = {v.x, v.y, v.z};
+  p.name = name;
+  p.type = type;
+  p.floats = {v.x, v.y, v.z};
   return p;
 }
 inline Param color(const std::string& name, const vec3& v) { return triple(name, ValueType::Color, v); }
 inline Param point(const std::string& name, const vec3& v) { return triple(name, ValueType::Point, v); }
 inline Param text(const std::string& name, const std::string& v) {
   Param p;
-  p.name = name, p.type = ValueType::String, p.strings = {v};
+  p.name = name;
+  p.type = ValueType::String;
+  p.strings = {v};
   return p;
 }
 
@@ -59,7 +64,9 @@ class FakeServices final : public ShadeServices {
       if (!active[i]) continue;
       ++shadowRays;
       const float v = visible ? visible(points.position(i), {toward.x[i], toward.y[i], toward.z[i]}) : 1.0f;
-      light.x[i] *= v, light.y[i] *= v, light.z[i] *= v;
+      light.x[i] *= v;
+      light.y[i] *= v;
+      light.z[i] *= v;
     }
   }
   void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 d, const RayQuery& query,
@@ -74,7 +81,11 @@ class FakeServices final : public ShadeServices {
       if (result.distance) result.distance[i] = distance;
       if (result.leaves) result.leaves[i] = met && distance == kInfinity;
       const vec3 color = seen && toward != vec3(0) ? seen(toward) : vec3(0);
-      if (result.color.x) result.color.x[i] = color.x, result.color.y[i] = color.y, result.color.z[i] = color.z;
+      if (result.color.x) {
+        result.color.x[i] = color.x;
+        result.color.y[i] = color.y;
+        result.color.z[i] = color.z;
+      }
     }
   }
   bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3, const OcclusionQuery&,
@@ -96,7 +107,12 @@ class FakeServices final : public ShadeServices {
       emitter(a[i], b[i], p, n, area);
       const vec3 path = p - vec3(from.x[i], from.y[i], from.z[i]);
       const float cosine = -dot(n, glm::normalize(path));
-      out.P.x[i] = p.x, out.P.y[i] = p.y, out.P.z[i] = p.z, out.N.x[i] = n.x, out.N.y[i] = n.y, out.N.z[i] = n.z;
+      out.P.x[i] = p.x;
+      out.P.y[i] = p.y;
+      out.P.z[i] = p.z;
+      out.N.x[i] = n.x;
+      out.N.y[i] = n.y;
+      out.N.z[i] = n.z;
       out.density[i] = cosine > 1e-5f ? dot(path, path) / (cosine * area) : 0.0f;
       out.meetDensity[i] = 0;
     }
@@ -111,10 +127,14 @@ class FakeServices final : public ShadeServices {
     for (int i = 0; i < points.count(); ++i) {
       if (!active[i]) continue;
       ++gathers;
-      out.E.x[i] = E.x, out.E.y[i] = E.y, out.E.z[i] = E.z;
+      out.E.x[i] = E.x;
+      out.E.y[i] = E.y;
+      out.E.z[i] = E.z;
       for (int k = 0; k < 3; ++k) {
         TmVec3& d = out.dominant[k];
-        d.x[i] = dominant[k].x, d.y[i] = dominant[k].y, d.z[i] = dominant[k].z;
+        d.x[i] = dominant[k].x;
+        d.y[i] = dominant[k].y;
+        d.z[i] = dominant[k].z;
       }
     }
   }
@@ -137,7 +157,9 @@ class Stage : public ::testing::Test {
   }
   LightCall& light(const std::string& name, ParamList params = {}, bool area = false) {
     auto l = std::make_shared<LightCall>();
-    l->shader = call(name, std::move(params), 5), l->handle = name, l->area = area;
+    l->shader = call(name, std::move(params), 5);
+    l->handle = name;
+    l->area = area;
     l->index = static_cast<int>(scene.lights.size());
     attributes.lights.push_back(l->index);
     scene.lights.push_back(l);
@@ -169,7 +191,10 @@ class Stage : public ::testing::Test {
     ShadePoints out(0, floats);
     for (size_t k = 0; k < P.size(); ++k) {
       const int i = out.add(static_cast<uint32_t>(1000 + k));
-      out.set3(kPx, i, P[k]), out.set3(kNx, i, N), out.set3(kNgx, i, N), out.set3(kIx, i, vec3(0, 0, 1));
+      out.set3(kPx, i, P[k]);
+      out.set3(kNx, i, N);
+      out.set3(kNgx, i, N);
+      out.set3(kIx, i, vec3(0, 0, 1));
       out.channel(kU)[i] = out.channel(kS)[i] = static_cast<float>(k) / static_cast<float>(P.size());
       out.channel(kV)[i] = out.channel(kT)[i] = 0.5f;
     }

@@ -56,7 +56,8 @@ class Standard : public Stage {
     const auto vector = [&] { return D3(any(random), any(random), any(random)); };
     for (int i = 0; i < kPoints; ++i)
       at.push_back({D3(0.5, 0.5, 5) + vector(), 3.0 * vector() + D3(0, 0, 0.1), 5.0 * vector() + D3(0, 0.1, 0)});
-    attributes.color = vec3(Cs), attributes.opacity = vec3(Os);
+    attributes.color = vec3(Cs);
+    attributes.opacity = vec3(Os);
     services.seen = [](const vec3& d) { return vec3(world(glm::normalize(D3(d)))); };
   }
   static Param tint(const char* name, const D3& c) { return color(name, vec3(c)); }
@@ -76,7 +77,9 @@ class Standard : public Stage {
     ShadePoints batch = points(P);
     for (int i = 0; i < kPoints; ++i) {
       const Point& p = at[static_cast<size_t>(i)];
-      batch.set3(kNx, i, vec3(p.N)), batch.set3(kNgx, i, vec3(glm::normalize(p.N))), batch.set3(kIx, i, vec3(p.I));
+      batch.set3(kNx, i, vec3(p.N));
+      batch.set3(kNgx, i, vec3(glm::normalize(p.N)));
+      batch.set3(kIx, i, vec3(p.I));
     }
     const ShadedPoints out = shade(batch);
     for (int i = 0; i < kPoints; ++i) {
@@ -134,7 +137,10 @@ TEST_F(Standard, Plastic) {
 
 TEST_F(Standard, PlasticHasTheDefaultsOfTheTableAndPaintedplasticWithoutAPictureIsPlastic) {
   for (const char* name : {"plastic", "paintedplastic"}) {
-    shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
+    shading.reset();
+    scene.objects.clear();
+    scene.lights.clear();
+    attributes.lights.clear();
     surface(name);
     expect([&](const Point& p) {
       return Cs * (kAmbient + 0.5 * diffuse(p, facing(p))) + 0.5 * specular(p, facing(p), 0.1);
@@ -170,7 +176,10 @@ TEST_F(Standard, ShadowedLightsWithoutAMapAreTheirPlainSelves) {
                                                 {"distantlight", "shadowdistant", place}}) {
     vec3 seen[2];
     for (const int k : {0, 1}) {
-      shading.reset(), scene.objects.clear(), scene.lights.clear(), attributes.lights.clear();
+      shading.reset();
+      scene.objects.clear();
+      scene.lights.clear();
+      attributes.lights.clear();
       light(k == 0 ? plain : shadowed, params);
       seen[k] = shade(points({vec3(0.5f, 0.4f, 5)}, glm::normalize(vec3(1, -1, -2)))).color(0);
     }

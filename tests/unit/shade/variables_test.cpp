@@ -23,7 +23,8 @@ class Variables : public Stage {
 };
 
 TEST_F(Variables, TheOutputsOfPlasticAddUpToItsColour) {
-  attributes.color = {0.5f, 0.25f, 1}, attributes.opacity = vec3(0.75f);
+  attributes.color = {0.5f, 0.25f, 1};
+  attributes.opacity = vec3(0.75f);
   surface("plastic", {number("roughness", 1)});
   light("ambientlight", {number("intensity", 0.3f)});
   light("pointlight", {point("from", {1, 2, 0}), number("intensity", 9)});
@@ -47,7 +48,9 @@ TEST_F(Variables, LightGroupsAddUpToTheColourAndAreNamedByTheLight) {
   light("ambientlight", {text("lightgroup", "b")});
   light("pointlight", {point("from", {1, 2, 0}), number("intensity", 9), text("__group", "a")});
   light("distantlight", {number("intensity", 2), text("lightgroup", "b")});
-  channel("one", "lightgroup:a"), channel("two", "lightgroup:b"), channel("rest", "lightgroup:");
+  channel("one", "lightgroup:a");
+  channel("two", "lightgroup:b");
+  channel("rest", "lightgroup:");
   show("one,two,rest");
   const ShadedPoints out = shadeStored();
   EXPECT_EQ(log.entries().size(), 0u);
@@ -66,7 +69,8 @@ TEST_F(Variables, ShadowRaysAreTracedOnceForAllGroups) {
 }
 
 TEST_F(Variables, AlbedoIsPremultipliedAndNormalFacesTheViewer) {
-  attributes.color = {0.5f, 0.25f, 1}, attributes.opacity = vec3(0.5f);
+  attributes.color = {0.5f, 0.25f, 1};
+  attributes.opacity = vec3(0.5f);
   surface("matte");
   show("albedo,normal,P");
   const ShadedPoints out = shadeStored();

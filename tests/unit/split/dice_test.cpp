@@ -116,7 +116,11 @@ struct Counting : Prim {
   Bound3 bound(uint32_t, const UvRect&) const override { return {vec3(0), vec3(1)}; }
   void evaluate(uint32_t, int n, const float* u, const float* v, SurfacePoints s) const override {
     ++*count;
-    for (int i = 0; i < n; ++i) s.px[i] = u[i], s.py[i] = v[i], s.pz[i] = 0;
+    for (int i = 0; i < n; ++i) {
+      s.px[i] = u[i];
+      s.py[i] = v[i];
+      s.pz[i] = 0;
+    }
   }
   void interpolate(uint32_t, int, int, const float*, const float*, float*, int) const override {}
 };

@@ -8,7 +8,9 @@ using namespace test;
 
 TEST(PatchTree, BoxesOfEveryLevelHoldThePatchesBelow) {
   std::vector<Param> params(1);
-  params[0].name = "P", params[0].type = ValueType::Point, params[0].storage = Storage::Vertex;
+  params[0].name = "P";
+  params[0].type = ValueType::Point;
+  params[0].storage = Storage::Vertex;
   const int n = 61;  // 3600 patches: 57 leaves, 4 boxes of leaves, 1.
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
@@ -42,7 +44,9 @@ TEST(PatchTree, BoxesOfEveryLevelHoldThePatchesBelow) {
 
 TEST(PatchTree, PatchesFollowMortonsCurveAndThoseOfOnePlaceStayInOrder) {
   std::vector<Param> params(1);
-  params[0].name = "P", params[0].type = ValueType::Point, params[0].storage = Storage::Vertex;
+  params[0].name = "P";
+  params[0].type = ValueType::Point;
+  params[0].storage = Storage::Vertex;
   for (uint32_t i = 0; i < 3 * 5000; ++i) params[0].floats.push_back(i / 3 < 4000 ? unitFloat(hash32(i)) : 0.5f);
   Problems problems;
   const PrimPtr points = makePoints(params, problems);

@@ -28,7 +28,8 @@ size_t micropolygons(const Scene& scene) {
 
 Scene withFactors(Scene scene, float motion, float focus) {
   auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
-  attributes->motionFactor = motion, attributes->focusFactor = focus;
+  attributes->motionFactor = motion;
+  attributes->focusFactor = focus;
   scene.objects[0].attributes = attributes;
   scene.freeze();
   return scene;
@@ -42,7 +43,9 @@ TEST(Rate, GeometricApproximationLeavesWhatIsStillAndSharpAlone) {
 TEST(Rate, FocusFactorDicesWhatIsBlurredCoarser) {
   Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
   // Circle of confusion at z = 4: 128 / (2 tan 30) * lens diameter * |1/12 - 1/4| = 18.5 d; 32 px.
-  scene.options.fStop = 1, scene.options.focalDistance = 12, scene.options.focalLength = 32 / 18.475f;
+  scene.options.fStop = 1;
+  scene.options.focalDistance = 12;
+  scene.options.focalLength = 32 / 18.475f;
   const double sharp = static_cast<double>(micropolygons(withFactors(scene, 0, 0)));
   // Edges of 8 px, the bounds of pieces and what keeps it round letting some off.
   EXPECT_LT(static_cast<double>(micropolygons(withFactors(scene, 0, 1))), sharp / 20);
@@ -51,7 +54,9 @@ TEST(Rate, FocusFactorDicesWhatIsBlurredCoarser) {
 
 TEST(Rate, ASmallBallFarOutOfFocusKeepsAShape) {
   Scene scene = sceneOf({sphere(0.15f)}, translation({0, 0, 12}));
-  scene.options.fStop = 0.1f, scene.options.focalDistance = 2, scene.options.focalLength = 0.2f;
+  scene.options.fStop = 0.1f;
+  scene.options.focalDistance = 2;
+  scene.options.focalLength = 0.2f;
   Stats stats;
   scene.freeze();
   for (const SubPatch& p : split(scene, stats)) {
@@ -95,7 +100,8 @@ TEST(Rate, WhatGrowsOverTheShutterIsDicedForItsLargestSize) {
   Scene deforming = sceneOf({sphere(0.05f)}, placed(4, 1));
   deforming.options.shutterClose = 1;
   Object& o = deforming.objects[0];
-  o.shapes.push_back(sphere()), o.shapeTimes = {0, 1};
+  o.shapes.push_back(sphere());
+  o.shapeTimes = {0, 1};
   deforming.freeze();
   EXPECT_EQ(micropolygons(deforming), still);
   deforming.options.shutterClose = 0.5f;  // as large as 0.525
@@ -123,7 +129,8 @@ TEST(Rate, MicropolygonsAreInTheMeanAsLargeAsTheShadingRateAsksAndNowhereMuchLar
           const auto at = [&](int vertex) { return camera.raster(g.position(0, vertex)); };
           const vec2 u = at(k + 1) - at(k), v = at(k + g.nu + 1) - at(k);
           const float area = std::abs(u.x * v.y - u.y * v.x);
-          area_px2 += area, count += 1;
+          area_px2 += area;
+          count += 1;
           // Lines run faster in some places of a piece than in the mean, most of all at the horizon.
           EXPECT_LT(area, 2.3f * rate);
           EXPECT_LT(std::max(glm::length(u), glm::length(v)), 3 * std::sqrt(rate));
@@ -138,7 +145,9 @@ TEST(Rate, MicropolygonsAreInTheMeanAsLargeAsTheShadingRateAsksAndNowhereMuchLar
 PrimPtr slanted(float degrees) {
   Problems problems;
   Param P;
-  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+  P.name = "P";
+  P.type = ValueType::Point;
+  P.storage = Storage::Vertex;
   const float c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
   P.floats = {0, 0, 0, 1, 0, 0, c, s, 0, 1 + c, s, 0};
   return makeBilinearPatchMesh(2, false, 2, false, {P}, problems);
@@ -160,7 +169,8 @@ TEST(Rate, WhatIsSmallHasNoMoreMicropolygonsThanItsAreaAsks) {
 
 Scene withDicing(Scene scene, bool binary, bool rasterOrient) {
   auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
-  attributes->binaryDice = binary, attributes->rasterOrient = rasterOrient;
+  attributes->binaryDice = binary;
+  attributes->rasterOrient = rasterOrient;
   scene.objects[0].attributes = std::move(attributes);
   return scene;
 }
@@ -187,9 +197,15 @@ TEST(Rate, WithoutRasterOrientAForeshortenedPatchIsDicedAsIfItFacedTheEye) {
 
 TEST(Rate, DisksThatAreTakenForDotsUnmeasuredWouldTakeFewCells) {
   Param P, N, width;
-  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
-  N.name = "N", N.type = ValueType::Normal, N.storage = Storage::Vertex;
-  width.name = "width", width.type = ValueType::Float, width.storage = Storage::Vertex;
+  P.name = "P";
+  P.type = ValueType::Point;
+  P.storage = Storage::Vertex;
+  N.name = "N";
+  N.type = ValueType::Normal;
+  N.storage = Storage::Vertex;
+  width.name = "width";
+  width.type = ValueType::Float;
+  width.storage = Storage::Vertex;
   constexpr uint32_t kDisks = 2000;
   for (uint32_t i = 0; i < kDisks; ++i) {
     const auto random = [i](uint32_t dimension) { return unitFloat(hashCombine(i, dimension)); };
@@ -217,7 +233,9 @@ TEST(Rate, DisksThatAreTakenForDotsUnmeasuredWouldTakeFewCells) {
 TEST(Rate, RoundingDoesNotTurnTheCellsOfASquare) {
   const auto cut = [](float u_px, float v_px) {
     PatchSize size;
-    size.u.px = u_px, size.v.px = v_px, size.area_px2 = u_px * v_px;
+    size.u.px = u_px;
+    size.v.px = v_px;
+    size.area_px2 = u_px * v_px;
     return cells(size, 1, 1, false, false);
   };
   for (const float px : {9.77f, 3.4f, 17.6f, 5.2f}) {

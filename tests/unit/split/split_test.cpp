@@ -78,7 +78,8 @@ TEST(Split, SplittingLazilyEndsInTheSamePieces) {
     std::vector<decltype(place(whole[0]))> a, b;
     for (const SubPatch& p : whole) a.push_back(place(p));
     for (const SubPatch& p : lazy) b.push_back(place(p));
-    std::sort(a.begin(), a.end()), std::sort(b.begin(), b.end());
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
     EXPECT_EQ(a, b);
   }
 }
@@ -115,7 +116,9 @@ TEST(Split, AllPiecesOfAPatchTogetherHaveABudgetHoweverDeepTheyAreNested) {
   for (const size_t k : {0, 17, 47})
     for (const float far : {2147483647.0f, -3e5f}) {
       Param P;
-      P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+      P.name = "P";
+      P.type = ValueType::Point;
+      P.storage = Storage::Vertex;
       P.floats.assign(48, 0);
       P.floats[k] = far;
       Scene scene = sceneOf({makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {P}, problems)},
@@ -136,7 +139,9 @@ TEST(Split, PatchesOfOneObjectShareABudget) {
   // A fan of patches that all reach out of floats' precision.
   Problems problems;
   Param P;
-  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+  P.name = "P";
+  P.type = ValueType::Point;
+  P.storage = Storage::Vertex;
   const int n = 5;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
@@ -152,7 +157,9 @@ TEST(Split, PatchesOfOneObjectShareABudget) {
 }
 
 Scene outOfFocus(Scene scene) {
-  scene.options.fStop = 1, scene.options.focalLength = 0.8f, scene.options.focalDistance = 6;
+  scene.options.fStop = 1;
+  scene.options.focalLength = 0.8f;
+  scene.options.focalDistance = 6;
   return scene;
 }
 
@@ -230,7 +237,9 @@ TEST(Split, AHugeGroundPlaneBelowTheEyeIsWhole) {
 /// `planeToCamera` turns the camera; `size` is a multiple of the eye's height. Returns how many pieces were visited.
 int64_t expectWholeGround(float size, const mat4& planeToCamera, float fov_degrees) {
   Scene scene = sceneOf({quad(size, -1)}, planeToCamera);
-  scene.options.xResolution = 1920, scene.options.yResolution = 1080, scene.options.fov_degrees = fov_degrees,
+  scene.options.xResolution = 1920;
+  scene.options.yResolution = 1080;
+  scene.options.fov_degrees = fov_degrees;
   scene.options.nearClip = 1e-6f;
   scene.freeze();
   const Camera camera(scene.options);
@@ -310,7 +319,8 @@ TEST(Split, AHugeDisplacementBoundLosesNothing) {
 TEST(Split, WhatFloatsCannotResolveEndsAndIsReportedForItsObjectAlone) {
   Scene scene = sceneOf({sphere(1e30f), sphere(0.5f)}, translation({0, 0, 4}), 1, 64);
   const auto file = std::make_shared<const std::string>("huge.rib");
-  scene.objects[0].where = {file, 1}, scene.objects[1].where = {file, 2};
+  scene.objects[0].where = {file, 1};
+  scene.objects[1].where = {file, 2};
   Stats stats;
   Log log(Log::Verbosity::Quiet);
   const auto pieces = split(scene, stats, log);

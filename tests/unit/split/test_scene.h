@@ -42,7 +42,9 @@ inline mat4 translation(const vec3& t) {
 inline PrimPtr quad(float size, float y) {
   Problems problems;
   Param P;
-  P.name = "P", P.type = ValueType::Point, P.storage = Storage::Vertex;
+  P.name = "P";
+  P.type = ValueType::Point;
+  P.storage = Storage::Vertex;
   P.floats = {-size, y, -size, size, y, -size, -size, y, size, size, y, size};
   return makeBilinearPatchMesh(2, false, 2, false, {P}, problems);
 }

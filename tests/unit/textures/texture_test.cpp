@@ -45,7 +45,14 @@ class Pictures : public ::testing::Test {
     q.name = name.c_str();
     const uint8_t active = 1;
     const float zero = 0;
-    q.count = 1, q.active = &active, q.s = &s, q.t = &t, q.su = &edge, q.tu = &zero, q.sv = &zero, q.tv = &edge;
+    q.count = 1;
+    q.active = &active;
+    q.s = &s;
+    q.t = &t;
+    q.su = &edge;
+    q.tu = &zero;
+    q.sv = &zero;
+    q.tv = &edge;
     if (change) change(q);
     std::array<float, 3> out{-1, -1, -1};
     found = textures().lookup(q, {}, "test", {&out[0], &out[1], &out[2]});
@@ -95,7 +102,12 @@ TEST_F(Pictures, AFootprintIsAveragedOverItsOwnShape) {
   });
   const float s = 76.0f / 128, wide = 0.25f, narrow = 1.0f / 128, zero = 0;
   const auto shaped = [&](const float* su, const float* tv) {
-    return at(stripes, s, 0.5f, 0, [&](TextureQuery& q) { q.su = su, q.tu = &zero, q.sv = &zero, q.tv = tv; })[0];
+    return at(stripes, s, 0.5f, 0, [&](TextureQuery& q) {
+      q.su = su;
+      q.tu = &zero;
+      q.sv = &zero;
+      q.tv = tv;
+    })[0];
   };
   EXPECT_GT(shaped(&narrow, &wide), 0.95f);
   EXPECT_NEAR(shaped(&wide, &narrow), 0.5f, 0.1f);
@@ -113,7 +125,11 @@ TEST_F(Pictures, WidthScalesBlurWidensAndZeroIsAPoint) {
 TEST_F(Pictures, ChannelsCountFromTheFirstAndWhatIsMissingIsFilled) {
   const std::string c = write("c.tif", 16, [](int, int) { return std::array<float, 3>{0.1f, 0.2f, 0.3f}; });
   const auto from = [](int channel, int count, float fill) {
-    return [=](TextureQuery& q) { q.channel = channel, q.channels = count, q.fill = fill; };
+    return [=](TextureQuery& q) {
+      q.channel = channel;
+      q.channels = count;
+      q.fill = fill;
+    };
   };
   EXPECT_NEAR(at(c, 0.5f, 0.5f, 0, from(2, 1, 0))[0], 0.3f, 1e-6f);
   const auto two = at(c, 0.5f, 0.5f, 0, from(1, 3, 0.75f));
@@ -182,14 +198,19 @@ TEST_F(Pictures, ACubeBecomesTheSurroundingsThatItShows) {
   const float right[6][3] = {{0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}};
   const float down[6][3] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, -1, 0}, {0, -1, 0}};
   TextureRecipe recipe;
-  recipe.shape = TextureRecipe::Shape::Cube, recipe.file = (folder / "sky.env").string();
-  recipe.sWrap = "periodic", recipe.tWrap = "clamp";
+  recipe.shape = TextureRecipe::Shape::Cube;
+  recipe.file = (folder / "sky.env").string();
+  recipe.sWrap = "periodic";
+  recipe.tWrap = "clamp";
   constexpr int n = 64;
   for (int f = 0; f < 6; ++f)
     recipe.pictures.push_back(write("face" + std::to_string(f) + ".exr", n, [&](int x, int y) {
       const float a = 2 * (float(x) + 0.5f) / n - 1, b = 2 * (float(y) + 0.5f) / n - 1;
       float d[3], length = 0;
-      for (int k = 0; k < 3; ++k) d[k] = forward[f][k] + a * right[f][k] + b * down[f][k], length += d[k] * d[k];
+      for (int k = 0; k < 3; ++k) {
+        d[k] = forward[f][k] + a * right[f][k] + b * down[f][k];
+        length += d[k] * d[k];
+      }
       return std::array<float, 3>{1 + d[0] / std::sqrt(length), 1 + d[1] / std::sqrt(length),
                                   1 + d[2] / std::sqrt(length)};
     }));

@@ -39,7 +39,11 @@ HWY_INLINE F3 curve(const float (&knots)[n][C], F x) {
 
 HWY_INLINE F3 load(const TmConstVec3& from, int i) { return {load(from.x, i), load(from.y, i), load(from.z, i)}; }
 HWY_INLINE F3 load(const TmVec3& from, int i) { return {load(from.x, i), load(from.y, i), load(from.z, i)}; }
-HWY_INLINE void store(const TmVec3& to, int i, F3 c) { store(to.x, i, c.x), store(to.y, i, c.y), store(to.z, i, c.z); }
+HWY_INLINE void store(const TmVec3& to, int i, F3 c) {
+  store(to.x, i, c.x);
+  store(to.y, i, c.y);
+  store(to.z, i, c.z);
+}
 
 /// Some points of a batch.
 struct Points {
@@ -79,6 +83,7 @@ struct Points {
   }
   HWY_INLINE void opaque(F3 c) const {
     const F3 Os = load(b.grid.Os, i);
-    store(b.grid.Oi, i, Os), store(b.grid.Ci, i, Os * c);
+    store(b.grid.Oi, i, Os);
+    store(b.grid.Ci, i, Os * c);
   }
 };

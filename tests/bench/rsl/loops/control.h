@@ -38,8 +38,10 @@ struct julia {
       const B on = (n < F(40.0f)) & (size < F(4.0f));
       if (!any(on)) break;
       const F nextX = x * x - y * y + F(-0.74f), nextY = F(2.0f) * x * y + F(0.18f);
-      x = select(on, nextX, x), y = select(on, nextY, y);
-      size = select(on, x * x + y * y, size), n = select(on, n + F(1.0f), n);
+      x = select(on, nextX, x);
+      y = select(on, nextY, y);
+      size = select(on, x * x + y * y, size);
+      n = select(on, n + F(1.0f), n);
     }
     const F f = n * F(1 / 40.0f);
     p.opaque({f, f * f, sqrtOf(f)});

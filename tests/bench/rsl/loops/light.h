@@ -105,6 +105,7 @@ struct lamp {
       const F stripes = F(0.5f) + F(0.5f) * sinOf(F(30.0f) * L.x / L.z);
       Cl = select(lit, F(30.0f) * rgb(1, .9f, .8f) * (falloff * mix(F(0.5f), F(1.0f), stripes)), Cl);
     }
-    store(p.b.grid.L, p.i, L * F(-1.0f)), store(p.b.grid.Cl, p.i, Cl);
+    store(p.b.grid.L, p.i, L * F(-1.0f));
+    store(p.b.grid.Cl, p.i, Cl);
   }
 };

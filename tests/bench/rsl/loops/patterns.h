@@ -36,7 +36,10 @@ struct granite {
     F3 Q = F(3.0f) * p.Q();
     F sum = F(0.0f);
     float amplitude = 1;
-    for (int k = 0; k < 8; ++k, amplitude *= 0.6f) sum += F(amplitude) * (noise(Q) - F(0.5f)), Q = Q * F(2.03f);
+    for (int k = 0; k < 8; ++k, amplitude *= 0.6f) {
+      sum += F(amplitude) * (noise(Q) - F(0.5f));
+      Q = Q * F(2.03f);
+    }
     p.opaque(p.Cs() * clamp(F(0.5f) + sum, F(0.0f), F(1.0f)) * p.lit(p.Nf(), 0.8f));
   }
 };
@@ -45,8 +48,10 @@ struct clouds {
     F3 Q = F(2.0f) * p.Q();
     F sum = F(0.0f);
     float amplitude = 0.5f;
-    for (int k = 0; k < 6; ++k, amplitude *= 0.5f)
-      sum += F(amplitude) * noise(Q), Q = Q * F(2.0f) + rgb(0.7f, 0.3f, 0.1f);
+    for (int k = 0; k < 6; ++k, amplitude *= 0.5f) {
+      sum += F(amplitude) * noise(Q);
+      Q = Q * F(2.0f) + rgb(0.7f, 0.3f, 0.1f);
+    }
     const F cover = F(1.0f) - expOf(F(-6.0f) * maxOf(sum - F(0.45f), F(0.0f)));
     const F shade = powOf(clamp(F(1.0f) - sum, F(0.0f), F(1.0f)), F(1.5f));
     p.opaque(mix(rgb(.3f, .5f, .9f), mix(rgb(1, 1, 1), rgb(.5f, .5f, .55f), shade), cover));
@@ -58,7 +63,8 @@ struct brick {
     const F row = floorOf(tt);
     ss = select(mod(row, 2) == F(1.0f), ss + F(0.5f), ss);
     const F column = floorOf(ss);
-    ss -= column, tt -= row;
+    ss -= column;
+    tt -= row;
     constexpr float w = 0.05f, h = 0.1f;
     const F inside = smoothstep(w, 2 * w, ss) * (F(1.0f) - smoothstep(1 - 2 * w, 1 - w, ss)) *
                      smoothstep(h, 2 * h, tt) * (F(1.0f) - smoothstep(1 - 2 * h, 1 - h, tt));
@@ -97,7 +103,8 @@ struct cells {
           };
           const F3 offset = cell + F3{far(0), far(1), far(2)} - Q;
           const F d = dot(offset, offset);
-          f2 = minOf(f2, maxOf(f1, d)), f1 = minOf(f1, d);
+          f2 = minOf(f2, maxOf(f1, d));
+          f1 = minOf(f1, d);
         }
     const F edge = smoothstep(0.05f, 0.15f, sqrtOf(f2) - sqrtOf(f1));
     p.opaque(mix(rgb(.1f, .05f, .05f), p.Cs(), edge) * p.lit(p.Nf(), 0.8f));
