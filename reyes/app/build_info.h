@@ -4,7 +4,7 @@
 
 namespace tomales {
 
-extern const char* const kVersion;  ///< As CMakeLists.txt has it: "0.1.0".
+extern const char* const kVersion;  ///< As CMakeLists.txt has it: "1.0.0".
 
 /// The commit of the sources, as git names it, with " with changes" behind it if they had been changed since; "unknown"
 /// if they were in no repository.
