@@ -7,7 +7,7 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr hn::RebindToSigned<decltype(kF)> kI;
+constexpr hn::RebindToSigned<decltype(kF)> kI;  // NOLINT(misc-definitions-in-headers): no header of others
 using Ints = hn::Vec<decltype(kI)>;
 
 /// Samples as vectors.

@@ -128,7 +128,7 @@ void Compositor::shadeFacets(const DeepTile& tile) {
 
 const Compositor::KnownShade& Compositor::blended(const DeepTile& tile, const Fragment& fragment) {
   const FacetShade shade = facetShade(tile, fragment);
-  return blended_.emplace_back(shade, true, hasDepth(shade));
+  return blended_.emplace_back(KnownShade{shade, true, hasDepth(shade)});
 }
 
 ResolvedTile Compositor::resolve(const DeepTile& tile) {

@@ -256,7 +256,7 @@ bool Cache::info(const std::string& name, const std::string& what, std::vector<f
   }
   if (!there) return false;
   Handle* handle = known.tiles.begin()->second.handle;
-  const auto get = [&](const char* fact, OIIO::TypeDesc type, void* to) {
+  const auto get = [&](const char* fact, const OIIO::TypeDesc& type, void* to) {
     return system->get_texture_info(handle, nullptr, 0, OIIO::ustring(fact), type, to);
   };
   const auto matrix = [&](const char* fact) {

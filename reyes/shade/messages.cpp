@@ -105,7 +105,7 @@ int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValu
 int32_t tellOption(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
   const Options& o = batch.scene.scene.options;
   if (name.starts_with("Ri:")) name.remove_prefix(3);
-  const auto numbers = [&](std::vector<float> n) { return tell(batch, std::move(n), TM_FLOAT, type, out); };
+  const auto numbers = [&](const std::vector<float>& n) { return tell(batch, n, TM_FLOAT, type, out); };
   if (name == "Format")
     return numbers({static_cast<float>(o.xResolution), static_cast<float>(o.yResolution), o.pixelAspect});
   if (name == "Shutter") return numbers({o.shutterOpen, o.shutterClose});

@@ -142,7 +142,7 @@ class PlanMaker {
                         const std::string& output) {
     std::vector<std::string> arguments{"render"};
     if (!output.empty()) append(arguments, {"-o", output});
-    const std::string name = nameOf(number, stage);
+    std::string name = nameOf(number, stage);
     plan_.tasks.push_back({name, stage, number, withScene(std::move(arguments), number), needs, frame.files, {}});
     return name;
   }

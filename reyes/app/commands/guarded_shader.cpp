@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <deque>
 #include <vector>
 
@@ -36,14 +36,13 @@ class GuardedArray {
 
   /// Has anything but the active points changed?
   bool wroteOutside() const {
-    const auto same = [&](size_t k) { return std::memcmp(&memory_[k], &before_[k], sizeof(float)) == 0; };
     for (size_t k = 0; k < memory_.size(); ++k)
-      if ((k < begin_ || k >= begin_ + padded_) && !same(k)) return true;
+      if ((k < begin_ || k >= begin_ + padded_) && isWritten(k)) return true;
     return false;
   }
   bool wroteInactive(const std::vector<uint8_t>& active) const {
     for (size_t i = 0; i < padded_; ++i)
-      if (!active[i] && std::memcmp(&memory_[begin_ + i], &before_[begin_ + i], sizeof(float)) != 0) return true;
+      if (!active[i] && isWritten(begin_ + i)) return true;
     return false;
   }
   bool isFinite(const std::vector<uint8_t>& active) const {
@@ -60,6 +59,8 @@ class GuardedArray {
     const auto address = reinterpret_cast<uintptr_t>(memory_.data());
     return (kBytes - address % kBytes) % kBytes / sizeof(float);
   }
+  /// Compares bits, since a shader may have written a NaN.
+  bool isWritten(size_t k) const { return std::bit_cast<uint32_t>(memory_[k]) != std::bit_cast<uint32_t>(before_[k]); }
   std::string name_;
   size_t padded_;
   std::vector<float> memory_;

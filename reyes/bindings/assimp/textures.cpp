@@ -81,7 +81,7 @@ std::string Textures::pictureOf(const std::string& name) const {
   constexpr unsigned kMostSide = 65535;
   const bool isFile = inside->mHeight == 0;
   if (!isFile && std::max(inside->mWidth, inside->mHeight) > kMostSide) return "";
-  const std::string path = settings_.scene + (isFile ? ".picture" : ".tga");
+  std::string path = settings_.scene + (isFile ? ".picture" : ".tga");
   writePart(path,
             isFile ? std::string(reinterpret_cast<const char*>(inside->pcData), inside->mWidth) : targaOf(*inside));
   return path;

@@ -1,6 +1,7 @@
 // What shaders in RSL's manner ask of the renderer (reyes/shader/sl_services.h), under masks: random numbers,
 // derivatives, spaces, parameter lists, messages.
 #include <cstdlib>
+#include <map>
 #include <set>
 
 #include "tests/unit/shade/obedient.h"
@@ -9,6 +10,16 @@ namespace tomales {
 namespace {
 
 using namespace sl;
+
+using Numbers = std::map<std::string, std::vector<float>>;
+
+void expectNumbers(TmWhom whom, const Numbers& numbers) {
+  for (const auto& [name, is] : numbers) {
+    TmValue v;
+    ASSERT_TRUE(askFor(whom, -1, name.c_str(), TM_FLOAT, TM_FLOAT, v)) << name;
+    EXPECT_EQ(std::vector<float>(v.c[0], v.c[0] + v.length), is) << name;
+  }
+}
 
 TEST_F(BatchServices, RandomNumbersAreEvenDifferAndBelongToThePoint) {
   const auto draw = [](sl::Surface& s) { s.Ci = Color(s.random(), s.random(), s.random()); };
@@ -147,6 +158,47 @@ TEST_F(BatchServices, MessagesHaveRslsNames) {
     EXPECT_EQ(shadername(), "obedient");
     EXPECT_EQ(shadername(TM_OF_ATMOSPHERE), "fog");
   });
+}
+
+TEST_F(BatchServices, AttributesAreToldAsTheSceneHasThem) {
+  attributes.matte = true;
+  attributes.sides = 1;
+  attributes.detail = {0.25f, 0.75f};
+  attributes.textureCoordinates = {vec2{1, 2}, {3, 4}, {5, 6}, {7, 8}};
+  attributes.displacementBound = 0.5f;
+  attributes.trace.maxDiffuseDepth = 3;
+  attributes.trace.maxSpecularDepth = 5;
+  attributes.trace.bias = 0.125f;
+  attributes.visibility.diffuse = false;
+  const Numbers numbers = {{"Matte", {1}},
+                           {"Ri:Sides", {1}},
+                           {"DetailRange", {0.25f, 0.75f}},
+                           {"TextureCoordinates", {1, 2, 3, 4, 5, 6, 7, 8}},
+                           {"displacementbound:sphere", {0.5f}},
+                           {"trace:maxdiffusedepth", {3}},
+                           {"trace:maxspeculardepth", {5}},
+                           {"trace:bias", {0.125f}},
+                           {"visibility:camera", {1}},
+                           {"visibility:diffuse", {0}}};
+  asked(2, [&](sl::Surface&) { expectNumbers(TM_OF_ATTRIBUTES, numbers); });
+}
+
+TEST_F(BatchServices, OptionsAreToldAsTheSceneHasThem) {
+  scene.options.xResolution = 40;
+  scene.options.yResolution = 30;
+  scene.options.pixelAspect = 1.5f;
+  scene.options.shutterOpen = 0.25f;
+  scene.options.shutterClose = 0.75f;
+  scene.options.nearClip = 2;
+  scene.options.farClip = 900;
+  scene.options.cropWindow = {0.1f, 0.9f, 0.2f, 0.8f};
+  scene.options.xSamples = 3;
+  scene.options.ySamples = 5;
+  scene.options.frame = 17;
+  const Numbers numbers = {{"Ri:Format", {40, 30, 1.5f}}, {"Shutter", {0.25f, 0.75f}},
+                           {"Clipping", {2, 900}},        {"CropWindow", {0.1f, 0.9f, 0.2f, 0.8f}},
+                           {"PixelSamples", {3, 5}},      {"Frame", {17}}};
+  asked(2, [&](sl::Surface&) { expectNumbers(TM_OF_OPTIONS, numbers); });
 }
 
 TEST_F(BatchServices, RandomgridIsOneNumberOfACallAndOfTheObjectsName) {

@@ -85,6 +85,7 @@ class FakeClouds : public CloudServices {
 };
 
 rsl::StringParam file("file", "left.ptc", "");
+rsl::StringParam space("space", "world", "");
 struct baking : sl::Surface {
   void main() {
     TmCloudOptions object = tmCloudDefaults();
@@ -97,7 +98,9 @@ struct baking : sl::Surface {
 struct finding : sl::Surface {
   void main() {
     sl::Float x = -1, found = -1;
-    sl::If(u < 0.7, [&] { found = sl::texture3d(file(sl::grid()), P, N, {{"x", x}}); });
+    sl::If(u < 0.7, [&] {
+      found = sl::texture3d(file(sl::grid()), P, N, {{"x", x}}, "coordsystem", space(sl::grid()));
+    });
     Ci = sl::Color(x, found, 0) + sl::photonmap("photons.ptc", P, N, 7) * sl::Color(0, 0, 1);
     Oi = sl::Color(1.0);
     sl::setzcomp(Ci, sl::xcomp(sl::photonmap("photons.ptc", P, N, 7)));
@@ -160,7 +163,7 @@ const rsl::Shader neighbourShader(TM_SURFACE, "bakingwide", "", TM_NEIGHBOURS, s
 rsl::StringParam file4("file", "known.ptc", "");
 const rsl::Shader pointbasedShader(TM_SURFACE, "pointbased", "", TM_NEIGHBOURS, sl::shade<pointbased>, {&file4});
 const rsl::Shader waxShader(TM_SURFACE, "wax", "", TM_NEIGHBOURS, sl::shade<wax>, {&file4});
-const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>, {&file2});
+const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>, {&file2, &space});
 
 class CloudCalls : public Stage {
  protected:
@@ -316,6 +319,15 @@ TEST_F(CloudCalls, WithoutAMapThereAreNoCaustics) {
   surface("causticlight");
   system().setClouds(&clouds);
   expectColor(shade(row()).color(0), {0, 0, 0});
+}
+
+TEST_F(CloudCalls, ASpaceOfThePictureIsNoSpaceOfAFile) {
+  surface("finding", {text("file", "known.ptc"), text("space", "raster")});
+  system().setClouds(&clouds);
+  shade(row());
+  ASSERT_EQ(log.entries().size(), 1u);
+  EXPECT_NE(log.entries()[0].message.find("there is no coordinate system \"raster\""), std::string::npos)
+      << log.entries()[0].message;
 }
 
 TEST_F(CloudCalls, WhatCannotBeIsReportedOnceWithShaderAndFile) {
