@@ -52,7 +52,10 @@ bool say(Script& script, const Request& r, const Param& p) {
     return true;
   }
   if (p.name == "Basis") return sayBasis(script, word);
-  if (p.name == "ReverseOrientation" && v.size() == 1) return v[0] == 0 || (script.say("ReverseOrientation"), true);
+  if (p.name == "ReverseOrientation" && v.size() == 1) {
+    if (v[0] != 0) script.say("ReverseOrientation");
+    return true;
+  }
   if (p.name != "PixelFilterName" && p.name != "PixelFilterWidth") return false;
   const Param *name = findParam(r.params, "PixelFilterName"), *width = findParam(r.params, "PixelFilterWidth");
   if (!name || name->strings.empty() || (width && values(*width).size() != 2)) return false;
