@@ -9,7 +9,8 @@ enum : uint8_t { kBlank = 1, kNameStart = 2, kDigit = 4 };
 
 constexpr std::array<uint8_t, 256> kClasses = [] {
   std::array<uint8_t, 256> classes{};
-  for (const char c : {' ', '\t', '\v', '\f', '\x1a'}) classes[static_cast<unsigned char>(c)] = kBlank;  // 1a: DOS's end
+  for (const char c : {' ', '\t', '\v', '\f', '\x1a'})
+    classes[static_cast<unsigned char>(c)] = kBlank;  // 1a: DOS's end
   for (size_t c = 'a'; c <= 'z'; ++c) classes[c] = classes[c - 'a' + 'A'] = kNameStart;
   classes['_'] = kNameStart;
   for (size_t c = '0'; c <= '9'; ++c) classes[c] = kDigit;
