@@ -24,7 +24,9 @@ if given:
     shot, cache = given
 else:
     shot, cache = suite.folder / "shot.dfb", suite.folder / "shot.icf"
-    suite.run("hide", str(scene), "-o", "shot.dfb", "--format", "128x128", "-q")
+    lit = 'Illuminate "lamp" 1\nLightSource "spotlight" "spot" "from" [0.6 0.5 -0.6] "to" [-0.4 -0.6 0.3] "intensity" [0.6]'
+    suite.write("box.rib", scene.read_text().replace('Illuminate "lamp" 1', lit))
+    suite.run("hide", "box.rib", "-o", "shot.dfb", "--format", "128x128", "-q")
     suite.run("gather", "shot.dfb", "-o", "shot.icf", "--by-light", "--samples", "64", "-q")
 
 server = subprocess.Popen([suite.program, "relight", shot, "--irradiance", cache, "--no-browser"], cwd=suite.folder, stdout=subprocess.PIPE, text=True)
@@ -100,6 +102,23 @@ box = page.run("(() => { const b = document.getElementById('picture').getBoundin
 page.click(*box)
 suite.expect(page.wait("document.querySelectorAll('#probe .bar').length > 1"), "bars tell what each light brings to the pixel")
 suite.expect(page.wait("document.getElementById('probe').textContent.includes('matte')"), "a click tells the shader")
+
+# The places of lights are dragged.
+HANDLE = """(() => { const h = [...document.querySelectorAll(".handle")].find((e) => !e.hidden); if (!h) return null;
+const b = h.getBoundingClientRect(); return [(b.left + b.right) / 2, (b.top + b.bottom) / 2]; })()"""
+page.key("h")
+at = page.run(HANDLE)
+suite.expect(at is not None or given, "the spot has a place in the picture")
+if at:
+    page.mouse("mousePressed", *at, button="left", clickCount=1)
+    page.mouse("mouseMoved", at[0] + 20, at[1] + 30, button="left", buttons=1)
+    page.mouse("mouseReleased", at[0] + 20, at[1] + 30, button="left", clickCount=1)
+    now = page.run(HANDLE)
+    suite.expect(abs(now[0] - at[0] - 20) < 1 and abs(now[1] - at[1] - 30) < 1, f"a light's point follows the pointer ({at} to {now})")
+    suite.expect(page.wait("/\"point /.test(document.getElementById('rib').textContent)"), "and the edit says where it is")
+    page.key("z")
+    suite.expect(page.wait(f"Math.abs(({HANDLE})[0] - {at[0]}) < 0.1"), "undo brings it back")
+page.key("h")
 
 # A second page watches the first, until it takes over.
 VALUE = "Number(document.querySelector('#lights .light:has(button[title=solo]) input[type=range]').value)"

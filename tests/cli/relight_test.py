@@ -130,7 +130,7 @@ server = Server("--irradiance", "box.icf", "--folder", "edits")
 page = f"/{server.token}/"
 suite.expect(server.ask("GET", page)[0] == 200, "the page is there")
 suite.expect("default-src 'none'" in server.ask("GET", page)[1].get("Content-Security-Policy", ""), "it may load nothing from elsewhere")
-for name in ("main.js", "mixer.js", "stage.js", "panel.js", "edit.js", "server.js", "page.css"):
+for name in ("main.js", "mixer.js", "stage.js", "handles.js", "panel.js", "edit.js", "server.js", "page.css"):
     suite.expect(server.get(name)[0] == 200, f"{name} is there")
 for path in ("/", "/scene", f"/{'0' * 32}/", f"/{server.token[:-1]}x/", f"/{server.token}", f"/{server.token}x/scene"):
     suite.expect(server.ask("GET", path)[0] == 403, f"without the token {path[:12]} is refused")
@@ -146,6 +146,12 @@ scene = server.json("scene")
 suite.expect((scene["width"], scene["height"]) == (48, 36) and scene["exposure"] == [1.5, 1], "the size and the exposure")
 suite.expect([layer["name"] for layer in scene["layers"]] == ["everything", "glow", "key", "rim"] and scene["sharesBounces"],
              "a layer for each light, with what it bounces")
+rim = next(light for light in scene["lights"] if light["owner"] == "rim")
+matrix, p = rim["pixelFromShader"], [0.3, -0.6, 0.3, 1]
+x, y, w = (sum(matrix[4 * c + row] * p[c] for c in range(4)) for row in (0, 1, 3))
+# Screen space is +-1 along the shorter side of 36 pixels, and fov 60 sees 1 / tan(30 degrees) of it at a distance of 1.
+focal = 18 * 3 ** 0.5
+suite.expect(abs(x / w - (24 + focal * 0.3 / 1.7)) < 1e-3 and abs(y / w - (18 + focal * 0.6 / 1.7)) < 1e-3, "a light's points have a place in the picture")
 suite.expect(server.settled() is not None, "all layers are shaded")
 status, blocks = server.news()
 found = layers(blocks, 48, 36)
@@ -223,7 +229,7 @@ def nonsense():
 # The suite sends some; TOMALES_REQUESTS=10000 is for a night.
 requests = int(os.environ.get("TOMALES_REQUESTS", "300"))
 for _ in range(requests):
-    with socket.create_connection(("127.0.0.1", int(server.port)), timeout=5) as connection:
+    with socket.create_connection(("127.0.0.1", int(server.port)), timeout=PATIENCE_S) as connection:
         try:
             connection.sendall(nonsense())
             connection.shutdown(socket.SHUT_WR)

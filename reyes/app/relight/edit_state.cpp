@@ -25,7 +25,7 @@ const EditableParam* paramOf(const EditableShader& shader, const std::string& na
 
 EditableShader describe(const std::string& owner, const ShaderCall& call, TmKind kind, const Scene& scene,
                         ShaderRegistry& shaders) {
-  EditableShader out{owner, call.name, {}};
+  EditableShader out{owner, call.name, call.worldFromShader.at(scene.options.shutterOpen), {}};
   const TmShader* shader = shaders.find(call.name, kind, pathOf(scene.options.searchPaths, "shader"));
   for (int i = 0; shader && i < shader->paramCount; ++i) {
     const TmParamDecl& decl = shader->params[i];

@@ -30,6 +30,7 @@ struct EditableParam {
 struct EditableShader {
   std::string owner;  ///< The light's handle, or the objects' name.
   std::string shader;
+  mat4 worldFromShader{1.0f};  ///< Points among the parameters are given in its space, here when the shutter opens.
   std::vector<EditableParam> params;
 };
 

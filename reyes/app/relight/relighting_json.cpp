@@ -2,10 +2,28 @@
 #include "reyes/app/relight/relighting.h"
 
 namespace tomales {
+namespace {
+
+/// A point p of the shader's space is at pixel (x/w, y/w) of the window, with (x, y, z, w) = the matrix by columns
+/// times (p, 1); in front of the eye w is positive.
+mat4 pixelFromWorld(const Scene& scene, const PixelRect& window) {
+  const Camera camera(scene.options);
+  const vec2 half = 0.5f * vec2(camera.xResolution(), camera.yResolution());
+  mat4 pixelFromScreen(1.0f);
+  pixelFromScreen[0][0] = half.x;
+  pixelFromScreen[1][1] = -half.y;
+  pixelFromScreen[3] = {half - vec2(window.x0, window.y0), 0, 1};
+  return pixelFromScreen * viewOf(camera, scene.cameraFromWorldAtOpen()).screenFromWorld;
+}
+
+Json jsonOf(const mat4& m) { return std::vector<float>(&m[0][0], &m[0][0] + 16); }
+
+}  // namespace
 
 Json Relighting::description() const {
   const std::lock_guard lock(mutex_);
-  const auto shaders = [](const std::vector<EditableShader>& all) {
+  const mat4 pixels = pixelFromWorld(files_->dfb().shot().scene, window_);
+  const auto shaders = [&](const std::vector<EditableShader>& all) {
     Json out = Json::array();
     for (const EditableShader& s : all) {
       Json params = Json::array();
@@ -15,7 +33,10 @@ Json Relighting::description() const {
                           {"value", p.value},
                           {"doc", p.doc},
                           {"role", p.role == TM_ROLE_NONE ? Json() : Json(roleName(p.role))}});
-      out.push_back({{"owner", s.owner}, {"shader", s.shader}, {"params", params}});
+      out.push_back({{"owner", s.owner},
+                     {"shader", s.shader},
+                     {"pixelFromShader", jsonOf(pixels * s.worldFromShader)},
+                     {"params", params}});
     }
     return out;
   };

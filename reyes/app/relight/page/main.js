@@ -2,6 +2,7 @@ import { get, post, listen } from "./server.js";
 import { History, copyOf, kNothing, set, strengthOf, valueOf } from "./edit.js";
 import { Mixer } from "./mixer.js";
 import { Stage } from "./stage.js";
+import { Handles } from "./handles.js";
 import { buildLights, buildSurfaces } from "./panel.js";
 
 const $ = (id) => document.getElementById(id);
@@ -11,6 +12,7 @@ S            keep a snapshot
 W            wipe against the snapshot
 F, 1         fit, one to one
 L            false colours
+H            points of lights, to be dragged; with Shift in depth
 drag, wheel  pan, zoom
 click        choose the object there
 ,  .         darker, brighter`;
@@ -86,10 +88,11 @@ const send = async () => {
   if (unsent) unsent = false, send();
 };
 
+const refresh = () => { lights.refresh(state); surfaces.refresh(state); handles.place(); };
 const show = () => {
   whole();
   paint();
-  lights.refresh(state), surfaces.refresh(state);
+  refresh();
   send();
 };
 const follow = (present) => {
@@ -98,7 +101,7 @@ const follow = (present) => {
   state = followed;
   whole();
   paint();
-  lights.refresh(state), surfaces.refresh(state);
+  refresh();
 };
 const change = (what, edit) => {
   if (watches()) return;
@@ -128,6 +131,7 @@ const panelTools = {
 };
 const lights = buildLights($("lights"), scene, panelTools);
 const surfaces = buildSurfaces($("surfaces"), $("search"), scene, panelTools);
+const handles = new Handles(stage, scene, panelTools);
 
 const notes = new Set();
 const note = (text, warns = true) => {
@@ -149,6 +153,7 @@ const setExact = (on) => {
   else whole(), paint();
 };
 const setFalse = (on) => { falseColor = on; $("falseColor").classList.toggle("on", on); paint(); };
+const setHandles = () => $("handles").classList.toggle("on", handles.toggle());
 const setStops = () => {
   $("stopsText").textContent = Number($("stops").value).toFixed(2);
   const gamma = Number($("viewGamma").value);
@@ -177,6 +182,7 @@ $("save").onclick = async () => {
     if (!watches()) await postEdit();
     note(`Saved as ${(await post("save", { name: $("name").value })).file}`, false);
     await listEdits();
+    $("edits").value = $("name").value;
   } catch (e) {
     note(e.message);
   }
@@ -193,7 +199,7 @@ $("load").onclick = async () => {
 };
 
 const actions = {
-  undo: () => step(-1), redo: () => step(1), exact: () => setExact(!exact), falseColor: () => setFalse(!falseColor),
+  undo: () => step(-1), redo: () => step(1), exact: () => setExact(!exact), falseColor: () => setFalse(!falseColor), handles: setHandles,
   fit: () => stage.fit(), snap: keep, help: () => { $("keys").hidden = !$("keys").hidden; },
   takeOver: () => postEdit("&take=1"),
   end: async () => { await post("end"); $("what").textContent = "ended"; },
@@ -204,7 +210,7 @@ $("keys").textContent = kKeys;
 
 const brighten = (by) => { $("stops").value = Number($("stops").value) + by; setStops(); };
 const keys = { z: actions.undo, Z: actions.redo, e: actions.exact, s: keep, w: () => stage.toggleWipe(), f: actions.fit,
-  1: () => stage.oneToOne(), l: actions.falseColor, ",": () => brighten(-0.5), ".": () => brighten(0.5), "?": actions.help };
+  1: () => stage.oneToOne(), l: actions.falseColor, h: setHandles, ",": () => brighten(-0.5), ".": () => brighten(0.5), "?": actions.help };
 document.addEventListener("keydown", (e) => {
   if (["INPUT", "SELECT"].includes(e.target.tagName) && e.target.type !== "range") return;
   if (e.altKey || ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() !== "z")) return;

@@ -34,6 +34,7 @@ export class Stage {
   place() {
     const transform = `translate(${this.x}px, ${this.y}px) scale(${this.scale})`;
     this.canvas.style.transform = transform;
+    this.placed?.();
     if (!this.kept) return;
     const edge = this.share * this.element.clientWidth;
     this.kept.style.transform = transform;
