@@ -62,6 +62,18 @@ TEST_F(BatchPictures, PicturesAreLookedUpOverRegionsCornersAndChannels) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+TEST_F(BatchPictures, AnEnvironmentIsFilteredOverTheAngleOfItsCorners) {
+  const std::string path = stepPicture("/tomales_around.tif");
+  const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
+    // The step is at -x. This is 3.6 degrees beside it, on the dark side, and 33 degrees wide.
+    const Vector wide[4] = {Vector(-1, 0.36, 0.1), Vector(-1, -0.24, 0.1), Vector(-1, 0.36, -0.1),
+                            Vector(-1, -0.24, -0.1)};
+    s.Ci = Color(xcomp(environment(path.c_str(), wide)), xcomp(environment(path.c_str(), Vector(-1, 0.0628, 0))), 0);
+  });
+  EXPECT_TRUE(c[0].x > 0.2f && c[0].x < 0.5f) << c[0].x;
+  EXPECT_NEAR(c[0].y, 0, 0.01f);
+}
+
 // Every other column of texels is 1, and one in four so large that an average over it says nothing.
 TEST_F(BatchPictures, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) {
   const std::string path = writePicture(::testing::TempDir() + "/tomales_columns.exr", 256, 256, "RGB", [](int x, int) {
