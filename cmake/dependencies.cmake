@@ -1,4 +1,4 @@
-# What Debian 12 packages, with the four places where its packaging needs help.
+# What Debian 12 packages, with the five places where its packaging needs help.
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
@@ -32,6 +32,21 @@ else()
   find_package(OpenSubdiv CONFIG REQUIRED)
 endif()
 
+# libopenvdb-dev has no configuration of its own, and does not depend on the headers of Boost that its own include.
+find_library(OPENVDB_LIBRARY openvdb)
+find_path(OPENVDB_INCLUDE_DIR openvdb/version.h)
+find_path(BOOST_INCLUDE_DIR boost/numeric/conversion/conversion_traits.hpp)
+if(NOT OPENVDB_LIBRARY OR NOT OPENVDB_INCLUDE_DIR OR NOT BOOST_INCLUDE_DIR)
+  message(FATAL_ERROR "OpenVDB is not found: on Debian, install libopenvdb-dev and libboost-dev")
+endif()
+file(STRINGS ${OPENVDB_INCLUDE_DIR}/openvdb/version.h _vdb_version REGEX "define OPENVDB_LIBRARY_(MAJOR|MINOR|PATCH)_VERSION_NUMBER")
+string(REGEX REPLACE "[^0-9;]" "" _vdb_version "${_vdb_version}")
+list(JOIN _vdb_version "." _vdb_version)
+add_library(OpenVDB::openvdb UNKNOWN IMPORTED)
+set_target_properties(OpenVDB::openvdb PROPERTIES IMPORTED_LOCATION ${OPENVDB_LIBRARY}
+                      INTERFACE_INCLUDE_DIRECTORIES "${OPENVDB_INCLUDE_DIR};${BOOST_INCLUDE_DIR}"
+                      INTERFACE_LINK_LIBRARIES "TBB::tbb;Imath::Imath")
+
 # libopenimageio-dev exports an OpenCV include path that exists only with libopencv-dev (1 GB).
 find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 get_target_property(_oiio_include OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
@@ -46,7 +61,7 @@ if(NOT _osd_version)
 endif()
 set(TOMALES_LIBRARIES
   "OpenSubdiv|${_osd_version}|Apache-2.0 with changes" "Embree|${embree_VERSION}|Apache-2.0"
-  "OpenImageIO|${OpenImageIO_VERSION}|BSD-3-Clause" "OpenEXR|${OpenEXR_VERSION}|BSD-3-Clause"
+  "OpenImageIO|${OpenImageIO_VERSION}|BSD-3-Clause" "OpenVDB|${_vdb_version}|MPL-2.0" "OpenEXR|${OpenEXR_VERSION}|BSD-3-Clause"
   "Imath|${Imath_VERSION}|BSD-3-Clause" "oneTBB|${TBB_VERSION}|Apache-2.0" "GLM|${glm_VERSION}|MIT"
   "Highway|${hwy_VERSION}|Apache-2.0" "fmt|${fmt_VERSION}|MIT" "CLI11|${CLI11_VERSION}|BSD-3-Clause"
   "JSON for Modern C++|${nlohmann_json_VERSION}|MIT" "cpp-httplib|${httplib_VERSION}|MIT" "Assimp|${assimp_VERSION}|BSD-3-Clause"

@@ -188,6 +188,21 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
   }
 }
 
+void RayScene::throughVolumes(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
+                              const std::vector<SampleName>& names, RayMask mask, const ShadingSystem& shading,
+                              const ShadeContext& context, HitAnswers& answers) const {
+  if (impl_->volumes.none()) return;
+  std::vector<float> ends;
+  for (size_t r = 0; r < rays.size(); ++r) ends.push_back(hits[r].object < 0 ? rays[r].tMax : hits[r].t);
+  impl_->volumes.cross(rays, ends, names, mask, shading, context, answers);
+}
+
+bool RayScene::hasVolumes() const { return !impl_->volumes.none(); }
+
+vec3 RayScene::passedByVolumes(const Ray& ray, float tMax, RayMask mask) const {
+  return impl_->volumes.passed(ray, tMax, mask);
+}
+
 void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>& left, const std::vector<Ray>& rays,
                             const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                             const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const {

@@ -7,6 +7,7 @@
 #include "raytrace/emitters.h"
 #include "raytrace/moving_bounds.h"
 #include "raytrace/solid_hits.h"
+#include "raytrace/volumes.h"
 
 namespace tomales {
 
@@ -45,6 +46,7 @@ struct RayScene::Impl {
   const std::vector<bool> opaque;
   const EmbreeScene embree;
   const SolidHits solids;
+  const Volumes volumes;
   const Emitters emitters;
   MovingBounds moving;
   mutable std::mutex subsetsMutex;

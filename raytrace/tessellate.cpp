@@ -234,6 +234,7 @@ size_t CoarseGroup::bytes() const {
 
 bool raysNeed(const Attributes& a) {
   const Visibility& v = a.visibility;
+  if (a.volume) return false;
   return v.diffuse || v.specular || v.transmission || v.photon || a.areaLight >= 0;
 }
 

@@ -14,11 +14,7 @@ constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 16;  ///< Widths of rays 
 
 std::vector<uint32_t> masksOf(const Scene& scene) {
   std::vector<uint32_t> masks;
-  for (const ShadeGroup& g : scene.groups) {
-    const Visibility& v = g.attributes->visibility;
-    masks.push_back((v.diffuse ? kMaskDiffuse : 0u) | (v.specular ? kMaskSpecular : 0u) |
-                    (v.transmission ? kMaskTransmission : 0u) | (v.photon ? kMaskPhoton : 0u));
-  }
+  for (const ShadeGroup& g : scene.groups) masks.push_back(maskOf(g.attributes->visibility));
   return masks;
 }
 
@@ -75,6 +71,7 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
       opaque(opaqueOf(s, opacityIsConstant)),
       embree({groups, masks, opaque}, shapes, chunks, settings.geometryCacheBytes, log),
       solids(s, groups, masks, log),
+      volumes(s, shading),
       emitters(s, groups),
       displacementBounds(groups.size(), 0.0f) {
   for (const Object& o : scene.objects)

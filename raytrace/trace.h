@@ -67,7 +67,18 @@ struct HitAnswers {
 };
 
 /// The rays that see an object, as bits of Attributes::visibility.
-enum RayMask : uint32_t { kMaskDiffuse = 1, kMaskSpecular = 2, kMaskTransmission = 4, kMaskPhoton = 8 };
+enum RayMask : uint32_t {
+  kMaskDiffuse = 1,
+  kMaskSpecular = 2,
+  kMaskTransmission = 4,
+  kMaskPhoton = 8,
+  kMaskCamera = 16
+};
+
+inline uint32_t maskOf(const Visibility& v) {
+  return (v.diffuse ? kMaskDiffuse : 0u) | (v.specular ? kMaskSpecular : 0u) |
+         (v.transmission ? kMaskTransmission : 0u) | (v.photon ? kMaskPhoton : 0u);
+}
 
 class Emitters;
 
@@ -140,6 +151,15 @@ class RayScene {
   void crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>& left, const std::vector<Ray>& rays,
                     const std::vector<Hit>& hits, const std::vector<SampleName>& names, const ShadingSystem& shading,
                     const ShadeContext& context, HitAnswers& answers) const;
+
+  /// Changes the answers by the Volumes between the start of each ray and its hit, or its tMax where nothing was hit:
+  /// there the color is what they scatter, and the opacity what they hide.
+  void throughVolumes(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
+                      RayMask mask, const ShadingSystem& shading, const ShadeContext& context,
+                      HitAnswers& answers) const;
+  bool hasVolumes() const;
+  /// The share of light that passes through the Volumes along a ray up to tMax.
+  vec3 passedByVolumes(const Ray& ray, float tMax, RayMask mask) const;
 
   /// The surfaces of area lights.
   const Emitters& emitters() const;

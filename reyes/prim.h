@@ -19,6 +19,7 @@
 
 #include "reyes/base/math.h"
 #include "reyes/base/value.h"
+#include "reyes/density.h"
 
 namespace tomales {
 
@@ -124,6 +125,9 @@ class Prim {
   virtual std::optional<std::array<vec3, 2>> straightEdge(uint32_t /*patch*/, PatchEdge /*edge*/) const {
     return std::nullopt;
   }
+
+  /// What fills the box, if the shape is a Volume.
+  virtual const DensityGrid* density() const { return nullptr; }
 
   /// Approximate memory of the primitive.
   size_t bytes() const;
@@ -250,6 +254,9 @@ PrimPtr makeTubes(bool cubic, const Basis& basis, const std::vector<int>& vertex
 
 /// Newell's teapot, 3.15 high, on z = 0 with its spout towards x. Primvars run over every patch in the same way.
 PrimPtr makeTeapot(const ParamList&, Problems&);
+
+/// The box of a density, whose normals point outwards.
+PrimPtr makeVolume(std::shared_ptr<const DensityGrid> density, Problems&);
 
 /// A depth picture, seen by its camera, whose surfaces repel a Blobby.
 struct GroundPicture {

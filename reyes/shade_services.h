@@ -3,9 +3,11 @@
 // illumination, point clouds). All light is in the RSL convention, E/pi.
 #pragma once
 #include <optional>
+#include <span>
 
 #include "gi/error_function.h"
 #include "gi/method.h"
+#include "reyes/density.h"
 #include "reyes/points.h"
 #include "reyes/ray_answers.h"
 #include "reyes/state.h"
@@ -71,6 +73,9 @@ struct ShadeContext {
   int auditPaths = 0;
   /// The number of specular rays that one point of the eye has sent. What each of them meets is a share of that point.
   int branches = 1;
+  /// Of each point: the Volume that its ray crosses (ShadingSystem::crossVolume). Empty: the air is the same
+  /// everywhere.
+  std::span<const DensityWay> ways{};
   int chunk = 0;  ///< The part of the batch that is being shaded, set by ShadingSystem.
 
   /// Tells whether lamps have highlights on surfaces of a group.
@@ -210,6 +215,10 @@ class ShadeServices {
   virtual float emitterReach(int light) const = 0;
   /// The area of all geometry of an area light; 0 if it has none.
   virtual float emitterArea(int light) const = 0;
+
+  /// Gives what Volumes scatter and hide between the eye and points that it sees, from P - I to P. Returns false if
+  /// there is no Volume.
+  virtual bool volumesBefore(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
 
   /// Gives the indirect diffuse light on the side of N.
   virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,

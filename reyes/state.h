@@ -165,6 +165,7 @@ struct Attributes {
   float motionFactor = 0, focusFactor = 1;  ///< GeometricApproximation: coarser where blurred; 0: never
   ShadingInterpolation interpolation = ShadingInterpolation::Constant;
   bool matte = false;
+  bool volume = false;  ///< It is a Volume: its surface is the box that holds it, and Interior says what fills it.
   int sides = 2;
   DetailShare detail;                ///< Detail and DetailRange
   bool insideOut = false;            ///< Orientation differs from "outside".

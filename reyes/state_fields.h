@@ -116,15 +116,16 @@ void fields(A& a, Attributes::Radiosity& x) {
 
 template <class A>
 void fields(A& a, Attributes& x) {
-  auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides,
-         detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface,
+  auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, volume,
+         sides, detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface,
          displacement, atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace,
          visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient,
          binaryDice, user] = x;
-  each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, sides,
-       detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface, displacement,
-       atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace, visibility, trace,
-       indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient, binaryDice, user);
+  each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, volume,
+       sides, detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface,
+       displacement, atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace,
+       visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient,
+       binaryDice, user);
 }
 
 }  // namespace tomales

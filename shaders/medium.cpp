@@ -1,4 +1,5 @@
-// A medium that is the same everywhere and absorbs and scatters light. The radiance that a ray brings is the integral
+// A medium that absorbs and scatters light, the same everywhere or as dense as a Volume says. Instead of the way that a
+// ray has come, its amount counts, which is the density times the way. The radiance that a ray brings is the integral
 // of M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th edition, section 14.1. Phase function: L.
 // Henyey and J. Greenstein, "Diffuse radiation in the galaxy", 1941.
 #include <vector>
@@ -6,7 +7,8 @@
 #include "reyes/shader/shadeops.h"
 
 namespace {
-rsl::ColorParam scattering("scattering", {0.1f, 0.1f, 0.1f}, "for each unit of the world", TM_ROLE_SCATTERING);
+rsl::ColorParam scattering("scattering", {0.1f, 0.1f, 0.1f}, "for each unit of the world (in a Volume: and of density)",
+                           TM_ROLE_SCATTERING);
 rsl::ColorParam absorption("absorption", {0, 0, 0}, "likewise", TM_ROLE_ABSORPTION);
 rsl::FloatParam anisotropy("anisotropy", 0, "mean cosine of the angle of scattering: above 0 onwards, below 0 back");
 rsl::UniformFloatParam steps("steps", 32, "places of each ray that are lit; powers of two are the least noisy");
@@ -29,16 +31,16 @@ float phase(float g, float cosine) {
   return (1 - g * g) / (4 * bend * std::sqrt(bend));
 }
 
-/// Places along a ray in proportion to what passes of the channel that is dimmed least. Lengths: units of the world.
+/// Amounts along a ray in proportion to what passes of the channel that is dimmed least.
 struct ByPassing {
   float way, rate;
 
-  ByPassing(rsl::Color extinction, float length)
-      : way(length), rate(std::min({extinction.x, extinction.y, extinction.z})) {}
+  ByPassing(rsl::Color extinction, float amount)
+      : way(amount), rate(std::min({extinction.x, extinction.y, extinction.z})) {}
   bool isThin() const { return rate * way < 1e-4f; }
   float at(float share) const { return isThin() ? share * way : -std::log1p(share * std::expm1(-rate * way)) / rate; }
-  float density(float distance) const {
-    return isThin() ? 1 / way : rate * std::exp(-rate * distance) / -std::expm1(-rate * way);
+  float density(float amount) const {
+    return isThin() ? 1 / way : rate * std::exp(-rate * amount) / -std::expm1(-rate * way);
   }
 };
 
@@ -104,10 +106,29 @@ class LightAround {
   const rsl::Vec3Array ambient_;
 };
 
+rsl::Array unitsAlongRays(const rsl::Batch& b) {
+  rsl::Vec3Array world(b.g);
+  b.g->call->transform(b.g->host, b.g, TM_AS_VECTOR, "current", "world", b.g->I, world);
+  rsl::Array out(b.g);
+  for (int i : b) out[i] = rsl::length(world[i]) / std::max(rsl::length(b.I(i)), 1e-30f);
+  return out;
+}
+
+/// One place on the ray of each point (TmServices::crossed).
+struct Place {
+  rsl::Array distance, amount, density;
+
+  explicit Place(const rsl::Batch& b) : distance(b.g), amount(b.g), density(b.g) {}
+  void find(const rsl::Batch& b, bool byAmount) {
+    b.g->call->crossed(b.g->host, b.g, byAmount, distance.data(), amount.data(), density.data());
+  }
+};
+
 /// Chooses places along each ray in several ways, and weighs them all by the balance heuristic of E. Veach.
 class Places {
  public:
-  Places(const rsl::Batch& b, const rsl::Array& units) : b_(b), units_(units) {
+  /// `whole`: the ends of the rays.
+  Places(const rsl::Batch& b, const rsl::Array& units, const Place& whole) : b_(b), units_(units), whole_(whole) {
     rsl::Vec3Array middle(b.g);
     for (int i : b) middle.set(i, b.P(i) - 0.5f * b.I(i));
     TmIlluminance lamp = tmIlluminanceDefaults();
@@ -117,16 +138,21 @@ class Places {
   }
 
   int kinds() const { return 1 + static_cast<int>(lamps_.size()); }
-  float way(int i) const { return rsl::length(b_.I(i)) * units_[i]; }
-  float at(int kind, int i, float share) const {
-    const float distance = kind == 0 ? passing(i).at(share) : lamp(kind, i).at(share);
-    return std::min(std::max(distance, 0.0f), way(i));
+  float way(int i) const { return whole_.distance[i]; }
+  /// Finds the places of one kind at these shares.
+  void at(int kind, const rsl::Array& share, Place& out) const {
+    for (int i : b_)
+      if (kind == 0)
+        out.amount[i] = std::min(std::max(passing(i).at(share[i]), 0.0f), whole_.amount[i]);
+      else
+        out.distance[i] = std::min(std::max(lamp(kind, i).at(share[i]), 0.0f), way(i));
+    out.find(b_, kind == 0);
   }
-  /// The sum of the densities of all kinds.
-  float density(int i, float distance) const {
-    float sum = passing(i).density(distance);
-    for (int kind = 1; kind < kinds(); ++kind) sum += lamp(kind, i).density(distance);
-    return sum;
+  /// The sum of the densities of all kinds over the distance, for each unit of the medium's density there.
+  float density(int i, const Place& at) const {
+    float sum = 0;
+    for (int kind = 1; kind < kinds(); ++kind) sum += lamp(kind, i).density(at.distance[i]);
+    return passing(i).density(at.amount[i]) + sum / at.density[i];
   }
 
  private:
@@ -141,40 +167,41 @@ class Places {
                                     way(i)};
     }
   }
-  ByPassing passing(int i) const { return {extinction(b_.g, i), way(i)}; }
+  ByPassing passing(int i) const { return {extinction(b_.g, i), whole_.amount[i]}; }
   const ByLamp& lamp(int kind, int i) const { return lamps_[static_cast<size_t>(kind - 1)][static_cast<size_t>(i)]; }
 
   const rsl::Batch& b_;
   const rsl::Array& units_;
+  const Place& whole_;
   std::vector<std::vector<ByLamp>> lamps_;  ///< Indexed by kind - 1 and by point.
 };
 
-rsl::Array unitsAlongRays(const rsl::Batch& b) {
-  rsl::Vec3Array world(b.g);
-  b.g->call->transform(b.g->host, b.g, TM_AS_VECTOR, "current", "world", b.g->I, world);
-  rsl::Array out(b.g);
-  for (int i : b) out[i] = rsl::length(world[i]) / std::max(rsl::length(b.I(i)), 1e-30f);
-  return out;
+/// Diffuse rays come in hundreds and need little each.
+int stepsFor(const rsl::Batch& b) {
+  rsl::Vec3Array type(b.g);
+  constexpr float kDiffuse = 1;
+  const bool diffuse = b.g->call->rayInfo(b.g->host, b.g, "type", type) && type[0].x == kDiffuse;
+  return diffuse ? 1 : static_cast<int>(steps(b.g));
 }
 
 /// The light that each whole ray scatters to the eye.
-rsl::Vec3Array scattered(const rsl::Batch& b, const rsl::Array& units) {
+rsl::Vec3Array scattered(const rsl::Batch& b, const rsl::Array& units, const Place& whole) {
   const LightAround light(b, units);
-  const Places places(b, units);
-  const int kinds = places.kinds(), each = std::max(1, static_cast<int>(steps(b.g)) / kinds);
+  const Places places(b, units, whole);
+  const int kinds = places.kinds(), each = std::max(1, stepsFor(b) / kinds);
   rsl::Vec3Array sum(b.g), Q(b.g);
-  rsl::Array forPassing(b.g), forLamps(b.g), distance(b.g);
+  rsl::Array forPassing(b.g), forLamps(b.g);
+  Place at(b);
   for (int k = 0; k < each * kinds; ++k) {
     const int kind = k % kinds;
     b.g->call->stratified(b.g->host, b.g, k / kinds, each, forPassing.data(), forLamps.data());
-    for (int i : b) {
-      distance[i] = places.at(kind, i, kind == 0 ? forPassing[i] : forLamps[i]);
-      Q.set(i, b.P(i) - (1 - distance[i] / std::max(places.way(i), 1e-30f)) * b.I(i));
-    }
+    places.at(kind, kind == 0 ? forPassing : forLamps, at);
+    for (int i : b) Q.set(i, b.P(i) - (1 - at.distance[i] / std::max(places.way(i), 1e-30f)) * b.I(i));
     const rsl::Vec3Array here = light.at(Q);
     for (int i : b) {
-      const float weight = 1 / (static_cast<float>(each) * places.density(i, distance[i]));
-      sum.set(i, sum[i] + weight * passing(extinction(b.g, i), distance[i]) * scattering(b.g, i) * here[i]);
+      if (!(at.density[i] > 0)) continue;
+      const float weight = 1 / (static_cast<float>(each) * places.density(i, at));
+      sum.set(i, sum[i] + weight * passing(extinction(b.g, i), at.amount[i]) * scattering(b.g, i) * here[i]);
     }
   }
   return sum;
@@ -183,9 +210,12 @@ rsl::Vec3Array scattered(const rsl::Batch& b, const rsl::Array& units) {
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
   const rsl::Array units = unitsAlongRays(b);
-  const rsl::Vec3Array sum = scattered(b, units);
+  Place whole(b);
+  for (int i : b) whole.distance[i] = rsl::length(b.I(i)) * units[i];
+  whole.find(b, false);
+  const rsl::Vec3Array sum = scattered(b, units, whole);
   for (int i : b) {
-    const rsl::Color passed = passing(extinction(g, i), rsl::length(b.I(i)) * units[i]);
+    const rsl::Color passed = passing(extinction(g, i), whole.amount[i]);
     rsl::set(g->Ci, i, rsl::get(g->Ci, i) * passed + sum[i]);
     rsl::set(g->Oi, i, rsl::Color{1, 1, 1} - (rsl::Color{1, 1, 1} - rsl::get(g->Oi, i)) * passed);
   }
@@ -193,5 +223,5 @@ void shade(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader mediumShader;
-const rsl::Shader mediumShader(TM_VOLUME, "medium", "absorbs and scatters light, the same everywhere", 0, shade,
+const rsl::Shader mediumShader(TM_VOLUME, "medium", "absorbs and scatters light: air, or what fills a Volume", 0, shade,
                                {&scattering, &absorption, &anisotropy, &steps, &lightway, &map});

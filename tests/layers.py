@@ -33,6 +33,7 @@ THIRD_PARTY = {
     "embree3/": ["raytrace/embree_"],
     "opensubdiv/": ["reyes/prim/subdivision_"],
     "OpenImageIO/": ["reyes/pictures/"],
+    "openvdb/": ["reyes/vdb/module.cpp"],
     "assimp/": ["reyes/bindings/assimp/"],
     "OpenEXR/": ["reyes/image/exr_", "reyes/pictures/exr_reader.cpp"],
     "Imath": ["reyes/image/exr_", "reyes/pictures/exr_reader.cpp"],

@@ -75,7 +75,7 @@ class GatherPass {
       const int group = static_cast<int>(g);
       const IndirectQuery* query = state_.shading.indirectQuery(group);
       const Attributes& attributes = *state_.scene.groups[g].attributes;
-      if (attributes.matte) continue;
+      if (attributes.matte || attributes.volume) continue;
       for (const OcclusionQuery& asked : state_.occlusionAsked[g]) plans.emplace_back(g, planFor(state_, group, asked));
       if (!query || !attributes.indirect.receive || !interpolatesIndirect(state_)) continue;
       const GatherPlan plan = planFor(state_, group, *query);

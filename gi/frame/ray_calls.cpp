@@ -65,6 +65,8 @@ class ShaderRays {
       else
         tools_.rays->crossVolumes(layers_.came, layers_.left, layers_.rays, hits_, layers_.names, *tools_.shading,
                                   context_, answers_);
+      if (wantsColor)
+        tools_.rays->throughVolumes(layers_.rays, hits_, layers_.names, mask(), *tools_.shading, context_, answers_);
       if (result_.effective) addCovered();
       if (wantsColor)
         layers_.goOn(*tools_.rays, hits_, answers_, query_.opacityThreshold,
@@ -74,9 +76,10 @@ class ShaderRays {
   }
 
  private:
+  RayMask mask() const { return query_.kind == RayKind::Diffuse ? kMaskDiffuse : kMaskSpecular; }
   void meet() {
     const bool diffuse = query_.kind == RayKind::Diffuse;
-    state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, diffuse ? kMaskDiffuse : kMaskSpecular, hits_);
+    state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, mask(), hits_);
     (diffuse ? state_.stats.rays.gather : state_.stats.rays.specular) += static_cast<int64_t>(layers_.rays.size());
   }
 

@@ -21,7 +21,9 @@ struct RayLayers {
   int64_t meet(const RayScene& scene, RayMask mask, std::vector<Hit>& hits) const;
 
   /// Takes the colours and opacities of the hits and calls `brings(element, colour at the first origin, transmittance
-  /// that remains)` for each. It keeps the rays whose opacity so far is below `opacityThreshold`.
+  /// that remains)` for each, those of
+  /// rays that have met nothing but a Volume included. It keeps the rays whose opacity so far is below
+  /// `opacityThreshold`.
   template <class Brings>
   void goOn(const RayScene& scene, const std::vector<Hit>& hits, const HitAnswers& answers, float opacityThreshold,
             const Brings& brings) {
@@ -29,11 +31,11 @@ struct RayLayers {
     came.clear();
     left.clear();
     for (size_t r = 0; r < rays.size(); ++r) {
-      if (hits[r].object < 0) continue;
       // A shader result that is not finite would cost the whole point.
       const vec3 color = isFinite(answers.color[r]) ? clear[r] * answers.color[r] : vec3(0);
       const vec3 passes = clear[r] * (1.0f - glm::clamp(answers.opacity[r], 0.0f, 1.0f));
       brings(elements[r], color, passes);
+      if (hits[r].object < 0) continue;
       if (maxComponent(passes) <= 1 - std::min(opacityThreshold, 0.9999f) || hits[r].t >= rays[r].tMax) continue;
       came.push_back(rays[r]);
       left.push_back(hits[r]);

@@ -126,7 +126,11 @@ void GatherRays::shadeShares(const ShadeContext& context, SeenLight& seen) {
   for (size_t g = 0; g < groups_.size(); ++g) {
     const bool isLast = g > 0 && g + 1 == groups_.size();
     alone.lights = &groups_[g];
-    if (!isLast) scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, alone, share);
+    if (!isLast) {
+      scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, alone, share);
+      scene_.throughVolumes(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, kMaskDiffuse, shading_, alone,
+                            share);
+    }
     if (g == 0) scratch_.glow = share.color;
     for (size_t r = 0; r < scratch_.hits.size(); ++r) {
       const vec3 color = isLast ? left[r] : g == 0 ? share.color[r] : share.color[r] - scratch_.glow[r];
@@ -155,7 +159,14 @@ void GatherRays::meet(Stats& stats, FirstHits* first) {
 // Takes radiance from `known_` where it has it, and shades the other hits.
 void GatherRays::answer(const ShadeContext& context) {
   const auto& rays = scratch_.layers.rays;
-  if (!known_) return scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
+  const auto through = [&] {
+    scene_.throughVolumes(rays, scratch_.hits, scratch_.layers.names, kMaskDiffuse, shading_, context,
+                          scratch_.answers);
+  };
+  if (!known_) {
+    scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
+    return through();
+  }
   scratch_.unknown = scratch_.hits;
   scratch_.mapped.clear();
   vec3 radiance;
@@ -169,6 +180,7 @@ void GatherRays::answer(const ShadeContext& context) {
     scratch_.answers.color[r] = L;
     scratch_.answers.opacity[r] = vec3(1);
   }
+  through();
 }
 
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings) {

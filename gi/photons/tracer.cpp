@@ -89,6 +89,9 @@ float PhotonTracer::timeOf(uint32_t number, uint32_t stream) const {
 void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
   fly(paths, s);
   crossMedia(paths, stream, s, out);
+  if (rays_.hasVolumes())
+    for (size_t k = 0; k < s.flying.size(); ++k)
+      paths[s.flying[k]].power *= rays_.passedByVolumes(paths[s.flying[k]].ray, s.hits[k].t, kMaskPhoton);
   ask(paths, stream, s);
   draw(paths, stream, s);
   size_t kept = 0;

@@ -15,6 +15,7 @@ namespace tomales {
 using glm::cross;
 using glm::dot;
 using glm::ivec2;
+using glm::ivec3;
 using glm::mat3;
 using glm::mat4;
 using glm::vec2;

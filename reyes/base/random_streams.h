@@ -48,6 +48,7 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"aspe", "directions through them"},
     {"phot", "the second pair of numbers of a photon's start"},
     {"medi", "collisions of photons in media"},
+    {"volu", "rays that cross a Volume, by turns"},
     {"pass", "passes of photons that are counted at points"},
     {"audi", "pixels that are audited"},
     {"sets", "light that an audit finds there, set by set"},

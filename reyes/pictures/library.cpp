@@ -1,39 +1,20 @@
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "reyes/base/input_file.h"
-#include "reyes/base/process.h"
+#include "reyes/base/module.h"
 #include "reyes/pictures.h"
 #include "reyes/pictures/exr_reader.h"
 
 namespace tomales {
-namespace {
-
-/// Opens the module beside the program, as built, or in lib, as installed; else where the loader finds it, by the run
-/// path of the program (CMakeLists.txt). A sanitizer's loader uses its own run path.
-void* openModule() {
-  constexpr const char* kName = "libtomales_openimageio.so";
-  for (const auto& path : besideProgram(kName))
-    if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return handle;
-  return dlopen(kName, RTLD_LAZY | RTLD_LOCAL);
-}
-
-}  // namespace
-
 const PictureLibrary* pictureLibrary(std::string& error) {
   struct Loaded {
     const PictureLibrary* library = nullptr;
     std::string error;
     Loaded() {
-      void* handle = openModule();  // it is never closed: textures are in use until the end
       using Function = const PictureLibrary* (*)();
-      const auto function = handle ? reinterpret_cast<Function>(dlsym(handle, "tomalesPictureLibrary")) : nullptr;
-      if (function)
-        library = function();
-      else
-        error = dlerror();
+      if (void* function = moduleFunction("libtomales_openimageio.so", "tomalesPictureLibrary", error))
+        library = reinterpret_cast<Function>(function)();
     }
   };
   static const Loaded loaded;

@@ -144,6 +144,7 @@ const std::unordered_map<std::string_view, Builder>& builders() {
       {"SubdivisionMesh", subdivisionMesh},
       {"HierarchicalSubdivisionMesh", subdivisionMesh},
       {"Geometry", geometry},
+      {"Volume", volumeBox},
   };
   return table;
 }

@@ -71,6 +71,13 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
     return;
   }
   if (state_.scope.attributes->detail.empty()) return;  // another level of detail is drawn
+  const bool isVolume = r.name == "Volume";
+  if (isVolume && state_.isOpen(Block::Solid))
+    return state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
+                             description(r) + ": a Volume cannot be part of a solid; the object is dropped");
+  if (isVolume && (keys.size() > 1 || state_.scope.ctm.moving()))
+    state_.warnOnce("volume moves", r, "rib-motion",
+                    description(r) + ": a Volume does not move; it stands where it is when the shutter opens");
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
   if (const float reach = farthest(cameraFromObject, shapes.reach); !(reach < kFarthest)) {
@@ -84,6 +91,11 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   object.shapes = std::move(shapes.keys);
   object.shapeTimes = std::move(shapes.times);
   object.worldFromObject = state_.scope.ctm;
+  if (isVolume) {
+    object.shapes.resize(1);
+    object.shapeTimes.resize(1);
+    object.worldFromObject = Motion::still(state_.scope.ctm.at(state_.globals.options.shutterOpen));
+  }
   state_.scope.attributes = state_.attributes(state_.scope.attributes);
   object.attributes = state_.attributes(attributesOf(r, state_));
   object.where = r.where;

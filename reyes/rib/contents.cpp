@@ -49,9 +49,11 @@ uint64_t contentsOf(const std::vector<const Request*>& keys, const std::vector<f
   uint64_t sum = contentSum(times, scope.uBasis, scope.vBasis, scope.roundCurves, *scope.trim);
   for (const Request* key : keys) {
     sum = contentSum(sum, *key);
-    // The contents of a brick map are in its file.
+    // The contents of brick maps and volumes are in their files.
     const Param* file = key->name == "Geometry" ? findParam(key->params, "filename") : nullptr;
     if (file && !file->strings.empty()) sum = contentSum(sum, fileStamp(file->strings[0]));
+    const Param* volume = key->name == "Volume" ? findParam(key->params, kVolumeStrings) : nullptr;
+    if (volume && !volume->strings.empty()) sum = contentSum(sum, fileStamp(volume->strings[0]));
     if (key->name == "Blobby" && key->args.size() > 3)
       for (const std::string& ground : key->args[3].strings) sum = contentSum(sum, fileStamp(ground));
   }

@@ -13,6 +13,7 @@ PrimPtr curves(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr blobby(const Request& request, const Prim* first, const GroundReader& grounds, Problems& problems);
 /// Turns Points of type "blobby" into a Blobby; returns nothing for others. Throws PrimError.
 std::optional<Request> blobbyOfPoints(const Request& request);
+PrimPtr volumeBox(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr brickMap(const Request& request, const Scope& scope, Problems& problems);
 
 }  // namespace tomales::rib

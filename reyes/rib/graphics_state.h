@@ -36,6 +36,9 @@ struct Scope {
   Attributes& edit();
 };
 
+/// The parameter of a Volume that names its file, then its grid.
+inline constexpr std::string_view kVolumeStrings = "blobbydso:stringargs";
+
 /// ObjectBegin ... ObjectEnd: its requests, and the geometry of those that have been built for some instance.
 struct Master {
   struct Shapes {

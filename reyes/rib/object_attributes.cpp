@@ -9,7 +9,7 @@ namespace {
 /// it.
 ParamList stringsOf(const Request& r) {
   ParamList out;
-  const bool has = r.name != "Points" && r.name != "Geometry";  // their strings say what they are
+  const bool has = r.name != "Points" && r.name != "Geometry" && r.name != "Volume";  // their strings say what they are
   for (const Param& p : r.params)
     if (has && p.type == ValueType::String && p.strings.size() == 1 &&
         (p.storage == Storage::Constant || p.storage == Storage::Uniform)) {
@@ -30,9 +30,31 @@ std::shared_ptr<const ShaderCall> overridden(const ShaderCall& given, const Para
   return call;
 }
 
+// The camera sees the far sides of its box alone, which are clear: what lies before them is shaded as air. It is made
+// of what Interior says, or else has the object's color as its albedo.
+std::shared_ptr<Attributes> attributesOfVolume(const Request& r, const GraphicsState& s) {
+  auto out = std::make_shared<Attributes>(*s.scope.attributes);
+  out->volume = true;
+  out->opacity = vec3(0);
+  out->insideOut = true;
+  out->sides = 1;
+  out->surface = std::make_shared<const ShaderCall>(ShaderCall{"constant", {}, s.scope.ctm, r.where});
+  out->displacement = nullptr;
+  out->displacementBound = 0;
+  out->areaLight = -1;
+  if (out->interior) return out;
+  const auto color = [](const char* name, const vec3& c) {
+    return Param{name, Storage::Uniform, ValueType::Color, 1, {c.x, c.y, c.z}, {}, {}};
+  };
+  const ParamList even{color("scattering", out->color), color("absorption", 1.0f - out->color)};
+  out->interior = std::make_shared<const ShaderCall>(ShaderCall{"medium", even, s.scope.ctm, r.where});
+  return out;
+}
+
 }  // namespace
 
 std::shared_ptr<Attributes> attributesOf(const Request& r, GraphicsState& s) {
+  if (r.name == "Volume") return attributesOfVolume(r, s);
   const std::shared_ptr<Attributes>& given = s.scope.attributes;
   const ParamList strings = stringsOf(r);
   const bool unseen = given->surface && given->surface->name == "null";

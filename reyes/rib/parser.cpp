@@ -51,8 +51,7 @@ void Parser::warn(const char* code, const SourceLoc& where, const std::string& m
 }
 
 bool Parser::fail(const std::string& expected) {
-  const Support support = findSignature(request_.name)->support;
-  const bool missing = support == Support::Draws || support == Support::NotYetGeometry;
+  const bool missing = findSignature(request_.name)->support == Support::Draws;
   warn("rib-arguments", here(),
        fmt::format("{} (line {}): {} was expected, but here is {}; the request is ignored", request_.name,
                    request_.where.line, expected, describe(lexer_.peek())),

@@ -107,7 +107,7 @@ void Reader::perform(const Request& r) {
   static const std::unordered_map<std::string_view, Performer> table = {
       {"ReadArchive", &Reader::readArchive}, {"ArchiveBegin", &Reader::record},     {"ArchiveEnd", &Reader::record},
       {"Procedural", &Reader::procedural},   {"Procedural2", &Reader::procedural2}, {"System", &Reader::system},
-      {"Geometry", &Reader::geometry},       {"Blobby", &Reader::geometry}};
+      {"Geometry", &Reader::geometry},       {"Blobby", &Reader::geometry},         {"Volume", &Reader::geometry}};
   if (const auto it = table.find(r.name); it != table.end()) return (this->*it->second)(r);
   if (changesSurroundings(r.name)) surroundings_.reset();
   declare(r, dictionary_, log_);

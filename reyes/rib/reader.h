@@ -88,7 +88,7 @@ class Reader {
   bool mayEnter(const Request& request, const std::string& key, size_t cost);
   static std::shared_ptr<std::atomic<size_t>> newBudget();
   bool spend(size_t cost);
-  /// Finds the file of Geometry "brickmap" like a texture.
+  /// Finds the files of Geometry "brickmap", of a Volume and of a Blobby like textures.
   void geometry(const Request& request);
   void tellOfFile(const Request& request, const char* kind, const std::string& name, const std::string& path) const {
     if (settings_.onFile) settings_.onFile({kind, name, path, request.where});

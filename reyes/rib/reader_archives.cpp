@@ -124,8 +124,10 @@ void Reader::geometry(const Request& r) {
     tellOfFile(r, "texture", file, path);
     if (!path.empty()) file = path;
   };
-  for (Param& p : found.params)
+  for (Param& p : found.params) {
     if (p.name == "filename") std::for_each(p.strings.begin(), p.strings.end(), find);
+    if (p.name == kVolumeStrings && !p.strings.empty()) find(p.strings[0]);
+  }
   if (r.name == "Blobby" && r.args.size() > 3)
     std::for_each(found.args[3].strings.begin(), found.args[3].strings.end(), find);
   builder_.request(found);

@@ -15,7 +15,7 @@ constexpr size_t kAnswerCost = 10;  // cost of a request of a program: what it d
 constexpr double kSystemPatience_s = 3600;
 constexpr size_t kLongestAnswer = size_t{1} << 30;  // bytes
 
-std::string text(const ParamList& params, const char* name) {
+std::string textParam(const ParamList& params, const char* name) {
   const Param* p = findParam(params, name);
   return p && !p->strings.empty() ? p->strings[0] : "";
 }
@@ -69,8 +69,8 @@ void Reader::procedural2(const Request& r) {
   Request plain{r.name, {}, {}, r.where};
   const auto strings = [](std::vector<std::string> s) { return RibArg{RibArg::Kind::Strings, {}, std::move(s)}; };
   plain.args.push_back({RibArg::Kind::String, {}, {kind.ends_with('2') ? kind.substr(0, kind.size() - 1) : kind}});
-  std::vector<std::string> data{text(r.params, program ? "programname" : plugin ? "dsoname" : "filename")};
-  if (program || plugin) data.push_back(text(r.params, "data"));
+  std::vector<std::string> data{textParam(r.params, program ? "programname" : plugin ? "dsoname" : "filename")};
+  if (program || plugin) data.push_back(textParam(r.params, "data"));
   plain.args.push_back(strings(std::move(data)));
   plain.args.push_back({RibArg::Kind::Numbers, bound ? bound->floats : std::vector<float>(), {}});
   if (bounding != "SimpleBound")

@@ -32,7 +32,6 @@ const std::unordered_map<std::string_view, const char*>& reasons() {
       {"VPAtmosphere", kVisiblePoints},
       {"VPSurface", kVisiblePoints},
       {"VPVolumes", kVisiblePoints},
-      {"Volume", "volumes are not drawn"},
       {"Shader", "shaders do not call each other here"},
       {"Deformation", "Displacement moves surfaces"},
       {"DeformationSurface", "Displacement moves surfaces"},

@@ -11,8 +11,7 @@ namespace tomales::rib {
 namespace {
 
 constexpr bool kParams = true, kNone = false;
-constexpr Support kWorks = Support::Works, kDraws = Support::Draws, kNotYet = Support::NotYet,
-                  kGeometry = Support::NotYetGeometry;
+constexpr Support kWorks = Support::Works, kDraws = Support::Draws, kNotYet = Support::NotYet;
 
 constexpr Signature kTable[] = {
     // Stream, blocks, archives
@@ -142,7 +141,7 @@ constexpr Signature kTable[] = {
     {"Points", "", kParams, kDraws},
     {"Curves", "sIs", kParams, kDraws},
     {"Blobby", "iIFS", kParams, kDraws},
-    {"Volume", "s6I", kParams, kGeometry},
+    {"Volume", "s6I", kParams, kDraws},
     {"Geometry", "s", kParams, kDraws},
     {"Procedural", "sS6", kNone, kDraws},
     {"Procedural2", "ss", kParams, kDraws},
@@ -171,8 +170,6 @@ std::string_view nameOf(Support support) {
       return "draws";
     case Support::NotYet:
       return "ignored";
-    case Support::NotYetGeometry:
-      return "missing";
   }
   return "";
 }

@@ -9,9 +9,8 @@ namespace tomales::rib {
 
 enum class Support {
   Works,
-  Draws,           ///< As Works; without it something would be missing from the picture.
-  NotYet,          ///< It is reported once, then ignored.
-  NotYetGeometry,  ///< As NotYet, and something is missing from the picture.
+  Draws,   ///< As Works; without it something would be missing from the picture.
+  NotYet,  ///< It is reported once, then ignored.
 };
 
 /// `arguments` is a list of letters, one for each positional argument:

@@ -103,10 +103,7 @@ void SceneBuilder::perform(const Request& r) {
   if (inProcedural_ && refuse(r)) return;
   if (isRis(r)) return performRis(r);
   if (performBlock(r) || performHandler(r)) return;
-  const Signature* signature = findSignature(r.name);
-  const bool geometry = signature && signature->support == Support::NotYetGeometry;
-  state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported, ignored" + reasonFor(r.name),
-                  geometry ? Severity::Missing : Severity::Warning);
+  state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported, ignored" + reasonFor(r.name));
 }
 
 // Lights are refused, because other objects that they light must know them before the first bucket.

@@ -4,18 +4,45 @@
 
 namespace tomales {
 
+namespace {
+
+/// Puts what Volumes scatter and hide before colours.
+void layOver(const ShadedPoints& volumes, ShadedPoints& colors) {
+  for (int k = 0; k < 3; ++k)
+    for (size_t i = 0; i < colors.Ci[k].size(); ++i) {
+      const float passes = 1 - volumes.Oi[k][i];
+      colors.Ci[k][i] = volumes.Ci[k][i] + passes * colors.Ci[k][i];
+      colors.Oi[k][i] = 1 - passes * (1 - colors.Oi[k][i]);
+    }
+}
+
+bool transparent(const ShadedPoints& colors, int count) {
+  return std::any_of(std::begin(colors.Oi), std::end(colors.Oi), [&](const AlignedVector<float>& o) {
+    return std::any_of(o.begin(), o.begin() + count, [](float x) { return x < 1; });
+  });
+}
+
+}  // namespace
+
+// Volumes lie behind the atmosphere.
 void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out, const ShadeContext& seen) const {
   const BoundGroup& group = impl_->groups[static_cast<size_t>(points.group())];
-  if (!group.atmosphere) return;
-  const ShaderTimer timer(impl_->stats, *group.atmosphere, points.count());
-  ShadeContext context;
-  context.lights = seen.lights;
+  if (!group.atmosphere && !impl_->hasVolumes) return;
   const ShadedPoints before = out;
   ShadePoints through = points;
   // The air is crossed from the eye to the point, also where rays are parallel and kI has no length of its own.
   for (int i = 0; i < through.count() && !impl_->camera.perspective(); ++i)
     through.set3(kIx, i, vec3(0, 0, through.channel(kPz)[i]));
+  ShadedPoints volumes;
+  const bool crossesVolumes =
+      impl_->hasVolumes && impl_->services && impl_->services->volumesBefore(through, seen, volumes);
+  if (!group.atmosphere && !crossesVolumes) return;
   const auto run = [&](ShadedPoints& colors) {
+    if (crossesVolumes) layOver(volumes, colors);
+    if (!group.atmosphere) return true;
+    const ShaderTimer timer(impl_->stats, *group.atmosphere, points.count());
+    ShadeContext context;
+    context.lights = seen.lights;
     ArenaLease arena;
     Batch batch(*impl_, group, context, *arena);
     batch.setPoints(through, *group.atmosphere, {}, colors, 0);
@@ -27,12 +54,7 @@ void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out, con
     out = before;
     return;
   }
-  const auto transparent = [](const AlignedVector<float>& o, int n) {
-    return std::any_of(o.begin(), o.begin() + n, [](float x) { return x < 1; });
-  };
-  if (std::none_of(std::begin(before.Oi), std::end(before.Oi),
-                   [&](const auto& o) { return transparent(o, points.count()); }))
-    return;
+  if (!transparent(before, points.count())) return;
   ShadedPoints air;
   air.resize(points.count());
   if (!run(air)) return;

@@ -136,6 +136,7 @@ void BoundScene::bindNewGroups() {
     const Attributes& a = *scene.groups[k].attributes;
     binder_->expect(a.surface.get(), TM_SURFACE);
     binder_->expect(a.displacement.get(), TM_DISPLACEMENT);
+    if (a.volume) hasVolumes = true;
     for (const auto& air : {a.atmosphere, a.interior, a.exterior}) binder_->expect(air.get(), TM_VOLUME);
   }
   binder_->prepare();

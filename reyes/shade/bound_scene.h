@@ -1,5 +1,7 @@
 // Every bound shader of a scene: the result of ShadingSystem's constructor. Constant while shading.
 #pragma once
+#include <atomic>
+
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
 #include "reyes/shade/shadow_map.h"
@@ -82,7 +84,8 @@ struct BoundScene {
   const BoundLight* added = nullptr;  ///< The light that Options::wantsIndirect has added for all objects; else null.
   BoundLight stored;                  ///< Stands for all lights where Illumination is not Lights.
   StableVector<BoundGroup> groups;    ///< In the order of Scene::groups.
-  BoundShaderPtr imager;              ///< May be null.
+  std::atomic<bool> hasVolumes = false;  ///< Some group is a Volume.
+  BoundShaderPtr imager;                 ///< May be null.
   ShadeGroup picture{std::make_shared<const Attributes>(), mat4(1.0f), {}, -1};
   BoundGroup pixels;  ///< Stands for the picture while the imager runs.
 

@@ -13,6 +13,8 @@ bool ShadeServices::interpolatedOcclusion(const ShadePoints&, const uint8_t*, Tm
   return false;
 }
 
+bool ShadeServices::volumesBefore(const ShadePoints&, const ShadeContext&, ShadedPoints&) const { return false; }
+
 void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) set(E, i, vec3(0.0f));

@@ -125,7 +125,7 @@ TmServices table() {
   services.structBytes = sizeof services;
   services.abi = TM_SHADER_ABI;
   for (const auto add : {addSurfaceServices, addLightServices, addLobeServices, addRayServices, addOcclusionServices,
-                         addPictureServices, addCloudServices, addMessageServices})
+                         addPictureServices, addCloudServices, addMessageServices, addVolumeServices})
     add(services);
   return services;
 }

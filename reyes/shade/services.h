@@ -13,5 +13,6 @@ void addOcclusionServices(TmServices&);
 void addPictureServices(TmServices&);
 void addCloudServices(TmServices&);
 void addMessageServices(TmServices&);
+void addVolumeServices(TmServices&);
 
 }  // namespace tomales

@@ -132,7 +132,7 @@ bool ShadingSystem::needsRays() const {
                                         light->can(TM_TRACES));
                      }) ||
          std::any_of(impl_->groups.begin(), impl_->groups.end(),
-                     [](const BoundGroup& g) { return g.surface->can(TM_TRACES); });
+                     [](const BoundGroup& g) { return g.surface->can(TM_TRACES) || g.group->attributes->volume; });
 }
 
 }  // namespace tomales

@@ -1,6 +1,7 @@
 #include "reyes/shade/volumes.h"
 
 #include "reyes/shade/primary.h"
+#include "reyes/shade/services.h"
 #include "reyes/shade/system.h"
 
 namespace tomales {
@@ -60,6 +61,29 @@ void crossVolumes(Batch& batch, const TmGrid* g, TmConstVec3 origin, TmConstVec3
     if (!which.empty()) cross(batch, *volume, which, origin, direction, distance, color, opacity);
   }
 }
+
+namespace {
+
+void crossed(void* host, const TmGrid* g, int32_t byAmount, float* distance, float* amount, float* density) {
+  const Batch& batch = batchOf(host);
+  const std::span<const DensityWay> ways = batch.context.ways;
+  forActive(g, [&](int i) {
+    if (ways.empty() || !batch.points) {
+      (byAmount ? distance : amount)[i] = (byAmount ? amount : distance)[i];
+      density[i] = 1;
+      return;
+    }
+    const DensityWay& way = ways[static_cast<size_t>(i % batch.points->count())];  // neighbours follow the points
+    const DensityWay::Place place = byAmount ? way.atAmount(amount[i]) : way.atDistance(distance[i]);
+    distance[i] = place.distance;
+    amount[i] = place.amount;
+    density[i] = place.density;
+  });
+}
+
+}  // namespace
+
+void addVolumeServices(TmServices& services) { services.crossed = crossed; }
 
 bool ShadingSystem::hasVolume(int group, bool inside) const {
   return volumeOf(impl_->groups[static_cast<size_t>(group)], inside) != nullptr;

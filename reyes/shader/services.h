@@ -137,6 +137,14 @@ typedef struct TmServices {
   /* RISpec printf(): prints a line on standard error, which other threads' lines do not break up. It ends with one
    * newline, whether the text has it or not. */
   void (*print)(void* host, const TmGrid*, const char* text);
+
+  /* --- Volumes */
+
+  /* For volume shaders, along the ray of each point from P - I to P: the amount of what fills the volume that lies on
+   * the first `distance` of it, and the density there. The amount is the integral of the density; lengths are units of
+   * the world. With byAmount, `amount` is given and `distance` is found. Where the air is the same everywhere, the
+   * density is 1. */
+  void (*crossed)(void* host, const TmGrid*, int32_t byAmount, float* distance, float* amount, float* density);
 } TmServices;
 
 #ifdef __cplusplus

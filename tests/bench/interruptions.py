@@ -1,6 +1,8 @@
 """Ends a render at random moments by SIGTERM and SIGKILL in turn, resumes it, and tells what is done again (--resume): the CPU
 time of both runs together, against that of one, and the share of the gather rays of the first run that are traced again.
     interruptions.py build/release/tomales [SCENE.rib [KILLS [OPTIONS...]]]
+    interruptions.py build/release/tomales --animation
+The second ends an animation of 20 frames 5 times, and tells how many finished frames are rendered again (--skip-finished).
 Counted rays have no noise, but a killed program tells none, so they are said for SIGTERM alone. They are those of gathering: the
 partial picture that SIGTERM leaves is shaded after the signal, with direct light and rays of its own."""
 import json
@@ -13,9 +15,10 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 program = str(pathlib.Path(sys.argv[1]).resolve())
-scene = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(__file__).parents[2] / "scenes/cornell/cornell.rib").resolve()
+scene = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 and sys.argv[2] != "--animation" else pathlib.Path(__file__).parents[2] / "scenes/cornell/cornell.rib").resolve()
 kills = int(sys.argv[3]) if len(sys.argv) > 3 else 30
 options = sys.argv[4:]
 folder = pathlib.Path(tempfile.mkdtemp())
@@ -40,6 +43,33 @@ def render(picture, *more, after_s=None, number=None):
     return cpu_s() - before, rays, process.returncode
 
 
+def animation(frames=20, kills=5):
+    """A Cornell box that is seen from the left to the right."""
+    text = scene.read_text()
+    head, world = text[:text.index("WorldBegin")], text[text.index("WorldBegin"):]
+    (folder / "turn.rib").write_text(head + "".join(f"FrameBegin {k}\nTranslate {0.02 * k - 0.2:.2f} 0 0\n{world}\nFrameEnd\n" for k in range(1, frames + 1)))
+    command = [program, "turn.rib", "-o", "turn.####.exr", "--one-picture", "--format", "96x96", "--samples", "300", "--skip-finished", "--resume", "-q"]
+
+    def finished():
+        return {p.name: p.stat().st_mtime_ns for p in folder.glob("turn.????.exr")}
+    chance, again, before = random.Random(2), 0, {}
+    for k in range(kills + 1):
+        process = subprocess.Popen(command, cwd=folder, stderr=subprocess.DEVNULL)
+        wanted = frames if k == kills else chance.randint(3, 5) + len(before)
+        while process.poll() is None and (len(finished()) < wanted or k == kills):
+            time.sleep(0.01)
+        time.sleep(0 if k == kills else chance.uniform(0, 0.3))  # within a frame
+        process.send_signal((signal.SIGTERM, signal.SIGKILL)[k % 2])
+        process.wait()
+        now = finished()
+        again += sum(now[name] != stamp for name, stamp in before.items())
+        print(f"run {k + 1}: {len(before)} frames were finished, {len(now)} are; {again} were rendered again so far", flush=True)
+        before = now
+
+
+if "--animation" in sys.argv:
+    animation()
+    sys.exit()
 start = os.times().elapsed
 whole_s, whole_rays, _ = render("whole.exr")
 elapsed_s = os.times().elapsed - start

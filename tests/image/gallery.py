@@ -4,6 +4,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 
 # What the files' comments and READMEs say that they are rendered with; of fewer photons.
 OPTIONS = {"shading/milk.rib": ("--gi", "atlas", "--atlas", "maps", "--photons", "100000", "--bounces", "20")}
@@ -37,7 +38,7 @@ def pictures_of(path, root):
 
 
 def has_to_be_furnished(text):
-    return "plugins:" in text or "slide.png" in text or ".bkm" in text or "photons/" in text
+    return "plugins:" in text or "slide.png" in text or ".vdb" in text or ".bkm" in text or "photons/" in text
 
 
 def furnish(tomales, root, text, folder):
@@ -51,6 +52,8 @@ def furnish(tomales, root, text, folder):
                 subprocess.run([os.environ.get("CXX", "c++"), "-O1", "-std=c++17", "-shared", "-fPIC", "-I", root, source, "-o", folder / f"plugins/{plugin}.so"], check=True)
     if "slide.png" in text:
         (folder / "slide.png").symlink_to(root / "docs/images/displaced.png")
+    if "smoke.vdb" in text:
+        subprocess.run([sys.executable, root / "scenes/smoke/make_smoke.py", "16", folder / "smoke.vdb"], check=True)
     if "cornell.bkm" in text:
         make_brick_map(tomales, root, folder)
     if "photons/" in text:

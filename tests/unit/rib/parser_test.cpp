@@ -189,7 +189,6 @@ TEST(Dictionary, TakesDeclarationsWithMissingParts) {
 }
 
 TEST(RequestTable, KnowsRequestsThatAreNotSupported) {
-  EXPECT_EQ(rib::findSignature("Volume")->support, rib::Support::NotYetGeometry);
   EXPECT_EQ(rib::findSignature("VPInterior")->support, rib::Support::NotYet);
   EXPECT_EQ(rib::findSignature("NoSuchRequest"), nullptr);
   const Requests r(

@@ -1,0 +1,43 @@
+// Private to raytrace: the Volumes of a scene, which rays cross (reyes/density.h). What they let through is exact; what
+// they scatter is for the volume shader to say.
+#pragma once
+#include "raytrace/trace.h"
+#include "reyes/density.h"
+
+namespace tomales {
+
+class Volumes {
+ public:
+  Volumes(const Scene& scene, const ShadingSystem& shading);
+
+  bool none() const { return list_.empty(); }
+  /// The share of light that passes along a ray up to tMax.
+  vec3 passed(const Ray& ray, float tMax, uint32_t mask) const;
+  /// Implements RayScene::throughVolumes().
+  void cross(const std::vector<Ray>& rays, const std::vector<float>& ends, const std::vector<SampleName>& names,
+             uint32_t mask, const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const;
+
+ private:
+  struct Volume {
+    const DensityGrid* density;
+    int group;
+    uint32_t mask;
+    mat4 objectFromCurrent;
+    vec3 extinction;  ///< For each unit of density and of the world's length.
+  };
+  /// A ray in one Volume.
+  struct Crossing {
+    uint32_t ray;
+    const Volume* volume;
+    float enters, leaves;
+  };
+  bool seenBy(const Ray& ray, const Volume& volume, uint32_t mask) const;
+  float unitAlong(const vec3& direction) const { return glm::length(transformVector(worldFromCurrent_, direction)); }
+  void crossOne(std::span<const Crossing> crossings, const std::vector<Ray>& rays, const std::vector<SampleName>& names,
+                uint32_t turn, const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const;
+
+  std::vector<Volume> list_;
+  mat4 worldFromCurrent_;
+};
+
+}  // namespace tomales
