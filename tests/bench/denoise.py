@@ -1,6 +1,6 @@
 """What `tomales denoise` takes out of ten scenes at three levels of noise, and how true the errors are that it states.
 
-    tests/bench/denoise.py build/release/tomales [--format 160x120]
+    tests/bench/denoise.py build/release/tomales [--format 160x120] [--only PART,PART]: of the scenes' names
 
 Errors are root mean squares over the mean colour, against the mean of 8 pictures with 64 times the samples of the
 noisiest level: of the mean of the two halves, of the filtered picture, and both as the command states them.
@@ -26,6 +26,7 @@ LEVELS = (1, 4, 16)  # samples of a light, and 16 times as many rays of a record
 TRUTHS = 8
 
 program = str(pathlib.Path(sys.argv[1]).resolve())
+only = sys.argv[sys.argv.index("--only") + 1].split(",") if "--only" in sys.argv else []
 size = sys.argv[sys.argv.index("--format") + 1] if "--format" in sys.argv else "160x120"
 
 
@@ -43,6 +44,8 @@ with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     print(f"{'scene':28}" + "".join(f"{f'{n} samples: before, after':>26}{'stated':>16}" for n in LEVELS))
     for scene, options in SCENES.items():
+        if only and not any(o in scene for o in only):
+            continue
         path = ROOT / "scenes" / scene
         text = pictures_of(path, ROOT)[0].text
         text = re.sub(r'^(\s*Display "[^"]*") "[^"]*" "[^"]*"', r'\1 "openexr" "Ci,a,z,albedo,normal"', text, count=1, flags=re.M)
