@@ -1,0 +1,52 @@
+/* What the shaders of this scene share: the sun, the sky, and what polished surfaces mirror. Points and directions are in
+ * the coordinate system "city": metres, x to the right, y up, z away from the eye.
+ */
+#ifndef NOON_H
+#define NOON_H
+
+#include "noises.h"
+
+#define SUN normalize(vector(-0.44, 0.82, -0.36))
+
+/* The radiance of the sky without clouds: blue above, pale at the horizon, white around the sun. */
+color skycolor(vector direction) {
+  vector d = normalize(direction);
+  float up = max(ycomp(d), 0), near = max(0, d . SUN);
+  color clear = mix(color(0.62, 0.70, 0.78), color(0.085, 0.21, 0.50), pow(min(1, 1.15 * up), 0.42));
+  return clear + color(0.30, 0.28, 0.24) * pow(near, 8);
+}
+
+/* What sky and houses send to a surface, as diffuse() would say: where no records of light are. */
+color skylight(normal n) {
+  float up = 0.5 + 0.5 * ycomp(n);
+  return mix(color(0.16, 0.145, 0.125), color(0.25, 0.32, 0.42), up);
+}
+
+/* The light at a matte point. Rays that gather light take the sun alone, and add the sky by its formula. */
+color received(normal Nf; float raylevel) {
+  return raylevel > 0 ? diffuse(Nf) + skylight(normalize(ntransform("city", Nf))) : diffuse(Nf);
+}
+
+/* What a polished surface adds to its colour: Fresnel's share of what it mirrors. Points that are themselves seen in a
+ * mirror take the sky, because rays would multiply otherwise.
+ */
+color mirrored(normal Nf; float eta, cone, samples) {
+  float Kr, Kt;
+  vector In = normalize(I), R = normalize(reflect(In, Nf));
+  color seen = skycolor(vtransform("city", R));
+  fresnel(In, Nf, 1 / eta, Kr, Kt);
+  if (raydepth() == 0) seen = trace(P, R, "samplecone", cone, "samples", samples);
+  return Kr * seen;
+}
+
+/* 1 on a line of a width at the middle of x, softened over a pixel. */
+float stroke(float x, middle, width, soft) {
+  return 1 - smoothstep(0.5 * width - 0.5 * soft, 0.5 * width + 0.5 * soft, abs(x - middle));
+}
+
+/* 1 where x lies between two places. */
+float between(float x, low, high, soft) {
+  return smoothstep(low - 0.5 * soft, low + 0.5 * soft, x) * (1 - smoothstep(high - 0.5 * soft, high + 0.5 * soft, x));
+}
+
+#endif
