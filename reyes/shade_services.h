@@ -210,6 +210,8 @@ class ShadeServices {
   virtual float emitterReach(int light) const = 0;
   /// The area of all geometry of an area light; 0 if it has none.
   virtual float emitterArea(int light) const = 0;
+  /// The box around all geometry of an area light; empty if it has none.
+  virtual Bound3 emitterBound(int) const { return {}; }
 
   /// Gives the indirect diffuse light on the side of N.
   virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,

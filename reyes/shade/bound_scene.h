@@ -2,6 +2,7 @@
 #pragma once
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
+#include "reyes/shade/light_sets.h"
 #include "reyes/shade/shadow_map.h"
 #include "reyes/shade/sky.h"
 #include "reyes/shade/texture.h"
@@ -10,6 +11,7 @@
 namespace tomales {
 
 constexpr int kMostLightSamples = 1 << 12;  ///< The limit for one light and one point.
+constexpr int kLightCut = 32;               ///< Option "trace" "lightcut" where the scene says nothing.
 
 /// All that is known of a light, from its shader's capabilities and roles (bind_lights.cpp).
 struct BoundLight {
@@ -52,6 +54,7 @@ struct BoundGroup {
   BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< Each may be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
+  std::shared_ptr<const LightChoice> choice;  ///< Of these lights; groups that have the same ones share it.
   std::optional<IndirectQuery> indirect;
   std::vector<BoundVariable> variables;  ///< In the order of FrameOutput::variables.
   /// The surface for rays that gather diffuse light.
@@ -74,6 +77,7 @@ struct BoundScene {
   CloudServices* clouds = nullptr;
   Camera camera;
   mat4 cameraFromWorld;
+  int lightCut;             ///< Option "trace" "lightcut": how many of many lights a point runs; 0: all.
   float specularSharpness;  ///< Divided by the roughness, it is the exponent of specular().
   Textures textures;
   ShadowMaps shadowMaps;
@@ -87,10 +91,11 @@ struct BoundScene {
   BoundGroup pixels;  ///< Stands for the picture while the imager runs.
 
  private:
-  BoundGroup bound(const ShadeGroup& group) const;
+  BoundGroup bound(const ShadeGroup& group);
   void addIndirectLight();
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
+  std::map<std::vector<const BoundLight*>, std::shared_ptr<const LightChoice>> choices_;
   bool grows_ = false;  ///< True if procedurals may add groups while the frame is rendered.
 };
 
