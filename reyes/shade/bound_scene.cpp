@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reyes/base/checksum.h"
 #include "reyes/dialect.h"
 #include "reyes/rsl_host.h"
 #include "reyes/shade/binder.h"
@@ -175,8 +176,8 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) {
     if (index >= 0 && index < static_cast<int>(lights.size()) && lights[static_cast<size_t>(index)])
       g.lights.push_back(lights[static_cast<size_t>(index)].get());
   if (added) g.lights.push_back(added);
-  std::shared_ptr<const LightChoice>& choice = choices_[g.lights];
-  if (!choice) choice = std::make_shared<LightChoice>(g.lights);
+  std::shared_ptr<const LightChoice>& choice = choices_[checksum(std::as_bytes(std::span(g.lights)))];
+  if (!choice) choice = std::make_shared<LightChoice>();
   g.choice = choice;
   for (const BoundLight* light : g.lights)
     if (light->can(TM_LIGHT_INDIRECT) && a.indirect.receive && !g.indirect) {

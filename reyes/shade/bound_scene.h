@@ -95,7 +95,7 @@ struct BoundScene {
   void addIndirectLight();
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
-  std::map<std::vector<const BoundLight*>, std::shared_ptr<const LightChoice>> choices_;
+  std::map<uint64_t, std::shared_ptr<const LightChoice>> choices_;  ///< By the checksum of their lists of lights.
   bool grows_ = false;  ///< True if procedurals may add groups while the frame is rendered.
 };
 

@@ -122,9 +122,9 @@ std::unique_ptr<const LightSets> setsOf(const std::vector<const BoundLight*>& li
 
 }  // namespace
 
-const LightSets* LightChoice::sets(const BoundScene& scene) const {
-  if (scene.lightCut == 0 || lights_.size() <= kFewLights * static_cast<size_t>(scene.lightCut)) return nullptr;
-  std::call_once(once_, [&] { sets_ = setsOf(lights_, scene); });
+const LightSets* LightChoice::sets(const BoundScene& scene, const std::vector<const BoundLight*>& lights) const {
+  if (scene.lightCut == 0 || lights.size() <= kFewLights * static_cast<size_t>(scene.lightCut)) return nullptr;
+  std::call_once(once_, [&] { sets_ = setsOf(lights, scene); });
   return sets_.get();
 }
 

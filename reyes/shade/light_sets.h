@@ -32,12 +32,10 @@ struct LightSets {
 /// lamps with geometry are known by then.
 class LightChoice {
  public:
-  explicit LightChoice(std::vector<const BoundLight*> lights) : lights_(std::move(lights)) {}
-  /// Null if all lights run.
-  const LightSets* sets(const BoundScene& scene) const;
+  /// Null if all lights run. `lights` are the same each time.
+  const LightSets* sets(const BoundScene& scene, const std::vector<const BoundLight*>& lights) const;
 
  private:
-  std::vector<const BoundLight*> lights_;
   mutable std::once_flag once_;
   mutable std::unique_ptr<const LightSets> sets_;
 };

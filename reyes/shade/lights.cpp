@@ -35,7 +35,8 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 
 const LightSets* Lights::setsOf(const Batch& batch) const {
-  return group_ || batch.context.lights || !batch.points ? nullptr : batch.group.choice->sets(batch.scene);
+  return group_ || batch.context.lights || !batch.points ? nullptr
+                                                         : batch.group.choice->sets(batch.scene, batch.group.lights);
 }
 
 const std::vector<const BoundLight*>& Lights::alone(const Batch& batch) const {
