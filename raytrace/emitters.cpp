@@ -178,7 +178,8 @@ Bound3 Emitters::bound(int light) const {
   if (!known(light)) return out;
   for (const EmitterShape& s : given(light).shapes) {
     const vec3 half = s.kind == EmitterShape::Kind::Sphere ? vec3(glm::length(s.u)) : glm::abs(s.u) + glm::abs(s.v);
-    out.extend(s.center - half), out.extend(s.center + half);
+    out.extend(s.center - half);
+    out.extend(s.center + half);
   }
   for (const EmitterLattice& lattice : given(light).lattices)
     for (const auto& quad : lattice.quads)

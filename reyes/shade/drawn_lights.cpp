@@ -55,7 +55,10 @@ class Drawing {
   const std::vector<LampOfPoint>& next() {
     for (size_t i = 0; i < at_.size(); ++i) {
       LampOfPoint& l = at_[i];
-      if (l.lamp != kNoLamp && ++l.sample == l.samples) l.lamp = kNoLamp, ++cluster_[i];
+      if (l.lamp != kNoLamp && ++l.sample == l.samples) {
+        l.lamp = kNoLamp;
+        ++cluster_[i];
+      }
       const std::span<const LampCluster> clusters = cuts_.at(static_cast<int>(i));
       if (l.lamp == kNoLamp && cluster_[i] < clusters.size()) l = drawn(static_cast<int>(i), clusters[cluster_[i]]);
     }
@@ -113,16 +116,19 @@ TmVec3 beforeEmitters(Batch& batch, const LightSet& drawn, const std::vector<Lam
 void sampleEmitters(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps, TmGrid& g,
                     const EmitterPoints& points) {
   float *xi0 = batch.arena.floats(g.count), *xi1 = batch.arena.floats(g.count);
-  g.xi0 = xi0, g.xi1 = xi1;
+  g.xi0 = xi0;
+  g.xi1 = xi1;
   for (int i = 0; i < g.count; ++i) {
     const LampOfPoint& l = lamps[static_cast<size_t>(i)];
     if (!g.active[i]) continue;
     const BoundLight& light = *drawn.lights[l.lamp];
     const vec2 xi = sampleAt(batch, light, i, l.sample, l.samples);
-    xi0[i] = xi.x, xi1[i] = xi.y;
+    xi0[i] = xi.x;
+    xi1[i] = xi.y;
     if (!batch.scene.services->sampleEmitter(light.index, 1, from(view(g.P), i), xi0 + i, xi1 + i, from(points, i)))
       continue;
-    points.density[i] *= l.expected, points.meetDensity[i] *= l.expected;
+    points.density[i] *= l.expected;
+    points.meetDensity[i] *= l.expected;
     set(g.L, i, get(g.Pl, i) - get(g.P, i));
   }
 }
@@ -159,17 +165,22 @@ void Lights::evaluateDrawn(Batch& batch, const LightSet& lamps) {
     openOutputs(batch, *first.bound, params_.emplace_back(paramsOf(batch, lamps, at)));
     tell(batch, *first.bound, params_.back());
     g.params = params_.back().data();
-    g.sample = 0, g.samples = 1;
+    g.sample = 0;
+    g.samples = 1;
     EmitterPoints points{};
-    if (area) points = emitterPoints(batch, first, g), sampleEmitters(batch, lamps, at, g, points);
+    if (area) {
+      points = emitterPoints(batch, first, g);
+      sampleEmitters(batch, lamps, at, g, points);
+    }
     if (!batch.run(*first.bound, g)) return;
     darkenNonFinite(batch, *first.bound, g);
     if (area) radianceToSample(g, points.density);
-    for (int i = 0; i < g.count; ++i)
-      if (!has[i])
-        set(g.L, i, batch.points->facingNormal(i)), set(g.Cl, i, vec3(0.0f));
-      else if (!area)
-        set(g.Cl, i, get(g.Cl, i) / at[static_cast<size_t>(i)].expected);
+    for (int i = 0; i < g.count; ++i) {
+      if (!area) set(g.Cl, i, get(g.Cl, i) / at[static_cast<size_t>(i)].expected);
+      if (has[i]) continue;
+      set(g.L, i, batch.points->facingNormal(i));
+      set(g.Cl, i, vec3(0.0f));
+    }
     LightSample sample{&first,
                        batch.arena.vec3(batch.tm.count),
                        g.Cl,
@@ -208,7 +219,8 @@ void Lights::alongDrawn(Batch& batch, const LightSet& lamps, const LobeDirection
   }
   for (size_t run = 0; run < runs; ++run) {
     TmGrid g = lightGrid(batch, first);
-    g.sample = lobe.sample, g.samples = lobe.samples;
+    g.sample = lobe.sample;
+    g.samples = lobe.samples;
     uint8_t* met = batch.arena.bytes(g.count);
     const EmitterPoints points = emitterPoints(batch, first, g);
     std::vector<LampOfPoint> at(static_cast<size_t>(n));
@@ -218,7 +230,9 @@ void Lights::alongDrawn(Batch& batch, const LightSet& lamps, const LobeDirection
       const uint32_t lamp = near[static_cast<size_t>(i)][run];
       services.meetEmitter(lamps.lights[lamp]->index, 1, from(view(g.P), i), from(lobe.L, i), from(points, i));
       if (!(points.density[i] > 0)) continue;
-      met[i] = 1, any = true, at[static_cast<size_t>(i)].lamp = lamp;
+      met[i] = 1;
+      any = true;
+      at[static_cast<size_t>(i)].lamp = lamp;
       set(g.L, i, get(g.Pl, i) - get(g.P, i));
       const float a = points.density[i] * lamps.tree.expected(receiverOf(batch, i), cuts.at(i), lamp),
                   b = static_cast<float>(lobe.samples) * lobe.density[i];

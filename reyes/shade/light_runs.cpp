@@ -21,7 +21,8 @@ bool applies(const BoundLight& light, const Batch& batch) {
 TmGrid lightGrid(Batch& batch, const BoundLight& light) {
   TmGrid g = *Primary(batch, &batch.tm).grid();
   g.params = light.bound->values.data();
-  g.L = batch.arena.vec3(batch.tm.count), g.Cl = batch.arena.vec3(batch.tm.count);
+  g.L = batch.arena.vec3(batch.tm.count);
+  g.Cl = batch.arena.vec3(batch.tm.count);
   return g;
 }
 
@@ -37,7 +38,10 @@ void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& p
 void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
   if (allFinite(g.count, view(g.Cl)) && allFinite(g.count, view(g.L))) return;
   for (int i = 0; i < g.count; ++i)
-    if (!isFinite(get(g.Cl, i)) || !isFinite(get(g.L, i))) set(g.Cl, i, vec3(0)), set(g.L, i, vec3(0));
+    if (!isFinite(get(g.Cl, i)) || !isFinite(get(g.L, i))) {
+      set(g.Cl, i, vec3(0));
+      set(g.L, i, vec3(0));
+    }
   const BoundShader* caller = std::exchange(batch.running, &light);
   batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; it casts no light there");
   batch.running = caller;

@@ -32,8 +32,11 @@ uint32_t LightTree::build(std::span<uint32_t> order) {
   const auto index = static_cast<uint32_t>(nodes_.size());
   Bound3 bound, centers;
   float power = 0;
-  for (const uint32_t l : order)
-    bound.extend(lamps_[l].bound), centers.extend(lamps_[l].bound.center()), power += lamps_[l].power;
+  for (const uint32_t l : order) {
+    bound.extend(lamps_[l].bound);
+    centers.extend(lamps_[l].bound.center());
+    power += lamps_[l].power;
+  }
   nodes_.push_back({bound.center(), 0.5f * glm::length(bound.size()), power, 0, 0, order[0]});
   if (order.size() > 1) {
     const vec3 size = centers.size();
@@ -77,7 +80,8 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
     const bool whole = nodes_[node].right == 0 && n >= perLamp;
     heap.push_back({whole ? 0 : expected / static_cast<float>(n), expected, {node, n}});
     std::push_heap(heap.begin(), heap.end());
-    light += expected, samples += n;
+    light += expected;
+    samples += n;
   };
   add(0, 1);
   while (heap.front().error > kClusterShare * light) {
@@ -87,11 +91,14 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
     if (samples + (leaf ? twice - n : 1) > most) break;
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
-    light -= worst.light, samples -= n;
-    if (leaf)
+    light -= worst.light;
+    samples -= n;
+    if (leaf) {
       add(worst.cluster.node, twice);
-    else
-      add(worst.cluster.node + 1, 1), add(nodes_[worst.cluster.node].right, 1);
+      continue;
+    }
+    add(worst.cluster.node + 1, 1);
+    add(nodes_[worst.cluster.node].right, 1);
   }
   for (const Refinable& r : heap) out.push_back(r.cluster);
 }

@@ -98,8 +98,8 @@ void LightUse::countStops(const Batch& batch) {
   static thread_local std::vector<float> sum;
   for (size_t begin = 0, end; begin < samples.size(); begin = end) {
     const BoundLight& light = *samples[begin].light;
-    if (samples[end = begin].drawn) {
-      ++end;
+    if (samples[begin].drawn) {
+      end = begin + 1;
       continue;
     }
     sum.assign(static_cast<size_t>(counted), 0.0f);

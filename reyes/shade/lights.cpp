@@ -32,6 +32,7 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
 }
 
 }  // namespace
+
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 
 const LightSets* Lights::setsOf(const Batch& batch) const {
