@@ -138,6 +138,7 @@ class GiServices final : public ShadeServices {
   void storedIrradiance(const ShadePoints&, const uint8_t* active, TmVec3 E) const override;
   float emitterReach(int light) const override;
   float emitterArea(int light) const override;
+  Bound3 emitterBound(int light) const override;
   bool interpolatedOcclusion(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const OcclusionQuery&,
                              const ShadeContext&, float* covered) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,

@@ -173,6 +173,20 @@ float Emitters::reach(int light) const { return known(light) ? given(light).reac
 
 float Emitters::area(int light) const { return known(light) ? static_cast<float>(sources(light).areas.total()) : 0.0f; }
 
+Bound3 Emitters::bound(int light) const {
+  Bound3 out;
+  if (!known(light)) return out;
+  for (const EmitterShape& s : given(light).shapes) {
+    const vec3 half = s.kind == EmitterShape::Kind::Sphere ? vec3(glm::length(s.u)) : glm::abs(s.u) + glm::abs(s.v);
+    out.extend(s.center - half);
+    out.extend(s.center + half);
+  }
+  for (const EmitterLattice& lattice : given(light).lattices)
+    for (const auto& quad : lattice.quads)
+      for (const vec3& corner : quad) out.extend(corner);
+  return out;
+}
+
 Emitters::AreaPoint Emitters::onLattice(const EmitterLight& light, const Source& source, double u, double v) const {
   const EmitterLattice& lattice = light.lattices[source.lattice];
   const size_t row = source.rows.pick(v), column = source.row[row].pick(u);

@@ -40,6 +40,7 @@ class Emitters {
 
   float reach(int light) const;
   float area(int light) const;
+  Bound3 bound(int light) const;
 
   /// Tells whether some emitter of this light has an area.
   bool shines(int light) const { return known(light) && sources(light).areas.count() > 0; }

@@ -29,6 +29,9 @@ struct Variable {
   SourceLoc where;  ///< Location of the request that asks for it.
 };
 
+/// Names what a group of lights brings.
+constexpr std::string_view kLightGroup = "lightgroup:";
+
 inline bool isMatte(ChannelKind kind) { return kind == ChannelKind::Objects || kind == ChannelKind::Materials; }
 /// Names of Cryptomatte layers.
 inline const char* matteLayer(ChannelKind kind) {

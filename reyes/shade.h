@@ -47,6 +47,9 @@ class ShadingSystem {
 
   /// Services may arrive after construction (they need the ray scene, which needs displacement).
   void setServices(const ShadeServices* services);
+  /// Has each point run all its lights, whatever Option "trace" "lightcut" says: pictures of single groups of lights
+  /// then add up. Call it before anything is shaded.
+  void runAllLights();
   void setClouds(CloudServices* clouds);
 
   /// Binds the groups that Scene::add() has added. One thread at a time; others may use the older groups meanwhile.

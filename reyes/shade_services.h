@@ -215,6 +215,8 @@ class ShadeServices {
   virtual float emitterReach(int light) const = 0;
   /// The area of all geometry of an area light; 0 if it has none.
   virtual float emitterArea(int light) const = 0;
+  /// The box around all geometry of an area light; empty if it has none.
+  virtual Bound3 emitterBound(int) const { return {}; }
 
   /// Gives what Volumes scatter and hide between the eye and points that it sees, from P - I to P. Returns false if
   /// there is no Volume.

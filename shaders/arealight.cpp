@@ -35,6 +35,6 @@ void shade(const TmGrid* g) {
 
 extern const rsl::Shader arealightShader;
 const rsl::Shader arealightShader(TM_LIGHT, "arealight", "geometry that emits light; use with AreaLightSource",
-                                  TM_LIGHT_AREA | TM_LIGHT_SHADOWED, shade,
+                                  TM_LIGHT_AREA | TM_LIGHT_SHADOWED | TM_LIGHT_BOUNDED, shade,
                                   {&intensity, &lightcolor, &area, &samples, &visible, &coneangle, &axis,
                                    &conedeltaangle, &beamdistribution});

@@ -3,7 +3,7 @@
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1", TM_ROLE_SCALE);
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour", TM_ROLE_TINT);
-rsl::PointParam from("from", {0, 0, 0}, "position");
+rsl::PointParam from("from", {0, 0, 0}, "position", TM_ROLE_POSITION);
 ShadowParams shadow;
 rsl::StringParam sfpx("sfpx", "", "shadow map towards +x", TM_ROLE_SHADOW_MAP),
     sfnx("sfnx", "", "towards -x", TM_ROLE_SHADOW_MAP), sfpy("sfpy", "", "towards +y", TM_ROLE_SHADOW_MAP),
@@ -27,11 +27,11 @@ void shadeShadowed(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader pointlightShader, shadowpointShader;
-const rsl::Shader pointlightShader(TM_LIGHT, "pointlight", "light from a point, inverse square", 0, shade,
-                                   {&intensity, &lightcolor, &from});
+const rsl::Shader pointlightShader(TM_LIGHT, "pointlight", "light from a point, inverse square", TM_LIGHT_BOUNDED,
+                                   shade, {&intensity, &lightcolor, &from});
 // The same parameters may serve two shaders at the same places.
 const rsl::Shader shadowpointShader(TM_LIGHT, "shadowpoint",
-                                    "pointlight with shadows: traced, or of a shadow map for each direction", 0,
-                                    shadeShadowed,
+                                    "pointlight with shadows: traced, or of a shadow map for each direction",
+                                    TM_LIGHT_BOUNDED, shadeShadowed,
                                     {&intensity, &lightcolor, &from, &shadow.shadowname, &shadow.samples, &shadow.blur,
                                      &shadow.width, &shadow.shadowbias, &sfpx, &sfnx, &sfpy, &sfny, &sfpz, &sfnz});

@@ -4,7 +4,7 @@
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale: the light at distance 1 on the axis", TM_ROLE_SCALE);
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour", TM_ROLE_TINT);
-rsl::PointParam from("from", {0, 0, 0}, "position");
+rsl::PointParam from("from", {0, 0, 0}, "position", TM_ROLE_POSITION);
 rsl::PointParam to("to", {0, 0, 1}, "a point on the axis");
 rsl::FloatParam coneangle("coneangle", 0.523598776f, "half angle of the cone, radians");
 rsl::FloatParam conedeltaangle("conedeltaangle", 0.0872664626f, "width of the soft edge inside the cone, radians");
@@ -34,12 +34,13 @@ void shadeShadowed(const TmGrid* g) {
 }  // namespace
 
 extern const rsl::Shader spotlightShader, shadowspotShader;
-const rsl::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point into a soft-edged cone", 0, shade,
+const rsl::Shader spotlightShader(TM_LIGHT, "spotlight", "light from a point into a soft-edged cone", TM_LIGHT_BOUNDED,
+                                  shade,
                                   {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle,
                                    &beamdistribution});
 // The same parameters may serve two shaders at the same places.
-const rsl::Shader shadowspotShader(TM_LIGHT, "shadowspot", "spotlight with shadows: traced, or of a shadow map", 0,
-                                   shadeShadowed,
+const rsl::Shader shadowspotShader(TM_LIGHT, "shadowspot", "spotlight with shadows: traced, or of a shadow map",
+                                   TM_LIGHT_BOUNDED, shadeShadowed,
                                    {&intensity, &lightcolor, &from, &to, &coneangle, &conedeltaangle, &beamdistribution,
                                     &shadow.shadowname, &shadow.samples, &shadow.blur, &shadow.width,
                                     &shadow.shadowbias});

@@ -213,6 +213,11 @@ float GiServices::emitterArea(int light) const {
   return emitters ? emitters->area(light) : 0.0f;
 }
 
+Bound3 GiServices::emitterBound(int light) const {
+  const Emitters* emitters = impl_->knownEmitters();
+  return emitters ? emitters->bound(light) : Bound3();
+}
+
 void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                  const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const {
   const bool audit = context.auditPaths > 0, counted = impl_->settings.mode == GiMode::Progressive;

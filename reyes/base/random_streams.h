@@ -45,6 +45,7 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"more", "the same from those points on"},
     {"radi", "places in texels of radiosity maps"},
     {"port", "places in portals of a sky"},
+    {"lamp", "lamps that are drawn from many"},
     {"aspe", "directions through them"},
     {"phot", "the second pair of numbers of a photon's start"},
     {"medi", "collisions of photons in media"},

@@ -51,7 +51,8 @@ constexpr Standard kStandard[] = {
     {"int[2]", "limits:bucketsize bucket:orderorigin"},
     {"int",
      "limits:gridsize limits:texturememory limits:eyesplits limits:threads limits:brickmemory "
-     "limits:geocachememory render:prmanspecular limits:maxshadinggrids statistics:endofframe trace:maxdepth"},
+     "limits:geocachememory render:prmanspecular limits:maxshadinggrids statistics:endofframe trace:maxdepth "
+     "trace:lightcut"},
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "

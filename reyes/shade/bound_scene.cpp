@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reyes/base/checksum.h"
 #include "reyes/dialect.h"
 #include "reyes/rsl_host.h"
 #include "reyes/shade/binder.h"
@@ -74,6 +75,11 @@ float specularSharpnessOf(const Scene& scene, Log& log) {
   return convention == "rispec" ? 1.0f : 8.0f;
 }
 
+int lightCutOf(const Options& options) {
+  const Param* cut = optionOf(options, "trace:lightcut");
+  return cut ? std::clamp(static_cast<int>(cut->number(0)), 0, kMostLightSamples) : kLightCut;
+}
+
 /// Option "limits" "texturememory" is in KB.
 int64_t textureMemoryOf(const Options& options) {
   const Param* limit = optionOf(options, "limits:texturememory");
@@ -96,6 +102,7 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       stats(st),
       camera(s.options),
       cameraFromWorld(s.cameraFromWorldAtOpen()),
+      lightCut(lightCutOf(s.options)),
       specularSharpness(specularSharpnessOf(s, l)),
       textures({pathOf(s.options.searchPaths, "texture"), pathOf(s.options.searchPaths, "texturecache"),
                 textureMemoryOf(s.options)},
@@ -103,6 +110,9 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
       shadowMaps(pathOf(s.options.searchPaths, "texture"), l),
       skies(textures, skyFromCurrent(cameraFromWorld)) {
   output_ = outputOf(scene.options);
+  if (std::any_of(output_.variables.begin(), output_.variables.end(),
+                  [](const Variable& v) { return v.source.starts_with(kLightGroup); }))
+    lightCut = 0;
   binder_ = std::make_unique<Binder>(scene, registry, textures, shadowMaps, log);
   for (const auto& call : scene.lights) binder_->expect(&call->shader, TM_LIGHT);
   if (scene.options.imager) binder_->expect(&*scene.options.imager, TM_IMAGER);
@@ -143,7 +153,7 @@ void BoundScene::bindNewGroups() {
   while (groups.size() < scene.groups.size()) groups.push_back(bound(scene.groups[groups.size()]));
 }
 
-BoundGroup BoundScene::bound(const ShadeGroup& group) const {
+BoundGroup BoundScene::bound(const ShadeGroup& group) {
   BoundGroup g;
   g.group = &group;
   const Attributes& a = *group.attributes;
@@ -167,6 +177,9 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) const {
     if (index >= 0 && index < static_cast<int>(lights.size()) && lights[static_cast<size_t>(index)])
       g.lights.push_back(lights[static_cast<size_t>(index)].get());
   if (added) g.lights.push_back(added);
+  std::shared_ptr<const LightChoice>& choice = choices_[checksum(std::as_bytes(std::span(g.lights)))];
+  if (!choice) choice = std::make_shared<LightChoice>();
+  g.choice = choice;
   for (const BoundLight* light : g.lights)
     if (light->can(TM_LIGHT_INDIRECT) && a.indirect.receive && !g.indirect) {
       g.indirect = light->query;

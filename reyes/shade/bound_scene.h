@@ -4,6 +4,7 @@
 
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
+#include "reyes/shade/light_sets.h"
 #include "reyes/shade/shadow_map.h"
 #include "reyes/shade/sky.h"
 #include "reyes/shade/texture.h"
@@ -12,6 +13,7 @@
 namespace tomales {
 
 constexpr int kMostLightSamples = 1 << 12;  ///< The limit for one light and one point.
+constexpr int kLightCut = 32;               ///< Option "trace" "lightcut" where the scene says nothing.
 
 /// All that is known of a light, from its shader's capabilities and roles (bind_lights.cpp).
 struct BoundLight {
@@ -54,6 +56,7 @@ struct BoundGroup {
   BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< Each may be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
+  std::shared_ptr<const LightChoice> choice;  ///< Of these lights; groups that have the same ones share it.
   std::optional<IndirectQuery> indirect;
   std::vector<BoundVariable> variables;  ///< In the order of FrameOutput::variables.
   /// The surface for rays that gather diffuse light.
@@ -76,6 +79,7 @@ struct BoundScene {
   CloudServices* clouds = nullptr;
   Camera camera;
   mat4 cameraFromWorld;
+  int lightCut;             ///< Option "trace" "lightcut": how many of many lights a point runs; 0: all.
   float specularSharpness;  ///< Divided by the roughness, it is the exponent of specular().
   Textures textures;
   ShadowMaps shadowMaps;
@@ -90,10 +94,11 @@ struct BoundScene {
   BoundGroup pixels;  ///< Stands for the picture while the imager runs.
 
  private:
-  BoundGroup bound(const ShadeGroup& group) const;
+  BoundGroup bound(const ShadeGroup& group);
   void addIndirectLight();
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
+  std::map<uint64_t, std::shared_ptr<const LightChoice>> choices_;  ///< By the checksum of their lists of lights.
   bool grows_ = false;  ///< True if procedurals may add groups while the frame is rendered.
 };
 

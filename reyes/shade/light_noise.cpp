@@ -39,8 +39,8 @@ std::vector<Halves> halvesOf(Batch& batch, const std::vector<LightSample>& sampl
   for (size_t begin = 0, end; begin < samples.size(); begin = end) {
     for (end = begin + 1; end < samples.size() && samples[end].light == samples[begin].light;) ++end;
     const BoundLight& which = *samples[begin].light;
-    const Halves& light = out.emplace_back(
-        Halves{&which, isDrawn(which) && end - begin > 1, batch.arena.floats(n), batch.arena.floats(n)});
+    const Halves& light = out.emplace_back(Halves{&which, isDrawn(which) && end - begin > 1 && !samples[begin].drawn,
+                                                  batch.arena.floats(n), batch.arena.floats(n)});
     std::fill_n(light.first, n, 0.0f);
     std::fill_n(light.second, n, 0.0f);
     for (size_t s = begin; s < end; ++s)
@@ -57,7 +57,7 @@ void LightNoise::add(Batch& batch) {
     return;
   const std::vector<LightSample>& samples = batch.lights.evaluated();
   if (std::none_of(samples.begin(), samples.end(),
-                   [](const LightSample& s) { return isDrawn(*s.light) && s.rays.samples > 1; }))
+                   [](const LightSample& s) { return isDrawn(*s.light) && s.rays.samples > 1 && !s.drawn; }))
     return;
   const std::vector<Halves> lights = halvesOf(batch, samples);
   // Points that are smaller than a pixel share their noise in it.

@@ -125,7 +125,7 @@ int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   if (out->structBytes < offsetof(TmIlluminance, nonspecular)) return 0;  // no room for the answer
   Batch& place = placeOf(batch, g, query);
   const std::string_view category = query.category ? query.category : "";
-  const auto& lights = place.group.lights;
+  const auto& lights = place.lights.alone(place);
   std::vector<LightSample>& samples =
       place.lights.samples(place, std::any_of(lights.begin(), lights.end(), [&](const BoundLight* light) {
                              return light->can(TM_LIGHT_INDIRECT) && inCategory(light->category, category);

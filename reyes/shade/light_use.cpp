@@ -62,12 +62,13 @@ void LightUse::add(const Batch& batch) {
     const std::lock_guard lock(mutex_);
     unlit_.insert(&batch.group);
   }
-  for (const BoundLight* light : lights) {
+  for (const BoundLight* light : batch.lights.alone(batch)) {
     Lamp& lamp = lamps_[static_cast<size_t>(light->index)];
     lamp.asked.store(true, std::memory_order_relaxed);
     if (light->can(TM_LIGHT_AMBIENT)) lamp.comes.store(true, std::memory_order_relaxed);
   }
   for (const LightSample& sample : batch.lights.evaluated()) {
+    if (sample.drawn) continue;  // few of many lights say nothing of each
     Lamp& lamp = lamps_[static_cast<size_t>(sample.light->index)];
     if (!lamp.comes.load(std::memory_order_relaxed)) follow(batch, sample, lamp);
   }
@@ -97,6 +98,10 @@ void LightUse::countStops(const Batch& batch) {
   static thread_local std::vector<float> sum;
   for (size_t begin = 0, end; begin < samples.size(); begin = end) {
     const BoundLight& light = *samples[begin].light;
+    if (samples[begin].drawn) {
+      end = begin + 1;
+      continue;
+    }
     sum.assign(static_cast<size_t>(counted), 0.0f);
     for (end = begin; end < samples.size() && samples[end].light == &light; ++end)
       for (int i = 0; i < n; i += kCounted) {

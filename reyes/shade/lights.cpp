@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "reyes/base/rng.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/illuminate.h"
+#include "reyes/shade/light_runs.h"
 #include "reyes/shade/light_services.h"
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shade/primary.h"
@@ -12,72 +12,18 @@
 namespace tomales {
 namespace {
 
-bool bringsLights(Illumination light) {
-  return light == Illumination::Lights || light == Illumination::LightsAndStored;
-}
-bool bringsStored(Illumination light) {
-  return light == Illumination::Stored || light == Illumination::LightsAndStored;
-}
-
-/// Tells whether the light counts for rays of the batch's kind.
-bool isOn(const BoundLight& light, const Batch& batch) {
-  if (!(batch.context.kind == RayKind::Diffuse ? light.indirect : light.direct)) return false;
-  if (!light.can(TM_LIGHT_INDIRECT)) return batch.context.direct || batch.context.kind != RayKind::Camera;
-  return batch.context.indirect && batch.group.group->attributes->indirect.receive &&
-         !(batch.points && batch.points->inAir());
-}
-
-bool applies(const BoundLight& light, const Batch& batch) {
-  if (batch.points == nullptr) return false;  // displacement shaders see no light
-  return bringsLights(batch.context.light) && batch.context.kind != RayKind::Transmission && isOn(light, batch);
-}
-
 /// Tells whether the context lets the light shine. A direct light that it leaves out still counts where numbers of
 /// samples are chosen, so that the pictures of single lights add up.
 bool shines(const BoundLight& light, const Batch& batch) {
   return light.can(TM_LIGHT_INDIRECT) || isMeant(light, batch.context);
 }
 
-/// The grid of the points for a light shader, without neighbours; its results have room for those.
-TmGrid lightGrid(Batch& batch, const BoundLight& light) {
-  TmGrid g = *Primary(batch, &batch.tm).grid();
-  g.params = light.bound->values.data();
-  g.L = batch.arena.vec3(batch.tm.count);
-  g.Cl = batch.arena.vec3(batch.tm.count);
-  return g;
-}
-
-/// Makes room for the outputs of a light, so that lightsource() can read them.
-void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) {
-  for (size_t i = 0; i < static_cast<size_t>(light.shader->paramCount); ++i) {
-    if (!isOutput(light.shader->params[i])) continue;
-    const int width = typeOf(light.shader->params[i]) == TM_FLOAT ? 1 : 3;
-    for (int k = 0; k < width; ++k) params[i].c[k] = batch.arena.floats(batch.tm.count);
-    params[i].step = 1;
-  }
-}
-
-/// Makes light that is not finite dark: the fault is the light's, not that of the surface that asks.
-void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g) {
-  if (allFinite(g.count, view(g.Cl)) && allFinite(g.count, view(g.L))) return;
-  for (int i = 0; i < g.count; ++i)
-    if (!isFinite(get(g.Cl, i)) || !isFinite(get(g.L, i))) {
-      set(g.Cl, i, vec3(0));
-      set(g.L, i, vec3(0));
-    }
-  const BoundShader* caller = std::exchange(batch.running, &light);
-  batch.report(Severity::Warning, "shader-not-finite", "returned NaN or infinity; it casts no light there");
-  batch.running = caller;
-}
-
-/// Draws random numbers of sample number g.sample, from the points' names and never from their place in the batch.
+/// Draws random numbers of sample number g.sample.
 void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
   float* xi0 = batch.arena.floats(g.count);
   float* xi1 = batch.arena.floats(g.count);
   for (int i = 0; i < g.count; ++i) {
-    const SampleName name = batch.points->name(i);
-    const uint32_t stream = hashCombine(name.key, static_cast<uint32_t>(light.index), batch.context.seed);
-    const vec2 xi = sobol2(name.sequence * static_cast<uint32_t>(g.samples) + static_cast<uint32_t>(g.sample), stream);
+    const vec2 xi = sampleAt(batch, light, i, g.sample, g.samples);
     xi0[i] = xi.x;
     xi1[i] = xi.y;
   }
@@ -85,14 +31,19 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
   g.xi1 = xi1;
 }
 
-int samplesOf(const BoundLight& light, const Batch& batch) {
-  if (!hasExtent(light) && !light.can(TM_LIGHT_SAMPLED)) return light.samples;
-  return shareOfBranch(batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples, 1, batch.context);
-}
-
 }  // namespace
 
 void Lights::restrictTo(const std::string* group) { group_ = group; }
+
+const LightSets* Lights::setsOf(const Batch& batch) const {
+  return group_ || batch.context.lights || !batch.points ? nullptr
+                                                         : batch.group.choice->sets(batch.scene, batch.group.lights);
+}
+
+const std::vector<const BoundLight*>& Lights::alone(const Batch& batch) const {
+  const LightSets* sets = setsOf(batch);
+  return sets ? sets->alone : batch.group.lights;
+}
 
 void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
   ambientAsked_ = true;
@@ -114,11 +65,16 @@ std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
   const bool runsDirect = !evaluated_, runsIndirect = indirect && !indirectEvaluated_;
   evaluated_ = true;
   indirectEvaluated_ |= indirect;
-  for (const BoundLight* light : batch.group.lights)
+  const LightSets* sets = setsOf(batch);
+  for (const BoundLight* light : alone(batch))
     if ((light->can(TM_LIGHT_INDIRECT) ? runsIndirect : runsDirect) && !light->can(TM_LIGHT_AMBIENT) &&
         applies(*light, batch) && shines(*light, batch) &&
         (!request_ || inCategory(light->category, request_->category)))
       evaluate(batch, *light);
+  for (size_t k = 0; sets && runsDirect && k < sets->sets.size(); ++k)
+    if (const BoundLight& first = *sets->sets[k].lights[0];
+        applies(first, batch) && (!request_ || inCategory(first.category, request_->category)))
+      evaluateDrawn(batch, sets->sets[k]);
   if (!group_) return samples_;
   // Copies share their arrays, so rays that are traced for one are traced for all.
   chosen_.clear();
@@ -215,14 +171,24 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
 
 template <class Body>
 void Lights::forEachWithExtent(Batch& batch, const Body& body) const {
-  for (const BoundLight* light : batch.group.lights)
+  for (const BoundLight* light : alone(batch))
     if (hasExtent(*light) && !light->nonspecular && applies(*light, batch) && (!group_ || light->group == *group_))
       body(*light);
+}
+
+template <class Body>
+void Lights::forEachSetWithExtent(Batch& batch, const Body& body) const {
+  const LightSets* sets = setsOf(batch);
+  for (size_t k = 0; sets && k < sets->sets.size(); ++k)
+    if (const BoundLight& first = *sets->sets[k].lights[0];
+        hasExtent(first) && !first.nonspecular && applies(first, batch))
+      body(sets->sets[k]);
 }
 
 int Lights::mostSamples(Batch& batch) const {
   int most = 0;
   forEachWithExtent(batch, [&](const BoundLight& light) { most = std::max(most, samplesOf(light, batch)); });
+  forEachSetWithExtent(batch, [&](const LightSet& set) { most = std::max(most, samplesOf(*set.lights[0], batch)); });
   return most;
 }
 
@@ -230,6 +196,7 @@ void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
   forEachWithExtent(batch, [&](const BoundLight& light) {
     if (shines(light, batch)) alongOne(batch, light, lobe, Cl);
   });
+  forEachSetWithExtent(batch, [&](const LightSet& set) { alongDrawn(batch, set, lobe, Cl); });
   ++lobes_;
 }
 
@@ -267,24 +234,28 @@ void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirection
     const float a = own * points.density[i], b = drawn * lobe.density[i];
     points.density[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
   }
-  radianceToSample(g, points.density);
+  const float reach = light.can(TM_LIGHT_AREA) ? batch.scene.services->emitterReach(light.index) : 0;
+  addMet(batch, light, g, reach == 0 ? g.L : beforeEmitter(batch, g, reach), points.density, lobe, Cl);
+}
+
+void Lights::addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* density,
+                    const LobeDirections& lobe, TmVec3 Cl) {
+  radianceToSample(g, density);
   // The light's own samples have question numbers below the limit of their number.
   LightSample sample{&light,
                      g.L,
                      g.Cl,
-                     g.L,
+                     toward,
                      {light.can(TM_LIGHT_SOLAR), lobe.sample, lobe.samples},
                      nullptr,
                      kMostLightSamples + lobes_};
   if (light.shadows && batch.scene.services) {
-    if (light.can(TM_LIGHT_AREA))
-      sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
     sample.pending = batch.arena.bytes(g.count);
-    std::copy_n(met, g.count, sample.pending);
-    shadow(batch, sample, met);
+    std::copy_n(g.active, g.count, sample.pending);
+    shadow(batch, sample, g.active);
   }
   for (int i = 0; i < g.count; ++i)
-    if (met[i]) set(Cl, i, get(Cl, i) + get(g.Cl, i));
+    if (g.active[i]) set(Cl, i, get(Cl, i) + get(g.Cl, i));
 }
 
 }  // namespace tomales

@@ -3,10 +3,12 @@
 // be.
 #pragma once
 #include <deque>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "reyes/shade/extended_lights.h"
+#include "reyes/shade/light_sets.h"
 
 namespace tomales {
 
@@ -33,20 +35,31 @@ struct ShadowTally {
   TmVec3 passed;  ///< The sum of the light that they let pass.
 };
 
+/// The clusters into which each point divides the lights of a set: those of point i are first[i] to first[i + 1].
+struct LightCuts {
+  std::vector<LampCluster> clusters;
+  std::vector<uint32_t> first;
+  std::span<const LampCluster> at(int i) const {
+    const size_t k = static_cast<size_t>(i);
+    return std::span(clusters).subspan(first[k], first[k + 1] - first[k]);
+  }
+};
+
 struct LightSample {
-  const BoundLight* light;
-  TmVec3 L;          ///< Unit vectors from P to the light.
-  TmVec3 Cl;         ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
-  TmVec3 toward;     ///< L at full length, the way of a shadow ray.
-  ShadowRays rays;   ///< The sample's shadow rays.
-  uint8_t* pending;  ///< 1 where a shadow ray is still to be traced. Null if the light casts no shadows.
-  int question = 0;  ///< The number of its shadow rays among those of the light (ray_answers.h).
+  const BoundLight* light;  ///< If it is drawn from a set: the set's first light, which differs in numbers alone.
+  TmVec3 L;                 ///< Unit vectors from P to the light.
+  TmVec3 Cl;                ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
+  TmVec3 toward;            ///< L at full length, the way of a shadow ray.
+  ShadowRays rays;          ///< The sample's shadow rays.
+  uint8_t* pending;         ///< 1 where a shadow ray is still to be traced. Null if the light casts no shadows.
+  int question = 0;         ///< The number of its shadow rays among those of the light (ray_answers.h).
   const float* density = nullptr;   ///< The density over solid angle of all samples of the light together, where
                                     ///< along() finds it too; else 0. Null if it is 0 everywhere.
   ShadowTally* tally = nullptr;     ///< Null if every shadow ray is traced.
   TmVec3 far{};                     ///< L at full length, for points and their neighbours.
   const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
+  bool drawn = false;  ///< Each point has drawn a light of its own; where it has none, Cl is 0.
 };
 
 class Lights {
@@ -65,6 +78,8 @@ class Lights {
   std::vector<LightSample>& samples(Batch& batch, bool indirect = true);
   /// Has the shader asked what lights it?
   bool asked() const { return evaluated_ || ambientAsked_; }
+  /// The lights that run at every point of the batch: all, or those that no set holds.
+  const std::vector<const BoundLight*>& alone(const Batch& batch) const;
   /// Those that have been asked for so far, of all groups.
   const std::vector<LightSample>& evaluated() const { return samples_; }
   /// Traces the pending shadow rays at the points of `want`, except those where the tally of a light with a shadow
@@ -85,14 +100,25 @@ class Lights {
   void transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const;
   void evaluate(Batch& batch, const BoundLight& light);
   void alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl);
+  /// Adds what lights send along a lobe's directions to where they have been met. `density`: of the samples, weighted.
+  void addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* density,
+              const LobeDirections& lobe, TmVec3 Cl);
+  // drawn_lights.cpp
+  const LightSets* setsOf(const Batch& batch) const;  ///< Null if all lights run.
+  const LightCuts& cutsOf(Batch& batch, const LightSet& set);
+  void evaluateDrawn(Batch& batch, const LightSet& set);
+  void alongDrawn(Batch& batch, const LightSet& set, const LobeDirections& lobe, TmVec3 Cl);
   void substitute(Batch& batch);
   void tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const;
   template <class Body>
   void forEachWithExtent(Batch& batch, const Body& body) const;
+  template <class Body>
+  void forEachSetWithExtent(Batch& batch, const Body& body) const;
   bool evaluated_ = false, indirectEvaluated_ = false, ambientAsked_ = false;
   std::deque<std::vector<TmValue>> params_;
   int lobes_ = 0;  ///< How many lobes along() has been given.
   std::deque<ShadowTally> tallies_;
+  std::map<const LightSet*, LightCuts> cuts_;
   std::vector<LightSample> samples_, chosen_;  ///< All samples; the samples of group_.
   const std::string* group_ = nullptr;
   const LightRequest* request_ = nullptr;

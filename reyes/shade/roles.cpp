@@ -36,6 +36,7 @@ constexpr RoleInfo kRoles[] = {
     {TM_ROLE_SCATTERING, "scattering", TM_COLOR, TM_VOLUME},
     {TM_ROLE_ABSORPTION, "absorption", TM_COLOR, TM_VOLUME},
     {TM_ROLE_AREA, "area", TM_FLOAT, TM_LIGHT},
+    {TM_ROLE_POSITION, "position", TM_POINT, TM_LIGHT},
 };
 
 constexpr TmParamDecl standard(const char* name, TmRole role, TmType type, const char* doc) {

@@ -31,6 +31,8 @@ ShadingSystem::~ShadingSystem() = default;
 
 void ShadingSystem::setServices(const ShadeServices* services) { impl_->services = services; }
 
+void ShadingSystem::runAllLights() { impl_->lightCut = 0; }
+
 void ShadingSystem::setClouds(CloudServices* clouds) { impl_->clouds = clouds; }
 
 void ShadingSystem::bindNewGroups() { impl_->bindNewGroups(); }

@@ -6,7 +6,6 @@ namespace tomales {
 namespace {
 
 using From = VariableSource;
-constexpr std::string_view kLightGroup = "lightgroup:";
 
 void find(const Variable& wanted, const BoundGroup& group, BoundVariable& out) {
   if (const int output = group.surface->output(wanted.source, wanted.type); output >= 0) {

@@ -61,7 +61,12 @@ typedef enum TmCapability {
   TM_LIGHT_INDIRECT = 1 << 12, /* brings indirect light; never run at the hits of gather rays */
   TM_LIGHT_SAMPLED = 1 << 13,  /* asked for as many samples as its TM_ROLE_SAMPLES says, with xi0 and xi1; Cl is the
                                   share of one sample */
-  TM_LIGHT_SHADOWED = 1 << 14  /* the host traces a shadow ray along L for every sample */
+  TM_LIGHT_SHADOWED = 1 << 14, /* the host traces a shadow ray along L for every sample */
+  /* What it sends is about its TM_ROLE_SCALE times its TM_ROLE_TINT, or less: over the squared distance from its
+   * TM_ROLE_POSITION, or, with TM_LIGHT_AREA, as radiance (which TM_ROLE_AREA may turn into that). Its numbers may vary
+   * over a batch, as those of many lights, and it asks for no space of its own. Where there are many such lights a
+   * point runs only some of them */
+  TM_LIGHT_BOUNDED = 1 << 15
 } TmCapability;
 
 /* What the host understands of a parameter, whatever its name: how a shader says which of its parameters is the number
@@ -96,8 +101,9 @@ typedef enum TmRole {
   TM_ROLE_SHADOW_VARIANCE = 23, /* float. Any light: what its shadow rays may leave open */
   TM_ROLE_SCATTERING = 24,      /* color. Volume: for each unit of length of the world, as photons meet it */
   TM_ROLE_ABSORPTION = 25,      /* color. Likewise */
-  TM_ROLE_AREA = 26             /* float. TM_LIGHT_AREA: the area of its geometry, which the host gives where the scene
+  TM_ROLE_AREA = 26,            /* float. TM_LIGHT_AREA: the area of its geometry, which the host gives where the scene
                                    does not and asks for light as BMRT has it; 0: it is not known */
+  TM_ROLE_POSITION = 27         /* point. TM_LIGHT_BOUNDED: where it stands */
 } TmRole;
 
 /* One declared parameter. Points, vectors, normals and matrices are given in shader space and arrive in current. */

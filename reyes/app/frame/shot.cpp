@@ -112,6 +112,7 @@ void ShotJob::prepareShares() {
                        given ? "--by-light: the records of --irradiance have no shares; new ones get none either"
                              : "--by-light: only --gi gather knows which light has bounced");
   if (settings_.byLight && !given) groups = groupsOfLights(shot_.scene, job_->shading());
+  if (!groups.empty()) job_->shading().runAllLights();
   job_->services()->keepShares(groups);
   if (given && !gathers_) job_->services()->mixShares(lightEdits_.gains);
 }
@@ -158,6 +159,7 @@ void ShotJob::shadePicture() {
 void ShotJob::prepareToShow() {
   shot_.scene.options.displays = {DisplayCall{}};
   prepareLight();
+  job_->shading().runAllLights();
 }
 
 void ShotJob::choose(const std::string* lights, bool indirect) {

@@ -1,0 +1,252 @@
+// Lights of which each point draws some (light_sets.h). A sample of a set is one run of the shader, with the numbers of
+// another light at each point.
+#include "reyes/base/random_streams.h"
+#include "reyes/base/rng.h"
+#include "reyes/shade/illuminate.h"
+#include "reyes/shade/light_runs.h"
+#include "reyes/shade/parameter_values.h"
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kNoLamp = ~0U;
+/// A lamp with geometry takes up to so many of its samples on the average: near lamps have all of theirs, far ones one.
+constexpr int kSamplesOfLamp = 2;
+/// Hits of gather rays draw this share of what the eye's points do: many of them make one record.
+constexpr int kShareAtHits = 8;
+constexpr int kLeastInBranch = 4;
+
+/// The lamp of each point in one run.
+struct LampOfPoint {
+  uint32_t lamp = kNoLamp;
+  int sample = 0, samples = 1;
+  float expected = 1;  ///< How many samples the point draws of this lamp, on the average.
+};
+
+int mostDrawn(const Batch& batch, const BoundLight& light) {
+  const int lamps = shareOfBranch(batch.scene.lightCut, std::min(batch.scene.lightCut, kLeastInBranch), batch.context),
+            here = batch.context.kind == RayKind::Diffuse ? std::max(1, lamps / kShareAtHits) : lamps;
+  return std::min(here * std::min(samplesOf(light, batch), kSamplesOfLamp), kMostLightSamples);
+}
+
+TmConstVec3 from(TmConstVec3 v, int i) { return {v.x + i, v.y + i, v.z + i}; }
+TmVec3 from(TmVec3 v, int i) { return {v.x + i, v.y + i, v.z + i}; }
+EmitterPoints from(const EmitterPoints& p, int i) {
+  return {from(p.P, i), from(p.N, i), p.density + i, p.meetDensity + i};
+}
+
+LampReceiver receiverOf(const Batch& batch, int i) {
+  return {batch.points->position(i), batch.points->inAir() ? vec3(0.0f) : batch.points->facingNormal(i)};
+}
+
+/// Draws the lamps of all points, run by run.
+class Drawing {
+ public:
+  Drawing(const Batch& batch, const LightSet& lamps, const LightCuts& cuts)
+      : batch_(batch), lamps_(lamps), cuts_(cuts), at_(cuts.first.size() - 1), cluster_(at_.size(), 0) {
+    for (size_t i = 0; i < at_.size(); ++i) {
+      int samples = 0;
+      for (const LampCluster& c : cuts.at(static_cast<int>(i))) samples += c.samples;
+      runs_ = std::max(runs_, samples);
+    }
+  }
+  int runs() const { return runs_; }
+
+  const std::vector<LampOfPoint>& next() {
+    for (size_t i = 0; i < at_.size(); ++i) {
+      LampOfPoint& l = at_[i];
+      if (l.lamp != kNoLamp && ++l.sample == l.samples) {
+        l.lamp = kNoLamp;
+        ++cluster_[i];
+      }
+      const std::span<const LampCluster> clusters = cuts_.at(static_cast<int>(i));
+      if (l.lamp == kNoLamp && cluster_[i] < clusters.size()) l = drawn(static_cast<int>(i), clusters[cluster_[i]]);
+    }
+    return at_;
+  }
+
+ private:
+  LampOfPoint drawn(int i, const LampCluster& cluster) const {
+    const SampleName name = batch_.points->name(i);
+    const uint32_t stream = hashCombine(name.key, randomStream("lamp"), cluster.node, batch_.context.seed);
+    float probability = 1;
+    const uint32_t lamp =
+        lamps_.tree.draw(receiverOf(batch_, i), cluster.node, double{sobol1(name.sequence, stream)}, probability);
+    return {lamp, 0, cluster.samples, probability * static_cast<float>(cluster.samples)};
+  }
+
+  const Batch& batch_;
+  const LightSet& lamps_;
+  const LightCuts& cuts_;
+  std::vector<LampOfPoint> at_;
+  std::vector<size_t> cluster_;
+  int runs_ = 0;
+};
+
+/// The parameters of the light, with the numbers of each point's lamp where lamps differ.
+std::vector<TmValue> paramsOf(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps) {
+  std::vector<TmValue> out = drawn.lights[0]->bound->values;
+  for (const int p : drawn.varying) {
+    const auto k = static_cast<size_t>(p);
+    for (int c = 0; c < floatsOf(typeOf(drawn.lights[0]->bound->shader->params[p])); ++c) {
+      float* values = batch.arena.floats(batch.tm.count);
+      for (int i = 0; i < batch.tm.count; ++i) {
+        const uint32_t lamp = lamps[static_cast<size_t>(i) % lamps.size()].lamp;
+        values[i] = drawn.lights[lamp == kNoLamp ? 0 : lamp]->bound->values[k].c[c][0];
+      }
+      out[k].c[c] = values;
+    }
+    out[k].step = 1;
+  }
+  return out;
+}
+
+/// The vectors to just before the points on the emitters.
+TmVec3 beforeEmitters(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps, const TmGrid& g) {
+  const TmVec3 toward = batch.arena.vec3(g.count);
+  for (int i = 0; i < g.count; ++i) {
+    const uint32_t lamp = lamps[static_cast<size_t>(i)].lamp;
+    const float reach = lamp == kNoLamp ? 0 : batch.scene.services->emitterReach(drawn.lights[lamp]->index);
+    set(toward, i, get(g.L, i) + reach * get(g.Nl, i));
+  }
+  return toward;
+}
+
+/// Takes the point on its lamp that each point has drawn.
+void sampleEmitters(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps, TmGrid& g,
+                    const EmitterPoints& points) {
+  float *xi0 = batch.arena.floats(g.count), *xi1 = batch.arena.floats(g.count);
+  g.xi0 = xi0;
+  g.xi1 = xi1;
+  for (int i = 0; i < g.count; ++i) {
+    const LampOfPoint& l = lamps[static_cast<size_t>(i)];
+    if (!g.active[i]) continue;
+    const BoundLight& light = *drawn.lights[l.lamp];
+    const vec2 xi = sampleAt(batch, light, i, l.sample, l.samples);
+    xi0[i] = xi.x;
+    xi1[i] = xi.y;
+    if (!batch.scene.services->sampleEmitter(light.index, 1, from(view(g.P), i), xi0 + i, xi1 + i, from(points, i)))
+      continue;
+    points.density[i] *= l.expected;
+    points.meetDensity[i] *= l.expected;
+    set(g.L, i, get(g.Pl, i) - get(g.P, i));
+  }
+}
+
+}  // namespace
+
+const LightCuts& Lights::cutsOf(Batch& batch, const LightSet& set) {
+  const auto [it, isNew] = cuts_.try_emplace(&set);
+  LightCuts& cuts = it->second;
+  if (!isNew) return cuts;
+  const BoundLight& light = *set.lights[0];
+  const int most = mostDrawn(batch, light), perLamp = light.can(TM_LIGHT_AREA) ? samplesOf(light, batch) : 1;
+  std::vector<LampCluster> cut;
+  cuts.first.push_back(0);
+  for (int i = 0; i < batch.points->count(); ++i) {
+    cut.clear();
+    if (batch.tm.active[i]) set.tree.cut(receiverOf(batch, i), most, perLamp, cut);
+    cuts.clusters.insert(cuts.clusters.end(), cut.begin(), cut.end());
+    cuts.first.push_back(static_cast<uint32_t>(cuts.clusters.size()));
+  }
+  return cuts;
+}
+
+void Lights::evaluateDrawn(Batch& batch, const LightSet& lamps) {
+  const BoundLight& first = *lamps.lights[0];
+  const bool area = first.can(TM_LIGHT_AREA);
+  Drawing drawing(batch, lamps, cutsOf(batch, lamps));
+  for (int run = 0; run < drawing.runs(); ++run) {
+    TmGrid g = lightGrid(batch, first);
+    const std::vector<LampOfPoint>& at = drawing.next();
+    uint8_t* has = batch.arena.bytes(g.count);
+    for (int i = 0; i < g.count; ++i) has[i] = at[static_cast<size_t>(i)].lamp != kNoLamp;
+    g.active = has;
+    openOutputs(batch, *first.bound, params_.emplace_back(paramsOf(batch, lamps, at)));
+    tell(batch, *first.bound, params_.back());
+    g.params = params_.back().data();
+    g.sample = 0;
+    g.samples = 1;
+    EmitterPoints points{};
+    if (area) {
+      points = emitterPoints(batch, first, g);
+      sampleEmitters(batch, lamps, at, g, points);
+    }
+    if (!batch.run(*first.bound, g)) return;
+    darkenNonFinite(batch, *first.bound, g);
+    if (area) radianceToSample(g, points.density);
+    for (int i = 0; i < g.count; ++i) {
+      if (!area) set(g.Cl, i, get(g.Cl, i) / at[static_cast<size_t>(i)].expected);
+      if (has[i]) continue;
+      set(g.L, i, batch.points->facingNormal(i));
+      set(g.Cl, i, vec3(0.0f));
+    }
+    LightSample sample{&first,
+                       batch.arena.vec3(batch.tm.count),
+                       g.Cl,
+                       g.L,
+                       {false, run, drawing.runs()},
+                       nullptr,
+                       run,
+                       points.meetDensity,
+                       nullptr,
+                       g.L,
+                       g.params};
+    sample.drawn = true;
+    if (const int k = first.bound->output(TM_ROLE_NONDIFFUSE); k >= 0) sample.nondiffuse = g.params[k].c[0];
+    if (const int k = first.bound->output(TM_ROLE_NONSPECULAR); k >= 0) sample.nonspecular = g.params[k].c[0];
+    normalizeAll(g.count, view(g.L), sample.L);
+    if (first.shadows && batch.scene.services) {
+      if (area) sample.toward = beforeEmitters(batch, lamps, at, g);
+      sample.pending = has;
+    }
+    samples_.push_back(sample);
+  }
+}
+
+void Lights::alongDrawn(Batch& batch, const LightSet& lamps, const LobeDirections& lobe, TmVec3 Cl) {
+  const BoundLight& first = *lamps.lights[0];
+  const LightCuts& cuts = cutsOf(batch, lamps);
+  const ShadeServices& services = *batch.scene.services;
+  const int n = batch.points->count();
+  std::vector<std::vector<uint32_t>> near(static_cast<size_t>(n));
+  size_t runs = 0;
+  for (int i = 0; i < n; ++i) {
+    if (!batch.tm.active[i] || !(lobe.density[i] > 0)) continue;
+    std::vector<uint32_t>& met = near[static_cast<size_t>(i)];
+    lamps.tree.meet(batch.points->position(i), get(lobe.L, i), met);
+    runs = std::max(runs, met.size());
+  }
+  for (size_t run = 0; run < runs; ++run) {
+    TmGrid g = lightGrid(batch, first);
+    g.sample = lobe.sample;
+    g.samples = lobe.samples;
+    uint8_t* met = batch.arena.bytes(g.count);
+    const EmitterPoints points = emitterPoints(batch, first, g);
+    std::vector<LampOfPoint> at(static_cast<size_t>(n));
+    bool any = false;
+    for (int i = 0; i < n; ++i) {
+      if (near[static_cast<size_t>(i)].size() <= run) continue;
+      const uint32_t lamp = near[static_cast<size_t>(i)][run];
+      services.meetEmitter(lamps.lights[lamp]->index, 1, from(view(g.P), i), from(lobe.L, i), from(points, i));
+      if (!(points.density[i] > 0)) continue;
+      met[i] = 1;
+      any = true;
+      at[static_cast<size_t>(i)].lamp = lamp;
+      set(g.L, i, get(g.Pl, i) - get(g.P, i));
+      const float a = points.density[i] * lamps.tree.expected(receiverOf(batch, i), cuts.at(i), lamp),
+                  b = static_cast<float>(lobe.samples) * lobe.density[i];
+      points.density[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
+    }
+    if (!any) continue;
+    g.active = met;
+    std::vector<TmValue> params = paramsOf(batch, lamps, at);
+    openOutputs(batch, *first.bound, params);
+    g.params = params.data();
+    if (!batch.run(*first.bound, g)) return;
+    addMet(batch, *lamps.lights[run % lamps.lights.size()], g, beforeEmitters(batch, lamps, at, g), points.density,
+           lobe, Cl);
+  }
+}
+
+}  // namespace tomales

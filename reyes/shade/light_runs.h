@@ -1,0 +1,31 @@
+// Which lights run at a batch of points, and the grid that a light shader gets there. Shared by the files of Lights.
+#pragma once
+#include "reyes/shade/batch.h"
+
+namespace tomales {
+
+inline bool bringsLights(Illumination light) {
+  return light == Illumination::Lights || light == Illumination::LightsAndStored;
+}
+inline bool bringsStored(Illumination light) {
+  return light == Illumination::Stored || light == Illumination::LightsAndStored;
+}
+
+/// Tells whether the light counts for rays of the batch's kind.
+bool isOn(const BoundLight& light, const Batch& batch);
+/// The same, where lights light the batch.
+bool applies(const BoundLight& light, const Batch& batch);
+
+/// The grid of the points for a light shader, without neighbours; its results have room for those.
+TmGrid lightGrid(Batch& batch, const BoundLight& light);
+/// Makes room for the outputs of a light, so that lightsource() can read them.
+void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params);
+/// Makes light that is not finite dark: the fault is the light's, not that of the surface that asks.
+void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g);
+
+/// Sample `sample` of `samples` of a light at a point: random numbers by the point's name, never by its place in the
+/// batch.
+vec2 sampleAt(const Batch& batch, const BoundLight& light, int i, int sample, int samples);
+int samplesOf(const BoundLight& light, const Batch& batch);
+
+}  // namespace tomales

@@ -1,0 +1,131 @@
+#include "reyes/shade/light_sets.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "reyes/shade/bound_scene.h"
+#include "reyes/shade/parameter_values.h"
+
+namespace tomales {
+namespace {
+
+/// What a lamp that sends nothing counts for, as a share of the brightest: surfaces see that it is there.
+constexpr float kDark = 1e-6f;
+
+/// A number that may differ from light to light of a set.
+bool mayVary(const TmParamDecl& decl) {
+  const int floats = floatsOf(typeOf(decl));
+  return !isOutput(decl) && !isUniform(decl) && decl.arrayLength == 1 && (floats == 1 || floats == 3);
+}
+
+/// The bound of a lamp; empty if its place is not known.
+Bound3 boundOf(const BoundLight& light, const ShadeServices* services) {
+  if (light.can(TM_LIGHT_AREA)) return services ? services->emitterBound(light.index) : Bound3();
+  const BoundShader& b = *light.bound;
+  Bound3 out;
+  for (int i = 0; i < b.shader->paramCount; ++i)
+    if (const TmValue& v = b.values[static_cast<size_t>(i)]; b.shader->params[i].role == TM_ROLE_POSITION)
+      out.extend(vec3(v.c[0][0], v.c[1][0], v.c[2][0]));
+  return out;
+}
+
+/// TreeLamp::power, as TM_LIGHT_BOUNDED promises it.
+float powerOf(const BoundLight& light, const ShadeServices* services) {
+  const vec3 color = glm::abs(light.bound->number(TM_ROLE_SCALE, 1) * light.bound->color(TM_ROLE_TINT, vec3(1.0f)));
+  const float scale = (color.x + color.y + color.z) / 3;
+  if (!light.can(TM_LIGHT_AREA)) return scale;
+  const float said = light.bound->number(TM_ROLE_AREA, 0);
+  return scale * services->emitterArea(light.index) / (said > 0 ? said : kPi);
+}
+
+bool mayBeDrawn(const BoundLight& light) {
+  constexpr TmCapability kNone[] = {TM_LIGHT_AMBIENT, TM_LIGHT_INDIRECT, TM_LIGHT_SOLAR, TM_LIGHT_SKY,
+                                    TM_LIGHT_SAMPLED};
+  return light.can(TM_LIGHT_BOUNDED) && light.shadowVariance == 0 &&
+         std::none_of(std::begin(kNone), std::end(kNone), [&](TmCapability c) { return light.can(c); });
+}
+
+/// Lights with the same key differ in numbers alone.
+std::string keyOf(const BoundLight& light) {
+  const BoundShader& b = *light.bound;
+  std::string key(reinterpret_cast<const char*>(&b.shader), sizeof b.shader);
+  for (const int flag : {int{light.shadows}, int{light.direct}, int{light.indirect}, int{light.nondiffuse},
+                         int{light.nonspecular}, light.samples})
+    key += std::to_string(flag) + ",";
+  key += light.category;
+  for (int i = 0; i < b.shader->paramCount; ++i) {
+    const TmParamDecl& decl = b.shader->params[i];
+    if (isOutput(decl) || mayVary(decl)) continue;
+    const TmValue& value = b.values[static_cast<size_t>(i)];
+    key += "\n";
+    if (typeOf(decl) == TM_STRING) key += value.string ? value.string : "";
+    const int floats = floatsOf(typeOf(decl)) * std::max(1, decl.arrayLength);  // they lie one after another
+    if (value.c[0]) key.append(reinterpret_cast<const char*>(value.c[0]), sizeof(float) * static_cast<size_t>(floats));
+  }
+  return key;
+}
+
+/// The parameters of whose values the lights have not all the same.
+std::vector<int> varyingOf(const std::vector<const BoundLight*>& lights) {
+  std::vector<int> out;
+  const BoundShader& first = *lights[0]->bound;
+  for (int i = 0; i < first.shader->paramCount; ++i) {
+    if (!mayVary(first.shader->params[i])) continue;
+    const auto differs = [&](const BoundLight* l) {
+      for (int k = 0; k < floatsOf(typeOf(first.shader->params[i])); ++k)
+        if (l->bound->values[static_cast<size_t>(i)].c[k][0] != first.values[static_cast<size_t>(i)].c[k][0])
+          return true;
+      return false;
+    };
+    if (std::any_of(lights.begin(), lights.end(), differs)) out.push_back(i);
+  }
+  return out;
+}
+
+LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* services) {
+  std::vector<TreeLamp> lamps;
+  float brightest = 0;
+  for (const BoundLight* l : lights) {
+    lamps.push_back({boundOf(*l, services), powerOf(*l, services)});
+    brightest = std::max(brightest, lamps.back().power);
+  }
+  for (TreeLamp& lamp : lamps) lamp.power = std::max({lamp.power, kDark * brightest, 1e-30f});
+  std::vector<int> varying = varyingOf(lights);
+  return {std::move(lights), std::move(varying), LightTree(std::move(lamps))};
+}
+
+std::unique_ptr<const LightSets> setsOf(const std::vector<const BoundLight*>& lights, const BoundScene& scene) {
+  std::map<std::string, std::vector<const BoundLight*>> byKey;
+  for (const BoundLight* l : lights)
+    if (mayBeDrawn(*l) && !boundOf(*l, scene.services).empty() && isFinite(vec3(powerOf(*l, scene.services))))
+      byKey[keyOf(*l)].push_back(l);
+  std::erase_if(byKey, [&](const auto& entry) {
+    return entry.second.size() <= kFewLights * static_cast<size_t>(scene.lightCut);
+  });
+  if (byKey.empty()) return nullptr;
+  auto out = std::make_unique<LightSets>();
+  std::vector<std::vector<const BoundLight*>> sets;
+  for (auto& [key, members] : byKey) sets.push_back(std::move(members));
+  std::sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a[0]->index < b[0]->index; });
+  std::vector<const BoundLight*> drawn;
+  for (auto& members : sets) {
+    drawn.insert(drawn.end(), members.begin(), members.end());
+    out->sets.push_back(setOf(std::move(members), scene.services));
+  }
+  std::sort(drawn.begin(), drawn.end());
+  for (const BoundLight* l : lights)
+    if (!std::binary_search(drawn.begin(), drawn.end(), l)) out->alone.push_back(l);
+  return out;
+}
+
+}  // namespace
+
+const LightSets* LightChoice::sets(const BoundScene& scene, const std::vector<const BoundLight*>& lights) const {
+  if (scene.lightCut == 0 || lights.size() <= kFewLights * static_cast<size_t>(scene.lightCut)) return nullptr;
+  std::call_once(once_, [&] { sets_ = setsOf(lights, scene); });
+  return sets_.get();
+}
+
+}  // namespace tomales

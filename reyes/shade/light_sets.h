@@ -1,0 +1,43 @@
+// Lights of which a point draws few instead of running all: what Option "trace" "lightcut" turns on. A set is made of
+// lights that differ in numbers alone, so that what a point draws is one sample of one light whose parameters vary from
+// point to point. Threads: any.
+#pragma once
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "reyes/shade/light_tree.h"
+#include "reyes/shader_api.h"
+
+namespace tomales {
+
+struct BoundLight;
+struct BoundScene;
+
+/// A set is larger than so many times the number that a point draws; what is fewer runs as a whole.
+constexpr size_t kFewLights = 2;
+
+struct LightSet {
+  std::vector<const BoundLight*> lights;  ///< In the order of the tree's lamps.
+  std::vector<int> varying;               ///< The parameters whose values differ.
+  LightTree tree;
+};
+
+struct LightSets {
+  std::vector<const BoundLight*> alone;  ///< Those that run at every point.
+  std::vector<LightSet> sets;
+};
+
+/// The sets of the lights of some groups of objects. They are made when light is first asked for, because the places of
+/// lamps with geometry are known by then.
+class LightChoice {
+ public:
+  /// Null if all lights run. `lights` are the same each time.
+  const LightSets* sets(const BoundScene& scene, const std::vector<const BoundLight*>& lights) const;
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const LightSets> sets_;
+};
+
+}  // namespace tomales
