@@ -7,8 +7,8 @@ namespace tomales::rib {
 namespace {
 
 constexpr const char *kVolumes =
-                         "nothing is drawn inside of objects; Interior shades what rays bring through them, Atmosphere "
-                         "shades what lies before the camera",
+                         "a Volume is followed along each ray, and where two overlap the farther counts as if it were "
+                         "behind the other",
                      *kVisiblePoints =
                          "there are no shaders of visible points; Atmosphere shades what lies before the camera",
                      *kEdits = "edits are files of their own, for tomales shade --edit; all up to its End is left out",

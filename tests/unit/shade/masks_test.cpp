@@ -50,11 +50,13 @@ const std::vector<Asked>& calls() {
       TM_CALL("lightDensity", call.lightDensity(h, g, 0, out.x)),
       TM_CALL("lightAlong", call.lightAlong(h, g, *axis, oneNumber->data(), 0, 1, out)),
       TM_CALL("stratified", call.stratified(h, g, 0, 1, out.x, out.y)),
+      TM_CALL("crossed", call.crossed(h, g, 0, out.y, out.z, out.x)),
       TM_CALL("derivative", call.derivative(h, g, 0, g->s, out.x)),
       TM_CALL("illuminance",
               {
                 TmIlluminance query = tmIlluminanceDefaults();
-                query.axis = *axis, query.angle = 1.5f;
+                query.axis = *axis;
+                query.angle = 1.5f;
                 ASSERT_TRUE(call.illuminance(h, g, &query));
                 std::copy_n(query.lit, g->count, flags);
               }),
