@@ -45,8 +45,8 @@ def density(i, j, k):
     ball = 0.62 - math.hypot(x, y - 0.25, z)
     stalk = 0.16 + 0.1 * y - math.hypot(x + 0.1 * math.sin(5 * y), z) if y < 0.1 else -1
     edge = max(ball, stalk) + 1.3 * (clouds(2.2 * x + 9, 2.2 * y + 9, 2.2 * z + 9) - 0.5)
-    near = max(abs(x), abs(y), abs(z))
-    return max(0.0, min(1.0, 5 * edge)) if near < 0.97 else 0.0
+    inside = smooth(min(1.0, 3.5 * (1 - max(abs(x), abs(y), abs(z)))))  # no edge of the box shows
+    return max(0.0, min(1.0, 5 * (edge + inside - 1)))
 
 
 vdb.write(sys.argv[2] if len(sys.argv) > 2 else FOLDER / "smoke.vdb", "density", SIDE, density, 2 / (SIDE - 1), (-1, -1, -1))
