@@ -47,11 +47,8 @@ set_target_properties(OpenVDB::openvdb PROPERTIES IMPORTED_LOCATION ${OPENVDB_LI
                       INTERFACE_INCLUDE_DIRECTORIES "${OPENVDB_INCLUDE_DIR};${BOOST_INCLUDE_DIR}"
                       INTERFACE_LINK_LIBRARIES "TBB::tbb;Imath::Imath")
 
-# libopenimageio-dev exports an OpenCV include path that exists only with libopencv-dev (1 GB).
-find_package(OpenImageIO 2.4 CONFIG REQUIRED)
-get_target_property(_oiio_include OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
-list(FILTER _oiio_include EXCLUDE REGEX opencv)
-set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${_oiio_include}")
+# The CMake package of libopenimageio-dev wants the programs of openimageio-tools and the headers of OpenCV (1 GB).
+pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
 
 # What `tomales --version` tells of each library: its name, version and licence (SPDX).
 set(_osd_version "${OpenSubdiv_VERSION}")
