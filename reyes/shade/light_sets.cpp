@@ -102,7 +102,8 @@ std::unique_ptr<const LightSets> setsOf(const std::vector<const BoundLight*>& li
     if (mayBeDrawn(*l) && !boundOf(*l, scene.services).empty() && isFinite(vec3(powerOf(*l, scene.services))))
       byKey[keyOf(*l)].push_back(l);
   std::erase_if(byKey, [&](const auto& entry) {
-    return entry.second.size() <= kFewLights * static_cast<size_t>(scene.lightCut);
+    const size_t few = entry.second[0]->shadows ? kFewLights : kFewWithoutShadows;
+    return entry.second.size() <= few * static_cast<size_t>(scene.lightCut);
   });
   if (byKey.empty()) return nullptr;
   auto out = std::make_unique<LightSets>();

@@ -14,8 +14,9 @@ namespace tomales {
 struct BoundLight;
 struct BoundScene;
 
-/// A set is larger than so many times the number that a point draws; what is fewer runs as a whole.
-constexpr size_t kFewLights = 2;
+/// A set is larger than so many times the number that a point draws; what is fewer runs as a whole. A draw takes as
+/// long as a shadow ray, and ten times as long as a light without shadows: docs/measured/rays.md.
+constexpr size_t kFewLights = 4, kFewWithoutShadows = 32;
 
 struct LightSet {
   std::vector<const BoundLight*> lights;  ///< In the order of the tree's lamps.

@@ -105,7 +105,7 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
 
 float LightTree::shareOfFirst(const LampReceiver& at, uint32_t node) const {
   const float a = estimate(at, nodes_[node + 1]), b = estimate(at, nodes_[nodes_[node].right]);
-  return a / (a + b);
+  return a + b > 0 ? a / (a + b) : 0.5f;  // lamps that are very dim and far off underflow
 }
 
 uint32_t LightTree::draw(const LampReceiver& at, uint32_t node, double xi, float& probability) const {

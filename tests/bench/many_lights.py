@@ -1,6 +1,6 @@
 """Direct light of many lamps: error and time by their number, all of them and as Option "trace" "lightcut" chooses, as a table.
 
-    tests/bench/many_lights.py build/release/tomales [--kinds point area ...] [--lamps 10 100 ...] [--lights 0 32 ...]
+    tests/bench/many_lights.py build/release/tomales [--kinds point area unshadowed ...] [--lamps 10 100 ...] [--lights 0 32 ...]
                                [--out FOLDER]
 
 The scene is a town square at night with lamps between its houses. Error: mean absolute relative error of the picture
@@ -50,7 +50,7 @@ def lamps(kind, count, blocks, rng):
             continue
         power = 400 / count * rng.uniform(0.3, 1.7)
         colour = f"{rng.uniform(0.7, 1):.3f} {rng.uniform(0.5, 0.9):.3f} {rng.uniform(0.2, 0.8):.3f}"
-        if kind == "point":
+        if kind != "area":
             out.append(f'LightSource "pointlight" {len(out)} "float intensity" [{power:.4f}] "color lightcolor" [{colour}] "point from" [{x:.3f} {y:.3f} {z:.3f}]')
         else:
             h = 0.1
@@ -63,7 +63,7 @@ def lamps(kind, count, blocks, rng):
 def scene(kind, count, lights, out, size, indirect):
     rng = random.Random(7)
     blocks = houses(rng)
-    text = [HEAD.format(out=out, lights=lights, size=size), 'Attribute "light" "shadows" "on"']
+    text = [HEAD.format(out=out, lights=lights, size=size), f'Attribute "light" "shadows" "{"off" if kind == "unshadowed" else "on"}"']
     text += lamps(kind, count, blocks, rng)
     if indirect:
         text.append('LightSource "indirectlight" "bounce" "float samples" [256]')
