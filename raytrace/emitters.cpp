@@ -103,12 +103,8 @@ EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups)
 }
 
 void put(const EmitterPoints& out, int i, const vec3& P, const vec3& N, double density, double meetDensity) {
-  out.P.x[i] = P.x;
-  out.P.y[i] = P.y;
-  out.P.z[i] = P.z;
-  out.N.x[i] = N.x;
-  out.N.y[i] = N.y;
-  out.N.z[i] = N.z;
+  set(out.P, i, P);
+  set(out.N, i, N);
   out.density[i] = static_cast<float>(density);
   if (out.meetDensity) out.meetDensity[i] = static_cast<float>(meetDensity);
 }
@@ -268,12 +264,8 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     }
     area[i] = static_cast<float>(p.area * l.areas.total() / l.areas.weight(pick));
     if (group) group[i] = p.group;
-    P.x[i] = p.P.x;
-    P.y[i] = p.P.y;
-    P.z[i] = p.P.z;
-    N.x[i] = p.N.x;
-    N.y[i] = p.N.y;
-    N.z[i] = p.N.z;
+    set(P, i, p.P);
+    set(N, i, p.N);
   }
   return true;
 }

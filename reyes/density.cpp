@@ -120,7 +120,7 @@ float DensityGrid::integral(const ivec3& cell, const vec3& origin, const vec3& d
 template <class Visit>
 void DensityGrid::walk(const vec3& from, const vec3& to, float t0, float t1, const Visit& visit) const {
   const vec3 origin = transformPoint(indexFromObject_, from), direction = transformVector(indexFromObject_, to);
-  const vec3 slow = 1.0f / direction;
+  const vec3 inverse = 1.0f / direction;
   float t = t0;
   ivec3 cell(glm::floor(origin + t * direction));
   while (t < t1) {
@@ -131,7 +131,7 @@ void DensityGrid::walk(const vec3& from, const vec3& to, float t0, float t1, con
     float exit = t1;
     for (int k = 0; k < 3; ++k) {
       if (direction[k] == 0) continue;
-      const float leaves = (static_cast<float>(direction[k] > 0 ? low[k] + size : low[k]) - origin[k]) * slow[k];
+      const float leaves = (static_cast<float>(direction[k] > 0 ? low[k] + size : low[k]) - origin[k]) * inverse[k];
       if (leaves < exit) {
         axis = k;
         exit = leaves;

@@ -173,9 +173,7 @@ bool CloudFiles::photons(const CloudQuery& q, const TmPhotonOptions& given, TmVe
       if (!q.active[i]) continue;
       file.data->lookup(at(q.P, i), at(q.N, i), q.radius[i], data.data());
       const float* e = data.data() + place;
-      E.x[i] = e[0] / kPi;
-      E.y[i] = e[1] / kPi;
-      E.z[i] = e[2] / kPi;
+      set(E, i, vec3(e[0], e[1], e[2]) / kPi);
     }
   } catch (const FileError& e) {
     problem = e.what();
@@ -210,11 +208,7 @@ bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* 
     if (!q.active[i] || at(q.N, i) == vec3(0)) continue;
     const HemisphereView seen = file.data->seenFrom(at(q.P, i), at(q.N, i), query);
     covered[i] = seen.covered;
-    if (radiance.x) {
-      radiance.x[i] = seen.radiance.x;
-      radiance.y[i] = seen.radiance.y;
-      radiance.z[i] = seen.radiance.z;
-    }
+    if (radiance.x) set(radiance, i, seen.radiance);
   }
   return true;
 }
@@ -229,10 +223,7 @@ bool CloudFiles::subsurface(const CloudQuery& q, const TmSubsurfaceOptions& give
   const Dipole dipole(*material);
   for (int i = 0; i < q.count; ++i) {
     if (!q.active[i]) continue;
-    const vec3 light = file.data->at(at(q.P, i), dipole, given.unitLength, given.maxSolidAngle);
-    out.x[i] = light.x;
-    out.y[i] = light.y;
-    out.z[i] = light.z;
+    set(out, i, file.data->at(at(q.P, i), dipole, given.unitLength, given.maxSolidAngle));
   }
   return true;
 }

@@ -163,14 +163,9 @@ vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
 }
 
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]) {
-  const auto put = [i](TmVec3 to, const vec3& v) {
-    to.x[i] = v.x;
-    to.y[i] = v.y;
-    to.z[i] = v.z;
-  };
-  put(out.E, E);
+  set(out.E, i, E);
   for (int c = 0; c < 3; ++c)
-    if (out.dominant[c].x) put(out.dominant[c], dominant[c]);
+    if (out.dominant[c].x) set(out.dominant[c], i, dominant[c]);
 }
 
 std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) {

@@ -113,16 +113,8 @@ class ShaderRays {
   }
 
   void add(int i, const vec3& color, const vec3& clear) {
-    if (result_.color.x) {
-      result_.color.x[i] += color.x;
-      result_.color.y[i] += color.y;
-      result_.color.z[i] += color.z;
-    }
-    if (result_.opacity.x) {
-      result_.opacity.x[i] = 1 - clear.x;
-      result_.opacity.y[i] = 1 - clear.y;
-      result_.opacity.z[i] = 1 - clear.z;
-    }
+    if (result_.color.x) set(result_.color, i, get(result_.color, i) + color);
+    if (result_.opacity.x) set(result_.opacity, i, 1.0f - clear);
   }
 
   const GiState& state_;

@@ -187,12 +187,10 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
     if (!active[i]) continue;
     const float radius = std::sqrt(points.channel(kArea)[i] / kPi);
     bool across = false;
-    const vec3 e = impl_->atlas ? impl_->atlas->irradianceOverPi(points.group(), points.position(i),
-                                                                 points.facingNormal(i), radius, across)
-                                : vec3(0.0f);
-    E.x[i] = e.x;
-    E.y[i] = e.y;
-    E.z[i] = e.z;
+    set(E, i,
+        impl_->atlas
+            ? impl_->atlas->irradianceOverPi(points.group(), points.position(i), points.facingNormal(i), radius, across)
+            : vec3(0.0f));
     if (across) acrossWalls.push_back(i);
   }
   if (!acrossWalls.empty()) traceToStored(*impl_, points, acrossWalls, E);

@@ -20,10 +20,9 @@ struct RayLayers {
   /// Finds the nearest hits of the rays that go on. Returns how many rays started at a recorded hit of the hit list.
   int64_t meet(const RayScene& scene, RayMask mask, std::vector<Hit>& hits) const;
 
-  /// Takes the colours and opacities of the hits and calls `brings(element, colour at the first origin, transmittance
-  /// that remains)` for each, those of
-  /// rays that have met nothing but a Volume included. It keeps the rays whose opacity so far is below
-  /// `opacityThreshold`.
+  /// Takes the colours and opacities that rays bring, also those that have met nothing but a Volume, and calls
+  /// `brings(element, colour at the first origin, transmittance that remains)` for each. It keeps the rays whose
+  /// opacity so far is below `opacityThreshold`.
   template <class Brings>
   void goOn(const RayScene& scene, const std::vector<Hit>& hits, const HitAnswers& answers, float opacityThreshold,
             const Brings& brings) {

@@ -273,10 +273,12 @@ bool Cache::info(const std::string& name, const std::string& what, std::vector<f
   }
   if (what == "channels" || what == "bitsperchannel") {
     int value = 0;
-    const bool good =
-        get(what == "channels" ? "channels" : "oiio:BitsPerSample", OIIO::TypeInt, &value) ||
-        (what != "channels" && get("cachedpixeltype", OIIO::TypeInt, &value) &&
-         (value = static_cast<int>(8 * OIIO::TypeDesc(static_cast<OIIO::TypeDesc::BASETYPE>(value)).size()), true));
+    const bool counts = what == "channels";
+    bool good = get(counts ? "channels" : "oiio:BitsPerSample", OIIO::TypeInt, &value);
+    if (!good && !counts) {
+      good = get("cachedpixeltype", OIIO::TypeInt, &value);
+      if (good) value = static_cast<int>(8 * OIIO::TypeDesc(static_cast<OIIO::TypeDesc::BASETYPE>(value)).size());
+    }
     numbers = {static_cast<float>(value)};
     return good;
   }

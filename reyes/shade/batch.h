@@ -117,13 +117,4 @@ Options givenOptions(const Batch& batch, Options options, const Options* given) 
   return options;
 }
 
-inline TmConstVec3 view(TmVec3 v) { return {v.x, v.y, v.z}; }
-inline vec3 get(TmConstVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }
-inline vec3 get(TmVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }
-inline void set(TmVec3 a, int i, const vec3& v) {
-  a.x[i] = v.x;
-  a.y[i] = v.y;
-  a.z[i] = v.z;
-}
-
 }  // namespace tomales

@@ -77,7 +77,8 @@ float specularSharpnessOf(const Scene& scene, Log& log) {
 
 int lightCutOf(const Options& options) {
   const Param* cut = optionOf(options, "trace:lightcut");
-  return cut ? std::clamp(static_cast<int>(cut->number(0)), 0, kMostLightSamples) : kLightCut;
+  if (!cut) return kLightCut;
+  return static_cast<int>(std::fmin(std::fmax(cut->number(0), 0.0f), float{kMostLightSamples}));  // 0 for NaN
 }
 
 /// Option "limits" "texturememory" is in KB.

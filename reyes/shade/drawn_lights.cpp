@@ -244,8 +244,8 @@ void Lights::alongDrawn(Batch& batch, const LightSet& lamps, const LobeDirection
     openOutputs(batch, *first.bound, params);
     g.params = params.data();
     if (!batch.run(*first.bound, g)) return;
-    addMet(batch, *lamps.lights[run % lamps.lights.size()], g, beforeEmitters(batch, lamps, at, g), points.density,
-           lobe, Cl);
+    // No point meets more lamps than there are, so each run's shadow rays are asked under another light's name.
+    addMet(batch, *lamps.lights[run], g, beforeEmitters(batch, lamps, at, g), points.density, lobe, Cl);
   }
 }
 

@@ -14,8 +14,8 @@ namespace tomales {
 struct BoundLight;
 struct BoundScene;
 
-/// A set is larger than so many times the number that a point draws; what is fewer runs as a whole. A draw takes as
-/// long as a shadow ray, and ten times as long as a light without shadows: docs/measured/rays.md.
+/// A set is larger than so many times the number that a point draws; what is fewer runs as a whole. A drawn light takes
+/// as long as three that cast shadows, or thirty that do not: docs/measured/rays.md.
 constexpr size_t kFewLights = 4, kFewWithoutShadows = 32;
 
 struct LightSet {

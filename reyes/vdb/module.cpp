@@ -89,13 +89,13 @@ mat4 indexFromObject(const vdb::FloatGrid& grid) {
   return out;
 }
 
-ivec3 of(const vdb::Coord& c) { return {c.x(), c.y(), c.z()}; }
+ivec3 pointOf(const vdb::Coord& c) { return {c.x(), c.y(), c.z()}; }
 
 /// Copies active values, tiles among them, and what leaves hold besides.
 void fill(const vdb::FloatGrid& grid, DensityGrid& out) {
   static_assert(vdb::FloatTree::LeafNodeType::DIM == DensityGrid::kSide);
   for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf)
-    std::copy_n(leaf->buffer().data(), DensityGrid::kBrickFloats, out.brickAt(of(leaf->origin())));
+    std::copy_n(leaf->buffer().data(), DensityGrid::kBrickFloats, out.brickAt(pointOf(leaf->origin())));
   auto tile = grid.cbeginValueOn();
   tile.setMaxDepth(vdb::FloatTree::ValueOnCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) {
@@ -115,7 +115,7 @@ std::unique_ptr<DensityGrid> densityOf(vdb::FloatGrid& grid, const Bound3& bound
   const mat4 toIndex = indexFromObject(grid);
   if (const float volume = glm::determinant(mat3(toIndex)); !(std::abs(volume) > 0 && std::abs(volume) < kInfinity))
     throw VdbProblem("the grid's transformation cannot be used");
-  const ivec3 first = of(active.min()), last = of(active.max());
+  const ivec3 first = pointOf(active.min()), last = pointOf(active.max());
   const double bytes =
       DensityGrid::tableBytes(first, last) + static_cast<double>(grid.activeVoxelCount()) * sizeof(float);
   if (bytes > kMostBytes) throw VdbProblem(fmt::format("the grid would take {:.0f} GB of memory", bytes / 1e9));

@@ -17,10 +17,11 @@ import sys
 import tempfile
 import time
 
-program = str(pathlib.Path(sys.argv[1]).resolve())
-scene = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 and sys.argv[2] != "--animation" else pathlib.Path(__file__).parents[2] / "scenes/cornell/cornell.rib").resolve()
-kills = int(sys.argv[3]) if len(sys.argv) > 3 else 30
-options = sys.argv[4:]
+arguments = [a for a in sys.argv[1:] if a != "--animation"]
+program = str(pathlib.Path(arguments[0]).resolve())
+scene = pathlib.Path(arguments[1] if len(arguments) > 1 else pathlib.Path(__file__).parents[2] / "scenes/cornell/cornell.rib").resolve()
+kills = int(arguments[2]) if len(arguments) > 2 else 30
+options = arguments[3:]
 folder = pathlib.Path(tempfile.mkdtemp())
 
 

@@ -115,7 +115,7 @@ def main():
                 seconds, rays = render(program, folder, name, scene(kind, count, lights, f"{name}.exr", arguments.size, arguments.indirect), gi)
                 truth = folder / f"{kind}_{count}_0.exr"
                 off = f"{100 * error(program, folder, f'{name}.exr', truth.name):.2f} %, " if lights and truth.exists() else ""
-                row.append(f"{lights or 'all'}: {off}{seconds:.1f} s, {rays / 1e6:.2f} M shadow rays")
+                row.append(f"{lights or 'all'}: {off}{seconds:.2f} s, {rays / 1e6:.2f} M shadow rays")
             print(" | ".join(row), flush=True)
 
 

@@ -190,9 +190,10 @@ int main() {
     std::vector<double> truth;
     for (uint32_t pixel = 0; pixel < 1000; ++pixel) {
       const Pixel dense = owenSobol(64, hash32(pixel + 5000));
-      truth.push_back(static_cast<double>(
-                          std::count_if(dense.begin(), dense.end(), [&](const Sample& s) { return edge(s, pixel); })) /
-                      static_cast<double>(dense.size()));
+      truth.push_back(
+          static_cast<double>(std::count_if(dense.begin(), dense.end(),
+                                            [&, &covers = edge](const Sample& s) { return covers(s, pixel); })) /
+          static_cast<double>(dense.size()));
     }
     for (int root : {2, 3, 4, 8}) {
       fmt::print("| {} | {}x{} |", edgeName, root, root);

@@ -36,8 +36,8 @@ def start(*line, stdin=subprocess.DEVNULL):
 reader, writer = os.pipe()
 master, process = start("-", stdin=reader)
 os.write(writer, GOOD[:60].encode())
-shown = shown_until(master, process, "reading 0:0[2-9]")
-t.expect(len(set(re.findall(r"reading 0:0(\d)", shown))) >= 2, f"reading: {shown!r}")  # a busy machine may skip one
+shown = shown_until(master, process, "reading 0:02")
+t.expect("reading 0:01" in shown and "reading 0:02" in shown, f"reading: {shown!r}")
 os.write(writer, GOOD[60:].encode())
 os.close(writer)
 shown = shown_until(master, process, "100%")
@@ -51,8 +51,8 @@ shadows = 'Attribute "light" "shadows" "on"\nLightSource "distantlight" 1'
 t.write("procedural.rib", GOOD.replace("Sphere 1 -1 1 360", slow).replace('LightSource "distantlight" 1', shadows))
 master, process = start("procedural.rib", "-o", "procedural.exr", "--allow-system")
 shown = shown_until(master, process, "100%")
-seconds = set(re.findall(r"opening procedurals 0:0(\d)", shown))  # likewise
-t.expect(len(seconds) >= 2, f"procedurals: {shown!r}")
+seconds = set(re.findall(r"opening procedurals 0:0(\d)", shown))  # a busy machine may skip one
+t.expect(len(seconds) >= 3, f"procedurals: {shown!r}")
 t.expect(process.wait(timeout=60) == 0, "and goes on to the end")
 
 # Shares of a frame need no clock.

@@ -43,13 +43,10 @@ class EmptySpace final : public ShadeServices {
   bool sampleEmitter(int, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                      const EmitterPoints& out) const override {
     for (int i = 0; i < count; ++i) {
-      const vec3 P(xi0[i] - 0.5f, xi1[i] - 0.5f, kLampDistance), way = vec3(from.x[i], from.y[i], from.z[i]) - P;
+      const vec3 P(xi0[i] - 0.5f, xi1[i] - 0.5f, kLampDistance), way = get(from, i) - P;
       const float cosine = glm::normalize(way).z;
-      out.P.x[i] = P.x;
-      out.P.y[i] = P.y;
-      out.P.z[i] = P.z;
-      out.N.x[i] = out.N.y[i] = 0;
-      out.N.z[i] = 1;
+      set(out.P, i, P);
+      set(out.N, i, vec3(0, 0, 1));
       out.density[i] = cosine > 0 ? glm::dot(way, way) / cosine : 0.0f;
       out.meetDensity[i] = 0;
     }

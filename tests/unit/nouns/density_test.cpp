@@ -24,9 +24,11 @@ TEST(Density, OfEqualPointsIsTheirNumberTimesTheirDistance) {
   const DensityGrid grid = lattice(ivec3(-3), ivec3(12), [](int, int, int) { return 2.0f; });
   for (int axis = 0; axis < 3; ++axis) {
     vec3 from(3.3f), along(0);
-    from[axis] = -50, along[axis] = 1;
+    from[axis] = -50;
+    along[axis] = 1;
     EXPECT_NEAR(grid.amount(from, along, 0, 100), 2 * 16, 1e-4) << axis;
-    from[axis] = 50, along[axis] = -1;
+    from[axis] = 50;
+    along[axis] = -1;
     EXPECT_NEAR(grid.amount(from, along, 0, 100), 2 * 16, 1e-4) << axis;
   }
 }
@@ -65,6 +67,8 @@ TEST(Density, OfAWayIsWhatItIsWithoutOne) {
   DensityWay way;
   grid.cross(from, along, 1, 44, 2, way);
   EXPECT_NEAR(way.amount(), 2 * grid.amount(from, along, 1, 44), 1e-3f * way.amount());
+  for (const DensityWay::Knot& k : way.knots)
+    EXPECT_NEAR(k.amount, 2 * grid.amount(from, along, 1, 1 + k.distance / 2), 1e-3f * way.amount());
   for (float amount = 1; amount < way.amount(); amount += 0.7f) {
     const DensityWay::Place there = way.atAmount(amount), back = way.atDistance(there.distance);
     EXPECT_NEAR(back.amount, amount, 1e-3f);
@@ -75,7 +79,10 @@ TEST(Density, OfAWayIsWhatItIsWithoutOne) {
 
 TEST(Density, TakesNothingThatIsNoDensity) {
   DensityGrid grid(ivec3(0), ivec3(7), mat4(1.0f), {vec3(0), vec3(7)});
-  grid.set({1, 1, 1}, -2), grid.set({2, 2, 2}, kInfinity), grid.set({3, 3, 3}, std::nanf("")), grid.set({4, 4, 4}, 1);
+  grid.set({1, 1, 1}, -2);
+  grid.set({2, 2, 2}, kInfinity);
+  grid.set({3, 3, 3}, std::nanf(""));
+  grid.set({4, 4, 4}, 1);
   EXPECT_EQ(grid.finish(), 3u);
   EXPECT_EQ(grid.at({1, 1, 1}), 0);
   EXPECT_EQ(grid.at({4, 4, 4}), 1);

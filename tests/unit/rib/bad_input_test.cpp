@@ -145,9 +145,11 @@ TEST(BadInput, DeepNestingEndsWhereItBegan) {
 
 TEST(BadInput, UnsupportedRequestsAreNamedOnce) {
   const Reading r(
-      inWorld("VPAtmosphere \"fog\"\nVPAtmosphere \"fog\"\nVPSurface \"matte\"\nVPSurface \"matte\"\n" + kSphere));
+      inWorld("VPAtmosphere \"fog\"\nVPAtmosphere \"fog\"\nVPSurface \"matte\"\nVPSurface \"matte\"\nVolume \"cloud\" "
+              "[0 1 0 1 0 1] [0 0 0]\n" +
+              kSphere));
   EXPECT_EQ(r.told("rib-unsupported"), 2);
-  EXPECT_EQ(r.log.worst(), Severity::Warning);
+  EXPECT_EQ(r.log.worst(), Severity::Missing);
   EXPECT_EQ(r.scene().objects.size(), 1u);
 }
 

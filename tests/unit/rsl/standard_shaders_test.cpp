@@ -273,11 +273,11 @@ INSTANTIATE_TEST_SUITE_P(Of, StandardShaders, ::testing::ValuesIn(all()),
 
 TEST(StandardLights, AreFoundToBeWhatTheBuiltInOnesDeclare) {
   Studio written(true), builtIn(false);
-  const auto found = [](Studio& studio, const char* name) {
-    return studio.shader(name, TM_LIGHT).capabilities & ~TM_LIGHT_BOUNDED;  // a promise that no text tells
-  };
+  // TM_LIGHT_BOUNDED is a promise that no text tells.
   for (const char* name : {"ambientlight", "distantlight", "pointlight", "spotlight"})
-    EXPECT_EQ(found(written, name), found(builtIn, name)) << name;
+    EXPECT_EQ(written.shader(name, TM_LIGHT).capabilities,
+              builtIn.shader(name, TM_LIGHT).capabilities & ~TM_LIGHT_BOUNDED)
+        << name;
 }
 
 }  // namespace

@@ -82,9 +82,7 @@ class FakeServices final : public ShadeServices {
       if (result.leaves) result.leaves[i] = met && distance == kInfinity;
       const vec3 color = seen && toward != vec3(0) ? seen(toward) : vec3(0);
       if (result.color.x) {
-        result.color.x[i] = color.x;
-        result.color.y[i] = color.y;
-        result.color.z[i] = color.z;
+        set(result.color, i, color);
       }
     }
   }
@@ -107,12 +105,8 @@ class FakeServices final : public ShadeServices {
       emitter(a[i], b[i], p, n, area);
       const vec3 path = p - vec3(from.x[i], from.y[i], from.z[i]);
       const float cosine = -dot(n, glm::normalize(path));
-      out.P.x[i] = p.x;
-      out.P.y[i] = p.y;
-      out.P.z[i] = p.z;
-      out.N.x[i] = n.x;
-      out.N.y[i] = n.y;
-      out.N.z[i] = n.z;
+      set(out.P, i, p);
+      set(out.N, i, n);
       out.density[i] = cosine > 1e-5f ? dot(path, path) / (cosine * area) : 0.0f;
       out.meetDensity[i] = 0;
     }
@@ -127,14 +121,9 @@ class FakeServices final : public ShadeServices {
     for (int i = 0; i < points.count(); ++i) {
       if (!active[i]) continue;
       ++gathers;
-      out.E.x[i] = E.x;
-      out.E.y[i] = E.y;
-      out.E.z[i] = E.z;
+      set(out.E, i, E);
       for (int k = 0; k < 3; ++k) {
-        TmVec3& d = out.dominant[k];
-        d.x[i] = dominant[k].x;
-        d.y[i] = dominant[k].y;
-        d.z[i] = dominant[k].z;
+        set(out.dominant[k], i, dominant[k]);
       }
     }
   }

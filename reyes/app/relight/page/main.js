@@ -132,6 +132,7 @@ const panelTools = {
 const lights = buildLights($("lights"), scene, panelTools);
 const surfaces = buildSurfaces($("surfaces"), $("search"), scene, panelTools);
 const handles = new Handles(stage, scene, panelTools);
+$("handles").hidden = handles.all.length === 0;
 
 const notes = new Set();
 const note = (text, warns = true) => {
