@@ -1,5 +1,10 @@
 #include "room.h"
 
+/* How much of a pixel lies on a joint, which reaches as far as `wide` to both sides of 0. */
+float onjoint(float x, wide, pixel) {
+  return max(0, min(x + 0.5 * pixel, wide) - max(x - 0.5 * pixel, -wide)) / pixel;
+}
+
 /* Oak in a herringbone, oiled and worn. */
 surface parquet(color pale = color(0.30, 0.165, 0.075), dark = color(0.13, 0.06, 0.025); float wide = 0.09, pieces = 5;) {
   point q = transform("room", P);
@@ -14,10 +19,14 @@ surface parquet(color pale = color(0.30, 0.165, 0.075), dark = color(0.13, 0.06,
   float fibre = fBm(point(3 * xcomp(g), 0, 16 * zcomp(g)), 16 * width, 4, 2, 0.55);
   float year = 0.5 + 0.5 * sin(2 * PI * (2.2 * zcomp(g) + 1.2 * snoise(g * 1.3)));
   color wood = mix(pale, dark, clamp(0.2 + 0.3 * year + 0.4 * fibre + 0.8 * (name - 0.5), 0, 1));
-  float edge = min(min(across, 1 - across), min(along, pieces - along));
-  float joint = 1 - smoothstep(0.012, 0.03 + 0.7 * width, edge);
+  float da = max(filterwidth(a), 0.01), db = max(filterwidth(b), 0.01);
+  float joint = max(onjoint(min(across, 1 - across), 0.02, turn < pieces ? db : da), onjoint(min(along, pieces - along), 0.02, turn < pieces ? da : db));
   wood *= 1 - 0.7 * joint;
-  normal Nf = faceforward(normalize(calculatenormal(P - 0.0006 * (fibre + 3 * joint + 0.8 * (name - 0.5) * across) * normalize(N))), I);
+  normal Nf = faceforward(normalize(N), I);
+  normal grained = faceforward(normalize(calculatenormal(P - 0.0006 * (fibre + 0.8 * (name - 0.5) * across) * normalize(N))), I);
+  /* Blocks do not continue each other's grain: the slope between two of them means nothing. */
+  float edge = min(min(across, 1 - across), min(along, pieces - along));
+  Nf = normalize(Nf + (grained - Nf) * smoothstep(1, 2, edge / max(da, db)));
   float worn = 0.5 + 0.5 * fBm(1.1 * q, 1.1 * filterwidthp(q), 4, 2.1, 0.5);
   Oi = Os;
   Ci = Os * (wood * received(normalize(N)) + mix(0.95, 0.5, worn) * (1 - joint) * gloss(Nf, 1.45, 0.10, 16));

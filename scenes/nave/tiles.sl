@@ -19,7 +19,7 @@ surface tiles(color pale = color(0.46, 0.41, 0.33), dark = color(0.095, 0.085, 0
   float Kr, Kt;
   fresnel(In, bumped, 1 / 1.5, Kr, Kt);
   color mirrored = color(0.1, 0.09, 0.08);
-  if (raydepth() == 0) mirrored = trace(P, normalize(reflect(In, bumped)), "samplecone", 0.07, "samples", 24);
+  if (raydepth() == 0) mirrored = trace(P, normalize(reflect(In, bumped)), "samplecone", 0.07, "samples", 96);
   Oi = Os;
   Ci = Os * (paint * (diffuse(Nf) + ambient()) + (0.75 - 0.3 * clamp(worn, 0, 1)) * (1 - joint) * Kr * mirrored);
 }

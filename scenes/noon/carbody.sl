@@ -42,12 +42,12 @@ surface carbody(float belt = 0.94, roof = 1.40, flake = 0; vector front = vector
   Oi = Os;
   Ci = Os * tint * received(Nf, isindirectray() + raydepth());
   if (isindirectray() == 0) {
-    color coat = mirrored(Nf, mix(1.5, 1.75, flake), 0.025, 6);
+    color coat = mirrored(Nf, mix(1.5, 1.75, flake), 0.025, 32);
     /* The sun itself in the lacquer. */
     vector V = -normalize(I);
     color glint = 0;
     illuminance ("sun", P, Nf, PI / 2) glint += Cl * (1.6 * pow(max(0, normalize(normalize(L) + V) . Nf), 900) + (0.02 + 0.12 * flake) * pow(max(0, normalize(normalize(L) + V) . Nf), 40));
     color cabin = mix(color(0.010, 0.011, 0.012), color(0.05, 0.048, 0.045), (1 - smoothstep(0.2, 0.75, rise)) * (0.5 + 0.5 * float noise(4 * q)));
-    Ci = mix(Ci + (coat + glint) * clean, cabin + 1.1 * mirrored(Nf, 1.6, 0, 1) + glint, glass);
+    Ci = mix(Ci + (coat + glint) * clean, cabin + 1.1 * mirrored(Nf, 1.6, 0.01, 8) + glint, glass);
   }
 }

@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -215,3 +216,41 @@ class Addon(unittest.TestCase):
         self.assertEqual(found["Kd"][0], "float")
         self.assertEqual(found["specularcolor"], ["color", [1, 1, 1]])
         self.assertNotIn("albedo", found, "an output is not set")
+
+
+class InstalledAddon(unittest.TestCase):
+    """The add-on as a user copies it into Blender's folder, away from the Python module."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        source = pathlib.Path(os.environ["TOMALES_SOURCE"]) / "reyes/bindings"
+        shutil.copytree(source / "blender/tomales_blender", self.folder / "scripts/addons/tomales_blender")
+        self.packages = self.folder / "prefix/lib/python3.11/dist-packages"
+        shutil.copytree(source / "python/tomales", self.packages / "tomales")
+        program = self.folder / "prefix/bin/tomales"
+        program.parent.mkdir()
+        program.write_text(f'#!/bin/sh\nexec "{os.environ["TOMALES"]}" "$@"\n')
+        program.chmod(0o755)
+
+    def engines(self, expression="pass", path=()):
+        """Whether the engine is there after switching the add-on on, and after the expression besides."""
+        script = ("import bpy; bpy.ops.preferences.addon_enable(module='tomales_blender'); there = lambda: print('THERE', any(e.bl_idname == 'TOMALES' for e in bpy.types.RenderEngine.__subclasses__())); "
+                  f"there(); preferences = bpy.context.preferences.addons['tomales_blender'].preferences; {expression}; there()")
+        said = subprocess.run([os.environ["BLENDER"], "-b", "--factory-startup", "--python-exit-code", "9", "--python-expr", script], capture_output=True, text=True, timeout=300,
+                              env={**{k: v for k, v in os.environ.items() if k not in ("TOMALES", "PYTHONPATH")}, "BLENDER_USER_SCRIPTS": str(self.folder / "scripts"),
+                                   "PATH": os.pathsep.join([*map(str, path), "/usr/bin", "/bin"])})
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        return [word == "True" for word in re.findall(r"THERE (\w+)", said.stdout)], said.stdout
+
+    def test_finds_the_module_that_was_installed_with_the_program(self):
+        self.assertEqual(self.engines(path=[self.folder / "prefix/bin"])[0], [True, True])
+
+    def test_without_the_module_it_asks_for_it_and_goes_on_once_the_preferences_name_it(self):
+        there, said = self.engines(f"preferences.module = {str(self.packages)!r}")
+        self.assertEqual(there, [False, True])
+        self.assertIn("there is no Python module tomales", said)
+
+    def test_the_program_of_the_preferences_leads_to_the_module(self):
+        self.assertEqual(self.engines(f"preferences.program = {str(self.folder / 'prefix/bin/tomales')!r}")[0], [False, True])

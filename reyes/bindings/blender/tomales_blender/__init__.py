@@ -3,44 +3,74 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import shutil
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 bl_info = {
     "name": "Tomales",
     "description": "A Reyes renderer with global illumination",
-    "version": (0, 1, 0),
+    "version": (1, 0, 0),
     "blender": (3, 4, 0),
     "category": "Render",
     "location": "Render properties > Render Engine",
 }
 
 
-def _find_module(folder: str) -> None:
-    """Puts the module tomales on Python's path: that of the preferences, or the one in the same source tree."""
+def _folders(named: str) -> Iterator[Path]:
+    """Where the module tomales may lie if Python does not know it: Blender's own Python has other folders than the system's."""
+    if named:
+        yield Path(named)
+    yield Path(__file__).resolve().parents[2] / "python"  # in a tree of sources
+    if program := shutil.which(os.environ.get("TOMALES", "tomales")):
+        yield from sorted(Path(program).resolve().parents[1].glob("lib/python3*/dist-packages"))
+
+
+def _find_module(named: str) -> bool:
+    """Puts the module tomales on Python's path."""
     if importlib.util.find_spec("tomales") is None:
-        sys.path.append(folder or str(Path(__file__).resolve().parents[2] / "python"))
+        sys.path.extend(str(folder) for folder in list(_folders(named)) if (folder / "tomales").is_dir())
+        importlib.invalidate_caches()
+    return importlib.util.find_spec("tomales") is not None
+
+
+_registered = False  #: Whether the engine is.
+
+
+def register_engine() -> bool:
+    """Registers the engine once its module is found. The preferences, which may name the module, call this when they change."""
+    import bpy
+
+    global _registered
+    addon = bpy.context.preferences.addons.get(__package__)
+    if addon and addon.preferences.program:
+        os.environ["TOMALES"] = bpy.path.abspath(addon.preferences.program)
+    if not _registered and _find_module(bpy.path.abspath(addon.preferences.module) if addon else ""):
+        from . import engine, panels
+
+        engine.register()
+        panels.register()
+        _registered = True
+    return _registered
 
 
 def register() -> None:
-    import bpy
-
     from . import settings
 
     settings.register()
-    addon = bpy.context.preferences.addons.get(__package__)
-    _find_module(addon.preferences.module if addon else "")
-    if addon and addon.preferences.program:
-        os.environ["TOMALES"] = bpy.path.abspath(addon.preferences.program)
-    from . import engine, panels
-
-    engine.register()
-    panels.register()
+    if not register_engine():
+        print("Tomales: there is no Python module tomales; name its folder in the preferences of this add-on")
 
 
 def unregister() -> None:
-    from . import engine, panels, settings
+    from . import settings
 
-    panels.unregister()
-    engine.unregister()
+    global _registered
+    if _registered:
+        from . import engine, panels
+
+        panels.unregister()
+        engine.unregister()
+        _registered = False
     settings.unregister()

@@ -6,6 +6,8 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
 
+from . import register_engine
+
 
 class TomalesScene(bpy.types.PropertyGroup):
     pixel_samples: IntProperty(name="Pixel Samples", description="Samples along each edge of a pixel", default=4, min=1, max=32)
@@ -56,15 +58,23 @@ class TomalesMaterial(bpy.types.PropertyGroup):
     parameters: CollectionProperty(type=TomalesParameter)
 
 
+def _look_again(preferences: bpy.types.AddonPreferences, context: bpy.types.Context) -> None:
+    register_engine()
+
+
 class TomalesPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    program: StringProperty(name="Program", description="The program tomales; empty: the one that is installed", subtype="FILE_PATH")
-    module: StringProperty(name="Python Module", description="Folder of the module tomales; empty: where Python finds it", subtype="DIR_PATH")
+    program: StringProperty(name="Program", description="The program tomales; empty: the one that is installed", subtype="FILE_PATH",
+                            update=_look_again)
+    module: StringProperty(name="Python Module", description="The folder in which the folder tomales of the Python module lies; empty: where Python finds it",
+                           subtype="DIR_PATH", update=_look_again)
 
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.prop(self, "program")
         self.layout.prop(self, "module")
+        if not register_engine():
+            self.layout.label(text="There is no Python module tomales here: choose the program or the module's folder", icon="ERROR")
 
 
 CLASSES = (TomalesScene, TomalesParameter, TomalesMaterial, TomalesPreferences)
