@@ -50,6 +50,14 @@ set_target_properties(OpenVDB::openvdb PROPERTIES IMPORTED_LOCATION ${OPENVDB_LI
 # The CMake package of libopenimageio-dev wants the programs of openimageio-tools and the headers of OpenCV (1 GB).
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
 
+# Chart.js draws the pages of `tomales chart`, which have it in themselves.
+find_file(CHART_JS chart.js/chart.min.js PATHS /usr/share/javascript NO_DEFAULT_PATH)
+if(NOT CHART_JS)
+  message(FATAL_ERROR "Chart.js is not found: on Debian, install libjs-chart.js; elsewhere set CHART_JS to its chart.min.js")
+endif()
+file(STRINGS ${CHART_JS} _chart_version REGEX "Chart.js v[0-9.]+" LIMIT_COUNT 1)
+string(REGEX REPLACE ".*Chart.js v([0-9.]+).*" "\\1" _chart_version "${_chart_version}")
+
 # What `tomales --version` tells of each library: its name, version and licence (SPDX).
 set(_osd_version "${OpenSubdiv_VERSION}")
 if(NOT _osd_version)
@@ -62,6 +70,7 @@ set(TOMALES_LIBRARIES
   "Imath|${Imath_VERSION}|BSD-3-Clause" "oneTBB|${TBB_VERSION}|Apache-2.0" "GLM|${glm_VERSION}|MIT"
   "Highway|${hwy_VERSION}|Apache-2.0" "fmt|${fmt_VERSION}|MIT" "CLI11|${CLI11_VERSION}|BSD-3-Clause"
   "JSON for Modern C++|${nlohmann_json_VERSION}|MIT" "cpp-httplib|${httplib_VERSION}|MIT" "Assimp|${assimp_VERSION}|BSD-3-Clause"
+  "Chart.js|${_chart_version}|MIT"
   "LibTIFF|${TIFF_VERSION_STRING}|libtiff" "libpng|${PNG_VERSION_STRING}|libpng-2.0" "zlib|${ZLIB_VERSION_STRING}|Zlib"
   "libzip|${zip_VERSION}|BSD-3-Clause" "Zstandard|${zstd_VERSION}|BSD-3-Clause" "libdeflate|${deflate_VERSION}|MIT"
   "xxHash|${xxhash_VERSION}|BSD-2-Clause")

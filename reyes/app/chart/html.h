@@ -4,6 +4,7 @@
 
 #include <iterator>
 #include <string>
+#include <string_view>
 
 namespace tomales {
 
@@ -27,8 +28,14 @@ class Markup {
 /// linear light, and two that are chosen take turns in one place. `white` is the value that is white in the files.
 std::string pictureTools(float white);
 
+/// A file of reyes/app/chart/page, or Chart.js.
+std::string_view chartFile(std::string_view name);
+
 /// Returns a PNG file as the address of an <img>.
 std::string embedded(const std::string& png);
+/// Writes three digits, without an exponent where possible.
+std::string shortNumber(double value);
+std::string escapeXml(const std::string& text);
 std::string percent(double share);
 std::string megabytes(double bytes);
 

@@ -23,7 +23,7 @@ class Page : Markup {
     openPage(r_.scene + ": error against cost", r_.scene + ": " + r_.title);
     summary(jsonName);
     reach();
-    legend();
+    put("{}", plotScripts());
     put("<div class=\"plots\">\n");
     plot(
         "Error against CPU time", "CPU seconds of the whole process", [](const ChartPoint& p) { return p.run.cpu_s; },
@@ -121,15 +121,8 @@ class Page : Markup {
       }
     put("<h2>Differences</h2><p>How much more the most accurate picture of each method is off than that of {} ({}), "
         "with "
-        "95 % intervals. Methods whose intervals hold 0 cannot be told from it by this reference.</p>\n<div "
-        "style=\"max-width:700px\">{}</div>\n",
-        key(best->curve), escapeXml(best->setting), drawDifferences("Differences of errors", rows, 700));
-  }
-
-  void legend() {
-    put("<ul class=\"legend\">");
-    for (size_t c = 0; c < r_.curves.size(); ++c) put("<li>{}</li>", key(c));
-    put("</ul>\n");
+        "95 % intervals. Methods whose intervals hold 0 cannot be told from it by this reference.</p>\n{}",
+        key(best->curve), escapeXml(best->setting), drawDifferences("Differences of errors", rows));
   }
 
   template <class Cost, class Best>
@@ -143,8 +136,7 @@ class Page : Markup {
       plot.curves[p.curve].points.push_back(
           {cost(p), p.error.mean, tip, fmt::format("#p{}", i), best(p), false, nameOf(p), p.error.confidence});
     }
-    put("<section><h2>{}</h2><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></section>\n", title,
-        drawPlot(plot, 580, 420), drawPlot(plot, 358, 340));
+    put("<section><h2>{}</h2>{}</section>\n", title, drawPlot(plot));
   }
 
   void table() {

@@ -1,4 +1,4 @@
-// Curves on logarithmic axes, as SVG.
+// Charts of a page: what they show. Chart.js, which is in the page, draws them.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@ struct PlotPoint {
   std::string tip;      ///< Shown when pointed at.
   std::string link;     ///< Where a click goes.
   bool best = false;    ///< Nothing else is both cheaper and more accurate.
-  bool warned = false;  ///< Drawn with a ring.
+  bool warned = false;  ///< Drawn with a red ring.
   std::string name{};   ///< Written beside it.
   double interval = 0;  ///< Half of that of y.
 };
@@ -20,10 +20,11 @@ struct PlotCurve {
   std::vector<PlotPoint> points;
 };
 
+/// Curves on logarithmic axes.
 struct Plot {
   std::string title, xLabel, yLabel;
   std::vector<PlotCurve> curves;
-  double floor = 0;  ///< Drawn as a line; 0 if there is none.
+  double floor = 0;  ///< Noise of the reference, drawn as a line; 0 if there is none.
   double limit = 0;  ///< An upright line at this x, with its name; 0 if there is none.
   std::string limitName{};
 };
@@ -35,15 +36,12 @@ struct PlotDifference {
   double mean, interval;
 };
 
+/// What a page needs once, if it has any drawing.
+std::string plotScripts();
+std::string drawPlot(const Plot& plot);
 /// Draws shares below each other on a linear axis, with a line at 0.
-std::string drawDifferences(const std::string& title, const std::vector<PlotDifference>& rows, int width);
-
-/// `width` and `height` are in pixels of the text, which is 12 pixels high.
-std::string drawPlot(const Plot& plot, int width, int height);
+std::string drawDifferences(const std::string& title, const std::vector<PlotDifference>& rows);
 /// The colour of a curve, by its index.
 const char* plotColor(size_t curve);
-/// Writes three digits, without an exponent where possible.
-std::string shortNumber(double value);
-std::string escapeXml(const std::string& text);
 
 }  // namespace tomales

@@ -30,7 +30,7 @@ class StabilityPage : Markup {
         kVersion, escapeXml(commandLine));
     for (size_t i = 0; i < curves.size(); ++i)
       put("<li><a href=\"#s{}\">{}</a></li>\n", i, escapeXml(curves[i].scene.title));
-    put("</ul>\n");
+    put("</ul>\n{}", plotScripts());
     for (size_t i = 0; i < curves.size(); ++i) section(curves[i], i);
     closePage();
     return take();
@@ -56,21 +56,14 @@ class StabilityPage : Markup {
       put("<p>Limit: at {} {} and beyond the renderer warns (<code>{}</code>, red rings).</p>\n",
           escapeXml(c.scene.knob), c.scene.limit->value, escapeXml(c.scene.limit->warning));
     }
-    put("<ul class=\"legend\">");
-    for (size_t m = 0; m < c.scene.methods.size(); ++m) {
-      plot.curves.push_back({c.scene.methods[m].name, {}});
-      put("<li><span class=\"key\" style=\"background:{}\"></span>{}</li>", plotColor(m),
-          escapeXml(c.scene.methods[m].name));
-    }
-    put("</ul>\n");
+    for (const LabMethod& method : c.scene.methods) plot.curves.push_back({method.name, {}});
     for (const StabilityPoint& p : c.points)
       plot.curves[p.method].points.push_back(
           {std::stod(p.knob), p.error.mean,
            fmt::format("{}, {} {}: {} (99th percentile {})", c.scene.methods[p.method].name, c.scene.knob, p.knob,
                        percent(p.error.mean), percent(p.error.p99)),
            '#' + name(scene, p), false, p.warned});
-    put("<div class=\"plots\"><div><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></div><div>\n",
-        drawPlot(plot, 580, 320), drawPlot(plot, 358, 300));
+    put("<div class=\"plots\">{}<div>\n", drawPlot(plot));
     table(c);
     put("</div></div>\n");
     pictures(c, scene);

@@ -9,8 +9,8 @@
 
 #include "reyes/app/exit_code.h"
 #include "reyes/app/frame/granted.h"
+#include "reyes/app/page_files.h"
 #include "reyes/app/relight/http_server.h"
-#include "reyes/app/relight/page.h"
 #include "reyes/app/relight/relighting.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/parallel.h"
@@ -91,7 +91,7 @@ class Relight {
 
  private:
   void addRoutes() {
-    for (const PageFile& file : pageFiles())
+    for (const PageFile& file : relightPage())
       server_.get(file.name == "index.html" ? "" : std::string(file.name), [file](const HttpQuestion&) {
         return HttpReply{200, typeOf(file.name), std::string(file.text)};
       });

@@ -2,8 +2,8 @@
 
 #include <fstream>
 
+#include "reyes/app/chart/html.h"
 #include "reyes/app/chart/lab.h"
-#include "reyes/app/chart/plot.h"
 #include "reyes/app/chart/report.h"
 #include "reyes/app/chart/sweeps.h"
 #include "reyes/app/settings.h"

@@ -1,0 +1,16 @@
+// Files of pages that the program has in itself: CMake takes them from the folders named `page`.
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace tomales {
+
+struct PageFile {
+  std::string_view name, text;
+};
+
+std::span<const PageFile> relightPage();
+/// Has Chart.js besides, which draws the charts.
+std::span<const PageFile> chartPage();
+
+}  // namespace tomales
