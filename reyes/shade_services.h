@@ -92,6 +92,9 @@ inline int shareOfBranch(int count, int least, const ShadeContext& context) {
   return std::max(std::min(count, least), count / context.branches);
 }
 
+/// Rays of a hemisphere at the least: shaders may do with the result what is not linear.
+constexpr int kLeastOfHemisphere = 16;
+
 /// The options of one set of rays of a shader's call.
 struct RayQuery {
   RayKind kind = RayKind::Specular;

@@ -22,8 +22,6 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
 // Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
-/// Rays of a hemisphere, of which one of many mirrored points has no fewer.
-constexpr int kLeastSamples = 16;
 /// For photons that nobody limits. What is left after so many surfaces of reflectance 0.75 is a hundredth.
 constexpr int kAuditBounces = 16;
 
@@ -202,7 +200,7 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
                          const IndirectQuery& query, const ShadeContext& context, const IndirectResult& out) {
   GatherPlan plan = planFor(state, points.group(), query);
   const auto prepared = preparedFor(state, plan);
-  plan.gather.samples = shareOfBranch(plan.gather.samples, kLeastSamples, context);
+  plan.gather.samples = shareOfBranch(plan.gather.samples, kLeastOfHemisphere, context);
   const GatherPlaces places(state, points);
   const BatchLookup found =
       lookUp(state, prepared != state.caches.end() ? &*prepared : nullptr, places, points, active, N);

@@ -25,6 +25,7 @@ AttributeEnd
 Illuminate "lamp" 1
 LightSource "environmentlight" "sky" "intensity" [0.4] "samples" [64]
 LightSource "indirectlight" "bounce" "samples" [256]
+LightSource "occlusionlight" "room" "samples" [64] "intensity" [0.1]
 Surface "matte" Color [0.7 0.4 0.3]
 Sphere 0.7 -0.7 0.7 360
 Surface "disney" %s "roughness" [0.4] "reflections" [%d]

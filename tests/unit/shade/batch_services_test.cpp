@@ -104,6 +104,20 @@ TEST_F(BatchServices, ParameterListsSetWhatTheyName) {
   EXPECT_EQ(std::tuple(w.bias, w.blur, w.width, w.samples), std::tuple(0.01f, 0.2f, 2.0f, 64));
 }
 
+TEST_F(BatchServices, WhatRaysMeetAsksForFewerRaysOfAHemisphereThanWhatTheEyeSees) {
+  const auto raysAt = [&](int samples, const ShadeContext& context) {
+    services.asked.clear();
+    asked(
+        2, [&](sl::Surface& s) { s.Ci = Color(occlusion(s.P, s.N, samples)); }, context);
+    return services.asked.size();
+  };
+  EXPECT_EQ(raysAt(128, {}), 128u);
+  EXPECT_EQ(raysAt(128, {.branches = 4}), 32u) << "one of four rays of a point";
+  EXPECT_EQ(raysAt(128, {.branches = 1000}), 16u) << "shaders may square what they get";
+  EXPECT_EQ(raysAt(128, {.kind = RayKind::Diffuse, .depth = 1}), 16u) << "one of the rays of a record";
+  EXPECT_EQ(raysAt(9, {.kind = RayKind::Diffuse, .depth = 1, .branches = 1000}), 9u) << "never more than it asks for";
+}
+
 TEST_F(BatchServices, ANameThatAParameterListDoesNotKnowIsReportedOnce) {
   body = [](sl::Surface& s) { s.Ci = trace(s.P, s.I, "smaples", 2); };
   shadeOne();
