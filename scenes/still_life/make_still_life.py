@@ -94,7 +94,7 @@ print('''WorldBegin
   AttributeEnd
   AttributeBegin
     Attribute "visibility" "int camera" [0] "int diffuse" [0] "int specular" [0] "int transmission" [0]
-    AreaLightSource "arealight" "flame" "float intensity" [1300] "lightcolor" [1.0 0.56 0.22] "float samples" [8] "float visible" [0]
+    AreaLightSource "arealight" "flame" "float intensity" [1300] "lightcolor" [1.0 0.56 0.22] "float samples" [32] "float visible" [0]
     Translate 4.05 3.55 1.5
     Sphere 0.12 -0.12 0.12 360
   AttributeEnd

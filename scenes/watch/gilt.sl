@@ -7,10 +7,10 @@ surface gilt(color metal = color(0.95, 0.68, 0.32); float shine = 0;) {
   normal Nf = faceforward(normalize(N), I);
   Oi = Os;
   if (shine > 0.5) {
-    Ci = Os * polished(Nf, metal, 0.05, 12);
+    Ci = Os * polished(Nf, metal, 0.05, 32);
   } else {
     float lines = (float noise(30 * r) - 0.5) * noisefade(30 * width) + (float noise(8 * r) - 0.5) * noisefade(8 * width);
     vector radial = normalize(vtransform("shader", "current", vector(xcomp(q), 0, zcomp(q))));
-    Ci = Os * brushed(Nf, radial, metal * (1 + 0.35 * lines), 0.14, 20);
+    Ci = Os * brushed(Nf, radial, metal * (1 + 0.35 * lines), 0.14, 48);
   }
 }

@@ -21,5 +21,5 @@ surface perlage(color metal = color(0.62, 0.58, 0.52); float size = 1.5;) {
   normal Nf = faceforward(normalize(normalize(N) + 0.10 * away * radial), I);
   float rim = 1 - 0.35 * smoothstep(0.48, 0.557, away);
   Oi = Os;
-  Ci = Os * brushed(Nf, normalize(radial), metal * rim * (1 + 0.3 * lines), 0.18, 32);
+  Ci = Os * brushed(Nf, normalize(radial), metal * rim * (1 + 0.3 * lines), 0.18, 80);
 }

@@ -3,5 +3,5 @@
 /* Steel with a fine polish. */
 surface steel(color metal = color(0.62, 0.61, 0.60)) {
   Oi = Os;
-  Ci = Os * polished(faceforward(normalize(N), I), metal, 0.06, 12);
+  Ci = Os * polished(faceforward(normalize(N), I), metal, 0.06, 32);
 }

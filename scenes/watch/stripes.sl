@@ -11,5 +11,5 @@ surface stripes(color metal = color(0.84, 0.81, 0.76); float wide = 1.9;) {
   /* The disk was tilted: each band is a shallow step, so that it takes the light otherwise at its two sides. */
   normal Nf = faceforward(normalize(normalize(N) + 0.24 * (band - 0.5) * over), I);
   Oi = Os;
-  Ci = Os * brushed(Nf, on, metal * (1 + 0.3 * scratches), 0.13, 20);
+  Ci = Os * brushed(Nf, on, metal * (1 + 0.3 * scratches), 0.13, 48);
 }

@@ -7,5 +7,5 @@ surface sunray(color metal = color(0.92, 0.70, 0.38)) {
   float lines = float noise(70 * angle) + 0.8 * float noise(25 * angle) - 0.9;
   vector around = normalize(vtransform("shader", "current", vector(-z, 0, x)));
   Oi = Os;
-  Ci = Os * brushed(faceforward(normalize(N), I), around, metal * (1 + 0.25 * lines), 0.16, 20);
+  Ci = Os * brushed(faceforward(normalize(N), I), around, metal * (1 + 0.25 * lines), 0.16, 48);
 }
