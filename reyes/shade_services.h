@@ -91,6 +91,10 @@ struct ShadeContext {
 inline int shareOfBranch(int count, int least, const ShadeContext& context) {
   return std::max(std::min(count, least), count / context.branches);
 }
+/// The same of rays that a shader asks for. A point that gather rays meet is one of the hundreds that one record has.
+inline int raysOfBranch(int count, int least, const ShadeContext& context) {
+  return context.depth > 0 ? std::min(count, least) : shareOfBranch(count, least, context);
+}
 
 /// Rays of a hemisphere at the least: shaders may do with the result what is not linear.
 constexpr int kLeastOfHemisphere = 16;

@@ -29,12 +29,6 @@ OcclusionQuery occlusionOf(const TmRayOptions& o, const TmOcclusion& asked, cons
   return q;
 }
 
-/// Rays at one of these points. A point that gather rays meet is one of the hundreds that one record has.
-int raysOf(int samples, const ShadeContext& context) {
-  return context.depth > 0 ? std::min(samples, kLeastOfHemisphere)
-                           : shareOfBranch(samples, kLeastOfHemisphere, context);
-}
-
 /// Answers from earlier records where it can, and returns the points that need rays. Records lie at the points that the
 /// eye sees, and hold whole hemispheres.
 const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o,
@@ -138,7 +132,7 @@ int32_t occlusion(void* host, const TmGrid* all, const TmRayOptions* given, TmCo
   const Primary primary(batch, all);
   TmRayOptions options = rayOptions(batch, given);
   if (options.coneAngle == 0) options.coneAngle = kPi / 2;
-  options.samples = raysOf(options.samples, batch.context);
+  options.samples = raysOfBranch(options.samples, kLeastOfHemisphere, batch.context);
   const TmOcclusion out = givenOptions(batch, tmOcclusionDefaults(), wanted);
   forActive(all, [&](int i) {
     if (out.covered) out.covered[i] = 0;

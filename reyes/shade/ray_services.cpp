@@ -40,7 +40,8 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
-  const TmRayOptions options = drawnRayOptions(batch, given);
+  TmRayOptions options = drawnRayOptions(batch, given);
+  if (!distance) options.samples = raysOfBranch(options.samples, 1, batch.context);  // of distances, the least counts
   forActive(all, [&](int i) {
     if (color.x) set(color, i, vec3(0));
     if (distance) distance[i] = kFarAway;

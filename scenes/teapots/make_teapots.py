@@ -33,7 +33,7 @@ print('''WorldBegin
     Polygon "P" [-34 12 -26  -34 40 -26  -26 40 2  -26 12 2]
   AttributeEnd
   AttributeBegin
-    AreaLightSource "arealight" "rim" "float intensity" [2.4] "lightcolor" [0.72 0.84 1.0] "float samples" [8]
+    AreaLightSource "arealight" "rim" "float intensity" [2.4] "lightcolor" [0.72 0.84 1.0] "float samples" [24]
     Polygon "P" [36 8 -16  36 8 6  36 30 6  36 30 -16]
   AttributeEnd
   Illuminate "softbox" 1

@@ -104,18 +104,30 @@ TEST_F(BatchServices, ParameterListsSetWhatTheyName) {
   EXPECT_EQ(std::tuple(w.bias, w.blur, w.width, w.samples), std::tuple(0.01f, 0.2f, 2.0f, 64));
 }
 
-TEST_F(BatchServices, WhatRaysMeetAsksForFewerRaysOfAHemisphereThanWhatTheEyeSees) {
-  const auto raysAt = [&](int samples, const ShadeContext& context) {
+TEST_F(BatchServices, WhatRaysMeetAsksForFewerRaysThanWhatTheEyeSees) {
+  const auto rays = [&](const ShadeContext& context, const std::function<void(sl::Surface&)>& what) {
     services.asked.clear();
-    asked(
-        2, [&](sl::Surface& s) { s.Ci = Color(occlusion(s.P, s.N, samples)); }, context);
+    asked(2, what, context);
     return services.asked.size();
   };
-  EXPECT_EQ(raysAt(128, {}), 128u);
-  EXPECT_EQ(raysAt(128, {.branches = 4}), 32u) << "one of four rays of a point";
-  EXPECT_EQ(raysAt(128, {.branches = 1000}), 16u) << "shaders may square what they get";
-  EXPECT_EQ(raysAt(128, {.kind = RayKind::Diffuse, .depth = 1}), 16u) << "one of the rays of a record";
-  EXPECT_EQ(raysAt(9, {.kind = RayKind::Diffuse, .depth = 1, .branches = 1000}), 9u) << "never more than it asks for";
+  const auto hemisphere = [&](int samples, const ShadeContext& context) {
+    return rays(context, [&](sl::Surface& s) { s.Ci = Color(occlusion(s.P, s.N, samples)); });
+  };
+  const ShadeContext gathered{.kind = RayKind::Diffuse, .depth = 1, .branches = 1000};
+  EXPECT_EQ(hemisphere(128, {}), 128u);
+  EXPECT_EQ(hemisphere(128, {.branches = 4}), 32u) << "one of four rays of a point";
+  EXPECT_EQ(hemisphere(128, {.branches = 1000}), 16u) << "shaders may square what they get";
+  EXPECT_EQ(hemisphere(128, gathered), 16u) << "one of the rays of a record";
+  EXPECT_EQ(hemisphere(9, gathered), 9u) << "never more than it asks for";
+  const auto cone = [&](int samples, const ShadeContext& context) {
+    return rays(context, [&](sl::Surface& s) { s.Ci = trace(s.P, s.N, "samples", samples, "samplecone", 0.1); });
+  };
+  EXPECT_EQ(cone(24, {}), 24u);
+  EXPECT_EQ(cone(24, {.branches = 4}), 6u);
+  EXPECT_EQ(cone(24, {.branches = 1000}), 1u);
+  EXPECT_EQ(cone(24, {.kind = RayKind::Diffuse, .depth = 1}), 1u);
+  const auto nearest = [&](sl::Surface& s) { s.Ci = Color(traceDistance(s.P, s.N, "samples", 24)); };
+  EXPECT_EQ(rays({.branches = 4}, nearest), 24u) << "fewer rays would find it farther away";
 }
 
 TEST_F(BatchServices, ANameThatAParameterListDoesNotKnowIsReportedOnce) {
