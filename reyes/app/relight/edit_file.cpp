@@ -75,8 +75,7 @@ class StateReader : public RiSink {
   void take(const Request& r, ShaderSlot slot, const std::string& owner) {
     const EditableShader* shader = editable_.find(slot, owner);
     if (!shader)
-      throw BadRequest(
-          fmt::format("line {}: the shot has no {} \"{}\"", r.where.line, kSlots[slot].owner, owner));
+      throw BadRequest(fmt::format("line {}: the shot has no {} \"{}\"", r.where.line, kSlots[slot].owner, owner));
     if (const std::string& name = r.args[0].strings[0]; name != shader->shader) {
       json_["shaders"][kSlots[slot].key][owner] = name;
       shader = editable_.describe(slot, name);

@@ -27,8 +27,7 @@ class LayerParts {
   size_t old() const { return held_.size() - static_cast<size_t>(std::ranges::count(held_, wanted_)); }
   size_t count() const { return held_.size(); }
   void take(size_t part, uint32_t number) { held_[part] = number; }
-  /// Says that parts which show other edits have been lost.
-  void forgetOld() { std::ranges::replace_if(held_, [&](uint32_t number) { return number != wanted_; }, 0u); }
+  /// Says that all parts have been lost.
   void forgetAll() { std::ranges::fill(held_, 0u); }
 
  private:

@@ -65,7 +65,7 @@ void LayerStore::putCoarse(size_t layer, std::span<const vec3> rgb, uint32_t ver
   to.resize(3 * rgb.size());
   uint16_t* next = to.data();
   for (const vec3& color : rgb) next = write(color, next);
-  std::erase_if(blocks_, [&](const Block& b) { return b.layer == layer && b.version != version; });
+  std::erase_if(blocks_, [&](const Block& b) { return b.layer == layer; });
   add(layer, window_, version, true);
 }
 
@@ -131,14 +131,21 @@ std::string LayerStore::reducedAfter(uint64_t& after, size_t bytes) const {
   return out;
 }
 
-std::string LayerStore::blocksAfter(uint64_t& after, size_t bytes) const {
+std::string LayerStore::blocksAfter(uint64_t& after, size_t bytes, uint64_t last) const {
   const std::lock_guard lock(mutex_);
   std::string out;
-  for (auto b = firstAfter(after); b != blocks_.end() && out.size() < bytes; ++b) {
+  auto b = firstAfter(after);
+  for (; b != blocks_.end() && b->serial <= last && out.size() < bytes; ++b) {
     if (!b->coarse) append(*b, 1, out);
     after = b->serial;
   }
+  if (b == blocks_.end() || b->serial > last) after = last;
   return out;
+}
+
+uint64_t LayerStore::newest() const {
+  const std::lock_guard lock(mutex_);
+  return serial_;
 }
 
 void LayerStore::wait(uint64_t after) const {

@@ -26,16 +26,16 @@ class LayerStore {
   /// Sets a part of a layer. `rgb`: the floats of its pixels; what half floats cannot hold becomes the nearest that
   /// they can.
   void put(size_t layer, const PixelRect& part, std::span<const vec3> rgb, uint32_t version);
-  /// Sets a coarse picture of a whole layer, by rows: what was put before is to be forgotten, but for parts of this
-  /// version.
+  /// Sets a coarse picture of a whole layer, by rows. All that was put before is to be forgotten.
   void putCoarse(size_t layer, std::span<const vec3> rgb, uint32_t version);
   void dropCoarse(size_t layer);
 
   /// Returns all that was set after block number `after`, oldest first, and sets `after` to the last block. A part that
   /// was set again since comes once. If it is more than about `bytes`, squares of pixels become one, each their mean.
   std::string reducedAfter(uint64_t& after, size_t bytes) const;
-  /// The same at full size, but no more than about `bytes` of it.
-  std::string blocksAfter(uint64_t& after, size_t bytes) const;
+  /// The same at full size, but no more than about `bytes` of it, none after block `last`, and no coarse picture.
+  std::string blocksAfter(uint64_t& after, size_t bytes, uint64_t last) const;
+  uint64_t newest() const;  ///< The number of the last block.
   /// Waits until there is a block after this one, or something else to tell (wake()), but not for long.
   void wait(uint64_t after) const;
   void wake() const;

@@ -250,17 +250,18 @@ class Relight {
   }
 
   /// The status as JSON after its length in 32 bits, and new blocks of the layers: all of them in so many bytes, or
-  /// with "full" as many at full size.
+  /// with "last" as many at full size as there are up to that one.
   HttpReply news(const HttpQuestion& q) {
     uint64_t after = numberOf(q, "after");
     const size_t bytes =
         q.parameters.contains("bytes") ? std::min<size_t>(numberOf(q, "bytes"), kMostBlocks_bytes) : kMostBlocks_bytes;
-    const bool full = q.parameters.contains("full");
+    const bool full = q.parameters.contains("last");
     if (!ended_ && !full) relighting_.layers().wait(after);
-    std::string blocks =
-        full ? relighting_.layers().blocksAfter(after, bytes) : relighting_.layers().reducedAfter(after, bytes);
+    std::string blocks = full ? relighting_.layers().blocksAfter(after, bytes, numberOf(q, "last"))
+                              : relighting_.layers().reducedAfter(after, bytes);
     Json status = relighting_.status();
     status["after"] = after;
+    status["newest"] = relighting_.layers().newest();
     status["editor"] = editor_.page();
     std::string text = status.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');

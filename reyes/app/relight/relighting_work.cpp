@@ -84,7 +84,8 @@ void Relighting::work() {
     try {
       run(step);
     } catch (const std::exception& e) {
-      log_.report(Severity::Error, "relight-failed", {}, std::string(e.what()) + "; a part of the picture is not shaded");
+      log_.report(Severity::Error, "relight-failed", {},
+                  std::string(e.what()) + "; a part of the picture is not shaded");
     }
     lock.lock();
     if (!cancel_) finish(step);
@@ -190,7 +191,8 @@ void Relighting::shadePart(const Step& step) {
                            else
                              shared.tiles.erase(index);
                          }};
-  job.show(part, tiles, [&](const Image& rows) { take(step, rows); }, cancel_);
+  job.show(
+      part, tiles, [&](const Image& rows) { take(step, rows); }, cancel_);
 }
 
 size_t Relighting::placeOf(int x, int y) const {
@@ -246,7 +248,7 @@ void Relighting::shadeCoarse(const Step& step) {
   }
   const std::lock_guard lock(mutex_);
   if (cancel_) return;
-  list_[step.layer].parts.forgetOld();
+  list_[step.layer].parts.forgetAll();
   layers_->putCoarse(step.layer, colors, step.number);
 }
 
@@ -269,8 +271,8 @@ void Relighting::gather(const Step& step) {
   static int number = 0;
   RenderSettings settings = settings_;
   settings.edits.push_back(fileOfEdit(step.edit));
-  settings.crop = {static_cast<float>(p.x0) / width, static_cast<float>(p.x1) / width, static_cast<float>(p.y0) / height,
-                   static_cast<float>(p.y1) / height};
+  settings.crop = {static_cast<float>(p.x0) / width, static_cast<float>(p.x1) / width,
+                   static_cast<float>(p.y0) / height, static_cast<float>(p.y1) / height};
   settings.output = (folder_.path() / fmt::format("gathered-{}.icf", ++number)).string();
   job_.reset();
   if (auto job = ShotJob::open(files_, settings, stats_, log_)) {
