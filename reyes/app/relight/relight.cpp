@@ -110,18 +110,19 @@ class Relight {
       : command_(command),
         folder_(fs::temp_directory_path()),
         shot_(settings),
+        log_(log),
         relighting_(fileOfShot(), stats, log),
         server_(command.port) {}
 
-  /// Returns an exit code if a scene could not be hidden.
+  /// Returns the exit code: what a page tries out later is no fault of the shot.
   int run() {
     addRoutes();
     server_.start();
     std::printf("%s\n", server_.url().c_str());
     std::fflush(stdout);
     if (command_.opens) openBrowser();
-    const int code = hide();
-    if (code == kDone) serve();
+    int code = hide();
+    if (code == kDone) code = serve();
     prepared_.open(false);
     ended_ = true;
     server_.stop();
@@ -143,14 +144,17 @@ class Relight {
     return fs::exists(hide.output) ? kDone : code;
   }
 
-  void serve() {
+  int serve() {
     const OrderlyEnd orderly;
-    if (!relighting_.prepare() || interrupted()) return;
+    const bool isPrepared = relighting_.prepare();
+    const int code = exitCodeOf(log_, shot_.strict);
+    if (!isPrepared || interrupted()) return code;
     relighting_.start();
     prepared_.open(true);
     while (!interrupted() && !ended_) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     ended_ = true;
     relighting_.layers().wake();
+    return code;
   }
 
   /// A handler that waits until the shot is there.
@@ -321,6 +325,7 @@ class Relight {
   const RelightCommand& command_;
   const TemporaryFolder folder_;  ///< For a scene that is hidden first.
   RenderSettings shot_;
+  Log& log_;
   Relighting relighting_;
   Gate prepared_;
   HttpServer server_;
@@ -336,7 +341,9 @@ int relightCommand(const RelightCommand& command) {
   const ThreadLimit threads(settings.threads);
   Stats stats;
   try {
-    if (const int code = Relight(command, settings, stats, log).run(); code != kDone) return code;
+    return Relight(command, settings, stats, log).run();
+  } catch (const Stopped&) {
+    return kDone;
   } catch (const std::runtime_error& e) {
     log.report(Severity::Error, "relight-server", {}, e.what());
   }

@@ -6,6 +6,7 @@
 
 #include "reyes/app/relight/relighting.h"
 #include "reyes/app/relight/relighting_layers.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -83,6 +84,8 @@ void Relighting::work() {
     lock.unlock();
     try {
       run(step);
+    } catch (const Stopped&) {
+      return;
     } catch (const std::exception& e) {
       log_.report(Severity::Error, "relight-failed", {},
                   std::string(e.what()) + "; a part of the picture is not shaded");
