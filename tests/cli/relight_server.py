@@ -96,13 +96,24 @@ class Server:
         return self.process.wait(20)
 
 
-def layers(blocks, width, height):
-    """{layer: {(x, y): (r, g, b)}} of the blocks of news."""
-    out, at = {}, 0
+def parts(blocks):
+    """The blocks of news, as reyes/app/relight/layers.h describes them."""
+    out, at = [], 0
     while at < len(blocks):
-        layer, x, y, w, h, _, _, _ = struct.unpack_from("<8I", blocks, at)
-        values = struct.unpack_from(f"<{3 * w * h}e", blocks, at + 32)
-        for i in range(w * h):
-            out.setdefault(layer, {})[x + i % w, y + i // w] = values[3 * i:3 * i + 3]
-        at += 32 + (6 * w * h + 3) // 4 * 4
+        layer, x, y, w, h, version, serial, step = struct.unpack_from("<8I", blocks, at)
+        count = -(-w // step) * -(-h // step)
+        values = struct.unpack_from(f"<{3 * count}e", blocks, at + 32)
+        out.append({"layer": layer, "x": x, "y": y, "width": w, "height": h, "version": version, "serial": serial, "step": step,
+                    "values": [values[3 * i:3 * i + 3] for i in range(count)]})
+        at += 32 + (6 * count + 3) // 4 * 4
+    return out
+
+
+def layers(blocks, width, height):
+    """{layer: {(x, y): (r, g, b)}} of the blocks of news at full size."""
+    out = {}
+    for b in parts(blocks):
+        if b["step"] == 1:
+            for i, color in enumerate(b["values"]):
+                out.setdefault(b["layer"], {})[b["x"] + i % b["width"], b["y"] + i // b["width"]] = color
     return out
