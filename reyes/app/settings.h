@@ -1,6 +1,7 @@
 // The settings of the command line, and how their texts are parsed. It knows no scene and no CLI library.
 #pragma once
 #include <array>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -66,14 +67,15 @@ struct RenderSettings {
   std::string logFile;          ///< Messages are appended there too; empty: none.
   bool profileShaders = false;  ///< True to say at the end what each shader has cost.
   bool progress = false;
-  std::string preview;                     ///< host:port of a viewer; empty: none.
-  std::vector<std::array<int, 2>> pixels;  ///< To explain.
-  Trust trust;                             ///< Of the code that the RIB names.
-  std::string outputRoot;                  ///< What the RIB names is written below it; empty: anywhere.
-  bool strict = false;                     ///< A warning ends with the exit code of what is missing.
-  std::string specular;                    ///< Option "shade" "specular"; empty: as the scene says. Likewise,
-  std::string arealight;                   ///< Option "shade" "arealight".
-  bool standardFromFiles = false;          ///< A file that is called as a shader of RISpec's comes before that.
+  std::function<void(const char* pass, float share)> watcher;  ///< As ProgressWatcher.
+  std::string preview;                                         ///< host:port of a viewer; empty: none.
+  std::vector<std::array<int, 2>> pixels;                      ///< To explain.
+  Trust trust;                                                 ///< Of the code that the RIB names.
+  std::string outputRoot;          ///< What the RIB names is written below it; empty: anywhere.
+  bool strict = false;             ///< A warning ends with the exit code of what is missing.
+  std::string specular;            ///< Option "shade" "specular"; empty: as the scene says. Likewise,
+  std::string arealight;           ///< Option "shade" "arealight".
+  bool standardFromFiles = false;  ///< A file that is called as a shader of RISpec's comes before that.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };

@@ -1,130 +1,27 @@
 """The server of tomales relight: who may ask, what it answers, and that a saved edit is the picture of the page."""
 import array
-import http.client
 import json
 import os
 import pathlib
 import random
-import re
-import select
-import signal
 import socket
-import struct
-import subprocess
 import sys
 import time
 
 from program import Suite
+from relight_server import SCENE, Server, layers
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
 from pictures import pixels  # noqa: E402
 
-SCENE = """Display "box.exr" "openexr" "rgba"
-Format 48 36 1
-PixelSamples 2 2
-Exposure 1.5 1
-Projection "perspective" "fov" [60]
-Translate 0 0 1.4
-WorldBegin
-LightSource "indirectlight" "gi" "float samples" [64]
-LightSource "pointlight" "key" "from" [0.5 0.6 -0.3] "intensity" [0.7]
-LightSource "spotlight" "rim" "from" [-0.8 0.8 0] "to" [0.5 -1 0] "intensity" [1] "coneangle" [0.5]
-Attribute "identifier" "name" ["walls"]
-Surface "matte"
-Color [0.7 0.6 0.5]
-Polygon "P" [-1 -1 -1 1 -1 -1 1 -1 1 -1 -1 1]
-Polygon "P" [-1 -1 1 1 -1 1 1 1 1 -1 1 1]
-Attribute "identifier" "name" ["ball"]
-Surface "plastic" "Ks" [0.4]
-Translate 0.3 -0.6 0.3
-Sphere 0.4 -0.4 0.4 360
-WorldEnd
-"""
-PATIENCE_S = 60
 suite = Suite()
-
-
-class Server:
-    def __init__(self, *options, of="box.dfb"):
-        self.process = subprocess.Popen([suite.program, "relight", of, "--no-browser", *options], cwd=suite.folder, text=True,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        ready, _, _ = select.select([self.process.stdout], [], [], PATIENCE_S)
-        line = self.process.stdout.readline() if ready else ""
-        self.port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/\n", line).groups()
-        self.host = f"127.0.0.1:{self.port}"
-
-    def ask(self, method, path, body=None, headers=None):
-        """Status, headers and bytes of the answer; the path is taken as it is."""
-        connection = http.client.HTTPConnection("127.0.0.1", int(self.port), timeout=30)
-        connection.putrequest(method, path, skip_host=headers is not None and "Host" in headers)
-        data = body if isinstance(body, bytes) or body is None else json.dumps(body).encode()
-        for name, value in (headers or {}).items():
-            connection.putheader(name, value)
-        if data is not None:
-            connection.putheader("Content-Length", str(len(data)))
-        connection.endheaders(data)
-        answer = connection.getresponse()
-        out = answer.status, dict(answer.getheaders()), answer.read()
-        connection.close()
-        return out
-
-    def get(self, path):
-        return self.ask("GET", f"/{self.token}/{path}")
-
-    def post(self, path, body):
-        return self.ask("POST", f"/{self.token}/{path}", body)
-
-    def json(self, path):
-        return json.loads(self.get(path)[2])
-
-    def news(self, after=0):
-        data = self.get(f"news?after={after}")[2]
-        length = struct.unpack_from("<I", data)[0]
-        return json.loads(data[4:4 + length]), data[4 + length:]
-
-    def settled(self):
-        """Waits until every layer is that of the present edit, and the check has been made."""
-        end, after = time.time() + PATIENCE_S, 0
-        while time.time() < end:
-            status, _ = self.news(after)
-            after = status["after"]
-            if status["checked"] and not any(layer["old"] for layer in status["layers"][1:]) and not status["doing"]:
-                return status
-        return None
-
-    def whole(self):
-        self.post("ask", {})
-        end = time.time() + PATIENCE_S
-        while time.time() < end:
-            status, _, data = self.get("whole")
-            if status == 200:
-                return array.array("f", data)
-            time.sleep(0.05)
-        return None
-
-    def end(self):
-        self.process.send_signal(signal.SIGINT)
-        return self.process.wait(20)
-
-
-def layers(blocks, width, height):
-    """{layer: {(x, y): (r, g, b)}} of the blocks of news."""
-    out, at = {}, 0
-    while at < len(blocks):
-        layer, x, y, w, h, _, _, _ = struct.unpack_from("<8I", blocks, at)
-        values = struct.unpack_from(f"<{3 * w * h}e", blocks, at + 32)
-        for i in range(w * h):
-            out.setdefault(layer, {})[x + i % w, y + i // w] = values[3 * i:3 * i + 3]
-        at += 32 + (6 * w * h + 3) // 4 * 4
-    return out
-
 
 suite.write("box.rib", SCENE)
 suite.run("hide", "box.rib", "-o", "box.dfb", "-q")
 suite.run("gather", "box.dfb", "-o", "box.icf", "--by-light", "-q")
 suite.run("gather", "box.dfb", "-o", "plain.icf", "-q")
 (suite.folder / "edits").mkdir()
-server = Server("--irradiance", "box.icf", "--folder", "edits")
+server = Server(suite, "--irradiance", "box.icf", "--folder", "edits")
 
 # Who may ask.
 page = f"/{server.token}/"
@@ -167,7 +64,7 @@ suite.expect(server.json("object?x=33&y=26") == {"object": "ball", "shader": "pl
 # Edits: refused, shaded, saved and loaded.
 key = {"lights": {"key": {"intensity": [0.2], "lightcolor": [1, 0.5, 0.25]}, "rim": {"coneangle": [0.3]}},
        "surfaces": {"ball": {"Ks": [0.9]}}, "exposure": [1.25, 1]}
-for bad in ([], {"rib": "Surface"}, {"lights": {"sun": {}}}, {"lights": {"key": {"shadowname": ["x"]}}}, {"lights": {"key": {"intensity": [1, 2]}}},
+for bad in ([], {"rib": "Surface"}, {"lights": {"sun": {}}}, {"lights": {"key": {"mapname": ["x"]}}}, {"lights": {"key": {"intensity": [1, 2]}}},
             {"lights": {"key": {"intensity": ["1"]}}}, {"lights": {"key": {"intensity": [1e99]}}}, {"lights": {"key": [1]}},
             {"surfaces": {"ball": {"no": [1]}}}, {"exposure": [1, 0]}, {"exposure": [-1, 1]}, b"{", b"", b"\xff" * 9, b"[" * 5000):
     suite.expect(server.post("edit", bad)[0] == 400, f"an edit of {str(bad)[:40]} is refused")
@@ -181,7 +78,11 @@ suite.expect(whole is not None and all(whole[3 * (48 * y + x) + c] == warm[x, y]
              "shade --edit gives the bits of the page's picture")
 status, blocks = server.news()
 found = layers(blocks, 48, 36)
-worst = max(abs(1.25 * sum(found[i][p][c] for i in (1, 2, 3)) - warm[p][c]) / (warm[p][c] + 0.01) for p in warm for c in range(3))
+# The page multiplies the layer of a light by what it sends over what the layer was shaded with.
+unit = status["layers"][2]["unit"]
+suite.expect(all(abs(u - 0.7) < 1e-6 for u in unit), "layers are as bright as the scene's lights")
+key_weight = [0.2 * tint / u for tint, u in zip((1, 0.5, 0.25), unit)]
+worst = max(abs(1.25 * (found[1][p][c] + key_weight[c] * found[2][p][c] + found[3][p][c]) - warm[p][c]) / (warm[p][c] + 0.01) for p in warm for c in range(3))
 suite.expect(worst < 3e-3, f"its layers add up to it ({worst:.1e})")
 single = {"lights": {"rim": {"coneangle": [0.3]}}, "surfaces": {"ball": {"Ks": [0.9]}}, "exposure": [1.25, 1]}
 before = [layer["version"] for layer in status["layers"]]
@@ -243,7 +144,7 @@ for connection in silent:
 suite.expect(server.end() == 0, "Ctrl-C ends it")
 
 # Records without shares, and none at all.
-server = Server("--irradiance", "plain.icf")
+server = Server(suite, "--irradiance", "plain.icf")
 scene = server.json("scene")
 suite.expect(not scene["sharesBounces"] and scene["layers"][-1]["name"] == "bounced light", "without shares bounced light is a layer of its own")
 suite.expect(server.settled() is not None, "which is shaded")
@@ -252,7 +153,7 @@ worst = max(abs(1.5 * sum(found[i][p][c] for i in (1, 2, 3, 4)) - truth[p][c]) /
 suite.expect(worst < 3e-3, f"and adds up with the others ({worst:.1e})")
 suite.expect(server.post("end", {})[0] == 200 and server.process.wait(20) == 0, "the page ends it")
 suite.write("pair.rib", SCENE.replace('"from"', '"string __group" ["pair"] "from"'))
-server = Server(of="pair.rib")
+server = Server(suite, of="pair.rib")
 suite.expect(server.json("scene")["sharesBounces"] and server.settled() is not None, "a scene is hidden, and its light gathered by lights, first")
 suite.expect([layer["name"] for layer in server.json("scene")["layers"]] == ["everything", "glow", "pair"], "lights of one group are one layer")
 before = [layer["version"] for layer in server.settled()["layers"]]

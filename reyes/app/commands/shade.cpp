@@ -9,7 +9,6 @@
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/run_report.h"
 #include "reyes/base/parallel.h"
-#include "reyes/base/temporary_folder.h"
 
 namespace tomales {
 namespace {
@@ -36,13 +35,7 @@ int shadeCommand(const RenderSettings& settings) { return runOnShot(settings, &S
 int gatherCommand(const RenderSettings& settings) { return runOnShot(settings, &ShotJob::gatherIrradiance); }
 
 int relightFirst(RelightCommand command) {
-  if (std::filesystem::path(command.render.files.front()).extension() == ".dfb") return relightCommand(command);
-  const TemporaryFolder folder(std::filesystem::temp_directory_path());
-  RenderSettings hide = command.render;
-  hide.output = (folder.path() / "shot.dfb").string();
-  const int code = hideCommand(hide);
-  if (!std::filesystem::exists(hide.output)) return code;
-  command.render.files = {hide.output};
+  if (std::filesystem::path(command.render.files.front()).extension() != ".dfb") command.hide = hideCommand;
   return relightCommand(command);
 }
 

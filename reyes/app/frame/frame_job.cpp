@@ -30,7 +30,7 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
       log_(log),
       quality_{settings.samples, settings.maxError, settings.lightSamples},
       camera_(scene.options),
-      meter_(settings.progress, "preparing"),
+      meter_(settings.progress, "preparing", settings.watcher),
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   measureAreaLights(scene, shaders, log);
   if (!settings.draft) displaceByMovingSurfaces(scene, shaders, log);

@@ -88,6 +88,9 @@ class FrameJob {
   void show(const DeepFrame& layout, const ShownTiles& tiles, const ShownPart& part, const RowViewer& viewer,
             const std::atomic<bool>& cancelled);
 
+  /// Shades tiles that are no picture, in the light of ShownPart.
+  void shadeApart(std::span<DeepTile> tiles, const std::string* lights, bool indirect);
+
   bool gathers() const { return gathers_; }
   /// Tells whether gather() has to run, where records are given or not.
   bool gathersBeside(bool recordsGiven) const { return counts_ || (gathers_ && !recordsGiven); }

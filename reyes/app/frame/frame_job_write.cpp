@@ -7,6 +7,7 @@
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/pixel_report.h"
 #include "reyes/app/watch/preview.h"
+#include "reyes/base/parallel.h"
 
 namespace tomales {
 
@@ -100,6 +101,14 @@ void FrameJob::show(const DeepFrame& layout, const ShownTiles& tiles, const Show
     shadeTiles(asked, {tiles.load, take}, scene_, *shading_, context, control);
   };
   showFrame(frame, fill, viewer, scene_.options, control);
+}
+
+void FrameJob::shadeApart(std::span<DeepTile> tiles, const std::string* lights, bool indirect) {
+  ShadeContext context = shadeContext();
+  context.lights = lights;
+  context.indirect = indirect;
+  context.sketch = true;
+  parallelInOrder(tiles.size(), [&](size_t i) { tomales::shadeTile(tiles[i], scene_, *shading_, context); });
 }
 
 void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {

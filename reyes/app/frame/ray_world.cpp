@@ -8,22 +8,6 @@
 
 namespace tomales {
 
-struct RayWorld::Built {
-  Built(Scene s, ShaderRegistry& shaders, const RenderSettings& settings, const ShadeServices* services, Stats& stats,
-        Log& log)
-      : scene(std::move(s)), camera(scene.options) {
-    shading = std::make_unique<ShadingSystem>(scene, shaders, services, log, stats);
-    chooseDisplacements(scene, camera, *shading, log);
-    rays = std::make_unique<RayScene>(scene, camera, *shading, raySettings(settings, scene.options), stats, log);
-    tools = {rays.get(), shading.get()};
-  }
-  Scene scene;
-  const Camera camera;
-  std::unique_ptr<ShadingSystem> shading;
-  std::unique_ptr<RayScene> rays;
-  RayTools tools;
-};
-
 namespace {
 
 /// Tests whether the groups of two scenes are the same: else points of a group would be shaded as another object's.
@@ -36,19 +20,72 @@ bool sameGroups(const Scene& a, const Scene& b) {
          std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(), alike);
 }
 
+/// Tells whether attributes differ at most in what shading alone reads.
+bool sameForRays(const Attributes& a, const Attributes& b) {
+  Attributes x = a, y = b;
+  for (Attributes* each : {&x, &y}) {
+    each->surface = each->atmosphere = nullptr;
+    each->color = vec3(1.0f);
+    each->lights.clear();
+  }
+  return x == y;
+}
+
 }  // namespace
 
-RayWorld::RayWorld(const Shot& shot, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log)
-    : shot_(shot), shaders_(shaders), settings_(settings), stats_(stats), log_(log) {}
+RayGeometry::RayGeometry(Scene scene, ShaderRegistry& shaders, const RenderSettings& settings,
+                         const ShadeServices* services, Stats& stats, Log& log)
+    : scene_(std::move(scene)), camera_(scene_.options), lights_(scene_.lights) {
+  for (const ShadeGroup& group : scene_.groups) attributes_.push_back(group.attributes);
+  // It stays bound to these attributes and lights.
+  first_ = std::make_unique<ShadingSystem>(scene_, shaders, services, log, stats);
+  chooseDisplacements(scene_, camera_, *first_, log);
+  rays_ = std::make_unique<RayScene>(scene_, camera_, *first_, raySettings(settings, scene_.options), stats, log);
+  tools_ = {rays_.get(), first_.get()};
+}
+RayGeometry::~RayGeometry() = default;
+
+bool RayGeometry::dressAs(const Shot& shot, ShaderRegistry& shaders, const ShadeServices* services, Stats& stats,
+                          Log& log) {
+  for (size_t g = 0; g < attributes_.size(); ++g)
+    if (!sameForRays(*attributes_[g], *shot.scene.groups[g].attributes)) return false;
+  for (size_t g = 0; g < attributes_.size(); ++g) {
+    // What chooseDisplacements() has chosen stays.
+    auto attributes = std::make_shared<Attributes>(*shot.scene.groups[g].attributes);
+    attributes->trace = scene_.groups[g].attributes->trace;
+    scene_.groups[g].attributes = std::move(attributes);
+  }
+  for (size_t o = 0; o < scene_.objects.size(); ++o)
+    scene_.objects[o].attributes = scene_.groups[static_cast<size_t>(scene_.objects[o].group)].attributes;
+  scene_.lights = shot.scene.lights;
+  first_->setServices(services);
+  dressed_ = std::make_unique<ShadingSystem>(scene_, shaders, services, log, stats);
+  tools_.shading = dressed_.get();
+  for (int g = 0; g < static_cast<int>(attributes_.size()); ++g)
+    if (dressed_->keepsOpacity(g) != first_->keepsOpacity(g) || dressed_->opaque(g) != first_->opaque(g) ||
+        dressed_->wantsSteps(g) != first_->wantsSteps(g))
+      return false;
+  return true;
+}
+
+RayWorld::RayWorld(const Shot& shot, KeptGeometry& kept, const RenderSettings& settings, Stats& stats, Log& log)
+    : shot_(shot), kept_(kept), settings_(settings), stats_(stats), log_(log) {}
 RayWorld::~RayWorld() = default;
 
 const RayTools* RayWorld::tools() {
-  std::call_once(once_, [this] { built_ = build(); });
-  return built_ ? &built_->tools : nullptr;
+  std::call_once(once_, [this] { found_ = find(); });
+  return found_ ? &kept_.geometry->tools() : nullptr;
+}
+
+bool RayWorld::find() {
+  if (kept_.geometry && kept_.geometry->dressAs(shot_, *kept_.shaders, services_, stats_, log_)) return true;
+  kept_.geometry.reset();  // before another one takes its memory
+  kept_.geometry = build();
+  return kept_.geometry != nullptr;
 }
 
 void RayWorld::report() const {
-  if (built_) built_->rays->report(stats_);
+  if (found_) kept_.geometry->tools().rays->report(stats_);
 }
 
 bool RayWorld::sourcesAreUnchanged() const {
@@ -66,7 +103,7 @@ void RayWorld::dress(Scene& scene) const {
   scene.freeze();
 }
 
-std::unique_ptr<RayWorld::Built> RayWorld::build() {
+std::unique_ptr<RayGeometry> RayWorld::build() {
   const StageTimer timer(stats_, "geometry");
   const auto give = [&](const std::string& why) {
     log_.report(Severity::Missing, "rays-geometry", shot_.scene.where,
@@ -97,7 +134,7 @@ std::unique_ptr<RayWorld::Built> RayWorld::build() {
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
   dress(*scene);
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
-  return std::make_unique<Built>(std::move(*scene), shaders_, settings_, services_, stats_, log_);
+  return std::make_unique<RayGeometry>(std::move(*scene), *kept_.shaders, settings_, services_, stats_, log_);
 }
 
 }  // namespace tomales

@@ -10,10 +10,40 @@
 
 namespace tomales {
 
+/// The geometry, once it has been read.
+class RayGeometry {
+ public:
+  RayGeometry(Scene scene, ShaderRegistry& shaders, const RenderSettings& settings, const ShadeServices* services,
+              Stats& stats, Log& log);
+  ~RayGeometry();
+
+  /// Takes the shaders, colours and lights of another edit of the same shot. Returns false if rays would see the
+  /// geometry itself otherwise under them; it has then to be read anew.
+  bool dressAs(const Shot& shot, ShaderRegistry& shaders, const ShadeServices* services, Stats& stats, Log& log);
+  const RayTools& tools() const { return tools_; }
+
+ private:
+  Scene scene_;
+  const Camera camera_;
+  std::unique_ptr<ShadingSystem> first_;  ///< The one that it was made with, which goes on displacing,
+  std::vector<std::shared_ptr<const Attributes>> attributes_;  ///< and what that is bound to.
+  std::vector<std::shared_ptr<LightCall>> lights_;
+  std::unique_ptr<RayScene> rays_;
+  std::unique_ptr<ShadingSystem> dressed_;  ///< Null: still the first.
+  RayTools tools_;
+};
+
+/// What one shading of a shot leaves for the next: both use the same registry of shaders. Its geometry may be null.
+struct KeptGeometry {
+  std::unique_ptr<ShaderRegistry> shaders;
+  std::unique_ptr<RayGeometry> geometry;
+};
+
 class RayWorld {
  public:
-  /// `shot` has the attributes, lights and options that are shaded, also where rays meet them.
-  RayWorld(const Shot& shot, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log);
+  /// `shot` has the attributes, lights and options that are shaded, also where rays meet them. The geometry of `kept`
+  /// is used if it can be, and left there.
+  RayWorld(const Shot& shot, KeptGeometry& kept, const RenderSettings& settings, Stats& stats, Log& log);
   ~RayWorld();
 
   /// Returns null if the RIB is gone or has changed, which is reported. Threads: any; all wait for the first.
@@ -23,19 +53,19 @@ class RayWorld {
   void setServices(const ShadeServices* services) { services_ = services; }
 
  private:
-  struct Built;
-  std::unique_ptr<Built> build();
+  bool find();
+  std::unique_ptr<RayGeometry> build();
   bool sourcesAreUnchanged() const;
   void dress(Scene& scene) const;
 
   const Shot& shot_;
-  ShaderRegistry& shaders_;
+  KeptGeometry& kept_;
   const RenderSettings& settings_;
   Stats& stats_;
   Log& log_;
   const ShadeServices* services_ = nullptr;
   std::once_flag once_;
-  std::unique_ptr<Built> built_;
+  bool found_ = false;
 };
 
 }  // namespace tomales

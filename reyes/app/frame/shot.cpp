@@ -72,7 +72,8 @@ bool ShotJob::edit() {
 std::unique_ptr<KeptWork> ShotJob::keptGather() const {
   if (!settings_.resume) return nullptr;
   const std::string sum = sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.edits)),
-                    contents = contentsOfGather(shot_, files_->dfb().shotSum(), *shaders_, sum, settings_);
+                    contents =
+                        contentsOfGather(shot_, files_->dfb().shotSum(), *files_->kept().shaders, sum, settings_);
   if (!contents.empty()) return KeptWork::create(settings_.output + ".kept", contents, log_);
   log_.report(Severity::Note, "resume", {},
               "--resume keeps nothing: the maps of --atlas are read while light is gathered and might change between "
@@ -81,9 +82,10 @@ std::unique_ptr<KeptWork> ShotJob::keptGather() const {
 }
 
 void ShotJob::prepareLight() {
-  shaders_ = frameShaders(settings_, log_);
-  world_ = std::make_unique<RayWorld>(shot_, *shaders_, settings_, stats_, log_);
-  job_ = std::make_unique<FrameJob>(shot_.scene, *shaders_, settings_, stats_, log_);
+  KeptGeometry& geometry = files_->kept();
+  if (!geometry.shaders) geometry.shaders = frameShaders(settings_, log_);
+  world_ = std::make_unique<RayWorld>(shot_, geometry, settings_, stats_, log_);
+  job_ = std::make_unique<FrameJob>(shot_.scene, *files_->kept().shaders, settings_, stats_, log_);
   kept_ = keptGather();
   job_->keepWork(kept_.get());
   job_->prepareRays([this] { return world_->tools(); });
@@ -117,8 +119,8 @@ void ShotJob::prepareShares() {
   if (given && !gathers_) job_->services()->mixShares(lightEdits_.gains);
 }
 
-void ShotJob::warnOfStaleLight() const {
-  if (!files_->hasIrradiance() || files_->irradiance().settings.mode == GiMode::None) return;
+std::vector<std::string> ShotJob::staleLight() const {
+  if (!files_->hasIrradiance() || files_->irradiance().settings.mode == GiMode::None) return {};
   std::set<std::string> changed;
   for (const std::string& handle : lightEdits_.stale) changed.insert("light \"" + handle + "\"");
   for (size_t g = 0; g < attributesOfFile_.size(); ++g) {
@@ -126,6 +128,11 @@ void ShotJob::warnOfStaleLight() const {
     if (now.surface != then.surface || now.color != then.color || now.opacity != then.opacity)
       changed.insert(now.name.empty() ? "objects without a name" : "\"" + now.name + "\"");
   }
+  return {changed.begin(), changed.end()};
+}
+
+void ShotJob::warnOfStaleLight() const {
+  const std::vector<std::string> changed = staleLight();
   if (changed.empty()) return;
   log_.report(
       Severity::Warning, "light-stale", wholeFile(settings_.irradiance),
@@ -156,8 +163,10 @@ void ShotJob::shadePicture() {
   world_->report();
 }
 
-void ShotJob::prepareToShow() {
-  shot_.scene.options.displays = {DisplayCall{}};
+void ShotJob::prepareToShow(const std::string& more) {
+  std::vector<DisplayCall>& displays = shot_.scene.options.displays;
+  displays = {DisplayCall{}};
+  if (!more.empty()) displays.emplace_back().mode = more;
   prepareLight();
   job_->shading().runAllLights();
 }
@@ -180,6 +189,8 @@ void ShotJob::show(const PixelRect& window, const ShownTiles& tiles, const RowVi
                    const std::atomic<bool>& cancelled) {
   job_->show(shot_.frame, tiles, {window, shownLights_, showsIndirect_}, viewer, cancelled);
 }
+
+void ShotJob::shadeApart(std::span<DeepTile> tiles) { job_->shadeApart(tiles, shownLights_, showsIndirect_); }
 
 void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
   const PixelRect& crop = shot_.frame.crop;

@@ -24,12 +24,17 @@ class ShotJob {
   /// Runs `tomales gather`.
   void gatherIrradiance();
 
-  /// Prepares for show(): the picture is R G B A Z and goes to no file.
-  void prepareToShow();
+  /// Prepares for show(): the picture is R G B A Z, and what `more` names as DisplayCall::mode does; it goes to no
+  /// file.
+  void prepareToShow(const std::string& more = "");
   /// Chooses what show() shows from now on: the light of one group alone with all that it bounces (without shares: its
   /// direct light, and the bounced light of all lights if `indirect`), or of all lights if it is null. `lights` must
   /// outlive that.
   void choose(const std::string* lights, bool indirect);
+  /// Shades tiles that are no picture as show() would.
+  void shadeApart(std::span<DeepTile> tiles);
+  /// The names of lights and objects whose bounced light is as it was gathered, before an edit of them.
+  std::vector<std::string> staleLight() const;
   void show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
             const std::atomic<bool>& cancelled);
 
@@ -70,7 +75,6 @@ class ShotJob {
   bool showsIndirect_ = true;
   bool gathers_ = false;      ///< True if records are made for a file.
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
-  std::unique_ptr<ShaderRegistry> shaders_;
   std::unique_ptr<RayWorld> world_;
   std::unique_ptr<KeptWork> kept_;
   std::unique_ptr<FrameJob> job_;

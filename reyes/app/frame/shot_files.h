@@ -1,7 +1,8 @@
-// The files that a shot is shaded from: a .dfb, and an .icf if one is given. Several edits of the shot may use them,
-// one after the other.
+// The files that a shot is shaded from: a .dfb, and an .icf if one is given; and what has been loaded besides. Several
+// edits of the shot may use them, one after the other.
 #pragma once
 #include "gi/icf.h"
+#include "reyes/app/frame/ray_world.h"
 #include "reyes/app/settings.h"
 #include "reyes/dfb.h"
 
@@ -29,6 +30,8 @@ class ShotFiles {
   }
   /// Returns a tile with its answers; nothing if the bucket is damaged, which is reported. Threads: any.
   std::optional<DeepTile> load(size_t tile, Log& log) const;
+  /// Its shaders are there once the shot has been prepared, and its geometry once a ray was wanted.
+  KeptGeometry& kept() { return kept_; }
 
  private:
   ShotFiles() = default;
@@ -36,6 +39,7 @@ class ShotFiles {
   std::unique_ptr<DfbFile> dfb_;
   std::unique_ptr<IcfFile> icf_;
   IrradianceShot irradiance_;
+  KeptGeometry kept_;
 };
 
 }  // namespace tomales

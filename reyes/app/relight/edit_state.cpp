@@ -4,43 +4,11 @@
 
 #include <cmath>
 
-#include "reyes/base/search_path.h"
-#include "reyes/rib.h"
-
 namespace tomales {
 namespace {
 
-constexpr const char* kTypeNames[] = {"float", "color", "point", "vector", "normal"};
 constexpr float kLargest = 1e30f;
-
-const EditableShader* ownedBy(const std::vector<EditableShader>& shaders, const std::string& owner) {
-  const auto found = std::ranges::find(shaders, owner, &EditableShader::owner);
-  return found == shaders.end() ? nullptr : &*found;
-}
-
-const EditableParam* paramOf(const EditableShader& shader, const std::string& name) {
-  const auto found = std::ranges::find(shader.params, name, &EditableParam::name);
-  return found == shader.params.end() ? nullptr : &*found;
-}
-
-EditableShader describe(const std::string& owner, const ShaderCall& call, TmKind kind, const Scene& scene,
-                        ShaderRegistry& shaders) {
-  EditableShader out{owner, call.name, call.worldFromShader.at(scene.options.shutterOpen), {}};
-  const TmShader* shader = shaders.find(call.name, kind, pathOf(scene.options.searchPaths, "shader"));
-  for (int i = 0; shader && i < shader->paramCount; ++i) {
-    const TmParamDecl& decl = shader->params[i];
-    const int32_t type = TM_TYPE_OF(decl.type);
-    if (type > TM_NORMAL || decl.arrayLength != 1 || (decl.type & TM_OUTPUT)) continue;
-    const size_t floats = type == TM_FLOAT ? 1 : 3;
-    EditableParam param{decl.name, kTypeNames[type], decl.doc ? decl.doc : "", roleOf(*shader, decl),
-                        std::vector<float>(floats, 0.0f)};
-    if (decl.floats) param.value.assign(decl.floats, decl.floats + floats);
-    if (const Param* given = findParam(call.params, decl.name); given && given->floats.size() == floats)
-      param.value = given->floats;
-    out.params.push_back(std::move(param));
-  }
-  return out;
-}
+constexpr size_t kLongestText = 256;
 
 std::vector<float> numbersOf(const Json& json, size_t count, const std::string& what) {
   std::vector<float> out;
@@ -52,135 +20,155 @@ std::vector<float> numbersOf(const Json& json, size_t count, const std::string& 
   return out;
 }
 
-ShaderEdits editsOf(const Json& json, const std::vector<EditableShader>& shaders, const char* kind) {
-  ShaderEdits out;
-  if (!json.is_object()) throw BadRequest(fmt::format("{}s are an object of names", kind));
-  for (const auto& [owner, params] : json.items()) {
-    const EditableShader* shader = ownedBy(shaders, owner);
-    if (!shader || !params.is_object()) throw BadRequest(fmt::format("there is no {} \"{}\"", kind, owner));
-    for (const auto& [name, value] : params.items()) {
-      const EditableParam* param = paramOf(*shader, name);
-      if (!param) throw BadRequest(fmt::format("{} \"{}\" has no parameter \"{}\" to change", kind, owner, name));
-      out[owner][name] = numbersOf(value, param->value.size(), "\"" + name + "\"");
-    }
-  }
+/// A text names files of the scene's folders at most: a page does not reach others.
+bool staysInside(const std::string& text) {
+  const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 32; };
+  return text.size() <= kLongestText && !text.starts_with('/') && !text.starts_with('~') && !text.starts_with('|') &&
+         ("/" + text + "/").find("/../") == std::string::npos && std::ranges::none_of(text, isControl);
+}
+
+std::vector<std::string> textsOf(const Json& json, const EditableParam& param) {
+  std::vector<std::string> out;
+  if (json.is_array())
+    for (const Json& value : json)
+      if (value.is_string()) out.push_back(value.get<std::string>());
+  const std::vector<std::string>& given = param.value.texts;
+  if (out.size() != given.size() || json.size() != given.size())
+    throw BadRequest(fmt::format("\"{}\" takes {} text{}", param.name, given.size(), given.size() == 1 ? "" : "s"));
+  for (size_t i = 0; i < out.size(); ++i)
+    if (out[i] != given[i] && !staysInside(out[i]))
+      throw BadRequest("\"" + param.name + "\" takes a short text that leads to no other folder");
   return out;
 }
 
-std::array<float, 2> exposureOf(const std::vector<float>& numbers) {
-  if (numbers.size() != 2 || !(numbers[0] >= 0) || !(numbers[1] > 0))
-    throw BadRequest("exposure takes a gain of 0 or more and a gamma above 0");
-  return {numbers[0], numbers[1]};
+ParamValue valueOf(const Json& json, const EditableParam& param) {
+  if (!param.value.texts.empty()) return {{}, textsOf(json, param)};
+  return {numbersOf(json, param.value.numbers.size(), "\"" + param.name + "\""), {}};
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "\"";
+const Json& objectOf(const Json& json, const std::string& what) {
+  if (!json.is_object()) throw BadRequest(what + " are an object of names");
+  return json;
 }
 
-std::string paramText(const EditableShader& shader, const std::map<std::string, std::vector<float>>& params) {
-  std::string out;
-  for (const auto& [name, value] : params)
-    out += fmt::format(" {} [{}]", quoted(paramOf(shader, name)->type + " " + name), fmt::join(value, " "));
-  return out;
-}
-
-/// Takes the requests of an edit file.
-class StateReader : public RiSink {
+class JsonReader {
  public:
-  StateReader(const Editable& editable, EditState& state) : editable_(editable), state_(state) {}
+  explicit JsonReader(const Editable& editable) : editable_(editable) {}
 
-  void request(const Request& r) override {
-    if (r.name == "version" || r.name == "Declare") return;
-    if (r.name == "LightSource" || r.name == "AreaLightSource")
-      return take(r, editable_.lights, r.args[1].strings[0], "light", state_.lights);
-    if (r.name == "Attribute" && r.args[0].strings[0] == "identifier" && findParam(r.params, "name"))
-      return void(selected_ = findParam(r.params, "name")->strings.at(0));
-    if (r.name == "Surface" && selected_) return take(r, editable_.surfaces, *selected_, "object", state_.surfaces);
-    if (r.name == "Exposure") return void(state_.exposure = exposureOf(r.args[0].numbers));
-    throw BadRequest(fmt::format("line {}: {} is more than this page changes", r.where.line, r.name));
+  EditState read(const Json& json) {
+    objectOf(json, "edits");
+    // The other parameters are those of the shaders that are named here.
+    if (json.contains("shaders")) readShaders(json.at("shaders"));
+    for (const auto& [name, value] : json.items()) {
+      const auto slot = std::ranges::find(kSlots, name, &ShaderSlotInfo::key);
+      if (slot != std::end(kSlots))
+        readParams(value, static_cast<ShaderSlot>(slot - std::begin(kSlots)));
+      else if (name == "objects")
+        readObjects(value);
+      else if (name == "exposure")
+        readExposure(value);
+      else if (name != "shaders")
+        throw BadRequest("an edit has no \"" + name + "\"");
+    }
+    return std::move(state_);
   }
 
  private:
-  void take(const Request& r, const std::vector<EditableShader>& shaders, const std::string& owner, const char* kind,
-            ShaderEdits& to) {
-    const EditableShader* shader = ownedBy(shaders, owner);
-    if (!shader || shader->shader != r.args[0].strings[0])
-      throw BadRequest(fmt::format("line {}: the shot has no {} \"{}\" with the shader \"{}\"", r.where.line, kind,
-                                   owner, r.args[0].strings[0]));
-    for (const Param& p : r.params) {
-      const EditableParam* param = paramOf(*shader, p.name);
-      if (!param || p.floats.size() != param->value.size())
-        throw BadRequest(fmt::format("line {}: \"{}\" is more than this page changes", r.where.line, p.name));
-      to[owner][p.name] = p.floats;
+  void readShaders(const Json& json) {
+    for (const auto& [key, owners] : objectOf(json, "shaders").items()) {
+      const auto slot = std::ranges::find(kSlots, key, &ShaderSlotInfo::key);
+      if (slot == std::end(kSlots)) throw BadRequest("there are no \"" + key + "\"");
+      const auto s = static_cast<ShaderSlot>(slot - std::begin(kSlots));
+      for (const auto& [owner, name] : objectOf(owners, key).items()) {
+        checkOwner(s, owner);
+        if (!name.is_string() || !editable_.describe(s, name.get<std::string>()))
+          throw BadRequest(fmt::format("there is no such {} shader", kindName(kSlots[s].kind)));
+        state_.shaders[s][owner].shader = name.get<std::string>();
+      }
     }
   }
 
+  void readParams(const Json& json, ShaderSlot slot) {
+    for (const auto& [owner, params] : objectOf(json, kSlots[slot].key).items()) {
+      checkOwner(slot, owner);
+      const EditableShader& shader = shaderUnder(state_, slot, owner, editable_);
+      for (const auto& [name, value] : objectOf(params, "parameters").items()) {
+        const EditableParam* param = shader.param(name);
+        if (!param)
+          throw BadRequest(fmt::format("{} \"{}\" has no parameter \"{}\" to change", kSlots[slot].owner, owner, name));
+        state_.shaders[slot][owner].params[name] = valueOf(value, *param);
+      }
+    }
+  }
+
+  void readObjects(const Json& json) {
+    for (const auto& [owner, changes] : objectOf(json, "objects").items()) {
+      if (!editable_.object(owner)) throw BadRequest("there is no object \"" + owner + "\"");
+      for (const auto& [name, value] : objectOf(changes, "changes of an object").items()) {
+        if (name == "color") {
+          const std::vector<float> rgb = numbersOf(value, 3, "a colour");
+          state_.objects[owner].color = {rgb[0], rgb[1], rgb[2]};
+        } else if (name == "lights") {
+          for (const auto& [light, shines] : objectOf(value, "lights").items()) {
+            checkOwner(kLights, light);
+            if (!shines.is_boolean()) throw BadRequest("a light shines on an object, or not");
+            state_.objects[owner].lights[light] = shines.get<bool>();
+          }
+        } else {
+          throw BadRequest("an object has no \"" + name + "\" to change");
+        }
+      }
+    }
+  }
+
+  void readExposure(const Json& json) {
+    const std::vector<float> numbers = numbersOf(json, 2, "exposure");
+    if (!(numbers[0] >= 0) || !(numbers[1] > 0))
+      throw BadRequest("exposure takes a gain of 0 or more and a gamma above 0");
+    state_.exposure = {numbers[0], numbers[1]};
+  }
+
+  void checkOwner(ShaderSlot slot, const std::string& owner) const {
+    if (!editable_.find(slot, owner)) throw BadRequest(fmt::format("there is no {} \"{}\"", kSlots[slot].owner, owner));
+  }
+
   const Editable& editable_;
-  EditState& state_;
-  std::optional<std::string> selected_;
+  EditState state_;
 };
 
 }  // namespace
 
-Editable editableOf(const Scene& scene, ShaderRegistry& shaders) {
-  Editable out;
-  for (const auto& light : scene.lights)
-    if (!ownedBy(out.lights, light->handle))
-      out.lights.push_back(describe(light->handle, light->shader, TM_LIGHT, scene, shaders));
-  for (const ShadeGroup& group : scene.groups) {
-    const Attributes& a = *group.attributes;
-    if (!a.name.empty() && a.surface && !ownedBy(out.surfaces, a.name))
-      out.surfaces.push_back(describe(a.name, *a.surface, TM_SURFACE, scene, shaders));
-  }
-  out.exposure = {scene.options.exposureGain, scene.options.exposureGamma};
-  return out;
+const ShaderEdit* EditState::edit(ShaderSlot slot, const std::string& owner) const {
+  const auto found = shaders[slot].find(owner);
+  return found == shaders[slot].end() ? nullptr : &found->second;
 }
 
-EditState stateOf(const Json& json, const Editable& editable) {
-  if (!json.is_object()) throw BadRequest("an edit is an object");
-  EditState out;
-  for (const auto& [name, value] : json.items()) {
-    if (name == "lights")
-      out.lights = editsOf(value, editable.lights, "light");
-    else if (name == "surfaces")
-      out.surfaces = editsOf(value, editable.surfaces, "object");
-    else if (name == "exposure")
-      out.exposure = exposureOf(numbersOf(value, 2, "exposure"));
-    else
-      throw BadRequest("an edit has no \"" + name + "\"");
-  }
-  return out;
+const EditableShader& shaderUnder(const EditState& state, ShaderSlot slot, const std::string& owner,
+                                  const Editable& editable) {
+  const ShaderEdit* edit = state.edit(slot, owner);
+  return edit && !edit->shader.empty() ? *editable.describe(slot, edit->shader) : *editable.find(slot, owner);
 }
+
+EditState stateOf(const Json& json, const Editable& editable) { return JsonReader(editable).read(json); }
+
+Json jsonOf(const ParamValue& value) { return value.texts.empty() ? Json(value.numbers) : Json(value.texts); }
 
 Json jsonOf(const EditState& state) {
-  Json out = {{"lights", Json(state.lights)}, {"surfaces", Json(state.surfaces)}};
+  Json out, swapped = Json::object(), objects = Json::object();
+  for (size_t slot = 0; slot < kShaderSlots; ++slot) {
+    Json& owners = out[kSlots[slot].key] = Json::object();
+    for (const auto& [owner, edit] : state.shaders[slot]) {
+      if (!edit.shader.empty()) swapped[kSlots[slot].key][owner] = edit.shader;
+      for (const auto& [name, value] : edit.params) owners[owner][name] = jsonOf(value);
+    }
+  }
+  for (const auto& [name, edit] : state.objects) {
+    if (edit.color) objects[name]["color"] = *edit.color;
+    for (const auto& [light, shines] : edit.lights) objects[name]["lights"][light] = shines;
+  }
+  out["shaders"] = swapped;
+  out["objects"] = objects;
   if (state.exposure) out["exposure"] = *state.exposure;
-  return out;
-}
-
-std::string ribOf(const EditState& state, const Editable& editable) {
-  std::string out = "version 3.04\n";  // a file without a request would be none
-  for (const EditableShader& light : editable.lights)
-    if (const auto edit = state.lights.find(light.owner); edit != state.lights.end() && !edit->second.empty())
-      out += fmt::format("LightSource {} {}{}\n", quoted(light.shader), quoted(light.owner),
-                         paramText(light, edit->second));
-  for (const EditableShader& surface : editable.surfaces)
-    if (const auto edit = state.surfaces.find(surface.owner); edit != state.surfaces.end() && !edit->second.empty())
-      out += fmt::format("Attribute \"identifier\" \"name\" [{}]\nSurface {}{}\n", quoted(surface.owner),
-                         quoted(surface.shader), paramText(surface, edit->second));
-  if (state.exposure) out += fmt::format("Exposure {} {}\n", (*state.exposure)[0], (*state.exposure)[1]);
-  return out;
-}
-
-EditState stateOfRib(const std::string& file, const Editable& editable, Log& log) {
-  EditState out;
-  StateReader reader(editable, out);
-  if (!parseRib({file}, reader, log)) throw BadRequest("this edit cannot be read");
   return out;
 }
 

@@ -1,14 +1,11 @@
-// What a page has changed of a shot: numbers and colours of lights and surfaces, and the exposure. It is checked
-// against the shaders before anything is made of it, and becomes an edit file of `tomales shade --edit`. Threads: plain
-// values.
+// What a page has changed of a shot. It is checked against what may be changed before anything is made of it, and
+// becomes an edit file of `tomales shade --edit`. Threads: plain values.
 #pragma once
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
-#include "reyes/scene.h"
-#include "reyes/shader_registry.h"
+#include "reyes/app/relight/editable.h"
 
 namespace tomales {
 
@@ -19,44 +16,43 @@ struct BadRequest : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A parameter that the page may change: it is made of floats, and no array.
-struct EditableParam {
-  std::string name, type;  ///< As RIB declares it: "float", "color", ...
-  std::string doc;
-  TmRole role;
-  std::vector<float> value;  ///< In the scene as it was hidden.
+/// A request of a page that watches while another one edits.
+struct Watches : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
-struct EditableShader {
-  std::string owner;  ///< The light's handle, or the objects' name.
-  std::string shader;
-  mat4 worldFromShader{1.0f};  ///< Points among the parameters are given in its space, here when the shutter opens.
-  std::vector<EditableParam> params;
+struct ShaderEdit {
+  std::string shader{};  ///< The one in the place of the scene's; empty if that stays.
+  std::map<std::string, ParamValue> params{};
+  bool operator==(const ShaderEdit&) const = default;
 };
-
-/// All that a page may change.
-struct Editable {
-  std::vector<EditableShader> lights, surfaces;
-  std::array<float, 2> exposure{1, 1};  ///< Gain and gamma.
+struct ObjectEdit {
+  std::optional<std::array<float, 3>> color{};
+  std::map<std::string, bool> lights{};  ///< By handle: it shines on the object, or not.
+  bool operator==(const ObjectEdit&) const = default;
 };
-
-Editable editableOf(const Scene& scene, ShaderRegistry& shaders);
-
-/// Values by owner and parameter.
-using ShaderEdits = std::map<std::string, std::map<std::string, std::vector<float>>>;
 
 struct EditState {
-  ShaderEdits lights, surfaces;
-  std::optional<std::array<float, 2>> exposure;
+  std::array<std::map<std::string, ShaderEdit>, kShaderSlots> shaders{};  ///< By owner.
+  std::map<std::string, ObjectEdit> objects{};
+  std::optional<std::array<float, 2>> exposure{};
   bool operator==(const EditState&) const = default;
+
+  const ShaderEdit* edit(ShaderSlot slot, const std::string& owner) const;
 };
 
-/// Throws BadRequest if it names what is not editable, or if a value does not fit.
+/// The shader of an owner under an edit, with the values that it has without the edit's parameters.
+const EditableShader& shaderUnder(const EditState& state, ShaderSlot slot, const std::string& owner,
+                                  const Editable& editable);
+
+/// Throws BadRequest if it names what cannot be changed, or if a value does not fit.
 EditState stateOf(const Json& json, const Editable& editable);
 Json jsonOf(const EditState& state);
+Json jsonOf(const ParamValue& value);
 /// The edit file of a state: the same text for the same state.
 std::string ribOf(const EditState& state, const Editable& editable);
-/// The state of an edit file. Throws BadRequest if it changes more than a page can.
-EditState stateOfRib(const std::string& file, const Editable& editable, Log& log);
+/// The state of edit files, of which the later ones change the earlier. Throws BadRequest if they change more than a
+/// page can.
+EditState stateOfRib(const std::vector<std::string>& files, const Editable& editable);
 
 }  // namespace tomales

@@ -77,6 +77,8 @@ struct HttpServer::Impl {
       reply = handler->second(question);
     } catch (const BadRequest& e) {
       reply = {400, "text/plain", e.what()};
+    } catch (const Watches& e) {
+      reply = {409, "text/plain", e.what()};
     } catch (const Json::exception&) {
       reply = {400, "text/plain", "this is not the JSON that is expected here"};
     }

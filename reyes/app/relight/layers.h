@@ -11,8 +11,12 @@
 namespace tomales {
 
 /// Bytes of one block: kBlockHeader numbers of 32 bits (little endian): layer, x, y, width, height, version, serial,
-/// 0; then red, green and blue of each pixel as half floats, row by row, and zeros up to a multiple of four bytes.
+/// step; then red, green and blue as half floats, row by row, and zeros up to a multiple of four bytes. There is one
+/// colour for each square of `step` pixels, cut off at the right and below.
 constexpr size_t kBlockHeader = 8;
+
+/// The squares of a coarse picture.
+constexpr int kCoarseStep = 16;
 
 class LayerStore {
  public:
@@ -22,9 +26,16 @@ class LayerStore {
   /// Sets a part of a layer. `rgb`: the floats of its pixels; what half floats cannot hold becomes the nearest that
   /// they can.
   void put(size_t layer, const PixelRect& part, std::span<const vec3> rgb, uint32_t version);
-  /// Returns blocks that were set after block number `after`, at most about `bytes` of them, oldest first, and sets
-  /// `after` to the last of them. A part that was set again since comes once.
-  std::string blocksAfter(uint64_t& after, size_t bytes) const;
+  /// Sets a coarse picture of a whole layer, by rows. All that was put before is to be forgotten.
+  void putCoarse(size_t layer, std::span<const vec3> rgb, uint32_t version);
+  void dropCoarse(size_t layer);
+
+  /// Returns all that was set after block number `after`, oldest first, and sets `after` to the last block. A part that
+  /// was set again since comes once. If it is more than about `bytes`, squares of pixels become one, each their mean.
+  std::string reducedAfter(uint64_t& after, size_t bytes) const;
+  /// The same at full size, but no more than about `bytes` of it, none after block `last`, and no coarse picture.
+  std::string blocksAfter(uint64_t& after, size_t bytes, uint64_t last) const;
+  uint64_t newest() const;  ///< The number of the last block.
   /// Waits until there is a block after this one, or something else to tell (wake()), but not for long.
   void wait(uint64_t after) const;
   void wake() const;
@@ -37,12 +48,18 @@ class LayerStore {
     uint32_t layer, version;
     PixelRect part;
     uint64_t serial;
+    bool coarse;
   };
+  auto firstAfter(uint64_t serial) const { return std::ranges::upper_bound(blocks_, serial, {}, &Block::serial); }
+  void append(const Block& block, int step, std::string& out) const;
+  void add(size_t layer, const PixelRect& part, uint32_t version, bool coarse);
+
   const PixelRect window_;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::vector<std::vector<uint16_t>> layers_;  ///< Three numbers for each pixel; empty until the first put().
-  std::vector<Block> blocks_;                  ///< In the order of their serial numbers.
+  std::vector<std::vector<uint16_t>> coarse_;
+  std::vector<Block> blocks_;  ///< In the order of their serial numbers.
   uint64_t serial_ = 0;
 };
 

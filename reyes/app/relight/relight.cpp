@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include "reyes/app/exit_code.h"
@@ -14,6 +16,7 @@
 #include "reyes/app/relight/relighting.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 #include "reyes/base/unfinished_file.h"
 
 namespace tomales {
@@ -22,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEdit = ".rib";
-constexpr size_t kLongestName = 64, kMostBlocks_bytes = size_t{3} << 20;
+constexpr size_t kLongestName = 64, kMostBlocks_bytes = 3'000'000;
+constexpr uintmax_t kMostEdit_bytes = 1 << 20;
 
 HttpReply jsonReply(const Json& json) {
   return {200, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace)};
@@ -41,6 +45,11 @@ uint64_t numberOf(const HttpQuestion& q, const std::string& name) {
   if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
     throw BadRequest(name + " is a number from 0");
   return std::stoull(text);
+}
+
+std::string textOf(const HttpQuestion& q, const std::string& name) {
+  const auto found = q.parameters.find(name);
+  return found == q.parameters.end() ? "" : found->second;
 }
 
 /// The file of an edit in the folder. Only letters, digits, - and _ make a name, so that it leads nowhere else.
@@ -70,81 +79,193 @@ class Editor {
   std::atomic<uint64_t> page_{0};
 };
 
+/// Waits for what is prepared meanwhile. Threads: any.
+class Gate {
+ public:
+  /// `good`: what waits may go on; else it has to end.
+  void open(bool good) {
+    const std::lock_guard lock(mutex_);
+    good_ = good;
+    changed_.notify_all();
+  }
+  bool isOpen() const {
+    const std::lock_guard lock(mutex_);
+    return good_.has_value();
+  }
+  void pass() const {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return good_.has_value(); });
+    if (!*good_) throw BadRequest("the shot cannot be shown: the terminal says why");
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::optional<bool> good_;
+};
+
 class Relight {
  public:
   Relight(const RelightCommand& command, const RenderSettings& settings, Stats& stats, Log& log)
-      : command_(command), log_(log), relighting_(settings, stats, log), server_(command.port) {}
+      : command_(command),
+        folder_(fs::temp_directory_path()),
+        shot_(settings),
+        log_(log),
+        relighting_(fileOfShot(), stats, log),
+        server_(command.port) {}
 
-  void run() {
-    if (!relighting_.prepare() || interrupted()) return;
+  /// Returns the exit code: what a page tries out later is no fault of the shot.
+  int run() {
     addRoutes();
-    relighting_.start();
     server_.start();
     std::printf("%s\n", server_.url().c_str());
     std::fflush(stdout);
     if (command_.opens) openBrowser();
-    while (!interrupted() && !ended_) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    int code = hide();
+    if (code == kDone) code = serve();
+    prepared_.open(false);
     ended_ = true;
-    relighting_.layers().wake();
     server_.stop();
+    return code;
   }
 
  private:
+  const RenderSettings& fileOfShot() {
+    if (command_.hide) shot_.files = {(folder_.path() / "shot.dfb").string()};
+    return shot_;
+  }
+
+  int hide() {
+    if (!command_.hide) return kDone;
+    RenderSettings hide = command_.render;
+    hide.output = shot_.files.front();
+    hide.watcher = [this](const char* doing, float done) { relighting_.tell(doing, done); };
+    const int code = command_.hide(hide);
+    return fs::exists(hide.output) ? kDone : code;
+  }
+
+  int serve() {
+    const OrderlyEnd orderly;
+    const bool isPrepared = relighting_.prepare();
+    const int code = exitCodeOf(log_, shot_.strict);
+    if (!isPrepared || interrupted()) return code;
+    relighting_.start();
+    prepared_.open(true);
+    while (!interrupted() && !ended_) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ended_ = true;
+    relighting_.layers().wake();
+    return code;
+  }
+
+  /// A handler that waits until the shot is there.
+  using Answer = HttpReply (Relight::*)(const HttpQuestion&);
+  HttpHandler later(Answer answer) {
+    return [this, answer](const HttpQuestion& q) {
+      prepared_.pass();
+      return (this->*answer)(q);
+    };
+  }
+
   void addRoutes() {
     for (const PageFile& file : relightPage())
       server_.get(file.name == "index.html" ? "" : std::string(file.name), [file](const HttpQuestion&) {
         return HttpReply{200, typeOf(file.name), std::string(file.text)};
       });
-    server_.get("scene", [this](const HttpQuestion&) { return jsonReply(relighting_.description()); });
-    server_.get("news", [this](const HttpQuestion& q) { return news(q); });
-    server_.get("object", [this](const HttpQuestion& q) {
-      return jsonReply(relighting_.objectAt(static_cast<int>(numberOf(q, "x")), static_cast<int>(numberOf(q, "y"))));
-    });
-    server_.get("whole", [this](const HttpQuestion&) {
-      const std::vector<float> whole = relighting_.whole();
-      const auto* bytes = reinterpret_cast<const char*>(whole.data());
-      return HttpReply{whole.empty() ? 204 : 200, "application/octet-stream", {bytes, whole.size() * sizeof(float)}};
-    });
-    server_.get("edits", [this](const HttpQuestion&) { return jsonReply(savedEdits()); });
-    server_.post("edit", [this](const HttpQuestion& q) {
-      const uint64_t page = q.parameters.contains("page") ? numberOf(q, "page") : 0;
-      if (!editor_.admits(page, q.parameters.contains("take")))
-        return HttpReply{409, "text/plain", "another page edits"};
-      relighting_.edit(Json::parse(q.body));
-      relighting_.layers().wake();
-      return jsonReply({{"rib", ribOf(relighting_.present(), relighting_.editable())}});
-    });
-    server_.post("leave", [this](const HttpQuestion& q) {
-      editor_.leave(numberOf(q, "page"));
-      return jsonReply(Json::object());
-    });
-    server_.post("pointer", [this](const HttpQuestion& q) {
-      relighting_.pointAt(static_cast<int>(numberOf(q, "x")), static_cast<int>(numberOf(q, "y")));
-      return jsonReply(Json::object());
-    });
-    server_.post("ask", [this](const HttpQuestion&) {
-      relighting_.askForWhole();
-      return jsonReply(Json::object());
-    });
-    server_.post("save", [this](const HttpQuestion& q) { return save(Json::parse(q.body).at("name")); });
-    server_.post("load", [this](const HttpQuestion& q) {
-      const fs::path file = fileOfEdit(command_.folder, Json::parse(q.body).at("name"));
-      if (!fs::is_regular_file(file)) throw BadRequest("there is no such edit");
-      return jsonReply(jsonOf(stateOfRib(file.string(), relighting_.editable(), log_)));
+    server_.get("preparation", [this](const HttpQuestion&) {
+      Json out = relighting_.preparation();
+      out["ready"] = prepared_.isOpen();
+      return jsonReply(out);
     });
     server_.post("end", [this](const HttpQuestion&) {
       ended_ = true;
+      if (!prepared_.isOpen() || relighting_.isGathering()) requestStop();  // as Ctrl-C does
       return jsonReply(Json::object());
     });
+    const std::pair<const char*, Answer> gets[] = {{"scene", &Relight::scene},   {"offered", &Relight::offered},
+                                                   {"shader", &Relight::shader}, {"news", &Relight::news},
+                                                   {"object", &Relight::object}, {"whole", &Relight::whole},
+                                                   {"edits", &Relight::edits}};
+    const std::pair<const char*, Answer> posts[] = {
+        {"edit", &Relight::edit}, {"leave", &Relight::leave},       {"pointer", &Relight::pointer},
+        {"ask", &Relight::ask},   {"variable", &Relight::variable}, {"gather", &Relight::gather},
+        {"only", &Relight::only}, {"save", &Relight::save},         {"load", &Relight::load}};
+    for (const auto& [path, answer] : gets) server_.get(path, later(answer));
+    for (const auto& [path, answer] : posts) server_.post(path, later(answer));
   }
 
-  /// The status as JSON after its length in 32 bits, and new blocks of the layers.
+  HttpReply scene(const HttpQuestion&) { return jsonReply(relighting_.description()); }
+  HttpReply offered(const HttpQuestion&) { return jsonReply(relighting_.offered()); }
+  HttpReply shader(const HttpQuestion& q) {
+    return jsonReply(relighting_.offeredShader(textOf(q, "kind"), textOf(q, "name")));
+  }
+  HttpReply object(const HttpQuestion& q) {
+    return jsonReply(relighting_.objectAt(static_cast<int>(numberOf(q, "x")), static_cast<int>(numberOf(q, "y"))));
+  }
+  HttpReply whole(const HttpQuestion&) {
+    const std::vector<float> whole = relighting_.whole();
+    const auto* bytes = reinterpret_cast<const char*>(whole.data());
+    return {whole.empty() ? 204 : 200, "application/octet-stream", {bytes, whole.size() * sizeof(float)}};
+  }
+
+  /// Refuses what a page that only watches asks for.
+  void checkEditor(const HttpQuestion& q) {
+    const uint64_t page = q.parameters.contains("page") ? numberOf(q, "page") : 0;
+    if (!editor_.admits(page, q.parameters.contains("take"))) throw Watches("another page edits");
+  }
+  HttpReply edit(const HttpQuestion& q) {
+    checkEditor(q);
+    relighting_.edit(Json::parse(q.body));
+    relighting_.layers().wake();
+    return jsonReply({{"rib", ribOf(relighting_.present(), relighting_.editable())}});
+  }
+  HttpReply leave(const HttpQuestion& q) {
+    editor_.leave(numberOf(q, "page"));
+    return jsonReply(Json::object());
+  }
+  HttpReply pointer(const HttpQuestion& q) {
+    relighting_.pointAt(static_cast<int>(numberOf(q, "x")), static_cast<int>(numberOf(q, "y")));
+    return jsonReply(Json::object());
+  }
+  HttpReply ask(const HttpQuestion&) {
+    relighting_.askForWhole();
+    return jsonReply(Json::object());
+  }
+  HttpReply variable(const HttpQuestion& q) {
+    relighting_.askForVariable(textOf(q, "name"));
+    return jsonReply(Json::object());
+  }
+  HttpReply gather(const HttpQuestion& q) {
+    checkEditor(q);
+    relighting_.askToGather(rectOf(q));
+    return jsonReply(Json::object());
+  }
+  HttpReply only(const HttpQuestion& q) {
+    checkEditor(q);
+    relighting_.shadeOnly(q.parameters.contains("x") ? std::optional(rectOf(q)) : std::nullopt);
+    return jsonReply(Json::object());
+  }
+
+  /// Pixels of the picture, which are at least one.
+  static PixelRect rectOf(const HttpQuestion& q) {
+    const auto number = [&](const char* name) { return static_cast<int>(numberOf(q, name)); };
+    const PixelRect out{number("x"), number("y"), number("x") + number("width"), number("y") + number("height")};
+    if (out.width() < 1 || out.height() < 1) throw BadRequest("a region has a width and a height");
+    return out;
+  }
+
+  /// The status as JSON after its length in 32 bits, and new blocks of the layers: all of them in so many bytes, or
+  /// with "last" as many at full size as there are up to that one.
   HttpReply news(const HttpQuestion& q) {
     uint64_t after = numberOf(q, "after");
-    if (!ended_) relighting_.layers().wait(after);
-    std::string blocks = relighting_.layers().blocksAfter(after, kMostBlocks_bytes);
+    const size_t bytes =
+        q.parameters.contains("bytes") ? std::min<size_t>(numberOf(q, "bytes"), kMostBlocks_bytes) : kMostBlocks_bytes;
+    const bool full = q.parameters.contains("last");
+    if (!ended_ && !full) relighting_.layers().wait(after);
+    std::string blocks = full ? relighting_.layers().blocksAfter(after, bytes, numberOf(q, "last"))
+                              : relighting_.layers().reducedAfter(after, bytes);
     Json status = relighting_.status();
     status["after"] = after;
+    status["newest"] = relighting_.layers().newest();
     status["editor"] = editor_.page();
     std::string text = status.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
@@ -153,21 +274,46 @@ class Relight {
     return {200, "application/octet-stream", body + text + blocks};
   }
 
-  Json savedEdits() const {
-    Json out = Json::array();
+  /// The edits of this shot in the folder: scenes and other RIB files lie there too.
+  HttpReply edits(const HttpQuestion&) {
+    std::set<std::string> out;
     std::error_code failed;  // then there are none
     for (const fs::directory_entry& entry : fs::directory_iterator(command_.folder, failed))
-      if (entry.path().extension() == kEdit) out.push_back(entry.path().stem().string());
-    std::sort(out.begin(), out.end());
-    return out;
+      if (isEdit(entry)) out.insert(entry.path().stem().string());
+    return jsonReply(Json(out));
+  }
+  bool isEdit(const fs::directory_entry& entry) const {
+    std::error_code failed;
+    if (entry.path().extension() != kEdit || !entry.is_regular_file(failed) ||
+        entry.file_size(failed) > kMostEdit_bytes)
+      return false;
+    try {
+      stateOfRib({entry.path().string()}, relighting_.editable());
+    } catch (const BadRequest&) {
+      return false;
+    }
+    return true;
   }
 
-  HttpReply save(const std::string& name) {
-    const fs::path file = fileOfEdit(command_.folder, name);
+  HttpReply save(const HttpQuestion& q) {
+    const fs::path file = fileOfEdit(command_.folder, Json::parse(q.body).at("name"));
     std::string error;
     if (!writeFile(file.string(), ribOf(relighting_.present(), relighting_.editable()), error))
       throw BadRequest(file.string() + " could not be written: " + error);
-    return jsonReply({{"file", file.string()}});
+    Json out = {{"file", file.string()}};
+    if (const std::string gathered = relighting_.gatheredFile(); !gathered.empty()) {
+      const fs::path records = fs::path(file).replace_extension(".icf");
+      std::error_code failed;
+      fs::copy_file(gathered, records, fs::copy_options::overwrite_existing, failed);
+      if (failed) throw BadRequest(records.string() + " could not be written: " + failed.message());
+      out["irradiance"] = records.string();
+    }
+    return jsonReply(out);
+  }
+  HttpReply load(const HttpQuestion& q) {
+    const fs::path file = fileOfEdit(command_.folder, Json::parse(q.body).at("name"));
+    if (!fs::is_regular_file(file)) throw BadRequest("there is no such edit");
+    return jsonReply(jsonOf(stateOfRib({file.string()}, relighting_.editable())));
   }
 
   void openBrowser() const {
@@ -177,8 +323,11 @@ class Relight {
   }
 
   const RelightCommand& command_;
+  const TemporaryFolder folder_;  ///< For a scene that is hidden first.
+  RenderSettings shot_;
   Log& log_;
   Relighting relighting_;
+  Gate prepared_;
   HttpServer server_;
   Editor editor_;
   std::atomic<bool> ended_{false};
@@ -187,13 +336,14 @@ class Relight {
 }  // namespace
 
 int relightCommand(const RelightCommand& command) {
-  const OrderlyEnd orderly;
   Log log(command.render.verbosity);
   const RenderSettings settings = asGranted(command.render, log);
   const ThreadLimit threads(settings.threads);
   Stats stats;
   try {
-    Relight(command, settings, stats, log).run();
+    return Relight(command, settings, stats, log).run();
+  } catch (const Stopped&) {
+    return kDone;
   } catch (const std::runtime_error& e) {
     log.report(Severity::Error, "relight-server", {}, e.what());
   }

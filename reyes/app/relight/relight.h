@@ -9,9 +9,11 @@ struct RelightCommand {
   int port = 0;              ///< 0: any that is free.
   std::string folder = ".";  ///< Edits are saved and loaded here.
   bool opens = true;         ///< A browser is opened.
+  /// Hides a scene to RenderSettings::output, and returns an exit code; empty: the shot is hidden already.
+  std::function<int(const RenderSettings&)> hide{};
 };
 
-/// Serves the page until it is ended. Returns the exit code.
+/// Serves the page until it is ended. What has to be done before shows in the page. Returns the exit code.
 int relightCommand(const RelightCommand& command);
 
 }  // namespace tomales

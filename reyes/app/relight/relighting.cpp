@@ -2,25 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <set>
 
 #include "reyes/app/frame/frame_shaders.h"
-#include "reyes/base/stop.h"
+#include "reyes/app/relight/relighting_layers.h"
+#include "reyes/app/watch/interrupt.h"
 
 namespace tomales {
 namespace {
 
-constexpr size_t kWhole = 0, kGlow = 1, kFirstLight = 2;
 constexpr int64_t kTilesHeld_bytes = int64_t{1} << 30;  ///< Other tiles are read anew by every pass.
 constexpr int kBucketsAcross = 4;                       ///< Buckets along an edge of a part that is shaded at once.
 
 }  // namespace
 
 Relighting::Relighting(const RenderSettings& settings, Stats& stats, Log& log)
-    : settings_(settings), stats_(stats), log_(log), folder_(std::filesystem::temp_directory_path()) {}
+    : settings_(settings), stats_(stats), log_(log), folder_(std::filesystem::temp_directory_path()) {
+  settings_.watcher = [this](const char* doing, float done) { tell(doing, done); };
+}
 
 Relighting::~Relighting() {
   {
@@ -31,6 +31,12 @@ Relighting::~Relighting() {
   changed_.notify_all();
   if (layers_) layers_->wake();
   if (thread_.joinable()) thread_.join();
+}
+
+void Relighting::tell(const char* doing, float done) {
+  const std::lock_guard lock(mutex_);
+  doing_ = doing;
+  done_ = done;
 }
 
 bool Relighting::prepare() {
@@ -49,20 +55,49 @@ bool Relighting::prepare() {
       settings_.irradiance = gather.output;
     }
   }
-  if (!(files_ = ShotFiles::open(settings_, log_))) return false;
-  tiles_ = std::make_unique<TileStore>(files_->dfb().shot().frame.tileCount(), kTilesHeld_bytes,
-                                       [this](size_t index) { return files_->load(index, log_); });
+  if (interrupted() || !openFiles()) return false;
   auto job = ShotJob::open(files_, settings_, stats_, log_);
   if (!job) return false;
   job->prepareToShow();
-  const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings_, log_);
-  editable_ = editableOf(job->shot().scene, *shaders);
+  editable_ = std::make_unique<Editable>(job->shot().scene, *files_->kept().shaders, pluginTrust(settings_));
   window_ = job->shot().frame.crop;
   pointerX_ = window_.x0 + window_.width() / 2;
   pointerY_ = window_.y0 + window_.height() / 2;
+  layOutParts();
   listLayers(*job);
+  job.reset();
+  takeGivenEdits();
+  wantPresent();
   layers_ = std::make_unique<LayerStore>(window_, list_.size());
+  sketch_ = std::make_unique<SketchPoints>(window_, parts_.size());
+  shared_.resize(list_.size());
   return true;
+}
+
+/// Opens the files anew; what has been loaded of the shot stays.
+bool Relighting::openFiles() {
+  KeptGeometry kept;
+  if (files_) kept = std::move(files_->kept());
+  auto files = ShotFiles::open(settings_, log_);
+  if (!files) return false;
+  files_ = std::move(files);
+  files_->kept() = std::move(kept);
+  const int64_t budget_bytes = settings_.memoryLimit ? *settings_.memoryLimit / 2 : kTilesHeld_bytes;
+  tiles_ = std::make_unique<TileStore>(files_->dfb().shot().frame.tileCount(), budget_bytes,
+                                       [this](size_t index) { return files_->load(index, log_); });
+  return true;
+}
+
+// An edit of the command line is where the page begins, so that it is part of what the page saves.
+void Relighting::takeGivenEdits() {
+  if (settings_.edits.empty()) return;
+  try {
+    present_ = stateOfRib(settings_.edits, *editable_);
+    settings_.edits.clear();
+  } catch (const BadRequest& e) {
+    log_.report(Severity::Warning, "relight-edit", wholeFile(settings_.edits.front()),
+                fmt::format("stays below what the page changes, and is no part of what it saves: {}", e.what()));
+  }
 }
 
 void Relighting::listLayers(const ShotJob& job) {
@@ -77,198 +112,122 @@ void Relighting::listLayers(const ShotJob& job) {
       groups[group].push_back(light->handle);
   for (const auto& [name, handles] : groups) list_.push_back({name, name, sharesBounces_, handles});
   if (!sharesBounces_) list_.push_back({"bounced light", "", true});
+  list_.push_back({"variable", std::nullopt});
+  for (Layer& layer : list_) layer.parts = LayerParts(parts_.size());
+}
+
+// Squares of buckets.
+void Relighting::layOutParts() {
+  const DeepFrame& frame = files_->dfb().shot().frame;
+  const int across = kBucketsAcross * frame.bucketWidth, down = kBucketsAcross * frame.bucketHeight;
+  partGrid_ = {(frame.columns + kBucketsAcross - 1) / kBucketsAcross,
+               (frame.rows + kBucketsAcross - 1) / kBucketsAcross};
+  for (int row = 0; row < partGrid_.y; ++row)
+    for (int column = 0; column < partGrid_.x; ++column) {
+      const int x = frame.padded.x0 + column * across, y = frame.padded.y0 + row * down;
+      // The last ones may be made of the filter's margin alone: they have no pixels then.
+      parts_.push_back({std::clamp(x, window_.x0, window_.x1), std::clamp(y, window_.y0, window_.y1),
+                        std::clamp(x + across, window_.x0, window_.x1), std::clamp(y + down, window_.y0, window_.y1)});
+    }
+}
+
+size_t Relighting::partOfBucket(size_t bucket) const {
+  const auto columns = static_cast<size_t>(files_->dfb().shot().frame.columns);
+  return bucket / columns / kBucketsAcross * static_cast<size_t>(partGrid_.x) + bucket % columns / kBucketsAcross;
+}
+
+/// Tells whether another part of the layer will need a bucket: parts reach one bucket beyond their border.
+bool Relighting::isNeededBesides(const Layer& layer, size_t bucket, size_t part) const {
+  const auto columns = static_cast<size_t>(files_->dfb().shot().frame.columns);
+  const int x = static_cast<int>(bucket % columns), y = static_cast<int>(bucket / columns);
+  for (const int dy : {-1, 1})
+    for (const int dx : {-1, 1}) {
+      const int column = std::clamp((x + dx) / kBucketsAcross, 0, partGrid_.x - 1),
+                row = std::clamp((y + dy) / kBucketsAcross, 0, partGrid_.y - 1);
+      const auto other = static_cast<size_t>(row * partGrid_.x + column);
+      if (other != part && layer.parts.isOld(other)) return true;
+    }
+  return false;
 }
 
 void Relighting::start() {
   thread_ = std::thread([this] { work(); });
 }
 
-EditState Relighting::relevant(const Layer& layer, const EditState& state) const {
-  const bool whole = !layer.lights;
-  EditState out{{}, state.surfaces, whole ? state.exposure : std::nullopt};
-  for (const auto& [handle, params] : state.lights) {
-    const EditableShader& light = *std::ranges::find(editable_.lights, handle, &EditableShader::owner);
-    const bool own = std::ranges::count(layer.handles, handle) > 0;
-    const bool direct = std::ranges::any_of(
-        list_, [owner = handle](const Layer& l) { return std::ranges::count(l.handles, owner) > 0; });
-    if (!whole && !own && direct) continue;
-    // The page mixes a layer by the factor of its light. Lights of one layer may each have another.
-    const bool mixed = own && layer.handles.size() == 1;
-    for (const auto& [name, value] : params)
-      if (!mixed || !isFactor(std::ranges::find(light.params, name, &EditableParam::name)->role))
-        out.lights[handle][name] = value;
-  }
-  return out;
+/// Does the page mix the layer by the factor of this light? Lights of one layer may each have another.
+bool Relighting::isMixed(const Layer& layer, const std::string& handle) const {
+  return layer.handles.size() == 1 && layer.handles.front() == handle;
 }
 
-bool Relighting::isOld(const Layer& layer, const std::optional<EditState>& held) const {
-  return !held || !(relevant(layer, *held) == relevant(layer, present_));
-}
-
-// The whole picture comes first of all, and after an edit when the page asks for it. What shines by itself is taken
-// off the other layers, so that it comes before them.
-std::optional<Relighting::Pass> Relighting::next() const {
-  if (wantsWhole_ && isOld(list_[kWhole], list_[kWhole].shaded)) return Pass{kWhole, present_};
-  for (size_t i = kGlow; i < list_.size(); ++i)
-    if (isOld(list_[i], list_[i].shaded)) return Pass{i, present_};
-  return std::nullopt;
-}
-
-void Relighting::work() {
-  std::unique_lock lock(mutex_);
-  while (!ended_) {
-    const std::optional<Pass> pass = next();
-    if (!pass && checked_) {
-      doing_.clear();
-      layers_->wake();
-      changed_.wait(lock);
-      continue;
-    }
-    cancel_ = false;
-    done_ = 0;
-    doing_ = pass ? list_[pass->layer].name : "checking that light adds up";
-    if (pass) {
-      running_ = pass->layer;
-      list_[pass->layer].begun = pass->state;
-      ++list_[pass->layer].version;
-    }
-    lock.unlock();
-    try {
-      pass ? run(*pass) : checkLinearity();
-    } catch (const std::exception& e) {
-      log_.report(Severity::Error, "relight-failed", {}, std::string(e.what()) + "; a layer is not shaded");
-    }
-    lock.lock();
-    running_.reset();
-    if (cancel_) continue;
-    if (pass)
-      list_[pass->layer].shaded = pass->state;
-    else
-      checked_ = true;
-  }
-}
-
-ShotJob& Relighting::jobFor(const EditState& state) {
-  const std::string text = ribOf(state, editable_);
-  if (job_ && text == textOfJob_) return *job_;
-  job_.reset();  // it gives the records back
-  const std::string file = (folder_.path() / "edit.rib").string();
-  std::ofstream(file) << text;
-  RenderSettings settings = settings_;
-  settings.edits.push_back(file);
-  job_ = ShotJob::open(files_, settings, stats_, log_);
-  if (!job_) throw std::runtime_error("the edit cannot be applied");
-  job_->prepareToShow();
-  textOfJob_ = text;
-  return *job_;
-}
-
-// Squares of buckets, those near the pointer first.
-std::vector<PixelRect> Relighting::parts() const {
-  const DeepFrame& frame = files_->dfb().shot().frame;
-  const int across = kBucketsAcross * frame.bucketWidth, down = kBucketsAcross * frame.bucketHeight;
-  std::vector<PixelRect> out;
-  for (int y = frame.padded.y0; y < window_.y1; y += down)
-    for (int x = frame.padded.x0; x < window_.x1; x += across) {
-      const PixelRect part{std::max(x, window_.x0), std::max(y, window_.y0), std::min(x + across, window_.x1),
-                           std::min(y + down, window_.y1)};
-      if (part.width() > 0 && part.height() > 0) out.push_back(part);
+// The whole shows the present edit. The others show their lights in a strength that does not follow what only
+// multiplies them, so that each part of a layer, however old, is mixed by the same factor.
+EditState Relighting::editFor(const Layer& layer) const {
+  if (!layer.lights) return present_;
+  EditState out = present_;
+  out.exposure.reset();
+  out.shaders[kImagers].clear();
+  for (const Layer& each : list_)
+    for (const std::string& handle : each.handles) {
+      if (!isMixed(each, handle)) continue;
+      ShaderEdit& edit = out.shaders[kLights][handle];
+      for (const EditableParam& p : shaderUnder(present_, kLights, handle, *editable_).params) {
+        if (!isFactor(p.role)) continue;
+        edit.params.erase(p.name);
+        if (const auto unit = unitOf(p); unit != p.value.numbers) edit.params[p.name] = {unit, {}};
+      }
+      if (edit == ShaderEdit{}) out.shaders[kLights].erase(handle);
     }
   return out;
 }
 
-ShownTiles Relighting::plainTiles() {
-  const auto load = [this](size_t index, DeepTile& tile) {
-    const auto hidden = tiles_->read(index);
-    if (hidden) tile = *hidden;
-    return hidden != nullptr;
-  };
-  return {load, [](size_t, const DeepTile&) {}};
+std::string Relighting::textFor(const Layer& layer) const {
+  EditState edit = editFor(layer);
+  if (layer.lights) {
+    const auto belongsElsewhere = [&](const auto& ofLight) {
+      const auto has = [&](const Layer& l) { return std::ranges::count(l.handles, ofLight.first) > 0; };
+      return !has(layer) && std::ranges::any_of(list_, has);
+    };
+    std::erase_if(edit.shaders[kLights], belongsElsewhere);
+    for (auto& [name, object] : edit.objects) std::erase_if(object.lights, belongsElsewhere);
+  }
+  return ribOf(edit, *editable_) + (&layer == &list_.back() ? variable_ : "");
 }
 
-void Relighting::run(const Pass& pass) {
-  ShotJob& job = jobFor(pass.state);
-  const Layer layer = [&] {
-    const std::lock_guard lock(mutex_);
-    return list_[pass.layer];
-  }();
-  const std::string lights = layer.lights.value_or("");
-  job.choose(layer.lights ? &lights : nullptr, layer.indirect);
-  const auto pixels = static_cast<size_t>(window_.width()) * static_cast<size_t>(window_.height());
-  if (pass.layer == kGlow) glow_.assign(pixels, vec3(0.0f));
-  // Neighbouring parts need the same buckets at their border.
-  std::mutex sharing;
-  std::map<size_t, std::vector<ShadedPoints>> shaded;
-  const ShownTiles tiles{[&](size_t index, DeepTile& tile) {
-                           if (!plainTiles().load(index, tile)) return false;
-                           const std::lock_guard lock(sharing);
-                           if (const auto known = shaded.find(index); known != shaded.end())
-                             tile.shaded = known->second;
-                           return true;
-                         },
-                         [&](size_t index, const DeepTile& tile) {
-                           const std::lock_guard lock(sharing);
-                           shaded.emplace(index, tile.shaded);
-                         }};
-  std::vector<PixelRect> left = parts();
-  const size_t all = left.size();
-  while (!left.empty() && !cancel_) {
-    size_t nearest = 0;
-    {
-      const std::lock_guard lock(mutex_);
-      const auto distance = [&](const PixelRect& p) {
-        const int dx = (p.x0 + p.x1) / 2 - pointerX_, dy = (p.y0 + p.y1) / 2 - pointerY_;
-        return dx * dx + dy * dy;
-      };
-      nearest = static_cast<size_t>(std::ranges::min_element(left, {}, distance) - left.begin());
-      done_ = 1 - static_cast<float>(left.size()) / static_cast<float>(all);
-    }
-    job.show(
-        left[nearest], tiles, [&](const Image& rows) { take(pass.layer, rows); }, cancel_);
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(nearest));
+// Pre: the mutex is locked, or nobody else is there yet.
+void Relighting::wantPresent() {
+  for (Layer& layer : list_) {
+    const uint32_t before = layer.parts.wanted();
+    layer.parts.want(textFor(layer));
+    if (layer.parts.wanted() != before) layer.changed = Clock::now();
   }
-}
-
-void Relighting::take(size_t layer, const Image& rows) {
-  const PixelRect part{rows.originX, rows.originY, rows.originX + rows.width, rows.originY + rows.height};
-  std::vector<vec3> rgb;
-  for (int y = 0; y < rows.height; ++y)
-    for (int x = 0; x < rows.width; ++x) rgb.push_back(colorAt(rows, x, y));
-  const auto placeOf = [&](size_t i) {
-    const size_t x = i % static_cast<size_t>(rows.width), y = i / static_cast<size_t>(rows.width);
-    return (static_cast<size_t>(part.y0 - window_.y0) + y) * static_cast<size_t>(window_.width()) +
-           static_cast<size_t>(part.x0 - window_.x0) + x;
-  };
-  for (size_t i = 0; i < rgb.size() && layer == kGlow; ++i) glow_[placeOf(i)] = rgb[i];
-  for (size_t i = 0; i < rgb.size() && layer >= kFirstLight; ++i) rgb[i] -= glow_[placeOf(i)];
-  uint32_t version = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    version = list_[layer].version;
-    if (layer == kWhole) {
-      Image finished = rows;
-      expose(finished, job_->shot().scene.options);
-      runImager(finished, job_->job().shading());
-      finished_.resize(static_cast<size_t>(window_.width()) * static_cast<size_t>(window_.height()));
-      for (size_t i = 0; i < rgb.size(); ++i)
-        finished_[placeOf(i)] = colorAt(finished, static_cast<int>(i) % rows.width, static_cast<int>(i) / rows.width);
-    }
-  }
-  layers_->put(layer, part, rgb, version);
+  if (running_ && !isWantedStill(*running_)) cancel_ = true;
+  changed_.notify_all();
 }
 
 void Relighting::edit(const Json& json) {
-  const EditState state = stateOf(json, editable_);
+  const EditState state = stateOf(json, *editable_);
   const std::lock_guard lock(mutex_);
+  // Another shader may not be linear in light where the one before it was.
+  const auto swaps = [](const EditState& s) {
+    std::vector<std::string> out;
+    for (const auto& owners : s.shaders)
+      for (const auto& [owner, edit] : owners) out.push_back(owner + ":" + edit.shader);
+    return out;
+  };
+  if (swaps(state) != swaps(present_)) checked_ = false;
   present_ = state;
   wantsWhole_ = false;
-  if (!running_ || isOld(list_[*running_], list_[*running_].begun)) cancel_ = true;
-  changed_.notify_all();
+  wantPresent();
 }
 
 EditState Relighting::present() const {
   const std::lock_guard lock(mutex_);
   return present_;
+}
+
+std::string Relighting::gatheredFile() const {
+  const std::lock_guard lock(mutex_);
+  return gatheredFile_;
 }
 
 void Relighting::pointAt(int x, int y) {
@@ -277,18 +236,56 @@ void Relighting::pointAt(int x, int y) {
   pointerY_ = window_.y0 + y;
 }
 
+/// The pixels by their raster coordinates.
+PixelRect Relighting::insideOfWindow(const PixelRect& p) const {
+  const PixelRect out{
+      window_.x0 + std::clamp(p.x0, 0, window_.width()), window_.y0 + std::clamp(p.y0, 0, window_.height()),
+      window_.x0 + std::clamp(p.x1, 0, window_.width()), window_.y0 + std::clamp(p.y1, 0, window_.height())};
+  if (out.width() < 1 || out.height() < 1) throw BadRequest("this region is outside of the picture");
+  return out;
+}
+
+void Relighting::shadeOnly(const std::optional<PixelRect>& pixels) {
+  const std::lock_guard lock(mutex_);
+  only_ = pixels ? std::optional(insideOfWindow(*pixels)) : std::nullopt;
+  changed_.notify_all();
+}
+
 void Relighting::askForWhole() {
   const std::lock_guard lock(mutex_);
   wantsWhole_ = true;
   changed_.notify_all();
 }
 
-std::vector<float> Relighting::whole() const {
+void Relighting::askForVariable(const std::string& name) {
+  const std::vector<std::string> known = variablesOf(files_->dfb().shot().scene.options);
+  if (!name.empty() && std::ranges::count(known, name) == 0) throw BadRequest("there is no variable of this name");
+  const std::lock_guard lock(mutex_);
+  variable_ = name;
+  wantPresent();
+}
+
+void Relighting::askToGather(const PixelRect& pixels) {
+  const PixelRect inside = insideOfWindow(pixels);
+  const std::lock_guard lock(mutex_);
+  toGather_ = inside;
+  changed_.notify_all();
+}
+
+bool Relighting::isGathering() const {
+  const std::lock_guard lock(mutex_);
+  return toGather_.has_value();
+}
+
+std::vector<float> Relighting::whole() {
   const std::lock_guard lock(mutex_);
   std::vector<float> out;
-  const std::optional<EditState>& shaded = list_[kWhole].shaded;
-  if (!shaded || !(*shaded == present_)) return out;
-  for (const vec3& c : finished_) out.insert(out.end(), {c.x, c.y, c.z});
+  if (list_[kWhole].parts.areOld() || finished_.pixels.empty()) return out;
+  for (int y = 0; y < finished_.height; ++y)
+    for (int x = 0; x < finished_.width; ++x) {
+      const vec3 c = colorAt(finished_, x, y);
+      out.insert(out.end(), {c.x, c.y, c.z});
+    }
   return out;
 }
 

@@ -1,5 +1,6 @@
 // The check that the layers, each by a gain, add up to the picture under lights of these gains.
 #include "reyes/app/relight/relighting.h"
+#include "reyes/app/relight/relighting_layers.h"
 
 namespace tomales {
 namespace {
@@ -12,26 +13,24 @@ constexpr int kLeastPixels = 8;
 }  // namespace
 
 // Shades some parts under other gains and compares them with the mixed layers.
-void Relighting::checkLinearity() {
-  EditState other;
+void Relighting::checkLinearity(const Step& step) {
+  tell("checking that light adds up", 0);
+  EditState other = step.edit;
   std::vector<vec3> weights;
-  {
-    const std::lock_guard lock(mutex_);
-    other = present_;
-    for (size_t i = 0; i < list_.size(); ++i) {
-      const float gain = kGains[i % std::size(kGains)];
-      const auto scaled = [&](const std::string& handle) {
-        const EditableShader& light = *std::ranges::find(editable_.lights, handle, &EditableShader::owner);
-        const auto scale = std::ranges::find(light.params, TM_ROLE_SCALE, &EditableParam::role);
-        if (scale == light.params.end()) return false;
-        std::vector<float>& value = other.lights[handle].try_emplace(scale->name, scale->value).first->second;
-        value[0] *= gain;
-        return true;
-      };
-      const std::vector<std::string>& handles = list_[i].handles;
-      const bool all = !handles.empty() && std::ranges::all_of(handles, scaled);
-      weights.emplace_back(i == 0 ? 0.0f : all ? gain : 1.0f);
-    }
+  const size_t variable = list_.size() - 1;
+  for (size_t i = 0; i < variable; ++i) {
+    const float gain = kGains[i % std::size(kGains)];
+    const auto scaled = [&](const std::string& handle) {
+      const EditableShader& light = shaderUnder(step.edit, kLights, handle, *editable_);
+      const auto scale = std::ranges::find(light.params, TM_ROLE_SCALE, &EditableParam::role);
+      if (scale == light.params.end()) return false;
+      ParamValue& value = other.shaders[kLights][handle].params.try_emplace(scale->name, scale->value).first->second;
+      value.numbers[0] *= gain;
+      return true;
+    };
+    const std::vector<std::string>& handles = list_[i].handles;
+    const bool all = !handles.empty() && std::ranges::all_of(handles, scaled);
+    weights.emplace_back(i == kWhole ? 0.0f : all ? gain : 1.0f);
   }
   ShotJob& job = jobFor(other);
   job.choose(nullptr, true);
@@ -51,10 +50,11 @@ void Relighting::checkLinearity() {
         ++off[group ? groups[static_cast<size_t>(*group)].attributes->name : ""];
       }
   };
-  const std::vector<PixelRect> all = parts();
-  for (size_t i = 0; i < all.size() && !cancel_; i += kPartsPerCheck) job.show(all[i], plainTiles(), compare, cancel_);
+  for (size_t i = 0; i < parts_.size() && !cancel_; i += kPartsPerCheck)
+    if (parts_[i].width() > 0 && parts_[i].height() > 0) job.show(parts_[i], plainTiles(), compare, cancel_);
   const std::lock_guard lock(mutex_);
   if (cancel_) return;
+  notLinear_.clear();
   for (const auto& [name, pixels] : off)
     if (pixels >= kLeastPixels) notLinear_.push_back(name.empty() ? "objects without a name" : name);
 }

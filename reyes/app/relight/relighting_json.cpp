@@ -1,5 +1,9 @@
 // What a page asks about a shot and its shading.
+#include <set>
+
 #include "reyes/app/relight/relighting.h"
+#include "reyes/app/relight/relighting_layers.h"
+#include "reyes/surface_variables.h"
 
 namespace tomales {
 namespace {
@@ -17,50 +21,122 @@ mat4 pixelFromWorld(const Scene& scene, const PixelRect& window) {
 }
 
 Json jsonOf(const mat4& m) { return std::vector<float>(&m[0][0], &m[0][0] + 16); }
+Json jsonOf(const PixelRect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
+
+Json jsonOf(const EditableShader& s) {
+  Json params = Json::array();
+  for (const EditableParam& p : s.params)
+    params.push_back({{"name", p.name},
+                      {"type", p.type},
+                      {"value", jsonOf(p.value)},
+                      {"doc", p.doc},
+                      {"role", p.role == TM_ROLE_NONE ? Json() : Json(roleName(p.role))}});
+  return {{"owner", s.owner}, {"shader", s.shader}, {"params", params}};
+}
 
 }  // namespace
+
+std::vector<std::string> variablesOf(const Options& options) {
+  std::set<std::string> out;
+  for (const SurfaceVariable& v : kSurfaceVariables)
+    if (v.kind == ChannelKind::Variable || v.name == "a" || v.name == "z") out.emplace(v.name);
+  for (const auto& [name, channel] : options.channels) out.insert(name);
+  return {out.begin(), out.end()};
+}
+
+vec3 variableAt(const Image& rows, int x, int y, const std::string& variable) {
+  constexpr int kAlpha = 3, kDepth = 4, kFirst = 5;  // R G B A Z come first
+  const float* pixel = rows.at(x, y);
+  if (rows.channelCount() >= kFirst + 3) return {pixel[kFirst], pixel[kFirst + 1], pixel[kFirst + 2]};
+  return vec3(pixel[rows.channelCount() > kFirst ? kFirst : variable == "z" ? kDepth : kAlpha]);
+}
+
+Json Relighting::preparation() const {
+  const std::lock_guard lock(mutex_);
+  return {{"doing", doing_}, {"done", done_}};
+}
 
 Json Relighting::description() const {
   const std::lock_guard lock(mutex_);
   const mat4 pixels = pixelFromWorld(files_->dfb().shot().scene, window_);
-  const auto shaders = [&](const std::vector<EditableShader>& all) {
-    Json out = Json::array();
-    for (const EditableShader& s : all) {
-      Json params = Json::array();
-      for (const EditableParam& p : s.params)
-        params.push_back({{"name", p.name},
-                          {"type", p.type},
-                          {"value", p.value},
-                          {"doc", p.doc},
-                          {"role", p.role == TM_ROLE_NONE ? Json() : Json(roleName(p.role))}});
-      out.push_back({{"owner", s.owner},
-                     {"shader", s.shader},
-                     {"pixelFromShader", jsonOf(pixels * s.worldFromShader)},
-                     {"params", params}});
+  Json layers = Json::array(), objects = Json::array();
+  for (size_t i = 0; i + 1 < list_.size(); ++i)
+    layers.push_back({{"name", list_[i].name}, {"lights", list_[i].handles}});
+  for (const EditableObject& o : editable_->objects())
+    objects.push_back({{"name", o.name}, {"color", {o.color.x, o.color.y, o.color.z}}, {"lights", o.lights}});
+  Json out = {{"file", settings_.files.front()},
+              {"width", window_.width()},
+              {"height", window_.height()},
+              {"exposure", editable_->exposure()},
+              {"present", tomales::jsonOf(present_)},
+              {"sharesBounces", sharesBounces_},
+              {"layers", layers},
+              {"objects", objects},
+              {"variables", variablesOf(files_->dfb().shot().scene.options)}};
+  for (size_t slot = 0; slot < kShaderSlots; ++slot) {
+    Json& shaders = out[kSlots[slot].key] = Json::array();
+    for (const EditableShader& s : editable_->of(static_cast<ShaderSlot>(slot))) {
+      shaders.push_back(jsonOf(s));
+      if (slot == kLights) shaders.back()["pixelFromShader"] = jsonOf(pixels * s.worldFromShader);
     }
-    return out;
-  };
-  Json layers = Json::array();
-  for (const Layer& layer : list_) layers.push_back({{"name", layer.name}, {"lights", layer.handles}});
-  return {{"file", settings_.files.front()},     {"width", window_.width()},
-          {"height", window_.height()},          {"exposure", editable_.exposure},
-          {"present", jsonOf(present_)},         {"imager", files_->dfb().shot().scene.options.imager.has_value()},
-          {"sharesBounces", sharesBounces_},     {"layers", layers},
-          {"lights", shaders(editable_.lights)}, {"surfaces", shaders(editable_.surfaces)}};
+  }
+  return out;
+}
+
+Json Relighting::offered() const {
+  Json out = Json::object();
+  for (size_t slot = 0; slot < kShaderSlots; ++slot)
+    out[kSlots[slot].key] = editable_->offered(static_cast<ShaderSlot>(slot));
+  return out;
+}
+
+Json Relighting::offeredShader(const std::string& kind, const std::string& name) const {
+  const auto slot = std::ranges::find(kSlots, kind, &ShaderSlotInfo::key);
+  const EditableShader* shader = slot == std::end(kSlots)
+                                     ? nullptr
+                                     : editable_->describe(static_cast<ShaderSlot>(slot - std::begin(kSlots)), name);
+  if (!shader) throw BadRequest("there is no such shader");
+  return jsonOf(*shader);
 }
 
 Json Relighting::status() const {
   const std::lock_guard lock(mutex_);
   Json layers = Json::array();
-  for (const Layer& layer : list_)
-    layers.push_back({{"version", layer.version},
-                      {"edit", layer.begun ? jsonOf(*layer.begun) : Json()},
-                      {"old", isOld(layer, layer.shaded)}});
-  Json messages = Json::array();
+  const auto left = [](const LayerParts& parts) {
+    return static_cast<double>(parts.old()) / static_cast<double>(parts.count());
+  };
+  for (size_t i = 0; i + 1 < list_.size(); ++i) {
+    const Layer& layer = list_[i];
+    vec3 unit(1.0f);
+    if (layer.handles.size() == 1)
+      for (const EditableParam& p : shaderUnder(present_, kLights, layer.handles.front(), *editable_).params)
+        if (isFactor(p.role)) {
+          const std::vector<float> value = unitOf(p);
+          unit *= value.size() == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]);
+        }
+    layers.push_back({{"version", layer.parts.wanted()},
+                      {"unit", {unit.x, unit.y, unit.z}},
+                      {"old", layer.parts.areOld()},
+                      {"left", left(layer.parts)}});
+  }
+  Json messages = Json::array(), gathered = Json::array();
   for (const LogEntry& e : log_.entries())
     if (e.severity >= Severity::Warning) messages.push_back(e.message);
-  return {{"present", jsonOf(present_)}, {"doing", doing_},     {"done", done_},        {"layers", layers},
-          {"notLinear", notLinear_},     {"checked", checked_}, {"messages", messages}, {"bytes", layers_->bytes()}};
+  for (const PixelRect& r : gathered_) gathered.push_back(jsonOf(r));
+  return {
+      {"present", tomales::jsonOf(present_)},
+      {"doing", doing_},
+      {"done", done_},
+      {"layers", layers},
+      {"variable", {{"name", variable_}, {"version", list_.back().parts.wanted()}, {"left", left(list_.back().parts)}}},
+      {"notLinear", notLinear_},
+      {"stale", stale_},
+      {"gathered", gathered},
+      {"gathering", toGather_.has_value()},
+      {"checked", checked_},
+      {"messages", messages},
+      {"imager", files_->dfb().shot().scene.options.imager.has_value() || !present_.shaders[kImagers].empty()},
+      {"bytes", layers_->bytes()}};
 }
 
 std::optional<int> Relighting::groupAt(int x, int y) const {

@@ -29,8 +29,13 @@ void print(const std::string& text) {
 
 }  // namespace
 
-ProgressMeter::ProgressMeter(bool wanted, const char* pass)
-    : wanted_(wanted), terminal_(::isatty(STDOUT_FILENO) != 0), start_(Clock::now()), pass_(pass), passStart_(start_) {
+ProgressMeter::ProgressMeter(bool wanted, const char* pass, ProgressWatcher watcher)
+    : wanted_(wanted),
+      terminal_(::isatty(STDOUT_FILENO) != 0),
+      watcher_(std::move(watcher)),
+      start_(Clock::now()),
+      pass_(pass),
+      passStart_(start_) {
   if (wanted_ && terminal_) mover_ = std::thread([this] { keepMoving(); });
 }
 
@@ -51,6 +56,7 @@ void ProgressMeter::keepMoving() {
 }
 
 void ProgressMeter::begin(const char* pass) {
+  if (watcher_) watcher_(pass, 0);
   const std::lock_guard lock(mutex_);
   enter(pass);
 }
@@ -67,6 +73,7 @@ void ProgressMeter::finish() {
 }
 
 void ProgressMeter::report(const char* pass, float share, float frame) {
+  if (watcher_) watcher_(pass, share);
   if (!wanted_) return;
   const std::lock_guard lock(mutex_);
   if (std::string_view(pass_) != pass) enter(pass);

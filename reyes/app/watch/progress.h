@@ -11,10 +11,14 @@
 
 namespace tomales {
 
+/// Hears the name of the running pass and its share, 0..1, from any thread.
+using ProgressWatcher = std::function<void(const char* pass, float share)>;
+
 class ProgressMeter {
  public:
-  /// `pass` names what is done first, such as "reading". Names of passes must outlive the meter.
-  ProgressMeter(bool wanted, const char* pass);
+  /// `pass` names what is done first, such as "reading". Names of passes must outlive the meter. `watcher` may be
+  /// empty; it hears of passes whether they are shown or not.
+  ProgressMeter(bool wanted, const char* pass, ProgressWatcher watcher = {});
   ~ProgressMeter();
   ProgressMeter(const ProgressMeter&) = delete;
 
@@ -34,6 +38,7 @@ class ProgressMeter {
   void showBar() const;
   void keepMoving();
   const bool wanted_, terminal_;
+  const ProgressWatcher watcher_;
   const Clock::time_point start_;
   std::mutex mutex_;  ///< It guards what follows.
   const char* pass_;

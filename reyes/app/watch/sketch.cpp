@@ -5,35 +5,20 @@
 namespace tomales {
 namespace {
 
-/// A corner of the lattice, and the point of a reduced tile that it sees.
-struct Corner {
-  int x, y;
-  size_t batch;
-  int point;
-};
-
 void append(const ShadePoints& from, int i, ShadePoints& to) {
   const int k = to.add(from.name(i));
   for (int c = 0; c < from.channelCount(); ++c) to.channel(c)[k] = from.channel(c)[i];
 }
 
-int roundUp(int value, int stride) { return (value + stride - 1) / stride * stride; }
+/// The first number from `value` on that is `origin` and a multiple of `stride`. Pre: value is at least origin.
+int roundUp(int value, int origin, int stride) { return origin + (value - origin + stride - 1) / stride * stride; }
 
-std::vector<Corner> cornersOf(const DeepTile& tile, int stride, DeepTile& reduced) {
-  for (const ShadePoints& batch : tile.batches)
-    reduced.batches.emplace_back(batch.group(), batch.primvarFloats(), batch.hasSteps());
-  std::vector<Corner> out;
-  for (int y = roundUp(tile.rect.y0, stride); y < tile.rect.y1; y += stride)
-    for (int x = roundUp(tile.rect.x0, stride); x < tile.rect.x1; x += stride) {
-      const DeepPixel& pixel = tile.pixel(x, y);
-      if (pixel.count == 0) continue;
-      const Facet& facet = tile.facets[tile.fragments[pixel.first].facet];
-      if (facet.matte) continue;
-      const auto b = static_cast<size_t>(facet.batch);
-      out.push_back({x, y, b, reduced.batches[b].count()});
-      append(tile.batches[b], facet.point[0], reduced.batches[b]);
-    }
-  return out;
+/// The batch of a tile for points of this group.
+size_t batchFor(const ShadePoints& points, DeepTile& tile) {
+  const auto found = std::ranges::find(tile.batches, points.group(), &ShadePoints::group);
+  if (found != tile.batches.end()) return static_cast<size_t>(found - tile.batches.begin());
+  tile.batches.emplace_back(points.group(), points.primvarFloats(), points.hasSteps());
+  return tile.batches.size() - 1;
 }
 
 void fill(Image& image, const PixelRect& square, const vec3& color, float alpha) {
@@ -49,6 +34,22 @@ void fill(Image& image, const PixelRect& square, const vec3& color, float alpha)
 
 }  // namespace
 
+void addCorners(const DeepTile& tile, int stride, const ivec2& origin, DeepTile& reduced, std::vector<Corner>& out) {
+  // A multiple of the stride may lie before the origin.
+  const ivec2 first = origin - stride * ((origin - ivec2(tile.rect.x0, tile.rect.y0)) / stride + 1);
+  for (int y = roundUp(tile.rect.y0, first.y, stride); y < tile.rect.y1; y += stride)
+    for (int x = roundUp(tile.rect.x0, first.x, stride); x < tile.rect.x1; x += stride) {
+      const DeepPixel& pixel = tile.pixel(x, y);
+      if (pixel.count == 0) continue;
+      const Facet& facet = tile.facets[tile.fragments[pixel.first].facet];
+      if (facet.matte) continue;
+      const ShadePoints& batch = tile.batches[static_cast<size_t>(facet.batch)];
+      const size_t b = batchFor(batch, reduced);
+      out.push_back({x, y, b, reduced.batches[b].count()});
+      append(batch, facet.point[0], reduced.batches[b]);
+    }
+}
+
 Image sketch(const DeepFrame& layout, const TileReader& tiles, int stride, const Scene& scene,
              const ShadingSystem& shading, const ShadeContext& context, const std::atomic<bool>& cancelled) {
   const PixelRect& crop = layout.crop;
@@ -59,7 +60,8 @@ Image sketch(const DeepFrame& layout, const TileReader& tiles, int stride, const
     const auto tile = cancelled ? nullptr : tiles(t);
     if (!tile) return;
     DeepTile reduced;
-    const std::vector<Corner> corners = cornersOf(*tile, stride, reduced);
+    std::vector<Corner> corners;
+    addCorners(*tile, stride, ivec2(0), reduced, corners);
     shadeTile(reduced, scene, shading, context);
     for (const Corner& c : corners) {
       const vec3 opacity = reduced.shaded[c.batch].opacity(c.point);

@@ -4,6 +4,16 @@
 
 namespace tomales {
 
+/// A corner of the lattice, and the point of a reduced tile that it sees.
+struct Corner {
+  int x, y;
+  size_t batch;
+  int point;
+};
+/// Adds to `out` the corners in a tile of a lattice of `stride` pixels through the pixel `origin`, and to `reduced` the
+/// points that they see. Several tiles may be reduced to one.
+void addCorners(const DeepTile& tile, int stride, const ivec2& origin, DeepTile& reduced, std::vector<Corner>& out);
+
 /// Returns squares of `stride` pixels, R G B A of the crop window, exposed and through the imager, each in the colour
 /// of its corner's first point. It shades nothing else, so that all strides of the gather pass together cost a third of
 /// shading. If it is cancelled, the missing squares are black.

@@ -1,5 +1,7 @@
 // Points of lights, as a spot's "from" and "to", in the picture: dragged parallel to the image, or with Shift towards the
 // eye and away.
+import { set, shaderOf, valueOf } from "./edit.js";
+
 const kPixelsPerE = 200;  // a way of so many pixels brings a point 2.7 times nearer or farther
 
 const times = (m, v) => [0, 1, 2, 3].map((row) => m[row] * v[0] + m[4 + row] * v[1] + m[8 + row] * v[2] + m[12 + row] * v[3]);
@@ -29,26 +31,35 @@ export const unproject = (back, { x, y, depth, w }) => {
 
 export class Handles {
   constructor(stage, scene, tools) {
-    this.stage = stage;
-    this.all = [];
-    for (const light of scene.lights) {
-      const back = inverse(light.pixelFromShader);
-      for (const param of back ? light.params.filter((p) => p.type === "point") : []) {
-        const dot = document.createElement("div"), handle = { dot, light, back, value: () => tools.value("lights", light, param) };
-        Object.assign(dot, { className: "handle", hidden: true, title: `${light.owner} ${param.name}` });
-        dot.addEventListener("pointerdown", (e) => { e.stopPropagation(); dot.setPointerCapture(e.pointerId); handle.last = e; });
-        dot.addEventListener("pointermove", (e) => {
-          if (!handle.last) return;
-          e.stopPropagation();
-          tools.change("lights", light, param, this.moved(handle, e.clientX - handle.last.clientX, e.clientY - handle.last.clientY, e.shiftKey));
-          handle.last = e;
-        });
-        dot.addEventListener("pointerup", (e) => { e.stopPropagation(); handle.last = null; });
-        stage.element.append(dot);
-        this.all.push(handle);
-      }
-    }
-    stage.placed = () => this.place();
+    Object.assign(this, { stage, tools, all: [] });
+    this.lights = scene.lights.map((light) => ({ light, back: inverse(light.pixelFromShader) })).filter(({ back }) => back);
+    stage.whenPlaced(() => this.place());
+  }
+
+  /** Makes the handles of the shaders that the lights have now. */
+  build() {
+    const state = this.tools.state(), shaders = this.lights.map(({ light }) => shaderOf(state, "lights", light));
+    if (this.shaders?.every((s, i) => s === shaders[i])) return;
+    this.shaders = shaders;
+    for (const { dot } of this.all) dot.remove();
+    this.all = this.lights.flatMap(({ light, back }, i) =>
+      shaders[i].params.filter((p) => p.type === "point").map((param) => this.handleOf(light, back, param)));
+  }
+  handleOf(light, back, param) {
+    const { tools, stage } = this, dot = document.createElement("div");
+    const handle = { dot, light, back, value: () => valueOf(tools.state(), "lights", light, param) };
+    Object.assign(dot, { className: "handle", hidden: true, title: `${light.owner} ${param.name}` });
+    dot.addEventListener("pointerdown", (e) => { e.stopPropagation(); dot.setPointerCapture(e.pointerId); handle.last = e; });
+    dot.addEventListener("pointermove", (e) => {
+      if (!handle.last) return;
+      e.stopPropagation();
+      const point = this.moved(handle, e.clientX - handle.last.clientX, e.clientY - handle.last.clientY, e.shiftKey);
+      tools.change(`lights ${light.owner} ${param.name}`, (s) => set(s, "lights", light, param, point));
+      handle.last = e;
+    });
+    dot.addEventListener("pointerup", (e) => { e.stopPropagation(); handle.last = null; });
+    stage.element.append(dot);
+    return handle;
   }
 
   moved({ light, back, value }, dx, dy, inDepth) {
@@ -60,6 +71,7 @@ export class Handles {
 
   toggle() { this.shown = !this.shown; this.place(); return this.shown; }
   place() {
+    this.build();
     for (const { dot, light, value } of this.all) {
       const at = this.shown ? project(light.pixelFromShader, value()) : null;
       dot.hidden = !at;

@@ -1,9 +1,12 @@
 import { get, post, listen } from "./server.js";
-import { History, copyOf, kNothing, set, strengthOf, valueOf } from "./edit.js";
+import { History, copyOf, nameOf, prepare, strengthOf, whole as wholeOf } from "./edit.js";
+import { kTransforms } from "./color.js";
 import { Mixer } from "./mixer.js";
 import { Stage } from "./stage.js";
 import { Handles } from "./handles.js";
-import { buildLights, buildSurfaces } from "./panel.js";
+import { Snapshots } from "./snapshots.js";
+import { Work } from "./work.js";
+import { buildImager, buildLights, buildObjects } from "./panel.js";
 
 const $ = (id) => document.getElementById(id);
 const kKeys = `Z, Shift+Z   undo, redo
@@ -13,17 +16,29 @@ W            wipe against the snapshot
 F, 1         fit, one to one
 L            false colours
 H            points of lights, to be dragged; with Shift in depth
+R            shade a region alone; again: all
+G            gather bounced light of the region or the view
+A            how old is what is seen
 drag, wheel  pan, zoom
 click        choose the object there
-,  .         darker, brighter`;
+,  .         darker, brighter
+/            search`;
+const kPause_ms = 250;
 
-const scene = await get("scene");
-const mixer = new Mixer($("picture"), scene.width, scene.height, scene.layers.length,
-  new URLSearchParams(location.search).has("plain"));
-let state = { ...copyOf(kNothing), ...scene.present };
+$("end").onclick = async () => { await post("end"); $("what").textContent = "ended"; };
+for (let p; !(p = await get("preparation")).ready; await new Promise((then) => setTimeout(then, kPause_ms))) {
+  $("preparing").firstChild.textContent = p.doing || "reading";
+  $("preparing").lastChild.value = p.done;
+}
+const scene = await get("scene").catch((e) => { $("preparing").textContent = e.message; throw e; });
+$("preparing").remove();
+
+const mixer = new Mixer($("picture"), scene.width, scene.height, scene.layers.length, new URLSearchParams(location.search).has("plain"));
+await prepare(scene.present);
+let state = wholeOf(scene.present);
 const history = new History(state);
-let status = { layers: scene.layers.map(() => ({ version: 0, edit: null, old: true })) };
-let exact = false, falseColor = false;
+let status = { layers: scene.layers.map(() => ({ version: 0, unit: [1, 1, 1], old: true, left: 1 })), variable: {}, gathered: [], present: scene.present };
+let exact = false, falseColor = false, region = null;
 /** Several pages may watch; one edits, until another takes over. */
 const page = 1 + Math.floor(Math.random() * 999999998);
 const watches = () => Boolean(status.editor) && status.editor !== page;
@@ -32,22 +47,32 @@ const postEdit = (more = "") => post(`edit?page=${page}${more}`, state);
 /** Lights that are heard alone, or not: a way of looking, and no part of the edit. */
 const solo = new Set(), mute = new Set();
 
-const lightOf = (handle) => scene.lights.find((l) => l.owner === handle);
-const ratio = (now, then) => now.map((x, c) => (x === then[c] ? 1 : then[c] === 0 ? 0 : x / then[c]));
+const notes = new Set();
+const note = (text, warns = true) => {
+  if (!text || notes.has(text)) return;
+  notes.add(text);
+  const p = document.createElement("p");
+  p.textContent = text;
+  p.className = warns ? "warn" : "";
+  $("notes").append(p);
+};
+const guarded = (action) => async (...given) => { try { await action(...given); } catch (e) { note(e.message); } };
 
-/** How much of each layer is in the picture: what its lights send now over what they sent when it was shaded. */
+/** How much of each layer is in the picture: what its light sends now over what it was shaded with. */
 const weights = () => scene.layers.map((layer, i) => {
   if (i === 0) return [1, 1, 1];
   if ((solo.size > 0 && !solo.has(layer.name)) || mute.has(layer.name)) return [0, 0, 0];
-  const light = lightOf(layer.lights[0]), then = status.layers[i].edit;
-  if (!light || !then) return [1, 1, 1];
-  return ratio(strengthOf(state, light), strengthOf(then, light));
+  if (layer.lights.length !== 1) return [1, 1, 1];
+  const { unit } = status.layers[i];
+  return strengthOf(state, scene.lights.find((l) => l.owner === layer.lights[0])).map((c, k) => c / unit[k]);
 });
 
+let range = null;
 const view = () => {
   const [gain, gamma] = state.exposure ?? scene.exposure;
-  const chosen = Number($("viewGamma").value);
-  return { exposure: gain * 2 ** Number($("stops").value), gamma: gamma !== 1 ? gamma : chosen === 2.2 ? 0 : chosen, falseColor };
+  const chosen = Number($("viewGamma").value), stops = 2 ** Number($("stops").value);
+  return { exposure: gain * stops, wholeExposure: status.imager ? stops : gain * stops, gamma: gamma !== 1 ? gamma : chosen === 2.2 ? 0 : chosen,
+    transform: $("transform").selectedIndex, falseColor, range: $("shown").value ? range ?? [0, 1] : null };
 };
 
 let asked = false;
@@ -64,14 +89,19 @@ const paint = () => {
 
 const stage = new Stage($("stage"), $("picture"), $("wipe"), {
   moved: (x, y) => post(`pointer?x=${x}&y=${y}`),
-  at: (x, y) => mixer.at(x, y, weights()),
+  at: (x, y) => {
+    const variable = $("shown").value;
+    const shown = variable ? `${variable}: ${mixer.colorAt(mixer.variable, x, y).map((v) => v.toPrecision(4)).join("  ")}` : "";
+    return { ...mixer.at(x, y, weights()), more: [shown, work.at(x, y)].filter(Boolean).join("\n") };
+  },
   layers: scene.layers,
   clicked: async (x, y) => {
     const found = await get(`object?x=${x}&y=${y}`);
     stage.say(found.object ? `${found.object}: ${found.shader}` : found.shader ?? "nothing");
-    surfaces.choose(found.object);
+    objects.choose(found.object);
   },
 });
+const work = new Work($("work"), $("ages"), stage, mixer, scene);
 
 const whole = () => mixer.fresh(0, 0, scene.width, scene.height, false);
 let sending = null, unsent = false;
@@ -85,137 +115,128 @@ const send = async () => {
     note(e.message);
   }
   sending = null;
-  if (unsent) unsent = false, send();
+  if (unsent) {
+    unsent = false;
+    send();
+  }
 };
 
-const refresh = () => { lights.refresh(state); surfaces.refresh(state); handles.place(); };
-const show = () => {
-  whole();
-  paint();
-  refresh();
-  send();
-};
-const follow = (present) => {
-  const followed = { ...copyOf(kNothing), ...present };
-  if (JSON.stringify(followed) === JSON.stringify(state)) return;
-  state = followed;
+const refresh = () => { for (const shown of [lights, objects, imager]) shown.refresh(); handles.place(); };
+const show = () => { whole(); paint(); refresh(); send(); };
+const follow = async (present) => {
+  if (nameOf(present) === nameOf(state)) return;
+  await prepare(present);
+  state = wholeOf(present);
   whole();
   paint();
   refresh();
 };
-const change = (what, edit) => {
-  if (watches()) return;
-  performance.mark("changed");
-  edit(state);
-  history.keep(state, what);
-  show();
-};
+const changed = (what) => { performance.mark("changed"); history.keep(state, what); show(); };
+const become = (next) => { state = wholeOf(next); changed(); };
 const step = (by) => {
   if (watches()) return;
   state = history.step(by);
   show();
 };
 
-const panelTools = {
-  value: (kind, shader, param) => valueOf(state, kind, shader, param),
-  change: (kind, shader, param, value) =>
-    change(`${kind} ${shader.owner} ${param.name}`, (s) => set(s, kind, shader, param, value)),
+const tools = {
+  note, state: () => state,
+  change: (what, edit) => { if (!watches()) edit(state), changed(what); },
+  changeLater: async (what, edit) => {
+    if (watches()) return;
+    const next = copyOf(state);
+    await edit(next);
+    become(next);
+  },
   toggle: (which, name) => {
     const marked = which === "solo" ? solo : mute;
     if (!marked.delete(name)) marked.add(name);
     whole();
     paint();
-    lights.refresh(state);
+    lights.refresh();
   },
   isMarked: (which, name) => (which === "solo" ? solo : mute).has(name),
 };
-const lights = buildLights($("lights"), scene, panelTools);
-const surfaces = buildSurfaces($("surfaces"), $("search"), scene, panelTools);
-const handles = new Handles(stage, scene, panelTools);
+const lights = buildLights($("lights"), scene, tools), objects = buildObjects($("surfaces"), scene, tools), imager = buildImager($("imager"), scene, tools);
+const handles = new Handles(stage, scene, tools);
+const snapshots = new Snapshots($("snapshots"), stage, { picture: () => $("picture"), back: (kept) => { if (!watches()) become(copyOf(kept)); } });
 $("handles").hidden = handles.all.length === 0;
-
-const notes = new Set();
-const note = (text, warns = true) => {
-  if (!text || notes.has(text)) return;
-  notes.add(text);
-  const p = document.createElement("p");
-  p.textContent = text, p.className = warns ? "warn" : "";
-  $("notes").append(p);
-};
 if (!scene.sharesBounces)
   note("Bounced light is one layer: it does not follow the lights. tomales gather --by-light makes it follow.");
-if (scene.imager) note("The scene's imager is left out here; shade runs it.", false);
 if (mixer.isPlain) note("This browser has no WebGL2: the picture is mixed by JavaScript.", false);
 
 const setExact = (on) => {
   exact = on;
   $("exact").classList.toggle("on", on);
   if (on) post("ask");
-  else whole(), paint();
+  else { whole(); paint(); }
 };
 const setFalse = (on) => { falseColor = on; $("falseColor").classList.toggle("on", on); paint(); };
-const setHandles = () => $("handles").classList.toggle("on", handles.toggle());
 const setStops = () => {
   $("stopsText").textContent = Number($("stops").value).toFixed(2);
   const gamma = Number($("viewGamma").value);
   $("gammaText").textContent = gamma === 2.2 ? "sRGB" : gamma.toFixed(2);
   paint();
 };
+const showVariable = guarded(async () => { await post(`variable?name=${encodeURIComponent($("shown").value)}`); paint(); });
 
-const keep = () => {
-  const canvas = document.createElement("canvas");
-  canvas.width = scene.width, canvas.height = scene.height;
-  canvas.getContext("2d").drawImage($("picture"), 0, 0);
-  const row = document.createElement("div"), name = document.createElement("input"), back = document.createElement("button");
-  const kept = copyOf(state);
-  row.className = "row", name.value = `snapshot ${$("snapshots").childElementCount + 1}`, back.textContent = "Back to it";
-  name.setAttribute("aria-label", "Name of the snapshot");
-  back.onclick = () => { state = copyOf(kept); history.keep(state); show(); };
-  row.onclick = () => stage.compareWith(canvas);
-  row.append(name, back);
-  $("snapshots").append(row);
-  stage.compareWith(canvas);
+const asQuestion = ({ x, y, width, height }) => `&x=${x}&y=${y}&width=${width}&height=${height}`;
+const setRegion = guarded(async (chosen, isDone) => {
+  region = chosen;
+  $("chosen").hidden = !chosen;
+  if (chosen) stage.cover($("chosen"), chosen);
+  if (!isDone) return;
+  $("region").classList.toggle("on", Boolean(chosen));
+  await post(`only?page=${page}${chosen ? asQuestion(chosen) : ""}`);
+});
+stage.whenPlaced(() => region && stage.cover($("chosen"), region));
+const toggleRegion = () => {
+  if (region) return setRegion(null, true);
+  $("region").classList.add("on");
+  stage.askForRegion(setRegion);
 };
+const gather = guarded(async () => { await post(`gather?page=${page}${asQuestion(region ?? stage.inView())}`); });
 
 const listEdits = async () => $("edits").replaceChildren(...(await get("edits")).map((name) => new Option(name)));
-$("save").onclick = async () => {
-  try {
-    if (!watches()) await postEdit();
-    note(`Saved as ${(await post("save", { name: $("name").value })).file}`, false);
-    await listEdits();
-    $("edits").value = $("name").value;
-  } catch (e) {
-    note(e.message);
-  }
-};
-$("load").onclick = async () => {
-  try {
-    const loaded = await post("load", { name: $("edits").value });
-    state = { ...copyOf(kNothing), ...loaded };
-    history.keep(state);
-    show();
-  } catch (e) {
-    note(e.message);
-  }
-};
+$("save").onclick = guarded(async () => {
+  if (!watches()) await postEdit();
+  const saved = await post("save", { name: $("name").value });
+  note(`Saved as ${saved.file}${saved.irradiance ? `, for --irradiance ${saved.irradiance}` : ""}`, false);
+  await listEdits();
+  $("edits").value = $("name").value;
+});
+$("load").onclick = guarded(async () => {
+  const loaded = await post("load", { name: $("edits").value });
+  await prepare(loaded);
+  become(loaded);
+});
 
 const actions = {
-  undo: () => step(-1), redo: () => step(1), exact: () => setExact(!exact), falseColor: () => setFalse(!falseColor), handles: setHandles,
-  fit: () => stage.fit(), snap: keep, help: () => { $("keys").hidden = !$("keys").hidden; },
-  takeOver: () => postEdit("&take=1"),
-  end: async () => { await post("end"); $("what").textContent = "ended"; },
+  undo: () => step(-1), redo: () => step(1), exact: () => setExact(!exact), falseColor: () => setFalse(!falseColor),
+  handles: () => $("handles").classList.toggle("on", handles.toggle()), region: toggleRegion, gather,
+  age: () => $("age").classList.toggle("on", work.toggle()), fit: () => stage.fit(), snap: () => snapshots.keep(copyOf(state)),
+  help: () => { $("keys").hidden = !$("keys").hidden; }, takeOver: () => postEdit("&take=1"),
 };
 for (const [id, action] of Object.entries(actions)) $(id).onclick = action;
 $("stops").oninput = $("viewGamma").oninput = setStops;
+$("transform").append(...kTransforms.map((name) => new Option(name)));
+$("transform").onchange = paint;
+$("shown").append(...scene.variables.map((name) => new Option(name, name)));
+$("shown").onchange = showVariable;
+$("search").oninput = () => { for (const cards of [lights, objects]) cards.search($("search").value.toLowerCase()); };
 $("keys").textContent = kKeys;
 
 const brighten = (by) => { $("stops").value = Number($("stops").value) + by; setStops(); };
-const keys = { z: actions.undo, Z: actions.redo, e: actions.exact, s: keep, w: () => stage.toggleWipe(), f: actions.fit,
-  1: () => stage.oneToOne(), l: actions.falseColor, h: setHandles, ",": () => brighten(-0.5), ".": () => brighten(0.5), "?": actions.help };
+const keys = { z: actions.undo, Z: actions.redo, e: actions.exact, s: actions.snap, w: () => stage.toggleWipe(), f: actions.fit,
+  1: () => stage.oneToOne(), l: actions.falseColor, h: actions.handles, r: toggleRegion, g: gather, a: actions.age,
+  ",": () => brighten(-0.5), ".": () => brighten(0.5), "?": actions.help, "/": () => $("search").focus() };
 document.addEventListener("keydown", (e) => {
-  if (["INPUT", "SELECT"].includes(e.target.tagName) && e.target.type !== "range") return;
+  if (["INPUT", "SELECT"].includes(e.target.tagName) && !["range", "checkbox"].includes(e.target.type)) return;
   if (e.altKey || ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() !== "z")) return;
-  if (keys[e.key]) keys[e.key](), e.preventDefault();
+  if (keys[e.key]) {
+    keys[e.key]();
+    e.preventDefault();
+  }
 });
 
 $("file").textContent = scene.file.split("/").pop();
@@ -223,31 +244,32 @@ await listEdits();
 setStops();
 stage.fit();
 
-/** Is the whole picture that of what is shown now? */
-const sorted = (edits) => Object.entries(edits).sort().map(([owner, params]) => [owner, Object.entries(params).sort()]);
-const nameOf = (edit) => JSON.stringify([sorted(edit.lights), sorted(edit.surfaces)]);
-const isPresent = (edit) => edit && nameOf(edit) === nameOf(state);
-
+const showNews = async (news, blocks) => {
+  status = news;
+  $("takeOver").hidden = !watches();
+  if (watches()) await follow(news.present);
+  const isPresent = nameOf(news.present) === nameOf(state), first = !document.body.dataset.ready;
+  for (const block of blocks) {
+    mixer.put(block);
+    if (block.layer === 0 && block.version === news.layers[0].version && isPresent && solo.size === 0 && mute.size === 0 && (exact || first))
+      mixer.fresh(block.x, block.y, block.width, block.height, true);
+  }
+  const ready = news.layers.slice(1).every((l) => !l.old);
+  if (ready && !exact && first) whole();
+  if (ready) document.body.dataset.ready = "1";
+  if (blocks.some((b) => b.layer === mixer.variable)) range = mixer.rangeOfVariable();
+  $("what").textContent = news.doing ? `${news.doing} ${Math.round(100 * news.done)} %` : "up to date";
+  $("stale").hidden = news.stale.length === 0;
+  $("stale").textContent = `Bounced light of ${news.stale.join(", ")} is as it was gathered. Gather (G) makes it anew where you look.`;
+  $("gather").disabled = news.gathering;
+  for (const name of news.notLinear) note(`${name}: light does not add up there; Exact shows it right.`);
+  for (const message of news.messages) note(message);
+  work.show(news);
+  if (blocks.length > 0) paint();
+};
 try {
-  await listen((news, blocks) => {
-    status = news;
-    $("takeOver").hidden = !watches();
-    if (watches()) follow(news.present);
-    for (const block of blocks) {
-      mixer.put(block);
-      const first = status.layers.slice(1).some((l) => l.version === 0 || l.edit === null);
-      if (block.layer === 0 && block.version === status.layers[0].version && solo.size === 0 && mute.size === 0 &&
-        (exact || first) && isPresent(status.layers[0].edit))
-        mixer.fresh(block.x, block.y, block.width, block.height, true);
-    }
-    const ready = status.layers.slice(1).every((l) => !l.old);
-    if (ready && !exact && !document.body.dataset.ready) whole();
-    if (ready) document.body.dataset.ready = "1";
-    $("what").textContent = news.doing ? `${news.doing} ${Math.round(100 * news.done)} %` : "up to date";
-    for (const name of news.notLinear) note(`${name}: light does not add up there; Exact shows it right.`);
-    for (const message of news.messages) note(message);
-    if (blocks.length > 0) paint();
-  });
-} catch {
+  await listen(showNews);
+} catch (e) {
   $("what").textContent = "the program has ended";
+  if (!(e instanceof TypeError)) note(e.message);
 }

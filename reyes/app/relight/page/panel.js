@@ -1,115 +1,120 @@
-// Lights and surfaces as sliders, colours and numbers.
-import { isFactor } from "./edit.js";
+// Lights, objects and the picture's shader as cards of controls.
+import { colorOf, isFactor, isLitBy, offeredNames, set, setColor, setLitBy, shaderOf, swap, valueOf } from "./edit.js";
+import { colorRow, control, element } from "./controls.js";
 
-const element = (tag, props = {}, ...children) => {
-  const out = Object.assign(document.createElement(tag), props);
-  out.append(...children);
-  return out;
+/** The name of a shader, where another one may be chosen or typed. */
+const chooser = (slot, owner, tools) => {
+  const id = `offered-${slot}`;
+  const input = element("input", { className: "shader", spellcheck: false, title: "Another shader", ariaLabel: `Shader of ${owner.owner}` });
+  input.setAttribute("list", id);
+  input.onfocus = async () => {
+    if (!document.getElementById(id))
+      document.body.append(element("datalist", { id }, ...(await offeredNames(slot)).map((name) => new Option(name))));
+    input.select();
+  };
+  input.onchange = async () => {
+    try {
+      if (input.value === "") input.value = owner.shader;
+      await tools.changeLater(`${slot} ${owner.owner} shader`, (state) => swap(state, slot, owner, input.value));
+    } catch (e) {
+      tools.note(e.message);
+    }
+    input.value = shaderOf(tools.state(), slot, owner).shader;
+  };
+  return input;
 };
 
-const kStops = 6;
-const hex = (color) =>
-  "#" + color.map((c) => Math.round(255 * Math.min(Math.max(c, 0), 1) ** (1 / 2.2)).toString(16).padStart(2, "0")).join("");
-const fromHex = (text) => [1, 3, 5].map((i) => (parseInt(text.slice(i, i + 2), 16) / 255) ** 2.2);
-
-const text = (x) => String(Number(x.toPrecision(4)));
-
-/** Makes the control of a parameter, and returns it with a function that shows the present value. */
-const control = (kind, shader, param, tools) => {
-  const value = () => tools.value(kind, shader, param);
-  const set = (numbers) => tools.change(kind, shader, param, numbers);
-  const row = element("label", { className: "row", title: param.doc }, element("span", { textContent: param.name }));
-  if (param.type === "color") {
-    const input = element("input", { type: "color" });
-    // A colour may be brighter than white: its scale is kept.
-    input.oninput = () => { const most = Math.max(...value(), 1); set(fromHex(input.value).map((c) => c * most)); };
-    const reset = element("button", { textContent: "Reset", onclick: () => set(param.value) });
-    row.append(input, reset);
-    return { row, refresh: () => { const v = value(), most = Math.max(...v, 1); input.value = hex(v.map((c) => c / most)); } };
+/** The parameters of an owner's shader, made anew when it gets another one. */
+class Params {
+  constructor(slot, owner, tools, main) {
+    Object.assign(this, { slot, owner, tools, main, first: element("div"), others: element("div") });
+    this.more = element("details", {}, element("summary", { textContent: "More" }), this.others);
+    this.input = chooser(slot, owner, tools);
   }
-  if (param.type !== "float") {
-    row.classList.add("vector");
-    const inputs = [0, 1, 2].map(() => element("input", { type: "number", step: "any" }));
-    for (const input of inputs) input.onchange = () => set(inputs.map((i) => Number(i.value) || 0));
-    row.append(...inputs);
-    return { row, refresh: () => value().forEach((v, i) => (inputs[i].value = text(v))) };
+  build(shader) {
+    const { slot, owner, tools } = this;
+    const controls = shader.params.map((p) => ({
+      isMain: this.main(p),
+      ...control(`${owner.owner} ${p.name}`, p, () => valueOf(tools.state(), slot, owner, p),
+        (values) => tools.change(`${slot} ${owner.owner} ${p.name}`, (s) => set(s, slot, owner, p, values))),
+    }));
+    this.first.replaceChildren(...controls.filter((c) => c.isMain).map((c) => c.row));
+    this.others.replaceChildren(...controls.filter((c) => !c.isMain).map((c) => c.row));
+    this.more.hidden = this.others.childElementCount === 0;
+    this.controls = controls, this.shader = shader;
   }
-  const scene = param.value[0];
-  const number = element("input", { type: "number", step: "any", className: "number" });
-  const most = Math.max(1, 2 * Math.abs(scene));
-  const slider = element("input", { type: "range", min: scene < 0 ? -most : 0, max: most, step: most / 500 });
-  slider.setAttribute("aria-label", `${shader.owner} ${param.name}`);
-  slider.oninput = () => set([Number(slider.value)]);
-  slider.ondblclick = () => set([scene]);
-  number.onchange = () => set([Number(number.value) || 0]);
-  row.append(slider, number);
-  return { row, refresh: () => { slider.value = value()[0]; number.value = text(value()[0]); } };
-};
+  refresh() {
+    const shader = shaderOf(this.tools.state(), this.slot, this.owner);
+    if (shader !== this.shader) this.build(shader), (this.input.value = shader.shader);
+    for (const c of this.controls) c.refresh();
+  }
+}
 
-/** The scale of a light in stops from that of the scene, which is what a lighter turns; the number beside it is the value. */
-const brightness = (light, param, tools) => {
-  const scene = param.value[0];
-  if (!(scene > 0)) return control("lights", light, param, tools);
-  const value = () => tools.value("lights", light, param)[0];
-  const slider = element("input", { type: "range", min: -kStops, max: kStops, step: 0.02 });
-  slider.setAttribute("aria-label", `${light.owner} brightness in stops`);
-  const number = element("input", { type: "number", step: "any", className: "number" });
-  slider.oninput = () =>
-    tools.change("lights", light, param, [Number(slider.value) <= -kStops ? 0 : scene * 2 ** Number(slider.value)]);
-  slider.ondblclick = () => tools.change("lights", light, param, [scene]);
-  number.onchange = () => tools.change("lights", light, param, [Math.max(Number(number.value) || 0, 0)]);
-  const row = element("label", { className: "row", title: param.doc }, element("span", { textContent: param.name }), slider, number);
-  const refresh = () => { slider.value = value() > 0 ? Math.log2(value() / scene) : -kStops; number.value = text(value()); };
-  return { row, refresh };
-};
+const card = (className, title, input, children, ...buttons) =>
+  element("div", { className }, element("header", {}, element("strong", { textContent: title, title }), input, ...buttons), ...children);
 
-const card = (className, title, shader, controls, ...buttons) => {
-  const head = element("header", {}, element("strong", { textContent: title }), element("small", { textContent: shader }),
-    element("span", { className: "space" }), ...buttons);
-  return element("div", { className }, head, ...controls);
-};
-
-const more = (controls) =>
-  element("details", {}, element("summary", { textContent: "More" }), ...controls.map((c) => c.row));
+const found = (asked, ...texts) => texts.join(" ").toLowerCase().includes(asked);
 
 export const buildLights = (into, scene, tools) => {
-  const all = [], marks = [];
-  for (const light of scene.lights) {
-    const layer = scene.layers.find((l) => l.lights.includes(light.owner));
-    const main = light.params.filter(isFactor).map((p) =>
-      p.role === "scale" ? brightness(light, p, tools) : control("lights", light, p, tools));
-    const others = light.params.filter((p) => !isFactor(p)).map((p) => control("lights", light, p, tools));
-    all.push(...main, ...others);
-    const buttons = layer ? ["solo", "mute"].map((which) => {
+  const cards = scene.lights.map((light) => {
+    const params = new Params("lights", light, tools, isFactor), layer = scene.layers.find((l) => l.lights.includes(light.owner));
+    const marks = layer ? ["solo", "mute"].map((which) => {
       const button = element("button", { textContent: which === "solo" ? "S" : "M", title: which });
       button.onclick = () => tools.toggle(which, layer.name);
-      marks.push(() => button.classList.toggle("on", tools.isMarked(which, layer.name)));
-      return button;
+      return { button, refresh: () => button.classList.toggle("on", tools.isMarked(which, layer.name)) };
     }) : [];
-    into.append(card("light", light.owner, light.shader, [...main.map((c) => c.row), ...(others.length ? [more(others)] : [])], ...buttons));
-  }
-  const refresh = () => { for (const c of all) c.refresh(); for (const mark of marks) mark(); };
+    const box = card("light", light.owner, params.input, [params.first, params.more], ...marks.map((m) => m.button));
+    into.append(box);
+    return { box, params, light, refresh: () => { params.refresh(); for (const m of marks) m.refresh(); } };
+  });
+  const refresh = () => { for (const c of cards) c.refresh(); };
   refresh();
-  return { refresh };
+  return { refresh, search: (asked) => { for (const c of cards) c.box.hidden = !found(asked, c.light.owner, c.params.input.value); } };
 };
 
-export const buildSurfaces = (into, search, scene, tools) => {
-  const all = [], cards = [];
-  for (const surface of scene.surfaces) {
-    const controls = surface.params.map((p) => control("surfaces", surface, p, tools));
-    const details = more(controls), box = card("surface", surface.owner, surface.shader, [details]);
-    all.push(...controls), cards.push({ surface, box, details });
-    into.append(box);
-  }
-  search.oninput = () => {
-    const asked = search.value.toLowerCase();
-    for (const { surface, box } of cards) box.hidden = !`${surface.owner} ${surface.shader}`.toLowerCase().includes(asked);
+/** What a card of an object holds; it is made when the card is first opened, since there may be many. */
+const contentOf = (object, scene, tools) => {
+  const owner = (slot) => scene[slot].find((s) => s.owner === object.name);
+  const surface = new Params("surfaces", owner("surfaces"), tools, () => true);
+  const air = new Params("atmospheres", owner("atmospheres"), tools, () => true);
+  const color = colorRow("Color", "Color of the object, where no primitive variable gives one", () => colorOf(tools.state(), object),
+    (rgb) => tools.change(`color ${object.name}`, (s) => setColor(s, object, rgb)), object.color);
+  const lights = scene.lights.map((light) => {
+    const box = element("input", { type: "checkbox" });
+    box.onchange = () => tools.change("", (s) => setLitBy(s, object, light.owner, box.checked));
+    return { row: element("label", { className: "link" }, box, light.owner), refresh: () => (box.checked = isLitBy(tools.state(), object, light.owner)) };
+  });
+  const folded = (title, ...children) => element("details", {}, element("summary", { textContent: title }), ...children);
+  const parts = [surface, color, air, ...lights];
+  return {
+    rows: [element("label", { className: "row" }, element("span", { textContent: "Surface" }), surface.input), color.row, surface.first,
+      folded("Air", element("label", { className: "row" }, element("span", { textContent: "Atmosphere" }), air.input), air.first),
+      folded("Lit by", ...lights.map((l) => l.row))],
+    refresh: () => { for (const p of parts) p.refresh(); },
   };
-  const refresh = () => { for (const c of all) c.refresh(); };
-  /** Shows the surface of an object that was chosen in the picture. */
-  const choose = (object) => {
-    for (const { surface, box, details } of cards) {
-      const is = surface.owner === object;
+};
+
+export const buildObjects = (into, scene, tools) => {
+  const cards = scene.objects.map((object) => {
+    const surface = scene.surfaces.find((s) => s.owner === object.name), shown = element("small");
+    const details = element("details", {}, element("summary", {}, element("strong", { textContent: object.name }), " ", shown));
+    const box = element("div", { className: "surface" }, details), card = { box, details, object, content: null };
+    card.name = () => shaderOf(tools.state(), "surfaces", surface).shader;
+    card.refresh = () => { shown.textContent = card.name(); card.content?.refresh(); };
+    details.ontoggle = () => {
+      if (!details.open || card.content) return;
+      card.content = contentOf(object, scene, tools);
+      details.append(...card.content.rows);
+      card.content.refresh();
+    };
+    into.append(box);
+    return card;
+  });
+  const refresh = () => { for (const c of cards) c.refresh(); };
+  /** Shows the object that was chosen in the picture. */
+  const choose = (name) => {
+    for (const { object, box, details } of cards) {
+      const is = object.name === name;
       box.classList.toggle("chosen", is);
       if (!is) continue;
       into.closest("details").open = details.open = true;
@@ -117,5 +122,12 @@ export const buildSurfaces = (into, search, scene, tools) => {
     }
   };
   refresh();
-  return { refresh, choose };
+  return { refresh, choose, search: (asked) => { for (const c of cards) c.box.hidden = !found(asked, c.object.name, c.name()); } };
+};
+
+export const buildImager = (into, scene, tools) => {
+  const params = new Params("imagers", scene.imagers[0], tools, () => true);
+  into.append(element("label", { className: "row", title: "It runs in the exact picture" }, element("span", { textContent: "Imager" }), params.input), params.first);
+  params.refresh();
+  return { refresh: () => params.refresh() };
 };

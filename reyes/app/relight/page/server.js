@@ -13,22 +13,41 @@ const kHeader = 8;  // numbers of a block's header (layers.h)
 const blocksOf = (buffer, from) => {
   const out = [];
   for (let at = from; at < buffer.byteLength;) {
-    const [layer, x, y, width, height, version] = new Uint32Array(buffer, at, kHeader);
+    const [layer, x, y, width, height, version, , step] = new Uint32Array(buffer, at, kHeader);
     at += 4 * kHeader;
-    const numbers = 3 * width * height;
-    out.push({ layer, x, y, width, height, version, half: new Uint16Array(buffer, at, numbers) });
+    const numbers = 3 * Math.ceil(width / step) * Math.ceil(height / step);
+    out.push({ layer, x, y, width, height, version, step, half: new Uint16Array(buffer, at, numbers) });
     at += Math.ceil((2 * numbers) / 4) * 4;
   }
   return out;
 };
 
-/** Calls `tell(status, blocks)` with all that is new, until the program ends. */
+const kCoarse = 16;  // squares of a coarse picture, which finer blocks follow of themselves
+const kWait_s = 0.4;  // what is new may take so long to come; what does not fit comes coarser first
+const kLeast_bytes = 50e3, kMost_bytes = 3e6, kTelling_bytes = 32e3;
+
+/** What is known of the way to the program. */
+export const link = { rate: 2e7, received: 0 };
+
+/** Calls `tell(status, blocks)` with all that is new, until the program ends: coarse where the link is slow, and at full size
+    when nothing newer waits. */
 export const listen = async (tell) => {
-  for (let after = 0; ;) {
-    const buffer = await (await reply(await fetch(`news?after=${after}`))).arrayBuffer();
+  for (let seen = 0, fine = 0, newest = 0; ;) {
+    const bytes = Math.round(Math.min(Math.max(link.rate * kWait_s, kLeast_bytes), kMost_bytes));
+    const refines = newest <= seen && fine < seen;
+    const question = refines ? `news?after=${fine}&last=${seen}&bytes=${bytes}` : `news?after=${seen}&bytes=${bytes}`;
+    const answer = await reply(await fetch(question)), begun = performance.now();
+    const buffer = await answer.arrayBuffer(), seconds = Math.max(performance.now() - begun, 0.1) / 1000;
+    link.received += buffer.byteLength;
+    if (buffer.byteLength > kTelling_bytes) link.rate += 0.5 * (buffer.byteLength / seconds - link.rate);
     const length = new Uint32Array(buffer, 0, 1)[0];
     const status = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-    after = status.after;
-    tell(status, blocksOf(buffer, 4 + length));
+    const blocks = blocksOf(buffer, 4 + length);
+    newest = status.newest;
+    if (refines) fine = status.after;
+    else if (fine === seen && blocks.every((b) => b.step === 1 || b.step === kCoarse)) fine = seen = status.after;
+    else seen = status.after;
+    tell(status, blocks);
   }
 };
+

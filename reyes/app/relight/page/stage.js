@@ -1,9 +1,11 @@
-// The picture on the screen: zoom, pan, the wipe against a snapshot, and what is under the pointer.
+// The picture on the screen: zoom, pan, the wipe against a snapshot, regions, and what is under the pointer.
+import { luminanceOf } from "./color.js";
+
 const kSoon_ms = 60;
 
 export class Stage {
   constructor(element, canvas, wipe, tools) {
-    Object.assign(this, { element, canvas, wipe, tools, scale: 1, x: 0, y: 0, share: 0.5 });
+    Object.assign(this, { element, canvas, wipe, tools, scale: 1, x: 0, y: 0, share: 0.5, placed: [] });
     this.probe = element.querySelector("#probe");
     element.addEventListener("wheel", (e) => this.wheel(e), { passive: false });
     element.addEventListener("pointerdown", (e) => this.down(e));
@@ -34,7 +36,7 @@ export class Stage {
   place() {
     const transform = `translate(${this.x}px, ${this.y}px) scale(${this.scale})`;
     this.canvas.style.transform = transform;
-    this.placed?.();
+    for (const call of this.placed) call();
     if (!this.kept) return;
     const edge = this.share * this.element.clientWidth;
     this.kept.style.transform = transform;
@@ -43,10 +45,33 @@ export class Stage {
     this.wipe.style.left = `${edge}px`;
   }
 
-  /** Puts this canvas beside the picture, to the left of the wipe. */
+  /** Calls it now and when the picture has moved on the screen. */
+  whenPlaced(call) { this.placed.push(call); call(); }
+  /** Puts an element over these pixels. */
+  cover(element, { x, y, width, height }) {
+    Object.assign(element.style, { left: `${this.x + this.scale * x}px`, top: `${this.y + this.scale * y}px`,
+      width: `${this.scale * width}px`, height: `${this.scale * height}px` });
+  }
+  /** The pixels that are in view. */
+  inView() {
+    const { width, height } = this.element.getBoundingClientRect();
+    return this.regionOf({ x: -this.x / this.scale, y: -this.y / this.scale }, { x: (width - this.x) / this.scale, y: (height - this.y) / this.scale });
+  }
+  /** The pixels between two places; null if they are outside of the picture. */
+  regionOf(a, b) {
+    const inside = (v, most) => Math.round(Math.min(Math.max(v, 0), most));
+    const x = [a.x, b.x].map((v) => inside(v, this.canvas.width)).sort((p, q) => p - q);
+    const y = [a.y, b.y].map((v) => inside(v, this.canvas.height)).sort((p, q) => p - q);
+    return x[0] < x[1] && y[0] < y[1] ? { x: x[0], y: y[0], width: x[1] - x[0], height: y[1] - y[0] } : null;
+  }
+  /** The next drag chooses a region, which is told to `choose`. */
+  askForRegion(choose) { this.choose = choose; this.element.classList.toggle("chooses", Boolean(choose)); }
+
+  /** Puts this canvas beside the picture, to the left of the wipe; null: none. */
   compareWith(canvas) {
     this.kept?.remove();
     this.kept = canvas;
+    if (!canvas) return this.toggleWipe(false);
     canvas.id = "kept";
     canvas.style.cssText = "position:absolute;transform-origin:0 0;image-rendering:pixelated";
     this.canvas.after(canvas);
@@ -58,9 +83,12 @@ export class Stage {
     this.place();
   }
 
-  pixelAt(e) {
+  placeAt(e) {
     const box = this.element.getBoundingClientRect();
-    const x = Math.floor((e.clientX - box.left - this.x) / this.scale), y = Math.floor((e.clientY - box.top - this.y) / this.scale);
+    return { x: (e.clientX - box.left - this.x) / this.scale, y: (e.clientY - box.top - this.y) / this.scale };
+  }
+  pixelAt(e) {
+    const at = this.placeAt(e), x = Math.floor(at.x), y = Math.floor(at.y);
     return x >= 0 && y >= 0 && x < this.canvas.width && y < this.canvas.height ? { x, y } : null;
   }
   wheel(e) {
@@ -71,7 +99,7 @@ export class Stage {
   }
   down(e) {
     this.element.setPointerCapture(e.pointerId);
-    this.drag = { x: e.clientX, y: e.clientY, moved: false, wipes: e.target === this.wipe };
+    this.drag = { x: e.clientX, y: e.clientY, moved: false, wipes: e.target === this.wipe, begin: this.choose ? this.placeAt(e) : null };
   }
   move(e) {
     this.pixel = this.pixelAt(e);
@@ -81,7 +109,9 @@ export class Stage {
     if (!this.drag) return;
     const dx = e.clientX - this.drag.x, dy = e.clientY - this.drag.y;
     if (!this.drag.moved && Math.hypot(dx, dy) < 4) return;
-    if (this.drag.wipes) {
+    if (this.drag.begin) {
+      this.choose(this.regionOf(this.drag.begin, this.placeAt(e)), false);
+    } else if (this.drag.wipes) {
       const box = this.element.getBoundingClientRect();
       this.share = Math.min(Math.max((e.clientX - box.left) / box.width, 0), 1);
     } else {
@@ -92,7 +122,11 @@ export class Stage {
   }
   up(e) {
     const at = this.pixelAt(e);
-    if (this.drag && !this.drag.moved && !this.drag.wipes && at) this.tools.clicked(at.x, at.y);
+    if (this.drag?.begin) {
+      const choose = this.choose;
+      this.askForRegion(null);
+      choose(this.drag.moved ? this.regionOf(this.drag.begin, this.placeAt(e)) : null, true);
+    } else if (this.drag && !this.drag.moved && !this.drag.wipes && at) this.tools.clicked(at.x, at.y);
     this.drag = null;
   }
 
@@ -101,8 +135,7 @@ export class Stage {
   showProbe() {
     this.probe.hidden = !this.pixel;
     if (!this.pixel) return;
-    const { x, y } = this.pixel, { shares, isWhole } = this.tools.at(x, y);
-    const luminance = (c) => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+    const { x, y } = this.pixel, { shares, isWhole, more } = this.tools.at(x, y), luminance = luminanceOf;
     const lights = shares.slice(1), sum = [0, 1, 2].map((c) => lights.reduce((all, s) => all + s[c], 0));
     const seen = isWhole ? shares[0] : sum, most = Math.max(...lights.map(luminance), 1e-6);
     const line = document.createElement("div");
@@ -118,7 +151,7 @@ export class Stage {
       return row;
     });
     const said = document.createElement("div");
-    said.textContent = this.said ?? "";
+    said.textContent = [this.said, more].filter(Boolean).join("\n");
     this.probe.replaceChildren(line, ...bars, said);
   }
 }
