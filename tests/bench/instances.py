@@ -1,10 +1,12 @@
 """10,000 instances of a mesh of 10,000 faces under an area light with traced shadows, 320 x 240: user seconds and peak memory. The goal is 300 MB.
 
-    tests/bench/instances.py build/release/tomales [--camera low all] [--gi none gather] [-t 2] [--keep FOLDER]
+    tests/bench/instances.py build/release/tomales [--camera low all cloud] [--gi none gather] [-t 2] [--keep FOLDER]
 
-`low` looks along the field, where the near ones hide most; `all` sees every instance, a few pixels large.
+`low` looks along the field, where the near ones hide most; `all` sees every instance, a few pixels large. `cloud` is
+another scene: a million instances of a small sphere in a cube, under a lamp far away. Its goal is 60 s with gather.
 """
 import argparse
+import itertools
 import math
 import os
 import pathlib
@@ -41,10 +43,23 @@ def scene(camera, side=100):
     yield "WorldEnd\n"
 
 
+def cloud(side=100):
+    """side x side x side small spheres in a cube over a floor."""
+    chance = random.Random(1)
+    yield ('Format 320 240 1 PixelSamples 2 2 Projection "perspective" "fov" [50] Translate 0 -1 9 Rotate -20 1 0 0 WorldBegin\n'
+           'LightSource "distantlight" 1 "from" [1 3 -2] "to" [0 0 0] LightSource "indirectlight" 2 "samples" [256]\n'
+           'Attribute "light" "shadows" ["on"] Surface "matte"\nPolygon "P" [-20 -4 -20 -20 -4 20 20 -4 20 20 -4 -20]\n'
+           f'ObjectBegin 1 Sphere {3 / side:g} {-3 / side:g} {3 / side:g} 360 ObjectEnd\n')
+    for place in itertools.product(range(side), repeat=3):
+        at = " ".join(f"{8 * (i / side - 0.5) + chance.uniform(-2, 2) / side:.3f}" for i in place)
+        yield f"AttributeBegin Color [{chance.random():.2f} 0.5 0.4] Translate {at} ObjectInstance 1 AttributeEnd\n"
+    yield "WorldEnd\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tomales")
-    parser.add_argument("--camera", nargs="+", choices=CAMERAS, default=list(CAMERAS))
+    parser.add_argument("--camera", nargs="+", choices=[*CAMERAS, "cloud"], default=list(CAMERAS))
     parser.add_argument("--gi", nargs="+", default=["none", "gather"])
     parser.add_argument("-t", default="2")
     parser.add_argument("--keep", help="where the scenes and pictures stay")
@@ -53,7 +68,7 @@ def main():
         folder = pathlib.Path(arguments.keep or temporary)
         for camera in arguments.camera:
             rib = folder / f"{camera}.rib"
-            rib.write_text("".join(scene(camera)))
+            rib.write_text("".join(cloud() if camera == "cloud" else scene(camera)))
             for gi in arguments.gi:
                 command = [arguments.tomales, "render", rib, "-o", folder / f"{camera}_{gi}.exr", "--gi", gi, "-t", arguments.t, "-q"]
                 process = subprocess.Popen(list(map(str, command)))
