@@ -348,5 +348,31 @@ TEST(NastyPolygon, FarFromTheOriginAndTinyKeepsItsNormal) {
   EXPECT_EQ(sampleAt(*prim, 0, 0.5f, 0.5f).n, vec3(0, 0, 1));
 }
 
+TEST(Polygons, PartsOfAnOpenEdgeKnowTheWholeEdge) {
+  for (const int n : {5, 7}) {
+    std::vector<vec2> outline;
+    for (int k = 0; k < n; ++k) {
+      const float angle = 2 * kPi * static_cast<float>(k) / static_cast<float>(n);
+      outline.emplace_back(std::cos(angle), std::sin(angle));
+    }
+    const PrimPtr prim = polygon(flat(outline));
+    const std::vector<vec3> corners = pointsOf(flat(outline));
+    int open = 0;
+    for (uint32_t patch = 0; patch < prim->patchCount(); ++patch)
+      for (const PatchEdge edge : {kEdgeU0, kEdgeU1, kEdgeV0, kEdgeV1}) {
+        if (!(prim->info(patch).openEdges & edge)) continue;
+        ++open;
+        const auto ends = prim->straightEdge(patch, edge);
+        ASSERT_TRUE(ends);
+        const auto numberOf = [&](const vec3& p) {
+          return std::find(corners.begin(), corners.end(), p) - corners.begin();
+        };
+        const auto a = numberOf((*ends)[0]), b = numberOf((*ends)[1]);
+        EXPECT_TRUE((a + 1) % n == b || (b + 1) % n == a) << "patch " << patch << ": corners " << a << " and " << b;
+      }
+    EXPECT_GT(open, n) << "some edges are in two parts";
+  }
+}
+
 }  // namespace
 }  // namespace tomales

@@ -170,5 +170,13 @@ TEST(BadInput, LateOptionsCountForTheirWorldOnly) {
   EXPECT_EQ(r.scenes.at(1).options.xResolution, 640);
 }
 
+TEST(BadInput, AFileThatIsNotThereIsAnError) {
+  Log log{Log::Verbosity::Quiet};
+  EXPECT_FALSE(readRib({"/nowhere/scene.rib"}, {}, log));
+  ASSERT_EQ(log.count("rib-open"), 1);
+  EXPECT_EQ(log.entries()[0].severity, Severity::Error);
+  EXPECT_EQ(*log.entries()[0].where.file, "/nowhere/scene.rib");
+}
+
 }  // namespace
 }  // namespace tomales

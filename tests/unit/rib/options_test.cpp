@@ -254,5 +254,10 @@ TEST(Display, MayDeclareWhatItShowsAndQuantizeMayNameIt) {
   EXPECT_TRUE(o.displays[1].params.empty());
 }
 
+TEST(Projection, WhoseFieldOfViewHasNoNumberHasThatOfTheSpecification) {
+  const Reading r("Projection \"perspective\" \"uniform string fov\" [\"wide\"]" + inWorld(""));
+  EXPECT_EQ(r.scene().options.fov_degrees, 90);
+}
+
 }  // namespace
 }  // namespace tomales

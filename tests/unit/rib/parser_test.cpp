@@ -206,5 +206,29 @@ TEST(Parser, KeepsIntegersExact) {
   EXPECT_EQ(r.list[1].args[0].integer(), 16777217);
 }
 
+TEST(Parser, ARequestThatDrawsIsMissedAndAnotherOneIsNot) {
+  const Requests r("Sphere 1\nShadingRate \"fine\"\nIdentity");
+  ASSERT_EQ(r.log.entries().size(), 2u);
+  EXPECT_EQ(r.log.entries()[0].severity, Severity::Missing);
+  EXPECT_EQ(r.log.entries()[1].severity, Severity::Warning);
+}
+
+TEST(Parser, TakesAnIntegerBareAndInBrackets) {
+  const Requests r("Blobby 2 [1001 0] [1] [\"a\"] Blobby [2] [1001 0] [1] [\"a\"] Blobby [2 [1001 0] [1] [\"a\"]");
+  ASSERT_EQ(r.list.size(), 2u);
+  EXPECT_EQ(r.list[1].args[0].integers, std::vector<int>{2});
+  EXPECT_EQ(r.list[1].args[1].integers, r.list[0].args[1].integers);
+  EXPECT_EQ(r.log.count("rib-arguments"), 1) << "a bracket that does not close";
+}
+
+TEST(Parser, CountsTheLinesWithinTexts) {
+  const Requests r("Surface \"two\nlines\"\nSurface \"one \\\nline\"\nIdentity");
+  ASSERT_EQ(r.list.size(), 3u);
+  EXPECT_EQ(r.list[0].args[0].strings, std::vector<std::string>{"two\nlines"});
+  EXPECT_EQ(r.list[1].args[0].strings, std::vector<std::string>{"one line"});
+  EXPECT_EQ(r.list[1].where.line, 3);
+  EXPECT_EQ(r.list[2].where.line, 5);
+}
+
 }  // namespace
 }  // namespace tomales
