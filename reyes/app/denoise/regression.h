@@ -24,8 +24,8 @@ struct RegressionInput {
   const std::vector<Plane>& guides;  ///< Of about the same scale.
 };
 
-/// Filters one half with weights of the other. No pixel's answer depends on the weighing half there, or kNear to it, but
-/// through `variance`: so that half can tell the answer's error. width: k of Rousselle et al.
+/// Filters one half with weights of the other. No pixel's answer depends on the weighing half there, or kNear to it,
+/// but through `variance`: so that half can tell the answer's error. width: k of Rousselle et al.
 Color regression(const Size& size, const RegressionInput& in, float width);
 
 }  // namespace tomales::denoising
