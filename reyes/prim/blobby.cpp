@@ -22,9 +22,18 @@ struct SurfacePoint {
   dvec3 p, du, dv, normal;
 };
 
-SurfacePoint pointOn(const BlobField& field, const Way& way) {
+/// What becomes of a point whose way does not meet the surface.
+enum class Lost {
+  Stays,  ///< It is on the mesh of this surface, and so near to it.
+  /// It goes as far as its way reaches: the mesh is of another key time, and its reach ends where vertices are lost, so
+  /// that no point jumps from there to the surface.
+  GoesOn,
+};
+
+SurfacePoint pointOn(const BlobField& field, const Way& way, Lost lost) {
   const std::optional<double> met = meetSurface(field, way.p, way.outward, way.reach);
-  const double t = met.value_or(0);
+  double t = met.value_or(0);
+  if (!met && lost == Lost::GoesOn) t = std::copysign(way.reach, field.at(way.p).value - kBlobSurface);
   SurfacePoint s{way.p + t * way.outward, way.pu + t * way.outwardU, way.pv + t * way.outwardV, way.outward};
   const dvec3 gradient = field.at(s.p).gradient;
   const double slope = glm::dot(gradient, way.outward);
@@ -38,8 +47,8 @@ SurfacePoint pointOn(const BlobField& field, const Way& way) {
 
 class Blobby : public Prim {
  public:
-  Blobby(const BlobField& field, BlobMesh mesh, std::vector<Primvar> primvars)
-      : Prim(std::move(primvars)), field_(field), mesh_(std::move(mesh)) {
+  Blobby(const BlobField& field, BlobMesh mesh, Lost lost, std::vector<Primvar> primvars)
+      : Prim(std::move(primvars)), field_(field), mesh_(std::move(mesh)), lost_(lost) {
     fields_.reserve(mesh_.quads.size());
     for (uint32_t patch = 0; patch < patchCount(); ++patch) {
       throwIfStopped();
@@ -58,14 +67,14 @@ class Blobby : public Prim {
     const Bound3 hull = hullOf(patch, rect);
     // it is too coarse for a few samples to represent the rest
     if (!mesh_.complete) return paddedForRounding(hull, hull);
-    const Bound3 sampled =
-        boundOfSamples(rect, [&](float u, float v) { return vec3(pointOn(fields_[patch], wayAt(patch, u, v)).p); });
+    const Bound3 sampled = boundOfSamples(
+        rect, [&](float u, float v) { return vec3(pointOn(fields_[patch], wayAt(patch, u, v), lost_).p); });
     return paddedForRounding({glm::max(hull.lo, sampled.lo), glm::min(hull.hi, sampled.hi)}, hull);
   }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     for (int i = 0; i < n; ++i) {
-      const SurfacePoint s = pointOn(fields_[patch], wayAt(patch, u[i], v[i]));
+      const SurfacePoint s = pointOn(fields_[patch], wayAt(patch, u[i], v[i]), lost_);
       setFrame(out, i, vec3(s.p), vec3(s.du), vec3(s.dv));
       setNormal(out, i, normalizeOr(vec3(s.normal), vec3(0, 0, 1)));
     }
@@ -78,7 +87,7 @@ class Blobby : public Prim {
     if (repeatIfEven(var, 0, n, out, stride)) return;
     for (int i = 0; i < n; ++i) {
       const BlobField& field = fields_[patch];
-      std::vector<double> weights = field.leafWeights(pointOn(field, wayAt(patch, u[i], v[i])).p);
+      std::vector<double> weights = field.leafWeights(pointOn(field, wayAt(patch, u[i], v[i]), lost_).p);
       double sum = 0;
       for (const double w : weights) sum += w;
       if (!(sum > 0)) {
@@ -125,6 +134,7 @@ class Blobby : public Prim {
 
   const BlobField field_;
   const BlobMesh mesh_;
+  const Lost lost_;
   std::vector<BlobField> fields_;  // by patch
 };
 
@@ -156,7 +166,7 @@ PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vecto
   if (!mesh.complete)
     problems.push_back(
         "a leaf is so drawn out, or so much smaller than others, that details of its shape may be missed");
-  return std::make_shared<Blobby>(read.program.field, std::move(mesh), std::move(read.primvars));
+  return std::make_shared<Blobby>(read.program.field, std::move(mesh), Lost::Stays, std::move(read.primvars));
 }
 
 PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
@@ -165,7 +175,8 @@ PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& 
   const auto* blobby = dynamic_cast<const Blobby*>(&first);
   if (!blobby || blobby->leafCount() != read.program.leafCount)
     return makeBlobby(leafCount, code, floats, grounds, params, problems);
-  return std::make_shared<Blobby>(read.program.field, blobby->carriedTo(read.program.field), std::move(read.primvars));
+  return std::make_shared<Blobby>(read.program.field, blobby->carriedTo(read.program.field), Lost::GoesOn,
+                                  std::move(read.primvars));
 }
 
 }  // namespace tomales

@@ -285,9 +285,11 @@ BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobFie
     const dvec3 start = field.carried(v.position, moved), gradient = moved.at(start).gradient;
     const double steepness = glm::length(gradient);
     const dvec3 outward = steepness > 0 ? -gradient / steepness : dvec3(v.outward);
-    const dvec3 p = start + meetSurface(moved, start, outward, v.reach).value_or(0) * outward;
+    const std::optional<double> met = meetSurface(moved, start, outward, v.reach);
+    const dvec3 p = start + met.value_or(0) * outward;
     v.position = vec3(p);
     v.outward = vec3(outwardAt(moved, p));
+    if (!met) v.reach = 0;
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "reyes/pictures.h"
+#include "reyes/rib/collapsed.h"
 #include "reyes/rib/geometry_builders.h"
 #include "reyes/rib/handlers.h"
 
@@ -11,6 +12,25 @@ namespace tomales::rib {
 namespace {
 
 constexpr int kAdd = 0, kConstant = 1000, kEllipsoid = 1001;
+
+constexpr int kStretches = 4;  ///< Of the time between two keys of a Blobby.
+
+bool isOfBlobs(const Request& points) {
+  const Param* type = points.name == "Points" ? findParam(points.params, "type") : nullptr;
+  return type && !type->strings.empty() && type->strings[0] == "blobby";
+}
+
+/// Do they differ in numbers alone?
+bool differInNumbers(const Request& a, const Request& b) {
+  const auto sameArg = [](const RibArg& x, const RibArg& y) {
+    return x.integers == y.integers && x.numbers.size() == y.numbers.size();
+  };
+  const auto sameParam = [](const Param& x, const Param& y) {
+    return x.name == y.name && x.floats.size() == y.floats.size();
+  };
+  return a.name == b.name && std::ranges::equal(a.args, b.args, sameArg) &&
+         std::ranges::equal(a.params, b.params, sameParam);
+}
 
 RibArg integers(std::vector<int> list) { return {.kind = RibArg::Kind::Integers, .integers = std::move(list)}; }
 
@@ -49,8 +69,7 @@ GroundPicture readGround(const std::string& path, const mat4& worldFromObject) {
 // A lone ellipsoid shows at half its radius, so each is as large as its point is wide. A point of no width makes
 // nothing.
 std::optional<Request> blobbyOfPoints(const Request& r) {
-  const Param* type = r.name == "Points" ? findParam(r.params, "type") : nullptr;
-  if (!type || type->strings.empty() || type->strings[0] != "blobby") return std::nullopt;
+  if (!isOfBlobs(r)) return std::nullopt;
   const Param* place = findParam(r.params, "P");
   if (!place) return std::nullopt;
   const Param* width = findParam(r.params, "width");
@@ -78,6 +97,26 @@ std::optional<Request> blobbyOfPoints(const Request& r) {
     return p.name == "P" || p.name == "type" || p.name == "width" || p.name == "constantwidth";
   });
   return out;
+}
+
+void addKeysOfBlobby(std::vector<Request>& keys, std::vector<float>& times) {
+  if (keys[0].name != "Blobby" && !isOfBlobs(keys[0])) return;
+  std::vector<Request> all;
+  std::vector<float> when;
+  for (size_t k = 0; k < keys.size(); ++k) {
+    for (int i = 1; k > 0 && i < kStretches && differInNumbers(keys[k - 1], keys[k]); ++i) {
+      const float share = static_cast<float>(i) / kStretches;
+      Request& added = all.emplace_back(between(keys[k - 1], keys[k], share));
+      for (size_t p = 0; p < added.params.size(); ++p)
+        for (size_t n = 0; n < added.params[p].floats.size(); ++n)
+          added.params[p].floats[n] = lerp(keys[k - 1].params[p].floats[n], keys[k].params[p].floats[n], share);
+      when.push_back(lerp(times[k - 1], times[k], share));
+    }
+    all.push_back(keys[k]);
+    when.push_back(times[k]);
+  }
+  keys = std::move(all);
+  times = std::move(when);
 }
 
 }  // namespace tomales::rib

@@ -241,7 +241,8 @@ void SceneBuilder::endMotion() {
   if (block.keys.empty()) return;
   times.resize(block.keys.size());
   const bool moves = block.keys.size() > 1 && std::all_of(block.keys.begin(), block.keys.end(), usableArguments);
-  const std::vector<Request> requests = moves ? grown(block.keys) : block.keys;
+  std::vector<Request> requests = moves ? grown(block.keys) : block.keys;
+  if (moves) addKeysOfBlobby(requests, times);
   const Request& first = requests[0];
   Keys keys;
   for (const Request& key : requests) keys.push_back(&key);

@@ -14,15 +14,14 @@ bool flattens(const Request& r) {
 
 bool isCollapsed(const Request& r) { return hasNoArea(r) || flattens(r); }
 
-/// Interpolates the arguments of the same request at two keys.
+}  // namespace
+
 Request between(Request a, const Request& b, float t) {
   for (size_t i = 0; i < a.args.size(); ++i)
     for (size_t k = 0; k < a.args[i].numbers.size(); ++k)
       a.args[i].numbers[k] = lerp(a.args[i].numbers[k], b.args[i].numbers[k], t);
   return a;
 }
-
-}  // namespace
 
 const char* emptyOf(const Request& r) {
   static constexpr std::string_view kMeshes[] = {"PointsPolygons", "PointsGeneralPolygons", "SubdivisionMesh",

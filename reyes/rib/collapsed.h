@@ -10,6 +10,9 @@ const char* emptyOf(const Request& r);
 /// Is it a quadric whose radius, height or sweep is 0?
 bool hasNoArea(const Request& r);
 
+/// Interpolates the arguments of a request at two keys. Pre: they have as many numbers.
+Request between(Request a, const Request& b, float t);
+
 /// Changes the keys of a motion block at which an object has no extent, while it has at others: they move a millionth
 /// of the way towards the nearest of these, as the object grows from nothing, and has no normals there.
 std::vector<Request> grown(std::vector<Request> keys);

@@ -13,6 +13,9 @@ PrimPtr curves(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr blobby(const Request& request, const Prim* first, const GroundReader& grounds, Problems& problems);
 /// Turns Points of type "blobby" into a Blobby; returns nothing for others. Throws PrimError.
 std::optional<Request> blobbyOfPoints(const Request& request);
+/// Adds keys, with their times, between those of a Blobby, or of Points of that type, whose leaves move
+/// (docs/decisions/0171).
+void addKeysOfBlobby(std::vector<Request>& keys, std::vector<float>& times);
 PrimPtr volumeBox(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr brickMap(const Request& request, const Scope& scope, Problems& problems);
 

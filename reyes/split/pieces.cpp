@@ -27,6 +27,8 @@ constexpr float kDot = 4;
 /// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
+/// A piece that so many halvings have not made a quarter as long is one across which the surface jumps.
+constexpr int kVainHalvings = 8;
 
 std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   UvRect a = r, b = r;
@@ -126,7 +128,7 @@ class Splitter {
     budget_ = visits;
     flat_ = isFlat(object_, patch);
     alone_ = isAlone(object_, patch);
-    split(patch, rect, depth, known, out);
+    split(patch, rect, depth, {}, known, out);
     const auto share = [this](const SubPatch& p) { return p.coarse ? visits_.expected(p) : 0.0; };
     double shares = 0;
     for (auto p = out.begin() + first; p != out.end(); ++p) shares += share(*p);
@@ -135,8 +137,15 @@ class Splitter {
         p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
   }
 
+  /// The last piece around a piece that was four times as long.
+  struct Shrunk {
+    float reach = HUGE_VALF;
+    int depth = 0;
+  };
+
   /// `known` may be null.
-  void split(uint32_t patch, const UvRect& rect, int depth, const Known* known, std::vector<SubPatch>& out) {
+  void split(uint32_t patch, const UvRect& rect, int depth, Shrunk from, const Known* known,
+             std::vector<SubPatch>& out) {
     if (stopped()) return;
     if (budget_ <= 0) {
       ++givenUp_.tooMany;
@@ -152,6 +161,7 @@ class Splitter {
     const PatchSize size = known ? known->size : measure(object_, camera_, patch, rect);
     const bool still = object_.keyTimes.size() == 1;
     const float reach = size.u.length + size.v.length;
+    if (!(reach > 0.25f * from.reach)) from = {reach, depth};
     if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
       bare = size.probes.grown(reach);
       if (view_.cannotBeSeen(bare)) return;
@@ -192,14 +202,17 @@ class Splitter {
                glm::length(bare.size()) <= kSlack * reach) {
       // Halving shrinks such a piece and its bound as it should, so that the number of its grids can be estimated.
       out.push_back(piece(true));
+    } else if (depth - from.depth >= kVainHalvings && !crossesEye) {
+      out.push_back(piece(false));
+      out.back().nu = out.back().nv = 1;
     } else if (depth == kMaxDepth || !(hasMiddle(rect.u0, rect.u1) || hasMiddle(rect.v0, rect.v1))) {
       takeSmallest(patch, rect, depth, bound, crossesEye, view_.rasterOf(bound, reach_px), out);
     } else {
       const bool longerInU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
       const bool alongU = hasMiddle(rect.u0, rect.u1) && (longerInU || !hasMiddle(rect.v0, rect.v1));
       const auto [a, b] = halves(rect, alongU);
-      split(patch, a, depth + 1, nullptr, out);
-      split(patch, b, depth + 1, nullptr, out);
+      split(patch, a, depth + 1, from, nullptr, out);
+      split(patch, b, depth + 1, from, nullptr, out);
     }
   }
 

@@ -2,8 +2,8 @@
 
     tests/bench/denoise.py build/release/tomales [--format 160x120] [--only PART,PART]: of the scenes' names
 
-Errors are root mean squares over the mean colour, against the mean of 8 pictures with 64 times the samples of the
-noisiest level: of the mean of the two halves, of the filtered picture, and both as the command states them.
+Errors are root mean squares over the mean colour and over three pairs of halves, against the mean of 8 pictures with 64 times the
+samples of the noisiest level: of the mean of the two halves, of the filtered picture, and both as the command states them.
 """
 import math
 import pathlib
@@ -23,7 +23,7 @@ SCENES = {"cornell/cornell.rib": GATHER, "cornell_ball/cornell_ball.rib": GATHER
           "shading/sky.rib": DIRECT, "shading/materials.rib": DIRECT, "spheres/spheres.rib": DIRECT, "still_life/still_life.rib": DIRECT,
           "rays/traced.rib": DIRECT, "ris/ris.rib": DIRECT}
 LEVELS = (1, 4, 16)  # samples of a light, and 16 times as many rays of a record
-TRUTHS = 8
+TRUTHS, PAIRS = 8, 3
 
 program = str(pathlib.Path(sys.argv[1]).resolve())
 only = sys.argv[sys.argv.index("--only") + 1].split(",") if "--only" in sys.argv else []
@@ -55,12 +55,18 @@ with tempfile.TemporaryDirectory() as name:
         mean = sum(sum(v) for v in truth.values()) / (3 * len(truth))
         line = f"{scene:28}"
         for level in LEVELS:
-            a, b = (render(folder, path, level, seed, f"{seed}.exr", options) for seed in (1, 2))
-            half = {p: [(x + y) / 2 for x, y in zip(a[p][:3], b[p][:3])] for p in a}
-            said = subprocess.run([program, "denoise", "1.exr", "2.exr", "-o", "clean.exr"], cwd=folder, capture_output=True, text=True)
-            if said.returncode:
-                line += f"{said.stderr.strip()[-60:]}"
-                continue
-            after, before = re.search(r"error ([\d.]+) % of the mean, ([\d.]+) % before", said.stdout).groups()
-            line += f"{100 * rms(half, truth, mean):15.2f}{100 * rms(pixels(folder / 'clean.exr'), truth, mean):10.2f}%{before:>8}{after:>7}%"
+            squares = [[], [], [], []]  # true before and after, stated before and after
+            for pair in range(PAIRS):
+                a, b = (render(folder, path, level, 2 * pair + k, f"{k}.exr", options) for k in (1, 2))
+                half = {p: [(x + y) / 2 for x, y in zip(a[p][:3], b[p][:3])] for p in a}
+                said = subprocess.run([program, "denoise", "1.exr", "2.exr", "-o", "clean.exr"], cwd=folder, capture_output=True, text=True)
+                if said.returncode:
+                    line += f"{said.stderr.strip()[-60:]}"
+                    break
+                after, before = re.search(r"error ([\d.]+) % of the mean, ([\d.]+) % before", said.stdout).groups()
+                for row, error in zip(squares, (100 * rms(half, truth, mean), 100 * rms(pixels(folder / "clean.exr"), truth, mean), float(before), float(after))):
+                    row.append(error ** 2)
+            else:
+                found = [math.sqrt(sum(row) / PAIRS) for row in squares]
+                line += f"{found[0]:15.2f}{found[1]:10.2f}%{found[2]:8.2f}{found[3]:7.2f}%"
         print(line, flush=True)

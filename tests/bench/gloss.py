@@ -1,7 +1,7 @@
 """What metal and gloss cost at the noise of plastic, on a knot under a sky, and fireflies in the gallery.
 
     tests/bench/gloss.py build/release/tomales [another tomales ...]
-    tests/bench/gloss.py build/release/tomales --gallery
+    tests/bench/gloss.py build/release/tomales --gallery [PART ...]: of the scenes' paths
 
 Noise: root mean square of the difference of two light seeds on the knot, over sqrt(2) and the mean colour there. Time at
 equal noise: CPU seconds times the square of the noise, as a multiple of plastic's. A firefly is a pixel that is brighter
@@ -10,6 +10,7 @@ than 10 times the median of its 5 x 5 neighbours with one light seed and not wit
 import math
 import pathlib
 import resource
+import shutil
 import statistics
 import subprocess
 import sys
@@ -17,7 +18,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "tests/image"))
-from gallery import pictures_of  # noqa: E402
+from gallery import FINISHED, furnish, pictures_of  # noqa: E402
 from pictures import pixels  # noqa: E402
 
 SCENE = """Display "knot.exr" "openexr" "rgb"
@@ -120,25 +121,30 @@ def fireflies(picture, other):
     return [p for p in picture if stands_out(picture, p) and not stands_out(other, p)]
 
 
-def gallery(program, folder):
-    for path in sorted((ROOT / "scenes").glob("*/*.rib")):
+def gallery(program, parts):
+    finished = {ROOT / f"scenes/{name}/{name}.rib" for name in FINISHED}
+    for path in sorted({*(ROOT / "scenes").glob("*/*.rib"), *finished}):
+        if parts and not any(part in str(path) for part in parts):
+            continue
         for picture in pictures_of(path, ROOT):
-            (folder / "scene.rib").write_text(picture.text)
-            options = ["--format", "192x144", "--one-picture", *picture.options]
-            try:
+            with tempfile.TemporaryDirectory() as name:
+                folder = pathlib.Path(name)
+                shutil.copytree(path.parent, folder, dirs_exist_ok=True)
+                furnish(program, ROOT, picture.text, folder)
+                (folder / "maps.rib").write_text(picture.maps)
+                (folder / "scene.rib").write_text(picture.text)
+                if picture.maps:
+                    render(program, folder, "maps.rib")
                 for seed in "12":
-                    render(program, path.parent, str(folder / "scene.rib"), "--light-seed", seed, "-o", str(folder / f"{seed}.exr"), *options)
-                a, b = (pixels(folder / f"{seed}.exr") for seed in "12")
-            except (AssertionError, subprocess.CalledProcessError, OSError) as why:
-                print(f"{picture.name}: not rendered ({type(why).__name__})", flush=True)
-                continue
-            found = fireflies(a, b)
+                    render(program, folder, "scene.rib", "--light-seed", seed, "-o", f"{seed}.exr", "--format", "192x144", "--one-picture", *picture.options)
+                    shutil.rmtree(folder / "maps", ignore_errors=True)  # of photons: they would be taken as they are
+                found = fireflies(*(pixels(folder / f"{seed}.exr") for seed in "12"))
             print(f"{picture.name}: {len(found)} {found[:5] or ''}", flush=True)
 
 
-with tempfile.TemporaryDirectory() as place:
-    chosen = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:] if not p.startswith("--")]
-    if "--gallery" in sys.argv:
-        gallery(chosen[0], pathlib.Path(place))
-    else:
-        knots(chosen, pathlib.Path(place))
+programs = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:]]
+if "--gallery" in sys.argv:
+    gallery(programs[0], sys.argv[3:])
+else:
+    with tempfile.TemporaryDirectory() as place:
+        knots(programs, pathlib.Path(place))

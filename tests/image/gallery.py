@@ -8,6 +8,7 @@ import sys
 
 # What the files' comments and READMEs say that they are rendered with; of fewer photons.
 OPTIONS = {"shading/milk.rib": ("--gi", "atlas", "--atlas", "maps", "--photons", "100000", "--bounces", "20")}
+FINISHED = ("pool", "coast", "still_life", "teapots", "nave", "evening", "watch", "forest", "noon", "dandelion", "dragon")  # docs/gallery.md, finished pictures
 # File -> its source, where that has another name.
 PLUGINS = {"stonesurface": "stone"}
 
@@ -24,10 +25,17 @@ class Picture:
         return "--photons" in self.options
 
 
+def text_of(path):
+    """What a scene's file says, or prints the script beside it where the scene is too large to be kept."""
+    if path.exists():
+        return path.read_text(errors="replace")
+    return subprocess.run([sys.executable, path.parent / f"make_{path.stem}.py"], capture_output=True, text=True, check=True).stdout
+
+
 def pictures_of(path, root):
     """Frames that only make maps are none."""
     name = str(path.relative_to(root / "scenes"))
-    text = path.read_text(errors="replace").replace("../../docs", str(root / "docs"))
+    text = text_of(path).replace("../../docs", str(root / "docs"))
     text = re.sub(r"^Transform \[", "ConcatTransform [", text, flags=re.M)  # the same before the world, but for what tests put before it
     head, *frames = re.split(r"^(?=FrameBegin)", text, flags=re.M)
     if not frames:

@@ -9,21 +9,15 @@ import subprocess
 import sys
 import tempfile
 
-from gallery import make_brick_map, store_photons
+from gallery import FINISHED, make_brick_map, store_photons, text_of
 from pictures import pixels
 
 tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-FINISHED = ("pool", "coast", "still_life", "teapots", "nave", "evening", "watch", "forest", "noon", "dandelion", "dragon")  # docs/gallery.md, finished pictures
 failures = []
 
 
 def run(*arguments, cwd):
     return subprocess.run([tomales, *map(str, arguments)], cwd=cwd, capture_output=True, text=True)
-
-
-def generated(scene):
-    """A scene that is too large to be kept, from the script beside it."""
-    return subprocess.run([sys.executable, scene.parent / f"make_{scene.stem}.py"], capture_output=True, text=True, check=True).stdout
 
 
 with tempfile.TemporaryDirectory() as temporary:
@@ -33,7 +27,7 @@ with tempfile.TemporaryDirectory() as temporary:
     scenes = [scene for group in ("primitives", "motion", *FINISHED) for scene in root.glob(f"scenes/{group}/*.rib")]
     for scene in sorted({*scenes, *(root / f"scenes/{name}/{name}.rib" for name in FINISHED)}):
         name = f"{scene.parent.name}/{scene.stem}"
-        text = (scene.read_text() if scene.exists() else generated(scene)).replace("../../docs", str(root / "docs"))
+        text = text_of(scene).replace("../../docs", str(root / "docs"))
         text = re.sub(r"Format (\d+) (\d+)", lambda m: f"Format {int(m[1]) // 8} {int(m[2]) // 8}", text)  # of shadow maps; --format is for pictures
         (folder / scene.name).write_text(text)
         if "photons/" in text:

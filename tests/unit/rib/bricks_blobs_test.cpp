@@ -84,6 +84,21 @@ TEST(PointsOfTypeBlobby, MoveAsBlobbiesDo) {
                   inWorld("MotionBegin [0 1] Points \"P\" [0 0 0 1 0 0] \"uniform string type\" [\"blobby\"]\n"
                           "Points \"P\" [0 1 0 1 1 0] \"uniform string type\" [\"blobby\"] MotionEnd"));
   EXPECT_EQ(r.codes(), "");
+  // There are keys between the keys, as of a Blobby, at places between.
+  EXPECT_EQ(r.object(0).shapeTimes, (std::vector<float>{0, 0.25f, 0.5f, 0.75f, 1}));
+  ASSERT_EQ(r.object(0).shapes.size(), 5u);
+  for (size_t k = 0; k < 5; ++k) {
+    Bound3 bound;
+    for (uint32_t patch = 0; patch < r.object(0).shapes[k]->patchCount(); ++patch)
+      bound.extend(r.object(0).shapes[k]->bound(patch, {}));
+    EXPECT_NEAR(0.5f * (bound.lo.y + bound.hi.y), 0.25f * static_cast<float>(k), 0.02f);
+  }
+}
+
+TEST(Blobbies, OfOtherLeavesAtAnotherKeyHaveNoKeysBetween) {
+  const std::string ball = " [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1] [\"\"] ";
+  const Reading r("Shutter 0 1" +
+                  inWorld("MotionBegin [0 1] Blobby 1 [1001 0]" + ball + "Blobby 1 [1001 0 7 0]" + ball + "MotionEnd"));
   EXPECT_EQ(r.object(0).shapes.size(), 2u);
 }
 

@@ -19,6 +19,41 @@ TEST(Split, PiecesOfAPatchCoverItOnceWhenAllOfItIsInView) {
   EXPECT_DOUBLE_EQ(covered, 1.0);
 }
 
+/// A square that is cut along a curve, and whose right side is farther away.
+class Torn : public Prim {
+ public:
+  Torn() : Prim({}) {}
+  uint32_t patchCount() const override { return 1; }
+  PatchInfo info(uint32_t) const override { return {false, 0}; }
+  Bound3 bound(uint32_t, const UvRect& r) const override { return {{r.u0, r.v0, 0}, {r.u1, r.v1, 0.9f}}; }
+  void evaluate(uint32_t, int n, const float* u, const float* v, SurfacePoints out) const override {
+    for (int i = 0; i < n; ++i) {
+      const float depth = u[i] > 0.4f + 0.2f * v[i] * v[i] ? 0.9f : 0.0f;
+      const auto set = [i](float* x, float* y, float* z, const vec3& at) {
+        x[i] = at.x;
+        y[i] = at.y;
+        z[i] = at.z;
+      };
+      set(out.px, out.py, out.pz, {u[i], v[i], depth});
+      set(out.dux, out.duy, out.duz, {1, 0, 0});
+      set(out.dvx, out.dvy, out.dvz, {0, 1, 0});
+      set(out.nx, out.ny, out.nz, {0, 0, -1});
+    }
+  }
+  void interpolate(uint32_t, int, int, const float*, const float*, float*, int) const override {}
+};
+
+TEST(Split, WhatASurfaceLosesWhereItJumpsIsNothing) {
+  const Scene scene = sceneOf({std::make_shared<Torn>()}, translation({0.2f, -0.5f, 1.5f}), 1, 512);
+  Stats stats;
+  Log log(Log::Verbosity::Quiet);
+  double covered = 0;
+  for (const SubPatch& p : split(scene, stats, log)) covered += (p.rect.u1 - p.rect.u0) * (p.rect.v1 - p.rect.v0);
+  EXPECT_DOUBLE_EQ(covered, 1.0);
+  EXPECT_TRUE(log.entries().empty());
+  EXPECT_LT(stats.geometry.piecesVisited, 3000);
+}
+
 TEST(Split, EndsWhenToldToStop) {
   const Scene scene = sceneOf({sphere()}, translation({0, 0, 4}));
   const Camera camera(scene.options);

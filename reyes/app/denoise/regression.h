@@ -1,0 +1,31 @@
+// Private to the filter of `tomales denoise`: planes of a picture, and one half filtered with weights of the other.
+#pragma once
+#include "reyes/app/denoise/filter.h"
+
+namespace tomales::denoising {
+
+using Color = std::array<Plane, 3>;
+
+struct Size {
+  int width, height;
+  size_t count() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
+  size_t at(int x, int y) const { return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x); }
+};
+
+constexpr int kBand = 16;  ///< Rows that one thread takes at a time.
+/// Light is independent between pixels that are farther apart: nearer ones share points of shading, and the pixel
+/// filter mixes them.
+constexpr int kNear = 1;
+
+/// What a regression reads.
+struct RegressionInput {
+  const Color &filtered, &weighing;
+  const Color& variance;             ///< Of either half.
+  const std::vector<Plane>& guides;  ///< Of about the same scale.
+};
+
+/// Filters one half with weights of the other. No pixel's answer depends on the weighing half there, or kNear to it,
+/// but through `variance`: so that half can tell the answer's error. width: k of Rousselle et al.
+Color regression(const Size& size, const RegressionInput& in, float width);
+
+}  // namespace tomales::denoising
