@@ -247,5 +247,22 @@ TEST(NastyNuPatch, AJumpAtAFullKnotIsOpenAndARangeTooLongIsCut) {
   EXPECT_EQ(sampleAt(*prim, 1, 0, 0.5f).p.x, 5);
 }
 
+TEST(NuPatch, VaryingValuesOfManyPointsAreThoseOfEach) {
+  for (const Surface& surface : manySurfaces()) {
+    const auto corners = [](const NurbsDirection& d) { return d.controls - d.order + 2; };
+    const int count = corners(surface.u) * corners(surface.v);
+    std::vector<float> values;
+    for (int i = 0; i < count; ++i) values.push_back(bump(static_cast<uint32_t>(i) + 77));
+    const PrimPtr prim = surface.make({floats("heat", Storage::Varying, ValueType::Float, values)});
+    const int index = static_cast<int>(prim->primvars().size()) - 1;
+    const float u[] = {0.1f, 0.8f, 0.4f}, v[] = {0.9f, 0.2f, 0.5f};
+    for (uint32_t patch = 0; patch < prim->patchCount(); ++patch) {
+      float together[3];
+      prim->interpolate(patch, index, 3, u, v, together, 1);
+      for (int i = 0; i < 3; ++i) EXPECT_EQ(together[i], primvarAt(*prim, patch, index, u[i], v[i])[0]) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tomales
