@@ -254,9 +254,9 @@ TEST(PatchMesh, AnHpointThatIsNoPositionIsDividedToo) {
       {positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}),
        floats("rest", Storage::Varying, ValueType::HPoint, {0, 0, 0, 2, 2, 4, 6, 2, 0, 2, 0, 2, 8, 12, 16, 4})},
       problems);
-  EXPECT_EQ(prim->primvars()[1].type, ValueType::Point);
-  EXPECT_EQ(primvarAt(*prim, 0, 1, 1, 0), (std::vector<float>{1, 2, 3}));
-  EXPECT_EQ(primvarAt(*prim, 0, 1, 1, 1), (std::vector<float>{2, 3, 4}));
+  EXPECT_EQ(prim->primvars()[0].type, ValueType::Point);
+  EXPECT_EQ(primvarAt(*prim, 0, 0, 1, 0), (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(primvarAt(*prim, 0, 0, 1, 1), (std::vector<float>{2, 3, 4}));
 }
 
 }  // namespace
