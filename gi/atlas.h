@@ -1,18 +1,21 @@
 // Composer: the irradiance atlas (irradiance-atlas 4). Photons, irradiance points and brick maps of a scene lie in a
 // folder, one file for each group of objects; gather rays look them up.
 //   FOLDER/photons/NAME.ptc  ->  FOLDER/irradiance/NAME.ptc  ->  FOLDER/NAME.bkm
-// The files NAME.caustic hold the part that came by mirrors and glass, which is looked up where the eye sees it. The
-// files scene.volume hold the fluence in media. Attribute "photon" "globalmap" names the groups; unnamed objects are
-// shared out by size among "scene0", "scene1", ... Files are in world space, so that another camera can use them.
-// Irradiance in files is E in W/m2. Each file names what it was made from (MadeFrom), so that only what has changed
-// since is made again.
+// The files NAME.caustic hold the part that came by mirrors and glass, which is looked up where the eye sees it: in the
+// photons themselves where the folder has them, as bricks would fill the dark beside what is bright. The files
+// scene.volume hold the fluence in media. Attribute "photon" "globalmap" names the groups; unnamed objects are shared
+// out by size among "scene0", "scene1", ... Files are in world space, so that another camera can use them. Irradiance
+// in files is E in W/m2. Each file names what it was made from (MadeFrom), so that only what has changed since is made
+// again.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 
 #include "gi/brick_map.h"
 #include "gi/photons.h"
+#include "gi/photons/caustics.h"
 #include "gi/photons/irradiance.h"
 
 namespace tomales {
@@ -99,10 +102,8 @@ class IrradianceAtlas {
     acrossWalls = false;
     return look(mapOfGroup_, group, P, N, radius, &acrossWalls).value_or(vec3(0.0f));
   }
-  /// The same for light that came by mirrors and glass alone.
-  vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const {
-    return look(causticOfGroup_, group, P, N, radius).value_or(vec3(0.0f));
-  }
+  /// The same for light that came by mirrors and glass alone. Of photons it is not averaged over the radius.
+  vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const;
   /// The same as irradianceOverPi(), but empty where there is no data.
   std::optional<vec3> bakedOverPi(int group, const vec3& P, const vec3& N, float radius) const {
     return look(mapOfGroup_, group, P, N, radius);
@@ -114,12 +115,24 @@ class IrradianceAtlas {
   std::optional<vec3> look(const MapOfGroup& maps, int group, const vec3& P, const vec3& N, float radius,
                            bool* acrossWalls = nullptr) const;
   const BrickMap* open(const std::filesystem::path& file);
+  void openCaustics(const std::filesystem::path& folder, const MapNames& names);
+  vec3 worldNormal(const vec3& N) const { return normalizeOr(transformVector(worldFromCurrent_, N), N); }
+  /// Number of a group's surface in a map; 0: not known, as maps of another scene have other numbers.
+  int surfaceIn(const MadeFrom& from, int group) const {
+    return world_ != 0 && from.world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
+  }
 
   mutable BrickCache cache_;
   mat4 worldFromCurrent_;
   float worldFromCurrentScale_;
   std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< In the order of their names.
-  MapOfGroup mapOfGroup_, causticOfGroup_;
+  struct Photons {
+    MadeFrom from;
+    CausticPhotons photons;
+  };
+  std::map<std::string, Photons> caustics_;
+  MapOfGroup mapOfGroup_, causticOfGroup_;             ///< Caustics from bricks, where there are no photons.
+  std::vector<const Photons*> causticPhotonsOfGroup_;  ///< Null: there are none.
   std::vector<int> surfaceOfGroup_;
   uint64_t world_ = 0;
   Log& log_;

@@ -47,8 +47,8 @@ struct StoredPhoton {
 
 struct PhotonFigures {
   int64_t emitted = 0, stored = 0;
-  /// The share of what surfaces send each other that comes after maxDepth and is missing, as the powers of the last two
-  /// arrivals tell. It is reported as "photons-bounces".
+  /// The share of what surfaces send each other that comes after the last bounce and is missing, as the powers of the
+  /// last two arrivals tell. It is reported as "photons-bounces".
   double left = 0;
 };
 

@@ -70,6 +70,8 @@ struct RasterGrid : RasterExtent {
   bool clipped = false;  ///< Some vertex is cut off by the near or far plane or a ClippingPlane.
   /// True if its hits are crossings for reyes/hide/solids.cpp, which hide nothing until they are resolved.
   bool inSolid = false;
+  /// Micropolygons become points to shade even where no sample sees them (Attribute "cull" "hidden" 0).
+  bool keepsUnseen = false;
   bool smooth = false;                     ///< ShadingInterpolation is "smooth".
   bool defocused = false;                  ///< Some vertex moves visibly with the point of the lens.
   std::shared_ptr<const BlurBounds> blur;  ///< Null if the grid is still and in focus.
@@ -87,7 +89,8 @@ struct RasterGrid : RasterExtent {
   float trimReach_px = 0;      ///< Trimmed surfaces reach this much farther, to meet their neighbours.
 };
 /// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; a grid of several pieces is still, in focus
-/// and not part of a solid. zMin: nearest camera z of the solid that the grid belongs to. pool: provides the memory.
+/// and not part of a solid. zMin: the z before which nothing hides the grid, if its object is visited whole: that
+/// of its solid, or -infinity. pool: provides the memory.
 /// opaque: whether its shaders make it so; with the midpoint filter it hides nothing all the same.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera,
                                           bool opaque, float zMin = kInfinity,

@@ -212,7 +212,13 @@ struct Attributes {
     bool operator==(const Radiosity&) const = default;
   } radiosity;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
-  bool rasterOrient = true;           ///< Attribute "dice" "rasterorient"
+  bool rasterOrient = true;  ///< Attribute "dice" "rasterorient"
+  /// Attribute "cull": are micropolygons left out that the camera does not see, because something hides them or because
+  /// they are one-sided and face away? Else shaders run there too, for what they bake.
+  struct Cull {
+    bool hidden = true, backfacing = true;
+    bool operator==(const Cull&) const = default;
+  } cull;
   bool binaryDice = false;            ///< Attribute "dice" "binary": counts are powers of two.
   std::map<std::string, Param> user;  ///< "category:name" that shaders may read
 

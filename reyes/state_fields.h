@@ -115,16 +115,22 @@ void fields(A& a, Attributes::Radiosity& x) {
 }
 
 template <class A>
+void fields(A& a, Attributes::Cull& x) {
+  auto& [hidden, backfacing] = x;
+  each(a, hidden, backfacing);
+}
+
+template <class A>
 void fields(A& a, Attributes& x) {
   auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, volume,
          sides, detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface,
          displacement, atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace,
-         visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient,
+         visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient, cull,
          binaryDice, user] = x;
   each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, volume,
        sides, detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface,
        displacement, atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace,
-       visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient,
+       visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient, cull,
        binaryDice, user);
 }
 

@@ -41,12 +41,13 @@ std::vector<double> boxAreas(const Scene& scene) {
 }
 
 /// Has to be increased when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 12;
+constexpr uint32_t kMethod = 13;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] =
-      settings.photons;  // The last two keep their defaults here.
-  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, seed, direct);
+      settings.photons;  // maxDepth and focusedOnly keep their defaults here.
+  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, mostBounces, seed,
+                    direct);
 }
 
 uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings, bool knowsWalls) {
@@ -172,7 +173,7 @@ PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const Ray
     const vec3 N = normalizeOr(world.normals * p.N, vec3(0, 0, 1));
     const auto group = static_cast<size_t>(p.group);
     const std::array values{power.x, power.y, power.z, static_cast<float>(names.surface[group])};
-    global[group]->add(P, N, 0, values.data());
+    if (p.bounces <= settings.photons.mostBounces) global[group]->add(P, N, 0, values.data());
     if (p.caustic() && caustic[group]) caustic[group]->add(P, N, 0, values.data());
   };
   const PhotonFigures figures = tracePhotons(

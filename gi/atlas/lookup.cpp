@@ -3,6 +3,7 @@
 #include <map>
 
 #include "gi/atlas.h"
+#include "gi/point_file.h"
 
 namespace tomales {
 
@@ -34,11 +35,32 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
       worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
       log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
-  for (const std::string& name : names.ofReflectors()) byName[name] = open(atlasFile(folder, name, ".bkm"));
+  openCaustics(folder / "photons", names);
+  for (const std::string& name : names.ofReflectors())
+    byName[name] = caustics_.contains(name) ? nullptr : open(atlasFile(folder, name, ".bkm"));
   for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
   for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
   surfaceOfGroup_ = names.surface;
   world_ = names.world;
+}
+
+void IrradianceAtlas::openCaustics(const fs::path& folder, const MapNames& names) {
+  for (const std::string& name : names.caustic) {
+    const fs::path path = atlasFile(folder, name, ".ptc");
+    if (!name.empty() && !caustics_.contains(name) && fs::exists(path)) {
+      const PointFile file(path.string());
+      caustics_.try_emplace(name, Photons{file.madeFrom(), CausticPhotons(file.readAll(), AtlasSettings{}.caustics)});
+    }
+    const auto found = caustics_.find(name);
+    causticPhotonsOfGroup_.push_back(found == caustics_.end() ? nullptr : &found->second);
+  }
+}
+
+vec3 IrradianceAtlas::causticOverPi(int group, const vec3& P, const vec3& N, float radius) const {
+  const Photons* map = causticPhotonsOfGroup_[static_cast<size_t>(group)];
+  if (!map) return look(causticOfGroup_, group, P, N, radius).value_or(vec3(0.0f));
+  return map->photons.irradiance(transformPoint(worldFromCurrent_, P), worldNormal(N), surfaceIn(map->from, group)) /
+         kPi;
 }
 
 const BrickMap* IrradianceAtlas::open(const fs::path& file) {
@@ -66,12 +88,8 @@ std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, con
   if (!map) return std::nullopt;
   try {
     vec3 E(0.0f);
-    const vec3 normal = normalizeOr(transformVector(worldFromCurrent_, N), N);
-    // Maps of another scene have other numbers for their surfaces.
-    const int surface =
-        world_ != 0 && map->file().madeFrom().world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
-    if (map->lookup(transformPoint(worldFromCurrent_, P), normal, radius * worldFromCurrentScale_, &E.x, surface,
-                    acrossWalls))
+    if (map->lookup(transformPoint(worldFromCurrent_, P), worldNormal(N), radius * worldFromCurrentScale_, &E.x,
+                    surfaceIn(map->file().madeFrom(), group), acrossWalls))
       return E / kPi;
   } catch (const FileError& e) {
     log_.report(Severity::Missing, "atlas-damaged", {}, fmt::format("{}: no indirect light from there", e.what()));

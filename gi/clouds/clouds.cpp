@@ -43,10 +43,13 @@ bool comesBefore(const PointCloud& cloud, uint32_t a, uint32_t b) {
   return std::lexicographical_compare(cloud.at(a), cloud.at(a) + width, cloud.at(b), cloud.at(b) + width);
 }
 
+/// Without copies: buckets on whose border a micropolygon lies shade it each for itself.
 PointCloud sorted(const PointCloud& cloud) {
   std::vector<uint32_t> order(cloud.count());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return comesBefore(cloud, a, b); });
+  const auto same = [&](uint32_t a, uint32_t b) { return !comesBefore(cloud, a, b); };  // as a does not follow b
+  order.erase(std::unique(order.begin(), order.end(), same), order.end());
   PointCloud out;
   out.channels = cloud.channels;
   out.reserve(order.size());

@@ -12,12 +12,13 @@ namespace {
 
 constexpr size_t kTasksPerThread = 8;
 
-/// The powers of all arrivals, by their number on the path.
+/// The powers of all arrivals, by the bounces before them.
 class Series {
  public:
   explicit Series(int length) : power_(static_cast<size_t>(length), 0.0) {}
   void add(std::span<const StoredPhoton> photons) {
-    for (const StoredPhoton& p : photons) power_[static_cast<size_t>(p.depth)] += double{luminance(p.power)};
+    for (const StoredPhoton& p : photons)
+      if (const auto n = static_cast<size_t>(p.bounces); n < power_.size()) power_[n] += double{luminance(p.power)};
   }
 
   /// What each arrival is of the one before, at the end. `emitted`: all power, in place of first arrivals.
@@ -77,7 +78,9 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   const PhotonStream stream(rays, shading, given, log);
   const PhotonSettings& settings = stream.settings();
   PhotonFigures figures;
-  Series series(settings.maxDepth);
+  const bool isAsked = settings.mostBounces < settings.maxDepth;
+  const int arrivals = isAsked ? settings.mostBounces + 1 : settings.maxDepth;
+  Series series(arrivals);
   std::vector<std::vector<StoredPhoton>> stored;
   const size_t photonsPerWave = PhotonStream::kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
   for (const PhotonStream::Sent& sent : stream.sources()) {
@@ -98,8 +101,8 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   }
   stats.rays.photon += figures.emitted;
   figures.left = series.left(stream.power());
-  if (!stream.sources().empty() && settings.maxDepth > 1)
-    tellLeft(figures.left, series.ratio(stream.power()), settings.maxDepth, given.maxDepth > 0, scene.where, log);
+  if (!stream.sources().empty() && arrivals > 1)
+    tellLeft(figures.left, series.ratio(stream.power()), arrivals, isAsked, scene.where, log);
   return figures;
 }
 

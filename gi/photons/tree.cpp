@@ -71,6 +71,14 @@ void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t en
   build(order, middle, end, 2 * node + 2);
 }
 
+float PhotonTree::distance2(uint32_t i, const vec3& P, const vec3& N, int surface) const {
+  if (N != vec3(0.0f) && dot(normal(i), N) < kSameSide) return kInfinity;
+  const vec3 off = position(i) - P;
+  const bool same = surface == 0 || surface_[i] == 0 || surface_[i] == surface;
+  const float apart = same ? dot(off, N) : 0.5f * dot(off, N + normal(i));
+  return dot(off, off) + (same ? kAlongNormal : kOffSheet) * apart * apart;
+}
+
 void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most, float radius,
                          std::vector<NearPhoton>& heap) const {
   struct Range {
@@ -78,7 +86,6 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
     float distance2;
   };
   heap.clear();
-  const bool oriented = N != vec3(0.0f);
   float limit = radius * radius;
   std::array<Range, 64> stack;
   size_t depth = 0;
@@ -97,12 +104,9 @@ void PhotonTree::nearest(const vec3& P, const vec3& N, int surface, size_t most,
       r = d < 0 ? low : high;
     }
     for (uint32_t i = r.begin; i < r.end; ++i) {
-      const vec3 off = position(i) - P;
-      const bool same = surface == 0 || surface_[i] == 0 || surface_[i] == surface;
-      const float apart = same ? dot(off, N) : 0.5f * dot(off, N + normal(i));
-      const float distance2 = dot(off, off) + (same ? kAlongNormal : kOffSheet) * apart * apart;
-      if (distance2 > limit || (oriented && dot(normal(i), N) < kSameSide)) continue;
-      heap.push_back({distance2, i});
+      const float to = distance2(i, P, N, surface);
+      if (!(to <= limit)) continue;
+      heap.push_back({to, i});
       std::push_heap(heap.begin(), heap.end());
       if (heap.size() > most) {
         std::pop_heap(heap.begin(), heap.end());

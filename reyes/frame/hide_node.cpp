@@ -25,6 +25,9 @@ constexpr float kFewParticles = 1.0f / 64, kManyParticles = 1;
 /// things side by side would wait for each other.
 enum class Opening : uint8_t { Shared, Transient, AtOnce };
 
+/// Is all of an object visited, whatever hides it? The visible surface of a solid depends on all its pieces.
+bool isVisitedWhole(const Object& o) { return o.solid >= 0 || !o.attributes->cull.hidden; }
+
 class OpeningNode : public HideNode {
  public:
   OpeningNode(HideContext& context, const Placement& place, const BucketRange& range, Opening opening)
@@ -77,8 +80,7 @@ class OpeningNode : public HideNode {
   int users_;
 };
 
-/// Makes nodes for the pieces that touch the buckets. zMin: the nearest z of their node; the visible surface of a solid
-/// depends on all its pieces.
+/// Makes nodes for the pieces that touch the buckets. zMin: the nearest z of their node.
 HideNodes nodesOfPieces(HideContext& context, std::vector<SubPatch> pieces, float zMin, const BucketRange& within);
 
 /// A piece of very many grids.
@@ -102,7 +104,7 @@ class CoarseNode : public OpeningNode {
 
 HideNodes nodesOfPieces(HideContext& context, std::vector<SubPatch> pieces, float zMin, const BucketRange& within) {
   for (SubPatch& piece : pieces)
-    if (context.scene.objects[static_cast<size_t>(piece.object)].solid >= 0) piece.zMin = zMin;
+    if (isVisitedWhole(context.scene.objects[static_cast<size_t>(piece.object)])) piece.zMin = zMin;
   const auto coarse = std::stable_partition(pieces.begin(), pieces.end(), [](const SubPatch& p) { return !p.coarse; });
   HideNodes out = pieceNodes(context, {pieces.begin(), coarse}, within);
   for (auto piece = coarse; piece != pieces.end(); ++piece) {
@@ -117,14 +119,14 @@ class PatchesNode : public OpeningNode {
  public:
   using Tree = std::shared_ptr<const PatchTree>;
 
-  /// zOfSolid: nearest z of the solid that the object is a part of. The visible surface of a solid depends on all its
-  /// pieces, so none may be skipped before the whole solid is hidden.
+  /// nearest: the z that counts for all pieces of an object that is visited whole, so that none is skipped before all
+  /// are hidden: that of its solid; -infinity, which nothing hides, where unseen micropolygons are kept.
   static std::unique_ptr<HideNode> make(HideContext& context, int object, Tree tree, uint32_t level, uint32_t index,
-                                        const BucketRange& outer, float zOfSolid) {
+                                        const BucketRange& outer, float nearest) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];
     auto place = placeBox(tree->box(level, index), o.cameraFromObject, o.keyTimes, o.displacementBound, context.camera,
                           context.buckets.window(), o.solid < 0);
-    if (place && o.solid >= 0) place->zMin = zOfSolid;
+    if (place && isVisitedWhole(o)) place->zMin = nearest;
     const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
     if (range.empty()) {
       ++context.stats.geometry.culled;
@@ -223,8 +225,9 @@ class ProceduralNode : public OpeningNode {
  public:
   static std::unique_ptr<HideNode> make(HideContext& context, const Procedural& procedural, const BucketRange& outer) {
     const Procedural& p = procedural;
-    const auto place = placeBox(p.bound, p.cameraFromObject, p.keyTimes, p.displacementBound, context.camera,
-                                context.buckets.window());
+    auto place = placeBox(p.bound, p.cameraFromObject, p.keyTimes, p.displacementBound, context.camera,
+                          context.buckets.window());
+    if (place && !p.attributes->cull.hidden) place->zMin = -kInfinity;
     const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
     if (range.empty()) return nullptr;
     return std::unique_ptr<HideNode>(new ProceduralNode(context, *place, range, p));

@@ -109,7 +109,11 @@ FacetTable::FacetTable(const Scene& scene, const Camera& camera, const GridTable
       seen_(grids.cellCount(), 0),
       facetOf_(grids.cellCount(), kNotMade) {}
 
-void FacetTable::make(HideDiagnostics* diagnostics) {
+void FacetTable::make(std::span<const uint32_t> unseen, HideDiagnostics* diagnostics) {
+  std::vector<uint32_t> alsoUnseen;
+  for (const uint32_t cell : unseen)
+    if (!seen_[cell]) alsoUnseen.push_back(cell);
+  for (const uint32_t cell : alsoUnseen) see(cell);
   tile_.facets.reserve(static_cast<size_t>(std::count(seen_.begin(), seen_.end(), 1)));
   std::vector<uint32_t> ofFolded;
   for (Fragment& f : tile_.fragments) {
@@ -123,7 +127,11 @@ void FacetTable::make(HideDiagnostics* diagnostics) {
     else
       f.facet = facetOf_[cell];
   }
-  for (const uint32_t i : ofFolded) tile_.fragments[i].facet = facetOfFolded(i);
+  for (const uint32_t i : ofFolded) tile_.fragments[i].facet = facetOfFolded(tile_.fragments[i].facet, sideOf(i));
+  for (const uint32_t cell : alsoUnseen) {
+    if (facetOf_[cell] == kNotMade) makeFacets(grids_.of(cell));
+    if (facetOf_[cell] == kFolded) facetOfFolded(cell, Side::Front);
+  }
   tile_.batches.reserve(requests_.size());
   for (const PointRequests& requests : requests_) {
     const ShadeGroup& group = scene_.groups[static_cast<size_t>(requests.group)];
@@ -172,18 +180,22 @@ void FacetTable::makeFacets(const GridTable::Entry& entry) {
     }
 }
 
-uint32_t FacetTable::facetOfFolded(uint32_t number) {
+Side FacetTable::sideOf(uint32_t number) const {
   const Fragment& fragment = tile_.fragments[number];
   const auto after = std::upper_bound(tile_.pixels.begin(), tile_.pixels.end(), number,
                                       [](uint32_t n, const DeepPixel& p) { return n < p.first; });
   const auto pixel = static_cast<size_t>(after - tile_.pixels.begin()) - 1;
   const GridTable::Entry& entry = grids_.of(fragment.facet);
-  const Grid& g = entry.grid();
-  const int cell = static_cast<int>(fragment.facet - entry.firstCell);
   const size_t lane = pixel * static_cast<size_t>(samples_.lanes) + size_t{64} * fragment.word +
                       static_cast<size_t>(std::countr_zero(fragment.samples));
-  const Side side = sideAt(entry, camera_, cell, samplePoint(samples_, lane));
-  const auto [at, isNew] = folded_.try_emplace({fragment.facet, side}, static_cast<uint32_t>(tile_.facets.size()));
+  return sideAt(entry, camera_, static_cast<int>(fragment.facet - entry.firstCell), samplePoint(samples_, lane));
+}
+
+uint32_t FacetTable::facetOfFolded(uint32_t number, Side side) {
+  const GridTable::Entry& entry = grids_.of(number);
+  const Grid& g = entry.grid();
+  const int cell = static_cast<int>(number - entry.firstCell);
+  const auto [at, isNew] = folded_.try_emplace({number, side}, static_cast<uint32_t>(tile_.facets.size()));
   if (!isNew) return at->second;
   Facet& facet = tile_.facets.emplace_back();
   facet.batch = batchOf(scene_.objects[static_cast<size_t>(g.object)].group);

@@ -13,10 +13,10 @@ class FacetTable {
              DeepTile& tile);
   /// Marks a cell that some sample sees.
   void see(uint32_t cell) { seen_[cell] = 1; }
-  /// Makes the facets of all cells that are marked, and their points; the tile has none before. They depend on the grid
-  /// alone, and on the side that is seen. The tile's fragments name cells instead of facets until then, each one
-  /// marked. diagnostics: may be null.
-  void make(HideDiagnostics* diagnostics);
+  /// Makes the facets of all cells that are marked and of `unseen`, and their points; the tile has none before. They
+  /// depend on the grid alone, and on the side that is seen; what may be seen from both is unseen from the front. The
+  /// tile's fragments name cells instead of facets until then, each one marked. diagnostics: may be null.
+  void make(std::span<const uint32_t> unseen, HideDiagnostics* diagnostics);
 
  private:
   /// A point to be made, at the centre of a cell or at a vertex.
@@ -30,8 +30,10 @@ class FacetTable {
     std::vector<PointRequest> list;
   };
   void makeFacets(const GridTable::Entry& entry);
-  /// The facet of a fragment of a cell that may be seen from both sides, for the side that the fragment sees.
-  uint32_t facetOfFolded(uint32_t fragment);
+  /// The side on which a fragment sees its cell.
+  Side sideOf(uint32_t fragment) const;
+  /// The facet of a side of a cell that may be seen from both.
+  uint32_t facetOfFolded(uint32_t cell, Side side);
   void countTurns(const GridTable::Entry& entry, HideDiagnostics& diagnostics);
   int batchOf(int group);
   void fill(const PointRequests& requests, ShadePoints& points) const;

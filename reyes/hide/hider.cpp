@@ -5,6 +5,7 @@
 #include "reyes/hide/raster.h"
 #include "reyes/hide/resolve.h"
 #include "reyes/hide/solids.h"
+#include "reyes/hide/unseen.h"
 
 namespace tomales {
 namespace {
@@ -19,6 +20,10 @@ std::vector<float> shutterTimes(const Scene& scene, const Grid& grid) {
   const float open = scene.options.shutterOpen, length = scene.options.shutterClose - open;
   for (float& t : times) t = (t - open) / length;
   return times;
+}
+
+const Attributes& attributesOf(const Scene& scene, const Grid& grid) {
+  return *scene.objects[static_cast<size_t>(grid.object)].attributes;
 }
 
 /// TransparentLayer::object of a grid's layers.
@@ -58,11 +63,15 @@ struct Hider::Impl {
   int samplesPerPixel;
   GridTable grids{};
   size_t enough = kManyGrids;
+  std::vector<uint32_t> unseen{};  ///< Cells that are shaded whether or not a sample sees them.
 
   /// Frees grids that no sample sees any more, now and then.
   void dropUnseen() {
     if (grids.held() < enough) return;
-    grids.keepOnly(samples.seen());
+    std::vector<uint32_t> wanted = samples.seen();
+    wanted.insert(wanted.end(), unseen.begin(), unseen.end());
+    std::sort(wanted.begin(), wanted.end());
+    grids.keepOnly(wanted);
     enough = std::max(kManyGrids, 2 * grids.held());
   }
 };
@@ -86,6 +95,8 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   if (hidden(*raster)) return;
   impl_->dropUnseen();
   const GridTable::Entry& entry = impl_->grids.add(raster, shutterTimes(impl_->scene, *raster->grid));
+  if (raster->keepsUnseen)
+    addUnseen(entry, attributesOf(impl_->scene, *raster->grid).cull.backfacing, s.rect, impl_->unseen);
   s.layers.beginGrid(joinedObject(*raster));
   s.crossings.beginGrid();
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
@@ -104,7 +115,9 @@ DeepTile Hider::resolve(HideDiagnostics* diagnostics) {
   const std::unique_ptr<Impl> spent = std::move(impl_);
   resolveSolids(spent->scene, spent->camera, spent->grids, spent->samples);
   if (diagnostics) countSamePlaces(spent->samples, spent->grids, spent->samplesPerPixel, *diagnostics);
-  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples, diagnostics);
+  std::sort(spent->unseen.begin(), spent->unseen.end(),
+            [&](uint32_t a, uint32_t b) { return spent->grids.precedes(a, b); });
+  return resolveTile(spent->scene, spent->camera, spent->grids, spent->samples, spent->unseen, diagnostics);
 }
 
 }  // namespace tomales

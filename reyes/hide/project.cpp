@@ -118,6 +118,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   r->opaque = opaque && scene.options.depthFilter != DepthFilter::Midpoint;
   r->matte = attributes.matte;
   r->inSolid = object.solid >= 0;
+  r->keepsUnseen = !attributes.cull.hidden && !r->inSolid;
   const float facing = object.flipsNormal ? -facingSign(camera) : facingSign(camera);
   if (attributes.sides == 1 && !r->inSolid) r->facing = facing;
   r->detail = attributes.detail;
@@ -154,7 +155,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
       r->extend(extent);
     }
   }
-  if (r->inSolid && zMin < kInfinity) r->dMin = std::min(r->dMin, camera.leastDepthKey(zMin));
+  if ((r->inSolid || r->keepsUnseen) && zMin < kInfinity) r->dMin = std::min(r->dMin, camera.leastDepthKey(zMin));
   r->trimReach_px = std::min(r->trimReach_px, borderReach_px(0));
   CHECK_EQ(pieces > 1 && (g.keyCount > 1 || camera.defocuses() || r->inSolid), false);
   if (g.keyCount > 1 || r->defocused) r->blur = boundBlur(*r, camera, pool.get());

@@ -46,7 +46,7 @@ class TileBuilder {
         coverages_(scratch.coverages),
         facets_(scene, camera, grids, samples, tile_) {}
 
-  DeepTile build(HideDiagnostics* diagnostics) {
+  DeepTile build(std::span<const uint32_t> unseen, HideDiagnostics* diagnostics) {
     tile_.rect = samples_.rect;
     const size_t count = samples_.far.size();
     tile_.pixels.reserve(count);
@@ -56,7 +56,7 @@ class TileBuilder {
       for (size_t first = 0; first < count; first += kRankedTogether)
         addPixels(first, std::min(first + kRankedTogether, count));
     }
-    facets_.make(diagnostics);
+    facets_.make(unseen, diagnostics);
     tile_.shrink();
     return std::move(tile_);
   }
@@ -298,9 +298,9 @@ class TileBuilder {
 }  // namespace
 
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
-                     HideDiagnostics* diagnostics) {
+                     std::span<const uint32_t> unseen, HideDiagnostics* diagnostics) {
   static thread_local Scratch scratch;
-  return TileBuilder(scene, camera, grids, samples, scratch).build(diagnostics);
+  return TileBuilder(scene, camera, grids, samples, scratch).build(unseen, diagnostics);
 }
 
 }  // namespace tomales

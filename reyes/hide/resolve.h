@@ -1,12 +1,15 @@
 // Private to the hider: turns samples into a DeepTile.
 #pragma once
+#include <span>
+
 #include "reyes/hide/samples.h"
 
 namespace tomales {
 
-/// diagnostics: HideDiagnostics::turns is added to; may be null.
+/// unseen: cells that become points to shade even where no sample sees them. diagnostics: HideDiagnostics::turns is
+/// added to; may be null.
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
-                     HideDiagnostics* diagnostics = nullptr);
+                     std::span<const uint32_t> unseen, HideDiagnostics* diagnostics = nullptr);
 
 /// A sample: raster position, time of the shutter (0..1), point of the lens (as in SampleBuffer).
 struct SamplePoint {

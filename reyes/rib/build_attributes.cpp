@@ -193,6 +193,8 @@ const std::unordered_map<std::string_view, Setter>& numberSetters() {
        }},
       {"irradiance:maxerror", [](Attributes& a, const Param& p) { a.irradianceMaxError = p.number(0); }},
       {"irradiance:maxpixeldist", [](Attributes& a, const Param& p) { a.irradianceMaxPixelDist = p.number(0); }},
+      {"cull:hidden", [](Attributes& a, const Param& p) { a.cull.hidden = p.number(1) != 0; }},
+      {"cull:backfacing", [](Attributes& a, const Param& p) { a.cull.backfacing = p.number(1) != 0; }},
       {"dice:binary", [](Attributes& a, const Param& p) { a.binaryDice = p.number(0) != 0; }},
       {"dice:rasterorient", [](Attributes& a, const Param& p) { a.rasterOrient = p.number(1) != 0; }},
   };

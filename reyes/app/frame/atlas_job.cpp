@@ -64,9 +64,9 @@ AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, 
   out.photons.seed = lightSeedOf(settings);
   out.photons.direct = settings.atlasDirect;
   out.bricks.maxError = settings.brickMaxError;
-  const std::optional<int> bounces = shading.indirectRequest().value_or(IndirectRequest{}).bounces;
-  if (bounces) out.photons.maxDepth = std::max(1, *bounces);
-  if (settings.bounces > 0) out.photons.maxDepth = settings.bounces;
+  std::optional<int> bounces = shading.indirectRequest().value_or(IndirectRequest{}).bounces;
+  if (settings.bounces > 0) bounces = settings.bounces;
+  if (bounces) out.photons.mostBounces = std::max(1, *bounces) - 1;  // gather rays are the last one
   return out;
 }
 

@@ -74,9 +74,9 @@ TEST(Attributes, AreSharedByConsecutivePrimitivesOnly) {
 }
 
 TEST(Attributes, UnknownOnesAreNamedOnceAndKept) {
-  const Reading r(inWorld("Attribute \"cull\" \"hidden\" 0\nAttribute \"cull\" \"hidden\" 0\n" + kSphere));
+  const Reading r(inWorld("Attribute \"dice\" \"hair\" 0\nAttribute \"dice\" \"hair\" 0\n" + kSphere));
   EXPECT_EQ(r.told("rib-ignored-attribute"), 1);
-  EXPECT_EQ(r.attributes(0).user.at("cull:hidden").ints[0], 0);
+  EXPECT_EQ(r.attributes(0).user.at("dice:hair").ints[0], 0);
 }
 
 TEST(Orientation, ComparesHandednessWithTheCurrentSpace) {

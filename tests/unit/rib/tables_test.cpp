@@ -255,6 +255,10 @@ TEST(AttributeTable, HasLimits) {
        [](const Attributes& a) { return !a.radiosity.screen && a.radiosity.texelSize == 4; }},
       {"Attribute \"dice\" \"int binary\" 1", "", [](const Attributes& a) { return a.binaryDice; }},
       {"Attribute \"dice\" \"int rasterorient\" 1", "", [](const Attributes& a) { return a.rasterOrient; }},
+      {"Attribute \"cull\" \"int hidden\" 0", "",
+       [](const Attributes& a) { return !a.cull.hidden && a.cull.backfacing; }},
+      {"Attribute \"cull\" \"int backfacing\" 0", "",
+       [](const Attributes& a) { return a.cull.hidden && !a.cull.backfacing; }},
       {"Attribute \"photon\" \"string globalmap\" \"g\" \"string causticmap\" \"c\" \"string shadingmodel\" \"glass\"",
        "",
        [](const Attributes& a) {

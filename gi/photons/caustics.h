@@ -1,0 +1,32 @@
+// Private to gi: the irradiance of photons that lie in bright lines and spots, with darkness beside them. Each photon
+// sheds its power on a disk as wide as its own nearest neighbours lie, so that the light of all is the power of all
+// (a density estimate with a width for each sample; Silverman 1986, section 5.3). An estimate by the photons nearest to
+// the place that is lit would find light wherever it has to look far. Space: that of the photons. Threads: lookups are
+// concurrent.
+#pragma once
+#include "gi/photons/irradiance.h"
+#include "gi/photons/tree.h"
+
+namespace tomales {
+
+class CausticPhotons {
+ public:
+  /// photons: as for estimateIrradiance(), on surfaces.
+  CausticPhotons(PointCloud photons, const PhotonIrradianceSettings& settings);
+
+  /// W/m2 at P on the side of N (unit). surface: that of P, as in PhotonTree::nearest().
+  vec3 irradiance(const vec3& P, const vec3& N, int surface) const;
+
+ private:
+  template <class Visit>
+  void visit(size_t level, size_t box, const vec3& P, const Visit& f) const;
+
+  PhotonTree tree_;
+  int power_;                   ///< Offset of the channel.
+  std::vector<float> radius_;   ///< Of each photon's disk, in the order of the tree.
+  /// Boxes around the disks: of so many photons that follow each other in the tree, of so many of these boxes, and so
+  /// on up to one.
+  std::vector<std::vector<Bound3>> boxes_;
+};
+
+}  // namespace tomales
