@@ -22,8 +22,8 @@ class CausticPhotons {
   void visit(size_t level, size_t box, const vec3& P, const Visit& f) const;
 
   PhotonTree tree_;
-  int power_;                   ///< Offset of the channel.
-  std::vector<float> radius_;   ///< Of each photon's disk, in the order of the tree.
+  int power_;                  ///< Offset of the channel.
+  std::vector<float> radius_;  ///< Of each photon's disk, in the order of the tree.
   /// Boxes around the disks: of so many photons that follow each other in the tree, of so many of these boxes, and so
   /// on up to one.
   std::vector<std::vector<Bound3>> boxes_;
