@@ -1,11 +1,15 @@
 #include "reyes/base/crash_note.h"
 
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <thread>
 
 #include "reyes/base/loaded_plugins.h"
 
@@ -18,6 +22,9 @@ struct Pixels {
 };
 constinit thread_local Pixels bucket{};  // empty: no bucket is worked on
 std::atomic<bool> reports{false};
+constinit thread_local uint64_t changes = 0;  ///< Counts the notes that this thread has made and ended.
+constinit thread_local uint64_t marked = 0;   ///< `changes` when notes were marked, or 0 if there was no note.
+std::atomic<bool> compares{false}, told{false};
 
 // The code below runs in a signal handler: no allocation, no streams.
 
@@ -61,25 +68,29 @@ const char* nameOf(int signal) {
   }
 }
 
-extern "C" void onCrash(int signal) {
-  if (const CrashNote::Text* t = current) {
-    put("tomales: error: ");
-    if (t->file) {
-      put(t->file);
-      put(":");
-      put(t->line);
-      put(": ");
-    }
-    put(t->user);
-    if (t->other) {
-      put(", on ");
-      put(t->other);
-    }
-    putBucket();
+void putNote(const CrashNote::Text& t) {
+  put("tomales: error: ");
+  if (t.file) {
+    put(t.file);
+    put(":");
+    put(t.line);
     put(": ");
-    put(t->kind);
-    put(" \"");
-    put(t->name);
+  }
+  put(t.user);
+  if (t.other) {
+    put(", on ");
+    put(t.other);
+  }
+  putBucket();
+  put(": ");
+  put(t.kind);
+  put(" \"");
+  put(t.name);
+}
+
+extern "C" void onCrash(int signal) {
+  if (current) {
+    putNote(*current);
     put("\" crashes (");
     put(nameOf(signal));
     put("); this ends the program\n");
@@ -94,6 +105,29 @@ extern "C" void onCrash(int signal) {
     put("\n");
   }
   raise(signal);  // SA_RESETHAND has restored the default, which kills
+}
+
+extern "C" void onAsked(int) {
+  if (!compares) {
+    marked = current ? changes : 0;
+  } else if (current && marked == changes && !told.exchange(true)) {
+    putNote(*current);
+    put("\" does not return; this ends the program\n");
+  }
+}
+
+/// Has onAsked() run by every thread, as each knows its notes alone.
+void askThreads(bool compare) {
+  compares = compare;
+  struct sigaction action {};
+  action.sa_handler = onAsked;
+  action.sa_flags = static_cast<int>(SA_RESTART | SA_ONSTACK);
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGURG, &action, nullptr);  // which nobody else uses, and which is ignored by default
+  std::error_code error;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error))
+    syscall(SYS_tgkill, getpid(), std::atoi(task.path().filename().c_str()), SIGURG);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
 /// Shaders may crash because they have used up their stack: the handler needs another one.
@@ -122,12 +156,23 @@ class HandlerStack {
 CrashNote::CrashNote(const Text& text) : text_(text), outer_(current) {
   if (reports.load(std::memory_order_relaxed)) thread_local const HandlerStack stack;
   current = &text_;
+  ++changes;
 }
 
-CrashNote::~CrashNote() { current = outer_; }
+CrashNote::~CrashNote() {
+  current = outer_;
+  ++changes;
+}
 
 CrashBucket::CrashBucket(int x0, int y0, int x1, int y1) { bucket = {x0, y0, x1, y1}; }
 CrashBucket::~CrashBucket() { bucket = {}; }
+
+void markNotes() { askThreads(false); }
+
+bool tellLastingNote() {
+  askThreads(true);
+  return told;
+}
 
 void reportCrashes() {
 #ifndef TOMALES_SANITIZED  // sanitizers tell more than a note does

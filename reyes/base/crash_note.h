@@ -31,6 +31,12 @@ class CrashBucket {
   CrashBucket(const CrashBucket&) = delete;
 };
 
+/// Every thread marks its latest note, if it has one.
+void markNotes();
+/// Returns whether the latest note of a thread is the one that it marked, after one such has been written to standard
+/// error as code that does not return. Call both from one thread.
+bool tellLastingNote();
+
 /// From now on, SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, if it has one, to standard
 /// error before they end the program as they always do.
 void reportCrashes();

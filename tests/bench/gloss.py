@@ -5,7 +5,7 @@
 
 Noise: root mean square of the difference of two light seeds on the knot, over sqrt(2) and the mean colour there. Time at
 equal noise: CPU seconds times the square of the noise, as a multiple of plastic's. A firefly is a pixel that is brighter
-than 10 times the median of its 5 x 5 neighbours with one light seed and not with another.
+than 10 times the median of its 5 x 5 neighbours, and more than twice as bright as with another light seed.
 """
 import math
 import pathlib
@@ -114,11 +114,10 @@ def fireflies(picture, other):
     def bright(pixels_of, p):
         return sum(pixels_of[p][:3])
 
-    def stands_out(pixels_of, p):
-        around = [bright(pixels_of, (p[0] + dx, p[1] + dy)) for dx in range(-2, 3) for dy in range(-2, 3)
-                  if (p[0] + dx, p[1] + dy) in pixels_of]
-        return bright(pixels_of, p) > 10 * statistics.median(around) > 1e-4
-    return [p for p in picture if stands_out(picture, p) and not stands_out(other, p)]
+    def stands_out(p):
+        around = [bright(picture, (p[0] + dx, p[1] + dy)) for dx in range(-2, 3) for dy in range(-2, 3) if (p[0] + dx, p[1] + dy) in picture]
+        return bright(picture, p) > 10 * statistics.median(around) > 1e-4
+    return {p: round(bright(picture, p), 3) for p in picture if bright(picture, p) > 2 * bright(other, p) and stands_out(p)}
 
 
 def gallery(program, parts):
@@ -139,7 +138,7 @@ def gallery(program, parts):
                     render(program, folder, "scene.rib", "--light-seed", seed, "-o", f"{seed}.exr", "--format", "192x144", "--one-picture", *picture.options)
                     shutil.rmtree(folder / "maps", ignore_errors=True)  # of photons: they would be taken as they are
                 found = fireflies(*(pixels(folder / f"{seed}.exr") for seed in "12"))
-            print(f"{picture.name}: {len(found)} {found[:5] or ''}", flush=True)
+            print(f"{picture.name}: {len(found)} {found or ''}", flush=True)
 
 
 programs = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:]]

@@ -3,6 +3,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import time
 
 from program import Suite
 
@@ -114,4 +115,13 @@ build("segv", "#include <csignal>\n" + (SHADER % ("0.5f", "segv", "")).replace("
 build("lit", (SHADER % ("0.5f", "lit", "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  rsl::Batch(g).diffuse(g->Ng);"))
 t.write("scene.rib", (SCENE % "lit").replace('LightSource "distantlight" 1', 'LightSource "segv" "lamp"'))
 t.expect_run("a light that crashes", ["scene.rib"], -signal.SIGSEGV, 'scene.rib:6: light "lamp", on "ball", in the bucket of the pixels -1,-1 to 16,16: light shader "segv" crashes')
+
+# An endless one is told too, 10 s after the first signal.
+build("endless", (SHADER % ("0.5f", "endless", "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  for (volatile int k = 0;; k = 1 - k) {}"))
+t.write("scene.rib", SCENE % "endless")
+process = subprocess.Popen([t.program, "scene.rib", "-t", "2"], cwd=t.folder, stderr=subprocess.PIPE, text=True)
+time.sleep(1)
+process.send_signal(signal.SIGTERM)
+said = process.communicate(timeout=60)[1]
+t.expect(process.returncode == 143 and 'scene.rib:8: "ball", in the bucket of the pixels -1,-1 to 16,16: surface shader "endless" does not return' in said, f"an endless shader is named after one signal ({process.returncode}, {said[:300]})")
 t.finish()

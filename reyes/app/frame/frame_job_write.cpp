@@ -18,11 +18,13 @@ bool FrameJob::shade(std::span<const uint32_t> tiles, const ShadeSteps& steps) {
 
 void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& load) {
   ShadeContext context = shadeContext();
-  const bool cut = interrupted();
+  const bool cut = interrupted(), resumes = cut && kept_;
   if (cut) {
-    // The buckets that are hidden are worth lighting; a second signal ends this too.
+    // Without --resume the buckets that are hidden are worth lighting; a second signal ends this too. With it such
+    // light would be made for nothing.
     log_.report(Severity::Warning, "interrupted", {},
-                "interrupted: finished buckets are shaded with direct light and written");
+                resumes ? "interrupted: shaded buckets are written; the same command goes on from here"
+                        : "interrupted: finished buckets are shaded with direct light and written");
     context.indirect = false;
   }
   DeepFrame frame = layout;
@@ -40,8 +42,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                              auto loaded = load(index);
                              if (!loaded) return false;
                              tile = std::move(*loaded);
-                             takeShaded(kept_, index, tile);
-                             return true;
+                             return takeShaded(kept_, index, tile) || !resumes;
                            },
                            [&](size_t index, DeepTile&& tile) {
                              if (!cut) keepShaded(index, tile);

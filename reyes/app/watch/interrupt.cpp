@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "reyes/base/abrupt_end.h"
+#include "reyes/base/crash_note.h"
 #include "reyes/base/stop.h"
 
 namespace tomales {
@@ -20,13 +21,19 @@ bool isIgnored(int number) {
   return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+constexpr timespec kShaderPatience{10, 0};  ///< For one call of a shader to return after the first signal.
+
 /// Signals are handled by a thread, because the steps of an abrupt end are not allowed in a handler.
 [[noreturn]] void waitForSignals(sigset_t set) {
-  for (int number = 0;;) {
-    if (::sigwait(&set, &number) != 0) continue;
-    if (stopRequested() || !endsOrderly) endAbruptly(128 + number);
-    signalNumber = number;
-    requestStop();
+  int number = 0;
+  while (::sigwait(&set, &number) != 0) continue;
+  if (stopRequested() || !endsOrderly) endAbruptly(128 + number);
+  signalNumber = number;
+  requestStop();
+  for (bool marked = false;; marked = true) {
+    if (marked && tellLastingNote()) endAbruptly(128 + signalNumber);
+    markNotes();
+    if (const int second = ::sigtimedwait(&set, nullptr, &kShaderPatience); second > 0) endAbruptly(128 + second);
   }
 }
 

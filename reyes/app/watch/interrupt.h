@@ -1,7 +1,7 @@
 // The end of the program by SIGINT, SIGTERM, or SIGHUP (unless that is ignored, as nohup has it). Work that can keep
 // what is finished asks for an orderly end: the first signal then sets a flag that its stages watch. A second signal,
 // or the first one during other work, as while RIB is read, ends the process at once, without leaving unfinished files
-// or programs behind (reyes/base/abrupt_end.h).
+// or programs behind (reyes/base/abrupt_end.h). So does a shader that does not return within 10 s, which is told.
 #pragma once
 #include <atomic>
 
