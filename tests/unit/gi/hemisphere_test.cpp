@@ -15,14 +15,14 @@ struct Seen {
   vec3 radiance;
   float distance;
 };
-using World = std::function<Seen(const vec3& origin, const vec3& direction)>;
+using SeenFrom = std::function<Seen(const vec3& origin, const vec3& direction)>;
 
 struct Curved {
   IrradianceRecord record;
   IrradianceCurvature curvature;
 };
 
-Curved lookTwice(const World& world, const vec3& origin, const vec3& normal, int count, uint32_t seed) {
+Curved lookTwice(const SeenFrom& world, const vec3& origin, const vec3& normal, int count, uint32_t seed) {
   const HemisphereCells cells = hemisphereCells(count);
   HemisphereSamples s{cells, {}, {}, normal, {}, {}, {}};
   orthonormalBasis(normal, s.tangent, s.bitangent);
@@ -43,16 +43,16 @@ Curved lookTwice(const World& world, const vec3& origin, const vec3& normal, int
   return {summarize(s), curvatureOf(s)};
 }
 
-IrradianceRecord look(const World& world, const vec3& origin, const vec3& normal, int count, uint32_t seed = 1) {
+IrradianceRecord look(const SeenFrom& world, const vec3& origin, const vec3& normal, int count, uint32_t seed = 1) {
   return lookTwice(world, origin, normal, count, seed).record;
 }
 
-Curved lookCurved(const World& world, int count, uint32_t seed) {
+Curved lookCurved(const SeenFrom& world, int count, uint32_t seed) {
   return lookTwice(world, vec3(0), {0, 0, 1}, count, seed);
 }
 
 // E/pi by a midpoint rule, fine enough to differentiate.
-double exactE(const World& world, const vec3& origin, const vec3& normal) {
+double exactE(const SeenFrom& world, const vec3& origin, const vec3& normal) {
   constexpr int kRings = 400, kSectors = 1200;
   vec3 tangent, bitangent;
   orthonormalBasis(normal, tangent, bitangent);
@@ -178,7 +178,7 @@ TEST(Hemisphere, RotationGradientIsExactForALinearField) {
 }
 
 TEST(Hemisphere, RotationGradientMatchesFiniteDifferences) {
-  for (const World& world : {World(smoothCeiling), World(patchBelowCeiling)}) {
+  for (const SeenFrom& world : {SeenFrom(smoothCeiling), SeenFrom(patchBelowCeiling)}) {
     const auto r = look(world, vec3(0), kPole, 4000);
     const vec3 turned = glm::normalize(vec3(0.02f, 0, 1)), back = glm::normalize(vec3(-0.02f, 0, 1));
     const double slope = exactE(world, vec3(0), turned) - exactE(world, vec3(0), back);
@@ -187,7 +187,7 @@ TEST(Hemisphere, RotationGradientMatchesFiniteDifferences) {
 }
 
 TEST(Hemisphere, TranslationGradientMatchesFiniteDifferences) {
-  for (const World& world : {World(smoothCeiling), World(patchBelowCeiling)}) {
+  for (const SeenFrom& world : {SeenFrom(smoothCeiling), SeenFrom(patchBelowCeiling)}) {
     vec3 mean(0);
     constexpr int kRecords = 16;
     for (uint32_t seed = 0; seed < kRecords; ++seed)
@@ -202,7 +202,7 @@ TEST(Hemisphere, TranslationGradientMatchesFiniteDifferences) {
 TEST(Hemisphere, GradientsTurnWithTheFrame) {
   // The same world about another axis: magnitudes agree.
   const mat3 turn{vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 0, 0)};
-  const World turned = [&](const vec3&, const vec3& d) { return smoothCeiling(vec3(0), glm::transpose(turn) * d); };
+  const SeenFrom turned = [&](const vec3&, const vec3& d) { return smoothCeiling(vec3(0), glm::transpose(turn) * d); };
   const auto a = look(smoothCeiling, vec3(0), kPole, 8000), b = look(turned, vec3(0), turn * kPole, 8000);
   const vec3 back = glm::transpose(turn) * b.translationGradient[0];
   EXPECT_LT(glm::length(back - a.translationGradient[0]), 0.1f * glm::length(a.translationGradient[0]));
@@ -211,7 +211,7 @@ TEST(Hemisphere, GradientsTurnWithTheFrame) {
 }
 
 // Second differences of the exact E/pi.
-vec3 exactHessian(const World& world, float step) {
+vec3 exactHessian(const SeenFrom& world, float step) {
   const auto E = [&](float x, float y) { return exactE(world, {x, y, 0}, kPole); };
   const double h2 = static_cast<double>(step) * static_cast<double>(step), middle = E(0, 0);
   return {(E(step, 0) + E(-step, 0) - 2 * middle) / h2,
@@ -220,7 +220,7 @@ vec3 exactHessian(const World& world, float step) {
 }
 
 TEST(Hemisphere, TheHessianIsTheSecondDerivativeOfE) {
-  for (const World& world : {World(smoothCeiling), World(patchBelowCeiling)}) {
+  for (const SeenFrom& world : {SeenFrom(smoothCeiling), SeenFrom(patchBelowCeiling)}) {
     const vec3 exact = exactHessian(world, 0.1f);
     vec3 mean(0);
     constexpr int kTries = 8;
@@ -245,7 +245,7 @@ double exactOfRectangle(const glm::dvec4& r, double height, const glm::dvec2& at
 }
 
 TEST(Hemisphere, TheHessianIsThatOfTheClosedFormWhereASheetHidesTheLight) {
-  const World world = [](const vec3& o, const vec3& d) -> Seen {
+  const SeenFrom world = [](const vec3& o, const vec3& d) -> Seen {
     const vec3 p = o + 0.6f / d.z * d;
     const bool meetsOccluder = p.x > -0.3f && p.x < 0.25f && p.y > -0.35f && p.y < 0.4f;
     return meetsOccluder ? Seen{vec3(0.2f), 0.6f / d.z} : Seen{vec3(1), 5};
