@@ -35,12 +35,13 @@ def measure(kind, url, light, moves):
     page, start = Page(chromium), time.time()
     page.open(url)
     page.wait("!!document.querySelector('#lights .light')", 600)
+    print(f"{kind}: page {time.time() - start:.2f} s", flush=True)
     page.wait("performance.getEntriesByName('shown').length > 0", 600)
     first = time.time() - start
     page.wait("document.body.dataset.ready === '1' && document.getElementById('what').textContent === 'up to date'", 600)
     print(f"{kind}: first picture {first:.2f} s, all layers {time.time() - start:.1f} s", flush=True)
     page.run("document.getElementById('takeOver').click()")
-    time.sleep(1)
+    page.wait("document.getElementById('takeOver').hidden")
     times = [page.run(SLIDE % (3 * (i % 30) / 30 - 4)) for i in range(moves)]
     print(f"{kind}: brightness {statistics.median(times):.1f} ms in the median, {share(times, 0.99):.1f} ms for 99 %, {moves} moves", flush=True)
     if light:
