@@ -77,7 +77,7 @@ page, whole, dark = test("plain JavaScript", "?plain")
 page.key("z")
 suite.expect(page.wait("!document.getElementById('rib').textContent.includes('intensity')"), "the page's edit is that of the program")
 page.close()
-page, whole, dark = test("WebGL2", "")
+page, whole, dark = test("WebGL2", "?webgl")
 
 # What is saved is what shade makes, and is loaded again.
 page.run("document.getElementById('name').value = 'dark'; document.getElementById('save').click()")

@@ -108,6 +108,13 @@ suite.expect(server.post("load", {"name": "own"})[0] == 400, "an edit that does 
 for question in ("object", "object?x=99&y=0", "object?x=-1&y=0", "object?x=1e3&y=0", "object?x=99999999999999999999&y=1", "news", "news?after=x"):
     suite.expect(server.get(question)[0] == 400, f"the question {question} is refused")
 
+saves = [server.post("save", {"name": "warm"})[0] for _ in range(80)]
+suite.expect(saves[0] == 200 and 429 in saves, f"files are not written without end ({saves.count(200)} of 80 saves in a row)")
+for address in ("127.0.0.2", socket.gethostbyname(socket.gethostname())):
+    if address != "127.0.0.1":
+        with socket.socket() as other:
+            suite.expect(other.connect_ex((address, int(server.port))) != 0, "it listens at the loopback address alone")
+
 # A client that makes no sense, and one that says nothing.
 silent = [socket.create_connection(("127.0.0.1", int(server.port))) for _ in range(8)]
 random.seed(36)

@@ -16,10 +16,10 @@ WIDTH, HEIGHT, X0, Y0 = 240, 160, 30, 20
 suite = Suite()
 # A window of the frame, so that its pixels are not those of the raster.
 suite.write("box.rib", SCENE.replace("Format 48 36 1", "Format 300 200 1\nCropWindow 0.1 0.9 0.1 0.9")
-            .replace('"intensity" [1] "coneangle"', '"intensity" [0] "coneangle"').replace('"key"', '"key" "shadowname" ["raytrace"]')
+            .replace('"float samples" [64]', '"float samples" [32]').replace('"intensity" [1] "coneangle"', '"intensity" [0] "coneangle"').replace('"key"', '"key" "shadowname" ["raytrace"]')
             .replace('Display "box', 'DisplayChannel "color mine" "string source" ["Cs"]\nDisplay "box'))
 suite.run("hide", "box.rib", "-o", "box.dfb", "-q", "--bucket-size", "16")
-suite.run("gather", "box.dfb", "-o", "box.icf", "--by-light", "-q", "--samples", "32")
+suite.run("gather", "box.dfb", "-o", "box.icf", "--by-light", "-q")
 (suite.folder / "edits").mkdir()
 server = Server(suite, "--irradiance", "box.icf", "--folder", "edits")
 
@@ -145,7 +145,7 @@ suite.run("shade", "box.dfb", "--irradiance", "edits/dark.icf", "--edit", "edits
 suite.expect(same(whole, window("made.exr")), "with both shade --edit gives the bits of the page's picture")
 suite.write("fresh.rib", (suite.folder / "box.rib").read_text().replace('Surface "matte"', 'Surface "matte" "Kd" [0.1]'))
 suite.run("hide", "fresh.rib", "-o", "fresh.dfb", "-q", "--bucket-size", "16")
-suite.run("gather", "fresh.dfb", "-o", "fresh.icf", "-q", "--samples", "32")
+suite.run("gather", "fresh.dfb", "-o", "fresh.icf", "-q")
 suite.run("shade", "fresh.dfb", "--irradiance", "fresh.icf", "-o", "fresh.exr", "-q")
 fresh = window("fresh.exr")
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <httplib.h>
 
+#include <chrono>
+#include <mutex>
 #include <random>
 #include <thread>
 
@@ -41,13 +43,41 @@ const httplib::Headers kHeaders{{"Content-Security-Policy",
                                 {"X-Content-Type-Options", "nosniff"},
                                 {"Cache-Control", "no-store"}};
 
+/// What is left of a rate. Threads: any.
+class Allowance {
+ public:
+  explicit Allowance(const HttpRate& rate) : rate_(rate), left_(rate.burst) {}
+  bool take() {
+    const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    left_ = std::min(left_ + rate_.perSecond * std::chrono::duration<double>(now - since_).count(), rate_.burst);
+    since_ = now;
+    if (left_ < 1) return false;
+    --left_;
+    return true;
+  }
+
+ private:
+  const HttpRate rate_;
+  std::mutex mutex_;
+  double left_;
+  std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
+};
+
+struct Route {
+  Route(HttpHandler h, const HttpRate& rate) : handler(std::move(h)), allowance(rate) {}
+  const HttpHandler handler;
+  Allowance allowance;
+};
+using Routes = std::map<std::string, std::unique_ptr<Route>>;
+
 }  // namespace
 
 struct HttpServer::Impl {
   httplib::Server server;
   const std::string token = newToken();
   int port = 0;
-  std::map<std::string, HttpHandler> gets, posts;
+  Routes gets, posts;
   std::thread thread;
 
   bool isOurs(const httplib::Request& request) const {
@@ -66,15 +96,16 @@ struct HttpServer::Impl {
     return path.substr(end + 1);
   }
 
-  void answer(const httplib::Request& request, httplib::Response& response,
-              const std::map<std::string, HttpHandler>& handlers) const {
-    const auto handler = handlers.find(pathOf(request).value_or("?"));
-    if (handler == handlers.end()) return void(response.status = 404);
+  void answer(const httplib::Request& request, httplib::Response& response, const Routes& routes) const {
+    const auto found = routes.find(pathOf(request).value_or("?"));
+    if (found == routes.end()) return void(response.status = 404);
+    Route& route = *found->second;
+    if (!route.allowance.take()) return void(response.status = 429);
     HttpQuestion question{{}, request.body};
     for (const auto& [name, value] : request.params) question.parameters.emplace(name, value);
     HttpReply reply;
     try {
-      reply = handler->second(question);
+      reply = route.handler(question);
     } catch (const BadRequest& e) {
       reply = {400, "text/plain", e.what()};
     } catch (const Watches& e) {
@@ -112,8 +143,12 @@ HttpServer::HttpServer(int port) : impl_(std::make_unique<Impl>()) {
 
 HttpServer::~HttpServer() { stop(); }
 
-void HttpServer::get(const std::string& path, HttpHandler handler) { impl_->gets[path] = std::move(handler); }
-void HttpServer::post(const std::string& path, HttpHandler handler) { impl_->posts[path] = std::move(handler); }
+void HttpServer::get(const std::string& path, HttpHandler handler, const HttpRate& rate) {
+  impl_->gets[path] = std::make_unique<Route>(std::move(handler), rate);
+}
+void HttpServer::post(const std::string& path, HttpHandler handler, const HttpRate& rate) {
+  impl_->posts[path] = std::make_unique<Route>(std::move(handler), rate);
+}
 
 void HttpServer::start() {
   impl_->thread = std::thread([this] { impl_->server.listen_after_bind(); });

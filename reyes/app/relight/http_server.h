@@ -20,6 +20,11 @@ struct HttpQuestion {
   std::string body;
 };
 
+/// How often a handler may be asked; further requests get status 429.
+struct HttpRate {
+  double burst = 1000, perSecond = 300;
+};
+
 using HttpHandler = std::function<HttpReply(const HttpQuestion&)>;
 
 class HttpServer {
@@ -29,8 +34,8 @@ class HttpServer {
   ~HttpServer();  ///< Ends as stop() does.
 
   /// The handler of a path behind the token, as "scene". Set them before start().
-  void get(const std::string& path, HttpHandler handler);
-  void post(const std::string& path, HttpHandler handler);
+  void get(const std::string& path, HttpHandler handler, const HttpRate& rate = {});
+  void post(const std::string& path, HttpHandler handler, const HttpRate& rate = {});
   /// Answers from a thread of its own until stop().
   void start();
   void stop();

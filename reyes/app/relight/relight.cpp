@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 constexpr const char* kEdit = ".rib";
 constexpr size_t kLongestName = 64, kMostBlocks_bytes = 3'000'000;
 constexpr uintmax_t kMostEdit_bytes = 1 << 20;
+constexpr HttpRate kSaves{30, 1};  ///< They write files.
 
 HttpReply jsonReply(const Json& json) {
   return {200, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace)};
@@ -72,7 +73,8 @@ class Editor {
       page_.compare_exchange_strong(nobody, page);
     return page_ == page;
   }
-  void leave(uint64_t page) { page_.compare_exchange_strong(page, 0); }
+  /// Returns true if it was the one.
+  bool leave(uint64_t page) { return page_.compare_exchange_strong(page, 0); }
   uint64_t page() const { return page_; }
 
  private:
@@ -185,12 +187,13 @@ class Relight {
                                                    {"shader", &Relight::shader}, {"news", &Relight::news},
                                                    {"object", &Relight::object}, {"whole", &Relight::whole},
                                                    {"edits", &Relight::edits}};
-    const std::pair<const char*, Answer> posts[] = {
-        {"edit", &Relight::edit}, {"leave", &Relight::leave},       {"pointer", &Relight::pointer},
-        {"ask", &Relight::ask},   {"variable", &Relight::variable}, {"gather", &Relight::gather},
-        {"only", &Relight::only}, {"save", &Relight::save},         {"load", &Relight::load}};
+    const std::pair<const char*, Answer> posts[] = {{"edit", &Relight::edit},         {"leave", &Relight::leave},
+                                                    {"pointer", &Relight::pointer},   {"ask", &Relight::ask},
+                                                    {"variable", &Relight::variable}, {"gather", &Relight::gather},
+                                                    {"only", &Relight::only},         {"load", &Relight::load}};
     for (const auto& [path, answer] : gets) server_.get(path, later(answer));
     for (const auto& [path, answer] : posts) server_.post(path, later(answer));
+    server_.post("save", later(&Relight::save), kSaves);
   }
 
   HttpReply scene(const HttpQuestion&) { return jsonReply(relighting_.description()); }
@@ -219,7 +222,7 @@ class Relight {
     return jsonReply({{"rib", ribOf(relighting_.present(), relighting_.editable())}});
   }
   HttpReply leave(const HttpQuestion& q) {
-    editor_.leave(numberOf(q, "page"));
+    if (editor_.leave(numberOf(q, "page"))) relighting_.shadeOnly(std::nullopt);
     return jsonReply(Json::object());
   }
   HttpReply pointer(const HttpQuestion& q) {
@@ -237,6 +240,7 @@ class Relight {
   HttpReply gather(const HttpQuestion& q) {
     checkEditor(q);
     relighting_.askToGather(rectOf(q));
+    relighting_.layers().wake();
     return jsonReply(Json::object());
   }
   HttpReply only(const HttpQuestion& q) {

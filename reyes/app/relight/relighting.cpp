@@ -12,8 +12,8 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kTilesHeld_bytes = int64_t{1} << 30;  ///< Other tiles are read anew by every pass.
-constexpr int kBucketsAcross = 4;                       ///< Buckets along an edge of a part that is shaded at once.
+constexpr int64_t kTilesHeld_bytes = int64_t{640} << 20;  ///< Other tiles are read anew by every pass.
+constexpr int kBucketsAcross = 4;                         ///< Buckets along an edge of a part that is shaded at once.
 
 }  // namespace
 
@@ -76,12 +76,13 @@ bool Relighting::prepare() {
 
 /// Opens the files anew; what has been loaded of the shot stays.
 bool Relighting::openFiles() {
-  KeptGeometry kept;
-  if (files_) kept = std::move(files_->kept());
   auto files = ShotFiles::open(settings_, log_);
   if (!files) return false;
-  files_ = std::move(files);
-  files_->kept() = std::move(kept);
+  if (files_) files->kept() = std::move(files_->kept());
+  {
+    const std::lock_guard lock(mutex_);
+    files_ = std::move(files);
+  }
   const int64_t budget_bytes = settings_.memoryLimit ? *settings_.memoryLimit / 2 : kTilesHeld_bytes;
   tiles_ = std::make_unique<TileStore>(files_->dfb().shot().frame.tileCount(), budget_bytes,
                                        [this](size_t index) { return files_->load(index, log_); });
@@ -258,7 +259,7 @@ void Relighting::askForWhole() {
 }
 
 void Relighting::askForVariable(const std::string& name) {
-  const std::vector<std::string> known = variablesOf(files_->dfb().shot().scene.options);
+  const std::vector<std::string> known = variablesOf(files()->dfb().shot().scene.options);
   if (!name.empty() && std::ranges::count(known, name) == 0) throw BadRequest("there is no variable of this name");
   const std::lock_guard lock(mutex_);
   variable_ = name;

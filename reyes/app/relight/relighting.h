@@ -96,6 +96,11 @@ class Relighting {
   };
 
   bool openFiles();
+  /// For other threads than its own.
+  std::shared_ptr<const ShotFiles> files() const {
+    const std::lock_guard lock(mutex_);
+    return files_;
+  }
   void takeGivenEdits();
   void listLayers(const ShotJob& job);
   void layOutParts();
@@ -134,7 +139,7 @@ class Relighting {
   Stats& stats_;
   Log& log_;
   const TemporaryFolder folder_;
-  std::shared_ptr<ShotFiles> files_;
+  std::shared_ptr<ShotFiles> files_;  ///< Changed by the thread with the mutex locked.
   std::unique_ptr<TileStore> tiles_;
   std::unique_ptr<ShotJob> job_;
   std::string textOfJob_;

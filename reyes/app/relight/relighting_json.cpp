@@ -140,10 +140,11 @@ Json Relighting::status() const {
 }
 
 std::optional<int> Relighting::groupAt(int x, int y) const {
-  const DeepFrame& frame = files_->dfb().shot().frame;
+  const auto shot = files();
+  const DeepFrame& frame = shot->dfb().shot().frame;
   const auto index = static_cast<size_t>(frame.rowOf(y) * frame.columns + (x - frame.padded.x0) / frame.bucketWidth);
   std::string error;
-  const auto tile = files_->dfb().tile(index, error);
+  const auto tile = shot->dfb().tile(index, error);
   if (!tile || tile->pixel(x, y).count == 0) return std::nullopt;
   const Facet& nearest = tile->facets[tile->fragments[tile->pixel(x, y).first].facet];
   return tile->batches[static_cast<size_t>(nearest.batch)].group();
@@ -154,7 +155,8 @@ Json Relighting::objectAt(int x, int y) const {
   if (!window_.contains(atX, atY)) throw BadRequest("this pixel is outside of the picture");
   const std::optional<int> group = groupAt(atX, atY);
   if (!group) return Json::object();
-  const Attributes& a = *files_->dfb().shot().scene.groups[static_cast<size_t>(*group)].attributes;
+  const auto shot = files();
+  const Attributes& a = *shot->dfb().shot().scene.groups[static_cast<size_t>(*group)].attributes;
   return {{"object", a.name}, {"shader", a.surface ? a.surface->name : "defaultsurface"}};
 }
 

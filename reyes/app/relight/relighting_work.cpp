@@ -271,12 +271,11 @@ void Relighting::gather(const Step& step) {
   const auto width = static_cast<float>(files_->dfb().shot().scene.options.xResolution),
              height = static_cast<float>(files_->dfb().shot().scene.options.yResolution);
   const PixelRect& p = step.pixels;
-  static int number = 0;
   RenderSettings settings = settings_;
   settings.edits.push_back(fileOfEdit(step.edit));
   settings.crop = {static_cast<float>(p.x0) / width, static_cast<float>(p.x1) / width,
                    static_cast<float>(p.y0) / height, static_cast<float>(p.y1) / height};
-  settings.output = (folder_.path() / fmt::format("gathered-{}.icf", ++number)).string();
+  settings.output = (folder_.path() / fmt::format("gathered-{}.icf", gathered_.size())).string();
   job_.reset();
   if (auto job = ShotJob::open(files_, settings, stats_, log_)) {
     job->gatherIrradiance();

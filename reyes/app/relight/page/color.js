@@ -4,7 +4,7 @@
     with white at 4. */
 export const kTransforms = ["standard", "soft", "linear"];
 export const kWhite = 4;
-const kSrgbSteps = 4096;
+const kSteps = 16384;
 
 /** The numbers that the 65536 half floats stand for. */
 export const halves = (() => {
@@ -27,14 +27,22 @@ const heat = (luminance) => {
 
 export const luminanceOf = (c) => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 
-/** A function that writes the colour of `sum` to `to` from `at` on. */
+const kLargest = 1;  // what is brighter is white
+
+/** A function that writes the colour of r, g, b to `to` from `at` on. */
 export const shade = ({ gamma, transform, falseColor, range }) => {
-  if (range) return (sum, to, at) => sum.forEach((v, c) => (to[at + c] = (255 * (v - range[0])) / (range[1] - range[0])));
-  if (falseColor) return (sum, to, at) => heat(luminanceOf(sum)).forEach((v, c) => (to[at + c] = 255 * v));
-  const table = Uint8ClampedArray.from({ length: kSrgbSteps + 1 }, (_, i) =>
-    255 * (transform === 2 ? i / kSrgbSteps : encode(i / kSrgbSteps, gamma)));
+  const put = (to, at, r, g, b) => { to[at] = r; to[at + 1] = g; to[at + 2] = b; };
+  if (range) {
+    const byte = (v) => (255 * (v - range[0])) / (range[1] - range[0]);
+    return (r, g, b, to, at) => put(to, at, byte(r), byte(g), byte(b));
+  }
+  if (falseColor) return (r, g, b, to, at) => put(to, at, ...heat(luminanceOf([r, g, b])).map((v) => 255 * v));
+  const most = transform === 1 ? kWhite : kLargest, perStep = kSteps / most;
   const soft = transform === 1 ? (v) => (v * (1 + v / kWhite ** 2)) / (1 + v) : (v) => v;
-  return (sum, to, at) => {
-    for (let c = 0; c < 3; ++c) to[at + c] = table[Math.min(Math.round(soft(Math.max(sum[c], 0)) * kSrgbSteps), kSrgbSteps)];
-  };
+  const table = Uint8ClampedArray.from({ length: kSteps + 1 }, (_, i) => {
+    const v = soft(i / perStep);
+    return 255 * (transform === 2 ? v : encode(v, gamma));
+  });
+  const byte = (v) => table[v > 0 ? (v < most ? (v * perStep + 0.5) | 0 : kSteps) : 0];
+  return (r, g, b, to, at) => { to[at] = byte(r); to[at + 1] = byte(g); to[at + 2] = byte(b); };
 };

@@ -33,7 +33,7 @@ for (let p; !(p = await get("preparation")).ready; await new Promise((then) => s
 const scene = await get("scene").catch((e) => { $("preparing").textContent = e.message; throw e; });
 $("preparing").remove();
 
-const mixer = new Mixer($("picture"), scene.width, scene.height, scene.layers.length, new URLSearchParams(location.search).has("plain"));
+const mixer = new Mixer($("picture"), scene.width, scene.height, scene.layers.length, location.search.slice(1));
 await prepare(scene.present);
 let state = wholeOf(scene.present);
 const history = new History(state);
@@ -75,7 +75,7 @@ const view = () => {
     transform: $("transform").selectedIndex, falseColor, range: $("shown").value ? range ?? [0, 1] : null };
 };
 
-let asked = false;
+let asked = false, hasNews = false;
 const paint = () => {
   if (asked) return;
   asked = true;
@@ -83,6 +83,8 @@ const paint = () => {
     asked = false;
     mixer.paint(weights(), view());
     performance.mark("painted");
+    if (hasNews) performance.mark("shown");
+    hasNews = false;
     stage.showProbe();
   });
 };
@@ -163,7 +165,7 @@ const snapshots = new Snapshots($("snapshots"), stage, { picture: () => $("pictu
 $("handles").hidden = handles.all.length === 0;
 if (!scene.sharesBounces)
   note("Bounced light is one layer: it does not follow the lights. tomales gather --by-light makes it follow.");
-if (mixer.isPlain) note("This browser has no WebGL2: the picture is mixed by JavaScript.", false);
+if (mixer.isPlain) note("This browser has no GPU for WebGL2: the picture is mixed by JavaScript.", false);
 
 const setExact = (on) => {
   exact = on;
@@ -245,6 +247,7 @@ setStops();
 stage.fit();
 
 const showNews = async (news, blocks) => {
+  if (!news.doing && status.doing) mixer.settle();
   status = news;
   $("takeOver").hidden = !watches();
   if (watches()) await follow(news.present);
@@ -265,7 +268,8 @@ const showNews = async (news, blocks) => {
   for (const name of news.notLinear) note(`${name}: light does not add up there; Exact shows it right.`);
   for (const message of news.messages) note(message);
   work.show(news);
-  if (blocks.length > 0) paint();
+  hasNews ||= blocks.length > 0;
+  if (hasNews) paint();
 };
 try {
   await listen(showNews);

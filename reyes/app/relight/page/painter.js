@@ -39,9 +39,10 @@ void main() {
 }`;
 
 export class Painter {
-  /** Returns null if the browser has no WebGL2 for a picture of this size. */
-  static on(canvas, layers) {
-    const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, preserveDrawingBuffer: true });
+  /** Returns null if the browser has no WebGL2 for a picture of this size, or (unless it has to) without a GPU: JavaScript
+      is ten times as fast then. */
+  static on(canvas, layers, must) {
+    const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, preserveDrawingBuffer: true, failIfMajorPerformanceCaveat: !must });
     if (!gl) return null;
     const most = gl.getParameter(gl.MAX_TEXTURE_SIZE);
     if (canvas.width > most || canvas.height > most || layers > gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS)) return null;
@@ -49,7 +50,7 @@ export class Painter {
   }
 
   constructor(gl, canvas, layers) {
-    Object.assign(this, { gl, canvas, layers });
+    Object.assign(this, { gl, canvas, seen: new Uint8Array(4) });
     const program = gl.createProgram();
     for (const [kind, text] of [[gl.VERTEX_SHADER, kVertex], [gl.FRAGMENT_SHADER, fragmentOf(layers)]]) {
       const shader = gl.createShader(kind);
@@ -76,6 +77,8 @@ export class Painter {
     gl.uniform1i(this.place("height"), canvas.height);
   }
 
+  leave() {}
+  settle() {}
   put({ layer, x, y, width, height, half }) {
     const { gl } = this;
     gl.activeTexture(gl.TEXTURE0);
@@ -97,6 +100,6 @@ export class Painter {
     gl.uniform2fv(this.place("range"), view.range ?? [0, 1]);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-    gl.finish();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, this.seen);  // finish() may return before the picture is there
   }
 }
