@@ -102,7 +102,7 @@ class IrradianceAtlas {
     acrossWalls = false;
     return look(mapOfGroup_, group, P, N, radius, &acrossWalls).value_or(vec3(0.0f));
   }
-  /// The same for light that came by mirrors and glass alone. Of photons it is not averaged over the radius.
+  /// The same for light that came by mirrors and glass alone.
   vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const;
   /// The same as irradianceOverPi(), but empty where there is no data.
   std::optional<vec3> bakedOverPi(int group, const vec3& P, const vec3& N, float radius) const {

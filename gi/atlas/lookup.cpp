@@ -59,7 +59,8 @@ void IrradianceAtlas::openCaustics(const fs::path& folder, const MapNames& names
 vec3 IrradianceAtlas::causticOverPi(int group, const vec3& P, const vec3& N, float radius) const {
   const Photons* map = causticPhotonsOfGroup_[static_cast<size_t>(group)];
   if (!map) return look(causticOfGroup_, group, P, N, radius).value_or(vec3(0.0f));
-  return map->photons.irradiance(transformPoint(worldFromCurrent_, P), worldNormal(N), surfaceIn(map->from, group)) /
+  return map->photons.irradiance(transformPoint(worldFromCurrent_, P), worldNormal(N), surfaceIn(map->from, group),
+                                 radius * worldFromCurrentScale_) /
          kPi;
 }
 

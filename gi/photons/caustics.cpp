@@ -42,24 +42,26 @@ CausticPhotons::CausticPhotons(PointCloud photons, const PhotonIrradianceSetting
 
 /// Calls f for the photons of a box whose own boxes may hold P.
 template <class Visit>
-void CausticPhotons::visit(size_t level, size_t box, const vec3& P, const Visit& f) const {
-  if (!holds(boxes_[level][box], P)) return;
+void CausticPhotons::visit(size_t level, size_t box, const vec3& P, float wider, const Visit& f) const {
+  if (!holds(boxes_[level][box].grown(wider), P)) return;
   const size_t first = box * kFan, below = level == 0 ? radius_.size() : boxes_[level - 1].size();
   for (size_t i = first; i < std::min(first + kFan, below); ++i)
     if (level == 0)
       f(static_cast<uint32_t>(i));
     else
-      visit(level - 1, i, P, f);
+      visit(level - 1, i, P, wider, f);
 }
 
-vec3 CausticPhotons::irradiance(const vec3& P, const vec3& N, int surface) const {
+vec3 CausticPhotons::irradiance(const vec3& P, const vec3& N, int surface, float radius) const {
   vec3 E(0.0f);
   if (boxes_.empty()) return E;
-  visit(boxes_.size() - 1, 0, P, [&](uint32_t i) {
-    const float r2 = radius_[i] * radius_[i];
-    if (!(r2 > 0) || !(tree_.distance2(i, P, N, surface) < r2)) return;
+  // The kernel has a variance of r^2 / 6 along each axis, and a square of edges 2 R one of R^2 / 3.
+  const float own2 = 2 * radius * radius;
+  visit(boxes_.size() - 1, 0, P, std::sqrt(own2), [&](uint32_t i) {
+    const float r2 = radius_[i] * radius_[i] + own2, to2 = tree_.distance2(i, P, N, surface);
+    if (!(to2 < r2)) return;
     const float* w = tree_.photons().at(i) + power_;
-    E += vec3(w[0], w[1], w[2]) / (kPi * r2);
+    E += vec3(w[0], w[1], w[2]) * (2 * (1 - to2 / r2) / (kPi * r2));
   });
   return E;
 }

@@ -1,8 +1,8 @@
 // Private to gi: the irradiance of photons that lie in bright lines and spots, with darkness beside them. Each photon
-// sheds its power on a disk as wide as its own nearest neighbours lie, so that the light of all is the power of all
-// (a density estimate with a width for each sample; Silverman 1986, section 5.3). An estimate by the photons nearest to
-// the place that is lit would find light wherever it has to look far. Space: that of the photons. Threads: lookups are
-// concurrent.
+// sheds its power on a disk as wide as its own nearest neighbours lie, less towards the rim, so that the light of all
+// is the power of all (a density estimate with a width for each sample and Epanechnikov's kernel; Silverman 1986,
+// sections 4.2 and 5.3). An estimate by the photons nearest to the place that is lit would find light wherever it has
+// to look far. Space: that of the photons. Threads: lookups are concurrent.
 #pragma once
 #include "gi/photons/irradiance.h"
 #include "gi/photons/tree.h"
@@ -14,12 +14,13 @@ class CausticPhotons {
   /// photons: as for estimateIrradiance(), on surfaces.
   CausticPhotons(PointCloud photons, const PhotonIrradianceSettings& settings);
 
-  /// W/m2 at P on the side of N (unit). surface: that of P, as in PhotonTree::nearest().
-  vec3 irradiance(const vec3& P, const vec3& N, int surface) const;
+  /// W/m2 around P on the side of N (unit), in the mean over a square of edges 2 `radius` or so. surface: that of P, as
+  /// in PhotonTree::nearest().
+  vec3 irradiance(const vec3& P, const vec3& N, int surface, float radius) const;
 
  private:
   template <class Visit>
-  void visit(size_t level, size_t box, const vec3& P, const Visit& f) const;
+  void visit(size_t level, size_t box, const vec3& P, float wider, const Visit& f) const;
 
   PhotonTree tree_;
   int power_;                  ///< Offset of the channel.

@@ -78,8 +78,8 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   const PhotonStream stream(rays, shading, given, log);
   const PhotonSettings& settings = stream.settings();
   PhotonFigures figures;
-  const bool isAsked = settings.mostBounces < settings.maxDepth;
-  const int arrivals = isAsked ? settings.mostBounces + 1 : settings.maxDepth;
+  const int arrivals = std::min(settings.mostBounces + 1, settings.maxDepth);
+  const bool isAsked = given.maxDepth > 0 || arrivals < settings.maxDepth;
   Series series(arrivals);
   std::vector<std::vector<StoredPhoton>> stored;
   const size_t photonsPerWave = PhotonStream::kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());

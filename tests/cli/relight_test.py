@@ -50,6 +50,7 @@ x, y, w = (sum(matrix[4 * c + row] * p[c] for c in range(4)) for row in (0, 1, 3
 focal = 18 * 3 ** 0.5
 suite.expect(abs(x / w - (24 + focal * 0.3 / 1.7)) < 1e-3 and abs(y / w - (18 + focal * 0.6 / 1.7)) < 1e-3, "a light's points have a place in the picture")
 suite.expect(server.settled() is not None, "all layers are shaded")
+suite.expect(server.whole() is not None, "and the whole picture is")
 status, blocks = server.news()
 found = layers(blocks, 48, 36)
 suite.run("shade", "box.dfb", "--irradiance", "box.icf", "-o", "box.exr", "-q")

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <httplib.h>
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <random>
@@ -79,6 +80,7 @@ struct HttpServer::Impl {
   int port = 0;
   Routes gets, posts;
   std::thread thread;
+  std::atomic<bool> ended{false};  ///< The thread has, or could not listen.
 
   bool isOurs(const httplib::Request& request) const {
     const std::string named[] = {fmt::format("{}:{}", kAddress, port), fmt::format("localhost:{}", port)};
@@ -151,7 +153,12 @@ void HttpServer::post(const std::string& path, HttpHandler handler, const HttpRa
 }
 
 void HttpServer::start() {
-  impl_->thread = std::thread([this] { impl_->server.listen_after_bind(); });
+  impl_->thread = std::thread([this] {
+    impl_->server.listen_after_bind();
+    impl_->ended = true;
+  });
+  // Until it listens, a server of httplib does not hear that it has to stop.
+  while (!impl_->server.is_running() && !impl_->ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 void HttpServer::stop() {

@@ -354,35 +354,37 @@ TEST(CausticPhotons, BringAsMuchLightAsTheyHave) {
   const CausticPhotons caustic(brightSquare(), kOfCaustics);
   constexpr int kPlaces = 240;
   constexpr float kWidth = 1.6f;
-  vec3 sum(0);
-  for (int i = 0; i < kPlaces * kPlaces; ++i) {
-    const vec2 at = kWidth * ((vec2(i % kPlaces, i / kPlaces) + 0.5f) / float{kPlaces} - 0.5f);
-    sum += caustic.irradiance(vec3(at, 0), {0, 0, 1}, 0) * (kWidth * kWidth / (kPlaces * kPlaces));
+  for (const float radius : {0.0f, 0.1f}) {
+    vec3 sum(0);
+    for (int i = 0; i < kPlaces * kPlaces; ++i) {
+      const vec2 at = kWidth * ((vec2(i % kPlaces, i / kPlaces) + 0.5f) / float{kPlaces} - 0.5f);
+      sum += caustic.irradiance(vec3(at, 0), {0, 0, 1}, 0, radius) * (kWidth * kWidth / (kPlaces * kPlaces));
+    }
+    EXPECT_NEAR(sum.x, 1, 0.01f) << radius;
+    EXPECT_NEAR(sum.y, 2, 0.02f) << radius;
+    EXPECT_EQ(sum.z, 0);
   }
-  EXPECT_NEAR(sum.x, 1, 0.01f);
-  EXPECT_NEAR(sum.y, 2, 0.02f);
-  EXPECT_EQ(sum.z, 0);
 }
 
 TEST(CausticPhotons, AreEvenInsideAndLeaveTheDarkDark) {
   const CausticPhotons caustic(brightSquare(), kOfCaustics);
-  EXPECT_NEAR(caustic.irradiance({0.1f, 0.05f, 0}, {0, 0, 1}, 0).x, 1, 0.05f);
+  EXPECT_NEAR(caustic.irradiance({0.1f, 0.05f, 0}, {0, 0, 1}, 0, 0).x, 1, 0.05f);
   // The nearest 50 photons of one on the edge fill half a disk.
   const float widest = std::sqrt(2 * 51 / (kPi * kOfEdge * kOfEdge)) * 1.1f;
-  EXPECT_EQ(caustic.irradiance({0.5f + widest, 0, 0}, {0, 0, 1}, 0), vec3(0));
-  EXPECT_GT(caustic.irradiance({0.5f + 0.5f * widest, 0, 0}, {0, 0, 1}, 0).x, 0.01f);
+  EXPECT_EQ(caustic.irradiance({0.5f + widest, 0, 0}, {0, 0, 1}, 0, 0), vec3(0));
+  EXPECT_GT(caustic.irradiance({0.5f + 0.5f * widest, 0, 0}, {0, 0, 1}, 0, 0).x, 0.01f);
 }
 
 TEST(CausticPhotons, ShineOnTheirSideOfTheirSurfaceAlone) {
   const CausticPhotons caustic(brightSquare(), kOfCaustics);
-  EXPECT_EQ(caustic.irradiance({0, 0, 0}, {0, 0, -1}, 0), vec3(0));
-  EXPECT_EQ(caustic.irradiance({0, 0, 0.1f}, {0, 0, 1}, 0), vec3(0));
+  EXPECT_EQ(caustic.irradiance({0, 0, 0}, {0, 0, -1}, 0, 0), vec3(0));
+  EXPECT_EQ(caustic.irradiance({0, 0, 0.1f}, {0, 0, 1}, 0, 0), vec3(0));
 }
 
 TEST(CausticPhotons, AreDarkWhereThereAreNone) {
   PointCloud none;
   none.channels = {{kIndirectPower, 3}};
-  EXPECT_EQ(CausticPhotons(none, kOfCaustics).irradiance({0, 0, 0}, {0, 0, 1}, 0), vec3(0));
+  EXPECT_EQ(CausticPhotons(none, kOfCaustics).irradiance({0, 0, 0}, {0, 0, 1}, 0, 0), vec3(0));
 }
 
 }  // namespace

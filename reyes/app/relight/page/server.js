@@ -39,7 +39,8 @@ export const listen = async (tell) => {
     const answer = await reply(await fetch(question)), begun = performance.now();
     const buffer = await answer.arrayBuffer(), seconds = Math.max(performance.now() - begun, 0.1) / 1000;
     link.received += buffer.byteLength;
-    if (buffer.byteLength > kTelling_bytes) link.rate += 0.5 * (buffer.byteLength / seconds - link.rate);
+    const rate = buffer.byteLength / seconds;  // a slow link is believed at once, a fast one by and by
+    if (buffer.byteLength > kTelling_bytes) link.rate = rate < link.rate ? rate : 0.5 * (link.rate + rate);
     const length = new Uint32Array(buffer, 0, 1)[0];
     const status = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     const blocks = blocksOf(buffer, 4 + length);
