@@ -45,9 +45,9 @@ constexpr uint32_t kMethod = 13;
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
   const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] =
-      settings.photons;  // maxDepth and focusedOnly keep their defaults here.
-  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, mostBounces, seed,
-                    direct);
+      settings.photons;  // focusedOnly keeps its default here.
+  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, mostBounces,
+                    seed, direct);
 }
 
 uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings, bool knowsWalls) {

@@ -47,10 +47,13 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
 void IrradianceAtlas::openCaustics(const fs::path& folder, const MapNames& names) {
   for (const std::string& name : names.caustic) {
     const fs::path path = atlasFile(folder, name, ".ptc");
-    if (!name.empty() && !caustics_.contains(name) && fs::exists(path)) {
-      const PointFile file(path.string());
-      caustics_.try_emplace(name, Photons{file.madeFrom(), CausticPhotons(file.readAll(), AtlasSettings{}.caustics)});
-    }
+    if (!name.empty() && !caustics_.contains(name) && fs::exists(path)) try {
+        const PointFile file(path.string());
+        caustics_.try_emplace(name, Photons{file.madeFrom(), CausticPhotons(file.readAll(), AtlasSettings{}.caustics)});
+      } catch (const FileError& e) {
+        log_.report(Severity::Missing, "atlas-damaged", {},
+                    fmt::format("{}: caustics come from its brick map", e.what()));
+      }
     const auto found = caustics_.find(name);
     causticPhotonsOfGroup_.push_back(found == caustics_.end() ? nullptr : &found->second);
   }

@@ -32,7 +32,7 @@ CausticPhotons::CausticPhotons(PointCloud photons, const PhotonIrradianceSetting
     const vec3& P = tree_.position(static_cast<uint32_t>(i));
     level.push_back({P - radius_[i], P + radius_[i]});
   }
-  while (level.size() > 1) {
+  while (level.size() > 1 || (boxes_.empty() && !level.empty())) {
     std::vector<Bound3> wider((level.size() + kFan - 1) / kFan);
     for (size_t i = 0; i < level.size(); ++i) wider[i / kFan].extend(level[i]);
     boxes_.push_back(wider);

@@ -387,5 +387,13 @@ TEST(CausticPhotons, AreDarkWhereThereAreNone) {
   EXPECT_EQ(CausticPhotons(none, kOfCaustics).irradiance({0, 0, 0}, {0, 0, 1}, 0, 0), vec3(0));
 }
 
+TEST(CausticPhotons, MayBeASingleOne) {
+  PointCloud one;
+  one.channels = {{kIndirectPower, 3}};
+  const vec3 power(1);
+  one.add(vec3(0), {0, 0, 1}, 0, &power.x);
+  EXPECT_GT(CausticPhotons(one, kOfCaustics).irradiance({0.1f, 0, 0}, {0, 0, 1}, 0, 0.1f).x, 0);
+}
+
 }  // namespace
 }  // namespace tomales
