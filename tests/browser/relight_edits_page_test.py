@@ -22,11 +22,11 @@ suite.write("stripes.sl", """surface stripes(float Kd = 0.8; string look = "plai
   Ci = Kd * base * diffuse(faceforward(normalize(N), I)); Oi = Os;
 }
 """)
-server = subprocess.Popen([suite.program, "relight", "box.rib", "--samples", "64", "--no-browser"], cwd=suite.folder,
+page = Page(chromium)  # Before the server, which gathers at once: a browser may take longer to start than a small scene to gather.
+server = subprocess.Popen([suite.program, "relight", "box.rib", "--samples", "256", "--no-browser"], cwd=suite.folder,
                           stdout=subprocess.PIPE, text=True)
 ready, _, _ = select.select([server.stdout], [], [], 60)
 url = server.stdout.readline().strip()
-page = Page(chromium)
 page.open(url)
 heard, end = set(), time.time() + 120
 while time.time() < end and not page.run("!!document.querySelector('#lights .light')"):

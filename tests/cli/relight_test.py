@@ -106,6 +106,8 @@ for path in ("../box.rib", "..%2fbox.rib", "edits/warm.rib", "%2e%2e/box.rib", "
     suite.expect(server.get(path)[0] in (403, 404), f"the path {path} leads nowhere")
 suite.write("edits/own.rib", 'LightSource "pointlight" "key" "intensity" [2]\nColor [1 0 0]\n')
 suite.expect(server.post("load", {"name": "own"})[0] == 400, "an edit that does more than the page can is refused")
+own = (suite.folder / "edits/own.rib").read_bytes()
+suite.expect(server.post("save", {"name": "own"})[0] == 400 and (suite.folder / "edits/own.rib").read_bytes() == own, "and a file that is no edit of this shot is never replaced")
 for question in ("object", "object?x=99&y=0", "object?x=-1&y=0", "object?x=1e3&y=0", "object?x=99999999999999999999&y=1", "news", "news?after=x"):
     suite.expect(server.get(question)[0] == 400, f"the question {question} is refused")
 

@@ -139,7 +139,12 @@ while time.time() < end and (server.news(0)[0]["gathering"] or not server.news(0
     time.sleep(0.02)
 suite.expect(server.settled()["gathered"] == [[0, 80, 120, 160]], "the page learns where")
 whole = server.whole()
+taken = suite.folder / "edits/taken.icf"
+suite.write("edits/taken.icf", "records of another pass")
+suite.expect(server.post("save", {"name": "taken"})[0] == 400 and taken.read_text() == "records of another pass" and not taken.with_suffix(".rib").exists(),
+             "records that others have gathered are never replaced")
 saved = json.loads(server.post("save", {"name": "dark"})[2])
+suite.expect(server.post("save", {"name": "dark"})[0] == 200, "those of an edit are, by the same edit")
 suite.expect(saved.get("irradiance", "").endswith("dark.icf"), "what was gathered is saved with the edit")
 suite.run("shade", "box.dfb", "--irradiance", "edits/dark.icf", "--edit", "edits/dark.rib", "-o", "made.exr", "-q")
 suite.expect(same(whole, window("made.exr")), "with both shade --edit gives the bits of the page's picture")

@@ -6,7 +6,6 @@
 #include <condition_variable>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 #include <thread>
 
 #include "reyes/app/exit_code.h"
@@ -14,19 +13,17 @@
 #include "reyes/app/page_files.h"
 #include "reyes/app/relight/http_server.h"
 #include "reyes/app/relight/relighting.h"
+#include "reyes/app/relight/saved_edits.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/stop.h"
-#include "reyes/base/unfinished_file.h"
 
 namespace tomales {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kEdit = ".rib";
-constexpr size_t kLongestName = 64, kMostBlocks_bytes = 3'000'000;
-constexpr uintmax_t kMostEdit_bytes = 1 << 20;
+constexpr size_t kMostBlocks_bytes = 3'000'000;
 constexpr HttpRate kSaves{30, 1};  ///< They write files.
 
 HttpReply jsonReply(const Json& json) {
@@ -51,14 +48,6 @@ uint64_t numberOf(const HttpQuestion& q, const std::string& name) {
 std::string textOf(const HttpQuestion& q, const std::string& name) {
   const auto found = q.parameters.find(name);
   return found == q.parameters.end() ? "" : found->second;
-}
-
-/// The file of an edit in the folder. Only letters, digits, - and _ make a name, so that it leads nowhere else.
-fs::path fileOfEdit(const std::string& folder, const std::string& name) {
-  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_'; };
-  if (name.empty() || name.size() > kLongestName || !std::ranges::all_of(name, plain))
-    throw BadRequest("a name has up to 64 letters, digits, - and _");
-  return fs::path(folder) / (name + kEdit);
 }
 
 /// The page that edits, by the number that it has given itself; others watch. Threads: any.
@@ -114,6 +103,7 @@ class Relight {
         shot_(settings),
         log_(log),
         relighting_(fileOfShot(), stats, log),
+        edits_(command.folder),
         server_(command.port) {}
 
   /// Returns the exit code: what a page tries out later is no fault of the shot.
@@ -278,46 +268,16 @@ class Relight {
     return {200, "application/octet-stream", body + text + blocks};
   }
 
-  /// The edits of this shot in the folder: scenes and other RIB files lie there too.
-  HttpReply edits(const HttpQuestion&) {
-    std::set<std::string> out;
-    std::error_code failed;  // then there are none
-    for (const fs::directory_entry& entry : fs::directory_iterator(command_.folder, failed))
-      if (isEdit(entry)) out.insert(entry.path().stem().string());
-    return jsonReply(Json(out));
-  }
-  bool isEdit(const fs::directory_entry& entry) const {
-    std::error_code failed;
-    if (entry.path().extension() != kEdit || !entry.is_regular_file(failed) ||
-        entry.file_size(failed) > kMostEdit_bytes)
-      return false;
-    try {
-      stateOfRib({entry.path().string()}, relighting_.editable());
-    } catch (const BadRequest&) {
-      return false;
-    }
-    return true;
-  }
-
+  HttpReply edits(const HttpQuestion&) { return jsonReply(Json(edits_.names(relighting_.editable()))); }
   HttpReply save(const HttpQuestion& q) {
-    const fs::path file = fileOfEdit(command_.folder, Json::parse(q.body).at("name"));
-    std::string error;
-    if (!writeFile(file.string(), ribOf(relighting_.present(), relighting_.editable()), error))
-      throw BadRequest(file.string() + " could not be written: " + error);
-    Json out = {{"file", file.string()}};
-    if (const std::string gathered = relighting_.gatheredFile(); !gathered.empty()) {
-      const fs::path records = fs::path(file).replace_extension(".icf");
-      std::error_code failed;
-      fs::copy_file(gathered, records, fs::copy_options::overwrite_existing, failed);
-      if (failed) throw BadRequest(records.string() + " could not be written: " + failed.message());
-      out["irradiance"] = records.string();
-    }
+    const SavedEdits::Written written = edits_.save(Json::parse(q.body).at("name"), relighting_.present(),
+                                                    relighting_.gatheredFile(), relighting_.editable());
+    Json out = {{"file", written.edit}};
+    if (!written.irradiance.empty()) out["irradiance"] = written.irradiance;
     return jsonReply(out);
   }
   HttpReply load(const HttpQuestion& q) {
-    const fs::path file = fileOfEdit(command_.folder, Json::parse(q.body).at("name"));
-    if (!fs::is_regular_file(file)) throw BadRequest("there is no such edit");
-    return jsonReply(jsonOf(stateOfRib({file.string()}, relighting_.editable())));
+    return jsonReply(jsonOf(edits_.load(Json::parse(q.body).at("name"), relighting_.editable())));
   }
 
   void openBrowser() const {
@@ -331,6 +291,7 @@ class Relight {
   RenderSettings shot_;
   Log& log_;
   Relighting relighting_;
+  SavedEdits edits_;
   Gate prepared_;
   HttpServer server_;
   Editor editor_;
