@@ -42,7 +42,7 @@ DISPLAYS = """Display "beauty.exr" "file" "rgba"
 Display "+beauty_n.exr" "file" "N"
 DisplayChannel "varying normal N"
 Display "+depth.exr" "file" "z"
-Display "+ids.exr" "cryptomatte" "object"
+Display "+ids.exr" "file" "cryptoobject"
 Display "+deep.exr" "deepexr" "rgba"
 """
 t.write("ours.sl", "surface ours() { Oi = Os; Ci = Cs * diffuse(faceforward(normalize(N), I)); }")
@@ -58,7 +58,7 @@ def contents():
 def header(name):
     """{attribute: its text as oiiotool prints it}, and the data window."""
     text = subprocess.run(["oiiotool", "--info", "-v", str(t.folder / name)], capture_output=True, text=True).stdout
-    out = dict(re.findall(r'^ +([\w:]+): "?(.*?)"?$', text, re.M))
+    out = dict(re.findall(r'^ +([\w:/]+): "?(.*?)"?$', text, re.M))
     width, height = map(int, re.search(r": +(\d+) x +(\d+)", text).groups())
     x, y = map(int, re.search(r"pixel data origin: x=(\d+), y=(\d+)", text).groups()) if "pixel data origin" in text else (0, 0)
     return out, (x, y, width, height)
@@ -70,7 +70,9 @@ def window(name):
 
 first = t.expect_run("five Displays and a map", ["shot.rib"], 0)
 whole = contents()
+t.expect("warning" not in first.stderr, f"without a warning ({first.stderr})")
 t.expect(sorted(whole) == sorted(PICTURES + ["ball.map"]), f"are all there ({sorted(whole)})")
+t.expect(any(name.startswith("cryptomatte/") for name in header("ids.exr")[0]), "one of them is Cryptomatte")
 t.run("hide", "beauty.rib", "-o", "beauty.dfb")
 CROP = ["--crop", "0.25,0.5,0.25,0.75"]
 for command, output, crop, one in itertools.product((["render", "shot.rib"], ["shade", "beauty.dfb"]), (None, "look.exr", "beauty.exr"), (False, True), (False, True)):
@@ -104,6 +106,36 @@ t.expect_run("a crop over a smaller one", ["shot.rib", "--crop", "0,0.75,0,0.75"
 t.expect(window("beauty.exr") == (0, 0, 48, 36), "takes its place too")
 t.expect_run("--overwrite alone", ["shot.rib", "--overwrite"], 1, "--crop")
 t.run("shot.rib", "-q")
+
+# --frames: of two frames whose Displays have names of their own, one alone.
+def frame(number):
+    return f"FrameBegin {number}\n" + DISPLAYS.replace('.exr"', f'{number}.exr"') + WORLD + "FrameEnd\n"
+
+
+t.write("shots.rib", MAP + frame(2) + frame(3))
+t.run("shots.rib", "-q")
+both, third = contents(), [name.replace(".exr", "3.exr") for name in PICTURES]
+t.expect({*third, *(name.replace(".exr", "2.exr") for name in PICTURES)} <= set(both), "frames of names of their own are all there")
+for output, crop, one in itertools.product((None, "look.#.exr", "look.exr", "beauty3.exr"), (False, True), (False, True)):
+    if one and not output:
+        continue
+    line = ["shots.rib", "--frames", "3", *(["-o", output] if output else []), *(CROP if crop else []), *(["--one-picture"] if one else []), "-q"]
+    t.expect_run(" ".join(line), line, 0)
+    after = contents()
+    changed = {name for name in both if both[name] != after[name]}
+    t.expect(changed <= ({"beauty3.exr"} if output == "beauty3.exr" else set()), f"    changes nothing but what it names ({changed})")
+    made = {name for name in after if name not in both}
+    picture = (output or "beauty3_crop.exr").replace("#", "3")
+    t.expect(picture in made | changed or not (output or crop) or (output == "beauty3.exr" and not crop), f"    and makes {picture} ({sorted(made)})")
+    t.expect(one or not made or len(made | changed | {picture}) == 5, f"    others go beside it ({sorted(made)})")
+    for name in made:
+        (t.folder / name).unlink()
+    t.run("shots.rib", "--frames", "3", "-q")
+    t.expect(contents() == both, "    and the frame without options has the same bits as the first")
+t.expect_run("a frame that the scene does not have", ["shots.rib", "--frames", "4"], 2, "no-frame")
+t.expect(contents() == both, "changes nothing")
+for name in set(both) - {*PICTURES, "ball.map"}:
+    (t.folder / name).unlink()
 
 # Pictures that a later Make request reads are maps, too: six faces of a room whose sides have a colour each.
 FACES = ["px", "nx", "py", "ny", "pz", "nz"]
