@@ -35,7 +35,8 @@ def rays(name):
 
 
 def cut(at, number, *line):
-    """Starts a frame and sends it a signal when it has come to so many percent. A frame that ends before the signal arrives is rendered again."""
+    """Starts a frame and sends it a signal when it has come to so many percent. Where the signal comes too late, when all is
+    done and nothing is left to resume, the frame is rendered again."""
     for _ in range(5):
         process = subprocess.Popen([t.program, *line, "--resume", "--progress", "-q", "-t", "2", "--stats", "cut.json"],
                                    cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
@@ -44,7 +45,7 @@ def cut(at, number, *line):
                 break
         process.send_signal(number)
         process.communicate(timeout=200)
-        if process.returncode != 0:
+        if process.returncode != 0 and list(t.folder.glob("*.kept.part")):
             break
         for name in ("room.exr", "room.icf", "room.ptc"):
             (t.folder / name).unlink(missing_ok=True)
