@@ -1,7 +1,7 @@
 // Private to gi/irradiance_cache: records that disagree about a place by more than their noise explains end before each
 // other, and points at which they do get records. What lies between them is an edge of light, or something thinner than
 // both are wide: half of the dark pixels behind thin walls that get light without this get none, and the worst windows
-// have a quarter less error. It costs a twentieth more records, and as much time (docs/decisions/0105).
+// have a quarter less error. It costs a twentieth more records, and as much time.
 #pragma once
 #include "gi/cache/irradiance_record.h"
 #include "gi/error_function.h"

@@ -1,7 +1,7 @@
 // Private to gi/irradiance_cache: the mean of records that are extrapolated by their own gradients is off by what these
 // gradients differ. Here it is corrected to the second order, for which no derivative is needed that records do not
 // have. A fortieth of the error of all scenes goes, and an eighth at thin walls. It costs nothing that was measured
-// (docs/decisions/0096).
+// (docs/decisions/0096, docs/decisions/0105).
 #pragma once
 #include "gi/cache/extrapolation.h"
 
