@@ -1,6 +1,7 @@
 // The functions that say how far an irradiance record may be used, as indirect lights ("errorfunction") and the command
 // line (--error-function) name them. gi/irradiance_cache.h has the values that a function works with.
 #pragma once
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -9,37 +10,55 @@
 namespace tomales {
 
 enum class ErrorFunction {
-  Screen,   ///< approximate-gi eq. 2 to 5
+  Screen,   ///< The equations of Screen.
   Ward,     ///< Ward's split sphere, with the limits of Screen.
-  Hessian,  ///< Schwarzhaupt, Jensen, Jarosz 2012
-  Split,    ///< Ward and Heckbert 1992, for comparison: no limits in pixels, and records do not check each other.
-  /// Screen as published, for comparison: records do not check each other, and each is extrapolated by its own
-  /// gradients alone.
-  Plain,
+  Hessian,  ///< The equations of Hessian.
+  Split,    ///< Ward's split sphere, for comparison: no limits in pixels, and fewer amendments.
+  Plain,    ///< Screen with fewer amendments, for comparison.
 };
+
+/// The published equations that a function has; gi/cache/published.h has a type for each.
+enum class PublishedEquations { Screen, SplitSphere, Hessian };
+
+/// What this renderer adds to the published equations; gi/cache/amendments/switches.h says where each is.
+enum class Amendment { SecondOrder, Disputes, Reach, Behind, Occluders, Slopes };
+
+constexpr uint32_t bitOf(Amendment amendment) { return uint32_t{1} << static_cast<uint32_t>(amendment); }
+
+/// The kappa with which Ward's split sphere has the error that the function of approximate-gi has with 1
+/// (docs/measured/irradiance_cache.md).
+inline constexpr float kSplitSphereKappa = 4;
+inline constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+/// For comparison with what was published: records do not check each other, each is extrapolated by its own gradients
+/// alone, and none serves farther in shading than where records are placed.
+inline constexpr uint32_t kAsPublished =
+    bitOf(Amendment::SecondOrder) | bitOf(Amendment::Disputes) | bitOf(Amendment::Reach);
 
 struct ErrorFunctionInfo {
   ErrorFunction function;
   const char* name;
-  bool splitSphere = false;  ///< As Ward's: a record's size is the harmonic mean of its rays' lengths.
-  bool published = false;    ///< The function works as published, without what this renderer adds.
-  bool curvature = false;    ///< Records need second derivatives.
-  /// The CacheSettings of records for `maxerror` 1. Ward's split sphere needs a = 1/4 for the error that the paper's
-  /// function has at kappa = 1 (docs/measured/irradiance_cache.md), so that `maxerror` means the same for both. The
-  /// Hessian, which knows where light is even, has about as many records as that.
+  PublishedEquations equations = PublishedEquations::Screen;
+  uint32_t without = 0;  ///< Bits of the amendments that records of this function do without.
+  /// The CacheSettings of records for `maxerror` 1, which means the same for all functions: the Hessian, which knows
+  /// where light is even, has about as many records as the others.
   float kappa = 1, maxPixels = 10, minPixels = 1.5f, enough = 0.05f;
   /// Where more error is allowed, records lie less close to edges, so that some are left for other places and fewer
   /// overlap: their error is then no noise (docs/decisions/0106).
   bool limitsFollowError = false;
+
+  bool needsCurvature() const { return equations == PublishedEquations::Hessian; }
 };
 
-inline constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 inline constexpr ErrorFunctionInfo kErrorFunctions[] = {
     {ErrorFunction::Screen, "screen"},
-    {.function = ErrorFunction::Ward, .name = "ward", .splitSphere = true, .kappa = 4},
+    {.function = ErrorFunction::Ward,
+     .name = "ward",
+     .equations = PublishedEquations::SplitSphere,
+     .kappa = kSplitSphereKappa},
     {.function = ErrorFunction::Hessian,
      .name = "hessian",
-     .curvature = true,
+     .equations = PublishedEquations::Hessian,
+     .without = bitOf(Amendment::Reach),  // its records overlap enough
      .kappa = 0.87f,
      .maxPixels = 40,
      .minPixels = 1,
@@ -47,12 +66,12 @@ inline constexpr ErrorFunctionInfo kErrorFunctions[] = {
      .limitsFollowError = true},
     {.function = ErrorFunction::Split,
      .name = "split",
-     .splitSphere = true,
-     .published = true,
-     .kappa = 4,
+     .equations = PublishedEquations::SplitSphere,
+     .without = kAsPublished,
+     .kappa = kSplitSphereKappa,
      .maxPixels = kNoLimit,
      .minPixels = 0},
-    {.function = ErrorFunction::Plain, .name = "plain", .published = true},
+    {.function = ErrorFunction::Plain, .name = "plain", .without = kAsPublished},
 };
 
 constexpr const ErrorFunctionInfo& infoOf(ErrorFunction function) {

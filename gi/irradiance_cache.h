@@ -69,10 +69,9 @@ class IrradianceCache {
   }
   /// Looks up many places and writes to out[0] and on. It is several times as fast as single lookups where successive
   /// places lie close together. Validity radii are multiplied by `wider`, but by less where light is steep, and never
-  /// beyond a disagreement. The factor is not used for `split` and `plain`, which stay as published, nor for `hessian`,
-  /// whose records overlap enough. `light`, if not empty, has an element for each record and stands in for its light:
-  /// E comes from that, while all that says where records are used is still the record's own, and the dominant
-  /// directions stay. E is linear in `light` then.
+  /// beyond a disagreement (Amendment::Reach). `light`, if not empty, has an element for each record and stands in for
+  /// its light: E comes from that, while all that says where records are used is still the record's own, and the
+  /// dominant directions stay. E is linear in `light` then.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider = 1,
               std::span<const LightShare> light = {}) const;
   /// The light of each record where each share is multiplied by its gain. Pre: every record has as many shares.

@@ -23,7 +23,7 @@ struct CloudChannel {
 /// kMostSurfaces; 0: not known; kAcrossWalls: a wall on the surface parts more light from less there. It is no data:
 /// brick maps keep it with their layers (gi/bricks/brick.h).
 inline const CloudChannel kSurfaceChannel{"__surface", 1};
-constexpr int kMostSurfaces = 126, kAcrossWalls = 127;
+constexpr int kMostSurfaces = 126, kAcrossWalls = kMostSurfaces + 1;
 bool tellsSurfaces(const std::vector<CloudChannel>& channels);
 std::vector<CloudChannel> dataOf(std::vector<CloudChannel> channels);  ///< The channels without kSurfaceChannel.
 int widthOf(const std::vector<CloudChannel>& channels);                ///< Floats of one point.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "gi/atlas.h"
 #include "gi/point_file.h"
@@ -45,15 +46,17 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
 }
 
 void IrradianceAtlas::openCaustics(const fs::path& folder, const MapNames& names) {
-  for (const std::string& name : names.caustic) {
+  for (const std::string& name : std::set<std::string>(names.caustic.begin(), names.caustic.end())) {
     const fs::path path = atlasFile(folder, name, ".ptc");
-    if (!name.empty() && !caustics_.contains(name) && fs::exists(path)) try {
+    if (!name.empty() && fs::exists(path)) try {
         const PointFile file(path.string());
         caustics_.try_emplace(name, Photons{file.madeFrom(), CausticPhotons(file.readAll(), AtlasSettings{}.caustics)});
       } catch (const FileError& e) {
         log_.report(Severity::Missing, "atlas-damaged", {},
                     fmt::format("{}: caustics come from its brick map", e.what()));
       }
+  }
+  for (const std::string& name : names.caustic) {
     const auto found = caustics_.find(name);
     causticPhotonsOfGroup_.push_back(found == caustics_.end() ? nullptr : &found->second);
   }

@@ -36,7 +36,7 @@ struct BrickLayer {
          z = 0;  ///< The mean normal in 127ths of its length, off by less than half a degree. Zero for volume data.
   uint8_t incoherent : 1 = 0;  ///< Different layers had to be merged: finer bricks tell them apart.
   uint8_t surface : 7 = 0;     ///< PointCloud::surface() of the data; 0: not known, or several.
-  static constexpr int kSurfaceBits = 127;
+  static constexpr int kSurfaceBits = kAcrossWalls;
 
   BrickLayer() = default;
   BrickLayer(const vec3& unitNormal, bool isIncoherent, int of = 0)

@@ -11,6 +11,8 @@
 namespace tomales {
 
 constexpr uint64_t kPointsInMemory = 1'500'000;
+/// Radius of a point's disk over the edge of the square that it stands for: neighbours meet.
+constexpr float kDiskOfSquare = 0.8f;
 
 struct BrickSettings {
   /// Bricks whose 2x2x2 groups of voxels vary less than this, in units of the data, are left out.

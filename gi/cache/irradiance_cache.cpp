@@ -2,9 +2,12 @@
 
 #include <utility>
 
-#include "gi/cache/amendments.h"
-#include "gi/cache/disputes.h"
-#include "gi/cache/extrapolation.h"
+#include "gi/cache/amendments/behind.h"
+#include "gi/cache/amendments/disputes.h"
+#include "gi/cache/amendments/reach.h"
+#include "gi/cache/amendments/second_order.h"
+#include "gi/cache/amendments/slopes.h"
+#include "gi/cache/amendments/switches.h"
 #include "gi/cache/published.h"
 #include "gi/cache/record_tree.h"
 #include "reyes/base/simd.h"
@@ -15,6 +18,7 @@ namespace {
 constexpr size_t kRun = 64;  // greatest number of lookups that share their candidates
 // greatest diagonal of the places of a run: incoherent points would share too many candidates
 constexpr float kRunPixels = 24;
+constexpr float kRounding = 1e-4f;  // relative, of what is compared to choose candidates
 
 struct Candidate {
   uint32_t record;
@@ -71,10 +75,14 @@ struct IrradianceCache::Impl {
   RecordTree tree{bound};
   IrradianceRecords records{};
   const ErrorFunctionInfo& info = infoOf(settings.errorFunction);
-  Disputes disputes{isOn(Amendment::Disputes) && !info.published, info.splitSphere, settings.kappa};
-  const bool bends = isOn(Amendment::SecondOrder) && !info.published, fadesBehind = isOn(Amendment::Behind);
+  const Published published = publishedBy(info.equations, settings.kappa);
+  Disputes disputes{has(Amendment::Disputes), info.equations, settings.kappa};
+  const bool correctsMean = has(Amendment::SecondOrder), fadesBehind = has(Amendment::Behind);
 
-  float size(const IrradianceRecord& r) const { return sizeOf(r, info, settings.kappa); }
+  bool has(Amendment amendment) const { return isOn(amendment, info); }
+  float size(const IrradianceRecord& r) const {
+    return std::visit([&](const auto& equations) { return equations.size(r); }, published);
+  }
   float reach(float recordSize, float pixelSize) const { return radiusOf(recordSize, settings, pixelSize); }
 
   void insert(uint32_t index) {
@@ -108,8 +116,7 @@ struct IrradianceCache::Impl {
     const float fades = fadesBehind ? frontFactor(r, step, n, radius, pixelSize / settings.kappa) : 1.0f;
     if (!(fades > 0)) return 0;
     const float position = std::sqrt(distance2) / radius, angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
-    return fades * (info.splitSphere ? splitSphereWeight(position, angle, settings.kappa)
-                                     : screenWeight(position, angle, settings.kappa));
+    return fades * std::visit([&](const auto& equations) { return equations.weight(position, angle); }, published);
   }
 
   // The candidates are in the order of the records, so that the result does not depend on the shape of the tree.
@@ -125,9 +132,9 @@ struct IrradianceCache::Impl {
   }
 
   ValidityBounds boundsAt(float pixelSize, float wider) const {
-    constexpr float kRounding = 1e-4f;
+    const float least = std::visit([](const auto& equations) { return equations.leastCosine(); }, published);
     return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize, wider * (1 + kRounding) / settings.kappa,
-            leastCosine(info, settings.kappa) - kRounding};
+            least - kRounding};
   }
 
   /// Lookups that lie close together share one walk through the tree.
@@ -152,7 +159,7 @@ struct IrradianceCache::Impl {
     tree.visit(region, reachOf, [&](uint32_t i) {
       const IrradianceRecord& r = records[i];
       const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
-      const float radius = std::min(reachOf(size(r)), (1 + 1e-4f) * r.limit);
+      const float radius = std::min(reachOf(size(r)), (1 + kRounding) * r.limit);
       if (dot(off, off) <= radius * radius) near.add(i, r, size(r));
     });
     near.slack.resize(near.records.size());
@@ -172,10 +179,10 @@ struct IrradianceCache::Impl {
   // Returns the error of the mean of linearly extrapolated records, to the second order, if they agree.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
                    float pixelSize, std::span<const LightShare> light) const {
-    if (!bends) return vec3(0.0f);
+    if (!correctsMean) return vec3(0.0f);
     const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
-    if (info.curvature)
+    if (info.needsCurvature())
       for (const Candidate& c : candidates) {
         const IrradianceRecord& r = records[c.record];
         const float far = reach(size(r), pixelSize);
@@ -232,7 +239,8 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
   impl.records.push_back(record);
   impl.disputes.add(luminance(record.E));
   if (!(impl.settings.kappa < kInfinity)) return;
-  if (isOn(Amendment::Slopes)) limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
+  if (impl.has(Amendment::Slopes))
+    limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
   impl.limitDisagreeing(static_cast<uint32_t>(impl.records.size() - 1));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
 }
@@ -252,7 +260,7 @@ IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, co
 void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider,
                              std::span<const LightShare> light) const {
   if (places.empty()) return;
-  if (impl_->info.published || impl_->info.curvature || !isOn(Amendment::Reach)) wider = 1;
+  if (!impl_->has(Amendment::Reach)) wider = 1;
   if (impl_->settings.kappa < kInfinity) {
     thread_local Vicinity near;
     thread_local std::vector<Candidate> found;

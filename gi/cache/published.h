@@ -1,40 +1,62 @@
 // Private to gi/irradiance_cache: how far a record may be used, as it was published, and nothing else. What this
-// renderer adds is in gi/cache/amendments.h. `position`: the distance to the record over its radius; `angle`:
-// sqrt(1 - n.ni).
+// renderer adds is in gi/cache/amendments. Each type has the size of a record, from which its radius follows; the
+// weight of a record at a point; and the least cosine between normals that has a weight. `position`: the distance to
+// the record over its radius; `angle`: sqrt(1 - n.ni).
 #pragma once
+#include <variant>
+
 #include "gi/cache/irradiance_record.h"
 #include "gi/irradiance_cache.h"
 
 namespace tomales {
 
-constexpr float kMaxAngleTerm = 0.0151922470f;  ///< 1 - cos(alpha+), alpha+ = 10 degrees (approximate-gi eq. 4).
+/// approximate-gi eq. 2 to 5: the error of a surface that is seen in the distance R_i, on the screen.
+struct Screen {
+  static constexpr float kMaxAngleTerm = 0.0151922470f;  ///< 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4).
+  float kappa;
 
-/// The size of a record, from which its radius follows.
-inline float sizeOf(const IrradianceRecord& r, const ErrorFunctionInfo& info, float kappa) {
-  if (info.splitSphere) return r.harmonicMean;                             // Ward et al. 1988
-  if (info.curvature) return std::min(r.smoothRadius, r.closest * kappa);  // Schwarzhaupt et al. 2012
-  return r.closest * 0.5f;                                                 // approximate-gi eq. 3
+  static float size(const IrradianceRecord& r) { return r.closest * 0.5f; }  // eq. 3
+  float weight(float position, float angle) const {
+    return std::max(0.0f, 1 - std::max(position, kappa * angle / std::sqrt(kMaxAngleTerm)));
+  }
+  float leastCosine() const { return 1 - kMaxAngleTerm / (kappa * kappa); }
+};
+
+/// Ward et al. 1988: a sphere around the point that is half bright and half dark. The weight is less 1, so that it
+/// falls to 0 where the record ends.
+struct SplitSphere {
+  float kappa;
+
+  static float size(const IrradianceRecord& r) { return r.harmonicMean; }
+  float weight(float position, float angle) const {
+    return std::max(0.0f, 1 / std::max(position + kappa * angle, 1e-4f) - 1);
+  }
+  float leastCosine() const { return 1 - 1 / (kappa * kappa); }
+};
+
+/// Schwarzhaupt et al. 2012: the radius follows from the second derivatives, and the rest is that of Screen.
+struct Hessian : Screen {
+  float size(const IrradianceRecord& r) const { return std::min(r.smoothRadius, r.closest * kappa); }
+};
+
+using Published = std::variant<Screen, SplitSphere, Hessian>;
+
+inline Published publishedBy(PublishedEquations equations, float kappa) {
+  switch (equations) {
+    case PublishedEquations::SplitSphere:
+      return SplitSphere{kappa};
+    case PublishedEquations::Hessian:
+      return Hessian{{kappa}};
+    case PublishedEquations::Screen:
+      break;
+  }
+  return Screen{kappa};
 }
 
 /// The distance at which the error reaches 1: the denominator of eq. 3 over kappa. The split sphere as it was published
 /// has no limits in pixels.
 inline float radiusOf(float size, const CacheSettings& settings, float pixelSize) {
   return std::max(std::min(size, settings.maxPixels * pixelSize), settings.minPixels * pixelSize) / settings.kappa;
-}
-
-/// approximate-gi eq. 2, 4 and 5. `hessian` has the same weight with another radius.
-inline float screenWeight(float position, float angle, float kappa) {
-  return std::max(0.0f, 1 - std::max(position, kappa * angle / std::sqrt(kMaxAngleTerm)));
-}
-
-/// Ward et al. 1988, less 1, so that it falls to 0 where the record ends.
-inline float splitSphereWeight(float position, float angle, float kappa) {
-  return std::max(0.0f, 1 / std::max(position + kappa * angle, 1e-4f) - 1);
-}
-
-/// Least cosine between normals that has a weight.
-inline float leastCosine(const ErrorFunctionInfo& info, float kappa) {
-  return 1 - (info.splitSphere ? 1.0f : kMaxAngleTerm) / (kappa * kappa);
 }
 
 }  // namespace tomales

@@ -21,9 +21,9 @@ class RecordTree {
   void insert(uint32_t record, const vec3& position, float size, float radius) {
     if (!root_.contains(position)) return outside_.push_back(record);
     Box box = root_;
-    int node = 0;
+    uint32_t node = 0;
     for (int depth = 0;; ++depth) {
-      Node& here = nodes_[static_cast<size_t>(node)];
+      Node& here = nodes_[node];
       here.largest = std::max(here.largest, size);
       if (depth == kMaxDepth || box.half < 2 * radius) return append(here, record);
       const int i = box.childIndex(position);
@@ -41,13 +41,13 @@ class RecordTree {
   }
 
  private:
-  static constexpr int kMaxDepth = 24, kNone = -1;
-  static constexpr uint32_t kNoRecord = ~uint32_t{0};
+  static constexpr int kMaxDepth = 24;
+  static constexpr uint32_t kNone = ~uint32_t{0};
 
   struct Node {
     float largest = 0;  ///< Size of the largest record of this node and of all below.
-    int child[8] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-    uint32_t first = kNoRecord, last = kNoRecord;  ///< Ends of a linked list through next_.
+    uint32_t child[8] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+    uint32_t first = kNone, last = kNone;  ///< Ends of a linked list through next_.
   };
 
   struct Box {
@@ -69,25 +69,25 @@ class RecordTree {
   };
 
   void append(Node& node, uint32_t record) {
-    while (next_.size() <= record) next_.push_back(kNoRecord);
-    (node.first == kNoRecord ? node.first : next_[node.last]) = record;
+    while (next_.size() <= record) next_.push_back(kNone);
+    (node.first == kNone ? node.first : next_[node.last]) = record;
     node.last = record;
   }
 
-  int descend(int node, int i) {
-    const int child = nodes_[static_cast<size_t>(node)].child[i];
+  uint32_t descend(uint32_t node, int i) {
+    const uint32_t child = nodes_[node].child[i];
     if (child != kNone) return child;
-    const int added = static_cast<int>(nodes_.size());
-    nodes_[static_cast<size_t>(node)].child[i] = added;
+    const auto added = static_cast<uint32_t>(nodes_.size());
+    nodes_[node].child[i] = added;
     nodes_.push_back({});
     return added;
   }
 
   template <class Reach, class Visit>
-  void visitNode(int node, const Box& box, const Bound3& region, const Reach& reach, const Visit& visit) const {
-    const Node& here = nodes_[static_cast<size_t>(node)];
+  void visitNode(uint32_t node, const Box& box, const Bound3& region, const Reach& reach, const Visit& visit) const {
+    const Node& here = nodes_[node];
     if (!box.touches(region, reach(here.largest))) return;
-    for (uint32_t record = here.first; record != kNoRecord; record = next_[record]) visit(record);
+    for (uint32_t record = here.first; record != kNone; record = next_[record]) visit(record);
     for (int i = 0; i < 8; ++i)
       if (here.child[i] != kNone) visitNode(here.child[i], box.child(i), region, reach, visit);
   }

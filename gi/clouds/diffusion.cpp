@@ -1,16 +1,9 @@
 #include "gi/clouds/diffusion.h"
 
-#include <algorithm>
-
+#include "gi/clouds/halves.h"
 #include "reyes/base/chunk_file.h"
 
 namespace tomales {
-namespace {
-
-constexpr uint32_t kPointLeaf = 8;
-
-}  // namespace
-
 Diffusion::Diffusion(const PointCloud& cloud) {
   const int area = offsetOf(cloud.channels, "_area", 1), light = offsetOf(cloud.channels, "_radiance_t", 3);
   if (area < 0 || light < 0)
@@ -42,13 +35,10 @@ uint32_t Diffusion::build(uint32_t begin, uint32_t end) {
                         // the area of a flat square equals half its squared diagonal, however few points it has
                         0.5f * dot(size, size));
   groups_.push_back(group);
-  if (end - begin <= kPointLeaf) return node;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(entries_.begin() + begin, entries_.begin() + middle, entries_.begin() + end,
-                   [axis](const Entry& a, const Entry& b) { return a.P[axis] < b.P[axis]; });
-  build(begin, middle);
-  const uint32_t second = build(middle, end);
+  const auto middle = halve(entries_, begin, end, size);
+  if (!middle) return node;
+  build(begin, *middle);
+  const uint32_t second = build(*middle, end);
   groups_[node].second = second;
   return node;
 }

@@ -1,11 +1,10 @@
 #include "gi/clouds/disks.h"
 
-#include <algorithm>
+#include "gi/clouds/halves.h"
 
 namespace tomales {
 namespace {
 
-constexpr uint32_t kDiskLeaf = 8;
 constexpr int kDirections = 1024;
 // turn between successive directions of a spiral, whose points are evenly spread
 constexpr float kGoldenAngle = 2.399963f;
@@ -67,13 +66,10 @@ uint32_t Disks::build(uint32_t begin, uint32_t end) {
   const vec3 size = group.bound.size();
   group.seen = std::max(group.sum.area, 0.5f * dot(size, size));  // however sparse it is
   groups_.push_back(group);
-  if (end - begin <= kDiskLeaf) return node;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(disks_.begin() + begin, disks_.begin() + middle, disks_.begin() + end,
-                   [axis](const Disk& a, const Disk& b) { return a.P[axis] < b.P[axis]; });
-  build(begin, middle);
-  const uint32_t second = build(middle, end);
+  const auto middle = halve(disks_, begin, end, size);
+  if (!middle) return node;
+  build(begin, *middle);
+  const uint32_t second = build(*middle, end);
   groups_[node].second = second;
   return node;
 }

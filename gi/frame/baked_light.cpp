@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 
 constexpr BrickSettings kBricks{
     0.01f};  ///< maxError is a share of the mean: a third of that of photon maps, over which gather rays average.
-constexpr float kBakedOverlap = 0.8f;  ///< Radius of a point's disk over the edge of its micropolygon: neighbours meet.
 
 struct LitPoint {
   vec3 P, N;  ///< In world space.
@@ -67,7 +66,7 @@ class Baking {
       if (!light) continue;
       const vec3& N = at.normal;
       out.push_back({transformPoint(world_.points, batch.position(i)), normalizeOr(world_.normals * N, N),
-                     kBakedOverlap * world_.scale * batch.edgeLength(i), kPi * *light,
+                     kDiskOfSquare * world_.scale * batch.edgeLength(i), kPi * *light,
                      names_.surface[static_cast<size_t>(batch.group())]});
     }
     return out;

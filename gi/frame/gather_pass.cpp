@@ -3,13 +3,13 @@
 #include <optional>
 #include <unordered_set>
 
-#include "gi/cache/amendments.h"
+#include "gi/cache/amendments/switches.h"
 #include "gi/frame/frame_survey.h"
 #include "gi/frame/gather_tile.h"
-#include "gi/frame/occluder_search.h"
 #include "gi/frame/record_fields.h"
 #include "gi/frame/record_slices.h"
 #include "gi/frame/state.h"
+#include "gi/gather/occluders.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
 #include "reyes/base/rng.h"

@@ -124,7 +124,7 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
   plan.cache = settingsOf(settings.errorFunction.value_or(query.errorFunction), maxError);
-  plan.gather.curvature = infoOf(plan.cache.errorFunction).curvature && maxError > 0;
+  plan.gather.curvature = infoOf(plan.cache.errorFunction).needsCurvature() && maxError > 0;
   if (plan.gather.curvature) plan.gather.maxError = maxError;
   plan.cache.kappa = maxError > 0 ? plan.cache.kappa / maxError : kInfinity;
   plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);

@@ -11,7 +11,6 @@
 namespace tomales {
 namespace {
 
-constexpr uint32_t kPassStream = randomStream("pass");
 /// Photons of one pass: the fewer, the more often radii shrink, and the more often the grid is built.
 constexpr int64_t kPhotonsOfPass = 1 << 17;
 /// Disks of the first pass over a micropolygon; alpha = 2/3 makes noise and bias fall equally fast (Knaus and Zwicker
@@ -63,7 +62,7 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
   int64_t sent = 0;
   for (int64_t pass = 1; sent < passes.photons && stream.power() > 0 && measurement->size() > 0; ++pass) {
     measurement->beginPass(static_cast<float>(scale));
-    sent += stream.pass(hashCombine(passes.seed, kPassStream, static_cast<uint32_t>(pass)),
+    sent += stream.pass(hashCombine(passes.seed, randomStream("pass"), static_cast<uint32_t>(pass)),
                         [&](std::span<const StoredPhoton> photons) { measurement->count(photons); });
     if (passes.shrinks) scale *= std::sqrt((static_cast<double>(pass) + kAlpha) / (static_cast<double>(pass) + 1));
     if (progress) progress(std::min(1.0f, static_cast<float>(sent) / static_cast<float>(passes.photons)));

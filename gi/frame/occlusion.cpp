@@ -7,8 +7,6 @@
 namespace tomales {
 namespace {
 
-constexpr float kMostPixels = 40;  ///< R+, the same as for the Hessian's records of light.
-
 /// A visible point at which the shaders of its group are run to learn their queries.
 struct ExamplePoint {
   uint32_t order = ~0U;  ///< The point with the least number of its group is taken, whatever the tiles are.
@@ -70,8 +68,8 @@ void learnOcclusionQueries(GiState& state, const DeepFrame& layout, const TileRe
 GatherPlan planFor(const GiState& state, int group, const OcclusionQuery& query) {
   GatherPlan plan;
   plan.cache.errorFunction = ErrorFunction::Hessian;
-  plan.cache.maxPixels =
-      state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(kMostPixels);
+  plan.cache.maxPixels = state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(
+      infoOf(ErrorFunction::Hessian).maxPixels);
   plan.gather.curvature = true;
   plan.gather.samples = query.samples;
   plan.gather.maxDistance = query.maxDistance;

@@ -6,13 +6,12 @@
 namespace tomales {
 
 float rayTime(const RayScene& rays, const ShadePoints& points, int i, int number, int count, uint32_t seed) {
-  constexpr uint32_t kTimeStream = randomStream("time");  // keeps times independent of the directions at the same point
   const float own = points.channel(kTime)[i];
   if (own >= 0) return own;
   if (!rays.samplesTime(points.group())) return 0;
   const SampleName name = points.name(i);
   const uint32_t index = name.sequence * static_cast<uint32_t>(count) + static_cast<uint32_t>(number);
-  return sobol1(index, hashCombine(name.key, kTimeStream, seed));
+  return sobol1(index, hashCombine(name.key, randomStream("time"), seed));
 }
 
 void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray& ray) {

@@ -13,8 +13,6 @@ namespace {
 constexpr size_t kRaysPerBatch = 4096;  // shaded together
 // The share of paths that go on from places that no map knows: those that never come to another place end.
 constexpr float kGoesOn = 2.0f / 3;
-constexpr uint32_t kPathStream =
-    randomStream("path");  // keeps directions independent of the light samples at the same point
 
 // Sums of one point over its paths.
 struct PathSum {
@@ -149,7 +147,7 @@ void traceToStored(const GiState& state, const ShadePoints& points, const std::v
   for (const int i : which) {
     E.x[i] = E.y[i] = E.z[i] = 0;
     const uint32_t name = hashCombine(points.name(i).key, points.name(i).sequence, state.settings.seed);
-    if (unitFloat(hash32(name ^ kPathStream)) >= kGoesOn) continue;
+    if (unitFloat(hash32(name ^ randomStream("path"))) >= kGoesOn) continue;
     const vec3 facing = points.facingNormal(i);
     for (int k = 0; k < 3; ++k) n[k][i] = facing[k];
     sums.push_back({i});

@@ -1,8 +1,9 @@
 #include "gi/gather.h"
 
-#include "gi/cache/amendments.h"
-#include "gi/gather/hemisphere.h"
+#include "gi/cache/amendments/switches.h"
+#include "gi/gather/contrast_cells.h"
 #include "gi/gather/hessian.h"
+#include "gi/gather/occluders.h"
 #include "gi/gather/rays.h"
 #include "reyes/base/random_streams.h"
 
@@ -12,8 +13,6 @@ namespace {
 /// In squared pixels, at `maxerror` 1: about as many records as with the paper's function
 /// (docs/measured/irradiance_cache.md).
 constexpr float kHessianTolerance = 4;
-/// In means of the hemisphere. A greater difference between the neighbours of a cell is a small bright source.
-constexpr float kContrast = 4;
 constexpr int kMostSplit = 8;
 constexpr float kMostAimed = 0.5f;  ///< Greatest number of rays at bright spots, for each ray of the hemisphere.
 constexpr size_t kLeastAimed = 8;
@@ -42,28 +41,6 @@ struct Scratch {
   std::vector<CellSpread> spread;
   std::vector<float> upright;
 };
-
-/// Returns the cells where light changes fast: those whose neighbours differ by more than kContrast times the mean. The
-/// cell's own ray is not considered, so that choosing cells for more rays leaves the estimate unbiased.
-std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec3> radiance) {
-  const int M = cells.rings, N = cells.sectors;
-  const auto light = [&](int j, int k) { return luminance(radiance[static_cast<size_t>(j * N + (k + N) % N)]); };
-  float mean = 0;
-  for (const vec3& L : radiance) mean += luminance(L) / static_cast<float>(radiance.size());
-  std::vector<int> out;
-  for (int j = 0; j < M; ++j)
-    for (int k = 0; k < N; ++k) {
-      float least = kInfinity, most = 0;
-      for (int ring = std::max(j - 1, 0); ring <= std::min(j + 1, M - 1); ++ring)
-        for (int side = -1; side <= 1; ++side) {
-          if (ring == j && side == 0) continue;
-          least = std::min(least, light(ring, k + side));
-          most = std::max(most, light(ring, k + side));
-        }
-      if (most - least > kContrast * mean) out.push_back(j * N + k);
-    }
-  return out;
-}
 
 /// Traces the rays of one record.
 class Hemisphere {
@@ -259,22 +236,6 @@ class Hemisphere {
   size_t aims_ = 0;
   Scratch& scratch_ = scratchOfThread();
 };
-
-/// Returns the validity radius under a nearby occluder. Light changes there over the occluder's height, whatever the
-/// size of a pixel, so a record is valid as far as that and no farther, but for at least a quarter of a pixel. A tenth
-/// of the nearly upright rays have to meet the occluder, so that a hair does not count.
-float radiusUnderOccluder(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
-  constexpr float kUpright = 0.8f;  // cosine
-  constexpr size_t kTenth = 10;
-  constexpr float kFinestPixels = 0.25f;
-  upright.clear();
-  for (size_t i = 0; i < samples.directions.size(); ++i)
-    if (dot(samples.directions[i], samples.normal) > kUpright) upright.push_back(samples.distances[i]);
-  if (upright.empty()) return kInfinity;
-  const auto height = upright.begin() + static_cast<ptrdiff_t>(upright.size() / kTenth);
-  std::nth_element(upright.begin(), height, upright.end());
-  return std::max(*height, kFinestPixels * pixelSize);
-}
 
 /// Returns the radius over which the light may be off by `maxError` times the tolerance. The radius of the Hessian
 /// grows by the fourth root of that. The cache multiplies all radii by `maxError` later, which is divided out here.

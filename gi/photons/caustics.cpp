@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kFan = 8, kDisksPerTask = 256;
+constexpr size_t kFan = 8;
 
 bool holds(const Bound3& b, const vec3& p) { return b.lo == glm::min(b.lo, p) && b.hi == glm::max(b.hi, p); }
 
@@ -19,7 +19,7 @@ CausticPhotons::CausticPhotons(PointCloud photons, const PhotonIrradianceSetting
   CHECK_GE(power_, 0);
   const float reach = reachOf(settings, tree_.photons().bound());
   const auto most = static_cast<size_t>(settings.nearest) + 1;  // the photon itself is one
-  parallelFor(radius_.size(), kDisksPerTask, [&](size_t begin, size_t end) {
+  parallelFor(radius_.size(), PhotonTree::kLookupsPerTask, [&](size_t begin, size_t end) {
     std::vector<NearPhoton> heap;
     for (size_t i = begin; i < end; ++i) {
       const auto at = static_cast<uint32_t>(i);

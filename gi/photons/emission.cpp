@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kProbes = 4;  ///< In each cell of a cone
 constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
-constexpr uint32_t kSecondPair = randomStream("phot");
 /// Cells where no probe saw light get this share of the brightest cell, so that a beam between the probes is not lost.
 constexpr double kFloor = 1e-3;
 /// Bias of photons from a point light, relative to the size of the scene and the distance of its origin: such lights
@@ -37,7 +36,7 @@ Distribution withFloor(const std::vector<double>& weights) {
 
 std::vector<vec2> fewSamples() {
   std::vector<vec2> xi;
-  for (uint32_t i = 0; i < kFewSamples; ++i) xi.push_back(sobol2(i, kSecondPair));
+  for (uint32_t i = 0; i < kFewSamples; ++i) xi.push_back(sobol2(i, randomStream("phot")));
   return xi;
 }
 
@@ -65,7 +64,7 @@ StartNumbers startNumbers(uint32_t first, uint32_t stream, size_t count) {
     sobol2(number, std::vector(count, name), xi);
     return xi;
   };
-  return {pairs(stream), pairs(hashCombine(stream, kSecondPair))};
+  return {pairs(stream), pairs(hashCombine(stream, randomStream("phot")))};
 }
 
 PhotonTarget::PhotonTarget(const Scene& scene) {

@@ -12,7 +12,6 @@
 namespace tomales {
 namespace {
 
-constexpr uint32_t kGlowStream = randomStream("phot");
 /// Places that are asked how bright they are: in all, and at least and at most on one side of an object.
 constexpr size_t kGlowProbes = 1 << 17, kFewestOfSide = 16, kMostOfSide = 8192;
 constexpr int kMostColumns = 32;
@@ -97,11 +96,11 @@ void GlowPhotons::survey(Surface& out, size_t mostProbes) const {
       for (size_t c = first; c < last; ++c)
         areas[c] =
             double{areaOf(out.mesh->corners(static_cast<uint32_t>(c / perPolygon)))} / static_cast<double>(perPolygon);
-      const uint32_t name = hashCombine(kGlowStream, static_cast<uint32_t>(k));
+      const uint32_t name = hashCombine(randomStream("phot"), static_cast<uint32_t>(k));
       const size_t one =
           first +
           std::min(last - first - 1, static_cast<size_t>(unitFloat(hash32(name)) * static_cast<float>(last - first)));
-      starts.push_back(startIn(out, one, sobol2(static_cast<uint32_t>(k), kGlowStream)));
+      starts.push_back(startIn(out, one, sobol2(static_cast<uint32_t>(k), randomStream("phot"))));
       directions.push_back(towards(starts.back().normal, cosineHemisphere(sobol2(static_cast<uint32_t>(k), name))));
       names.push_back({name, 0});
     }
@@ -167,7 +166,7 @@ std::vector<vec3> GlowPhotons::radianceAlong(const std::vector<Start>& starts, c
 }
 
 void GlowPhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
-  const StartNumbers xi = startNumbers(first, hashCombine(seed, kGlowStream), out.size());
+  const StartNumbers xi = startNumbers(first, hashCombine(seed, randomStream("phot")), out.size());
   std::vector<vec3> directions(out.size());
   cosineHemispheres(xi.b, directions);
   std::vector<Start> starts;
@@ -181,7 +180,7 @@ void GlowPhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>
     density.push_back(surface.cells.weight(cell) / choice_.total());
     const float cosine = directions[i].z;
     directions[i] = towards(starts[i].normal, directions[i]);
-    names.push_back({hashCombine(seed, kGlowStream, first + static_cast<uint32_t>(i)), 0});
+    names.push_back({hashCombine(seed, randomStream("phot"), first + static_cast<uint32_t>(i)), 0});
     Ray& ray = out[i].ray;
     ray = {starts[i].P, directions[i]};
     rays_.prepareOrigin(rays_.groupOf(starts[i].hit), ray.origin, 0, ray);

@@ -21,7 +21,6 @@ constexpr size_t kFew = 8;  ///< Fewer photons do not show how far apart they ar
 /// bricks finer than the data.
 constexpr float kMuchCloser = 0.5f;
 constexpr float kMostOfMap = 0.05f;
-constexpr size_t kEstimatesPerTask = 256;
 
 /// A circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
 vec2 segment(float theta) {
@@ -203,7 +202,7 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
   const auto every = static_cast<size_t>(std::max(1, settings.every));
   const size_t count = (tree.photons().count() + every - 1) / every;
   std::vector<Estimate> estimates(count);
-  parallelFor(count, kEstimatesPerTask, [&](size_t begin, size_t end) {
+  parallelFor(count, PhotonTree::kLookupsPerTask, [&](size_t begin, size_t end) {
     throwIfStopped();
     std::vector<NearPhoton> heap;
     for (size_t i = begin; i < end; ++i) {

@@ -13,7 +13,6 @@ constexpr float kThroughPortals = 0.75f;  ///< Share of photons through portals,
 constexpr uint32_t kRays = 256;           ///< Number of rays that find on which side of a portal the sky is.
 /// Least share of the sky that counts as free on a side of a portal: glass may have been in the way of all those rays.
 constexpr float kLeastFree = 1.0f / 32;
-constexpr uint32_t kPlaces = randomStream("port"), kDirections = randomStream("aspe");
 
 vec3 direction(double cosTheta, double phi) {
   const double r = std::sqrt(std::max(0.0, 1 - cosTheta * cosTheta));
@@ -53,8 +52,8 @@ float freeSky(const RayScene& rays, const Portal& portal, const vec3& normal) {
   orthonormalBasis(axis, tangent, bitangent);
   float free = 0;
   for (uint32_t i = 0; i < kRays; ++i) {
-    const vec2 at = sobol2(i, kPlaces);
-    const vec3 local = cosineHemisphere(sobol2(i, kDirections));
+    const vec2 at = sobol2(i, randomStream("port"));
+    const vec3 local = cosineHemisphere(sobol2(i, randomStream("aspe")));
     const Ray ray{portal.corner + at.x * portal.u + at.y * portal.v,
                   local.x * tangent + local.y * bitangent + local.z * axis};
     free += rays.closest(ray, kMaskPhoton).object < 0 ? 1.0f / kRays : 0.0f;

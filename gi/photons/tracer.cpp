@@ -1,6 +1,5 @@
 #include "gi/photons/tracer.h"
 
-#include "gi/gather.h"
 #include "raytrace/emitter_shapes.h"
 #include "raytrace/hit_list.h"
 #include "reyes/base/random_streams.h"
@@ -8,28 +7,6 @@
 #include "reyes/base/stop.h"
 
 namespace tomales {
-namespace {
-
-constexpr uint32_t kBounceStream = randomStream("boun"), kMediumStream = randomStream("medi"),
-                   kTimeStream = randomStream("time");
-/// The spread of a gather ray of about a hundred; irradiance is estimated over more.
-constexpr float kDiffuseSpread = 0.1f;
-constexpr uint32_t kMostPasses =
-    1000;  ///< Limit for one path: layers of leaves and smoke end somewhere, faults of geometry may not.
-
-/// Reflection or refraction at a smooth dielectric.
-vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
-  const float eta = entering ? 1 / index : index, cosine = -dot(d, towards);
-  const float k = 1 - eta * eta * (1 - cosine * cosine);
-  const vec3 mirrored = d + 2 * cosine * towards;
-  if (k < 0) return mirrored;
-  const float inside = std::sqrt(k);
-  const float rs = (eta * cosine - inside) / (eta * cosine + inside),
-              rp = (cosine - eta * inside) / (cosine + eta * inside);
-  return xi < 0.5f * (rs * rs + rp * rp) ? mirrored : eta * d + (eta * cosine - inside) * towards;
-}
-
-}  // namespace
 
 bool isOnFor(const ShadeGroup& group, int light) {
   const std::vector<int>& on = group.attributes->lights;
@@ -55,7 +32,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
                          std::vector<StoredPhoton>& out) const {
   std::vector<EmittedPhoton> emitted(count);
   source.emit(first, seed, emitted);
-  const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(source.light()), kBounceStream);
+  const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(source.light()), randomStream("boun"));
   std::vector<Path> paths;
   Scratch scratch;
   paths.reserve(count);
@@ -82,7 +59,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
 
 /// All of a path happens at one time of the shutter.
 float PhotonTracer::timeOf(uint32_t number, uint32_t stream) const {
-  return samplesTime_ ? sobol1(number, hashCombine(stream, kTimeStream)) : 0.0f;
+  return samplesTime_ ? sobol1(number, hashCombine(stream, randomStream("time"))) : 0.0f;
 }
 
 /// Moves every path to its next surface; paths that end there are removed from `flying`.
@@ -167,7 +144,7 @@ void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch
     const Medium& medium = dot(path.ray.direction, hit.geometricNormal) > 0 ? media.inside : media.outside;
     const float majorant = medium.majorant(path.power);
     if (!(majorant > 0)) continue;
-    const uint32_t name = hashCombine(nameOf(path, stream), kMediumStream, path.collisions);
+    const uint32_t name = hashCombine(nameOf(path, stream), randomStream("medi"), path.collisions);
     const float flight = -std::log(1 - sobol1(path.number, name)) / majorant;
     if (!(flight < hit.t)) continue;
     s.scattered[k] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
@@ -220,103 +197,8 @@ void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch&
   for (size_t i = 0; i < which.size(); ++i) s.answers[which[i]] = &s.found[i];
 }
 
-/// Light that comes straight from a lamp, or by mirrors, is seen only by objects for which that lamp is switched on.
-bool PhotonTracer::landsOn(const Path& path, int group) const {
-  return !path.specular || isOnFor(scene_.groups[static_cast<size_t>(group)], path.light);
-}
-
 uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) {
   return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16);
-}
-
-/// Returns false where the path ends.
-bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
-                         std::vector<StoredPhoton>& out) const {
-  const int group = groupOf(hit);
-  const PhotonModel model = surfaces_.model(group);
-  const uint32_t name = nameOf(path, stream);
-  if (model == PhotonModel::Transparent)
-    return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
-  if (!surfaces_.isDiffuse(group))
-    return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
-  // The transparent part, as the rest of a leaf's card, stores no light.
-  const vec3 transmitted = 1.0f - answer.opacity;
-  const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
-  const bool lands = passing < 1 && landsOn(path, group);
-  if (lands && (settings_.direct || path.depth > 0)) {
-    const vec3 Ng = hit.geometricNormal;
-    out.push_back({hit.atOpen, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth, path.bounces,
-                   path.focused});
-  }
-  if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)
-    return passes(path, hit, transmitted / passing, xi.survival);
-  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, hashCombine(name, 2u));
-}
-
-/// Passes the surface as if nothing were there, tinted: it counts as no arrival, and makes no caustic.
-bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, float xi) const {
-  if (++path.passes > kMostPasses || !survives(path, transmitted, xi)) return false;
-  leave(path, hit, path.ray.direction);
-  return true;
-}
-
-bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const {
-  if (++path.depth >= settings_.maxDepth || !scatters(path) || !survives(path, reflected, xi.survival)) return false;
-  // Around the interpolated normal some photons would start into the polygon, and be caught in the body that it bounds.
-  const bool through = surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
-  const vec3 axis =
-      (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal : -hit.geometricNormal;
-  vec3 tangent, bitangent;
-  orthonormalBasis(axis, tangent, bitangent);
-  const vec3& local = xi.direction;
-  leave(path, hit, local.x * tangent + local.y * bitangent + local.z * axis);
-  return true;
-}
-
-bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float xi) const {
-  const PhotonModel model = surfaces_.model(groupOf(hit));
-  const vec3& tint = scene_.groups[static_cast<size_t>(groupOf(hit))].attributes->color;
-  if (++path.depth >= settings_.maxDepth || !survives(path, tint, survival)) return false;
-  if (path.specular && !path.focused) {
-    path.focused = true;
-    ++path.bounces;
-  }
-  const vec3 d = path.ray.direction;
-  const bool front = dot(d, hit.geometricNormal) < 0;
-  const vec3 N = front ? hit.normal : -hit.normal;
-  const vec3 mirrored = d - 2 * dot(d, N) * N;
-  const float index = model == PhotonModel::Water ? 1.33f : 1.5f;
-  leave(path, hit, normalizeOr(model == PhotonModel::Chrome ? mirrored : dielectric(d, N, front, index, xi), N));
-  return true;
-}
-
-/// Counts a diffuse surface or a collision. Returns false if no later arrival would count.
-bool PhotonTracer::scatters(Path& path) const {
-  path.specular = false;
-  return ++path.bounces <= settings_.mostBounces && (path.focused || !settings_.focusedOnly);
-}
-
-/// Surviving photons keep the power that they came with, so that all stored photons have about the same power.
-bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
-  const vec3 power = path.power * left;
-  const float survival = std::min(1.0f, maxComponent(power) / maxComponent(path.power));
-  if (!(xi < survival)) return false;
-  path.power = power / survival;
-  return true;
-}
-
-/// Sends the photon on in a unit direction.
-void PhotonTracer::leave(Path& path, const Hit& hit, const vec3& direction) const {
-  Ray& ray = path.ray;
-  const vec3& N = hit.normal;
-  ray.origin += hit.t * ray.direction;
-  ray.direction = direction;
-  // The tessellation level of the next hit follows from the ray's width; the texture filter there does not.
-  ray.spread = path.specular ? 0.0f : kDiffuseSpread;
-  rays_.prepareOrigin(groupOf(hit), ray.origin, 0, ray);
-  ray.spread = 0;
-  ray.offset = slantedOffset(ray.offset, std::abs(dot(direction, N)));
-  path.lift = liftOf(ray, hit.geometricNormal);
 }
 
 }  // namespace tomales

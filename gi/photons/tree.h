@@ -14,6 +14,8 @@ struct NearPhoton {
 
 class PhotonTree {
  public:
+  static constexpr size_t kLookupsPerTask = 256;  ///< Searches that one thread makes at a time.
+
   explicit PhotonTree(PointCloud photons);
 
   /// The photons in the order of the tree, in which neighbours are neighbours in space.

@@ -8,9 +8,7 @@ namespace tomales {
 namespace {
 
 constexpr int kSamples = 2;  ///< Samples along each edge of a texel.
-constexpr float kShare = 1.0f / (kSamples * kSamples);
 constexpr size_t kSamplesPerBatch = 1024;
-constexpr uint32_t kBakeStream = randomStream("radi");
 
 /// Collects samples of texels, to shade many together.
 class Samples {
@@ -32,10 +30,11 @@ class Samples {
   }
   void flush() {
     bake_.rays.shadeHits(rays_, hits_, names_, bake_.shading, context_, answers_);
+    constexpr float share = 1.0f / (kSamples * kSamples);
     for (size_t i = 0; i < sums_.size(); ++i)
       if (isFinite(answers_.color[i])) {
-        sums_[i]->radiance += kShare * answers_.color[i];
-        sums_[i]->coverage += kShare;
+        sums_[i]->radiance += share * answers_.color[i];
+        sums_[i]->coverage += share;
       }
     rays_.clear();
     hits_.clear();
@@ -107,8 +106,8 @@ std::vector<BakedTexel> bakeTexels(const RadiosityBake& bake, std::span<const Ra
   Samples samples(bake);
   forEachTexel(charts, run, [&](uint32_t patch, size_t t) {
     const RadiosityChart& chart = charts[patch];
-    const uint32_t key =
-        hashCombine(hashCombine(kBakeStream, static_cast<uint32_t>(run.object), patch), static_cast<uint32_t>(t));
+    const uint32_t key = hashCombine(hashCombine(randomStream("radi"), static_cast<uint32_t>(run.object), patch),
+                                     static_cast<uint32_t>(t));
     sample(bake, {run.object, patch, run.back, texelSquare(chart, t), 0.5f * chart.texelSize / kSamples, key}, samples,
            out.emplace_back());
   });

@@ -14,7 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kTexelOverlap = 0.8f;  ///< Radius of a point's disk over the edge of its texel: neighbours meet.
 constexpr size_t kRunsPerWave = 256;   ///< Runs that are baked before they are written.
 constexpr uint32_t kBricksMethod = 1;  ///< Has to be increased when the same inputs begin to make other files.
 
@@ -63,7 +62,7 @@ class RadiosityBaking {
       const std::array values{B.x, B.y, B.z, static_cast<float>(names_.surface[group])};
       if (N != vec3(0))
         file.add(transformPoint(world_.points, surface.P), run.back ? -N : N,
-                 kTexelOverlap * world_.scale * charts[patch].texelSize, values.data());
+                 kDiskOfSquare * world_.scale * charts[patch].texelSize, values.data());
     });
   }
 

@@ -1,88 +1,14 @@
 #include <filesystem>
 
-#include "reyes/base/rng.h"
 #include "reyes/image/cryptomatte.h"
 #include "reyes/image/deep_rows.h"
 #include "reyes/image/display_format.h"
+#include "reyes/image/encoding.h"
 #include "reyes/image/formats.h"
+#include "reyes/image/view.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
-namespace {
-
-// RISpec 3.2 section 4.1.7: round(zero + value (one - zero) + dither random), clamped. Random numbers are named by
-// pixel and channel.
-float quantised(float value, const Quantize& q, float limit, uint32_t name) {
-  const float noisy = std::floor(q.zero + (q.one - q.zero) * value + q.dither * (2 * unitFloat(name) - 1) + 0.5f);
-  const float low = std::max(q.min, 0.0f);
-  return noisy > low ? std::min(noisy, std::min(q.max, limit)) : low;  // NaN becomes the minimum, too
-}
-
-void quantise(Image& image, const std::vector<Quantize>& quantizers, float limit) {
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (size_t c = 0; c < image.channels.size(); ++c) {
-        const uint32_t name = hashCombine(static_cast<uint32_t>(x + image.originX),
-                                          static_cast<uint32_t>(y + image.originY), static_cast<uint32_t>(c));
-        float& v = image.at(x, y)[c];
-        v = quantised(v, quantizers[c], limit, name);
-      }
-}
-
-float exposed(float value, float gain, float gamma) {
-  value *= gain;
-  return gamma == 1 ? value : std::pow(std::max(value, 0.0f), 1 / gamma);
-}
-
-void divideByAlpha(Image& image) {
-  const int alpha = image.channelIndex("A");
-  const size_t channels = image.channels.size();
-  for (size_t i = 0; alpha >= 0 && i < image.pixels.size(); i += channels) {
-    const float a = image.pixels[i + static_cast<size_t>(alpha)];
-    for (size_t c = 0; c < channels; ++c)
-      if (static_cast<int>(c) != alpha) image.pixels[i + c] = a > 0 ? image.pixels[i + c] / a : 0.0f;
-  }
-}
-
-void encodeForScreen(Image& image) {
-  const int alpha = image.channelIndex("A");
-  for (size_t i = 0; i < image.pixels.size(); ++i)
-    if (static_cast<int>(i % image.channels.size()) != alpha) image.pixels[i] = encodeSrgb(image.pixels[i]);
-}
-
-}  // namespace
-
-float encodeSrgb(float linear) {
-  const float v = linear > 0 ? std::min(linear, 1.0f) : 0.0f;
-  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
-}
-
-void expose(Image& image, const Options& options) {
-  for (const char* name : {"R", "G", "B"}) {
-    const int channel = image.channelIndex(name);
-    for (size_t i = static_cast<size_t>(channel); channel >= 0 && i < image.pixels.size(); i += image.channels.size()) {
-      image.pixels[i] = exposed(image.pixels[i], options.exposureGain, options.exposureGamma);
-    }
-  }
-}
-
-Metadata matrix(const char* name, const mat4& m) {
-  // RenderMan's matrices act on rows from the right and are stored by rows: that is glm's storage.
-  return {name, "", std::vector<float>(&m[0][0], &m[0][0] + 16)};
-}
-
-/// Attributes of OpenEXR's standard (ImfStandardAttributes.h): world to NDC gives (0, 0) at the top left of the display
-/// window and (1, 1) at the bottom right.
-std::vector<Metadata> cameraOf(const View& view) {
-  mat4 ndcFromScreen(1.0f);
-  ndcFromScreen[0][0] = 0.5f;
-  ndcFromScreen[1][1] = -0.5f;
-  ndcFromScreen[3] = {0.5f, 0.5f, 0, 1};
-  return {matrix("worldtocamera", view.cameraFromWorld),
-          matrix("worldToNDC", ndcFromScreen * view.screenFromWorld),
-          {"near", "", {view.near}},
-          {"far", "", {view.far}}};
-}
 
 struct DisplayFile::Impl {
   Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l, const View& view,
@@ -105,7 +31,7 @@ struct DisplayFile::Impl {
     if (writesDeep(display)) openDeep();
     for (Metadata& m : cameraOf(view)) format.metadata.push_back(std::move(m));
     if (writesDeep(display) || writesShadowMap(display))
-      format.metadata.push_back(matrix("worldtoscreen", view.screenFromWorld));
+      format.metadata.push_back(matrixEntry("worldtoscreen", view.screenFromWorld));
     if (writesDeep(display)) {
       const PixelFilter filter = positiveFilter(options);
       format.metadata.push_back(
@@ -273,24 +199,6 @@ bool writeDisplay(const Image& image, const DisplayCall& display, const Options&
   one.displays = {display};
   DisplayFile file(image, outputOf(one, &log), 0, one, log);
   return file.write(image) && file.close();
-}
-
-View viewOf(const Camera& camera, const mat4& cameraFromWorld) {
-  const vec2 size(camera.xResolution(), camera.yResolution());
-  const vec2 center = camera.raster({0, 0, 1}), scale = camera.raster({1, 1, 1}) - center;
-  const vec2 toScreen(2 / size.x, -2 / size.y), origin = center * toScreen + vec2(-1, 1), stretch = scale * toScreen;
-  mat4 screenFromCamera(1.0f);
-  screenFromCamera[0][0] = stretch.x;
-  screenFromCamera[1][1] = stretch.y;
-  const int last = camera.perspective() ? 2 : 3;  // index of the component that divides x and y: z, or none
-  screenFromCamera[last][0] = origin.x;
-  screenFromCamera[last][1] = origin.y;
-  if (camera.perspective()) {
-    screenFromCamera[2][3] = 1;
-    screenFromCamera[3][3] = 0;
-    screenFromCamera[3][2] = -camera.nearClip();
-  }
-  return {cameraFromWorld, screenFromCamera * cameraFromWorld, camera.nearClip(), camera.farClip()};
 }
 
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log) {

@@ -1,4 +1,4 @@
-"""What each amendment of the irradiance cache (gi/cache/amendments.h) mends and costs: it is switched off alone, over the laboratory scenes and cornell.
+"""What each amendment of the irradiance cache (gi/cache/amendments/switches.h) mends and costs: it is switched off alone, over the laboratory scenes and cornell.
     amendments.py TOMALES [--size 48] [--samples 200] [--scenes ...] [--without ...] [--error-function screen] [--keep FOLDER] [-t 1]
 Indirect light against a gather at every point with six times the rays. Each row has the mean error, that of the worst window of 8 x 8 pixels, the share of
 black pixels that get light, records and CPU seconds; flicker is that of tests/stability/flicker_test.py on fixed points, of box_ball alone."""
@@ -17,7 +17,7 @@ sys.path.insert(0, str(TESTS / "image"))
 from pictures import pixels  # noqa: E402
 
 LABORATORY = TESTS / "stability" / "irradiance_cache"
-NAMES = re.findall(r'"([a-z-]+)"', re.search(r"kAmendments\[\] = \{(.*?)\}", (TESTS.parent / "gi/cache/amendments.h").read_text(), re.S)[1])
+NAMES = re.findall(r'"([a-z-]+)"', re.search(r"kAmendments = \{(.*?)\}", (TESTS.parent / "gi/cache/amendments/switches.h").read_text(), re.S)[1])
 FLOOR, WINDOW = 0.01, 8
 
 parser = argparse.ArgumentParser()

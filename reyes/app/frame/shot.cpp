@@ -85,7 +85,7 @@ void ShotJob::prepareLight() {
   KeptGeometry& geometry = files_->kept();
   if (!geometry.shaders) geometry.shaders = frameShaders(settings_, log_);
   world_ = std::make_unique<RayWorld>(shot_, geometry, settings_, stats_, log_);
-  job_ = std::make_unique<FrameJob>(shot_.scene, *files_->kept().shaders, settings_, stats_, log_);
+  job_ = std::make_unique<FrameJob>(shot_.scene, *geometry.shaders, settings_, stats_, log_);
   kept_ = keptGather();
   job_->keepWork(kept_.get());
   job_->prepareRays([this] { return world_->tools(); });

@@ -3,7 +3,7 @@
 #include <map>
 #include <numeric>
 
-#include "gi/frame/occluder_search.h"
+#include "gi/gather/occluders.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"
 #include "tests/unit/gi/fixture.h"

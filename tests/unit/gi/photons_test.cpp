@@ -3,45 +3,23 @@
 
 #include <gtest/gtest.h>
 
-#include "gi/atlas.h"
-#include "gi/point_file.h"
 #include "reyes/base/parallel.h"
-#include "reyes/base/rng.h"
-#include "reyes/world_sum.h"
-#include "tests/unit/gi/fixture.h"
+#include "tests/unit/gi/photon_scenes.h"
 
 namespace tomales {
 namespace {
 
 using namespace test;
-namespace fs = std::filesystem;
-
-// Inside a sphere, a light in the middle gives pi I / R^2 everywhere, and all bounces together 1 / (1 - rho)
-// times that.
-constexpr float kRadius = 2, kAlbedo = 0.5f, kIntensity = 3;
-constexpr double kPower = 4 * double{kPi} * double{kPi} * double{kIntensity};
-
-Scene insideOfASphere(const std::string& model = "matte", float tessellation = 1) {
-  SceneBuilder b;
-  b.light("pointlight", {floatParam("intensity", kIntensity), pointParam("from", {0.3f, 0, 0.5f})});
-  b.light("indirectlight", {});
-  b.sphere(kRadius, vec3(kAlbedo), {0, 0, 0.5f});
-  auto attributes = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
-  attributes->photon.shadingModel = model;
-  attributes->trace.tessellation = tessellation;
-  b.scene.objects[0].attributes = attributes;
-  return b.scene;
-}
 
 TEST(Photons, AllThatALightSendsIntoAClosedSphereArrives) {
   World world(insideOfASphere());
-  EXPECT_NEAR(powerOf(traced(world, {20000, 1})), kPower, 0.002 * kPower);
+  EXPECT_NEAR(powerOf(traced(world, {20000, 1})), kSpherePower, 0.002 * kSpherePower);
 }
 
 TEST(Photons, StoredPowerIsTheGeometricSeriesOfTheAlbedo) {
   World world(insideOfASphere());
-  EXPECT_NEAR(powerOf(traced(world, {200000, 40})), kPower / (1 - double{kAlbedo}),
-              0.005 * kPower / (1 - double{kAlbedo}));
+  EXPECT_NEAR(powerOf(traced(world, {200000, 40})), kSpherePower / (1 - double{kSphereAlbedo}),
+              0.005 * kSpherePower / (1 - double{kSphereAlbedo}));
 }
 
 // Half of it is left after the first bounce, a quarter after the second.
@@ -54,7 +32,7 @@ TEST(Photons, AreEnoughOrItIsSaidHowMuchLightIsLeft) {
   }
   EXPECT_EQ(world.log.count("photons-bounces"), 3);
   EXPECT_EQ(world.log.worst(), Severity::Note) << "somebody asked for so few";
-  const double all = kPower * double{kAlbedo} / (1 - double{kAlbedo});
+  const double all = kSpherePower * double{kSphereAlbedo} / (1 - double{kSphereAlbedo});
   EXPECT_NEAR(powerOf(traced(world, {100000, 0, 0, false})), all, 0.01 * all) << "without a number they go on";
 }
 
@@ -71,7 +49,7 @@ TEST(Photons, InARoomThatKeepsItsLightEndWithAWarning) {
 
 TEST(Photons, WithoutThoseStraightFromLightsAreWhatSurfacesSendOn) {
   World world(insideOfASphere());
-  const double expected = kPower * double{kAlbedo} / (1 - double{kAlbedo});
+  const double expected = kSpherePower * double{kSphereAlbedo} / (1 - double{kSphereAlbedo});
   EXPECT_NEAR(powerOf(traced(world, {200000, 40, 0, false})), expected, 0.005 * expected);
 }
 
@@ -271,28 +249,6 @@ TEST(Photons, OfAGlowThatCannotBeSampledAreSaidToBeMissing) {
   EXPECT_EQ(world.log.count("photons-glow"), 1);
 }
 
-struct Atlas : ::testing::Test {
-  const fs::path folder = fs::temp_directory_path() / ("tomales_atlas_test_" + std::to_string(::getpid()));
-  ~Atlas() override { fs::remove_all(folder); }
-};
-
-/// A ball of radius 1 around (0, 0, 4) that photons fly through, with a medium in it that the first light
-/// lights.
-SceneBuilder cloud(const vec3& scattering, const vec3& absorption) {
-  SceneBuilder b;
-  b.sphere(1, vec3(1), {0, 0, 4});
-  auto attributes = std::make_shared<Attributes>(*b.scene.objects[0].attributes);
-  attributes->photon.shadingModel = "transparent";
-  const auto color = [](const char* name, const vec3& c) {
-    return Param{name, Storage::Uniform, ValueType::Color, 1, {c.x, c.y, c.z}, {}, {}};
-  };
-  attributes->interior =
-      std::make_shared<ShaderCall>(call("fog", {color("scattering", scattering), color("absorption", absorption)}));
-  attributes->lights = {0};
-  b.scene.objects[0].attributes = attributes;
-  return b;
-}
-
 /// The integral over a shell around the middle of the ball, of the mean radiance from all sides.
 vec3 lightBetween(World& world, const PhotonSettings& settings, float from, float to) {
   vec3 sum(0);
@@ -336,198 +292,10 @@ TEST(PhotonsInMedia, GoOnAsFarAsTheColoursThatTheyHaveLeftReach) {
   EXPECT_NEAR(lightBetween(world, {200000, 10}, 0.5f, 0.7f).z, expected, 0.03f * expected);
 }
 
-/// What the atlas has of the media of a scene, in the mean over places at this distance from the middle of
-/// the ball.
-vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& photons, float distance) {
-  AtlasSettings settings;
-  settings.photons = photons;
-  const auto services = world.use({.mode = GiMode::None});
-  const MapNames names = mapNames(world.scene, world.shading, settings);
-  EXPECT_EQ(names.volume, "scene.volume");
-  writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
-  BrickCache cache(1 << 24);
-  const BrickMap fluence(atlasFile(folder, names.volume, ".bkm").string(), cache);
-  const mat4 worldFromCurrent = glm::inverse(world.scene.cameraFromWorldAtOpen());
-  constexpr uint32_t kPlaces = 400;
-  vec3 sum(0);
-  for (uint32_t i = 0; i < kPlaces; ++i) {
-    const vec3 up = cosineHemisphere(sobol2(i, 5U));  // both halves are alike
-    vec3 here(0);
-    EXPECT_TRUE(fluence.lookup(transformPoint(worldFromCurrent, vec3(0, 0, 4) + distance * (i % 2 ? up : -up)), vec3(0),
-                               0.02f, &here.x));
-    sum += here / static_cast<float>(kPlaces);
-  }
-  return sum / (4 * kPi);
-}
-
 TEST(PhotonIrradiance, ABallThatABorderCutsIsKnownByItsCentroid) {
   EXPECT_NEAR(coveredShareOfBall(0), 1, 1e-3f);
   EXPECT_NEAR(coveredShareOfBall(0.375f), 0.5f, 1e-3f);
   EXPECT_LT(coveredShareOfBall(0.9f), 0.02f);
-}
-
-/// The light that the atlas gives to points on the inside of the sphere.
-std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation, bool storesDirect = true) {
-  World world(insideOfASphere("matte", tessellation));
-  const auto services = world.use({.mode = GiMode::Atlas, .storesDirect = storesDirect});
-  AtlasSettings settings;
-  settings.photons = {200000, 30, 0, storesDirect};
-  const MapNames names = mapNames(world.scene, world.shading, settings);
-  writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
-  services->setAtlas(std::make_unique<IrradianceAtlas>(folder, world.scene, names, 1 << 20, world.log));
-  ShadePoints points(0, 0);
-  for (uint32_t i = 0; i < 6; ++i) {
-    const vec3 d = glm::normalize(vec3(static_cast<float>(i) - 2.5f, 0.5f, 1));
-    const int k = points.add(i + 1);
-    points.set3(kPx, k, vec3(0, 0, 0.5f) + kRadius * d);
-    points.set3(kNx, k, d);
-    points.set3(kNgx, k, d);
-    points.set3(kIx, k, d);
-  }
-  IndirectQuery query;
-  query.samples = 1000;
-  return indirectAt(*services, points, query);
-}
-
-TEST_F(Atlas, GivesTheIntegratingSphereItsLight) {
-  // What the walls receive, all bounces, times their albedo.
-  const float expected = kAlbedo * kIntensity / (kRadius * kRadius) / (1 - kAlbedo);
-  // Photons lie on polygons, and face as those do: smooth normals would lean over them, and photons of the
-  // same polygon look farther off than they are.
-  for (const float tessellation : {1.0f, 2.0f})
-    for (const vec3& E : gatheredInside(folder / std::to_string(tessellation), tessellation))
-      EXPECT_NEAR(E.x, expected, 0.03f * expected) << tessellation;
-}
-
-TEST_F(Atlas, GivesTheSameWhereRaysSampleDirectLight) {
-  const float expected = kAlbedo * kIntensity / (kRadius * kRadius) / (1 - kAlbedo);
-  for (const vec3& E : gatheredInside(folder, 2, false)) EXPECT_NEAR(E.x, expected, 0.03f * expected);
-  EXPECT_FALSE(holdsDirect(folder));
-}
-
-/// Writes an atlas into `folder`; which stages had work to do.
-std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, float wall, int64_t* kept = nullptr) {
-  // Two closed rooms, so that what happens in one changes nothing in the other.
-  SceneBuilder b;
-  for (const float x : {0.0f, 10.0f}) {
-    b.light("pointlight", {floatParam("intensity", kIntensity), pointParam("from", {x + 0.3f, 0, 0.5f})});
-    b.sphere(kRadius, vec3(x > 0 ? wall : kAlbedo), {x, 0, 0.5f});
-    auto named = std::make_shared<Attributes>(*b.scene.objects.back().attributes);
-    named->photon.globalMap = x > 0 ? "right" : "left";
-    b.scene.objects[b.scene.objects.size() - 1].attributes = named;
-  }
-  World world(b.scene);
-  const auto services = world.use({.mode = GiMode::None});
-  AtlasSettings all = settings;
-  all.world = worldSum(world.scene);
-  writeAtlas(folder, world.scene, world.rays, world.shading, mapNames(world.scene, world.shading, all), all, {},
-             world.stats, world.log);
-  if (kept) *kept = world.stats.photons.groupsKept;
-  std::string out;
-  for (const auto& [name, figures] : world.stats.stages()) out += name + " ";
-  return out;
-}
-
-TEST_F(Atlas, WhatHasNotChangedIsNotMadeAgain) {
-  AtlasSettings settings;
-  settings.photons = {20000, 10};
-  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake irradiance photons ");
-  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "");
-  settings.bricks.maxError = 0.1f;
-  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake ");
-  settings.irradiance.nearest = 30;
-  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake irradiance ");
-  settings.photons.seed = 1;
-  EXPECT_EQ(stagesOf(folder, settings, 0.5f), "brickmake irradiance photons ");
-  fs::remove(folder / "irradiance" / "left.ptc");
-  EXPECT_EQ(stagesOf(folder, settings, 0.5f),
-            "irradiance ");  // and gives the same points, so that the bricks stay
-}
-
-TEST_F(Atlas, GroupsThatTheSamePhotonsReachKeepTheirMaps) {
-  AtlasSettings settings;
-  settings.photons = {20000, 10};
-  int64_t kept = 0;
-  stagesOf(folder, settings, 0.5f, &kept);
-  EXPECT_EQ(kept, 0);
-  EXPECT_EQ(stagesOf(folder, settings, 0.6f, &kept), "brickmake irradiance photons ");
-  EXPECT_EQ(kept, 1);
-  EXPECT_EQ(stagesOf(folder, settings, 0.6f, &kept), "");
-  EXPECT_EQ(kept, 2);
-}
-
-TEST_F(Atlas, MapsWithoutTheirPhotonsAreUsedAndKnownForStrangers) {
-  AtlasSettings settings;
-  settings.photons = {20000, 10};
-  stagesOf(folder, settings, 0.5f);
-  EXPECT_FALSE(isMadeByHand(folder));
-  fs::remove_all(folder / "photons");
-  EXPECT_TRUE(isMadeByHand(folder));
-  EXPECT_TRUE(holdsDirect(folder));
-  SceneBuilder b;
-  World world(b.scene);
-  const IrradianceAtlas atlas(folder, world.scene, {{"left", "right"}, {}, {}, {0, 0}}, 1 << 20, world.log);
-  EXPECT_TRUE(atlas.strange(1).has_value());
-  EXPECT_FALSE(atlas.strange(0).has_value());
-}
-
-TEST_F(Atlas, CausticsHaveMapsOfTheirOwn) {
-  SceneBuilder b;
-  b.light("distantlight", {floatParam("intensity", 2), pointParam("from", {0, 0, 0}), pointParam("to", {1, -1, 0})});
-  b.quad({-1, -1, 2}, {1, -1, 2}, {1, -1, 4}, {-1, -1, 4}, vec3(1));
-  b.quad({4, -6, -6}, {4, 10, -6}, {4, 10, 12}, {4, -6, 12}, vec3(0.5f));
-  auto mirror = std::make_shared<Attributes>(*b.scene.objects[0].attributes),
-       wall = std::make_shared<Attributes>(*b.scene.objects[1].attributes);
-  mirror->photon.shadingModel = "chrome";
-  wall->photon.causticMap = "wall";
-  b.scene.objects[0].attributes = mirror;
-  b.scene.objects[1].attributes = wall;
-  World world(b.scene);
-  const auto services = world.use({.mode = GiMode::None});
-  AtlasSettings settings;
-  settings.photons = {500000, 6};
-  const MapNames names = mapNames(world.scene, world.shading, settings);
-  EXPECT_EQ(names.caustic, (std::vector<std::string>{"", "wall.caustic"}));
-  writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
-  const IrradianceAtlas atlas(folder, world.scene, names, 1 << 20, world.log);
-  const float expected = 2 * std::sqrt(0.5f);  // E/pi of the light, at 45 degrees
-  EXPECT_NEAR(atlas.causticOverPi(1, {4, 3, 3}, {-1, 0, 0}, 0.1f).y, expected, 0.05f * expected);
-  EXPECT_LT(atlas.causticOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f).y, 0.01f);
-  bool acrossWalls = true;
-  EXPECT_NEAR(atlas.irradianceOverPi(1, {4, 6, 3}, {-1, 0, 0}, 0.1f, acrossWalls).y, expected, 0.1f * expected);
-  EXPECT_FALSE(acrossWalls);
-}
-
-TEST_F(Atlas, OfAFurnaceHasTheSameLightEverywhereInItsMedium) {
-  SceneBuilder b = cloud(vec3(1), vec3(0));
-  b.light("environmentlight", {});
-  World world(b.scene);
-  for (const float distance : {0.3f, 0.6f, 0.8f})
-    EXPECT_NEAR(meanRadianceAt(folder, world, {600000, 100}, distance).y, 1, 0.02f) << distance;
-}
-
-TEST_F(Atlas, AMissingMapIsBlackAndNamed) {
-  World world(insideOfASphere());
-  const IrradianceAtlas atlas(folder, world.scene, mapNames(world.scene, world.shading, {}), 1 << 20, world.log);
-  bool acrossWalls = true;
-  EXPECT_EQ(atlas.irradianceOverPi(0, {0, 0, 2.5f}, {0, 0, -1}, 0.1f, acrossWalls), vec3(0));
-  EXPECT_FALSE(acrossWalls);
-  EXPECT_EQ(world.log.count("atlas-no-map"), 1);
-}
-
-TEST_F(Atlas, GroupsShareAFileAsTheyAreNamedAndBySize) {
-  SceneBuilder b;
-  b.sphere(1, vec3(1), {0, 0, 4});
-  b.sphere(1, vec3(0.9f), {3, 0, 4});
-  b.sphere(1, vec3(0.8f), {6, 0, 4});
-  auto named = std::make_shared<Attributes>(*b.scene.objects[2].attributes);
-  named->photon.globalMap = "car";
-  b.scene.objects[2].attributes = named;
-  const World world(b.scene);
-  EXPECT_EQ(mapNames(world.scene, world.shading, {}).global, (std::vector<std::string>{"scene0", "scene0", "car"}));
-  AtlasSettings small;
-  small.mostPhotonBytes = 30 << 20;  // less than half of what a million photons take
-  EXPECT_EQ(mapNames(world.scene, world.shading, small).global, (std::vector<std::string>{"scene0", "scene1", "car"}));
 }
 
 }  // namespace

@@ -13,15 +13,22 @@ using Triple = glm::dvec3;
 
 double luminanceOf(const Triple& c) { return luminance(vec3(c)); }
 
+bool isAsPublished(ErrorFunction function) {
+  return function == ErrorFunction::Split || function == ErrorFunction::Plain;
+}
+
 struct Equations {
   CacheSettings settings;
   std::vector<IrradianceRecord> records;
-  const ErrorFunctionInfo& info = infoOf(settings.errorFunction);
+  const bool splitSphere =
+      settings.errorFunction == ErrorFunction::Ward || settings.errorFunction == ErrorFunction::Split;
+  const bool curvature = settings.errorFunction == ErrorFunction::Hessian;
+  const bool asPublished = isAsPublished(settings.errorFunction);
   double kappa = settings.kappa;
 
   double size(const IrradianceRecord& r) const {
-    if (info.splitSphere) return r.harmonicMean;
-    return info.curvature ? std::min<double>(r.smoothRadius, r.closest * kappa) : r.closest / 2.0;
+    if (splitSphere) return r.harmonicMean;
+    return curvature ? std::min<double>(r.smoothRadius, r.closest * kappa) : r.closest / 2.0;
   }
   double reach(const IrradianceRecord& r, double pixel) const {
     return std::max(std::min(size(r), settings.maxPixels * pixel), settings.minPixels * pixel) / kappa;
@@ -38,7 +45,7 @@ struct Equations {
     // A record that was limited ends before the place that limited it, whatever the distance is rounded to.
     if (distance >= radius * (1 - 1e-6) || behind >= 1) return 0;
     const double fades = 1 - behind, angle = std::sqrt(std::max(0.0, 1 - dot(turned, ni)));
-    if (info.splitSphere) return fades * std::max(0.0, 1 / std::max(distance / radius + kappa * angle, 1e-4) - 1);
+    if (splitSphere) return fades * std::max(0.0, 1 / std::max(distance / radius + kappa * angle, 1e-4) - 1);
     return fades * std::max(0.0, 1 - std::max(distance / radius, kappa * angle / std::sqrt(1 - std::cos(kPi / 18))));
   }
   static Triple change(const IrradianceRecord& r, const Triple& step, const Triple& turn) {
@@ -62,7 +69,7 @@ struct Equations {
     for (const IrradianceRecord& r : records) sum += luminanceOf(r.E);
     const double off = std::abs(luminanceOf(a) - luminanceOf(b)) - 3 * noise,
                  scale = std::max({luminanceOf(a), luminanceOf(b), 0.1 * sum / static_cast<double>(records.size())});
-    if (info.published || off <= (info.splitSphere ? 0.4 : 0.1) / kappa * scale) return 0;
+    if (asPublished || off <= (splitSphere ? 0.4 : 0.1) / kappa * scale) return 0;
     return off > 0.5 * scale ? 2 : 1;
   }
   double limitBy(int disagreement, double distance, double pixel) const {
@@ -128,14 +135,14 @@ struct Equations {
     const Triple variance = squares / W - E * E;
     const Triple agreement = glm::clamp(1.0 - variance / glm::max(0.09 * E * E, Triple(1e-30)), Triple(0), Triple(1));
     Triple second = -0.5 * (changes - change(mean, step, turn));
-    if (info.curvature)
+    if (curvature)
       for (const auto& [r, w] : used) {
         const Triple known = step * std::min(1.0, reach(*r, at.pixelSize) / glm::length(step));
         const double a = dot(known, Triple(r->tangent)), b = dot(known, cross(Triple(r->normal), Triple(r->tangent)));
         second += w / W / 2 *
                   (a * a * Triple(r->hessian[0]) + 2 * a * b * Triple(r->hessian[1]) + b * b * Triple(r->hessian[2]));
       }
-    out.E = vec3(glm::max(Triple(0), E + (info.published ? Triple(0) : agreement * second)));
+    out.E = vec3(glm::max(Triple(0), E + (asPublished ? Triple(0) : agreement * second)));
     out.inconsistent = limitBy(worst, nearest, at.pixelSize) <= nearest;
     for (int c = 0; c < 3; ++c) out.dominant[c] = vec3(glm::normalize(dominant[c]));
     return out;
@@ -215,7 +222,7 @@ TEST(CacheEquations, SayHowFarEachRecordIsValid) {
       }
       limited += a.limit < kInfinity;
     }
-    EXPECT_EQ(limited > 30, !infoOf(kind.settings.errorFunction).published) << kind.name << ' ' << limited;
+    EXPECT_EQ(limited > 30, !isAsPublished(kind.settings.errorFunction)) << kind.name << ' ' << limited;
   }
 }
 
@@ -244,14 +251,13 @@ TEST(CacheEquations, SayWhatALookupFinds) {
     for (const float wider : {1.0f, 1.25f}) {
       IrradianceCache cache({vec3(-0.9f), vec3(0.9f)}, kind.settings);
       for (uint32_t i = 0; i < 400; ++i) cache.insert(record(i));
-      const ErrorFunctionInfo& info = infoOf(kind.settings.errorFunction);
       const Equations plain{kind.settings, {cache.records().begin(), cache.records().end()}};
       int found = 0, inconsistent = 0;
       for (uint32_t i = 0; i < 300; ++i) {
         const IrradiancePlace at = place(i, cache);
         IrradianceEstimate a;
         cache.lookup({&at, 1}, &a, wider);
-        const IrradianceEstimate b = plain.lookup(at, info.published || info.curvature ? 1 : wider);
+        const IrradianceEstimate b = plain.lookup(at, plain.asPublished || plain.curvature ? 1 : wider);
         EXPECT_NEAR(a.weight, b.weight, 1e-3f * (1 + b.weight)) << kind.name << ' ' << i;
         if (b.weight < 0.01f) continue;
         ++found;
@@ -264,7 +270,7 @@ TEST(CacheEquations, SayWhatALookupFinds) {
         EXPECT_EQ(a.inconsistent, b.inconsistent) << kind.name << ' ' << i;
       }
       EXPECT_GT(found, 100) << kind.name;
-      EXPECT_EQ(inconsistent > 3, !info.published) << kind.name << ' ' << inconsistent;
+      EXPECT_EQ(inconsistent > 3, !plain.asPublished) << kind.name << ' ' << inconsistent;
     }
 }
 

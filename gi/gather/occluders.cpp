@@ -1,4 +1,4 @@
-#include "gi/frame/occluder_search.h"
+#include "gi/gather/occluders.h"
 
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
@@ -11,6 +11,19 @@ constexpr float kUnmet = 0.9f;        // share of a record's closest distance be
 constexpr float kSlant = 0.70710678f;
 
 }  // namespace
+
+float radiusUnderOccluder(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
+  constexpr float kUpright = 0.8f;  // cosine
+  constexpr size_t kTenth = 10;
+  constexpr float kFinestPixels = 0.25f;
+  upright.clear();
+  for (size_t i = 0; i < samples.directions.size(); ++i)
+    if (dot(samples.directions[i], samples.normal) > kUpright) upright.push_back(samples.distances[i]);
+  if (upright.empty()) return kInfinity;
+  const auto height = upright.begin() + static_cast<ptrdiff_t>(upright.size() / kTenth);
+  std::nth_element(upright.begin(), height, upright.end());
+  return std::max(*height, kFinestPixels * pixelSize);
+}
 
 // Records in front of a slot that is narrower than their radius see the occluder over it edge-on, if at all. One of two
 // rays that leave upwards and aside meets it, even below its very edge. Records beside that edge have met it, and it

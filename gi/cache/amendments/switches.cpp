@@ -1,9 +1,7 @@
-#include "gi/cache/amendments.h"
+#include "gi/cache/amendments/switches.h"
 
 #include <cstdio>
 #include <cstdlib>
-#include <iterator>
-#include <string>
 
 namespace tomales {
 
@@ -12,12 +10,13 @@ bool isOn(Amendment amendment) {
     const char* named = std::getenv("TOMALES_WITHOUT");
     const std::string list = "," + std::string(named ? named : "") + ",";
     uint32_t out = 0;
-    for (size_t i = 0; i < std::size(kAmendments); ++i)
-      if (list.find("," + std::string(kAmendments[i]) + ",") != std::string::npos) out |= uint32_t{1} << i;
+    for (size_t i = 0; i < kAmendments.size(); ++i)
+      if (list.find("," + std::string(kAmendments[i]) + ",") != std::string::npos)
+        out |= bitOf(static_cast<Amendment>(i));
     if (out != 0) std::fprintf(stderr, "tomales: TOMALES_WITHOUT leaves out of the irradiance cache: %s\n", named);
     return out;
   }();
-  return !(without >> static_cast<uint32_t>(amendment) & 1);
+  return !(without & bitOf(amendment));
 }
 
 }  // namespace tomales

@@ -1,0 +1,29 @@
+// Private to gi/irradiance_cache: derivatives hold near the record alone, so each may at most double or extinguish E
+// over the validity radius. A ray that meets a surface at a tiny distance gives a gradient of any size: without this,
+// corners are millions of times too bright. It costs nothing that was measured.
+#pragma once
+#include "gi/cache/irradiance_record.h"
+
+namespace tomales {
+
+/// The derivatives of shares are shortened as those of the whole are.
+inline void limitDerivatives(IrradianceRecord& r, float radius) {
+  const auto scale = [](vec3& v, float numerator, float by) { v = by < kInfinity ? v * (numerator / by) : vec3(0.0f); };
+  for (int c = 0; c < 3; ++c) {
+    vec3& gradient = r.translationGradient[c];
+    const float change = glm::length(gradient) * radius;
+    if (!(change <= r.E[c])) {
+      scale(gradient, r.E[c], change);
+      for (LightShare& share : r.shares) scale(share.translationGradient[c], r.E[c], change);
+    }
+    const float xx = r.hessian[0][c], xy = r.hessian[1][c], yy = r.hessian[2][c];
+    const float bend = 0.5f * radius * radius * std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
+    if (bend <= r.E[c]) continue;
+    const auto shorten = [&](float& second) { second = bend < kInfinity ? second * r.E[c] / bend : 0.0f; };
+    for (vec3& second : r.hessian) shorten(second[c]);
+    for (LightShare& share : r.shares)
+      for (vec3& second : share.hessian) shorten(second[c]);
+  }
+}
+
+}  // namespace tomales

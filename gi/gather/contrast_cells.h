@@ -1,0 +1,15 @@
+// Private to gi: where a hemisphere needs more rays than one a cell.
+#pragma once
+#include "gi/gather/hemisphere.h"
+
+namespace tomales {
+
+/// In means of the hemisphere. Light that differs by more is a small bright source.
+inline constexpr float kContrast = 4;
+
+/// Returns the cells where light changes fast: those whose neighbours differ by more than kContrast times the mean. The
+/// cell's own ray is not considered, so that choosing cells for more rays leaves the estimate unbiased. `radiance`: one
+/// ray of each cell.
+std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec3> radiance);
+
+}  // namespace tomales
