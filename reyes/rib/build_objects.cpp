@@ -5,6 +5,7 @@
 
 #include "reyes/rib/collapsed.h"
 #include "reyes/rib/contents.h"
+#include "reyes/rib/geometry_builders.h"
 #include "reyes/rib/object_attributes.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/scene_builder.h"

@@ -164,6 +164,13 @@ TEST(Tubes, DerivativesAgreeWithFiniteDifferences) {
   for (const PrimPtr& prim : manyTubes()) expectDerivativesOfPositions(*prim, 8e-3f);
 }
 
+// A section turns from one mitre to the next, so that a thick tube has longer sides outside of a corner than inside.
+TEST(Tubes, OfThickLinesTurnFromMitreToMitre) {
+  const PrimPtr prim = tubes(false, bezierBasis(), {4}, false,
+                             {positions({0, 0, 0, 1, 2, 0, 2, 0, 1, 3, 2, 0}), width(Storage::Constant, {.6f})});
+  expectDerivativesOfPositions(*prim, 2e-3f);
+}
+
 TEST(Tubes, BoundsContainThemAndTheyAreSoundEverywhere) {
   for (const PrimPtr& prim : manyTubes()) {
     expectBoundsContainTheSurface(*prim);

@@ -201,6 +201,36 @@ TEST(Polygon, AreaOfAConcaveStarIsExact) {
   expectArea(outline, 20 * 0.5 * 0.3 * std::sin(2 * M_PI / 20));
 }
 
+TEST(Polygon, FacesOfOneMeshAreCutEachByItself) {
+  // A pentagon, a hexagon above it, and a triangle, with corners of their own.
+  const std::vector<vec2> pentagon = {{0, 0}, {2, 0}, {3, 1}, {1, 3}, {-1, 1}},
+                          hexagon = {{5, 0}, {7, 0}, {8, 2}, {7, 4}, {5, 4}, {4, 2}},
+                          triangle = {{10, 0}, {12, 0}, {11, 3}};
+  std::vector<float> p;
+  std::vector<int> counts, vertices;
+  float z = 0;
+  for (const auto& outline : {pentagon, hexagon, triangle}) {
+    for (const vec2& q : outline) p.insert(p.end(), {q.x, q.y, z});
+    counts.push_back(static_cast<int>(outline.size()));
+    z += 1;
+  }
+  for (size_t i = 0; i < p.size() / 3; ++i) vertices.push_back(static_cast<int>(i));
+  Problems problems;
+  const PrimPtr prim = makePolygons(counts, vertices, {positions(p)}, problems);
+  ASSERT_EQ(prim->patchCount(), 5u + 6u + 1u);
+  double area[3] = {0, 0, 0};
+  for (uint32_t patch = 0; patch < prim->patchCount(); ++patch) {
+    const auto face = static_cast<size_t>(patch < 5 ? 0 : patch < 11 ? 1 : 2);
+    const Sample s = sampleAt(*prim, patch, 0.5f, 0.5f);
+    EXPECT_EQ(s.p.z, static_cast<float>(face));
+    area[face] += glm::length(cross(s.du, s.dv));  // of a bilinear patch in its plane, that at its middle is the mean
+  }
+  EXPECT_NEAR(area[0], 7, 1e-5);
+  EXPECT_NEAR(area[1], 12, 1e-5);
+  EXPECT_NEAR(area[2], 3, 1e-5);
+  expectSoundEverywhere(*prim);
+}
+
 TEST(Polygon, ReversedOrderTurnsTheNormal) {
   EXPECT_EQ(sampleAt(*polygon({0, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 0}), 0, 0.3f, 0.3f).n, vec3(0, 0, -1));
   EXPECT_EQ(sampleAt(*polygon({0, 0, 0, 0, 1, 0, 1, 0, 0}), 0, 0.3f, 0.3f).n, vec3(0, 0, -1));

@@ -60,6 +60,15 @@ TEST(InlineArchive, WithoutEndIsReported) {
   EXPECT_EQ(Reading("ArchiveEnd").log.count("rib-unbalanced"), 1);
 }
 
+TEST(Procedural, OfAnArchiveThatHasBeenReadToItsEndIsNoRecursion) {
+  const std::string bound = "[-1 1 -1 1 -1 1]\n";
+  const Reading r(inWorld("ArchiveBegin \"b\" " + kSphere + "ArchiveEnd ArchiveBegin \"a\" " +
+                          "Procedural \"DelayedReadArchive\" [\"b\"] " + bound +
+                          "ArchiveEnd\nReadArchive \"a\"\nProcedural \"DelayedReadArchive\" [\"a\"] " + bound));
+  EXPECT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_TRUE(r.log.entries().empty()) << r.codes();
+}
+
 TEST(Procedural, DelayedReadArchiveKeepsItsStateToItself) {
   const Reading r(inWorld("ArchiveBegin \"a\" Translate 1 0 0 Color 1 0 0 " + kSphere +
                           "ArchiveEnd Translate 0 5 0\n"

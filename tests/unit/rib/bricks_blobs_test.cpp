@@ -117,5 +117,64 @@ TEST(PointsOfTypeBlobby, WithWidthsThatDoNotFitAreDropped) {
   EXPECT_EQ(r.codes(), "rib-object-dropped@2 ");
 }
 
+/// What lies along a ray through the only object of a world.
+float amountOf(const Reading& r, const vec3& origin, const vec3& direction) {
+  return r.object(0).shape().density()->amount(origin, direction, 0, 100);
+}
+
+TEST(Volumes, AreAsDenseEverywhereAsOneNumberSays) {
+  for (const auto& [density, expected] : {std::pair("", 1.0f), {"\"uniform float density\" [3]", 3.0f}}) {
+    const Reading r(inWorld(std::string("Volume \"box\" [-1 1 0 3 2 2.5] [7 8 9] ") + density));
+    EXPECT_TRUE(r.log.entries().empty()) << r.codes();
+    EXPECT_NEAR(amountOf(r, {-5, 1, 2.25f}, {1, 0, 0}), 2 * expected, 1e-5f);
+    EXPECT_NEAR(amountOf(r, {0.5f, -5, 2.25f}, {0, 1, 0}), 3 * expected, 1e-5f);
+    EXPECT_NEAR(amountOf(r, {0.5f, 1, -5}, {0, 0, 1}), 0.5f * expected, 1e-5f);
+    EXPECT_EQ(amountOf(r, {1.5f, 1, -5}, {0, 0, 1}), 0);
+  }
+}
+
+TEST(Volumes, AreLinearBetweenTheNumbersOfALatticeWithXFastest) {
+  std::string numbers;
+  for (int z = 0; z < 2; ++z)
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 3; ++x) numbers += std::to_string(1 + x + 10 * y + 100 * z) + " ";
+  for (const char* storage : {"varying", "vertex"}) {
+    const Reading r(inWorld("Volume \"box\" [-1 1 0 3 2 2.5] [3 4 2] \"" + std::string(storage) + " float density\" [" +
+                            numbers + "]"));
+    EXPECT_TRUE(r.log.entries().empty()) << r.codes();
+    // At (x, y, z) it is 1 + (x + 1) + 10 y + 100 (z - 2) / 0.5.
+    EXPECT_NEAR(amountOf(r, {-5, 1.25f, 2.1f}, {1, 0, 0}), 2 * (1 + 1 + 12.5f + 20), 1e-3f);
+    EXPECT_NEAR(amountOf(r, {0.5f, -5, 2.1f}, {0, 1, 0}), 3 * (1 + 1.5f + 15 + 20), 1e-3f);
+    EXPECT_NEAR(amountOf(r, {0.5f, 1.25f, -5}, {0, 0, 1}), 0.5f * (1 + 1.5f + 12.5f + 50), 1e-3f);
+  }
+}
+
+TEST(Volumes, ThatCannotBeAreDroppedWithASentence) {
+  for (const auto& [request, why] :
+       {std::pair("\"box\" [-1 1 0 3 2 2] [2 2 2]", "its bound has no volume"),
+        {"\"box\" [-1 1 3 0 2 3] [2 2 2]", "its bound has no volume"},
+        {"\"box\" [1 1 0 3 2 3] [2 2 2]", "its bound has no volume"},
+        {"\"box\" [-1 1 0 3 2 3] [2 2]", "it needs three counts of points"},
+        {"\"box\" [-1 1 0 3 2 3] [2 2 2] \"varying float density\" [1 2 3 4 5 6 7]", "7 numbers, where 2 x 2 x 2"},
+        {"\"box\" [-1 1 0 3 2 3] [1 4 2] \"varying float density\" [1 2 3 4 5 6 7 8]", "at least 2 each way"},
+        {"\"box\" [-1 1 0 3 2 3] [4 1 2] \"varying float density\" [1 2 3 4 5 6 7 8]", "at least 2 each way"},
+        {"\"box\" [-1 1 0 3 2 3] [4 2 1] \"varying float density\" [1 2 3 4 5 6 7 8]", "at least 2 each way"},
+        {"\"cloud\" [-1 1 0 3 2 3] [2 2 2]", "there is no Volume of type \"cloud\""},
+        {"\"blobbydso:smoke\" [-1 1 0 3 2 3] [2 2 2]", "there is no plugin \"smoke\""},
+        {"\"blobbydso:impl_openvdb\" [-1 1 0 3 2 3] [2 2 2]", "with a file and a grid"}}) {
+    const Reading r(inWorld(std::string("Volume ") + request));
+    EXPECT_EQ(r.codes(), "rib-object-dropped@2 ") << request;
+    EXPECT_NE(r.message("rib-object-dropped").message.find(why), std::string::npos)
+        << r.message("rib-object-dropped").message;
+  }
+}
+
+TEST(Volumes, OfNegativeDensityAreEmptyThere) {
+  const Reading r(inWorld("Volume \"box\" [0 1 0 1 0 1] [2 2 2] \"varying float density\" [-1 1 -2 1 0 1 0 1]"));
+  ASSERT_EQ(r.log.entries().size(), 1u);
+  EXPECT_NE(r.log.entries()[0].message.find("2 of its densities"), std::string::npos) << r.log.entries()[0].message;
+  EXPECT_NEAR(amountOf(r, {-5, 0.5f, 0.5f}, {1, 0, 0}), 0.5f, 1e-5f);
+}
+
 }  // namespace
 }  // namespace tomales

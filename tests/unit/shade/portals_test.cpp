@@ -89,6 +89,57 @@ TEST(SkyPortals, WhatIsBehindAllOfThemIsLitAsByAnOpenSky) {
   }
 }
 
+// A window of area A at distance d, seen at the cosine c, has the solid angle A c / d^2, and positions that are even on
+// it the density d^2 / (A c) over solid angle.
+TEST(SkyPortals, AreDrawnByTheirSolidAnglesAndEvenlyOverTheirAreas) {
+  const vec3 P(0, 0.25f, 0), air(0);
+  Portals one, two;
+  EXPECT_TRUE(one.add(window(1, 0.5f, 2)) && two.add(window(1, 0.5f, 2)) && two.add(window(0.5f, 0.5f, -3)));
+  EXPECT_EQ(one.share(P, air), 0.75f);
+  EXPECT_NEAR(one.density(P, air, {1, 0, 0}), 2 * 2 / 0.5f, 1e-4f);
+  const vec3 slanted = glm::normalize(vec3(2, 0, 0.4f));
+  EXPECT_NEAR(one.density(P, air, slanted), (4 + 0.16f) / (0.5f * slanted.x), 1e-3f);
+  EXPECT_EQ(one.density(P, air, {-1, 0, 0}), 0) << "it is in front";
+  EXPECT_EQ(one.density(P, air, {0, 0, 1}), 0) << "along its plane";
+  for (const vec3& edge : {vec3(2, 0, 0.5f), vec3(2, 0, -0.5f), vec3(2, 0.25f, 0), vec3(2, -0.25f, 0)})
+    for (const float beyond : {0.99f, 1.01f})
+      EXPECT_EQ(one.density(P, air, glm::normalize(edge * vec3(1, beyond, beyond))) > 0, beyond < 1)
+          << edge.y << edge.z;
+  const float first = 0.5f / 4, second = 0.25f / 9;
+  EXPECT_NEAR(two.density(P, air, {1, 0, 0}), 8 * first / (first + second), 1e-3f);
+  EXPECT_NEAR(two.density(P, air, {-1, 0, 0}), 36 * second / (first + second), 1e-3f);
+  int right = 0;
+  double high = 0;
+  for (uint32_t i = 0; i < 4096; ++i) {
+    const vec3 L = two.sample(P, air, sobol2(i, 5));
+    right += L.x > 0;
+    high += (L.y / std::abs(L.x) > 0) - 0.5;
+    EXPECT_GT(two.density(P, air, L), 0);
+  }
+  EXPECT_NEAR(right / 4096.0, first / (first + second), 0.002);
+  EXPECT_NEAR(high / 4096, 0, 0.01);
+}
+
+TEST(SkyPortals, OfASurfaceAreThoseBeforeItThatReachOverItsHorizon) {
+  Portals portals;
+  EXPECT_TRUE(portals.add(window(1, 0.5f, 2)));
+  EXPECT_EQ(portals.share(vec3(0, 0.4f, 0), kUp), 0.75f) << "its upper tenth is over the horizon";
+  EXPECT_EQ(portals.share(vec3(0, 0.6f, 0), kUp), 0);
+  EXPECT_EQ(portals.share(vec3(0, 0.1f, 0), -kUp), 0.75f);
+  EXPECT_EQ(portals.share(vec3(0, -0.1f, 0), -kUp), 0);
+  EXPECT_EQ(portals.share(vec3(0, 0, 0), {-1, 0, 0}), 0);
+}
+
+TEST(SkyPortals, AtAWindowHalfOfAllDirectionsAreItsOwn) {
+  Portals portals;  // beside one of a tenth of a steradian
+  EXPECT_TRUE(portals.add(window(1, 1, 1e-3f)) && portals.add(window(1, 0.9f, -3)));
+  const vec3 P(0, 0.5f, 0);
+  int right = 0;
+  for (uint32_t i = 0; i < 4096; ++i) right += portals.sample(P, vec3(0), sobol2(i, 5)).x > 0;
+  const float other = 0.9f * 3 / std::pow(9 + 0.0025f, 1.5f);
+  EXPECT_NEAR(right / 4096.0, 2 * kPi / (2 * kPi + other), 0.001);
+}
+
 TEST(SkyPortals, SquaresWithoutAreaAreRefused) {
   Portals portals;
   EXPECT_FALSE(portals.add(window(0, 1, 2)));
