@@ -18,7 +18,6 @@ namespace {
 constexpr size_t kRun = 64;  // greatest number of lookups that share their candidates
 // greatest diagonal of the places of a run: incoherent points would share too many candidates
 constexpr float kRunPixels = 24;
-constexpr float kCandidateSlack = 1e-4f;  // relative, of what is compared to choose candidates
 
 struct Candidate {
   uint32_t record;
@@ -49,6 +48,7 @@ struct Vicinity {
 
 /// Bounds of what a record may serve, before rounding.
 struct ValidityBounds {
+  static constexpr float kRounding = 1e-4f;  ///< Relative, of what is compared to choose candidates.
   float least, most, scale;  ///< The radius is the record's size, clamped between least and most, times scale.
   float cosine;              ///< Least cosine of the angle between normals.
 };
@@ -134,7 +134,7 @@ struct IrradianceCache::Impl {
   ValidityBounds boundsAt(float pixelSize, float wider) const {
     const float least = std::visit([](const auto& equations) { return equations.leastCosine(); }, published);
     return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize,
-            wider * (1 + kCandidateSlack) / settings.kappa, least - kCandidateSlack};
+            wider * (1 + ValidityBounds::kRounding) / settings.kappa, least - ValidityBounds::kRounding};
   }
 
   /// Lookups that lie close together share one walk through the tree.
@@ -159,7 +159,7 @@ struct IrradianceCache::Impl {
     tree.visit(region, reachOf, [&](uint32_t i) {
       const IrradianceRecord& r = records[i];
       const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
-      const float radius = std::min(reachOf(size(r)), (1 + kCandidateSlack) * r.limit);
+      const float radius = std::min(reachOf(size(r)), (1 + ValidityBounds::kRounding) * r.limit);
       if (dot(off, off) <= radius * radius) near.add(i, r, size(r));
     });
     near.slack.resize(near.records.size());

@@ -114,6 +114,17 @@ TEST(BinaryRib, MalformedInputIsLocatedAndReadingGoesOn) {
   }
 }
 
+TEST(BinaryRib, CodesThatAreNotDefinedAreNamed) {
+  for (const auto& [bad, named] : {std::pair("\xa6\x09"s, "the request code 9, which is not defined"),
+                                   {"Surface \xcf\x0a"s, "the string code 10, which is not defined"},
+                                   {"Surface \xd0\x01\x02"s, "the string code 258, which is not defined"}}) {
+    const Requests r("Identity\n" + bad + "\nColor 1 1 1");
+    EXPECT_EQ(r.list.size(), 2u) << named;
+    ASSERT_FALSE(r.log.entries().empty()) << named;
+    EXPECT_NE(r.log.entries()[0].message.find(named), std::string::npos) << r.log.entries()[0].message;
+  }
+}
+
 TEST(BinaryRib, RandomBytesNeitherCrashNorHang) {
   std::mt19937 random(7);
   for (int i = 0; i < 300; ++i) {

@@ -1,4 +1,6 @@
 #include <climits>
+#include <set>
+#include <sstream>
 
 #include "rib_test_tools.h"
 
@@ -197,6 +199,25 @@ TEST(RequestTable, KnowsRequestsThatAreNotSupported) {
       "\"box\" 1 1");
   EXPECT_EQ(r.list.size(), 3u);
   EXPECT_TRUE(r.log.entries().empty());
+}
+
+TEST(RequestTable, IsListedForProgramsThatWriteRib) {
+  std::istringstream lines(ribRequests());
+  std::set<std::string> names;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name, arguments, parameters, support, more;
+    words >> name >> arguments >> parameters >> support;
+    EXPECT_FALSE(words >> more) << line;
+    EXPECT_TRUE(names.insert(name).second) << line;
+    const rib::Signature* s = rib::findSignature(name);
+    ASSERT_TRUE(s) << line;
+    EXPECT_EQ(arguments, s->arguments.empty() ? "-" : std::string(s->arguments));
+    EXPECT_EQ(parameters == "parameters", s->parameterList);
+    EXPECT_FALSE(support.empty());
+  }
+  EXPECT_GT(names.size(), 100u);
+  for (const char* name : {"Sphere", "Torus", "Volume", "WorldBegin"}) EXPECT_TRUE(names.contains(name)) << name;
 }
 
 TEST(Parser, KeepsIntegersExact) {

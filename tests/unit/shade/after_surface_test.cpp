@@ -46,6 +46,37 @@ TEST_F(Atmosphere, WhatIsAirBesideATransparentSurfaceIsKnown) {
   }
 }
 
+TEST_F(Atmosphere, VolumesLieBeforeTheSurfaceAndBehindTheFog) {
+  for (const bool volume : {false, true}) {  // any object of the scene may be a Volume
+    auto other = std::make_shared<Attributes>();
+    other->volume = volume;
+    other->color = vec3(volume ? 1 : 0);
+    Object o;
+    o.shapes = {std::make_shared<BlankPrim>(std::vector<Primvar>{})};
+    o.attributes = other;
+    o.where = at(9);
+    scene.objects.push_back(o);
+  }
+  attributes.color = vec3(0.5f);
+  attributes.opacity = vec3(0.5f);
+  surface("constant");
+  const vec3 Ci(0.1f, 0.2f, 0.3f), Oi(0.5f, 0.25f, 0);
+  services.volumes = std::pair(Ci, Oi);
+  system();
+  ShadePoints p(scene.objects[2].group, 0);
+  p.add(1);
+  for (const int channel : {kPx, kIx}) p.set3(channel, 0, {0, 0, 5});
+  for (const int channel : {kNx, kNgx}) p.set3(channel, 0, {0, 0, -1});
+  ShadedPoints out = shade(p);
+  system().atmosphere(p, out);
+  expectColor(out.color(0), Ci + (1.0f - Oi) * vec3(0.25f));
+  expectColor(out.opacity(0), 1.0f - (1.0f - Oi) * vec3(0.5f));
+  for (int k = 0; k < 3; ++k) {  // beside the surface
+    EXPECT_NEAR(out.airCi[k][0], 0.5f * Ci[k], 1e-6f);
+    EXPECT_NEAR(out.airOi[k][0], 0.5f * Oi[k], 1e-6f);
+  }
+}
+
 TEST_F(Atmosphere, NoAirIsKeptWhereNothingIsTransparent) {
   atmosphere("fog", {number("distance", 10)});
   EXPECT_TRUE(seen({3, 0, 4}).airCi[0].empty());

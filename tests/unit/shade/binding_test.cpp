@@ -58,6 +58,36 @@ TEST_F(Binding, OpaqueNeedsOpacityOneEverywhereAndAShaderThatKeepsIt) {
   EXPECT_FALSE(system().opaque(0));
 }
 
+TEST_F(Binding, EveryGroupHasItsOwnShader) {
+  for (const vec3& color : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)}) {
+    Attributes own;
+    own.color = color;
+    own.surface = std::make_shared<const ShaderCall>(call("constant", {}));
+    Object o;
+    o.shapes = {std::make_shared<BlankPrim>(std::vector<Primvar>{})};
+    o.attributes = std::make_shared<const Attributes>(own);
+    o.where = at(9);
+    scene.objects.push_back(o);
+  }
+  surface("matte");
+  light("distantlight", {number("intensity", 0.5f)});
+  system();
+  ASSERT_EQ(scene.groups.size(), 4u);
+  for (size_t k = 0; k < 4; ++k) {
+    ShadePoints p(scene.objects[k].group, 0);
+    const int i = p.add(1);
+    p.set3(kPx, i, {0, 0, 5});
+    for (const int normal : {kNx, kNgx}) p.set3(normal, i, {0, 0, -1});
+    p.set3(kIx, i, {0, 0, 1});
+    vec3 expected(0);
+    if (k < 3)
+      expected[static_cast<int>(k)] = 1;
+    else
+      expected = vec3(0.5f);
+    expectColor(shade(p).color(0), expected);
+  }
+}
+
 TEST_F(Binding, WithoutASurfaceTheHeadlightShaderIsUsed) {
   const vec3 N = glm::normalize(vec3(1, 0, -1));
   expectColor(shade(points({vec3(0, 0, 5)}, N)).color(0), vec3(0.2f + 0.8f * std::sqrt(0.5f)));

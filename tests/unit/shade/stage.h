@@ -94,6 +94,13 @@ class FakeServices final : public ShadeServices {
     return true;
   }
   std::optional<float> interpolated;  ///< What records answer to occlusion(); none: rays must tell.
+  bool volumesBefore(const ShadePoints& points, const ShadeContext&, ShadedPoints& out) const override {
+    if (!volumes) return false;
+    out.resize(points.count());
+    for (int i = 0; i < points.count(); ++i) out.set(i, volumes->first, volumes->second);
+    return true;
+  }
+  std::optional<std::pair<vec3, vec3>> volumes;  ///< The colour and opacity of Volumes before every point.
   float emitterReach(int) const override { return 0; }
   float emitterArea(int) const override { return 1; }
   bool sampleEmitter(int, int count, TmConstVec3 from, const float* a, const float* b,
