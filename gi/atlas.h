@@ -57,6 +57,13 @@ using AtlasProgress = std::function<void(float)>;
 PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays,
                            const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
                            const AtlasProgress& progress, Stats& stats, Log& log);
+/// Traces a part of the same photons into one file for all maps. Throws FileError.
+PhotonFigures writePhotonPart(const std::filesystem::path& file, WorkPart part, const Scene& scene,
+                              const RayScene& rays, const ShadingSystem& shading, const MapNames& names,
+                              const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+/// Makes the files of writePhotons() of all its parts. Throws FileError, also where a part is of another scene.
+void joinPhotonParts(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
+                     const MapNames& names, const AtlasSettings& settings, Stats& stats, Log& log);
 /// One photon map -> irradiance points, in cubes of about `most` photons where there are more. `sight`: as in
 /// estimateIrradiance(), in world space. Throws FileError.
 void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out,
@@ -72,6 +79,13 @@ bool renewIrradianceBricks(const std::filesystem::path& points, const std::files
 /// Reads the MadeFrom of a point cloud; zeros for a file that is missing or damaged.
 MadeFrom pointsMadeFrom(const std::filesystem::path& path);
 
+/// Are the photons of this scene and these settings in FOLDER/photons?
+bool hasPhotons(const std::filesystem::path& folder, const MapNames& names, const AtlasSettings& settings);
+/// Makes irradiance and brick maps of the photons in FOLDER/photons, as far as they are not there yet, of the maps of
+/// one part. Throws FileError.
+void writeMaps(const std::filesystem::path& folder, WorkPart part, const Scene& scene, const RayScene& rays,
+               const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
+               Log& log);
 /// Makes all three kinds of files for a scene, as far as the folder does not hold them yet. Photons are traced again if
 /// the scene or their settings have changed, and groups that receive the same photons keep their maps. Throws
 /// FileError.

@@ -45,6 +45,12 @@ struct StoredPhoton {
   bool caustic() const { return focused && bounces == 1; }
 };
 
+constexpr int kMostParts = 4096;
+/// One part of work that several processes share: number `index` of `count` from 0.
+struct WorkPart {
+  int index = 0, count = 1;
+};
+
 struct PhotonFigures {
   int64_t emitted = 0, stored = 0;
   /// The share of what surfaces send each other that comes after the last bounce and is missing, as the powers of the
@@ -53,11 +59,11 @@ struct PhotonFigures {
 };
 
 /// One thread at a time calls `store`, in an order that does not depend on threads. A scene without light gives no
-/// photons, with a warning.
+/// photons, with a warning. The photons of all parts, one part after the other, are those of the whole.
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const PhotonSettings& settings,
                            const std::function<void(std::span<const StoredPhoton>)>& store,
-                           const std::function<void(float)>& progress, Stats& stats, Log& log);
+                           const std::function<void(float)>& progress, Stats& stats, Log& log, WorkPart part = {});
 
 /// Attribute "photon" "shadingmodel": what a surface does to photons.
 enum class PhotonModel {

@@ -59,6 +59,12 @@ struct RibSettings {
   /// Called for MakeTexture, MakeShadow and similar requests, which make maps for later worlds of what earlier ones
   /// have written. If it is empty, they do nothing.
   std::function<void(const Request&)> onMake;
+  /// Frames of these numbers are passed over without being parsed, where the stream itself has them; onSkipped gets the
+  /// number of their worlds. What a request in them would change beyond their end is lost.
+  std::function<bool(int frame)> skipsFrame{};
+  std::function<void(int worlds)> onSkipped{};
+  /// Called with such requests, other than Make: a stream without any has frames that may be skipped.
+  std::function<void(const Request&)> onOutliving{};
   /// Called with every file that is read, or would be if it were there.
   std::function<void(const FileUse&)> onFile{};
   std::vector<std::string> archivePath{"."};

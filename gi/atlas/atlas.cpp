@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <map>
 #include <numeric>
 
 #include "gi/atlas/limits.h"
+#include "gi/atlas/photon_maps.h"
 #include "gi/atlas/thin_walls.h"
-#include "gi/atlas/world_from_current.h"
 #include "gi/bricks/point_tiles.h"
 #include "gi/photons/medium.h"
-#include "reyes/base/folder_lock.h"
 #include "reyes/base/process.h"
 #include "reyes/base/temporary_folder.h"
-#include "reyes/base/unfinished_folder.h"
 
 namespace tomales {
 namespace {
@@ -40,24 +37,14 @@ std::vector<double> boxAreas(const Scene& scene) {
   return areas;
 }
 
-/// Has to be increased when the same inputs begin to make other files.
-constexpr uint32_t kMethod = 13;
-
-uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
-  const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] =
-      settings.photons;  // focusedOnly keeps its default here.
-  return contentSum(kMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth, mostBounces,
-                    seed, direct);
-}
-
 uint64_t irradianceInputs(const PointFile& photons, const PhotonIrradianceSettings& settings, bool knowsWalls) {
   const auto& [nearest, every, maxRadius] = settings;
-  return contentSum(kMethod, photons.contents(), nearest, every, maxRadius, knowsWalls);
+  return contentSum(kAtlasMethod, photons.contents(), nearest, every, maxRadius, knowsWalls);
 }
 
 uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
   const auto& [maxError, maxDepth, radiusScale, ignoreNormals, coarseness] = settings;
-  return contentSum(kMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
+  return contentSum(kAtlasMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
 }
 
 /// Numbers the surfaces of each map from 1; 0: small ones.
@@ -146,55 +133,6 @@ MapNames MapNames::ofSurfaces() const {
   return out;
 }
 
-PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays,
-                           const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
-                           const AtlasProgress& progress, Stats& stats, Log& log) {
-  makeAtlasFolder(folder);
-  const FolderLock lock(folder, [&] {
-    log.report(Severity::Info, "photons-wait", {},
-               "waits for another program that writes photons to \"" + folder.string() + "\"");
-  });
-  const char* channel = settings.photons.direct ? kPower : kIndirectPower;
-  std::map<std::string, PointFileWriter> files;
-  for (const std::string& name : names.all())
-    files.try_emplace(name, atlasFile(folder, name, ".ptc").string(),
-                      name == names.volume ? std::vector<CloudChannel>{{kPathPower, 3}}
-                                           : std::vector<CloudChannel>{{channel, 3}, kSurfaceChannel});
-  const auto filesOf = [&](const std::vector<std::string>& groups) {
-    std::vector<PointFileWriter*> out;
-    for (const std::string& name : groups) out.push_back(name.empty() ? nullptr : &files.at(name));
-    return out;
-  };
-  const std::vector<PointFileWriter*> global = filesOf(names.global), caustic = filesOf(names.caustic);
-  const WorldFromCurrent world(scene);
-  const auto add = [&](const StoredPhoton& p) {
-    const vec3 P = transformPoint(world.points, p.P), power = world.scale * world.scale * p.power;
-    if (p.group < 0) return files.at(names.volume).add(P, vec3(0), 0, &power.x);
-    const vec3 N = normalizeOr(world.normals * p.N, vec3(0, 0, 1));
-    const auto group = static_cast<size_t>(p.group);
-    const std::array values{power.x, power.y, power.z, static_cast<float>(names.surface[group])};
-    if (p.bounces <= settings.photons.mostBounces) global[group]->add(P, N, 0, values.data());
-    if (p.caustic() && caustic[group]) caustic[group]->add(P, N, 0, values.data());
-  };
-  const PhotonFigures figures = tracePhotons(
-      scene, rays, shading, settings.photons,
-      [&](std::span<const StoredPhoton> photons) { std::for_each(photons.begin(), photons.end(), add); }, progress,
-      stats, log);
-  UnfinishedFolder set(folder);
-  for (auto& [name, file] : files) {
-    file.finish({settings.world, photonInputs(names, settings)});
-    if (file.count() == 0)
-      log.report(settings.photons.direct ? Severity::Warning : Severity::Info, "photons-none", {},
-                 fmt::format("no photon came to the objects of photon map \"{}\"{}", name,
-                             settings.photons.direct ? "" : " but straight from lights"));
-  }
-  set.finish();
-  stats.photons.emitted += figures.emitted;
-  stats.photons.stored += figures.stored;
-  stats.photons.groups += static_cast<int64_t>(files.size());
-  return figures;
-}
-
 void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most,
                      EstimateFigures* figures, const SightAlongSurface& sight) {
   const PointFile file(photons.string());
@@ -243,48 +181,58 @@ bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const Br
   return true;
 }
 
-void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
-                Log& log) {
-  constexpr float kShareOfPhotons = 0.6f;  // of the time, about
+void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const RayScene& rays, const MapNames& names,
+               const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeAtlasFolder(irradiance);
-  const std::set<std::string> maps = names.all();
-  const uint64_t inputs = photonInputs(names, settings);
-  const bool traced = std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
-    return pointsMadeFrom(atlasFile(photons, name, ".ptc")).inputs == inputs;
-  });
-  if (!traced) {
-    const StageTimer timer(stats, "photons");
-    const AtlasProgress tracing = [&](float share) { progress(kShareOfPhotons * share); };
-    writePhotons(photons, scene, rays, shading, names, settings, progress ? tracing : progress, stats, log);
-  }
-  returnFreeMemory();
   // Where direct light is stored too, hits have no other way to their light: they look up what there is.
   const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(rays);
   size_t finished = 0;
   std::vector<MapFigures> made;
   int64_t kept = 0;
+  const std::set<std::string> maps = names.all();
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"),
                    bricks = atlasFile(folder, name, ".bkm");
-    const bool caustic = name.ends_with(kCaustic);
+    const bool caustic = name.ends_with(kCaustic),
+               others = finished % static_cast<size_t>(part.count) != static_cast<size_t>(part.index);
     const PhotonIrradianceSettings& estimate = caustic ? settings.caustics : settings.irradiance;
     const SightAlongSurface seen = caustic || name == names.volume ? nullptr : sight;
-    if (pointsMadeFrom(points).inputs !=
-        irradianceInputs(PointFile(from.string()), estimate, static_cast<bool>(seen))) {
-      const StageTimer timer(stats, "irradiance");
-      EstimateFigures figures;
-      writeIrradiance(from, points, estimate, kPointsInMemory, &figures, seen);
-      if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
+    if (others) {
+      if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), {}});
+    } else {
+      if (pointsMadeFrom(points).inputs !=
+          irradianceInputs(PointFile(from.string()), estimate, static_cast<bool>(seen))) {
+        const StageTimer timer(stats, "irradiance");
+        EstimateFigures figures;
+        writeIrradiance(from, points, estimate, kPointsInMemory, &figures, seen);
+        if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
+      }
+      if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
+      returnFreeMemory();
     }
-    if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
-    returnFreeMemory();
     const float share = static_cast<float>(++finished) / static_cast<float>(maps.size());
-    if (progress) progress(kShareOfPhotons + (1 - kShareOfPhotons) * share);
+    if (progress) progress(share);
   }
   stats.photons.groupsKept += kept;
   warnOfEstimates(scene, names, made, log);
+}
+
+void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
+                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
+                Log& log) {
+  constexpr float kShareOfPhotons = 0.6f;  // of the time, about
+  const auto within = [&](float from, float to) -> AtlasProgress {
+    if (!progress) return {};
+    return [&progress, from, to](float share) { progress(from + (to - from) * share); };
+  };
+  makeAtlasFolder(folder);
+  if (!hasPhotons(folder, names, settings)) {
+    const StageTimer timer(stats, "photons");
+    writePhotons(folder / "photons", scene, rays, shading, names, settings, within(0, kShareOfPhotons), stats, log);
+  }
+  returnFreeMemory();
+  writeMaps(folder, {}, scene, rays, names, settings, within(kShareOfPhotons, 1), stats, log);
   if (settings.photons.direct) warnOfThinWalls(folder, scene, rays, names, log);
 }
 

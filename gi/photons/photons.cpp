@@ -74,7 +74,7 @@ bool focusesPhotons(const Attributes& attributes) {
 
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const PhotonSettings& given, const std::function<void(std::span<const StoredPhoton>)>& store,
-                           const std::function<void(float)>& progress, Stats& stats, Log& log) {
+                           const std::function<void(float)>& progress, Stats& stats, Log& log, WorkPart part) {
   const PhotonStream stream(rays, shading, given, log);
   const PhotonSettings& settings = stream.settings();
   PhotonFigures figures;
@@ -83,9 +83,14 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   Series series(arrivals);
   std::vector<std::vector<StoredPhoton>> stored;
   const size_t photonsPerWave = PhotonStream::kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
-  for (const PhotonStream::Sent& sent : stream.sources()) {
-    for (size_t wave = 0; wave < sent.count; wave += photonsPerWave) {
-      const size_t end = std::min(sent.count, wave + photonsPerWave);
+  const std::vector<PhotonStream::Span> spans = stream.spansOf(part);
+  const auto all = std::accumulate(spans.begin(), spans.end(), size_t{0},
+                                   [](size_t sum, const PhotonStream::Span& s) { return sum + s.end - s.first; });
+  double power = 0;
+  for (const auto& [from, first, last] : spans) {
+    const PhotonStream::Sent& sent = *from;
+    for (size_t wave = first; wave < last; wave += photonsPerWave) {
+      const size_t end = std::min(last, wave + photonsPerWave);
       stored.assign((end - wave + PhotonStream::kPhotonsPerTask - 1) / PhotonStream::kPhotonsPerTask, {});
       stream.trace(sent, settings.seed, wave, end,
                    [&](size_t task, std::vector<StoredPhoton>&& photons) { stored[task] = std::move(photons); });
@@ -95,14 +100,14 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
         figures.stored += static_cast<int64_t>(photons.size());
       }
       if (progress)
-        progress(static_cast<float>(figures.emitted + static_cast<int64_t>(end)) / static_cast<float>(settings.emit));
+        progress(static_cast<float>(static_cast<size_t>(figures.emitted) + end - first) / static_cast<float>(all));
     }
-    figures.emitted += static_cast<int64_t>(sent.count);
+    figures.emitted += static_cast<int64_t>(last - first);
+    power += sent.source->power() * (static_cast<double>(last - first) / static_cast<double>(sent.count));
   }
   stats.rays.photon += figures.emitted;
-  figures.left = series.left(stream.power());
-  if (!stream.sources().empty() && arrivals > 1)
-    tellLeft(figures.left, series.ratio(stream.power()), arrivals, isAsked, scene.where, log);
+  figures.left = series.left(power);
+  if (!spans.empty() && arrivals > 1) tellLeft(figures.left, series.ratio(power), arrivals, isAsked, scene.where, log);
   return figures;
 }
 

@@ -54,6 +54,23 @@ PhotonStream::PhotonStream(const RayScene& rays, const ShadingSystem& shading, c
   }
 }
 
+std::vector<PhotonStream::Span> PhotonStream::spansOf(WorkPart part) const {
+  const auto tasksOf = [](const Sent& s) { return (s.count + kPhotonsPerTask - 1) / kPhotonsPerTask; };
+  size_t tasks = 0, before = 0;
+  for (const Sent& s : sources_) tasks += tasksOf(s);
+  const auto borderOf = [&](int index) { return tasks * static_cast<size_t>(index) / static_cast<size_t>(part.count); };
+  const size_t begin = borderOf(part.index), end = borderOf(part.index + 1);
+  std::vector<Span> out;
+  for (const Sent& s : sources_) {
+    const auto photonOf = [&](size_t task) {
+      return std::min(s.count, (std::clamp(task, before, before + tasksOf(s)) - before) * kPhotonsPerTask);
+    };
+    if (photonOf(begin) < photonOf(end)) out.push_back({&s, photonOf(begin), photonOf(end)});
+    before += tasksOf(s);
+  }
+  return out;
+}
+
 void PhotonStream::trace(const Sent& from, uint32_t seed, size_t first, size_t end,
                          const std::function<void(size_t, std::vector<StoredPhoton>&&)>& taken) const {
   const float share = 1 / static_cast<float>(from.count);

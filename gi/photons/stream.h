@@ -17,6 +17,13 @@ class PhotonStream {
   };
   const std::vector<Sent>& sources() const { return sources_; }
   double power() const { return power_; }  ///< Power of all sources together, in W.
+  /// Photons `first` .. `end` - 1 of a source.
+  struct Span {
+    const Sent* from;
+    size_t first, end;
+  };
+  /// The photons of one part. Parts end where tasks do, so that tasks trace the same photons together as in the whole.
+  std::vector<Span> spansOf(WorkPart part) const;
   const PhotonSettings& settings() const { return settings_; }
 
   /// A task's photons fit into the processor's cache.

@@ -74,6 +74,7 @@ std::optional<std::array<float, 4>> parseCrop(const std::string& text) {
 
 std::optional<std::vector<int>> parseFrames(const std::string& text) {
   std::vector<int> out;
+  if (text == "none") return out;
   for (const std::string_view part : split(text, ','))
     if (!appendRange(part, out)) return std::nullopt;
   std::sort(out.begin(), out.end());

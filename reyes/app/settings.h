@@ -24,11 +24,13 @@ struct RenderSettings {
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
   std::optional<float> shadingRate;
-  bool draft = false;                          ///< Coarse and fast, to place lights by.
-  std::optional<std::vector<int>> frames;      ///< Sorted. If not given, all are rendered.
-  const GiMethod* gi = nullptr;                ///< Null for what the scene's indirect light asks.
-  int samples = 0, bounces = 0;                ///< 0 for what the scene's indirect light asks.
-  float maxError = -1;                         ///< Negative for the same.
+  bool draft = false;                      ///< Coarse and fast, to place lights by.
+  std::optional<std::vector<int>> frames;  ///< Sorted. If not given, all are rendered.
+  bool framesApart = false;                ///< What --frames leaves out need not be read.
+  std::optional<std::vector<int>> makes;   ///< Sorted places of the Make requests to perform. If not given, all are.
+  const GiMethod* gi = nullptr;            ///< Null for what the scene's indirect light asks.
+  int samples = 0, bounces = 0;            ///< 0 for what the scene's indirect light asks.
+  float maxError = -1;                     ///< Negative for the same.
   std::optional<ErrorFunction> errorFunction;  ///< If not given, the same.
   int lightSamples = 0;  ///< For each area light and the sky, where the eye looks; 0 for as many as the light asks.
   bool direct = true;    ///< If false, the picture shows what indirect lights bring, and nothing else.
@@ -95,7 +97,7 @@ inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.li
 std::optional<std::array<int, 2>> parsePair(const std::string& text, int least, int most);  ///< "640x480"
 std::optional<std::array<int, 2>> parsePixel(const std::string& text);                      ///< "120,80"
 std::optional<std::array<float, 4>> parseCrop(const std::string& text);                     ///< "0,0.5,0.25,1"
-std::optional<std::vector<int>> parseFrames(const std::string& text);                       ///< "1-10x2,15"
+std::optional<std::vector<int>> parseFrames(const std::string& text);                       ///< "1-10x2,15", "none"
 std::optional<int64_t> parseBytes(const std::string& text);                                 ///< "600M", "2G", "1000000"
 /// Null for "scene", which leaves it to the scene.
 std::optional<const GiMethod*> parseGi(const std::string& text);

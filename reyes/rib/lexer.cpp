@@ -52,6 +52,21 @@ void Lexer::advance() {
   }
 }
 
+void Lexer::advancePastNumbers() {
+  static constexpr auto kWithin = [] {
+    std::array<bool, 256> out{};
+    for (const char c : std::string_view("0123456789+-.[] \t\r\n")) out[static_cast<unsigned char>(c)] = true;
+    return out;
+  }();
+  const auto isWithin = [](char c) { return kWithin[static_cast<unsigned char>(c)]; };
+  while (stream_.peek() != ByteStream::kEnd && isWithin(*stream_.begin())) {
+    const char* const end = std::find_if_not(stream_.begin(), stream_.end(), isWithin);
+    line_ += static_cast<int>(std::count(stream_.begin(), end, '\n'));
+    stream_.skipTo(end);
+  }
+  advance();
+}
+
 bool Lexer::readToken() {
   skipBlanks();
   token_.line = line_;

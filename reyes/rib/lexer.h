@@ -42,6 +42,8 @@ class Lexer {
   /// #line 12 "scene.py". The line after such a comment has the number that it gives, as in C.
   const std::shared_ptr<const std::string>& file() const { return file_; }
   void advance();
+  /// The same, past all numbers and brackets that are written before the next other token. It does not look at them.
+  void advancePastNumbers();
 
   bool atNumbers() const { return token_.kind == Token::Kind::Number || token_.kind == Token::Kind::Floats; }
   /// Appends the number or encoded array that is next, and moves past it. Pre: atNumbers().

@@ -46,6 +46,17 @@ std::optional<Request> Parser::next() {
   return std::nullopt;
 }
 
+int Parser::skipFrame() {
+  int worlds = 0;
+  for (; !at(Kind::End); lexer_.advancePastNumbers()) {
+    if (!at(Kind::Name)) continue;
+    const std::string& name = lexer_.peek().text;
+    if (name == "FrameEnd" || name == "FrameBegin") break;
+    worlds += name == "WorldBegin";
+  }
+  return worlds;
+}
+
 void Parser::warn(const char* code, const SourceLoc& where, const std::string& message, Severity severity) const {
   if (!muted_) log_.report(severity, code, where, message);
 }

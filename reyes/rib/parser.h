@@ -20,6 +20,8 @@ class Parser {
 
   /// Returns the next good request, or nothing at the end of the stream, or if so much made no sense that it gives up.
   std::optional<Request> next();
+  /// Moves to the end of the frame, without looking at its requests. Returns the number of worlds that begin there.
+  int skipFrame();
   /// Mutes messages in a branch of a condition that is not
   /// read: it may be for other renderers, and right for them.
   void mute(bool muted) { muted_ = muted; }

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "reyes/base/stop.h"
-#include "reyes/rib/parser.h"
 #include "reyes/rib/variables.h"
 
 namespace tomales::rib {
@@ -67,6 +66,7 @@ size_t Reader::read(ByteStream& stream, const std::string& name, const std::stri
        request = parser.next(), ++count) {
     if (dictionary_.hasColorSamples()) *request = withRgb(std::move(*request));
     handle(*request);
+    skip(*request, parser);
     parser.mute(!open_.back().conditions.reads());
   }
   if (stream.damaged())
@@ -74,6 +74,21 @@ size_t Reader::read(ByteStream& stream, const std::string& name, const std::stri
                 "the compressed data is " + stream.damage() + "; what comes before is used");
   leave();
   return count;
+}
+
+void Reader::skip(const Request& r, Parser& parser) {
+  const bool begins = r.name == "FrameBegin" && inFrame_ && open_.size() == 1;
+  if (!begins || !settings_.skipsFrame || !settings_.skipsFrame(r.args[0].integer())) return;
+  const int worlds = parser.skipFrame();
+  if (settings_.onSkipped) settings_.onSkipped(worlds);
+}
+
+void Reader::tellOfOutliving(const Request& r) const {
+  static constexpr std::string_view kNames[] = {"Declare", "ColorSamples", "ArchiveBegin", "System"};
+  const bool outlives = std::find(std::begin(kNames), std::end(kNames), r.name) != std::end(kNames) ||
+                        (r.name == "Option" && r.args[0].strings[0] == "ribparse") ||
+                        (r.name == "WorldBegin" && open_.size() > 1);  // it would not be counted
+  if (outlives && settings_.onOutliving) settings_.onOutliving(r);
 }
 
 void Reader::enter(const std::string& key, const std::string& folder) {
@@ -97,6 +112,8 @@ void Reader::handle(const Request& r) {
   Level& level = open_.back();
   if (level.recording) return record(r);
   if (level.conditions.take(r)) return;
+  if (!inProcedural_ && (r.name == "FrameBegin" || r.name == "FrameEnd")) inFrame_ = r.name == "FrameBegin";
+  if (inFrame_) tellOfOutliving(r);
   if (mark_ != 0)
     perform(substituted(r));
   else

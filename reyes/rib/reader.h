@@ -5,6 +5,7 @@
 
 #include "reyes/rib/conditions.h"
 #include "reyes/rib/dictionary.h"
+#include "reyes/rib/parser.h"
 #include "reyes/rib/plugin.h"
 #include "reyes/rib/program.h"
 #include "reyes/rib/ri_calls.h"
@@ -71,6 +72,9 @@ class Reader {
   void enter(const std::string& key, const std::string& folder);
   void leave();
   void handle(const Request& request);
+  /// Passes over the rest of a frame that the request begins, if nobody wants it.
+  void skip(const Request& request, Parser& parser);
+  void tellOfOutliving(const Request& request) const;
   void perform(const Request& request);
   std::optional<std::string> variable(const std::string& name) const;
   Request substituted(const Request& request) const;
@@ -129,6 +133,7 @@ class Reader {
   /// within share it.
   std::shared_ptr<std::atomic<size_t>> budget_;
   bool inProcedural_ = false;
+  bool inFrame_ = false;
   std::shared_ptr<ProgramPool> programs_;
   std::shared_ptr<PluginPool> plugins_;
   std::shared_ptr<const Surroundings> surroundings_;  ///< Null once they have changed.

@@ -1,5 +1,6 @@
 """A moving scene with indirect light, in tiles, on a real Slurm cluster of two nodes: one node is killed while it works, a task is killed,
-and the pictures have the bits of one run on one machine. A node that is lost holds its tasks up for about two and a half minutes."""
+the folder of pictures is read-only for a while, and the pictures have the bits of one run on one machine. A node that is lost holds its
+tasks up for about two and a half minutes."""
 import json
 import os
 import pathlib
@@ -43,15 +44,27 @@ def wait_for(condition, patience_s):
     return condition()
 
 
+def close_folder(path):
+    """As a server that is being mended: root may not write there either."""
+    return all(subprocess.run(["mount", *how, path, *to], capture_output=True).returncode == 0
+               for how, to in ((["--bind"], [path]), (["-o", "remount,bind,ro"], [])))
+
+
+def open_folder(path):
+    subprocess.run(["mount", "-o", "remount,bind,rw", path], check=True)
+    subprocess.run(["umount", "-l", path], check=True)
+
+
 with tempfile.TemporaryDirectory() as folder:
     cluster = Cluster(pathlib.Path(folder) / "cluster")
     work = pathlib.Path(folder) / "a shot's folder"
     work.mkdir()
+    (work / "out").mkdir()
     (work / "shot.rib").write_text(head(160, 120) + "".join(frame(i, 400, 0.03) for i in range(1, FRAMES + 1)))
     try:
         cluster.start()
         run("shot.rib", "-o", "one.####.exr", "-q", "-t", "1")
-        submit = ["batch", "shot.rib", "-o", "s.####.exr", "--tiles", TILES, "--engine", "slurm"]
+        submit = ["batch", "shot.rib", "-o", "out/s.####.exr", "--tiles", TILES, "--engine", "slurm"]
         wrong = run(*submit, "--partition", "nowhere")
         expect(wrong.returncode == 2 and 'no partition "nowhere"; it has render' in wrong.stderr, "a wrong partition is told before anything begins")
         expect(not (work / "shot.batch").exists(), "and leaves no plan")
@@ -61,6 +74,8 @@ with tempfile.TemporaryDirectory() as folder:
         print(f"        {sent.stdout.strip()} after {time.monotonic() - begun:.1f} s", flush=True)
         again = run(*submit)
         expect(again.returncode == 2 and "on the cluster already" in again.stderr, "and not submitted twice")
+        closed = close_folder(work / "out")
+        print("        the folder of pictures is read-only" if closed else "        the folder of pictures cannot be made read-only here", flush=True)
         expect(wait_for(lambda: len(list((work / "shot.batch" / "work").glob("*.icf"))) >= 3, 120), "frames are gathered")
         wait_for(lambda: cluster.steps_of("n2") and cluster.steps_of("n1"), 30)
         victims = cluster.steps_of("n2")
@@ -70,6 +85,9 @@ with tempfile.TemporaryDirectory() as folder:
         for process in renderers[:1]:
             os.kill(process, signal.SIGKILL)
         expect(bool(renderers), "and a task on the other one")
+        if closed:
+            expect(wait_for(lambda: status()["failures"] or status()["finished"], 200) and not list((work / "out").iterdir()), "no picture is finished in a closed folder")
+            open_folder(work / "out")
         done = wait_for(lambda: status()["finished"] == FRAMES or not cluster.say("squeue", "-h"), 600)
         if status()["finished"] < FRAMES:  # Slurm gives up jobs whose launch failed with the node
             print("        " + run(*submit).stdout.strip() + " once more", flush=True)
@@ -77,10 +95,11 @@ with tempfile.TemporaryDirectory() as folder:
         expect(done, f"all frames are finished after {time.monotonic() - begun:.0f} s")
         if not done:
             print(run("batch", "status", "shot.batch").stdout, cluster.say("squeue"), sep="\n")
-        different = [f for f in range(1, FRAMES + 1) if json.loads(run("compare", f"s.{f:04}.exr", f"one.{f:04}.exr", "--json").stdout or "{}").get("different_pixels") != 0]
+        different = [f for f in range(1, FRAMES + 1) if json.loads(run("compare", f"out/s.{f:04}.exr", f"one.{f:04}.exr", "--json").stdout or "{}").get("different_pixels") != 0]
         expect(not different, f"with the bits of one run on one machine {different or ''}")
         jobs = cluster.say("sdiag")
         print("        " + " ".join(line.strip() for line in jobs.splitlines() if "Jobs submitted" in line or "Jobs completed" in line))
     finally:
+        subprocess.run(["umount", "-l", work / "out"], capture_output=True)
         cluster.stop()
 sys.exit(bool(failures))

@@ -1,16 +1,19 @@
 """Flicker of interpolated indirect light over frames in which the camera, then an object, moves slowly.
 
-flicker_test.py TOMALES [SIZE SAMPLES FRAMES] [--moves camera,object] [--crop X0,X1,Y0,Y1] [--truth RAYS] [-- OPTIONS OF GATHER]
+flicker_test.py TOMALES [SIZE SAMPLES FRAMES] [--moves camera,object] [--crop X0,X1,Y0,Y1] [--truth RAYS] [--groups 2,4] [-- OPTIONS OF GATHER]
 
 Flicker is the temporal high-pass of what a picture is off from a gather at every point: the rms over pixels and frames of
 h(t) = e(t) - (e(t-1) + e(t+1)) / 2, e over the mean of the truth, divided by sqrt(3/2) so that independent noise keeps its size. The truth is
 gathered twice with other rays, and squares are products of the two h, so that its noise is not in their mean; what it leaves of chance is told as the
 figures between which one standard error of that mean leads (by tiles of 8 x 8 pixels, which are taken to err apart). "On fixed points": what the records of each frame
 say in the view of the first, which a static scene should not change; no truth is needed for that (--truth 0 does without). Caches are made for each
-frame, or shared: each frame adds records where those of the frames before leave points uncovered or disagree.
+frame, or shared: each frame adds records where those of the frames before leave points uncovered or disagree. With --groups they are
+shared by so many frames in a row as well, whose pictures are all of the last cache, as `batch --share-records` has it. The CPU seconds of
+gathering are told.
 """
 import argparse
 import pathlib
+import resource
 import statistics
 import subprocess
 import sys
@@ -35,12 +38,18 @@ parser.add_argument("numbers", nargs="*", type=int, help="size, samples, frames"
 parser.add_argument("--moves", default=",".join(MOVES))
 parser.add_argument("--crop", help="of the pictures that are compared; caches are of the whole frame")
 parser.add_argument("--truth", type=int, help="rays a point, twice")
+parser.add_argument("--groups", default="", help="frames that share a cache")
 own_arguments, _, gather = " ".join(sys.argv[1:]).partition(" -- ")
 options = parser.parse_args(own_arguments.split())
 size, samples, frames = options.numbers or (24, 128, 4)
 rays = samples if options.truth is None else options.truth
 LIMITS = {"own": 0.01, "shared": 0.01} if options.numbers else {"own": 0.06, "shared": 0.024}  # few rays and large pixels make a coarser picture
 edges = [size * float(x) for x in options.crop.split(",")] if options.crop else [0, size, 0, size]
+
+
+def cpu_s():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def run(*arguments):
@@ -113,24 +122,27 @@ def of_move(folder, move):
     shots = [Shot(folder, move, frame) for frame in range(frames)]
     truths = [[shot.truth(seed) for shot in shots] for seed in (1, 2)] if rays else []
     found = {}
-    for kind in ("own", "shared"):
-        caches = []
-        for shot in shots:
-            caches.append(shot.gather(kind, caches[-1] if caches and kind == "shared" else None))
+    for kind, group in {"own": 1, "shared": frames, **{f"{g} frames share": int(g) for g in options.groups.split(",") if g}}.items():
+        caches, before = [], cpu_s()
+        for number, shot in enumerate(shots):
+            caches.append(shot.gather(kind.replace(" ", "_"), caches[-1] if number % group else None))
+        taken = cpu_s() - before
+        if kind not in LIMITS:  # the last of a group serves all of it
+            caches = [caches[min(number // group * group + group, frames) - 1] for number in range(frames)]
         pictures = [shot.lit_by(icf) for shot, icf in zip(shots, caches)]
         seen = over(mean(truths[0] + truths[1]), flicker(*(minus(pictures, t) for t in truths))) if rays else None
         first = [shots[0].lit_by(icf) for icf in caches] if move == "camera" else None
-        found[kind] = seen, over(mean(first), flicker(first, first)) if first else None
+        found[kind] = seen, over(mean(first), flicker(first, first)) if first else None, taken
     return found
 
 
 failures = 0
 with tempfile.TemporaryDirectory() as name:
     for move in options.moves.split(","):
-        for kind, (seen, fixed) in of_move(pathlib.Path(name), move).items():
-            failed = seen is not None and seen[0] > LIMITS[kind]
+        for kind, (seen, fixed, taken) in of_move(pathlib.Path(name), move).items():
+            failed = seen is not None and kind in LIMITS and seen[0] > LIMITS[kind]
             failures += failed
             parts = ["%.2f %% of the mean (%.2f to %.2f)%s" % (*(100 * v for v in figures), where)
                      for figures, where in ((seen, ""), (fixed, " on fixed points")) if figures is not None]
-            print(f"{'FAILED ' if failed else 'ok     ' if seen else 'seen   '} moving {move}, {kind} caches: flicker {', '.join(parts)}", flush=True)
+            print(f"{'FAILED ' if failed else 'ok     ' if seen else 'seen   '} moving {move}, {kind} caches: flicker {', '.join(parts)}; {taken:.1f} CPU s", flush=True)
 sys.exit(bool(failures))

@@ -1,19 +1,16 @@
 #include "reyes/app/batch/batch.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <fstream>
 
 #include "reyes/app/batch/local.h"
+#include "reyes/app/batch/owner.h"
 #include "reyes/app/batch/report.h"
 #include "reyes/app/batch/task.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/chunk_file.h"
-#include "reyes/base/folder_lock.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/unfinished_file.h"
 
@@ -30,8 +27,28 @@ fs::path planFile(const std::string& given) {
   return fs::is_directory(given, none) ? fs::path(given) / kPlanName : fs::path(given);
 }
 
-/// The number of the process that works on a plan here, for `batch cancel`.
-fs::path ownerFile(const BatchPlan& plan) { return plan.folder() / "owner"; }
+/// Tells farms the share of finished frames, some times a second: to count them takes time.
+class ProgressLines {
+ public:
+  explicit ProgressLines(const BatchPlan& plan) : plan_(plan) {}
+  void tell(const std::vector<TaskState>& states, bool isLast) {
+    constexpr std::chrono::milliseconds kPause{300};
+    const auto now = std::chrono::steady_clock::now();
+    if (!isLast && now - told_ < kPause) return;
+    told_ = now;
+    const BatchReport report = reportOf(plan_, states);
+    const int percent = static_cast<int>(100 * report.finished.size() / std::max<size_t>(1, report.frames()));
+    if (percent == shown_) return;
+    shown_ = percent;
+    std::puts(fmt::format("R90000 {:>4}%", percent).c_str());
+    std::fflush(stdout);
+  }
+
+ private:
+  const BatchPlan& plan_;
+  int shown_ = -1;
+  std::chrono::steady_clock::time_point told_{};
+};
 
 class BatchRun {
  public:
@@ -61,7 +78,9 @@ class BatchRun {
     if (what.size() == 1 && (what.front().ends_with(".json") || fs::is_directory(what.front())))
       return submit(readPlan(planFile(what.front())));
     const auto plan = planned();
-    return plan ? submit(*plan) : exitCodeOf(log_);
+    if (plan && command_.planOnly)
+      std::puts(fmt::format("{} tasks are in \"{}\"", plan->tasks.size(), plan->file.string()).c_str());
+    return plan && !command_.planOnly ? submit(*plan) : exitCodeOf(log_);
   }
 
   /// Makes the plan. One that is there already is kept if it is the same, and else refused: it may be under way.
@@ -71,7 +90,10 @@ class BatchRun {
     command_.plan.render.files = command_.what;
     auto plan = makePlan(command_.plan, log_);
     if (!plan) return std::nullopt;
-    if (command_.onSlurm) checkSlurm(*plan, command_.slurm);
+    if (command_.onSlurm) {
+      checkSlurm(command_.slurm);
+      refuseIfOnCluster(*plan);
+    }
     if (!fs::exists(plan->file)) {
       writePlan(*plan);
       return plan;
@@ -85,31 +107,24 @@ class BatchRun {
   }
 
   int submit(const BatchPlan& plan) {
-    const FolderLock lock(plan.folder(), [&] {
-      throw FileError(fmt::format("another process works on the plan \"{}\"", plan.file.string()));
-    });
+    PlanOwner owner(plan);
     makeFolders(plan);
+    refuseIfOnCluster(plan);
     if (command_.onSlurm) {
-      checkSlurm(plan, command_.slurm);
+      checkSlurm(command_.slurm);
       std::puts(fmt::format("{} tasks are on the cluster; tomales batch status {}", submitToSlurm(plan, command_.slurm),
                             plan.folder().string())
                     .c_str());
       return kDone;
     }
     const OrderlyEnd orderly;
-    std::string why;
-    if (!writeFile(ownerFile(plan).string(), std::to_string(::getpid()) + "\n", why)) throw WriteError(why);
     const int processes = command_.processes > 0 ? command_.processes : threadCount();
-    int shown = -1;
+    ProgressLines lines(plan);
     const auto states = runLocally(plan, processes, [&](const std::vector<TaskState>& now) {
-      const BatchReport report = reportOf(plan, now);
-      const int percent = static_cast<int>(100 * report.finished.size() / std::max<size_t>(1, report.frames()));
-      if (percent == shown) return;
-      shown = percent;
-      std::puts(fmt::format("R90000 {:>4}%", percent).c_str());
-      std::fflush(stdout);
+      owner.renew();
+      lines.tell(now, false);
     });
-    fs::remove(ownerFile(plan));
+    lines.tell(states, true);
     return show(plan, states);
   }
 
@@ -130,19 +145,11 @@ class BatchRun {
   int status(const BatchPlan& plan) { return show(plan, statesOf(plan)); }
 
   int cancel(const BatchPlan& plan) {
-    if (fs::exists(plan.folder() / "jobs") && hasJobs(plan)) {
+    if (hasJobs(plan)) {
       cancelJobs(plan);
       return kDone;
     }
-    bool free = true;
-    try {
-      const FolderLock lock(plan.folder(), [] { throw FileError(""); });
-    } catch (const FileError&) {
-      free = false;
-    }
-    std::ifstream in(ownerFile(plan));
-    pid_t owner = 0;
-    if (free || !(in >> owner) || ::kill(owner, SIGTERM) != 0)
+    if (!PlanOwner::endOther(plan))
       throw FileError(fmt::format("nothing works on the plan \"{}\" here", plan.file.string()));
     return kDone;
   }

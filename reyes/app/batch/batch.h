@@ -16,7 +16,8 @@ struct BatchCommand {
   std::string folder;  ///< For plan.json, states and logs; if empty, the scene's name with .batch.
   std::string page;    ///< The HTML page to write; empty for none.
   bool onSlurm = false, json = false;
-  int processes = 0;  ///< At a time; 0 for one on each processor.
+  bool planOnly = false;  ///< The plan is made, and nothing of it is run.
+  int processes = 0;      ///< At a time; 0 for one on each processor.
 };
 int batchCommand(BatchCommand command);
 

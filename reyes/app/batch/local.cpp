@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPoll{3};
-constexpr std::chrono::seconds kRetryAfter{1};
+constexpr std::chrono::seconds kRetryAfter{1}, kTell{10};
 
 /// The tasks that are neither done nor given up, in the plan's order.
 class LocalRun {
@@ -89,12 +89,14 @@ std::vector<TaskState> runLocally(const BatchPlan& plan, int processes,
                                   const std::function<void(const std::vector<TaskState>&)>& changed) {
   std::filesystem::current_path(plan.workingFolder);
   LocalRun run(plan, processes);
-  while (!run.finished()) {
+  for (auto told = Clock::now(); !run.finished();) {
     run.startSome();
-    if (run.collect())
+    if (run.collect() || Clock::now() - told >= kTell) {
       changed(run.states());
-    else
+      told = Clock::now();
+    } else {
       std::this_thread::sleep_for(kPoll);
+    }
   }
   return run.states();
 }

@@ -6,8 +6,11 @@
 namespace tomales {
 
 struct PlanOptions {
-  RenderSettings render;                      ///< As `render` takes them; `frames` are those of the batch.
-  std::array<int, 2> tiles{1, 1};             ///< Columns and rows of tiles of each frame.
+  RenderSettings render;           ///< As `render` takes them; `frames` are those of the batch.
+  std::array<int, 2> tiles{1, 1};  ///< Columns and rows of tiles of each frame.
+  int sharedRecords =
+      1;                ///< Frames in a row that share irradiance records, each beginning with those of the one before.
+  int photonParts = 0;  ///< Tasks that trace the photons of one world; 0: as their number asks.
   std::vector<std::string> pictureArguments;  ///< What the user gave of these options: they go to the passes that
   std::vector<std::string> lightArguments;    ///< take them.
   std::filesystem::path file;                 ///< The plan.
@@ -15,7 +18,8 @@ struct PlanOptions {
 
 /// Reads the scene once, without rendering, to find its frames and what they write. Without tiles each frame is one run
 /// of `render`; with tiles it is hidden and gathered once, shaded in tiles and joined. Frames that make maps come
-/// before all others. Returns nothing if the scene does not suit a batch, which is reported.
+/// before all others, and so do the maps of light that frames share. Returns nothing if the scene does not suit a
+/// batch, which is reported.
 std::optional<BatchPlan> makePlan(const PlanOptions& options, Log& log);
 
 }  // namespace tomales

@@ -142,6 +142,8 @@ void writePlan(const BatchPlan& plan) {
     throw WriteError(fmt::format("\"{}\" could not be written: {}", plan.file.string(), why));
 }
 
+std::string taskName(int frame, const std::string& stage) { return fmt::format("{:04}.{}", frame, stage); }
+
 uint64_t taskSum(const BatchTask& task) {
   std::string text;
   for (const std::string& a : task.arguments) text += a + '\0';
@@ -163,6 +165,7 @@ TaskState readState(const BatchPlan& plan, const BatchTask& task) {
     out.peak_bytes = json.at("peak_bytes");
     out.host = json.at("host");
     out.sum = json.at("sum");
+    out.sizes = json.value("bytes", std::vector<int64_t>());
   } catch (const Json::exception&) {
     return {};
   }
@@ -170,19 +173,34 @@ TaskState readState(const BatchPlan& plan, const BatchTask& task) {
   return out;
 }
 
+std::vector<int64_t> sizesOf(const BatchPlan& plan, const BatchTask& task) {
+  std::vector<int64_t> out;
+  for (const std::string& file : task.makes) {
+    std::error_code missing;
+    const fs::path path = fs::path(plan.workingFolder) / file;
+    const bool isFolder = fs::is_directory(path, missing);
+    const auto size = isFolder ? 0 : fs::file_size(path, missing);
+    out.push_back(missing ? -1 : static_cast<int64_t>(size));
+  }
+  return out;
+}
+
 std::vector<TaskState> statesOf(const BatchPlan& plan) {
   std::map<std::string, bool> stillNeeded;
   std::vector<TaskState> out(plan.tasks.size());
-  std::error_code none;
-  const auto isThere = [&](const std::string& file) { return fs::exists(fs::path(plan.workingFolder) / file, none); };
+  const auto isThere = [](int64_t size) { return size >= 0; };
   for (size_t i = plan.tasks.size(); i-- > 0;) {
     const BatchTask& task = plan.tasks[i];
     const auto needed = stillNeeded.find(task.name);
     out[i] = readState(plan, task);
     if (needed != stillNeeded.end() && !needed->second)
       out[i].kind = TaskState::Done;
-    else if (out[i].kind == TaskState::Done && !std::all_of(task.makes.begin(), task.makes.end(), isThere))
-      out[i].kind = TaskState::Waiting;
+    else if (out[i].kind == TaskState::Done) {
+      const std::vector<int64_t> sizes = sizesOf(plan, task);
+      const bool whole =
+          needed == stillNeeded.end() ? std::all_of(sizes.begin(), sizes.end(), isThere) : sizes == out[i].sizes;
+      if (!whole) out[i].kind = TaskState::Waiting;
+    }
     for (const std::string& n : task.needs) stillNeeded[n] |= out[i].kind != TaskState::Done;
   }
   return out;
@@ -191,7 +209,7 @@ std::vector<TaskState> statesOf(const BatchPlan& plan) {
 void writeState(const BatchPlan& plan, const BatchTask& task, const TaskState& state) {
   const Json json{{"state", kStates[state.kind]}, {"attempts", state.attempts}, {"exit_code", state.code},
                   {"wall_s", state.wall_s},       {"cpu_s", state.cpu_s},       {"peak_bytes", state.peak_bytes},
-                  {"host", state.host},           {"sum", taskSum(task)}};
+                  {"host", state.host},           {"sum", taskSum(task)},       {"bytes", state.sizes}};
   std::string why;
   if (!writeFile(plan.stateOf(task).string(), json.dump(1) + "\n", why))
     throw WriteError(fmt::format("\"{}\" could not be written: {}", plan.stateOf(task).string(), why));

@@ -11,7 +11,7 @@ namespace tomales {
 
 struct BatchTask {
   std::string name;   ///< Names its files beside the plan: letters, digits, - _ and . alone.
-  std::string stage;  ///< maps, render, hide, gather, shade, join: for people, and for arrays of jobs.
+  std::string stage;  ///< maps, render, hide, gather, shade000, join ...: an array of jobs has tasks of one stage.
   int frame = 0;
   std::vector<std::string> arguments;  ///< The arguments that this program gets.
   std::vector<std::string> needs;      ///< Names of tasks that come before.
@@ -51,12 +51,18 @@ struct TaskState {
   double wall_s = 0, cpu_s = 0;
   int64_t peak_bytes = 0;
   std::string host;
-  uint64_t sum = 0;  ///< taskSum() of the task that ran.
+  uint64_t sum = 0;            ///< taskSum() of the task that ran.
+  std::vector<int64_t> sizes;  ///< Bytes of the files that it has made.
 };
+/// The name of a frame's task.
+std::string taskName(int frame, const std::string& stage);
 uint64_t taskSum(const BatchTask& task);
 /// Waiting if there is none, or if the task has been edited since.
 TaskState readState(const BatchPlan& plan, const BatchTask& task);
+/// Bytes of the files that a task makes; -1 for one that is not there.
+std::vector<int64_t> sizesOf(const BatchPlan& plan, const BatchTask& task);
 /// The states of all tasks. A task is done only if what it made is still there, or if all tasks that need it are done.
+/// Files that other tasks need must have the size that they were made with.
 std::vector<TaskState> statesOf(const BatchPlan& plan);
 /// Throws WriteError.
 void writeState(const BatchPlan& plan, const BatchTask& task, const TaskState& state);

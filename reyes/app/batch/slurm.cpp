@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "reyes/app/batch/task.h"
@@ -69,55 +70,100 @@ std::vector<std::string> jobsOf(const BatchPlan& plan) {
   return out;
 }
 
-/// Tasks that are submitted as one array of jobs.
+/// Tasks that are submitted as one array of jobs. Their needs are those that are not done.
 struct JobArray {
   std::string name;
   std::vector<const BatchTask*> tasks;
-  std::vector<std::string> needs;     ///< Names of tasks that all of them need.
-  const JobArray* follows = nullptr;  ///< Each task needs the one of the same number there, and nothing else.
-  std::string job;                    ///< Slurm's number, once it is submitted.
+  std::vector<std::string> needs;        ///< Names of tasks that all of them need.
+  std::vector<const JobArray*> follows;  ///< Besides, each task needs the one of the same number in each of these.
+  std::string job;                       ///< Slurm's number, once it is submitted.
 };
 
 using Arrays = std::vector<std::unique_ptr<JobArray>>;
 
-bool follows(const std::vector<const BatchTask*>& tasks, const JobArray& other) {
-  return tasks.size() == other.tasks.size() &&
-         std::equal(tasks.begin(), tasks.end(), other.tasks.begin(),
-                    [](const BatchTask* t, const BatchTask* o) { return t->needs == std::vector{o->name}; });
+/// Needs that all tasks have.
+std::vector<std::string> commonNeeds(const std::vector<const BatchTask*>& tasks) {
+  std::map<std::string, size_t> counts;
+  for (const BatchTask* t : tasks)
+    for (const std::string& n : t->needs) ++counts[n];
+  std::vector<std::string> out = tasks.front()->needs;
+  std::erase_if(out, [&](const std::string& n) { return counts[n] < tasks.size(); });
+  return out;
 }
 
-/// Puts tasks of one stage together that need the same tasks, or each its own one of the same array.
-Arrays arraysOf(const BatchPlan& plan, const std::vector<bool>& wanted) {
-  std::vector<std::string> stages;
+/// The arrays whose tasks these need one by one, besides what all of them need; none if it is not so.
+std::optional<std::vector<const JobArray*>> leadersOf(const std::vector<const BatchTask*>& tasks,
+                                                      const Arrays& arrays) {
+  const std::vector<std::string> common = commonNeeds(tasks);
+  const auto ownNeeds = [&](const BatchTask* t) {
+    std::vector<std::string> out = t->needs;
+    std::erase_if(out,
+                  [&](const std::string& n) { return std::find(common.begin(), common.end(), n) != common.end(); });
+    return out;
+  };
+  std::vector<const JobArray*> out;
+  for (const std::string& first : ownNeeds(tasks.front())) {
+    const auto leader = std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) {
+      return a->tasks.size() == tasks.size() && a->tasks.front()->name == first;
+    });
+    if (leader == arrays.end()) return std::nullopt;
+    out.push_back(leader->get());
+  }
+  for (size_t i = 0; i < tasks.size(); ++i) {
+    const std::vector<std::string> own = ownNeeds(tasks[i]);
+    const bool follows = std::equal(own.begin(), own.end(), out.begin(), out.end(),
+                                    [&](const std::string& n, const JobArray* a) { return a->tasks[i]->name == n; });
+    if (!follows) return std::nullopt;
+  }
+  return out;
+}
+
+/// As many tasks together as an array may have.
+std::vector<std::vector<const BatchTask*>> inParts(const std::vector<const BatchTask*>& tasks) {
+  std::vector<std::vector<const BatchTask*>> out;
+  for (size_t i = 0; i < tasks.size(); ++i) {
+    if (i % kMostOfArray == 0) out.emplace_back();
+    out.back().push_back(tasks[i]);
+  }
+  return out;
+}
+
+/// Puts tasks of one stage together that need the same tasks, or each its own ones of the same arrays.
+Arrays arraysOf(const std::vector<BatchTask>& wanted) {
+  std::vector<std::string> stages;  // tasks that can begin at once are apart from those of the same stage that wait
   std::map<std::string, std::vector<const BatchTask*>> byStage;
-  for (size_t i = 0; i < plan.tasks.size(); ++i) {
-    if (!wanted[i]) continue;
-    auto& of = byStage[plan.tasks[i].stage];
-    if (of.empty()) stages.push_back(plan.tasks[i].stage);
-    of.push_back(&plan.tasks[i]);
+  for (const BatchTask& t : wanted) {
+    const std::string stage = t.needs.empty() ? t.stage : t.stage + ".later";
+    if (byStage[stage].empty()) stages.push_back(stage);
+    byStage[stage].push_back(&t);
   }
   Arrays out;
-  const auto add = [&](const std::string& stage, std::vector<const BatchTask*> tasks, const JobArray* leader) {
-    for (size_t first = 0; first < tasks.size(); first += kMostOfArray) {
-      const size_t count = std::min(kMostOfArray, tasks.size() - first);
-      const auto begin = tasks.begin() + static_cast<ptrdiff_t>(first);
-      out.push_back(std::make_unique<JobArray>(JobArray{fmt::format("{:04}.{}", out.size(), stage),
-                                                        {begin, begin + static_cast<ptrdiff_t>(count)},
-                                                        leader ? std::vector<std::string>() : tasks.front()->needs,
-                                                        leader,
-                                                        {}}));
-    }
+  const auto add = [&](const std::string& stage, const std::vector<const BatchTask*>& tasks,
+                       const std::vector<const JobArray*>& leaders) {
+    out.push_back(std::make_unique<JobArray>(
+        JobArray{fmt::format("{:04}.{}", out.size(), stage), tasks, commonNeeds(tasks), leaders, {}}));
   };
   for (const std::string& stage : stages) {
-    const auto& tasks = byStage[stage];
-    const auto leader = std::find_if(out.begin(), out.end(), [&](const auto& a) { return follows(tasks, *a); });
-    if (leader != out.end()) {
-      add(stage, tasks, leader->get());
-      continue;
-    }
+    const std::vector<std::vector<const BatchTask*>> parts = inParts(byStage[stage]);
+    std::vector<std::vector<const JobArray*>> leaders;
+    for (const auto& part : parts)
+      if (const auto of = leadersOf(part, out)) leaders.push_back(*of);
+    for (size_t i = 0; i < parts.size() && leaders.size() == parts.size(); ++i) add(stage, parts[i], leaders[i]);
+    if (leaders.size() == parts.size()) continue;
     std::map<std::vector<std::string>, std::vector<const BatchTask*>> byNeeds;
-    for (const BatchTask* task : tasks) byNeeds[task->needs].push_back(task);
-    for (const auto& [needs, some] : byNeeds) add(stage, some, nullptr);
+    for (const BatchTask* task : byStage[stage]) byNeeds[task->needs].push_back(task);
+    for (const auto& [needs, some] : byNeeds)
+      for (const auto& part : inParts(some)) add(stage, part, {});
+  }
+  return out;
+}
+
+/// A plan of these tasks alone: that of a long shot has many megabytes, which each task would read.
+BatchPlan partOfPlan(const BatchPlan& plan, const JobArray& array) {
+  BatchPlan out{plan.folder() / (array.name + ".json"), plan.workingFolder, {}, {}};
+  for (const BatchTask* t : array.tasks) {
+    out.tasks.push_back(*t);
+    out.tasks.back().needs.clear();
   }
   return out;
 }
@@ -144,13 +190,12 @@ while kill -0 $child 2>/dev/null; do wait $child; code=$?; done  # the trap has 
 if [ $code -gt 128 ] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {} ]; then code={}; fi  # it was killed: once more
 exit $code
 )",
-                           quoted(fs::read_symlink("/proc/self/exe").string()), quoted(plan.file.string()),
-                           kMostAttempts, kRequeue);
+                           quoted(fs::read_symlink("/proc/self/exe").string()),
+                           quoted(partOfPlan(plan, array).file.string()), kMostAttempts, kRequeue);
 }
 
 /// What sbatch shall wait for; empty for nothing.
 std::string dependencyOf(const JobArray& array, const Arrays& all) {
-  if (array.follows) return "aftercorr:" + array.follows->job;
   std::string out;
   for (const auto& other : all) {
     std::vector<std::string> jobs;
@@ -163,16 +208,23 @@ std::string dependencyOf(const JobArray& array, const Arrays& all) {
     if (jobs.size() == other->tasks.size()) jobs = {other->job};
     for (const std::string& job : jobs) out += (out.empty() ? "afterok:" : ":") + job;
   }
+  for (const JobArray* leader : array.follows)
+    out += (leader != array.follows.front() ? ":" : out.empty() ? "aftercorr:" : ",aftercorr:") + leader->job;
   return out;
 }
 
-/// Tasks that are not done, and those before them: these end at once if what they make is there.
-std::vector<bool> wantedOf(const BatchPlan& plan) {
+/// Tasks that are not done, without needs that are.
+std::vector<BatchTask> wantedOf(const BatchPlan& plan) {
   const std::vector<TaskState> states = statesOf(plan);
-  std::map<int, bool> frames;
-  for (size_t i = 0; i < states.size(); ++i) frames[plan.tasks[i].frame] |= states[i].kind != TaskState::Done;
-  std::vector<bool> out;
-  for (const BatchTask& t : plan.tasks) out.push_back(frames[t.frame]);
+  std::set<std::string> done;
+  std::vector<BatchTask> out;
+  for (size_t i = 0; i < states.size(); ++i) {
+    if (states[i].kind == TaskState::Done)
+      done.insert(plan.tasks[i].name);
+    else
+      out.push_back(plan.tasks[i]);
+  }
+  for (BatchTask& t : out) std::erase_if(t.needs, [&](const std::string& n) { return done.contains(n); });
   return out;
 }
 
@@ -186,7 +238,7 @@ bool hasJobs(const BatchPlan& plan) {
   return code == 0 && !lines.empty();
 }
 
-void checkSlurm(const BatchPlan& plan, const SlurmOptions& options) {
+void checkSlurm(const SlurmOptions& options) {
   int code = 0;
   const std::string partitions = outputOf({"sinfo", "-h", "-o", "%R"}, code);
   if (code != 0) throw FileError("Slurm does not answer: " + partitions);
@@ -195,6 +247,14 @@ void checkSlurm(const BatchPlan& plan, const SlurmOptions& options) {
   for (std::string line; std::getline(lines, line);) names.push_back(line);
   if (!options.partition.empty() && std::find(names.begin(), names.end(), options.partition) == names.end())
     throw FileError(fmt::format("Slurm has no partition \"{}\"; it has {}", options.partition, fmt::join(names, ", ")));
+}
+
+void refuseIfOnCluster(const BatchPlan& plan) {
+  if (!jobsOf(plan).empty() && !found("squeue"))
+    throw FileError(
+        fmt::format("the plan was given to a cluster, and there is no \"squeue\" here to ask whether that is "
+                    "over; if it is, remove \"{}\"",
+                    jobsFile(plan).string()));
   if (hasJobs(plan))
     throw FileError(fmt::format("the plan \"{}\" is on the cluster already: see tomales batch status, or cancel it",
                                 plan.file.string()));
@@ -203,7 +263,8 @@ void checkSlurm(const BatchPlan& plan, const SlurmOptions& options) {
 size_t submitToSlurm(const BatchPlan& plan, const SlurmOptions& options) {
   std::error_code problem;
   fs::create_directories(plan.folder() / "slurm", problem);
-  const Arrays arrays = arraysOf(plan, wantedOf(plan));
+  const std::vector<BatchTask> wanted = wantedOf(plan);
+  const Arrays arrays = arraysOf(wanted);
   std::vector<std::string> jobs;
   const auto takeBack = [&](const std::string& why) {
     int code = 0;
@@ -218,6 +279,7 @@ size_t submitToSlurm(const BatchPlan& plan, const SlurmOptions& options) {
     std::string why;
     if (!writeFile(script, scriptOf(plan, *array, options), why))
       takeBack(fmt::format("\"{}\" could not be written: {}", script, why));
+    writePlan(partOfPlan(plan, *array));
     std::vector<std::string> command{"sbatch", "--parsable", "--chdir=" + plan.workingFolder};
     const std::string after = dependencyOf(*array, arrays);
     if (!after.empty()) {

@@ -13,8 +13,10 @@ struct SlurmOptions {
   int atOnce = 0;                       ///< Most tasks of one array at a time; 0 for no limit.
 };
 
-/// Throws FileError if there is no Slurm, no such partition, or if jobs of the plan are there already.
-void checkSlurm(const BatchPlan& plan, const SlurmOptions& options);
+/// Throws FileError if there is no Slurm, or no such partition.
+void checkSlurm(const SlurmOptions& options);
+/// Throws FileError if jobs of the plan are on the cluster, or if nobody here can tell.
+void refuseIfOnCluster(const BatchPlan& plan);
 /// Writes the scripts of tasks that are not done, and submits them. Returns the number of jobs. What was submitted is
 /// taken back if one of them is refused, which throws FileError.
 size_t submitToSlurm(const BatchPlan& plan, const SlurmOptions& options);

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <thread>
 
@@ -72,9 +73,9 @@ bool RunningTask::ended() {
   state_.peak_bytes = int64_t{used.ru_maxrss} * 1024;
   state_.kind = succeeded(state_.code) ? TaskState::Done : stopped_ ? TaskState::Waiting : TaskState::Failed;
   std::error_code none;
-  for (const std::string& file : task_.makes)
-    if (state_.kind == TaskState::Done && !fs::exists(fs::path(plan_.workingFolder) / file, none))
-      state_.kind = TaskState::Failed;
+  state_.sizes = sizesOf(plan_, task_);
+  if (state_.kind == TaskState::Done && std::count(state_.sizes.begin(), state_.sizes.end(), -1) > 0)
+    state_.kind = TaskState::Failed;
   writeState(plan_, task_, state_);
   if (state_.kind == TaskState::Done)
     for (const std::string& file : task_.removes) fs::remove(fs::path(plan_.workingFolder) / file, none);
@@ -89,8 +90,8 @@ void RunningTask::stop() {
 int runTask(const BatchPlan& plan, const std::string& name) {
   const BatchTask* task = plan.find(name);
   if (!task) throw FileError(fmt::format("the plan \"{}\" has no task \"{}\"", plan.file.string(), name));
-  const std::vector<TaskState> states = statesOf(plan);
-  if (states[static_cast<size_t>(task - plan.tasks.data())].kind == TaskState::Done) return kDone;
+  const TaskState before = readState(plan, *task);
+  if (before.kind == TaskState::Done && before.sizes == sizesOf(plan, *task)) return kDone;
   fs::current_path(plan.workingFolder);
   const OrderlyEnd orderly;
   for (int attempt = 1;; ++attempt) {

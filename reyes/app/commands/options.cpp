@@ -103,6 +103,15 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
                "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the "
                "area, 2x2 samples");
   addParsed(app, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
+  addFramesApart(app, s);
+  addParsed(app, "--makes", s.makes, parseFrames, "0-3,5",
+            "Only these of the Make requests, such as MakeTexture, counted from 0; none is a list too (default: all)");
+}
+
+void addFramesApart(CLI::App& app, RenderSettings& s) {
+  app.add_flag("--frames-apart", s.framesApart,
+               "Nothing in a frame of the RIB, such as Declare, concerns later ones: other frames are passed over "
+               "unread");
 }
 
 void addLightOptions(CLI::App& app, RenderSettings& s) {

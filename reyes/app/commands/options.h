@@ -37,7 +37,8 @@ void refuseOptionsAsValues(CLI::App& app);
 
 void addOutput(CLI::App& app, RenderSettings& s);
 void addCrop(CLI::App& app, RenderSettings& s);
-void addFrameSize(CLI::App& app, RenderSettings& s);       ///< Options of size, samples and seeds.
+void addFrameSize(CLI::App& app, RenderSettings& s);  ///< Options of size, samples and seeds.
+void addFramesApart(CLI::App& app, RenderSettings& s);
 void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Options of the frame, --crop among them.
 void addLightOptions(CLI::App& app, RenderSettings& s);
 void addTrust(CLI::App& app, Trust& trust);                  ///< Options that say whose code may run.

@@ -18,6 +18,7 @@
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/render_frame.h"
+#include "reyes/app/frame/shared_light.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/progress.h"
 #include "reyes/app/watch/run_report.h"
@@ -41,11 +42,13 @@ class RenderRun {
   using Job = std::function<void(Scene&, ShaderRegistry&, int world, const RenderSettings&, Stats&, Log&,
                                  const std::function<void()>& afterStage)>;
 
-  RenderRun(const RenderSettings& settings, Job job)
+  /// `seen`: the job makes what is seen of a frame, so that nothing seen is worth a message.
+  RenderRun(const RenderSettings& settings, Job job, bool seen = true)
       : log_(settings.verbosity),
         report_(settings, log_),
         settings_(withSources(asGranted(settings, log_))),
         job_(std::move(job)),
+        seen_(seen),
         threads_(settings_.threads) {}
 
   int run() {
@@ -53,7 +56,11 @@ class RenderRun {
     rib.trust = settings_.trust;
     if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
+    if (settings_.framesApart && settings_.frames) rib.skipsFrame = [this](int frame) { return !wants(frame); };
+    rib.onSkipped = [this](int worlds) { scenes_ += worlds; };
     rib.onMake = [this](const Request& request) {
+      const auto& makes = settings_.makes;
+      if (const int place = makes_++; makes && !std::binary_search(makes->begin(), makes->end(), place)) return;
       made_ = true;
       performMake(request, settings_.outputRoot, log_);
     };
@@ -63,7 +70,7 @@ class RenderRun {
     if (read && scenes_ == 0 && !made_ && !interrupted())
       log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.files.front()), 0},
                   "nothing to render: no WorldBegin ... WorldEnd was found");
-    if (scenes_ > 0 && rendered_ == 0 && settings_.frames && !interrupted())
+    if (scenes_ > 0 && rendered_ == 0 && settings_.frames && !settings_.frames->empty() && !interrupted())
       log_.report(Severity::Error, "no-frame", {std::make_shared<std::string>(settings_.files.front()), 0},
                   "none of the frames that --frames names is in the scene");
     if (rendered_ > 0 && namesPicture(settings_.output) && !outputUsed_)
@@ -89,7 +96,7 @@ class RenderRun {
   void takeScene(Scene&& scene) {
     endReading();
     ++scenes_;
-    if (wanted(scene)) {
+    if (wants(scene.options.frame)) {
       const OrderlyEnd orderly;
       ++rendered_;
       applyOverrides(scene, settings_);
@@ -110,7 +117,7 @@ class RenderRun {
       } catch (const std::exception& e) {  // later frames may be smaller, and finished ones keep their statistics
         log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
       }
-      if (stats.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
+      if (seen_ && stats.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
           errors() == errorsBefore)  // else the file may have been refused
         explainEmptyFrame(scene, log_);
       report_.end(scene.where);
@@ -139,9 +146,8 @@ class RenderRun {
     meter_.reset();
   }
 
-  bool wanted(const Scene& scene) const {
-    return !settings_.frames ||
-           std::binary_search(settings_.frames->begin(), settings_.frames->end(), scene.options.frame);
+  bool wants(int frame) const {
+    return !settings_.frames || std::binary_search(settings_.frames->begin(), settings_.frames->end(), frame);
   }
 
   int errors() const {
@@ -170,11 +176,12 @@ class RenderRun {
   RunReport report_;
   const RenderSettings settings_;
   const Job job_;
+  const bool seen_;
   const ThreadLimit threads_;
   std::optional<StageTimer> parse_;     // while the scene is read
   std::optional<ProgressMeter> meter_;  // likewise
   std::set<std::string> written_;
-  int scenes_ = 0, rendered_ = 0;
+  int scenes_ = 0, rendered_ = 0, makes_ = 0;
   bool made_ = false;  // True if a Make request was performed.
   bool outputUsed_ = false;
 };
@@ -187,6 +194,14 @@ int hideCommand(const RenderSettings& settings) {
   const auto job = [](Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& s, Stats& stats, Log& log,
                       const std::function<void()>&) { hideToFile(scene, shaders, world, s, stats, log); };
   return RenderRun(settings, job).run();
+}
+
+int prepareCommand(const RenderSettings& settings, const PrepareCommand& command) {
+  const auto job = [&](Scene& scene, ShaderRegistry& shaders, int, const RenderSettings& s, Stats& stats, Log& log,
+                       const std::function<void()>&) {
+    makeSharedLight(scene, shaders, s, command.pass, command.part, stats, log);
+  };
+  return RenderRun(settings, job, false).run();
 }
 
 }  // namespace tomales

@@ -9,6 +9,7 @@
 #include "reyes/app/commands/info.h"
 #include "reyes/app/commands/join.h"
 #include "reyes/app/commands/options.h"
+#include "reyes/app/commands/render.h"
 #include "reyes/app/commands/shadetest.h"
 #include "reyes/app/denoise/command.h"
 #include "reyes/app/relight/relight.h"
@@ -28,6 +29,7 @@ struct Invocation {
   ConvertCommand convert;
   ChartSettings chart;
   BatchCommand batch;
+  PrepareCommand prepare;
   RelightCommand relight;
   bool stability = false;
   std::string first, second, difference;

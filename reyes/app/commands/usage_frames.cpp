@@ -54,6 +54,35 @@ void buildHide(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = hideCommand(in.render); });
 }
 
+/// "3/8" is the third of eight parts.
+std::optional<WorkPart> parsePart(const std::string& text) {
+  int index = 0, count = 0, end = 0;
+  const bool good = std::sscanf(text.c_str(), "%d/%d%n", &index, &count, &end) == 2 &&
+                    static_cast<size_t>(end) == text.size() && index >= 1 && index <= count && count <= kMostParts;
+  return good ? std::optional(WorkPart{index - 1, count}) : std::nullopt;
+}
+
+void buildPrepare(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("prepare", "The maps of light that frames share, for --gi atlas and radiosity");
+  addPictureOptions(*c, in.render);
+  addLightOptions(*c, in.render);
+  addRunOptions(*c, in.render);
+  c->add_option_function<std::string>(
+       "--pass",
+       [&in](const std::string& name) {
+         in.prepare.pass = name == "photons" ? AtlasPass::Photons : name == "join" ? AtlasPass::Join : AtlasPass::Maps;
+       },
+       "One pass of the atlas alone: a part of the photons, the photon maps of all parts, or a part of the maps of "
+       "these (default: all that is missing)")
+      ->check(CLI::IsMember({"photons", "join", "maps"}))
+      ->type_name("photons|join|maps");
+  addParsed(*c, "--part", in.prepare.part, parsePart, "3/8",
+            "The part of the pass, for several processes; of join the number of all")
+      ->needs("--pass");
+  c->add_option("SCENE", in.render.files, "RIB files")->required();
+  c->callback([&] { code = prepareCommand(in.render, in.prepare); });
+}
+
 void addShotOptions(CLI::App& app, RenderSettings& s, const char* what = "A deep frame buffer",
                     const char* named = "SHOT.dfb") {
   app.add_option("--edit", s.edits,
@@ -77,6 +106,7 @@ void buildGather(CLI::App& app, Invocation& in, int& code) {
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
   c->add_flag("--resume", in.render.resume, "Keep what is gathered, and use that of an interrupted run");
+  addFramesApart(*c, in.render);
   addShotOptions(*c, in.render);
   c->callback([&] { code = gatherCommand(in.render); });
 }
@@ -92,6 +122,7 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
   addTarget(*c, in.render);
+  addFramesApart(*c, in.render);
   addShotOptions(*c, in.render);
   c->callback([&] { code = shadeCommand(in.render); });
 }
@@ -151,8 +182,17 @@ void buildBatch(CLI::App& app, Invocation& in, int& code) {
       *c, "--tiles", b.plan.tiles, [](const std::string& t) { return parsePair(t, 1, 64); }, "NxM",
       "Hide and gather each frame once, shade it in tiles, and join them")
       ->needs("-o");
+  c->add_option("--share-records", b.plan.sharedRecords,
+                "Frames in a row that share the records of gathered light, for less flicker: each adds to those of the "
+                "one before (default 1)")
+      ->check(CLI::Range(1, 100000))
+      ->needs("-o");
+  c->add_option("--photon-parts", b.plan.photonParts,
+                "Trace the photons of --gi atlas, and make its maps, in so many tasks (default: one for each million)")
+      ->check(CLI::Range(1, kMostParts));
   c->add_option("--plan", b.folder, "Folder of the plan, its states and logs (default: SCENE.batch)")
       ->type_name("FOLDER");
+  c->add_flag("--plan-only", b.planOnly, "Make the plan, to be read or edited, and run nothing");
   c->add_option_function<std::string>(
        "--engine", [&b](const std::string& name) { b.onSlurm = name == "slurm"; },
        "Where tasks run: local (here, the default) or slurm")
@@ -227,6 +267,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
 void addFrameCommands(CLI::App& app, Invocation& in, int& code) {
   buildRender(app, in, code);
   buildHide(app, in, code);
+  buildPrepare(app, in, code);
   buildGather(app, in, code);
   buildShade(app, in, code);
   buildRelight(app, in, code);

@@ -116,6 +116,34 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
   }
 }
 
+fs::path photonPart(const fs::path& atlas, WorkPart part) {
+  return atlas / "parts" / fmt::format("{:04}of{:04}.ptc", part.index + 1, part.count);
+}
+
+void makeAtlasPass(AtlasPass pass, WorkPart part, const RayTools& tools, const RenderSettings& settings,
+                   const AtlasProgress& progress, Stats& stats, Log& log) {
+  const ShadingSystem& shading = *tools.shading;
+  const Scene& scene = tools.rays->scene();
+  const fs::path folder = atlasFolder(settings, shading);
+  if (isMadeByHand(folder)) return;
+  const AtlasSettings atlas = atlasSettings(settings, scene, shading);
+  const MapNames names = mapNames(scene, shading, atlas);
+  makeAtlasFolder(folder / "parts");
+  const bool hasAll = hasPhotons(folder, names, atlas);
+  if (pass == AtlasPass::Photons && !hasAll) {
+    const StageTimer timer(stats, "photons");
+    writePhotonPart(photonPart(folder, part), part, scene, *tools.rays, shading, names, atlas, progress, stats, log);
+  } else if (pass == AtlasPass::Join && !hasAll) {
+    std::vector<fs::path> parts;
+    for (int i = 0; i < part.count; ++i) parts.push_back(photonPart(folder, {i, part.count}));
+    joinPhotonParts(parts, folder / "photons", names, atlas, stats, log);
+  } else if (pass == AtlasPass::Maps) {
+    if (!hasAll)
+      throw FileError(fmt::format("\"{}\" has no photons of this scene and these settings", folder.string()));
+    writeMaps(folder, part, scene, *tools.rays, names, atlas, progress, stats, log);
+  }
+}
+
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,
                                                  const RenderSettings& settings, Log& log) {
   if (settings.bakedFolder.empty()) {

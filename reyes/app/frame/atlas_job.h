@@ -21,6 +21,19 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
                                                     const AtlasProgress& progress, KeptWork* kept, Stats& stats,
                                                     Log& log);
 
+/// What one of several processes does of the atlas that they make together.
+enum class AtlasPass {
+  Photons,  ///< Traces a part of the photons to a file of its own,
+  Join,     ///< makes photon maps of all parts,
+  Maps,     ///< and irradiance and brick maps of some of these.
+};
+/// Does it in atlasFolder(), which must not be empty; nothing where its maps were made by hand. In the end there is
+/// what prepareAtlas() would make. part.count of Join is that of the parts. Throws FileError.
+void makeAtlasPass(AtlasPass pass, WorkPart part, const RayTools& tools, const RenderSettings& settings,
+                   const AtlasProgress& progress, Stats& stats, Log& log);
+/// The file of a part of the photons.
+std::filesystem::path photonPart(const std::filesystem::path& atlas, WorkPart part);
+
 /// Opens the light of settings.bakedFolder, for GiMode::Baked. Returns null after an error, which has been reported.
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,
                                                  const RenderSettings& settings, Log& log);

@@ -125,6 +125,10 @@ std::unique_ptr<RayGeometry> RayWorld::build() {
   rib.onScene = [&](Scene&& s) {
     if (world++ == shot_.world) scene = std::move(s);
   };
+  rib.skipsFrame = [&](int frame) {
+    return scene.has_value() || (settings_.framesApart && frame != shot_.scene.options.frame);
+  };
+  rib.onSkipped = [&](int worlds) { world += worlds; };
   std::vector<std::string> files;
   for (const SourceFile& source : shot_.sources) files.push_back(source.path);
   readRib(files, rib, log_);

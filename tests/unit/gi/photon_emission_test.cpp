@@ -1,6 +1,7 @@
 // Tests the photons of lights of every kind, where the power that arrives is known.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 
 #include "gi/atlas.h"
@@ -111,6 +112,53 @@ TEST_F(PhotonFiles, OfMediaHoldItToo) {
   const double once = powerIn(fog(1), "scene.volume");
   EXPECT_GT(once, 1);
   for (const float scale : {10.0f, 0.1f}) EXPECT_NEAR(powerIn(fog(scale), "scene.volume"), once, 0.01 * once) << scale;
+}
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST_F(PhotonFiles, OfAnyNumberOfPartsHaveTheBytesOfOneRun) {
+  SceneBuilder b;
+  b.light("pointlight", {floatParam("intensity", 4), pointParam("from", {0.5f, 0, 3})});
+  b.light("pointlight", {floatParam("intensity", 1), pointParam("from", {-0.5f, 0.2f, 3})});
+  b.sphere(2, vec3(0.5f), {0, 0, 3});
+  const Scene scene = b.scene;
+  AtlasSettings settings;
+  settings.photons = {30001, 4};
+  World whole(scene);
+  const auto wholeServices = whole.use({.mode = GiMode::None});
+  const MapNames names = mapNames(whole.scene, whole.shading, settings);
+  const PhotonFigures all = writePhotons(folder / "whole", whole.scene, whole.rays, whole.shading, names, settings, {},
+                                         whole.stats, whole.log);
+  for (const int count : {1, 3, 40}) {  // of 40 parts some have no photon
+    World world(scene);
+    const auto services = world.use({.mode = GiMode::None});
+    std::vector<fs::path> parts;
+    PhotonFigures sum;
+    for (int i = 0; i < count; ++i) {
+      parts.push_back(folder / std::to_string(i));
+      const PhotonFigures figures = writePhotonPart(parts.back(), {i, count}, world.scene, world.rays, world.shading,
+                                                    names, settings, {}, world.stats, world.log);
+      sum.emitted += figures.emitted;
+      sum.stored += figures.stored;
+    }
+    EXPECT_EQ(sum.emitted, all.emitted);
+    EXPECT_EQ(sum.stored, all.stored);
+    joinPhotonParts(parts, folder / "joined", names, settings, world.stats, world.log);
+    for (const std::string& map : names.all())
+      EXPECT_EQ(contentOf(atlasFile(folder / "joined", map, ".ptc")),
+                contentOf(atlasFile(folder / "whole", map, ".ptc")))
+          << map << " of " << count;
+    AtlasSettings other = settings;
+    other.photons.seed = 1;
+    EXPECT_THROW(joinPhotonParts(parts, folder / "other", names, other, world.stats, world.log), FileError);
+    if (count > 1) {
+      std::swap(parts[0], parts[1]);
+      EXPECT_THROW(joinPhotonParts(parts, folder / "turned", names, settings, world.stats, world.log), FileError);
+    }
+  }
 }
 
 /// Two sheets at different depths that face the sun, and nothing between.

@@ -1,0 +1,77 @@
+#include "reyes/app/frame/shared_light.h"
+
+#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/frame_shaders.h"
+#include "reyes/app/frame/light_sources.h"
+#include "reyes/app/frame/radiosity_job.h"
+#include "reyes/world_sum.h"
+
+namespace tomales {
+namespace {
+
+bool makesMaps(const GiMethod& method) {
+  return !method.byPointClouds && (method.mode == GiMode::Atlas || method.mode == GiMode::Radiosity);
+}
+
+/// Tells whether it is worth the time to bind shaders: a light that asks for maps by its shader's default is missed.
+bool mayAsk(const Scene& scene, const RenderSettings& settings) {
+  if (settings.gi) return makesMaps(*settings.gi);
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const std::shared_ptr<LightCall>& light) {
+    const Param* radiance = findParam(light->shader.params, "radiance");
+    return radiance && !radiance->strings.empty() &&
+           std::any_of(std::begin(kGiMethods), std::end(kGiMethods),
+                       [&](const GiMethod& m) { return makesMaps(m) && m.radiance == radiance->strings.front(); });
+  });
+}
+
+}  // namespace
+
+void makeSharedLight(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings,
+                     std::optional<AtlasPass> pass, WorkPart part, Stats& stats, Log& log) {
+  FrameJob job(scene, shaders, settings, stats, log);
+  const GiMethod& method = job.method();
+  if (!makesMaps(method) || (pass && method.mode != GiMode::Atlas))
+    return log.report(Severity::Warning, "prepare-unused", scene.where,
+                      std::string("nothing to prepare: --gi ") + method.name + " makes no such maps");
+  if (atlasFolder(settings, job.shading()).empty())
+    return log.report(Severity::Error, "prepare-folder", scene.where,
+                      "no folder is named for the maps: give --atlas FOLDER");
+  job.setShares(0, 2);  // maps of light are all there is
+  job.prepareRays();
+  const RayTools tools = *job.rayTools();
+  if (pass)
+    makeAtlasPass(*pass, part, tools, settings, job.lightProgress(), stats, log);
+  else if (method.mode == GiMode::Atlas)
+    prepareAtlas(scene, *tools.rays, *tools.shading, settings, job.lightProgress(), nullptr, stats, log);
+  else
+    prepareRadiosity(tools, job.camera(), settings, job.lightProgress(), nullptr, stats, log);
+}
+
+std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& settings, Log& log) {
+  if (!mayAsk(scene, settings)) return std::nullopt;
+  Stats stats;
+  const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
+  const FrameJob job(scene, *shaders, settings, stats, log);
+  if (!makesMaps(job.method())) return std::nullopt;
+  SharedLight out;
+  out.folder = atlasFolder(settings, job.shading());
+  if (!out.folder.empty() && isMadeByHand(out.folder)) return std::nullopt;
+  out.photons = job.method().mode == GiMode::Atlas;
+  out.world = worldSum(scene, out.photons);
+  const MapNames names = mapNames(scene, job.shading(), atlasSettings(settings, scene, job.shading()));
+  out.maps = out.photons ? names.all() : names.ofSurfaces().all();
+  return out;
+}
+
+std::vector<std::string> filesOfMap(const SharedLight& light, const std::string& folder, const std::string& map) {
+  const std::filesystem::path at = folder;
+  if (!light.photons)
+    return {atlasFile(at / "radiosity", map, ".ptc").string(), atlasFile(at / "radiosity", map, ".bkm").string()};
+  return {atlasFile(at / "irradiance", map, ".ptc").string(), atlasFile(at, map, ".bkm").string()};
+}
+
+std::string photonsOfMap(const std::string& folder, const std::string& map) {
+  return atlasFile(std::filesystem::path(folder) / "photons", map, ".ptc").string();
+}
+
+}  // namespace tomales
