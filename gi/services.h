@@ -123,6 +123,9 @@ class GiServices final : public ShadeServices {
   /// which are so much brighter, but for the dominant directions, which stay. While it is called, nothing may be
   /// shaded.
   void mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew = {});
+  /// Draws the noise of each record anew, for points that are shaded with ShadeContext::redrawn. While it is called,
+  /// nothing may be shaded.
+  void redrawRecords();
   /// Sets emitters, so that area lights can be sampled without geometry.
   void useEmitters(EmitterTable emitters);
 

@@ -1,6 +1,7 @@
 // Verbs: shaded DeepFrame -> pixels -> files. Filter, exposure, quantise, write (RISpec imaging pipeline, in that
 // order).
 #pragma once
+#include <array>
 #include <functional>
 #include <map>
 #include "reyes/base/plugin_trust.h"
@@ -195,11 +196,20 @@ std::string pictureExtensions();  ///< The extensions of all formats, for messag
 std::string pictureNames();       ///< The form of names of pictures, for help: "FILE.exr|.tif|.png".
 std::optional<Image> readImage(const std::string& path, std::string& error);
 
+/// Smudges are looked for in blocks of so many pixels along an edge.
+inline constexpr std::array kSmudgeSizes{8, 16, 32, 64};
+/// Is a block of pixels that should have this mean luminance and variance even enough to show smudges?
+inline bool isSmooth(double mean, double variance) {
+  constexpr double kMostDeviation = 0.1;  // root mean square over the mean
+  return mean > 0 && variance <= kMostDeviation * kMostDeviation * mean * mean;
+}
+
 /// Figures of `tomales compare` over colour channels of images of equal size.
 struct Comparison {
   double rmse = 0, relativeMse = 0, meanAbsoluteRelativeError = 0, maxError = 0, psnr_dB = 0, ssim = 0, flip = 0;
-  double smudges = 0;  ///< Relative standard deviation of test / reference over the smooth blocks of 8 x 8 pixels.
-  double specks = 0;   ///< Share of their pixels that stand out of the block by a fifth.
+  /// Relative standard deviation of test / reference over the smooth blocks of each size; 0 where fewer than two are.
+  std::array<double, kSmudgeSizes.size()> smudges{};
+  double specks = 0;  ///< Share of the pixels of smooth blocks of 8 x 8 that stand out of their block by a fifth.
   int64_t differentPixels = 0;
 };
 Comparison compare(const Image& test, const Image& reference);

@@ -71,6 +71,9 @@ struct ShadeContext {
   /// Paths that find indirect light at each point, past all records and maps: to know how wrong those are. 0: light
   /// comes as the frame's method has it.
   int auditPaths = 0;
+  /// Records of light have another draw of their noise (GiServices::redrawRecords): with another seed beside it, the
+  /// picture is one that could have been made as well.
+  bool redrawn = false;
   /// The number of specular rays that one point of the eye has sent. What each of them meets is a share of that point.
   int branches = 1;
   /// Of each point: the Volume that its ray crosses (ShadingSystem::crossVolume). Empty: the air is the same

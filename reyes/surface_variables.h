@@ -20,6 +20,7 @@ enum class VariableSource : uint8_t {
   Normal,      ///< The unit normal towards the viewer.
   Output,      ///< An output of the surface shader.
   LightGroup,  ///< The light that some of the lights bring.
+  Noise,       ///< The difference to Ci of another draw of all noise, over the root of 2; not found by shading.
 };
 
 struct SurfaceVariable {
@@ -41,6 +42,7 @@ inline constexpr SurfaceVariable kSurfaceVariables[] = {
     {"albedo", ValueType::Color, ChannelKind::Variable, VariableSource::Color},
     {"Os", ValueType::Color, ChannelKind::Variable, VariableSource::Opacity},
     {"Oi", ValueType::Color, ChannelKind::Variable, VariableSource::Opacity},
+    {"standarderror", ValueType::Color, ChannelKind::Variable, VariableSource::Noise},
     {"normal", ValueType::Normal, ChannelKind::Variable, VariableSource::Normal},
     {"P", ValueType::Point, ChannelKind::Variable, VariableSource::Channel, kPx},
     {"N", ValueType::Normal, ChannelKind::Variable, VariableSource::Channel, kNx},

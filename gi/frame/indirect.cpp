@@ -4,6 +4,7 @@
 #include "gi/frame/state.h"
 #include "gi/photons.h"
 #include "reyes/base/checksum.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -43,10 +44,19 @@ std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, con
                       [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
 }
 
-/// The light of the records under the gains; empty if that is their own.
-std::span<const LightShare> mixedLight(const GiState& state, const PreparedCache& prepared) {
-  if (state.mixed.empty()) return {};
-  return state.mixed[static_cast<size_t>(&prepared - state.caches.data())];
+/// The light of the records under the gains, or drawn anew; empty if that is their own.
+std::span<const LightShare> lightOf(const GiState& state, const PreparedCache& prepared, const ShadeContext& context) {
+  const auto& lights = context.redrawn && !state.redrawn.empty() ? state.redrawn : state.mixed;
+  if (lights.empty()) return {};
+  return lights[static_cast<size_t>(&prepared - state.caches.data())];
+}
+
+/// A draw from the normal distribution (Box and Muller 1958) that belongs to a place.
+float normalDraw(const vec3& place) {
+  const uint32_t name = hashCombine(std::bit_cast<uint32_t>(place.x), std::bit_cast<uint32_t>(place.y),
+                                    std::bit_cast<uint32_t>(place.z), randomStream("sets"));
+  const float radius = std::sqrt(-2 * std::log(1 - unitFloat(name)));
+  return radius * std::cos(2 * kPi * unitFloat(hash32(name)));
 }
 
 uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
@@ -60,6 +70,24 @@ uint32_t nameOf(const std::optional<OcclusionQuery>& q) {
 }
 
 }  // namespace
+
+std::vector<LightShare> redrawn(const IrradianceCache& cache, std::span<const LightShare> mixed) {
+  std::vector<LightShare> out(mixed.begin(), mixed.end());
+  const IrradianceRecords& records = cache.records();
+  for (size_t i = 0; i < records.size(); ++i) {
+    const IrradianceRecord& r = records[i];
+    if (mixed.empty()) {
+      LightShare& own = out.emplace_back();
+      own.E = r.E;
+      std::ranges::copy(r.rotationGradient, own.rotationGradient);
+      std::ranges::copy(r.translationGradient, own.translationGradient);
+      std::ranges::copy(r.hessian, own.hessian);
+    }
+    const float light = luminance(r.E);
+    if (light > 0) out[i].E *= 1 + std::sqrt(2.0f) * normalDraw(r.position) * r.noise / light;
+  }
+  return out;
+}
 
 IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
                               RayAnswers* answers) {
@@ -173,13 +201,13 @@ std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) 
   if (prepared == state.caches.end()) return std::nullopt;
   const IrradiancePlace place{at.position, at.normal, at.normal, at.pixelSize};
   IrradianceEstimate estimate;
-  prepared->cache.lookup({&place, 1}, &estimate, kServesWider, mixedLight(state, *prepared));
+  prepared->cache.lookup({&place, 1}, &estimate, kServesWider, lightOf(state, *prepared, {}));
   if (!(estimate.weight > 0)) return std::nullopt;
   return estimate.E + causticAt(state, at.group, at.position, at.normal, at.pixelSize);
 }
 
 BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const GatherPlaces& places,
-                   const ShadePoints& points, const uint8_t* active, TmConstVec3 N) {
+                   const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const ShadeContext& context) {
   BatchLookup out;
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) {
@@ -188,7 +216,7 @@ BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const Ga
     }
   out.known.resize(out.at.size());
   if (!prepared) return out;
-  prepared->cache.lookup(out.at, out.known.data(), kServesWider, mixedLight(state, *prepared));
+  prepared->cache.lookup(out.at, out.known.data(), kServesWider, lightOf(state, *prepared, context));
   const auto served =
       std::count_if(out.known.begin(), out.known.end(), [](const IrradianceEstimate& e) { return e.weight > 0; });
   state.stats.irradianceCache.lookups += static_cast<int64_t>(out.at.size());
@@ -201,9 +229,10 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
   GatherPlan plan = planFor(state, points.group(), query);
   const auto prepared = preparedFor(state, plan);
   plan.gather.samples = shareOfBranch(plan.gather.samples, kLeastOfHemisphere, context);
+  if (context.redrawn) plan.gather.seed = hashCombine(plan.gather.seed, randomStream("sets"));
   const GatherPlaces places(state, points);
   const BatchLookup found =
-      lookUp(state, prepared != state.caches.end() ? &*prepared : nullptr, places, points, active, N);
+      lookUp(state, prepared != state.caches.end() ? &*prepared : nullptr, places, points, active, N, context);
   for (size_t k = 0; k < found.points.size(); ++k) {
     const int i = found.points[k];
     const IrradianceEstimate& known = found.known[k];

@@ -91,7 +91,7 @@ bool interpolateOcclusion(const GiState& state, const ShadePoints& points, const
       std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
   if (prepared == state.caches.end()) return false;
   const GatherPlaces places(state, points);
-  const BatchLookup found = lookUp(state, &*prepared, places, points, active, N);
+  const BatchLookup found = lookUp(state, &*prepared, places, points, active, N, context);
   for (size_t k = 0; k < found.points.size(); ++k) {
     const int i = found.points[k];
     float open = found.known[k].E.x;

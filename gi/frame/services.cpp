@@ -43,6 +43,7 @@ void GiServices::startAgain(const GiSettings& settings) {
   impl_->settings = settings;
   impl_->kept = nullptr;
   impl_->caches.clear();
+  impl_->redrawn.clear();
   impl_->spots = BrightSpots{};
   impl_->bounces = BounceCaches{};
 }
@@ -70,6 +71,14 @@ void GiServices::mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew) {
   if (impl_->gains.empty()) return;
   for (const PreparedCache& c : impl_->caches)
     impl_->mixed.push_back(c.plan.gather.occlusion ? std::vector<LightShare>() : c.cache.mixed(impl_->gains));
+}
+
+void GiServices::redrawRecords() {
+  impl_->redrawn.clear();
+  for (size_t i = 0; i < impl_->caches.size(); ++i)
+    impl_->redrawn.push_back(redrawn(impl_->caches[i].cache, impl_->mixed.empty()
+                                                                 ? std::span<const LightShare>()
+                                                                 : std::span<const LightShare>(impl_->mixed[i])));
 }
 void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(std::move(emitters)); }
 

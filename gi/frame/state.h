@@ -38,6 +38,8 @@ struct GiState {
   std::vector<vec3> gainsOfNew{};     ///< The same for light that is gathered while shading.
   /// Indexed as `caches`: their light with these gains (IrradianceCache::mixed); empty like them.
   std::vector<std::vector<LightShare>> mixed{};
+  /// The same, with another draw of each record's noise; empty before redrawRecords().
+  std::vector<std::vector<LightShare>> redrawn{};
 };
 
 /// Returns what gathering needs, atlas and radiosity maps included; null in the case that RaySource describes.
@@ -97,7 +99,11 @@ struct BatchLookup {
 
 /// prepared: one of state.caches, or null, which knows nothing. Counts lookups and hits.
 BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPlaces&, const ShadePoints&,
-                   const uint8_t* active, TmConstVec3 N);
+                   const uint8_t* active, TmConstVec3 N, const ShadeContext&);
+
+/// The light of a cache's records as it would be with other random numbers: each is brighter or darker by a draw of its
+/// noise, times the root of 2, by which two independent pictures differ. mixed: GiState::mixed of the cache.
+std::vector<LightShare> redrawn(const IrradianceCache&, std::span<const LightShare> mixed);
 
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,
 /// and each phase after it halves the area for each point, down to every pixel (quincunx first, then the rest

@@ -14,6 +14,8 @@
 
 namespace tomales {
 
+struct LightQuality;
+
 struct RenderSettings {
   std::vector<std::string> files;  ///< The files of one RIB stream; "-" is standard input.
   std::string output;              ///< Empty for the scene's Displays.
@@ -54,8 +56,16 @@ struct RenderSettings {
   bool byLight = false;            ///< Irradiance records keep the share of each group of lights.
   bool appendIrradiance = false;   ///< True to gather too, where that has no records.
   int audit = 0;  ///< Pixels at which the error of the picture is measured; 0: it is not, unless that is to be reached.
-  double targetError = 0;   ///< The mean relative error of light to reach; 0: settings are as they are given.
-  double timeBudget_s = 0;  ///< Time that a frame may take; 0: as long as its settings ask.
+  double targetError = 0;    ///< The mean relative error of light to reach; 0: settings are as they are given.
+  double targetSmudges = 0;  ///< Deviation of smudges to reach with it; 0: as targetError.
+  double timeBudget_s = 0;   ///< Time that a frame may take; 0: as long as its settings ask.
+  std::optional<std::vector<int>> pilotFrames;  ///< Frames on which settings of light are found for all. Sorted.
+  std::string shotSettings;                     ///< A file that keeps them for other runs; empty: none.
+  int auditEvery = 10;  ///< Of the frames that they hold for, those whose number this divides are audited; 0: none.
+  bool holdsQuality = false;                           ///< This frame has settings that were found on others.
+  bool auditsHeld = false;                             ///< It is audited nevertheless.
+  bool isPilot = false;                                ///< Only settings are wanted of this frame, and no picture.
+  std::function<void(const LightQuality&)> onQuality;  ///< Gets the settings that a frame has chosen; may be empty.
   bool resume = false;
   bool skipFinished = false;             ///< Frames whose pictures hold what would be rendered are left as they are.
   std::optional<int64_t> memoryLimit;    ///< In bytes.
@@ -83,8 +93,12 @@ struct RenderSettings {
 };
 
 /// Does the program choose the settings of light, by trials that need the whole frame?
-inline bool choosesQuality(const RenderSettings& s) { return s.targetError > 0 || s.timeBudget_s > 0; }
-inline bool audits(const RenderSettings& settings) { return settings.audit > 0 || settings.targetError > 0; }
+inline bool choosesQuality(const RenderSettings& s) {
+  return (s.targetError > 0 || s.timeBudget_s > 0) && !s.holdsQuality;
+}
+inline bool audits(const RenderSettings& s) {
+  return s.audit > 0 || (s.targetError > 0 && !s.holdsQuality) || s.auditsHeld;
+}
 inline PluginTrust pluginTrust(const Trust& t) {
   return {.folders = t.shaderFolders + ":" + standardPath("shader") + ":" + t.pluginFolders(),
           .chosen = t.shaderFolders,

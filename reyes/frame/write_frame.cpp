@@ -123,6 +123,17 @@ void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
                          100 * share, options.xSamples, options.ySamples));
 }
 
+/// Differences have signs while they are filtered, so that what cancels in a pixel does. Shown is how large they are.
+void showSizeOfNoise(const FrameOutput& output, Image& band) {
+  for (const Channel& c : output.channels) {
+    const SurfaceVariable* known =
+        c.variable >= 0 ? surfaceVariable(output.variables[static_cast<size_t>(c.variable)].source) : nullptr;
+    if (!known || known->source != VariableSource::Noise) continue;
+    for (size_t i = static_cast<size_t>(c.first); i < band.pixels.size(); i += band.channels.size())
+      for (size_t k = i; k < i + static_cast<size_t>(c.width()); ++k) band.pixels[k] = std::abs(band.pixels[k]);
+  }
+}
+
 }  // namespace
 
 void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene,
@@ -145,6 +156,7 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
     parallelFor(2, 1, [&](size_t job, size_t) { job == 0 ? tiles.moveTo(y, end) : files.write(); });
     const StageTimer timer(stats, "image");
     Image band = filter.rows(y, end);
+    showSizeOfNoise(output, band);
     expose(band, options);
     runImager(band, shading);
     if (viewer) viewer(band);

@@ -129,29 +129,27 @@ struct SmoothFigures {
   double smudges = 0, specks = 0;
 };
 
-/// What shows on a smooth wall. Ratios of test and reference, so that a picture which is brighter as a whole has
-/// neither.
-SmoothFigures smoothFigures(const Image& test, const Image& reference) {
-  constexpr int kBlock = 8;        // pixels along an edge
-  constexpr double kSmooth = 0.1;  // rms difference of a block's pixels from their mean, over that
-  constexpr double kSpeck = 0.2;   // of a pixel, over its block
+/// What shows on a smooth wall, in blocks of so many pixels along an edge. Ratios of test and reference, so that a
+/// picture which is brighter as a whole has neither.
+SmoothFigures smoothFigures(const Image& test, const Image& reference, int block) {
+  constexpr double kSpeck = 0.2;  // of a pixel, over its block
   const auto light = [](const Image& image) {
     const std::vector<int> channels = colorChannels(image);
     return planeOf(image, [&](const float* p) { return luminance(colorAt(p, channels)); });
   };
   const ComparedPlane t = light(test), r = light(reference);
   double blocks = 0, sum = 0, squares = 0, specks = 0;
-  for (int top = 0; top + kBlock <= r.height; top += kBlock)
-    for (int left = 0; left + kBlock <= r.width; left += kBlock) {
+  for (int top = 0; top + block <= r.height; top += block)
+    for (int left = 0; left + block <= r.width; left += block) {
       const auto mean = [&](auto&& value) {
         double total = 0;
-        for (int y = top; y < top + kBlock; ++y)
-          for (int x = left; x < left + kBlock; ++x) total += value(x, y);
-        return total / (kBlock * kBlock);
+        for (int y = top; y < top + block; ++y)
+          for (int x = left; x < left + block; ++x) total += value(x, y);
+        return total / (block * block);
       };
       const double m = mean([&](int x, int y) { return r.at(x, y); });
       const double variance = mean([&](int x, int y) { return (r.at(x, y) - m) * (r.at(x, y) - m); });
-      if (!(m > 0 && variance <= kSmooth * kSmooth * m * m)) continue;
+      if (!isSmooth(m, variance)) continue;
       const double ratio = mean([&](int x, int y) { return t.at(x, y); }) / m;
       specks += mean([&](int x, int y) { return std::abs(t.at(x, y) - ratio * r.at(x, y)) > kSpeck * ratio * m; });
       ++blocks;
@@ -191,9 +189,11 @@ Comparison compare(const Image& test, const Image& reference) {
   out.psnr_dB = -20 * std::log10(out.rmse);
   out.ssim = ssim(test, reference);
   out.flip = flipLike(test, reference);
-  const SmoothFigures smooth = smoothFigures(test, reference);
-  out.smudges = smooth.smudges;
-  out.specks = smooth.specks;
+  for (size_t i = 0; i < kSmudgeSizes.size(); ++i) {
+    const SmoothFigures smooth = smoothFigures(test, reference, kSmudgeSizes[i]);
+    out.smudges[i] = smooth.smudges;
+    if (i == 0) out.specks = smooth.specks;
+  }
   return out;
 }
 

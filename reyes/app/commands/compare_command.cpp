@@ -30,16 +30,18 @@ bool hasColors(const Image& image) {
 }
 
 Json figuresOf(const Comparison& c) {
-  return {{"rmse", c.rmse},
-          {"relative_mse", c.relativeMse},
-          {"mean_absolute_relative_error", c.meanAbsoluteRelativeError},
-          {"max_error", c.maxError},
-          {"psnr_dB", c.psnr_dB},
-          {"ssim", c.ssim},
-          {"flip_like", c.flip},
-          {"smudges", c.smudges},
-          {"specks", c.specks},
-          {"different_pixels", c.differentPixels}};
+  Json out{{"rmse", c.rmse},
+           {"relative_mse", c.relativeMse},
+           {"mean_absolute_relative_error", c.meanAbsoluteRelativeError},
+           {"max_error", c.maxError},
+           {"psnr_dB", c.psnr_dB},
+           {"ssim", c.ssim},
+           {"flip_like", c.flip},
+           {"smudges", c.smudges[0]},
+           {"specks", c.specks},
+           {"different_pixels", c.differentPixels}};
+  for (size_t i = 1; i < kSmudgeSizes.size(); ++i) out[fmt::format("smudges_{}", kSmudgeSizes[i])] = c.smudges[i];
+  return out;
 }
 
 }  // namespace

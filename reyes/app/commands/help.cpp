@@ -18,7 +18,8 @@ constexpr Group kGroups[] = {
     {"Run", " -t --progress --stats -q -v --resume --memory-limit --json -h --help --help-all "},
     {"Picture, in detail", " --one-picture --overwrite --skip-finished --seed --bucket-size --preview --pixel ", false},
     {"Light, in detail",
-     " --target-error --time-budget --max-error --error-function --indirect-only --light-samples --light-seed "
+     " --target-error --target-smudges --time-budget --pilot-frames --shot-settings --audit-every --max-error "
+     "--error-function --indirect-only --light-samples --light-seed "
      "--photons --photon-noise "
      "--atlas-direct --atlas "
      "--radiosity-texels --radiosity-maps --brick-cache --brick-maxerror --geometry-cache --ray-geometry --no-hit-list "

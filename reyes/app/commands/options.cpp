@@ -254,12 +254,28 @@ void addTarget(CLI::App& app, RenderSettings& s) {
                                   "this size: trials find what they bring on this scene, and an audit checks it");
   CLI::Option* budget = addParsed(app, "--time-budget", s.timeBudget_s, parseSeconds, "5m",
                                   "Choose them for the least error that a frame reaches in this time");
+  addParsed(app, "--target-smudges", s.targetSmudges, parseShare, "1%",
+            "With --target-error: how uneven smooth regions may be, in blocks of 8 x 8 pixels (default: that error)")
+      ->needs(target);
   budget->excludes(target);
   for (const char* chosen : {"--samples", "--max-error", "--light-samples", "--irradiance", "--draft"})
     if (CLI::Option* option = app.get_option_no_throw(chosen)) {
       target->excludes(option);
       budget->excludes(option);
     }
+}
+
+void addShotTarget(CLI::App& app, RenderSettings& s) {
+  addParsed(app, "--pilot-frames", s.pilotFrames, parseFrames, "1,50,100",
+            "With --target-error or --time-budget: the frames on which settings of light are found for all frames "
+            "(default: the first, the middle and the last)");
+  app.add_option(
+         "--shot-settings", s.shotSettings,
+         "Keep those settings in this file, or use them from there: for runs that make other frames of the shot")
+      ->type_name("FILE.json");
+  app.add_option("--audit-every", s.auditEvery,
+                 "Audit the frames whose number N divides, with the settings of the shot; 0: none (default 10)")
+      ->check(CLI::Range(0, 1'000'000));
 }
 
 void addWatching(CLI::App& app, RenderSettings& s) {

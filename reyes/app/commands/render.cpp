@@ -9,6 +9,7 @@
 
 #include "reyes/app/commands/foreign_file.h"
 #include "reyes/app/commands/make.h"
+#include "reyes/app/commands/pilots.h"
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_shaders.h"
 #include "reyes/app/frame/granted.h"
@@ -53,6 +54,11 @@ class RenderRun {
 
   int run() {
     RibSettings rib;
+    if (holdsForShot(settings_)) {
+      held_ = findHeldQuality(settings_, log_);
+      if (!held_ && log_.worst() >= Severity::Error) return exitCodeOf(log_);
+      report_.skip();
+    }
     rib.trust = settings_.trust;
     if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
@@ -113,7 +119,8 @@ class RenderRun {
       const int64_t seenBefore = stats.geometry.micropolygonsVisible;
       const int errorsBefore = errors();
       try {
-        job_(scene, *shaders, scenes_ - 1, settings_, stats, log_, [this] { report_.flush(); });
+        const RenderSettings settings = held(scene);
+        job_(scene, *shaders, scenes_ - 1, settings, stats, log_, [this] { report_.flush(); });
       } catch (const std::exception& e) {  // later frames may be smaller, and finished ones keep their statistics
         log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
       }
@@ -126,6 +133,26 @@ class RenderRun {
       report_.skip();
     }
     beginReading();
+  }
+
+  /// The settings of a frame, with those of light that hold for the shot.
+  RenderSettings held(const Scene& scene) {
+    RenderSettings out = settings_;
+    if (!choosesQuality(settings_) || writesMapsAlone(scene.options, settings_)) return out;
+    const int frame = scene.options.frame;
+    if (frame != pictureFrame_) picture_ = 0;
+    pictureFrame_ = frame;
+    const size_t world = picture_++;
+    if (held_ && world < held_->worlds.size()) {
+      hold(held_->worlds[world], out);
+      out.auditsHeld = out.targetError > 0 && out.auditEvery > 0 && frame % out.auditEvery == 0;
+    } else if (holdsForShot(settings_)) {  // of a stream that cannot be read twice, the first frame decides
+      out.onQuality = [this, world](const LightQuality& q) {
+        if (!held_) held_.emplace();
+        mergeQuality(*held_, world, q, settings_);
+      };
+    }
+    return out;
   }
 
   void skip(const Scene& scene) {
@@ -181,6 +208,9 @@ class RenderRun {
   std::optional<StageTimer> parse_;     // while the scene is read
   std::optional<ProgressMeter> meter_;  // likewise
   std::set<std::string> written_;
+  std::optional<HeldQuality> held_;
+  int pictureFrame_ = 0;  // Of the last picture,
+  size_t picture_ = 0;    // and the next one's number in that frame.
   int scenes_ = 0, rendered_ = 0, makes_ = 0;
   bool made_ = false;  // True if a Make request was performed.
   bool outputUsed_ = false;

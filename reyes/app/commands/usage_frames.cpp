@@ -38,6 +38,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
       *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
       "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
   addTarget(*c, in.render);
+  addShotTarget(*c, in.render);
   c->add_option("SCENE", in.render.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }

@@ -14,9 +14,12 @@ constexpr float kAuditFloor = 0.01f;  ///< Added to the colour that errors are s
 /// until their noise is a third of the error.
 constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 1.0 / 3;
-constexpr int kTimesLightSamples = 16;
+constexpr int kTimesLightSamples = 16, kTimesLightSamplesOfBlocks = 4;
+constexpr size_t kPixelsPerBlock = 8;
+constexpr float kMeanOfNormal = 0.7979f;  ///< Of the absolute value of a draw from the normal distribution.
 
 std::string percentOf(const ErrorEstimate& e) {
+  if (!e.tells()) return fmt::format("at most {:.2g} %, as smaller ones are hidden by the audit's noise", 100 * e.high);
   return fmt::format("{:.2g} % ({:.2g} to {:.2g})", 100 * e.mean, 100 * e.low, 100 * e.high);
 }
 
@@ -29,7 +32,11 @@ Audit::Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scen
       plan_(plan),
       pixels_(chooseAuditPixels(layout, tiles, plan.pixels, plan.seed, cancelled)),
       samplesPerPixel_(layout.samplesPerPixel),
-      cancelled_(cancelled) {}
+      cancelled_(cancelled),
+      smudges_(layout, tiles, scene, shading,
+               {std::max(plan.pixels / kPixelsPerBlock, SmudgeEstimate::kFewestBlocks), plan.smudgeSizes, plan.seed,
+                kTimesLightSamplesOfBlocks * std::max({1, plan.lightSamples, shading.mostAreaSamples()})},
+               cancelled) {}
 
 AuditReport Audit::of(const ShadeContext& context) {
   AuditReport out;
@@ -41,18 +48,36 @@ AuditReport Audit::of(const ShadeContext& context) {
   const std::vector<AuditedError> errors = errorsOf({&direct_, &indirect_});
   out.pixels = errors.size();
   out.picture = estimateError(errors);
+  out.pixelSamples = pixelSampleError();
+  out.smudges = smudges_.of(context);
   return out;
 }
 
-std::vector<vec3> Audit::shade(ShadeContext context) const {
+std::vector<SampledColor> Audit::shade(ShadeContext context) const {
   context.sketch = true;
   return shadeAuditPixels(pixels_, samplesPerPixel_, scene_, shading_, context);
+}
+
+std::vector<vec3> Audit::colors(const ShadeContext& context) const {
+  std::vector<vec3> out;
+  for (const SampledColor& c : shade(context)) out.push_back(c.mean);
+  return out;
+}
+
+double Audit::pixelSampleError() const {
+  double sum = 0, count = 0;
+  for (const SampledColor& c : picture_) {
+    if (c.mean == vec3(0.0f)) continue;
+    for (int k = 0; k < 3; ++k) sum += double{kMeanOfNormal * c.error[k] / (std::abs(c.mean[k]) + kAuditFloor)} / 3;
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 /// Returns the number of light samples at each point.
 int Audit::findDirect(ShadeContext context) {
   context.indirect = false;
-  direct_.picture = shade(context);
+  direct_.picture = colors(context);
   context.lightSamples =
       kTimesLightSamples * std::max({1, context.lightSamples, plan_.lightSamples, shading_.mostAreaSamples()});
   if (direct_.rays == 0) addSets(direct_, context, 1);
@@ -62,7 +87,7 @@ int Audit::findDirect(ShadeContext context) {
 /// Returns the number of paths at each point in each set.
 int Audit::findIndirect(ShadeContext context) {
   context.direct = false;
-  indirect_.picture = shade(context);
+  indirect_.picture = colors(context);
   const auto isEnough = [&] {
     const ErrorEstimate known = estimateError(errorsOf({&indirect_}));
     return known.noise <= kNoiseOfError * known.mean || 2 * indirect_.rays > kMostPaths;
@@ -80,7 +105,7 @@ void Audit::addSets(FoundLight& light, ShadeContext context, int rays) const {
     context.seed = hashCombine(plan_.seed, randomStream("sets"), 2 * static_cast<uint32_t>(light.rays) + set);
     std::vector<vec3>& mean = light.sets[set];
     mean.resize(pixels_.size(), vec3(0.0f));
-    const std::vector<vec3> more = shade(context);
+    const std::vector<vec3> more = colors(context);
     for (size_t p = 0; p < mean.size(); ++p) mean[p] += share * (more[p] - mean[p]);
   }
   light.rays += rays;
@@ -90,7 +115,7 @@ void Audit::addSets(FoundLight& light, ShadeContext context, int rays) const {
 std::vector<AuditedError> Audit::errorsOf(std::initializer_list<const FoundLight*> kinds) const {
   std::vector<AuditedError> out;
   for (size_t p = 0; p < pixels_.size(); ++p) {
-    vec3 right = picture_[p], off(0.0f), noise(0.0f);
+    vec3 right = picture_[p].mean, off(0.0f), noise(0.0f);
     for (const FoundLight* light : {&direct_, &indirect_})
       if (light->rays > 0) right += light->missing(p);
     for (const FoundLight* light : kinds)
@@ -115,6 +140,9 @@ void recordAudit(const AuditReport& r, Stats& stats) {
   };
   stats.audit.pixels = static_cast<int64_t>(r.pixels);
   stats.audit.paths = r.paths;
+  if (r.pixelSamples > 0) stats.addAudit("pixel_samples_at_most", {r.pixelSamples, 0, r.pixelSamples, 0, 0});
+  for (const SmudgeEstimate& s : r.smudges)
+    stats.addAudit(fmt::format("smudges_{}", s.size), {s.deviation, s.low, s.high, s.noise, 0});
   add("picture", r.picture);
   if (r.indirect) add("indirect", *r.indirect);
   if (r.direct) add("direct", *r.direct);
@@ -126,9 +154,13 @@ std::string sentenceOf(const AuditReport& r) {
   if (r.indirect)
     parts += fmt::format("; indirect light {}, by {} paths at each point", percentOf(*r.indirect), r.paths);
   if (r.direct) parts += fmt::format("; direct light {}", percentOf(*r.direct));
+  if (r.pixelSamples > 0) parts += fmt::format("; the pixels' samples add at most {:.2g} %", 100 * r.pixelSamples);
+  for (const SmudgeEstimate& s : r.smudges)
+    parts += &s == r.finestSmudges() ? fmt::format("; smudges of {:.2g} % ({:.2g} to {:.2g}) over blocks of {} pixels",
+                                                   100 * s.deviation, 100 * s.low, 100 * s.high, s.size)
+                                     : fmt::format(", {:.2g} % over {}", 100 * s.deviation, s.size);
+  if (r.smudges.empty()) parts += "; no region is smooth enough to show smudges";
   if (!r.indirect) parts += "; there is no indirect light to audit";
-  if (!r.picture.tells())
-    parts += fmt::format("; the audit's own noise of {:.2g} % hides smaller errors", 100 * r.picture.noise);
   return fmt::format(
       "mean error {}, 90 % confidence, {} pixels{}; 99 % of them err by less than {:.2g} %, "
       "which is an estimate",

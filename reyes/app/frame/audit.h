@@ -7,6 +7,7 @@
 
 #include "reyes/app/frame/audit_estimate.h"
 #include "reyes/app/frame/audit_pixels.h"
+#include "reyes/app/frame/audit_smudges.h"
 #include "reyes/base/stats.h"
 #include "reyes/deep.h"
 #include "reyes/shade.h"
@@ -18,6 +19,7 @@ struct AuditPlan {
   uint32_t seed = 0;     ///< Decides which, and the rays there.
   bool indirect = true;  ///< The frame has indirect light.
   int lightSamples = 0;  ///< The most that an audited picture has of each light; 0: as many as the lights ask.
+  size_t smudgeSizes = kSmudgeSizes.size();  ///< SmudgePlan::sizes.
 };
 
 struct AuditReport {
@@ -26,6 +28,13 @@ struct AuditReport {
   int lightSamples = 0;   ///< At each of them, of each light; 0 if direct light was not audited.
   ErrorEstimate picture;  ///< Of all light together. All errors are shares of the picture's colour,
   std::optional<ErrorEstimate> indirect, direct;  ///< those of one kind of light too.
+  /// The mean error that too few samples in pixels add to those, at most: samples are stratified, and it is what
+  /// independent ones would bring. Filters that are wider than a pixel bring less.
+  double pixelSamples = 0;
+  std::vector<SmudgeEstimate> smudges;  ///< For each size of blocks that enough smooth ones were found of.
+
+  /// The smallest size, whose blocks show what those of larger sizes do; null if no region is smooth.
+  const SmudgeEstimate* finestSmudges() const { return smudges.empty() ? nullptr : &smudges.front(); }
 };
 
 /// What a kind of light brings to each pixel: in the picture, and by two independent sets of many rays.
@@ -51,12 +60,14 @@ class Audit {
   AuditReport of(const ShadeContext& context);
 
   /// The colours of the pixels in that picture.
-  std::vector<vec3> shade(ShadeContext context) const;
+  std::vector<SampledColor> shade(ShadeContext context) const;
   size_t pixelCount() const { return pixels_.size(); }
 
  private:
   int findDirect(ShadeContext context);
   int findIndirect(ShadeContext context);
+  std::vector<vec3> colors(const ShadeContext& context) const;
+  double pixelSampleError() const;
   void addSets(FoundLight& light, ShadeContext context, int rays) const;
   std::vector<AuditedError> errorsOf(std::initializer_list<const FoundLight*> kinds) const;
 
@@ -66,7 +77,8 @@ class Audit {
   const std::vector<AuditPixel> pixels_;
   const int samplesPerPixel_;
   const std::atomic<bool>& cancelled_;
-  std::vector<vec3> picture_;
+  std::vector<SampledColor> picture_;
+  SmudgeAudit smudges_;
   FoundLight direct_, indirect_;
 };
 

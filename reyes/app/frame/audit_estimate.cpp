@@ -31,6 +31,24 @@ double percentile(std::vector<double>& values, double share) {
   return *at;
 }
 
+/// The covariance of both estimates over some blocks, and what the smudges are then.
+struct SmudgeSums {
+  double first = 0, second = 0, product = 0, differences = 0, count = 0;
+  void add(const SmoothBlock& b) {
+    first += b.off[0];
+    second += b.off[1];
+    product += b.off[0] * b.off[1];
+    differences += (b.off[0] - b.off[1]) * (b.off[0] - b.off[1]);
+    ++count;
+  }
+  double brightness() const { return 1 + 0.5 * (first + second) / count; }
+  double deviation() const {
+    const double covariance = (product - first * second / count) / std::max(1.0, count - 1);
+    return std::sqrt(std::max(0.0, covariance)) / brightness();
+  }
+  double noise() const { return 0.5 * std::sqrt(differences / count) / brightness(); }
+};
+
 }  // namespace
 
 ErrorEstimate estimateError(std::span<const AuditedError> places) {
@@ -54,6 +72,26 @@ ErrorEstimate estimateError(std::span<const AuditedError> places) {
   }
   out.low = percentile(means, kOutside);
   out.high = percentile(means, 1 - kOutside);
+  if (!out.tells()) out.high = std::max(out.high, out.noise);
+  return out;
+}
+
+SmudgeEstimate estimateSmudges(int size, std::span<const SmoothBlock> blocks) {
+  SmudgeEstimate out{size, blocks.size()};
+  if (!out.isKnown()) return out;
+  SmudgeSums all;
+  for (const SmoothBlock& b : blocks) all.add(b);
+  out.deviation = all.deviation();
+  out.noise = all.noise();
+  std::vector<double> deviations;
+  const auto count = static_cast<uint32_t>(blocks.size());
+  for (uint32_t r = 0; r < kResamples; ++r) {
+    SmudgeSums drawn;
+    for (uint32_t i = 0; i < count; ++i) drawn.add(blocks[hashCombine(randomStream("boot"), r, i) % count]);
+    deviations.push_back(drawn.deviation());
+  }
+  out.low = percentile(deviations, kOutside);
+  out.high = percentile(deviations, 1 - kOutside);
   if (!out.tells()) out.high = std::max(out.high, out.noise);
   return out;
 }

@@ -1,5 +1,6 @@
 // What a sample of errors says about the error of the whole picture, and how certain that is.
 #pragma once
+#include <cstddef>
 #include <span>
 
 namespace tomales {
@@ -23,5 +24,29 @@ struct ErrorEstimate {
 /// The noise is taken off in squares: it and the error are independent. The interval is that of the percentile
 /// bootstrap (Efron and Tibshirani 1993) over the places, with random numbers that depend on nothing.
 ErrorEstimate estimateError(std::span<const AuditedError> places);
+
+/// Two independent estimates of how much a block that should be smooth is off, as shares of the light that is right
+/// there: positive where it is too bright.
+struct SmoothBlock {
+  double off[2];
+};
+
+/// What `tomales compare` calls smudges, from some of the blocks.
+struct SmudgeEstimate {
+  static constexpr size_t kFewestBlocks = 8;
+
+  int size = 0;              ///< Pixels along an edge of a block.
+  size_t blocks = 0;         ///< Smooth ones.
+  double deviation = 0;      ///< Standard deviation of picture / truth over the blocks, over its mean.
+  double low = 0, high = 0;  ///< It lies between these with 90 % confidence.
+  double noise = 0;          ///< What the audit's own noise would show as.
+
+  bool isKnown() const { return blocks >= kFewestBlocks; }
+  bool tells() const { return deviation >= noise; }
+};
+
+/// The deviation is the covariance of both estimates: their noise is independent, so that it adds nothing. The interval
+/// is that of estimateError().
+SmudgeEstimate estimateSmudges(int size, std::span<const SmoothBlock> blocks);
 
 }  // namespace tomales

@@ -23,23 +23,34 @@ void keepFirst(std::vector<AuditPixel>& pixels, size_t count) {
   pixels.erase(pixels.begin() + static_cast<ptrdiff_t>(count), pixels.end());
 }
 
-/// Copies what one pixel of a tile needs.
+/// Copies what some pixels of a tile need.
 class PixelCopy {
  public:
-  PixelCopy(const DeepTile& from, int x, int y) : from_(from) {
-    const DeepPixel& pixel = from.pixel(x, y);
-    to_.rect = {x, y, x + 1, y + 1};
-    to_.pixels.push_back({0, pixel.count});
+  PixelCopy(const DeepTile& from, const PixelRect& rect) : from_(from) {
+    to_.rect = rect;
+    to_.pixels.resize(static_cast<size_t>(rect.width()) * static_cast<size_t>(rect.height()));
+  }
+
+  void add(const ivec2& at) {
+    const DeepPixel& pixel = from_.pixel(at.x, at.y);
+    const PixelRect& r = to_.rect;
+    to_.pixels[static_cast<size_t>((at.y - r.y0) * r.width() + (at.x - r.x0))] = {
+        static_cast<uint32_t>(to_.fragments.size()), pixel.count};
     for (uint32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
-      Fragment fragment = from.fragments[f];
-      to_.facets.push_back(copy(from.facets[fragment.facet]));
-      fragment.facet = static_cast<uint32_t>(to_.facets.size() - 1);
+      Fragment fragment = from_.fragments[f];
+      fragment.facet = copyOf(fragment.facet);
       to_.fragments.push_back(fragment);
     }
   }
   DeepTile take() { return std::move(to_); }
 
  private:
+  uint32_t copyOf(uint32_t facet) {
+    const auto [known, isNew] = facets_.try_emplace(facet, static_cast<uint32_t>(to_.facets.size()));
+    if (isNew) to_.facets.push_back(copy(from_.facets[facet]));
+    return known->second;
+  }
+
   Facet copy(Facet facet) {
     const ShadePoints& points = from_.batches[static_cast<size_t>(facet.batch)];
     const auto [batch, isNew] = batches_.try_emplace(facet.batch, static_cast<int>(to_.batches.size()));
@@ -59,6 +70,7 @@ class PixelCopy {
 
   const DeepTile& from_;
   DeepTile to_;
+  std::map<uint32_t, uint32_t> facets_;
   std::map<int, int> batches_;
   std::map<std::pair<int, int>, int> points_;
 };
@@ -72,7 +84,10 @@ std::vector<AuditPixel> pixelsOfTile(const DeepTile& tile, const PixelRect& seen
         out.push_back({hashCombine(place, seed, randomStream("audi")), x, y, {}});
       }
   keepFirst(out, count);
-  for (AuditPixel& p : out) p.tile = PixelCopy(tile, p.x, p.y).take();
+  for (AuditPixel& p : out) {
+    const ivec2 at(p.x, p.y);
+    p.tile = copyPixels(tile, {p.x, p.y, p.x + 1, p.y + 1}, {&at, 1});
+  }
   return out;
 }
 
@@ -90,23 +105,37 @@ struct Seen {
   }
 };
 
-/// The mean of what the samples of a shaded tile of one pixel see.
-vec3 colorOf(const DeepTile& tile, int samplesPerPixel) {
-  std::vector<vec3> clear(static_cast<size_t>(samplesPerPixel), vec3(1.0f));
-  vec3 sum(0.0f);
-  for (const Fragment& fragment : tile.fragments) {
+}  // namespace
+
+DeepTile copyPixels(const DeepTile& from, const PixelRect& rect, std::span<const ivec2> pixels) {
+  PixelCopy copy(from, rect);
+  for (const ivec2& at : pixels) copy.add(at);
+  return copy.take();
+}
+
+SampledColor colorOf(const DeepTile& tile, const ivec2& at, int samplesPerPixel) {
+  const auto count = static_cast<size_t>(samplesPerPixel);
+  std::vector<vec3> clear(count, vec3(1.0f)), colors(count, vec3(0.0f));
+  const DeepPixel& pixel = tile.pixel(at.x, at.y);
+  for (uint32_t f = pixel.first; f < pixel.first + pixel.count; ++f) {
+    const Fragment& fragment = tile.fragments[f];
     const Seen seen(tile, fragment);
     for (size_t bit = 0; bit < 64; ++bit) {
       const size_t s = size_t{64} * fragment.word + bit;
-      if (!(fragment.samples >> bit & 1) || s >= clear.size()) continue;
-      sum += clear[s] * seen.color;
+      if (!(fragment.samples >> bit & 1) || s >= count) continue;
+      colors[s] += clear[s] * seen.color;
       clear[s] *= vec3(1.0f) - seen.opacity;
     }
   }
-  return sum / static_cast<float>(samplesPerPixel);
+  SampledColor out;
+  const auto n = static_cast<float>(samplesPerPixel);
+  for (const vec3& c : colors) out.mean += c / n;
+  if (count < 2) return out;
+  vec3 squares(0.0f);
+  for (const vec3& c : colors) squares += (c - out.mean) * (c - out.mean);
+  out.error = glm::sqrt(squares / (n * (n - 1)));
+  return out;
 }
-
-}  // namespace
 
 std::vector<AuditPixel> chooseAuditPixels(const DeepFrame& layout, const TileReader& tiles, size_t count, uint32_t seed,
                                           const std::atomic<bool>& cancelled) {
@@ -127,13 +156,14 @@ std::vector<AuditPixel> chooseAuditPixels(const DeepFrame& layout, const TileRea
   return out;
 }
 
-std::vector<vec3> shadeAuditPixels(const std::vector<AuditPixel>& pixels, int samplesPerPixel, const Scene& scene,
-                                   const ShadingSystem& shading, const ShadeContext& context) {
-  std::vector<vec3> out(pixels.size());
+std::vector<SampledColor> shadeAuditPixels(const std::vector<AuditPixel>& pixels, int samplesPerPixel,
+                                           const Scene& scene, const ShadingSystem& shading,
+                                           const ShadeContext& context) {
+  std::vector<SampledColor> out(pixels.size());
   parallelFor(pixels.size(), 1, [&](size_t p, size_t) {
     DeepTile tile = pixels[p].tile;
     shadeTile(tile, scene, shading, context);
-    out[p] = colorOf(tile, samplesPerPixel);
+    out[p] = colorOf(tile, {pixels[p].x, pixels[p].y}, samplesPerPixel);
   });
   return out;
 }

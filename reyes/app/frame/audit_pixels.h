@@ -1,6 +1,7 @@
 // The pixels of a picture that an audit looks at: some at random, each with all that its samples see.
 #pragma once
 #include <atomic>
+#include <span>
 
 #include "reyes/deep.h"
 #include "reyes/shade.h"
@@ -13,13 +14,24 @@ struct AuditPixel {
   DeepTile tile;  ///< The pixel alone.
 };
 
+/// The mean of the samples of a pixel, before exposure and imager, and the standard error of that mean if the samples
+/// are taken as independent. They are stratified, so it is an upper bound.
+struct SampledColor {
+  vec3 mean{0.0f}, error{0.0f};
+};
+
 /// Chooses at most `count` pixels of layout.crop that see a surface, and returns them by rows. The choice depends on
 /// the seed and on what the pixels see, never on threads or buckets.
 std::vector<AuditPixel> chooseAuditPixels(const DeepFrame& layout, const TileReader& tiles, size_t count, uint32_t seed,
                                           const std::atomic<bool>& cancelled);
 
-/// Shades the pixels and returns the mean over the samples of each, before exposure and imager.
-std::vector<vec3> shadeAuditPixels(const std::vector<AuditPixel>& pixels, int samplesPerPixel, const Scene& scene,
-                                   const ShadingSystem& shading, const ShadeContext& context);
+std::vector<SampledColor> shadeAuditPixels(const std::vector<AuditPixel>& pixels, int samplesPerPixel,
+                                           const Scene& scene, const ShadingSystem& shading,
+                                           const ShadeContext& context);
+
+/// Copies what these pixels of a tile need. The copy's rectangle is `rect`, whose other pixels see nothing.
+DeepTile copyPixels(const DeepTile& from, const PixelRect& rect, std::span<const ivec2> pixels);
+/// The colour of a pixel of a tile that is shaded.
+SampledColor colorOf(const DeepTile& tile, const ivec2& pixel, int samplesPerPixel);
 
 }  // namespace tomales

@@ -43,29 +43,56 @@ std::string optionsOf(const LightQuality& q) {
   return out;
 }
 
+RecordError::RecordError(const Seen& base, const Seen& finer, const std::optional<Seen>& wider) : base_(base.quality) {
+  const double all = base.error * base.error, left = finer.error * finer.error;
+  const double share = 1 - ratio(base_.samples, finer.quality.samples);
+  noise_ = share > 0 && wider ? std::clamp((all - left) / share, kLeastShare * all, (1 - kLeastShare) * all) : all;
+  if (!wider) return;
+  bias_ = all - noise_;
+  const double biasOfWider = std::max(wider->error * wider->error - noise_, bias_);
+  power_ = narrowPower_ = power(base_.maxError, bias_, wider->quality.maxError, biasOfWider, 0.5, 5);
+}
+
+void RecordError::addNarrower(const Seen& narrower) {
+  const double all = narrower.error * narrower.error;
+  if (!(bias_ > 0 && all > 0)) return;
+  const double bias = std::clamp(all - noise_, std::min(kLeastShare * all, bias_), bias_);
+  narrowPower_ = power(narrower.quality.maxError, bias, base_.maxError, bias_, 0.5, 5);
+}
+
+double RecordError::at(const LightQuality& q) const {
+  const double width = ratio(q.maxError, base_.maxError);
+  const double noise = noise_ / ratio(q.samples, base_.samples);
+  return scale_ * std::sqrt(noise + bias_ * std::pow(width, width < 1 ? narrowPower_ : power_));
+}
+
+void RecordError::correct(const Seen& picture) {
+  if (const double expected = at(picture.quality); expected > 0) scale_ *= picture.error / expected;
+}
+
 ErrorModel::ErrorModel(const QualityTrial& base, const QualityTrial& finer, const std::optional<QualityTrial>& wider)
     : base_(base) {
-  const double all = base.indirect * base.indirect, left = finer.indirect * finer.indirect;
-  const double share = 1 - ratio(base.quality.samples, finer.quality.samples);
-  noise_ = share > 0 ? std::clamp((all - left) / share, kLeastShare * all, (1 - kLeastShare) * all) : all;
-  bias_ = wider ? all - noise_ : 0;
-  if (!wider) noise_ = all;
+  using Seen = RecordError::Seen;
+  const auto fit = [&](double QualityTrial::*error) {
+    const auto seen = [&](const QualityTrial& t) { return Seen{t.quality, t.*error}; };
+    return RecordError(seen(base), seen(finer), wider ? std::optional(seen(*wider)) : std::nullopt);
+  };
+  indirect_ = fit(&QualityTrial::indirect);
+  if (base.quality.samples > 0 && base.indirect > 0) smudges_ = fit(&QualityTrial::smudges);
   const double s0 = base.quality.samples, s1 = finer.quality.samples;
   const double l0 = base.quality.lightSamples, l1 = finer.quality.lightSamples;
   directPower_ = power(l0, base.direct, l1, finer.direct, -1.5, -0.25);
   raysPower_ = power(s0, base.gatherCost, s1, finer.gatherCost, 0.2, 1.2);
   shadowsPower_ = power(l0, base.shadeCost, l1, finer.shadeCost, 0, 1.2);
   if (!wider) return;
-  const double m0 = base.quality.maxError, m1 = wider->quality.maxError;
-  const double biasOfWider = std::max(wider->indirect * wider->indirect - noise_, bias_);
-  biasPower_ = power(m0, bias_, m1, biasOfWider, 0.5, 5);
-  recordsPower_ = power(m0, base.gatherCost, m1, wider->gatherCost, -2, -0.1);
+  recordsPower_ = narrowRecordsPower_ =
+      power(base.quality.maxError, base.gatherCost, wider->quality.maxError, wider->gatherCost, -2, -0.1);
 }
 
-double ErrorModel::indirectError(const LightQuality& q) const {
-  const double noise = noise_ / ratio(q.samples, base_.quality.samples);
-  const double bias = bias_ * std::pow(ratio(q.maxError, base_.quality.maxError), biasPower_);
-  return indirectScale_ * std::sqrt(noise + bias);
+void ErrorModel::addNarrower(const QualityTrial& t) {
+  indirect_.addNarrower({t.quality, t.indirect});
+  if (smudges_.any()) smudges_.addNarrower({t.quality, t.smudges});
+  narrowRecordsPower_ = power(t.quality.maxError, t.gatherCost, base_.quality.maxError, base_.gatherCost, -4, -0.1);
 }
 
 double ErrorModel::directError(const LightQuality& q) const {
@@ -75,17 +102,20 @@ double ErrorModel::directError(const LightQuality& q) const {
 double ErrorModel::error(const LightQuality& q) const { return std::hypot(indirectError(q), directError(q)); }
 
 double ErrorModel::gatherCost(const LightQuality& q) const {
+  const double width = ratio(q.maxError, base_.quality.maxError);
   return base_.gatherCost * std::pow(ratio(q.samples, base_.quality.samples), raysPower_) *
-         std::pow(ratio(q.maxError, base_.quality.maxError), recordsPower_);
+         std::pow(width, width < 1 ? narrowRecordsPower_ : recordsPower_);
 }
 
 double ErrorModel::shadeCost(const LightQuality& q) const {
   return base_.shadeCost * std::pow(ratio(q.lightSamples, base_.quality.lightSamples), shadowsPower_);
 }
 
-void ErrorModel::correct(const LightQuality& q, double indirect, double direct) {
-  if (const double expected = indirectError(q); expected > 0) indirectScale_ *= indirect / expected;
-  if (const double expected = directError(q); expected > 0) directScale_ *= direct / expected;
+void ErrorModel::correct(const QualityTrial& picture) {
+  const LightQuality& q = picture.quality;
+  indirect_.correct({q, picture.indirect});
+  if (picture.smudges > 0) smudges_.correct({q, picture.smudges});
+  if (const double expected = directError(q); expected > 0) directScale_ *= picture.direct / expected;
 }
 
 int ErrorModel::lightSamplesAt(int step) const {
@@ -118,18 +148,22 @@ LightQuality ErrorModel::search(const Better& better) const {
   return *found;
 }
 
-LightQuality ErrorModel::cheapest(double target) const {
+double ErrorModel::timesTarget(const LightQuality& q, const ErrorTarget& target) const {
+  return std::max(error(q) / target.error, target.smudges > 0 ? smudges(q) / target.smudges : 0);
+}
+
+LightQuality ErrorModel::cheapest(const ErrorTarget& target) const {
   return search([&](const LightQuality& a, const LightQuality& b) {
-    const double errorA = error(a), errorB = error(b);
-    if (errorA <= target && errorB <= target) return cost(a) < cost(b);
-    return errorA < errorB;
+    const double timesA = timesTarget(a, target), timesB = timesTarget(b, target);
+    if (timesA <= 1 && timesB <= 1) return cost(a) < cost(b);
+    return timesA < timesB;
   });
 }
 
 LightQuality ErrorModel::best(double most) const {
   return search([&](const LightQuality& a, const LightQuality& b) {
     const double costA = cost(a), costB = cost(b);
-    if (costA <= most && costB <= most) return error(a) < error(b);
+    if (costA <= most && costB <= most) return timesTarget(a, {1, 1}) < timesTarget(b, {1, 1});
     return costA < costB;
   });
 }

@@ -21,33 +21,71 @@ std::string optionsOf(const LightQuality&);
 struct QualityTrial {
   LightQuality quality;
   double indirect = 0, direct = 0;
+  double smudges = 0;     ///< SmudgeEstimate::deviation; 0 if nothing was smooth, or only noise was found.
   double gatherCost = 0;  ///< What the whole frame takes before it is shaded,
   double shadeCost = 0;   ///< and while it is shaded, in rays or in seconds.
 };
 
-/// The square of the indirect error is the noise of rays, which falls with their number, plus the square of what
-/// interpolation errs, a power of maxError. The direct error and the costs are powers. A power is taken from
-/// two trials and kept within what is known of it, so that the chance of a trial does not run away with the model.
+/// What a picture may err.
+struct ErrorTarget {
+  double error = 0;    ///< The mean.
+  double smudges = 0;  ///< Their deviation; 0: any.
+  ErrorTarget operator*(double x) const { return {x * error, x * smudges}; }
+};
+
+/// An error of gathered light. Its square is the noise of rays, which falls with their number, plus the square of what
+/// interpolation errs, a power of maxError. It is taken from trials and kept within what is known of such errors, so
+/// that the chance of a trial does not run away with the model.
+class RecordError {
+ public:
+  RecordError() = default;
+  /// What was seen at each of these qualities, of which `finer` has more rays and `wider` a larger maxError than
+  /// `base`.
+  struct Seen {
+    LightQuality quality;
+    double error;
+  };
+  RecordError(const Seen& base, const Seen& finer, const std::optional<Seen>& wider);
+  /// Learns from a trial with a smaller maxError than the base.
+  void addNarrower(const Seen& narrower);
+  /// Scales it to what a picture of this quality has had.
+  void correct(const Seen& picture);
+  double at(const LightQuality&) const;
+  /// True if a picture may err in this way at all.
+  bool any() const { return noise_ + bias_ > 0; }
+
+ private:
+  LightQuality base_;
+  double noise_ = 0, bias_ = 0;  ///< Squares of errors at the base.
+  double power_ = 0, narrowPower_ = 0, scale_ = 1;
+};
+
+/// Errors and costs of a frame. The direct error and the costs are powers of the settings, from two trials each.
+/// Records that are narrower than the base have a power of their own: far fewer of them are as wide as they may be.
 class ErrorModel {
  public:
   /// `finer` has more rays and light samples than `base`. `wider` has a larger maxError than `base`, and is empty where
   /// there are no records.
   ErrorModel(const QualityTrial& base, const QualityTrial& finer, const std::optional<QualityTrial>& wider);
+  /// Learns from a trial that has the rays of the base and a smaller maxError.
+  void addNarrower(const QualityTrial& narrower);
 
-  double indirectError(const LightQuality&) const;
+  double indirectError(const LightQuality& q) const { return indirect_.at(q); }
   double directError(const LightQuality&) const;
   double error(const LightQuality&) const;  ///< Both together, which are independent.
+  double smudges(const LightQuality& q) const { return smudges_.at(q); }
   double gatherCost(const LightQuality&) const;
   double shadeCost(const LightQuality&) const;
   double cost(const LightQuality& q) const { return gatherCost(q) + shadeCost(q); }
 
-  /// Scales the errors to those that a picture of this quality has had.
-  void correct(const LightQuality&, double indirect, double direct);
+  /// Scales the errors to those that a picture has had.
+  void correct(const QualityTrial& picture);
 
   /// The quality that reaches the target at the least cost. If none does within the range in which the model may be
-  /// believed, the one of the least error.
-  LightQuality cheapest(double target) const;
-  /// The quality of the least error that costs no more. If none does, the cheapest one.
+  /// believed, the one that comes nearest.
+  LightQuality cheapest(const ErrorTarget& target) const;
+  /// The quality that costs no more and of which the worse of mean error and smudges is least. If none does, the
+  /// cheapest one.
   LightQuality best(double most) const;
   /// The same with the rays and records of `given`: only light samples are chosen, for the cost of shading.
   LightQuality bestLamps(const LightQuality& given, double most) const;
@@ -55,13 +93,15 @@ class ErrorModel {
  private:
   template <class Better>
   LightQuality search(const Better& better) const;
+  /// How many times the target it errs.
+  double timesTarget(const LightQuality&, const ErrorTarget&) const;
 
   int lightSamplesAt(int step) const;
 
   QualityTrial base_;
-  double noise_ = 0, bias_ = 0, biasPower_ = 0;  ///< Squares of errors at the base, and power over maxError.
-  double directPower_ = 0, raysPower_ = 0, recordsPower_ = 0, shadowsPower_ = 0;
-  double indirectScale_ = 1, directScale_ = 1;
+  RecordError indirect_, smudges_;
+  double directPower_ = 0, raysPower_ = 0, recordsPower_ = 0, narrowRecordsPower_ = 0, shadowsPower_ = 0;
+  double directScale_ = 1;
 };
 
 }  // namespace tomales

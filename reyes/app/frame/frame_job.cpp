@@ -120,9 +120,13 @@ void FrameJob::light(const DeepFrame& layout, const TileReader& tiles, bool gath
     useTimeBudget(*this, layout, tiles, settings_, stats_, log_);
   else if (gathers)
     gather(layout, tiles);
+  if (settings_.holdsQuality) describeQuality(scene_.options, optionsOf(quality_), settings_);
   if (!audits(settings_) || interrupted()) return;
   const AuditReport report = audit(layout, tiles, lightSeedOf(settings_));
-  if (!interrupted()) tellAudit(report);
+  if (interrupted()) return;
+  tellAudit(report);
+  if (settings_.holdsQuality && settings_.targetError > 0)
+    tellMissed(report, settings_, optionsOf(quality_) + ", which hold for the shot", log_);
 }
 
 /// Tells whether rays and records decide the error of the light; says so if not.

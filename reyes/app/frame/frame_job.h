@@ -62,6 +62,9 @@ class FrameJob {
   /// Forgets what was gathered; light is gathered and shaded by these settings from now on.
   void setQuality(const LightQuality& quality);
   void setLightSamples(int lightSamples) { quality_.lightSamples = lightSamples; }
+  /// Writes a coarse picture of the whole frame beside the first Display's file, in direct light, for those who stop
+  /// before it is finished. It is removed when the Displays are written.
+  void writeSketch(const DeepFrame& layout, const TileReader& tiles);
   /// Seconds since the job was made, before anything was hidden.
   double elapsed_s() const;
   /// Gathers, warns of what the records show, and keeps light for later frames if the command line asks for it.
@@ -124,6 +127,10 @@ class FrameJob {
   void keepShaded(size_t index, const DeepTile& tile) const {
     if (!clouds_.hasBaked()) tomales::keepShaded(kept_, index, tile);
   }
+  /// Prepares tellNoise(), if a Display shows it.
+  void beginNoise();
+  /// Stores how far another draw of all noise is from the colours of a shaded tile (VariableSource::Noise).
+  void tellNoise(DeepTile& tile) const;
   /// Puts a shaded tile where the rows of the picture find it.
   void place(size_t index, DeepTile&& tile, const TilePlace& put) const;
   void finish(DeepFrame& frame, const TileFill& fill);
@@ -137,6 +144,7 @@ class FrameJob {
   LightQuality quality_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   bool gathers_ = false;
+  int noise_ = -1;       ///< First of the arrays of ShadedPoints::variables that show noise; negative: none do.
   bool counts_ = false;  ///< Photons are counted at visible points.
   const Camera camera_;
   ProgressMeter meter_;
@@ -149,6 +157,7 @@ class FrameJob {
   RaySource raySource_;
   std::unique_ptr<GiServices> services_;
   std::unique_ptr<Preview> preview_;
+  std::string sketchFile_;  ///< Empty if there is none.
 };
 
 }  // namespace tomales

@@ -1,15 +1,45 @@
 // The last part of a FrameJob: its tiles are shaded and become pictures.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "reyes/app/frame/frame_job.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/turns_timer.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/pixel_report.h"
 #include "reyes/app/watch/preview.h"
+#include "reyes/app/watch/sketch.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/random_streams.h"
+#include "reyes/base/rng.h"
 
 namespace tomales {
+
+void FrameJob::beginNoise() {
+  for (const Variable& v : outputOf(scene_.options).variables)
+    if (const SurfaceVariable* known = surfaceVariable(v.source); known && known->source == VariableSource::Noise)
+      noise_ = v.first;
+  if (noise_ >= 0 && services_) services_->redrawRecords();
+}
+
+void FrameJob::tellNoise(DeepTile& tile) const {
+  if (noise_ < 0) return;
+  ShadeContext context = shadeContext();
+  context.seed = hashCombine(context.seed, randomStream("sets"));
+  context.redrawn = context.sketch = true;
+  DeepTile other = tile;
+  other.shaded.clear();
+  other.answers.clear();  // they are those of the first draw
+  tomales::shadeTile(other, scene_, *shading_, context);
+  for (size_t b = 0; b < tile.shaded.size(); ++b) {
+    ShadedPoints& shown = tile.shaded[b];
+    const auto first = static_cast<size_t>(noise_);
+    for (size_t k = 0; k < 3 && first + 3 <= shown.variables.size(); ++k)
+      for (size_t i = 0; i < shown.Ci[k].size(); ++i)
+        shown.variables[first + k][i] = (shown.Ci[k][i] - other.shaded[b].Ci[k][i]) / std::sqrt(2.0f);
+  }
+}
 
 bool FrameJob::shade(std::span<const uint32_t> tiles, const ShadeSteps& steps) {
   const StageTimer timer(stats_, "shade");
@@ -27,6 +57,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                         : "interrupted: finished buckets are shaded with direct light and written");
     context.indirect = false;
   }
+  beginNoise();
   DeepFrame frame = layout;
   size_t shaded = 0;
   bool complete = true;
@@ -45,6 +76,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                              return takeShaded(kept_, index, tile) || !resumes;
                            },
                            [&](size_t index, DeepTile&& tile) {
+                             if (!cut) tellNoise(tile);
                              if (!cut) keepShaded(index, tile);
                              place(index, std::move(tile), put);
                            }};
@@ -57,6 +89,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
 
 void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::optional<DeepTile>(size_t tile)>& find,
                             const std::function<void(size_t tile, const DeepTile&)>& keep) {
+  beginNoise();
   DeepFrame frame = layout;
   const FrameControl part = control("hiding and shading", 0, 1);
   FrameControl all = part;
@@ -72,6 +105,7 @@ void FrameJob::hideAndWrite(const DeepFrame& layout, const std::function<std::op
                           const TurnsTimer::Turn turn(timer);
                           if (!takeShaded(kept_, index, tile))
                             tomales::shadeTile(tile, scene_, *shading_, shadeContext());
+                          tellNoise(tile);
                           if (interrupted()) {  // as shadeTiles() does
                             dropped = true;
                             return;
@@ -119,6 +153,20 @@ void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const 
   put(index, std::move(tile));
 }
 
+void FrameJob::writeSketch(const DeepFrame& layout, const TileReader& tiles) {
+  constexpr int kStride = 4;
+  const DisplayCall& first = scene_.options.displays.front();
+  if (settings_.isPilot || first.type == "null" || !driverOf(first, scene_.options, pluginTrust(settings_)).empty())
+    return;
+  ShadeContext context = shadeContext();
+  context.lightSamples = 1;
+  context.indirect = false;
+  context.sketch = true;
+  const std::filesystem::path file(fileOf(first));
+  sketchFile_ = (file.parent_path() / (file.stem().string() + ".sketch.exr")).string();
+  writeImage(sketchFile_, sketch(layout, tiles, kStride, scene_, *shading_, context, interrupted()), false, log_);
+}
+
 void FrameJob::openPreview(const DeepFrame& layout) {
   if (!preview_ && !settings_.preview.empty())
     preview_ = std::make_unique<Preview>(settings_.preview, scene_.options.displays.front().name, layout, log_);
@@ -133,7 +181,10 @@ void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   if (rays_) rays_->report(stats_);
   preview_.reset();
   clouds_.write(log_);
-  if (!interrupted()) meter_.finish();
+  if (interrupted()) return;
+  std::error_code failed;
+  if (!sketchFile_.empty()) std::filesystem::remove(sketchFile_, failed);
+  meter_.finish();
 }
 
 }  // namespace tomales

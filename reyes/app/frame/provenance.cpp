@@ -37,6 +37,7 @@ std::string settingsText(const RenderSettings& s) {
   add("--max-error", s.maxError, usual.maxError);
   add("--error-function", s.errorFunction ? static_cast<int>(*s.errorFunction) : -1, -1);
   add("--target-error", s.targetError, usual.targetError);
+  add("--target-smudges", s.targetSmudges, usual.targetSmudges);
   add("--time-budget", s.timeBudget_s, usual.timeBudget_s);
   add("--light-samples", s.lightSamples, usual.lightSamples);
   add("--indirect-only", !s.direct, false);

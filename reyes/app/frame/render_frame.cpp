@@ -139,6 +139,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
       returnFreeMemory();
     }
     job.light(layout, store.reader(), gathers);
+    if (settings.isPilot) return file.forget();
     afterStage();
     job.write(layout, [&](size_t i) { return store.take(i); });
   }

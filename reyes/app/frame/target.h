@@ -17,4 +17,7 @@ void reachTargetError(FrameJob& job, const DeepFrame& layout, const TileReader& 
 void useTimeBudget(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
                    Stats& stats, Log& log);
 
+/// Warns where a picture errs more than was asked, or where nobody can tell. `with`: the settings that it has.
+void tellMissed(const AuditReport& report, const RenderSettings& settings, const std::string& with, Log& log);
+
 }  // namespace tomales

@@ -1,5 +1,7 @@
 #include "reyes/app/frame/trials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <vector>
@@ -19,6 +21,8 @@ constexpr LightQuality kBaseOfLamps{0, -1, 4}, kFinerLamps{0, -1, 16};
 constexpr size_t kBucketsPerTrial = 16, kFewestBuckets = 8;
 constexpr int kBriefness = 4;  ///< Brief trials have so many times fewer rays.
 constexpr size_t kPixelsOfBriefTrials = 100;
+constexpr size_t kSmudgeSizesOfTrials = 1;  ///< Larger blocks than the least lie in several buckets.
+constexpr float kMuchNarrower = 1 / 1.5f;   ///< Of the maxError of the base.
 
 /// Numbers, in order, of some of these buckets, chosen by a hash of their places.
 std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& layout, uint32_t seed) {
@@ -53,21 +57,40 @@ class Trials {
     const LightQuality& finer = paths ? kFinerPaths : records ? kFinerRecords : kFinerLamps;
     AuditPlan plan = job_.auditPlan(plan_.seed);
     plan.lightSamples = finer.lightSamples;
+    plan.smudgeSizes = kSmudgeSizesOfTrials;
     if (plan_.isBrief) plan.pixels = kPixelsOfBriefTrials;
     Audit audit(layout_, tiles_, job_.scene(), job_.shading(), plan, interrupted());
     const QualityTrial first = trial(base, audit), second = trial(finer, audit);
     const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords, audit)) : std::nullopt;
-    return {ErrorModel(first, second, third), some_.size(), seen_.size(), audit_s_};
+    ErrorModel model(first, second, third);
+    if (records) tryNarrower(first, model, audit);
+    return {model, some_.size(), seen_.size(), audit_s_, light_s_ > 0 ? lightRays_ / light_s_ : 0};
   }
 
  private:
+  void tryNarrower(const QualityTrial& base, ErrorModel& model, Audit& audit) {
+    const float maxError = plan_.likely(model).maxError;
+    if (!(maxError > 0 && maxError < kMuchNarrower * base.quality.maxError)) return;
+    LightQuality quality = base.quality;
+    quality.maxError = maxError;
+    if (model.gatherCost(quality) <= inFrame() * plan_.mostOfNarrow()) model.addNarrower(trialOf(quality, audit));
+  }
+
   QualityTrial trial(LightQuality quality, Audit& audit) {
     if (plan_.isBrief && quality.samples > 0) quality.samples /= kBriefness;
     if (plan_.isBrief && quality.lightSamples > 0) quality.lightSamples /= kBriefness;
+    return trialOf(quality, audit);
+  }
+
+  /// Buckets of the frame for each that is tried.
+  double inFrame() const {
+    return static_cast<double>(seen_.size()) / std::max<double>(1, static_cast<double>(some_.size()));
+  }
+
+  QualityTrial trialOf(const LightQuality& quality, Audit& audit) {
     QualityTrial out{quality};
     job_.setQuality(quality);
-    const double inFrame = static_cast<double>(seen_.size()) / std::max<double>(1, static_cast<double>(some_.size()));
-    out.gatherCost = inFrame * costOf([&] { job_.gatherRecords(layout_, tiles_); });
+    out.gatherCost = inFrame() * costOf([&] { job_.gatherRecords(layout_, tiles_); });
     const double pixels = 1.0 * layout_.crop.width() * layout_.crop.height();
     out.shadeCost = pixels / std::max<double>(1, static_cast<double>(audit.pixelCount())) *
                     costOf([&] { audit.shade(job_.shadeContext()); });
@@ -76,19 +99,22 @@ class Trials {
     audit_s_ += seconds() - before_s;
     if (report.indirect) out.indirect = report.indirect->mean;
     if (report.direct) out.direct = report.direct->mean;
+    if (const SmudgeEstimate* smudges = report.finestSmudges()) out.smudges = smudges->deviation;
     return out;
   }
 
   template <class Work>
-  double costOf(const Work& work) const {
-    const double before = cost();
+  double costOf(const Work& work) {
+    const double rays = rayCount(), time_s = seconds();
     work();
-    return cost() - before;
+    const double moreRays = rayCount() - rays, more_s = seconds() - time_s;
+    lightRays_ += moreRays;
+    light_s_ += more_s;
+    return plan_.unit == CostUnit::Seconds ? more_s : moreRays;
   }
-  double cost() const {
+  double rayCount() const {
     const auto& r = stats_.rays;
-    return plan_.unit == CostUnit::Seconds ? seconds()
-                                           : static_cast<double>(r.gather + r.transmission + r.specular + r.reference);
+    return static_cast<double>(r.gather + r.transmission + r.specular + r.reference);
   }
   static double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -100,10 +126,16 @@ class Trials {
   Stats& stats_;
   TileReader tiles_;  ///< Reads the buckets that are tried.
   std::vector<size_t> seen_, some_;
-  double audit_s_ = 0;
+  double audit_s_ = 0, light_s_ = 0, lightRays_ = 0;
 };
 
 }  // namespace
+
+std::string TrialsResult::timeOf(double rays) const {
+  const double time_s = raysPerSecond > 0 ? rays / raysPerSecond : 0;
+  if (time_s < 100) return fmt::format("{:.2g} s", time_s);
+  return time_s < 6000 ? fmt::format("{:.0f} min", time_s / 60) : fmt::format("{:.0f} h", time_s / 3600);
+}
 
 TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,
                         Stats& stats) {

@@ -1,5 +1,8 @@
 // Trials in a few buckets of a frame: what error its light has with some settings, and what it costs.
 #pragma once
+#include <limits>
+#include <string>
+
 #include "reyes/app/frame/error_model.h"
 #include "reyes/app/frame/frame_job.h"
 
@@ -12,15 +15,24 @@ struct TrialPlan {
   CostUnit unit = CostUnit::Rays;
   bool isBrief = false;  ///< A quarter of the rays, and fewer pixels: the frame has little time.
   uint32_t seed = 0;     ///< Decides which buckets and pixels.
+  /// The quality that would be chosen by what the first trials say. Where it has much narrower records than those had,
+  /// a trial of such records follows, unless that is likely to cost more than mostOfNarrow(): how many there are cannot
+  /// be told from wide ones.
+  std::function<LightQuality(const ErrorModel&)> likely;
+  std::function<double()> mostOfNarrow = [] { return std::numeric_limits<double>::infinity(); };
 };
 
 struct TrialsResult {
   ErrorModel model;
   size_t buckets = 0, ofBuckets = 0;  ///< Those that were tried, and all that see something.
   double audit_s = 0;                 ///< What an audit of the frame may take.
+  double raysPerSecond = 0;           ///< On this machine now, for messages alone.
+
+  /// How long so many rays take, in words.
+  std::string timeOf(double rays) const;
 };
 
-/// Lights and audits the buckets two or three times. What is gathered stays with the job until its next setQuality().
+/// Lights and audits the buckets two to four times. What is gathered stays with the job until its next setQuality().
 TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,
                         Stats& stats);
 

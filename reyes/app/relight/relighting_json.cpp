@@ -39,7 +39,8 @@ Json jsonOf(const EditableShader& s) {
 std::vector<std::string> variablesOf(const Options& options) {
   std::set<std::string> out;
   for (const SurfaceVariable& v : kSurfaceVariables)
-    if (v.kind == ChannelKind::Variable || v.name == "a" || v.name == "z") out.emplace(v.name);
+    if ((v.kind == ChannelKind::Variable && v.source != VariableSource::Noise) || v.name == "a" || v.name == "z")
+      out.emplace(v.name);
   for (const auto& [name, channel] : options.channels) out.insert(name);
   return {out.begin(), out.end()};
 }

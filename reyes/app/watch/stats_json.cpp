@@ -46,8 +46,10 @@ Json warningsOf(const std::vector<LogEntry>& messages) {
 
 Json auditOf(const Stats& stats) {
   Json out{{"pixels", stats.audit.pixels.load()}, {"paths", stats.audit.paths.load()}};
-  for (const auto& [light, f] : stats.audits())
-    out[light] = {{"mean", f.mean}, {"low", f.low}, {"high", f.high}, {"noise", f.noise}, {"p99", f.p99}};
+  for (const auto& [light, f] : stats.audits()) {
+    out[light] = {{"mean", f.mean}, {"low", f.low}, {"high", f.high}, {"noise", f.noise}, {"told", f.mean >= f.noise}};
+    if (f.p99 > 0) out[light]["p99"] = f.p99;
+  }
   return out;
 }
 

@@ -77,5 +77,53 @@ TEST(ErrorEstimate, NamesTheErrorThatOneInAHundredExceeds) {
   EXPECT_NEAR(estimateError(places).p99, 0.01, 1e-6);
 }
 
+/// Blocks whose light is off by draws of this deviation, seen by two estimates with noise of their own.
+std::vector<SmoothBlock> drawnBlocks(size_t count, double deviation, double noise, uint32_t seed, double bias = 0) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<SmoothBlock> out;
+  for (size_t i = 0; i < count; ++i) {
+    const double off = bias + (1 + bias) * deviation * normal(random);
+    out.push_back({{off + noise * normal(random), off + noise * normal(random)}});
+  }
+  return out;
+}
+
+TEST(SmudgeEstimate, HasNoNoiseOfTheAuditInIt) {
+  for (const double noise : {0.0, 0.01, 0.03}) {
+    const SmudgeEstimate e = estimateSmudges(8, drawnBlocks(4000, 0.02, noise, 1));
+    EXPECT_NEAR(e.deviation, 0.02, 0.0015) << noise;
+    EXPECT_NEAR(e.noise, noise / std::sqrt(2), 0.001);
+    EXPECT_LT(e.low, 0.02);
+    EXPECT_GT(e.high, 0.02);
+  }
+}
+
+TEST(SmudgeEstimate, DoesNotCountThatThePictureIsBrighterAsAWhole) {
+  EXPECT_NEAR(estimateSmudges(8, drawnBlocks(4000, 0.02, 0.005, 2, 0.5)).deviation, 0.02, 0.0015);
+}
+
+TEST(SmudgeEstimate, TellsOnlyABoundWhereNoiseHidesIt) {
+  const SmudgeEstimate e = estimateSmudges(8, drawnBlocks(40, 0, 0.05, 3));
+  EXPECT_FALSE(e.tells());
+  EXPECT_GE(e.high, e.noise);
+}
+
+TEST(SmudgeEstimate, KnowsNothingOfFewBlocks) {
+  const SmudgeEstimate e = estimateSmudges(8, drawnBlocks(SmudgeEstimate::kFewestBlocks - 1, 0.02, 0, 4));
+  EXPECT_FALSE(e.isKnown());
+  EXPECT_EQ(e.deviation, 0);
+}
+
+TEST(SmudgeEstimate, HoldsTheTruthAsOftenAsItSays) {
+  int held = 0;
+  for (uint32_t seed = 0; seed < 200; ++seed) {
+    const SmudgeEstimate e = estimateSmudges(8, drawnBlocks(37, 0.02, 0.01, 100 + seed));
+    held += e.low <= 0.02 && 0.02 <= e.high;
+  }
+  EXPECT_GT(held, 160) << "the bootstrap of a deviation is a little too sure of few blocks";
+  EXPECT_LE(held, 200);
+}
+
 }  // namespace
 }  // namespace tomales

@@ -34,7 +34,7 @@ TEST(ErrorModel, FindsTheLawOfAFrameFromThreeTrials) {
 
 TEST(ErrorModel, ReachesATargetWithFewerRaysThanEveryQualityThatAlsoDoes) {
   const Frame frame;
-  const LightQuality chosen = frame.model().cheapest(0.012);
+  const LightQuality chosen = frame.model().cheapest({0.012});
   EXPECT_LE(frame.error(chosen), 0.012);
   for (int samples : {100, 200, 400, 800, 1600, 3200})
     for (float maxError : {0.25f, 0.5f, 1.0f, 2.0f})
@@ -50,7 +50,7 @@ TEST(ErrorModel, AsksForMoreRaysOfATargetThatIsSmaller) {
   const ErrorModel model = Frame().model();
   double before = 0;
   for (double target : {0.08, 0.04, 0.02, 0.01}) {
-    const double rays = model.cost(model.cheapest(target));
+    const double rays = model.cost(model.cheapest({target}));
     EXPECT_GT(rays, before);
     before = rays;
   }
@@ -58,7 +58,7 @@ TEST(ErrorModel, AsksForMoreRaysOfATargetThatIsSmaller) {
 
 TEST(ErrorModel, GivesTheLeastErrorOfItsRangeWhereATargetCannotBeReached) {
   const ErrorModel model = Frame().model();
-  const LightQuality chosen = model.cheapest(1e-6);
+  const LightQuality chosen = model.cheapest({1e-6});
   EXPECT_GT(model.error(chosen), 1e-6);
   EXPECT_LE(model.error(chosen), model.error({9600, 0.07f, 512}));
 }
@@ -67,7 +67,7 @@ TEST(ErrorModel, GivesTheLeastErrorThatSoManyRaysBring) {
   const ErrorModel model = Frame().model();
   const LightQuality chosen = model.best(1e6);
   EXPECT_LE(model.cost(chosen), 1e6);
-  EXPECT_LE(model.error(chosen), model.error(model.cheapest(1.1 * model.error(chosen))));
+  EXPECT_LE(model.error(chosen), model.error(model.cheapest({1.1 * model.error(chosen)})));
 }
 
 TEST(ErrorModel, GivesTheMostLightSamplesForATimeAndLeavesRaysAlone) {
@@ -81,12 +81,43 @@ TEST(ErrorModel, GivesTheMostLightSamplesForATimeAndLeavesRaysAlone) {
 
 TEST(ErrorModel, IsCorrectedByAPictureThatErrsMoreThanItSaid) {
   ErrorModel model = Frame().model();
-  const LightQuality first = model.cheapest(0.02);
-  model.correct(first, 3 * model.indirectError(first), model.directError(first));
+  const LightQuality first = model.cheapest({0.02});
+  model.correct({first, 3 * model.indirectError(first), model.directError(first)});
   EXPECT_GT(model.error(first), 0.02);
-  const LightQuality second = model.cheapest(0.02);
+  const LightQuality second = model.cheapest({0.02});
   EXPECT_GT(second.samples, first.samples);
   EXPECT_LE(model.error(second), 0.02);
+}
+
+TEST(ErrorModel, AsksForMoreWhereSmoothRegionsWouldShowSmudges) {
+  const Frame frame;
+  const auto uneven = [&](const LightQuality& q) {
+    QualityTrial out = frame.trial(q);
+    out.smudges = 0.5 * out.indirect;
+    return out;
+  };
+  const ErrorModel model(uneven({150, 1, 4}), uneven({600, 1, 16}), uneven({150, 2, 4}));
+  const LightQuality any = model.cheapest({0.02}), even = model.cheapest({0.02, 0.004});
+  EXPECT_EQ(any, frame.model().cheapest({0.02})) << "smudges that nobody asked of cost nothing";
+  EXPECT_LE(model.smudges(even), 0.004);
+  EXPECT_GT(model.smudges(any), 0.004);
+  EXPECT_GT(model.cost(even), model.cost(any));
+  EXPECT_NEAR(model.smudges({75, 0.5, 2}), uneven({75, 0.5, 2}).smudges, 1e-9);
+}
+
+TEST(ErrorModel, LearnsFromNarrowRecordsHowManyThereAre) {
+  // Half as wide as the base they are 4 times as many, and twice as wide nearly as many: the rest is as wide as may be.
+  Frame frame;
+  ErrorModel model = frame.model();
+  const LightQuality narrow{150, 0.25f, 4}, between{150, 0.5f, 4};
+  EXPECT_LT(model.gatherCost(narrow), 150e3 * 16 / 4);
+  QualityTrial trial = frame.trial(narrow);
+  trial.gatherCost = 150e3 * 16;
+  model.addNarrower(trial);
+  EXPECT_NEAR(model.gatherCost(narrow), 150e3 * 16, 1);
+  EXPECT_NEAR(model.gatherCost(between), 150e3 * 4, 1);
+  EXPECT_NEAR(model.gatherCost({150, 2, 4}), frame.trial({150, 2, 4}).gatherCost, 1) << "wide ones stay";
+  EXPECT_NEAR(model.error(between), frame.error(between), 1e-6) << "and errors, which the trial has confirmed";
 }
 
 TEST(ErrorModel, LeavesRaysAndRecordsAloneWhereOnlyLampsErr) {
@@ -99,14 +130,14 @@ TEST(ErrorModel, LeavesRaysAndRecordsAloneWhereOnlyLampsErr) {
     return out;
   };
   const ErrorModel model(lampsOnly(4), lampsOnly(16), {});
-  const LightQuality chosen = model.cheapest(0.01);
+  const LightQuality chosen = model.cheapest({0.01});
   EXPECT_EQ(optionsOf(chosen), "--light-samples 16");
 }
 
 TEST(ErrorModel, SurvivesTrialsThatSawNothing) {
   const ErrorModel model({{150, 1, 4}}, {{600, 1, 16}}, QualityTrial{{150, 2, 4}});
-  EXPECT_EQ(model.error(model.cheapest(0.01)), 0);
-  EXPECT_EQ(model.cheapest(0.01), LightQuality());
+  EXPECT_EQ(model.error(model.cheapest({0.01})), 0);
+  EXPECT_EQ(model.cheapest({0.01}), LightQuality());
 }
 
 TEST(ErrorModel, SurvivesAFinerTrialThatErrsMore) {
@@ -115,7 +146,7 @@ TEST(ErrorModel, SurvivesAFinerTrialThatErrsMore) {
   unlucky.indirect = 2 * frame.trial({150, 1, 4}).indirect;
   unlucky.direct = 1;
   const ErrorModel model(frame.trial({150, 1, 4}), unlucky, frame.trial({150, 2, 4}));
-  const LightQuality chosen = model.cheapest(0.01);
+  const LightQuality chosen = model.cheapest({0.01});
   EXPECT_GT(chosen.samples, 0);
   EXPECT_TRUE(std::isfinite(model.error(chosen)));
 }

@@ -55,11 +55,21 @@ TEST(Compare, SmudgesAreWhatSmoothBlocksDifferByFromEachOther) {
   std::vector<float> even(16 * 8, 0.5f), halves = even;
   for (size_t i = 0; i < halves.size(); ++i) halves[i] *= i % 16 < 8 ? 1.1f * 2 : 0.9f * 2;
   const Comparison c = compare(grey(16, 8, halves), grey(16, 8, even));
-  EXPECT_NEAR(c.smudges, 0.1, 1e-6) << "a picture twice as bright has none";
+  EXPECT_NEAR(c.smudges[0], 0.1, 1e-6) << "a picture twice as bright has none";
+  EXPECT_EQ(c.smudges[1], 0) << "there is no block of 16 x 16";
   EXPECT_EQ(c.specks, 0);
   std::vector<float> edge = even;  // not smooth: nothing counts there
   for (size_t i = 0; i < edge.size(); ++i) edge[i] *= i % 16 < 12 ? 1 : 2;
-  EXPECT_EQ(compare(grey(16, 8, halves), grey(16, 8, edge)).smudges, 0);
+  EXPECT_EQ(compare(grey(16, 8, halves), grey(16, 8, edge)).smudges[0], 0);
+}
+
+TEST(Compare, SmudgesOfASizeShowInBlocksUpToThatSize) {
+  std::vector<float> even(64 * 64, 0.5f), halves = even;
+  for (size_t i = 0; i < halves.size(); ++i) halves[i] *= i % 32 < 16 ? 1.1f : 0.9f;
+  const Comparison c = compare(grey(64, 64, halves), grey(64, 64, even));
+  EXPECT_NEAR(c.smudges[0], 0.1, 1e-6);
+  EXPECT_NEAR(c.smudges[1], 0.1, 1e-6);
+  EXPECT_NEAR(c.smudges[2], 0, 1e-6) << "each block of 32 x 32 holds a bright and a dark half";
 }
 
 TEST(Compare, SpecksAreThePixelsThatStandOutOfASmoothBlock) {

@@ -1,0 +1,131 @@
+#include "reyes/app/commands/pilots.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "reyes/app/commands/make.h"
+#include "reyes/app/exit_code.h"
+#include "reyes/app/frame/frame_shaders.h"
+#include "reyes/app/frame/outputs.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/render_frame.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/chunk_file.h"
+#include "reyes/rib.h"
+
+namespace tomales {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isPilotFrame(const std::vector<int>& sorted, int frame) {
+  return std::binary_search(sorted.begin(), sorted.end(), frame);
+}
+
+class PilotRun {
+ public:
+  PilotRun(const RenderSettings& settings, Log& log) : settings_(settings), log_(log) {}
+
+  std::optional<HeldQuality> run() {
+    held_.pilots = settings_.pilotFrames ? *settings_.pilotFrames : pilotsOf(frames());
+    if (held_.pilots.empty() || (held_.pilots.size() == 1 && settings_.shotSettings.empty() && !settings_.pilotFrames))
+      return std::nullopt;
+    read([this](Scene&& scene) { take(scene); }, true);
+    if (interrupted() || held_.worlds.empty()) return std::nullopt;
+    std::vector<std::string> chosen;
+    for (const LightQuality& q : held_.worlds) chosen.push_back(optionsOf(q));
+    log_.report(Severity::Note, "shot-settings", {},
+                fmt::format("found on {} {}; all frames have: {}", held_.pilots.size() > 1 ? "frames" : "frame",
+                            fmt::join(held_.pilots, ", "), fmt::join(chosen, "; in the next world: ")));
+    return held_;
+  }
+
+ private:
+  void read(const std::function<void(Scene&&)>& onScene, bool makes) {
+    RibSettings rib;
+    rib.trust = settings_.trust;
+    if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
+    rib.onScene = onScene;
+    // A pilot reads what Make requests before it have made.
+    if (makes) rib.onMake = [this](const Request& request) { performMake(request, settings_.outputRoot, log_); };
+    Log quiet(Log::Verbosity::Quiet);  // what is wrong with the scene is said when it is rendered
+    readRib(settings_.files, rib, quiet);
+  }
+
+  /// The numbers of the frames to be rendered.
+  std::vector<int> frames() {
+    if (settings_.frames) return *settings_.frames;
+    std::vector<int> out;
+    read([&](Scene&& scene) { out.push_back(scene.options.frame); }, false);
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+
+  void take(Scene& scene) {
+    const int frame = scene.options.frame;
+    ++world_;
+    if (!isPilotFrame(held_.pilots, frame)) return;
+    RenderSettings settings = settings_;
+    settings.skipFinished = settings.resume = settings.progress = false;
+    settings.preview.clear();
+    settings.bakedFolder.clear();
+    settings.pixels.clear();
+    applyOverrides(scene, settings);
+    Log quiet(Log::Verbosity::Quiet);  // the frame says it when it is rendered
+    nameOutputs(scene.options, settings, quiet);
+    const auto shaders = frameShaders(settings, quiet);
+    Stats stats;
+    if (writesMapsAlone(scene.options, settings))
+      return renderFrame(scene, *shaders, world_, settings, stats, quiet, [] {});
+    if (frame != frame_) picture_ = 0;
+    frame_ = frame;
+    settings.isPilot = true;
+    settings.onQuality = [&](const LightQuality& q) { mergeQuality(held_, picture_, q, settings_); };
+    try {
+      renderFrame(scene, *shaders, world_, settings, stats, log_, [] {});
+    } catch (const std::exception& e) {
+      log_.report(Severity::Warning, "pilot-failed", scene.where,
+                  fmt::format("{}; settings of light are found without frame {}", e.what(), frame));
+    }
+    ++picture_;
+  }
+
+  const RenderSettings& settings_;
+  Log& log_;
+  HeldQuality held_;
+  int world_ = -1, frame_ = -1;
+  size_t picture_ = 0;
+};
+
+}  // namespace
+
+bool holdsForShot(const RenderSettings& s) {
+  return choosesQuality(s) && (!s.frames || s.frames->size() > 1 || s.pilotFrames || !s.shotSettings.empty());
+}
+
+std::optional<HeldQuality> findHeldQuality(const RenderSettings& settings, Log& log) {
+  const std::string& file = settings.shotSettings;
+  if (!file.empty() && fs::exists(file)) {
+    std::string error;
+    auto held = readHeldQuality(file, settings, error);
+    if (!held)
+      log.report(Severity::Error, "shot-settings", {std::make_shared<std::string>(file), 0},
+                 "cannot be used: " + error);
+    return held;
+  }
+  if (std::find(settings.files.begin(), settings.files.end(), "-") != settings.files.end()) return std::nullopt;
+  auto held = PilotRun(settings, log).run();
+  if (!held || file.empty()) return held;
+  try {
+    writeHeldQuality(file, *held, settings);
+  } catch (const WriteError& e) {
+    log.report(Severity::Output, "shot-settings", {std::make_shared<std::string>(file), 0}, e.what());
+  }
+  return held;
+}
+
+}  // namespace tomales

@@ -1,0 +1,20 @@
+// The pilot frames of a shot: settings of light are found on a few of its frames before any is rendered.
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "reyes/app/frame/held_quality.h"
+#include "reyes/base/log.h"
+
+namespace tomales {
+
+/// Must settings of light hold for the frames of this run? True if the program chooses them, and there may be several
+/// frames, or other runs have some.
+bool holdsForShot(const RenderSettings& settings);
+
+/// Reads --shot-settings if that file is there. Else finds settings on the pilot frames, which needs all of the stream
+/// to be read again, and writes them there. Returns nothing if they cannot be found before rendering begins: the stream
+/// has one frame, or is standard input; or if something fails, which is in the log.
+std::optional<HeldQuality> findHeldQuality(const RenderSettings& settings, Log& log);
+
+}  // namespace tomales

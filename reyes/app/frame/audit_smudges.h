@@ -1,0 +1,54 @@
+// The part of an audit that looks for smudges: light that is wrong over whole blocks of a smooth region. A mean over
+// all pixels hardly shows them, and an eye does.
+#pragma once
+#include <atomic>
+
+#include "reyes/app/frame/audit_estimate.h"
+#include "reyes/deep.h"
+#include "reyes/image.h"
+#include "reyes/shade.h"
+
+namespace tomales {
+
+struct SmudgePlan {
+  size_t blocks = 37;    ///< Of each size.
+  size_t sizes = 4;      ///< The first so many of kSmudgeSizes.
+  uint32_t seed = 0;     ///< Decides which, and the rays there.
+  int lightSamples = 0;  ///< Of each light, to find what is right.
+};
+
+/// Some blocks of pixels of each size, and the light that is right there, whose rays are traced when the first picture
+/// wants them. The same bits for any number of threads. The references outlive it. Not for several threads at once.
+class SmudgeAudit {
+ public:
+  SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
+              const SmudgePlan& plan, const std::atomic<bool>& cancelled);
+
+  ~SmudgeAudit();
+
+  /// The smudges of the picture that is shaded in this context, for each size that has enough blocks, which all see
+  /// something. Pre: as for Audit::of().
+  std::vector<SmudgeEstimate> of(const ShadeContext& context);
+
+ private:
+  struct Part;
+  struct Blocks;
+  size_t cellAt(int x, int y) const;
+  void add(int size);
+  void copyPixelsOf(Blocks& blocks);
+  std::vector<float> shade(const Blocks& blocks, const ShadeContext& context, int half) const;
+  void addSets(Blocks& blocks, ShadeContext context, int rays) const;
+  SmudgeEstimate estimate(const Blocks& blocks, const std::vector<float>& picture) const;
+
+  const DeepFrame& layout_;
+  const TileReader& tiles_;
+  const Scene& scene_;
+  const ShadingSystem& shading_;
+  const SmudgePlan plan_;
+  const std::atomic<bool>& cancelled_;
+  const int across_;              ///< Cells of 8 x 8 pixels in a row,
+  std::vector<uint8_t> covered_;  ///< and how many pixels see something in each of them.
+  std::vector<Blocks> sizes_;
+};
+
+}  // namespace tomales

@@ -1,0 +1,34 @@
+// Settings of light that hold for all frames of a shot. Found for each frame alone they would change from frame to
+// frame, and what each of them gets wrong would flicker (docs/decisions/0177).
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reyes/app/frame/error_model.h"
+#include "reyes/app/settings.h"
+
+namespace tomales {
+
+struct HeldQuality {
+  std::vector<int> pilots;           ///< The frames that they were found on.
+  std::vector<LightQuality> worlds;  ///< For each world of a frame that makes a picture.
+};
+
+/// A few of these frames: the first, the middle and the last.
+std::vector<int> pilotsOf(const std::vector<int>& frames);
+
+/// Sets what the quality names; the frame is lit by it, and no trials are made.
+void hold(const LightQuality& quality, RenderSettings& settings);
+
+/// Merges what another pilot has found for a world. With --target-error the finest of all hold, so that each frame
+/// reaches the target, and with --time-budget the coarsest, so that each ends in time.
+void mergeQuality(HeldQuality& held, size_t world, const LightQuality& quality, const RenderSettings& settings);
+
+/// Reads what an earlier run has found for the same target. Returns nothing, and says why, if the file holds anything
+/// else.
+std::optional<HeldQuality> readHeldQuality(const std::string& file, const RenderSettings& settings, std::string& error);
+/// Throws WriteError.
+void writeHeldQuality(const std::string& file, const HeldQuality& held, const RenderSettings& settings);
+
+}  // namespace tomales
