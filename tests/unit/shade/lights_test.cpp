@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "reyes/area_lights.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -283,6 +284,74 @@ TEST_F(Lights, IndirectLightObeysReceiveGainContextAndItsOwnTint) {
   attributes.indirect.receive = false;
   expectColor(shadeOne(), vec3(0.0f));
   EXPECT_EQ(system().indirectQuery(0), nullptr);
+}
+
+/// A rectangle of 2 x 3 in its plane.
+class Rectangle final : public Prim {
+ public:
+  Rectangle() : Prim({}) {}
+  uint32_t patchCount() const override { return 2; }
+  PatchInfo info(uint32_t) const override { return {}; }
+  Bound3 bound(uint32_t, const UvRect&) const override { return {vec3(0), vec3(2, 3, 0)}; }
+  void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
+    for (int i = 0; i < n; ++i) {
+      out.px[i] = u[i] + static_cast<float>(patch);
+      out.py[i] = 3 * v[i];
+      out.pz[i] = 0;
+    }
+  }
+  void interpolate(uint32_t, int, int, const float*, const float*, float*, int) const override {}
+};
+
+TEST_F(Lights, BmrtMeasuresTheGeometryOfAreaLights) {
+  for (const bool bmrt : {true, false}) {
+    scene.objects.clear();
+    scene.lights.clear();
+    if (bmrt)
+      scene.options.user["shade:arealight"] = text("arealight", "bmrt");
+    else
+      scene.options.user.clear();
+    light("arealight", {}, true);
+    auto lamp = std::make_shared<Attributes>();
+    lamp->areaLight = 0;
+    Object o;
+    o.shapes = {std::make_shared<Rectangle>()};
+    mat4 twice(2.0f);
+    twice[3][3] = 1;
+    o.worldFromObject = Motion::still(twice);
+    o.attributes = lamp;
+    scene.objects.push_back(o);
+    scene.freeze();
+    measureAreaLights(scene, registry, log);
+    const ParamList& params = scene.lights[0]->shader.params;
+    ASSERT_EQ(params.size(), bmrt ? 1u : 0u);
+    if (bmrt) EXPECT_NEAR(params[0].number(0), 2 * 3 * 4, 1e-3f);
+  }
+}
+
+// Each point draws some of many lamps; in the mean that is the light of all.
+TEST_F(Lights, FewOfManyLightsBringTheLightOfAllInTheMean) {
+  vec3 sums[2];
+  for (const bool all : {true, false}) {
+    shading.reset();
+    scene.objects.clear();
+    scene.lights.clear();
+    attributes.lights.clear();
+    scene.options.user["trace:lightcut"] = number("lightcut", all ? 0.0f : 2.0f);
+    surface("matte", {number("Kd", 1)});
+    for (int k = 0; k < 200; ++k) {
+      const auto x = static_cast<float>(k % 20), y = static_cast<float>(k / 20);
+      light("pointlight",
+            {number("intensity", 0.1f + 0.01f * static_cast<float>(k % 7)),
+             color("lightcolor", {1, 0.1f * static_cast<float>(k % 5), 0.5f}), point("from", {x - 9.5f, y - 4.5f, 2})});
+    }
+    const ShadedPoints out = shade(points(std::vector<vec3>(2000, vec3(1, 0.5f, 5))));
+    vec3 sum(0);
+    for (int i = 0; i < 2000; ++i) sum += out.color(i) / 2000.0f;
+    sums[all] = sum;
+  }
+  EXPECT_NE(sums[0], sums[1]) << "lamps are drawn";
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sums[0][c] / sums[1][c], 1, 0.02) << c;
 }
 
 }  // namespace
