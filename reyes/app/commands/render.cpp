@@ -136,7 +136,7 @@ class RenderRun {
   }
 
   /// The settings of a frame, with those of light that hold for the shot.
-  RenderSettings held(const Scene& scene) {
+  RenderSettings held(Scene& scene) {
     RenderSettings out = settings_;
     if (!choosesQuality(settings_) || writesMapsAlone(scene.options, settings_)) return out;
     const int frame = scene.options.frame;
@@ -145,6 +145,7 @@ class RenderRun {
     const size_t world = picture_++;
     if (held_ && world < held_->worlds.size()) {
       hold(held_->worlds[world], out);
+      describeQuality(scene.options, optionsOf(held_->worlds[world]), out);
       out.auditsHeld = out.targetError > 0 && out.auditEvery > 0 && frame % out.auditEvery == 0;
     } else if (holdsForShot(settings_)) {  // of a stream that cannot be read twice, the first frame decides
       out.onQuality = [this, world](const LightQuality& q) {

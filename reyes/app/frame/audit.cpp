@@ -140,7 +140,7 @@ void recordAudit(const AuditReport& r, Stats& stats) {
   };
   stats.audit.pixels = static_cast<int64_t>(r.pixels);
   stats.audit.paths = r.paths;
-  if (r.pixelSamples > 0) stats.addAudit("pixel_samples_at_most", {r.pixelSamples, 0, r.pixelSamples, 0, 0});
+  if (r.pixelSamples > 0) stats.addAudit("pixel_samples", {r.pixelSamples, 0, r.pixelSamples, 0, 0});
   for (const SmudgeEstimate& s : r.smudges)
     stats.addAudit(fmt::format("smudges_{}", s.size), {s.deviation, s.low, s.high, s.noise, 0});
   add("picture", r.picture);
@@ -154,7 +154,7 @@ std::string sentenceOf(const AuditReport& r) {
   if (r.indirect)
     parts += fmt::format("; indirect light {}, by {} paths at each point", percentOf(*r.indirect), r.paths);
   if (r.direct) parts += fmt::format("; direct light {}", percentOf(*r.direct));
-  if (r.pixelSamples > 0) parts += fmt::format("; the pixels' samples add at most {:.2g} %", 100 * r.pixelSamples);
+  if (r.pixelSamples > 0) parts += fmt::format("; the pixels' samples add up to about {:.2g} %", 100 * r.pixelSamples);
   for (const SmudgeEstimate& s : r.smudges)
     parts += &s == r.finestSmudges() ? fmt::format("; smudges of {:.2g} % ({:.2g} to {:.2g}) over blocks of {} pixels",
                                                    100 * s.deviation, 100 * s.low, 100 * s.high, s.size)

@@ -28,8 +28,8 @@ struct AuditReport {
   int lightSamples = 0;   ///< At each of them, of each light; 0 if direct light was not audited.
   ErrorEstimate picture;  ///< Of all light together. All errors are shares of the picture's colour,
   std::optional<ErrorEstimate> indirect, direct;  ///< those of one kind of light too.
-  /// The mean error that too few samples in pixels add to those, at most: samples are stratified, and it is what
-  /// independent ones would bring. Filters that are wider than a pixel bring less.
+  /// The mean error that too few samples in pixels add to those, about: what independent samples would bring. They are
+  /// stratified, and filters are wider than a pixel, so it is mostly less; what no sample sees can make it more.
   double pixelSamples = 0;
   std::vector<SmudgeEstimate> smudges;  ///< For each size of blocks that enough smooth ones were found of.
 

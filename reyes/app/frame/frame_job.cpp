@@ -120,7 +120,6 @@ void FrameJob::light(const DeepFrame& layout, const TileReader& tiles, bool gath
     useTimeBudget(*this, layout, tiles, settings_, stats_, log_);
   else if (gathers)
     gather(layout, tiles);
-  if (settings_.holdsQuality) describeQuality(scene_.options, optionsOf(quality_), settings_);
   if (!audits(settings_) || interrupted()) return;
   const AuditReport report = audit(layout, tiles, lightSeedOf(settings_));
   if (interrupted()) return;
