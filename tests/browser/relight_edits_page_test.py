@@ -130,7 +130,8 @@ other = f"({card('back wall')}).querySelector('input[type=range]')"
 page.run("""window.steps = []; performance.clearResourceTimings();""")
 page.run(f"(() => {{ {other}.value = 0.2; {other}.dispatchEvent(new Event('input')); }})()")
 settle()
-suite.expect(page.wait("document.querySelector('#work p').textContent.includes('present edit')", 60), "over a slow link the picture comes")
+SAID = "document.querySelector('#work p').textContent"
+suite.expect(page.wait(f"{SAID}.includes('present edit') && !{SAID}.includes('coarse')", 120), "over a slow link the picture comes, and then all of it at full size")
 sizes = page.run("performance.getEntriesByType('resource').filter((r) => r.name.includes('news?')).map((r) => [r.encodedBodySize, r.duration])")
 middle = sorted(s for s, _ in sizes)[len(sizes) // 2]
 suite.expect(len(sizes) > 2 and middle < 80e3, f"in small pieces, {middle / 1000:.0f} kB in the median of {len(sizes)}")

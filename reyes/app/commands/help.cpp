@@ -41,6 +41,8 @@ constexpr Example kExamples[] = {
      "  tomales scene.rib -o look.png --draft      a quick look\n"
      "  tomales scene.rib --frames 1-24 -o f.####.exr --progress"},
     {"hide", "  tomales hide scene.rib -o shot.dfb         then: tomales shade shot.dfb -o shot.exr"},
+    {"prepare",
+     "  tomales prepare scene.rib --gi atlas --atlas maps         then: tomales scene.rib --gi atlas --atlas maps"},
     {"gather", "  tomales gather shot.dfb -o shot.icf        then: tomales shade shot.dfb --irradiance shot.icf"},
     {"shade", "  tomales shade shot.dfb --edit brighter.rib -o shot.exr"},
     {"relight",
