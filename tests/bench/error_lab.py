@@ -4,7 +4,7 @@
 
 It renders each method of tests/stability/knobs at the first and the last value of its knob, against two truths as `tomales chart --stability` makes
 them, and writes the rows of the table in docs/measured/error.md. A picture is called silent if its true error is more than twice what is stated at
-most, the bound for pixel samples included, and more than 5 %, and no warning tells that something is wrong.
+most, pixel samples included, and more than 5 %, and no warning tells that something is wrong.
 """
 import argparse
 import json
@@ -37,7 +37,7 @@ class Scene:
         return pixels(out), json.loads(stats.read_text())
 
     def measure(self, value):
-        """Rows: method, true error and its noise, what is stated, the bound for pixel samples, the codes of warnings."""
+        """Rows: method, true error and its noise, what is stated, what pixel samples add, the codes of warnings."""
         truths = [self.render(self.of["truth"][0].replace("@", str(i)), value, 1)[0] for i in (1, 2)]
         for method in self.of["method"]:
             name, arguments = method.rsplit(": ", 1)

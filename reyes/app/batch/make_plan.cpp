@@ -47,7 +47,10 @@ class PlanMaker {
     RibSettings rib;
     rib.trust = options_.render.trust;
     rib.onScene = [this](Scene&& scene) { take(scene); };
-    rib.onMake = [this](const Request&) { events_.push_back(kMake); };
+    rib.onMake = [this](const Request&) {
+      events_.push_back(kMake);
+      hasMakes_ = true;
+    };
     rib.onOutliving = [this](const Request&) { apart_ = false; };
     if (!readRib(options_.render.files, rib, log_)) return std::nullopt;
     if (frames_.empty())
@@ -174,7 +177,7 @@ class PlanMaker {
     append(arguments, lightArguments(frame));
     append(arguments, {"--frames", std::to_string(frame), "--progress"});
     if (apart_) arguments.push_back("--frames-apart");
-    if (std::find(events_.begin(), events_.end(), kMake) != events_.end()) append(arguments, {"--makes", "none"});
+    if (hasMakes_) append(arguments, {"--makes", "none"});
     append(arguments, options_.render.files);
     return arguments;
   }
@@ -321,6 +324,7 @@ class PlanMaker {
   BatchPlan plan_;
   static constexpr int kMake = INT_MIN;
   std::vector<int> events_;  ///< Numbers of frames, and kMake, in the order of the stream.
+  bool hasMakes_ = false;    ///< Some of them are kMake.
   bool apart_ = true;        ///< Frames do not depend on each other.
   std::map<int, FrameFiles> frames_;
   std::map<int, LightOfFrame> light_;

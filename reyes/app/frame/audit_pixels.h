@@ -15,7 +15,7 @@ struct AuditPixel {
 };
 
 /// The mean of the samples of a pixel, before exposure and imager, and the standard error of that mean if the samples
-/// are taken as independent. They are stratified, so it is an upper bound.
+/// are taken as independent (AuditReport::pixelSamples says what that is worth).
 struct SampledColor {
   vec3 mean{0.0f}, error{0.0f};
 };
