@@ -18,6 +18,18 @@ void DeepTile::shrink() {
   pixels.shrink_to_fit();
 }
 
+DeepTile withoutPoints(const DeepTile& tile) {
+  DeepTile out;
+  out.rect = tile.rect;
+  for (const ShadePoints& batch : tile.batches) out.batches.emplace_back(batch.group(), 0);
+  out.facets = tile.facets;
+  for (Facet& facet : out.facets) facet.edge = tile.edgeOf(facet);
+  out.fragments = tile.fragments;
+  out.pixels = tile.pixels;
+  out.shaded = tile.shaded;
+  return out;
+}
+
 void DeepTile::forgetPoints() {
   for (Facet& facet : facets) facet.edge = edgeOf(facet);
   for (ShadePoints& batch : batches) batch = ShadePoints(batch.group(), 0);

@@ -73,6 +73,9 @@ struct DeepTile {
   void forgetPoints();
 };
 
+/// A copy of a shaded tile as forgetPoints() leaves it.
+DeepTile withoutPoints(const DeepTile& tile);
+
 /// The most tiles that a frame may have, which 32768 x 32768 pixels in buckets of 8 x 8 reach.
 constexpr int64_t kMostTiles = int64_t{1} << 24;
 

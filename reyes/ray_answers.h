@@ -5,6 +5,7 @@
 #include <array>
 #include <compare>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,8 +45,12 @@ inline IndirectAnswer withGains(IndirectAnswer answer, std::span<const vec3> gai
 
 struct RayAnswers {
   bool recording = false;
+  /// No record of the irradiance cache comes or goes while these answers are kept, so that what it says is kept too.
+  bool recordsStay = false;
   std::map<ShadowQuestion, ShadowAnswer> shadows;
   std::map<uint64_t, IndirectAnswer> indirect;  ///< Answers at points that the irradiance cache does not serve.
+  std::map<uint64_t, std::optional<IndirectAnswer>>
+      interpolated;  ///< What it says elsewhere; empty: it serves nothing.
 };
 
 }  // namespace tomales

@@ -77,6 +77,8 @@ struct IrradianceCache::Impl {
   const ErrorFunctionInfo& info = infoOf(settings.errorFunction);
   const Published published = publishedBy(info.equations, settings.kappa);
   Disputes disputes{has(Amendment::Disputes), info.equations, settings.kappa};
+  std::vector<vec3> gainsOfMix{};
+  std::vector<LightShare> mix{};
   const bool correctsMean = has(Amendment::SecondOrder), fadesBehind = has(Amendment::Behind);
 
   bool has(Amendment amendment) const { return isOn(amendment, info); }
@@ -277,6 +279,15 @@ std::vector<LightShare> IrradianceCache::mixed(std::span<const vec3> gains) cons
     for (size_t g = 0; g < gains.size(); ++g) sum.add(r.shares[g], gains[g]);
   }
   return out;
+}
+
+std::span<const LightShare> IrradianceCache::keptMix(std::span<const vec3> gains) const {
+  Impl& impl = *impl_;
+  if (impl.mix.size() != impl.records.size() || !std::ranges::equal(impl.gainsOfMix, gains)) {
+    impl.mix = mixed(gains);
+    impl.gainsOfMix.assign(gains.begin(), gains.end());
+  }
+  return impl.mix;
 }
 
 const IrradianceRecords& IrradianceCache::records() const { return impl_->records; }

@@ -67,8 +67,7 @@ void fields(A& a, IndirectAnswer& x) {
 
 template <class A>
 void fields(A& a, RayAnswers& x) {
-  auto& [recording, shadows, indirect] = x;
-  each(a, shadows, indirect);
+  each(a, x.shadows, x.indirect);
 }
 
 namespace {

@@ -3,7 +3,6 @@
 
 #include "gi/frame/state.h"
 #include "gi/photons.h"
-#include "reyes/base/checksum.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
@@ -46,9 +45,9 @@ std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, con
 
 /// The light of the records under the gains, or drawn anew; empty if that is their own.
 std::span<const LightShare> lightOf(const GiState& state, const PreparedCache& prepared, const ShadeContext& context) {
-  const auto& lights = context.redrawn && !state.redrawn.empty() ? state.redrawn : state.mixed;
-  if (lights.empty()) return {};
-  return lights[static_cast<size_t>(&prepared - state.caches.data())];
+  const auto index = static_cast<size_t>(&prepared - state.caches.data());
+  if (context.redrawn && !state.redrawn.empty()) return state.redrawn[index];
+  return mixedLight(state, index);
 }
 
 /// A draw from the normal distribution (Box and Muller 1958) that belongs to a place.
@@ -59,17 +58,17 @@ float normalDraw(const vec3& place) {
   return radius * std::cos(2 * kPi * unitFloat(hash32(name)));
 }
 
-uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
-
-/// Hashes the part of the query that GatherSettings do not hold as well.
-uint32_t nameOf(const std::optional<OcclusionQuery>& q) {
-  const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
-  return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),
-                         static_cast<uint32_t>(q->sides), nameOf(q->subset), nameOf(q->excludeSubset))
-           : 0;
-}
-
 }  // namespace
+
+std::span<const LightShare> mixedLight(const GiState& state, size_t cache) {
+  if (!state.mixed) return {};
+  std::call_once(state.mixed->once, [&] {
+    for (const PreparedCache& c : state.caches)
+      state.mixed->ofCaches.push_back(c.plan.gather.occlusion ? std::span<const LightShare>()
+                                                              : c.cache.keptMix(state.gains));
+  });
+  return state.mixed->ofCaches[cache];
+}
 
 std::vector<LightShare> redrawn(const IrradianceCache& cache, std::span<const LightShare> mixed) {
   std::vector<LightShare> out(mixed.begin(), mixed.end());
@@ -87,50 +86,6 @@ std::vector<LightShare> redrawn(const IrradianceCache& cache, std::span<const Li
     if (light > 0) out[i].E *= 1 + std::sqrt(2.0f) * normalDraw(r.position) * r.noise / light;
   }
   return out;
-}
-
-IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
-                              RayAnswers* answers) {
-  const struct {
-    vec3 position, normal;
-    uint32_t key, seed;
-    int group, samples;
-    float maxDistance, time;
-    vec3 drift;
-    uint32_t light, indirect, subset, radiosity, occlusion;
-  } asked{point.position,
-          point.normal,
-          point.key,
-          settings.seed,
-          point.group,
-          settings.samples,
-          settings.maxDistance,
-          point.time,
-          point.drift,
-          static_cast<uint32_t>(settings.light),
-          static_cast<uint32_t>(settings.indirect) | static_cast<uint32_t>(!settings.mirrored) << 1,
-          nameOf(settings.subset),
-          state.settings.mode == GiMode::Radiosity,
-          nameOf(settings.occlusion)};
-  static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
-  const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
-  const std::span<const std::string> groups = settings.occlusion ? std::span<const std::string>() : state.groups;
-  const auto mixed = [&](IndirectAnswer answer, const std::vector<vec3>& gains) {
-    return groups.empty() || gains.empty() ? answer : withGains(std::move(answer), gains);
-  };
-  if (answers)
-    if (const auto it = answers->indirect.find(name);
-        it != answers->indirect.end() && it->second.shares.size() == groups.size())
-      return mixed(it->second, state.gains);
-  const RayTools* tools = gatherTools(state);
-  if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
-  const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.hitRadiance.get()};
-  const IrradianceRecord record =
-      gather(*tools->rays, *tools->shading, point, settings, known, state.stats, nullptr, groups);
-  IndirectAnswer answer{record.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};
-  for (const LightShare& share : record.shares) answer.shares.push_back(share.E);
-  if (answers && answers->recording) answers->indirect[name] = answer;
-  return mixed(answer, state.gainsOfNew);
 }
 
 const RayTools* gatherTools(const GiState& state) {
@@ -206,8 +161,7 @@ std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) 
   return estimate.E + causticAt(state, at.group, at.position, at.normal, at.pixelSize);
 }
 
-BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const GatherPlaces& places,
-                   const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const ShadeContext& context) {
+BatchLookup placesOf(const GatherPlaces& places, const ShadePoints& points, const uint8_t* active, TmConstVec3 N) {
   BatchLookup out;
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) {
@@ -215,6 +169,12 @@ BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const Ga
       out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
     }
   out.known.resize(out.at.size());
+  return out;
+}
+
+BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const GatherPlaces& places,
+                   const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const ShadeContext& context) {
+  BatchLookup out = placesOf(places, points, active, N);
   if (!prepared) return out;
   prepared->cache.lookup(out.at, out.known.data(), kServesWider, lightOf(state, *prepared, context));
   const auto served =
@@ -231,8 +191,10 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
   plan.gather.samples = shareOfBranch(plan.gather.samples, kLeastOfHemisphere, context);
   if (context.redrawn) plan.gather.seed = hashCombine(plan.gather.seed, randomStream("sets"));
   const GatherPlaces places(state, points);
-  const BatchLookup found =
-      lookUp(state, prepared != state.caches.end() ? &*prepared : nullptr, places, points, active, N, context);
+  const bool isKnown = prepared != state.caches.end(),
+             keeps = isKnown && context.answers && context.answers->recordsStay && !context.redrawn;
+  const BatchLookup found = keeps ? recallOrLookUp(state, *prepared, places, points, active, N, context)
+                                  : lookUp(state, isKnown ? &*prepared : nullptr, places, points, active, N, context);
   for (size_t k = 0; k < found.points.size(); ++k) {
     const int i = found.points[k];
     const IrradianceEstimate& known = found.known[k];

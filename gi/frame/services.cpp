@@ -61,24 +61,21 @@ void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<Pixe
   impl_->caches = std::move(caches);
   impl_->anew = anew;
   impl_->cachesGiven = !impl_->caches.empty();
+  impl_->mixed = impl_->gains.empty() ? nullptr : std::make_unique<MixedLight>();
 }
 void GiServices::keepShares(std::vector<std::string> groups) { impl_->groups = std::move(groups); }
 const std::vector<std::string>& GiServices::shareGroups() const { return impl_->groups; }
 void GiServices::mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew) {
-  impl_->gains = std::move(gains);
   impl_->gainsOfNew = std::move(ofNew);
-  impl_->mixed.clear();
-  if (impl_->gains.empty()) return;
-  for (const PreparedCache& c : impl_->caches)
-    impl_->mixed.push_back(c.plan.gather.occlusion ? std::vector<LightShare>() : c.cache.mixed(impl_->gains));
+  if (gains == impl_->gains) return;
+  impl_->gains = std::move(gains);
+  impl_->mixed = impl_->gains.empty() ? nullptr : std::make_unique<MixedLight>();
 }
 
 void GiServices::redrawRecords() {
   impl_->redrawn.clear();
   for (size_t i = 0; i < impl_->caches.size(); ++i)
-    impl_->redrawn.push_back(redrawn(impl_->caches[i].cache, impl_->mixed.empty()
-                                                                 ? std::span<const LightShare>()
-                                                                 : std::span<const LightShare>(impl_->mixed[i])));
+    impl_->redrawn.push_back(redrawn(impl_->caches[i].cache, mixedLight(*impl_, i)));
 }
 void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(std::move(emitters)); }
 

@@ -8,6 +8,12 @@
 
 namespace tomales {
 
+/// The light of caches under the gains of groups, made when it is first asked for.
+struct MixedLight {
+  std::once_flag once;
+  std::vector<std::span<const LightShare>> ofCaches;  ///< Indexed as GiState::caches (IrradianceCache::keptMix).
+};
+
 struct GiState {
   const Scene& scene;
   const Camera& camera;
@@ -33,12 +39,11 @@ struct GiState {
   std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.
   /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.
   std::vector<uint8_t> focusing{};
-  std::vector<std::string> groups{};  ///< The groups of lights whose shares records hold; empty: none.
-  std::vector<vec3> gains{};          ///< One for each of these groups; empty if all are 1.
-  std::vector<vec3> gainsOfNew{};     ///< The same for light that is gathered while shading.
-  /// Indexed as `caches`: their light with these gains (IrradianceCache::mixed); empty like them.
-  std::vector<std::vector<LightShare>> mixed{};
-  /// The same, with another draw of each record's noise; empty before redrawRecords().
+  std::vector<std::string> groups{};    ///< The groups of lights whose shares records hold; empty: none.
+  std::vector<vec3> gains{};            ///< One for each of these groups; empty if all are 1.
+  std::vector<vec3> gainsOfNew{};       ///< The same for light that is gathered while shading.
+  std::unique_ptr<MixedLight> mixed{};  ///< With these gains; null if they are empty.
+  /// Indexed as `caches`: that light, with another draw of each record's noise; empty before redrawRecords().
   std::vector<std::vector<LightShare>> redrawn{};
 };
 
@@ -101,8 +106,17 @@ struct BatchLookup {
 BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPlaces&, const ShadePoints&,
                    const uint8_t* active, TmConstVec3 N, const ShadeContext&);
 
+/// The places where the active points look, with no answer yet.
+BatchLookup placesOf(const GatherPlaces&, const ShadePoints&, const uint8_t* active, TmConstVec3 N);
+/// As lookUp(), but without the cache if context.answers, which must not be null, holds an answer for each place.
+BatchLookup recallOrLookUp(const GiState&, const PreparedCache&, const GatherPlaces&, const ShadePoints&,
+                           const uint8_t* active, TmConstVec3 N, const ShadeContext&);
+
+/// The light of a cache's records under the gains; empty if that is their own.
+std::span<const LightShare> mixedLight(const GiState&, size_t cache);
+
 /// The light of a cache's records as it would be with other random numbers: each is brighter or darker by a draw of its
-/// noise, times the root of 2, by which two independent pictures differ. mixed: GiState::mixed of the cache.
+/// noise, times the root of 2, by which two independent pictures differ. mixed: mixedLight() of the cache.
 std::vector<LightShare> redrawn(const IrradianceCache&, std::span<const LightShare> mixed);
 
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,

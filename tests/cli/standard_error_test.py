@@ -16,7 +16,7 @@ shown = room.replace('"file" "rgba"', '"openexr" "Ci,a"\nDisplay "+noise.exr" "o
 t.write("plain.rib", room)
 t.write("room.rib", shown)
 t.write("lamp.rib", shown.replace('LightSource "indirectlight"', "# "))
-SEEDS = 24
+SEEDS = 12
 
 
 def squares(values):

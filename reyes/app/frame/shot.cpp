@@ -278,11 +278,13 @@ void ShotJob::gatherIrradiance() {
 bool ShotJob::recordAnswers(IcfWriter& out) {
   const StageTimer timer(stats_, "answers");
   std::atomic<bool> good{true};
+  RayAnswers none;
+  none.recording = true;
   const auto startRecording = [&](size_t index, DeepTile& tile) {
     auto loaded = files_->load(index, log_);
     if (!loaded) return false;
     tile = std::move(*loaded);
-    tile.answers.assign(tile.batches.size(), RayAnswers{true, {}, {}});
+    tile.answers.assign(tile.batches.size(), none);
     return true;
   };
   const auto store = [&](size_t index, DeepTile&& tile) {

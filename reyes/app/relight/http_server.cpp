@@ -1,6 +1,10 @@
 #include "reyes/app/relight/http_server.h"
 
 #include <fmt/format.h>
+
+// Connections that wait to be taken. With the library's 5, those of a page that loads its parts at once, or of a client
+// that floods the port, are refused and tried again a second later.
+#define CPPHTTPLIB_LISTEN_BACKLOG 128
 #include <httplib.h>
 
 #include <atomic>

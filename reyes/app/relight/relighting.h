@@ -89,10 +89,10 @@ class Relighting {
     std::string variable{};
     PixelRect pixels{};
   };
-  /// The colours of buckets that parts of a layer share.
+  /// The shaded buckets that parts of a layer share, without their points.
   struct SharedTiles {
     uint32_t number = 0;
-    std::map<size_t, std::vector<ShadedPoints>> tiles;
+    std::map<size_t, DeepTile> tiles;
   };
 
   bool openFiles();

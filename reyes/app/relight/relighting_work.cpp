@@ -180,19 +180,24 @@ void Relighting::shadePart(const Step& step) {
   SharedTiles& shared = shared_[step.layer];
   if (shared.number != step.number) shared = {step.number, {}};
   const ShownTiles tiles{[&](size_t index, DeepTile& tile) {
+                           {
+                             const std::lock_guard lock(sharing_);
+                             if (const auto known = shared.tiles.find(index); known != shared.tiles.end()) {
+                               tile = known->second;
+                               return true;
+                             }
+                           }
                            if (!plainTiles().load(index, tile)) return false;
                            if (!sketches_) sketch_->add(index, tile, partOfBucket(index));
-                           const std::lock_guard lock(sharing_);
-                           if (const auto known = shared.tiles.find(index); known != shared.tiles.end())
-                             tile.shaded = known->second;
                            return true;
                          },
                          [&](size_t index, const DeepTile& tile) {
+                           const bool isNeeded = isNeededBesides(layer, index, step.part);
                            const std::lock_guard lock(sharing_);
-                           if (isNeededBesides(layer, index, step.part))
-                             shared.tiles.emplace(index, tile.shaded);
-                           else
+                           if (!isNeeded)
                              shared.tiles.erase(index);
+                           else if (!shared.tiles.contains(index))
+                             shared.tiles.emplace(index, withoutPoints(tile));
                          }};
   job.show(
       part, tiles, [&](const Image& rows) { take(step, rows); }, cancel_);

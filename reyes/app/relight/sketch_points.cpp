@@ -14,9 +14,11 @@ void SketchPoints::forgetRays() {
 }
 
 std::vector<vec3> SketchPoints::shade(ShotJob& job) {
+  RayAnswers none;
+  none.recording = none.recordsStay = true;
   std::vector<DeepTile> tiles;
   for (Reduced& r : reduced_) {
-    if (r.tile.answers.empty()) r.tile.answers.assign(r.tile.batches.size(), RayAnswers{true, {}, {}});
+    if (r.tile.answers.empty()) r.tile.answers.assign(r.tile.batches.size(), none);
     r.tile.shaded.clear();
     tiles.push_back(std::move(r.tile));
   }

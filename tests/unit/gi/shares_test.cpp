@@ -89,6 +89,23 @@ TEST_P(Shares, AddUpToTheWholeAndFollowGains) {
   EXPECT_GT(served, 50);
 }
 
+TEST(KeptMix, IsThatOfTheGainsAskedForAndOfEveryRecord) {
+  IrradianceCache cache = plane(ErrorFunction::Screen);
+  const std::vector<vec3> second{vec3(0), vec3(1), vec3(0)}, red{vec3(1), vec3(2, 0, 0.5f), vec3(1)};
+  const auto isMixed = [&](const std::vector<vec3>& gains) {
+    const std::vector<LightShare> fresh = cache.mixed(gains);
+    const std::span<const LightShare> kept = cache.keptMix(gains);
+    return std::ranges::equal(kept, fresh, {}, &LightShare::E, &LightShare::E);
+  };
+  EXPECT_TRUE(isMixed(second));
+  const LightShare* place = cache.keptMix(second).data();
+  EXPECT_EQ(cache.keptMix(second).data(), place);
+  EXPECT_TRUE(isMixed(red));
+  const IrradianceRecord more = cache.records()[0];
+  cache.restore(more);
+  EXPECT_TRUE(isMixed(red));
+}
+
 INSTANTIATE_TEST_SUITE_P(OfAllErrorFunctions, Shares,
                          testing::Values(ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian));
 
@@ -137,6 +154,37 @@ TEST(SharesOfARecord, LeaveTheRecordAsItIs) {
   EXPECT_EQ(with.E, without.E);
   EXPECT_EQ(with.translationGradient[1], without.translationGradient[1]);
   EXPECT_EQ(with.noise, without.noise);
+}
+
+// The coarse picture of tomales relight asks at the same points again and again.
+TEST(RecordedLookups, SayWhatTheCacheSaysUnderTheSameGainsWithoutAskingIt) {
+  World world(room().scene);
+  const auto services = world.use({.mode = GiMode::Gather, .samples = 32});
+  services->keepShares(kGroups);
+  const DeepFrame frame = frameOf(world, 16);
+  gatherFrame(*services, frame);
+  const ShadePoints& batch = frame.tiles[5].batches[0];
+  const IndirectQuery query = *world.shading.indirectQuery(batch.group());
+  RayAnswers answers;
+  answers.recording = answers.recordsStay = true;
+  ShadeContext context;
+  context.answers = &answers;
+  const auto lookups = [&] { return int64_t{world.stats.irradianceCache.lookups}; };
+  std::vector<std::vector<vec3>> seen;
+  for (const std::vector<vec3>& gains : {std::vector<vec3>{}, {vec3(0), vec3(1), vec3(0)}, {vec3(0), vec3(0), vec3(1)}})
+    for (const bool isFirst : {true, false}) {
+      services->mixShares(gains);
+      const std::vector<vec3> truth = indirectAt(*services, batch, query);
+      const int64_t before = lookups();
+      EXPECT_EQ(indirectAt(*services, batch, query, context), truth);
+      EXPECT_EQ(lookups(), isFirst ? before + batch.count() : before);
+      if (isFirst) seen.push_back(truth);
+    }
+  EXPECT_NE(seen[1], seen[2]);
+  answers.recordsStay = false;
+  const int64_t before = lookups();
+  EXPECT_EQ(indirectAt(*services, batch, query, context), seen[2]);
+  EXPECT_EQ(lookups(), before + batch.count());
 }
 
 }  // namespace

@@ -29,20 +29,25 @@ export const luminanceOf = (c) => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 
 const kLargest = 1;  // what is brighter is white
 
-/** A function that writes the colour of r, g, b to `to` from `at` on. */
-export const shade = ({ gamma, transform, falseColor, range }) => {
-  const put = (to, at, r, g, b) => { to[at] = r; to[at + 1] = g; to[at + 2] = b; };
-  if (range) {
-    const byte = (v) => (255 * (v - range[0])) / (range[1] - range[0]);
-    return (r, g, b, to, at) => put(to, at, byte(r), byte(g), byte(b));
-  }
-  if (falseColor) return (r, g, b, to, at) => put(to, at, ...heat(luminanceOf([r, g, b])).map((v) => 255 * v));
-  const most = transform === 1 ? kWhite : kLargest, perStep = kSteps / most;
+/** Colours are numbers of 32 bits here, as ImageData holds them: red in the lowest byte, alpha in the highest. */
+export const kOpaque = 0xff000000;
+
+/** The bytes of a screen for light of 0, 1 / perUnit, 2 / perUnit...; what is brighter has the last one. */
+export const tableOf = ({ gamma, transform }) => {
+  const most = transform === 1 ? kWhite : kLargest, perUnit = kSteps / most;
   const soft = transform === 1 ? (v) => (v * (1 + v / kWhite ** 2)) / (1 + v) : (v) => v;
-  const table = Uint8ClampedArray.from({ length: kSteps + 1 }, (_, i) => {
-    const v = soft(i / perStep);
+  const bytes = Uint8ClampedArray.from({ length: kSteps + 1 }, (_, i) => {
+    const v = soft(i / perUnit);
     return 255 * (transform === 2 ? v : encode(v, gamma));
   });
-  const byte = (v) => table[v > 0 ? (v < most ? (v * perStep + 0.5) | 0 : kSteps) : 0];
-  return (r, g, b, to, at) => { to[at] = byte(r); to[at + 1] = byte(g); to[at + 2] = byte(b); };
+  return { bytes, perUnit };
+};
+
+/** The colours that stand for numbers r, g, b of a variable, or for how bright light is. */
+export const lookOf = ({ range }) => {
+  const byte = (v) => Math.round(Math.min(Math.max(v, 0), 255));
+  const packed = (r, g, b) => kOpaque | (byte(b) << 16) | (byte(g) << 8) | byte(r);
+  const scaled = (v) => (255 * (v - range[0])) / (range[1] - range[0]);
+  if (range) return (r, g, b) => packed(scaled(r), scaled(g), scaled(b));
+  return (r, g, b) => packed(...heat(luminanceOf([r, g, b])).map((v) => 255 * v));
 };

@@ -1,69 +1,13 @@
 // The picture: layers of half floats, each with a weight, mixed where the browser can do it fastest. Layer 0 is the whole
 // picture; where it is fresh, it is shown instead of the sum of the others. The last one is a variable, shown alone.
-import { halves, shade } from "./color.js";
+import { halves } from "./color.js";
 import { Painter } from "./painter.js";
-
-/** The same without WebGL2. Only what changes is taken off the sum and added to it. */
-class PlainPainter {
-  constructor(canvas, mixer) {
-    this.mixer = mixer;
-    this.context = canvas.getContext("2d");
-    this.image = this.context.createImageData(canvas.width, canvas.height);
-    this.image.data.fill(255);
-    this.sum = new Float32Array(3 * canvas.width * canvas.height);
-  }
-  /** Before a block takes the place of what the layer has there, and after. */
-  leave(block) { this.change(block, -1); }
-  put(block) { this.change(block, 1); }
-  change({ layer, x, y, width, height }, sign) {
-    const weight = this.weights?.[layer], half = this.mixer.halves[layer];
-    if (layer === 0 || !weight || !half) return;
-    for (let row = y; row < y + height; ++row) {
-      const begin = 3 * (row * this.mixer.width + x);
-      this.add(half, weight.map((w) => sign * w), begin, begin + 3 * width);
-    }
-  }
-  /** Sums anew, without the rounding of changes. */
-  settle() { this.weights = null; }
-  fresh() {}
-  add(half, [r, g, b], begin, end) {
-    const { sum } = this;
-    for (let i = begin; i < end; i += 3) {
-      sum[i] += r * halves[half[i]];
-      sum[i + 1] += g * halves[half[i + 1]];
-      sum[i + 2] += b * halves[half[i + 2]];
-    }
-  }
-  mix(weights) {
-    if (!this.weights) this.sum.fill(0);
-    const before = this.weights ?? weights.map(() => [0, 0, 0]);
-    weights.forEach((w, i) => {
-      const half = this.mixer.halves[i], more = w.map((v, c) => v - before[i][c]);
-      if (i > 0 && half && more.some((v) => v !== 0)) this.add(half, more, 0, this.sum.length);
-    });
-    this.weights = weights;
-  }
-  paint(weights, view) {
-    const { mixer, sum } = this, { isFresh } = mixer, to = this.image.data, look = shade(view), whole = mixer.halves[0];
-    if (view.range) {
-      const half = mixer.halves[mixer.variable];
-      for (let i = 0, at = 0; half && i < half.length; i += 3, at += 4) look(halves[half[i]], halves[half[i + 1]], halves[half[i + 2]], to, at);
-    } else {
-      this.mix(weights);
-      const e = view.exposure, w = view.wholeExposure;
-      for (let p = 0, i = 0; p < isFresh.length; ++p, i += 3) {
-        if (isFresh[p]) look(w * halves[whole[i]], w * halves[whole[i + 1]], w * halves[whole[i + 2]], to, 4 * p);
-        else look(e * sum[i], e * sum[i + 1], e * sum[i + 2], to, 4 * p);
-      }
-    }
-    this.context.putImageData(this.image, 0, 0);
-  }
-}
+import { PlainPainter } from "./plain_painter.js";
 
 export class Mixer {
   /** layers: the number of those that are mixed and of layer 0. way: "plain" or "webgl"; without it the faster one. */
   constructor(canvas, width, height, layers, way) {
-    Object.assign(this, { width, height, variable: layers });
+    Object.assign(this, { width, height, variable: layers, hasFresh: false });
     canvas.width = width;
     canvas.height = height;
     this.halves = new Array(layers + 1).fill(null);
@@ -76,17 +20,18 @@ export class Mixer {
 
   put(block) {
     const { layer, x, y, width, height, step, version } = block;
-    this.painter.leave(block);
     const to = (this.halves[layer] ??= new Uint16Array(3 * this.width * this.height));
     const half = step === 1 ? block.half : spread(block);
+    this.painter.put({ layer, x, y, width, height, half });
     for (let row = 0; row < height; ++row)
       to.set(half.subarray(3 * width * row, 3 * width * (row + 1)), 3 * ((y + row) * this.width + x));
     if (width === this.width && height === this.height) this.parts[layer].clear();
     this.parts[layer].set(`${x},${y}`, { x, y, width, height, step, version, time: performance.now() });
-    this.painter.put({ layer, x, y, width, height, half });
   }
   /** Says whether layer 0 is the picture there. */
   fresh(x, y, width, height, value) {
+    if (!value && !this.hasFresh) return;
+    this.hasFresh = value || width < this.width || height < this.height;
     for (let row = y; row < y + height; ++row) this.isFresh.fill(value ? 1 : 0, row * this.width + x, row * this.width + x + width);
     this.painter.fresh(x, y, width, height, value);
   }
@@ -118,15 +63,16 @@ export class Mixer {
 
 /** The pixels of a block whose squares have one colour each. */
 const spread = ({ width, height, step, half }) => {
-  const out = new Uint16Array(3 * width * height), columns = Math.ceil(width / step);
-  for (let y = 0, to = 0; y < height; ++y) {
-    const row = columns * Math.floor(y / step);
-    for (let x = 0; x < width; ++x, to += 3) {
-      const from = 3 * (row + Math.floor(x / step));
+  const out = new Uint16Array(3 * width * height), columns = Math.ceil(width / step), row = 3 * width;
+  for (let y = 0, square = 0; y < height; y += step, square += 3 * columns) {
+    const begin = y * row;
+    for (let x = 0, to = begin; x < width; ++x, to += 3) {
+      const from = square + 3 * Math.floor(x / step);
       out[to] = half[from];
       out[to + 1] = half[from + 1];
       out[to + 2] = half[from + 2];
     }
+    for (let same = y + 1; same < Math.min(y + step, height); ++same) out.copyWithin(same * row, begin, begin + row);
   }
   return out;
 };

@@ -77,7 +77,6 @@ export class Painter {
     gl.uniform1i(this.place("height"), canvas.height);
   }
 
-  leave() {}
   settle() {}
   put({ layer, x, y, width, height, half }) {
     const { gl } = this;

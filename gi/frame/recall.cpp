@@ -1,0 +1,110 @@
+// What an earlier pass has recorded of indirect light, found by the question.
+#include <algorithm>
+#include <bit>
+
+#include "gi/frame/state.h"
+#include "reyes/base/checksum.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
+
+/// Hashes the part of the query that GatherSettings do not hold as well.
+uint32_t nameOf(const std::optional<OcclusionQuery>& q) {
+  const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
+  return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),
+                         static_cast<uint32_t>(q->sides), nameOf(q->subset), nameOf(q->excludeSubset))
+           : 0;
+}
+
+/// Names what the records of a cache say at a place, as long as none comes or goes.
+uint64_t nameOf(const GiState& state, const PreparedCache& prepared, const IrradiancePlace& at) {
+  const struct {
+    vec3 position, normal, shadingNormal;
+    float pixelSize;
+    uint64_t cache, gains;
+  } asked{at.position,
+          at.normal,
+          at.shadingNormal,
+          at.pixelSize,
+          static_cast<uint64_t>(&prepared - state.caches.data()),
+          checksum(std::as_bytes(std::span(state.gains)))};
+  static_assert(sizeof asked == 14 * sizeof(uint32_t), "no padding, whose bytes would be names too");
+  return checksum(std::as_bytes(std::span(&asked, 1)));
+}
+
+}  // namespace
+
+IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, const GatherSettings& settings,
+                              RayAnswers* answers) {
+  const struct {
+    vec3 position, normal;
+    uint32_t key, seed;
+    int group, samples;
+    float maxDistance, time;
+    vec3 drift;
+    uint32_t light, indirect, subset, radiosity, occlusion;
+  } asked{point.position,
+          point.normal,
+          point.key,
+          settings.seed,
+          point.group,
+          settings.samples,
+          settings.maxDistance,
+          point.time,
+          point.drift,
+          static_cast<uint32_t>(settings.light),
+          static_cast<uint32_t>(settings.indirect) | static_cast<uint32_t>(!settings.mirrored) << 1,
+          nameOf(settings.subset),
+          state.settings.mode == GiMode::Radiosity,
+          nameOf(settings.occlusion)};
+  static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
+  const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
+  const std::span<const std::string> groups = settings.occlusion ? std::span<const std::string>() : state.groups;
+  const auto mixed = [&](IndirectAnswer answer, const std::vector<vec3>& gains) {
+    return groups.empty() || gains.empty() ? answer : withGains(std::move(answer), gains);
+  };
+  if (answers)
+    if (const auto it = answers->indirect.find(name);
+        it != answers->indirect.end() && it->second.shares.size() == groups.size())
+      return mixed(it->second, state.gains);
+  const RayTools* tools = gatherTools(state);
+  if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
+  const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.hitRadiance.get()};
+  const IrradianceRecord record =
+      gather(*tools->rays, *tools->shading, point, settings, known, state.stats, nullptr, groups);
+  IndirectAnswer answer{record.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};
+  for (const LightShare& share : record.shares) answer.shares.push_back(share.E);
+  if (answers && answers->recording) answers->indirect[name] = answer;
+  return mixed(answer, state.gainsOfNew);
+}
+
+BatchLookup recallOrLookUp(const GiState& state, const PreparedCache& prepared, const GatherPlaces& places,
+                           const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                           const ShadeContext& context) {
+  BatchLookup out = placesOf(places, points, active, N);
+  auto& known = context.answers->interpolated;
+  std::vector<uint64_t> names;
+  for (const IrradiancePlace& at : out.at) names.push_back(nameOf(state, prepared, at));
+  if (std::ranges::all_of(names, [&](uint64_t name) { return known.contains(name); })) {
+    for (size_t k = 0; k < names.size(); ++k) {
+      const std::optional<IndirectAnswer>& answer = known.at(names[k]);
+      out.known[k].weight = answer ? 1.0f : 0.0f;
+      if (!answer) continue;
+      out.known[k].E = answer->E;
+      std::ranges::copy(answer->dominant, out.known[k].dominant);
+    }
+    return out;
+  }
+  out = lookUp(state, &prepared, places, points, active, N, context);
+  for (size_t k = 0; k < names.size(); ++k) {
+    const IrradianceEstimate& e = out.known[k];
+    known[names[k]].reset();
+    if (e.weight > 0) known[names[k]] = IndirectAnswer{e.E, {e.dominant[0], e.dominant[1], e.dominant[2]}, {}};
+  }
+  return out;
+}
+
+}  // namespace tomales
