@@ -15,7 +15,7 @@ from program import Suite  # noqa: E402
 
 suite = Suite()
 chromium, folder = sys.argv[2], pathlib.Path(sys.argv[3]).resolve()
-suite.write("box.rib", re.sub(r"Format \d+ \d+", "Format 200 200", (here.parents[1] / "scenes/cornell/cornell.rib").read_text()))
+suite.write("box.rib", re.sub(r"Format \d+ \d+", "Format 140 140", (here.parents[1] / "scenes/cornell/cornell.rib").read_text()))
 suite.write("stripes.sl", """surface stripes(float Kd = 0.8; string look = "plain";) {
   color base = mod(10 * s, 1) < 0.5 ? color(1, 0, 0) : Cs;
   if (look == "dark") base *= 0.1;
