@@ -124,7 +124,8 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
       return mixed(it->second, state.gains);
   const RayTools* tools = gatherTools(state);
   if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
-  const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.hitRadiance.get()};
+  const KnownLight known =
+      settings.occlusion ? KnownLight{} : KnownLight{&state.learnt->spots, state.hitRadiance.get()};
   const IrradianceRecord record =
       gather(*tools->rays, *tools->shading, point, settings, known, state.stats, nullptr, groups);
   IndirectAnswer answer{record.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};
@@ -260,8 +261,8 @@ void bounceIndirect(const GiState& state, const ShadePoints& points, const uint8
     if (!active[i]) continue;
     const GatherPoint point = places.at(i);
     const IrradianceEstimate estimate =
-        state.bounces.lookup(bounces - context.depth, state.camera, point.position, point.normal,
-                             places.shading(i, unitNormal(points, N, i)), context.lights);
+        state.learnt->bounces.lookup(bounces - context.depth, state.camera, point.position, point.normal,
+                                     places.shading(i, unitNormal(points, N, i)), context.lights);
     if (estimate.weight > 0) store(out, i, estimate.E, estimate.dominant);
     unknown[static_cast<size_t>(i)] = estimate.weight <= 0;
     all &= estimate.weight > 0;
