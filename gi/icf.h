@@ -10,7 +10,7 @@ namespace tomales {
 
 /// The whole file except for the answers.
 struct IrradianceShot {
-  uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers belong to; 0: none do.
+  uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers and `learnt` belong to; 0: they do to none.
   GiSettings settings;
   mat4 cameraFromWorld{1.0f};
   std::vector<PreparedCache> caches;  ///< In camera space.
@@ -18,6 +18,7 @@ struct IrradianceShot {
   std::optional<EmitterTable> emitters;
   std::vector<std::shared_ptr<LightCall>> lights;  ///< As they were when the records were gathered; as Scene::lights.
   std::vector<std::string> groups;  ///< The groups of lights whose shares the records hold (GiServices::keepShares).
+  std::shared_ptr<LearntLight> learnt;  ///< In camera space, for this shot alone.
 };
 
 class IcfWriter {
@@ -56,7 +57,7 @@ class IcfFile {
 /// (E/pi), "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
 PointCloud recordsOf(const IrradianceShot& shot);
 
-/// Moves records to the camera of another frame; the same bits if it is the same.
+/// Moves records to the camera of another frame, which has not been learnt of; the same bits if it is the same.
 void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld);
 
 }  // namespace tomales

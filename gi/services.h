@@ -53,6 +53,8 @@ struct PhotonPasses {
   std::function<void(int64_t sent, size_t points, double noise)> tell;
 };
 
+struct LearntLight;
+
 /// The objects that answer a ray.
 struct RayTools {
   const RayScene* rays;
@@ -113,6 +115,10 @@ class GiServices final : public ShadeServices {
   /// uncovered or, in a frame that they were not made for, where they disagree. anew: the pixels whose records have
   /// been taken out.
   void useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew = {});
+  /// What gatherPass() has learnt besides the caches. With both, points that the caches do not serve get the bits that
+  /// they would get in the run which has gathered.
+  std::shared_ptr<LearntLight> learnt() const;
+  void useLearnt(std::shared_ptr<LearntLight> learnt);
   /// Has records keep the share of each of these groups of lights (ShadingSystem::lightGroup), so that they can be
   /// mixed; the first is empty and stands for what shines by itself. Call it before the gather pass, or with caches
   /// whose records have these shares. It costs the shading of hits once for each group.

@@ -29,6 +29,10 @@ class BrightSpots {
     vec2 found{1};            ///< Share of the extents that held hits; a margin surrounds it.
     vec3 halfU{0}, halfV{0};  ///< Perpendicular vectors from the rectangle's centre to the middles of two edges.
   };
+  BrightSpots() = default;
+  /// Those that another has learnt.
+  BrightSpots(std::vector<Spot> spots, float irradiance)
+      : spots_(std::move(spots)), irradiance_(irradiance), records_(1) {}
   /// Computes the spots anew. The same finds in the same order give the same spots.
   void learn(const std::vector<BrightFind>& finds);
   const std::vector<Spot>& spots() const { return spots_; }

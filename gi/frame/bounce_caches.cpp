@@ -60,6 +60,24 @@ IrradianceEstimate BounceCaches::lookup(int bounces, const Camera& camera, const
   return levels_[level].lookup(P, normal, shadingNormal, pixelSize(camera, P), light);
 }
 
+BounceCaches::Levels BounceCaches::levels() const {
+  Levels out{levels_.empty() ? Bound3{} : levels_.front().bound(), {}, groups_, leastDistance_};
+  for (const IrradianceCache& level : levels_) out.records.emplace_back(level.records().begin(), level.records().end());
+  return out;
+}
+
+void BounceCaches::restore(const Levels& levels) {
+  groups_ = levels.groups;
+  leastDistance_ = levels.leastDistance;
+  levels_.clear();
+  alone_.clear();
+  for (const std::vector<IrradianceRecord>& records : levels.records) {
+    IrradianceCache& level = levels_.emplace_back(levels.bound, kCoarse);
+    for (const IrradianceRecord& r : records) level.restore(r);
+    mixLevel();
+  }
+}
+
 // What shines by itself, the share of the first group, is seen whatever lights are on.
 void BounceCaches::mixLevel() {
   std::vector<std::vector<LightShare>>& of = alone_.emplace_back();

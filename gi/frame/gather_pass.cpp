@@ -150,8 +150,8 @@ class GatherPass {
       gather.samples = std::max(gather.samples, c.plan.gather.samples);
       gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
     }
-    state_.bounces.fill(*tools_, state_.camera, points, gather, bounces,
-                        {state_.stats, cancelled_, state_.kept, state_.groups});
+    state_.learnt->bounces.fill(*tools_, state_.camera, points, gather, bounces,
+                                {state_.stats, cancelled_, state_.kept, state_.groups});
   }
 
   // Returns the points of this phase that no earlier record serves, in the order of pixels, whatever the buckets are. A
@@ -228,7 +228,7 @@ class GatherPass {
       if (isLight(sites[i].cache)) std::swap(finds[lights++], finds[i]);
     finds.resize(lights);
     if (!finds.empty()) {
-      state_.spots.learn(finds);
+      state_.learnt->spots.learn(finds);
       finds.clear();
       done = makeRecords(sites, records, finds);
     }
@@ -240,7 +240,7 @@ class GatherPass {
   bool sharesRays(size_t cache) const { return state_.caches[cache].plan.gather.samples >= kManyRays; }
   /// Tells whether the record is from the search for bright spots. It could not aim at them, and is to be replaced.
   bool isPilotRecord(size_t cache) const {
-    return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.spots.spots().empty()));
+    return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.learnt->spots.spots().empty()));
   }
 
   /// Returns how many records were made: fewer than there are sites if the pass was cancelled. finds: as many as sites,
@@ -270,7 +270,8 @@ class GatherPass {
   }
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
-    const KnownLight known = isLight(site.cache) ? KnownLight{&state_.spots, state_.hitRadiance.get()} : KnownLight{};
+    const KnownLight known =
+        isLight(site.cache) ? KnownLight{&state_.learnt->spots, state_.hitRadiance.get()} : KnownLight{};
     GatherSettings settings = state_.caches[site.cache].plan.gather;
     GatherPoint point = site.point;
     // Bright spots are searched with other rays than those of the final records: a spot that all of these miss would be

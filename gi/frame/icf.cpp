@@ -1,5 +1,6 @@
 #include "gi/icf.h"
 
+#include "gi/frame/learnt_light.h"
 #include "gi/frame/record_fields.h"
 #include "reyes/base/pack.h"
 #include "reyes/state_fields.h"
@@ -70,6 +71,18 @@ void fields(A& a, RayAnswers& x) {
   each(a, x.shadows, x.indirect);
 }
 
+template <class A>
+void fields(A& a, BrightSpots::Spot& x) {
+  auto& [center, radius, radiance, normal, found, halfU, halfV] = x;
+  each(a, center, radius, radiance, normal, found, halfU, halfV);
+}
+
+template <class A>
+void fields(A& a, BounceCaches::Levels& x) {
+  auto& [bound, records, groups, leastDistance] = x;
+  each(a, bound.lo, bound.hi, records, groups, leastDistance);
+}
+
 namespace {
 
 constexpr RecordName kShotRecord{1, 0};
@@ -83,6 +96,12 @@ struct StoredCache {
   std::vector<uint64_t> frames;
 };
 
+struct StoredLearnt {
+  std::vector<BrightSpots::Spot> spots;
+  float irradianceOfSpots = 0;
+  BounceCaches::Levels bounces;
+};
+
 struct StoredShot {
   uint64_t shot = 0;
   GiSettings settings;
@@ -91,7 +110,14 @@ struct StoredShot {
   std::optional<EmitterTable> emitters;
   std::vector<std::shared_ptr<LightCall>> lights;
   std::vector<std::string> groups;
+  StoredLearnt learnt;
 };
+
+template <class A>
+void fields(A& a, StoredLearnt& x) {
+  auto& [spots, irradianceOfSpots, bounces] = x;
+  each(a, spots, irradianceOfSpots, bounces);
+}
 
 template <class A>
 void fields(A& a, StoredCache& x) {
@@ -100,8 +126,8 @@ void fields(A& a, StoredCache& x) {
 
 template <class A>
 void fields(A& a, StoredShot& x) {
-  auto& [shot, settings, cameraFromWorld, caches, emitters, lights, groups] = x;
-  each(a, shot, settings, cameraFromWorld, caches, emitters, lights, groups);
+  auto& [shot, settings, cameraFromWorld, caches, emitters, lights, groups, learnt] = x;
+  each(a, shot, settings, cameraFromWorld, caches, emitters, lights, groups, learnt);
 }
 
 RecordFileKind icfKind() {
@@ -120,7 +146,22 @@ bool consistent(const StoredShot& stored) {
   const auto fits = [&](const IrradianceRecord& r) {
     return r.shares.empty() || r.shares.size() == stored.groups.size();
   };
-  return std::ranges::all_of(stored.caches, [&](const StoredCache& c) { return std::ranges::all_of(c.records, fits); });
+  const BounceCaches::Levels& bounces = stored.learnt.bounces;
+  const auto sharesAll = [&](const IrradianceRecord& r) { return r.shares.size() == bounces.groups.size(); };
+  return std::ranges::all_of(stored.caches,
+                             [&](const StoredCache& c) { return std::ranges::all_of(c.records, fits); }) &&
+         std::ranges::all_of(bounces.records, [&](const auto& level) { return std::ranges::all_of(level, sharesAll); });
+}
+
+StoredLearnt storedForm(const LearntLight& learnt) {
+  return {learnt.spots.spots(), learnt.spots.irradiance(), learnt.bounces.levels()};
+}
+
+std::shared_ptr<LearntLight> restored(StoredLearnt&& stored) {
+  auto out = std::make_shared<LearntLight>();
+  out->spots = BrightSpots(std::move(stored.spots), stored.irradianceOfSpots);
+  out->bounces.restore(stored.bounces);
+  return out;
 }
 
 }  // namespace
@@ -135,7 +176,8 @@ bool IcfWriter::writeAnswers(size_t tile, const std::vector<RayAnswers>& answers
 }
 
 bool IcfWriter::finish(const IrradianceShot& shot) {
-  StoredShot stored{shot.shot, shot.settings, shot.cameraFromWorld, {}, shot.emitters, shot.lights, shot.groups};
+  StoredShot stored{shot.shot, shot.settings, shot.cameraFromWorld, {}, shot.emitters, shot.lights, shot.groups, {}};
+  if (shot.learnt) stored.learnt = storedForm(*shot.learnt);
   const auto asksSurface = [](const EmitterLattice& l) { return l.surface != nullptr; };
   for (const auto& light : shot.emitters.value_or(EmitterTable{}))
     if (std::any_of(light.lattices.begin(), light.lattices.end(), asksSurface)) stored.emitters.reset();
@@ -161,7 +203,8 @@ std::unique_ptr<IcfFile> IcfFile::open(const std::string& path, std::string& err
                  {},
                  std::move(stored.emitters),
                  std::move(stored.lights),
-                 std::move(stored.groups)};
+                 std::move(stored.groups),
+                 restored(std::move(stored.learnt))};
   for (const StoredCache& c : stored.caches) {
     IrradianceCache& cache =
         file->shot_.caches.emplace_back(PreparedCache{c.plan, {c.bound, c.plan.cache}, c.frames}).cache;
@@ -202,64 +245,6 @@ PointCloud recordsOf(const IrradianceShot& shot) {
       out.add(transformPoint(worldFromCamera, r.position), glm::normalize(normalsFromCamera * r.normal), 0, data);
     }
   return out;
-}
-
-namespace {
-
-/// Moves records to another space. Lengths are multiplied by the scale. A rotation gradient, which is used with a cross
-/// product, changes its sign where the handedness changes.
-class RecordMove {
- public:
-  explicit RecordMove(const mat4& to)
-      : to_(to),
-        scale_(std::cbrt(std::abs(glm::determinant(mat3(to))))),
-        hand_(glm::determinant(mat3(to)) < 0 ? -1.0f : 1.0f) {
-    if (std::abs(scale_ - 1) < 1e-5f) scale_ = 1;  // rigid, except for rounding
-  }
-
-  void apply(IrradianceRecord& r) const {
-    r.position = transformPoint(to_, r.position);
-    r.normal = turned(r.normal);
-    for (vec3& d : r.dominant) d = turned(d);
-    r.tangent = turned(r.tangent);
-    moveDerivatives(r);
-    for (LightShare& share : r.shares) moveDerivatives(share);
-    for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.unseenDisplacement})
-      *length *= scale_;
-  }
-
- private:
-  template <class Light>
-  void moveDerivatives(Light& light) const {
-    for (int c = 0; c < 3; ++c) {
-      light.rotationGradient[c] = hand_ * turned(light.rotationGradient[c]);
-      light.translationGradient[c] = turned(light.translationGradient[c]) / scale_;
-    }
-    for (vec3& second : light.hessian) second /= scale_ * scale_;
-    light.hessian[1] *= hand_;
-  }
-  vec3 turned(const vec3& v) const { return transformVector(to_, v) / scale_; }
-
-  const mat4 to_;
-  float scale_;
-  const float hand_;
-};
-
-}  // namespace
-
-void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld) {
-  if (shot.cameraFromWorld == cameraFromWorld) return;
-  const mat4 m = cameraFromWorld * glm::inverse(shot.cameraFromWorld);
-  const RecordMove move(m);
-  for (PreparedCache& prepared : shot.caches) {
-    IrradianceCache moved(transformBound(m, prepared.cache.bound()), prepared.plan.cache);
-    for (IrradianceRecord r : prepared.cache.records()) {
-      move.apply(r);
-      moved.restore(r);
-    }
-    prepared.cache = std::move(moved);
-  }
-  shot.cameraFromWorld = cameraFromWorld;
 }
 
 }  // namespace tomales

@@ -72,7 +72,8 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
       return mixed(it->second, state.gains);
   const RayTools* tools = gatherTools(state);
   if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
-  const KnownLight known = settings.occlusion ? KnownLight{} : KnownLight{&state.spots, state.hitRadiance.get()};
+  const KnownLight known =
+      settings.occlusion ? KnownLight{} : KnownLight{&state.learnt->spots, state.hitRadiance.get()};
   const IrradianceRecord record =
       gather(*tools->rays, *tools->shading, point, settings, known, state.stats, nullptr, groups);
   IndirectAnswer answer{record.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};

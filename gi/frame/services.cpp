@@ -44,8 +44,7 @@ void GiServices::startAgain(const GiSettings& settings) {
   impl_->kept = nullptr;
   impl_->caches.clear();
   impl_->redrawn.clear();
-  impl_->spots = BrightSpots{};
-  impl_->bounces = BounceCaches{};
+  impl_->learnt = std::make_shared<LearntLight>();
 }
 
 void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }
@@ -63,6 +62,8 @@ void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<Pixe
   impl_->cachesGiven = !impl_->caches.empty();
   impl_->mixed = impl_->gains.empty() ? nullptr : std::make_unique<MixedLight>();
 }
+std::shared_ptr<LearntLight> GiServices::learnt() const { return impl_->learnt; }
+void GiServices::useLearnt(std::shared_ptr<LearntLight> learnt) { impl_->learnt = std::move(learnt); }
 void GiServices::keepShares(std::vector<std::string> groups) { impl_->groups = std::move(groups); }
 const std::vector<std::string>& GiServices::shareGroups() const { return impl_->groups; }
 void GiServices::mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew) {

@@ -1,6 +1,6 @@
 // Private to gi: the members of GiServices, and the parts that it is made of.
 #pragma once
-#include "gi/frame/bounce_caches.h"
+#include "gi/frame/learnt_light.h"
 #include "gi/frame/measured_light.h"
 #include "gi/services.h"
 
@@ -24,8 +24,7 @@ struct GiState {
   mutable std::unique_ptr<const IrradianceAtlas> atlas{};  ///< Set in GiMode::Atlas and Baked alone.
   std::vector<PreparedCache> caches{};                     ///< Written by fillCaches(), frozen while shading.
   std::optional<Emitters> emitters{};                      ///< Emitters that are known without rays.
-  BrightSpots spots{};                                     ///< Written by fillCaches().
-  BounceCaches bounces{};                                  ///< Written by fillCaches().
+  std::shared_ptr<LearntLight> learnt = std::make_shared<LearntLight>();  ///< Written by fillCaches().
   /// Queries of each group; written by learnOcclusionQueries() alone.
   mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};
   KeptWork* kept = nullptr;                                  ///< Null if nothing is kept for a later run.

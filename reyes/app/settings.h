@@ -53,6 +53,7 @@ struct RenderSettings {
   std::optional<int> bucketSize;
   std::vector<std::string> edits;  ///< RIB files of changes to a shot.
   std::string irradiance;          ///< An .icf to shade with.
+  bool keepsAnswers = true;        ///< An .icf gets the answers of rays too.
   bool byLight = false;            ///< Irradiance records keep the share of each group of lights.
   bool appendIrradiance = false;   ///< True to gather too, where that has no records.
   int audit = 0;  ///< Pixels at which the error of the picture is measured; 0: it is not, unless that is to be reached.

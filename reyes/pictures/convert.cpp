@@ -11,7 +11,9 @@
 #include <fstream>
 
 #include "reyes/base/checksum.h"
+#include "reyes/base/folder_lock.h"
 #include "reyes/base/input_file.h"
+#include "reyes/base/stop.h"
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
 
@@ -182,14 +184,20 @@ std::string tiledFile(const std::string& picture, const std::string& folder, std
   }
   const std::string name = fmt::format("{:016x}.tx", checksum(*content));
   const fs::path file = fs::path(folder) / name.substr(0, 2) / name;
-  std::error_code problem;
-  if (fs::exists(file, problem)) {
-    if (isSealed(file.string())) return file.string();
-    note = fmt::format("\"{}\" is damaged, or of an earlier version: \"{}\" is converted anew", file.string(), picture);
+  if (isSealed(file.string())) return file.string();
+  std::error_code problem, none;
+  fs::create_directories(file.parent_path(), problem);
+  std::optional<FolderLock> lock;
+  try {
+    lock.emplace(file.parent_path(), [] {});  // another process of this machine may be converting the picture
+  } catch (const Stopped&) {
+    return picture;  // the frame is given up
   }
+  if (isSealed(file.string())) return file.string();
+  if (fs::exists(file, none))
+    note = fmt::format("\"{}\" is damaged, or of an earlier version: \"{}\" is converted anew", file.string(), picture);
   OIIO::ImageBuf whole;
   if (!readWhole(picture, whole, error)) return {};
-  fs::create_directories(file.parent_path(), problem);
   TextureRecipe recipe;
   // Beyond its edges a picture is black, as the tools of other renderers have it, unless its file says otherwise.
   const std::string wraps = whole.spec().get_string_attribute("wrapmodes");

@@ -1,6 +1,9 @@
 """What frames of a batch share is made once, and in parts: photons and brick maps, radiosity, and what Make requests make. Pictures keep
 the bits of one run."""
 import json
+import os
+import pathlib
+import subprocess
 
 from program import Suite
 
@@ -84,6 +87,33 @@ for f in (t.folder / "rads").rglob("*.*"):
     f.unlink()
 t.expect_run("radiosity", ["batch", "radiosity.rib", "-o", "r2.#.exr", "-j", "2"], 0)
 t.expect(stages("radiosity.batch") == {"lightmaps": 1, "render": 3} and same("r2", "r1") and files("rads") == once, "is made once")
+
+# A light that asks for such maps by the default of its shader, under another name.
+t.trust_shaders(".")
+t.write("radiant.cpp", """#include <reyes/shader.h>
+rsl::StringParam how("how", "radiosity", "", TM_ROLE_HIT_RADIANCE), where("where", "", "", TM_ROLE_ATLAS);
+void shade(const TmGrid*) {}
+const rsl::Shader radiant(TM_LIGHT, "radiant", "", TM_LIGHT_INDIRECT, shade, {&how, &where});
+TM_SHADER_LIBRARY(radiant)
+""")
+source = pathlib.Path(__file__).resolve().parent.parent.parent
+subprocess.run([os.environ["CXX"], "-std=c++17", "-shared", "-fPIC", "-I", source, t.folder / "radiant.cpp", "-o", t.folder / "radiant.so"], check=True)
+for name, light in (("asks", '"radiant" 1 "string where" ["radiant maps"]'), ("doesnot", '"radiant" 1 "string how" ["shader"] "string where" ["none"]')):
+    t.write(f"{name}.rib", HEAD + "".join(ROOM.format(frame=i, camera=0, light=2, radiance="").replace('"indirectlight" 1', light) for i in (1, 2)))
+    t.expect_run(f"a light that {name}", ["batch", f"{name}.rib", "-o", f"{name}.#.exr", "--plan-only"], 0)
+t.expect(stages("asks.batch") == {"lightmaps": 1, "render": 2} and stages("doesnot.batch") == {"render": 2}, f"is asked itself, not by the name of its parameter: {stages('asks.batch')}")
+
+# Frames that need what has failed are told, with what it is.
+(t.folder / "closed").write_text("a file where a folder must be")
+t.expect_run("maps that cannot be made", ["batch", "rooms.rib", *GI, "--atlas", "closed/maps", "-o", "b.#.exr", "--plan", "blocked", "-j", "2", "--html", "page.html"], 4,
+             "finished 0 of 3", "failed 1: 1", "blocked 2: 2-3", "task 0001.lightmaps failed, and frames 2-3 wait for it", "and 2 wait for them")
+told = json.loads(t.run("batch", "status", "blocked", "--json").stdout)
+t.expect((told["failed"], told["blocked"], told["waiting"], told["left_s"]) == (1, 2, 0, None), f"so does the status: {told}")
+t.expect([f["state"] for f in told["by_frame"]] == ["failed", "blocked", "blocked"] and told["failures"][0]["blocks"] == [2, 3], "of each frame")
+t.expect('<tr class="blocked"><td>3' in (t.folder / "page.html").read_text(), "and the page")
+(t.folder / "closed").unlink()
+(t.folder / "closed").mkdir()
+t.expect_run("and when it can be made", ["batch", "retry", "blocked", "-j", "2"], 0, "finished 3 of 3")
 
 # Make requests are performed once, after the frames that they read and before those that read them.
 t.write("make.rib", 'Format 16 16 1\n' + "".join(f"""FrameBegin {i}

@@ -3,6 +3,7 @@ that are edited; what cannot work is told before anything begins."""
 import base64
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -32,8 +33,10 @@ def status(plan):
 
 t.expect_run("frames", ["batch", "my shot.rib", "-o", "f.####.exr", "-j", "2"], 0, "R90000  100%", "finished 4 of 4 frames")
 t.expect(same("f"), "have the bits of one run")
-t.expect_run("tiles", ["batch", "my shot.rib", "-o", "t.####.exr", "--tiles", "3x2", "--plan", "tiles", "-j", "2", "--html", "page.html"], 0)
+t.expect_run("tiles", ["batch", "my shot.rib", "-o", "t.####.exr", "--tiles", "3x2", "--plan", "tiles", "-j", "2", "--html", "page.html"], 0, "[batch-tiles-cost]")
 t.expect(same("t"), "have the bits of one run, indirect light included")
+gathers = [task for task in json.loads((t.folder / "tiles/plan.json").read_text())["tasks"] if task["stage"] == "gather"]
+t.expect(all("--no-answers" in task["arguments"] for task in gathers), "whose rays are traced by the tiles that ask for them")
 t.expect(not list((t.folder / "tiles/work").iterdir()), "what nobody needs any more is gone")
 page = (t.folder / "page.html").read_text()
 shown = [base64.b64decode(text) for text in re.findall(r"data:image/png;base64,([^\"]+)", page)]
@@ -44,6 +47,40 @@ t.expect_run("the plan once more", ["batch", "tiles"], 0, "finished 4 of 4")
 t.expect(same("t") and (t.folder / "t.0001.exr").stat().st_mtime_ns == before, "makes what is missing, and nothing else")
 t.expect(status("tiles")["finished"] == 4, "status tells so")
 t.expect_run("the log of a frame", ["batch", "log", "tiles", "3"], 0, "0003.hide:", "0003.join:")
+
+# What gathering has learnt beside the records goes with them: where light is bright, and how it bounces on, which mirrors show.
+t.write("bounces.rib", HEAD.replace("Format 64 48", "Format 96 72") + """WorldBegin
+LightSource "indirectlight" 1 "samples" [64] "float bounces" [3]
+Attribute "light" "shadows" ["on"]
+LightSource "pointlight" 2 "from" [0 1.8 0] "intensity" [3]
+Surface "matte"
+Sides 2
+Color 0.7 0.6 0.5
+Polygon "P" [-2 -2 -2 2 -2 -2 2 -2 2 -2 -2 2]
+Polygon "P" [-2 2 -2 2 2 -2 2 2 2 -2 2 2]
+Color 0.8 0.2 0.2
+Polygon "P" [-2 -2 -2 -2 2 -2 -2 2 2 -2 -2 2]
+Color 0.9 0.9 0.9
+Polygon "P" [-2 -2 2 2 -2 2 2 2 2 -2 2 2]
+Translate -1 -1.2 0
+Sphere 0.6 -0.6 0.6 360
+Translate 1.7 0 0
+Surface "disney" "metallic" [1] "roughness" [0.1] "reflections" [2]
+Sphere 0.7 -0.7 0.7 360
+WorldEnd
+""")
+t.run("bounces.rib", "-o", "bounces.exr", "-q")
+t.expect_run("tiles of a room with a mirror", ["batch", "bounces.rib", "-o", "tiled bounces.exr", "--tiles", "2x2", "--plan", "bounces", "-j", "2"], 0)
+t.expect("batch-tiles-cost" not in t.run("batch", "bounces.rib", "-o", "x.exr", "--tiles", "2x2", "--plan", "more", "-j", "2", "--plan-only").stderr, "cost nothing that is told where tasks are more than frames")
+t.run("hide", "bounces.rib", "-o", "bounces.dfb", "-q")
+t.run("gather", "bounces.dfb", "-o", "answers.icf", "-q")
+t.run("gather", "bounces.dfb", "-o", "records.icf", "--no-answers", "-q")
+t.expect((t.folder / "records.icf").stat().st_size < (t.folder / "answers.icf").stat().st_size, "records alone are a smaller file")
+for name in ("answers", "records"):
+    t.run("shade", "bounces.dfb", "--irradiance", f"{name}.icf", "-o", f"{name}.exr", "-q")
+for name in ("tiled bounces", "answers", "records"):
+    different = json.loads(t.run("compare", f"{name}.exr", "bounces.exr", "--json").stdout)["different_pixels"]
+    t.expect(different == 0, f"{name}: the bits of one run, {different} pixels differ")
 
 # What cannot work is told before anything begins.
 for what, arguments, code, says in (
@@ -129,8 +166,26 @@ shutil.rmtree(t.folder / "slow")
 for file in t.folder.glob("s.*"):
     file.unlink()
 run = begin()
+
+
+def at_work():
+    """Processes of the program in this folder."""
+    out = []
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            out += [process.name] if (process / "exe").resolve() == t.program and (process / "cwd").resolve() == t.folder.resolve() else []
+        except OSError:
+            pass
+    return out
+
+
+t.expect(len(at_work()) >= 2, "tasks are processes of their own")
 run.send_signal(signal.SIGKILL)
 run.communicate(timeout=60)
+end = time.monotonic() + 10
+while at_work() and time.monotonic() < end:
+    time.sleep(0.05)
+t.expect(not at_work(), "which end with a run that is killed")
 t.expect_run("after a kill the plan goes on", ["batch", "slow"], 0, "finished 4 of 4")
 t.expect(same("s"), "to the bits of one run")
 t.finish()

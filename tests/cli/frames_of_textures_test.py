@@ -1,7 +1,10 @@
 """Several textured frames in one stream: the same bits for any number of threads, and pictures that are rewritten between frames are read
 anew."""
+import random
+import re
 import struct
 import subprocess
+import threading
 import zlib
 
 from program import Suite
@@ -50,6 +53,26 @@ suite.expect(len(set(whole)) == 4, "four textures make four different pictures")
 for threads in (2, 4, 2, 4):
     suite.expect_run(f"the same with {threads} threads", ["many.rib", "-t", str(threads), "--texture-memory", "1M", "--bucket-size", "8"], 0)
     suite.expect(pixels(1, FRAMES) == whole, "has the same bits")
+
+# Processes that want one picture at the same moment: the first one converts it, and the others wait.
+noise = random.Random(1)
+png("large.png", 768, lambda x, y: noise.randbytes(3))
+suite.write("shared.rib", "".join(frame(n, "large.png") for n in range(1, 5)))
+seen, over = set(), threading.Event()
+
+
+def watch():
+    """Conversions are made in scratch folders of their own."""
+    while not over.is_set():
+        seen.update(p.name for p in (suite.folder / "textures").iterdir() if not re.fullmatch("[0-9a-f]{2}", p.name))
+
+
+watcher = threading.Thread(target=watch)
+watcher.start()
+suite.expect_run("a batch whose frames share a picture", ["batch", "shared.rib", "-o", "shared.#.exr", "-j", "4"], 0, "finished 4 of 4")
+over.set()
+watcher.join()
+suite.expect(len(seen) == 1, f"converts it once: {seen}")
 
 # One name, two contents.
 png("red.png", 64, lambda x, y: (255, 0, 0))

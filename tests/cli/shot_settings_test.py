@@ -22,9 +22,13 @@ t.write("one.rib", head + "WorldBegin" + world)
 
 def render(*arguments, scene="shot.rib"):
     """The result, what each frame's header says was chosen, and which frames have an audit."""
+    return run(scene, "-t", "1", *arguments)
+
+
+def run(*arguments):
     for old in t.folder.glob("room.*.exr"):
         old.unlink()
-    result = t.run(scene, "-t", "1", *arguments)
+    result = t.run(*arguments)
     chosen, audited = {}, []
     for f in range(1, FRAMES + 1):
         picture = t.folder / f"room.{f:04}.exr"
@@ -44,6 +48,15 @@ t.expect("found on frames 1, 3, 5" in result.stderr and "[shot-settings]" in res
 held = pixels(t.folder / "room.0004.exr")
 t.run("shot.rib", "--frames", "4", *chosen[4].split())
 t.expect(pixels(t.folder / "room.0004.exr") == held, "given by hand they make the same picture")
+
+result, shared, audits = run("batch", "shot.rib", "--target-error", "2%", "--audit-every", "2", "-j", "2")
+t.expect(result.returncode == 0 and shared == chosen and audits == audited, f"a batch has them for all its frames: {shared} {result.stderr[-500:]}")
+t.expect(pixels(t.folder / "room.0004.exr") == held, "and the bits of one run")
+stages = [task["stage"] for task in json.loads((t.folder / "shot.batch/plan.json").read_text())["tasks"]]
+t.expect(stages == ["settings"] + FRAMES * ["render"], f"which one task finds before them: {stages}")
+_, shared, _ = run("batch", "shot.rib", "--target-error", "2%", "--frames", "4", "--plan", "alone")
+t.expect(len(shared) == 1 and len(json.loads((t.folder / "alone/plan.json").read_text())["tasks"]) == 1, "one frame finds its own")
+t.expect_run("tiles are whole frames' light", ["batch", "shot.rib", "--target-error", "2%", "--tiles", "2x2", "-o", "x.#.exr"], 1, "--tiles", "--target-error")
 
 _, each, _ = render("--target-error", "2%", "--frames", "4")
 t.expect(len(each) == 1, "a run of one frame finds its own")

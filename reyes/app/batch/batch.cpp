@@ -90,6 +90,10 @@ class BatchRun {
     command_.plan.render.files = command_.what;
     auto plan = makePlan(command_.plan, log_);
     if (!plan) return std::nullopt;
+    if (command_.plan.tileCount() > 1 && !command_.onSlurm && static_cast<int>(plan->pictures.size()) >= processes())
+      log_.report(Severity::Note, "batch-tiles-cost", {},
+                  fmt::format("--tiles: {} frames are enough for {} at a time, and frames in tiles take more CPU time",
+                              plan->pictures.size(), processes()));
     if (command_.onSlurm) {
       checkSlurm(command_.slurm);
       refuseIfOnCluster(*plan);
@@ -118,15 +122,17 @@ class BatchRun {
       return kDone;
     }
     const OrderlyEnd orderly;
-    const int processes = command_.processes > 0 ? command_.processes : threadCount();
     ProgressLines lines(plan);
-    const auto states = runLocally(plan, processes, [&](const std::vector<TaskState>& now) {
+    const auto states = runLocally(plan, processes(), [&](const std::vector<TaskState>& now) {
       owner.renew();
       lines.tell(now, false);
     });
     lines.tell(states, true);
     return show(plan, states);
   }
+
+  /// The most tasks at a time here.
+  int processes() const { return command_.processes > 0 ? command_.processes : threadCount(); }
 
   /// Returns the exit code: that of missing output if tasks have failed.
   int show(const BatchPlan& plan, const std::vector<TaskState>& states) {
@@ -136,9 +142,12 @@ class BatchRun {
     if (!command_.page.empty() && !writeFile(command_.page, pageOf(plan, states), why))
       throw WriteError(fmt::format("\"{}\" could not be written: {}", command_.page, why));
     if (!report.failures.empty())
-      log_.report(Severity::Output, "batch-failed", {},
-                  fmt::format("{} of {} frames have failed, each tried {} times; tomales batch retry {} tries again",
-                              report.failed.size(), report.frames(), kMostAttempts, plan.folder().string()));
+      log_.report(
+          Severity::Output, "batch-failed", {},
+          fmt::format("{} of {} frames have failed, each tried {} times{}; tomales batch retry {} tries again",
+                      report.failed.size(), report.frames(), kMostAttempts,
+                      report.blocked.empty() ? "" : fmt::format(", and {} wait for them", report.blocked.size()),
+                      plan.folder().string()));
     return kDone;
   }
 

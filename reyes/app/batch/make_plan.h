@@ -13,7 +13,12 @@ struct PlanOptions {
   int photonParts = 0;  ///< Tasks that trace the photons of one world; 0: as their number asks.
   std::vector<std::string> pictureArguments;  ///< What the user gave of these options: they go to the passes that
   std::vector<std::string> lightArguments;    ///< take them.
+  std::vector<std::string> targetArguments;   ///< Those that choose settings of light for frames.
   std::filesystem::path file;                 ///< The plan.
+
+  int tileCount() const { return tiles[0] * tiles[1]; }
+  /// Are frames hidden, gathered and shaded in tasks of their own?
+  bool inPasses() const { return tileCount() > 1 || sharedRecords > 1; }
 };
 
 /// Reads the scene once, without rendering, to find its frames and what they write. Without tiles each frame is one run

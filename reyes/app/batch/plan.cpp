@@ -71,6 +71,10 @@ const BatchTask* BatchPlan::find(const std::string& name) const {
   return it == tasks.end() ? nullptr : &*it;
 }
 
+fs::path BatchPlan::workOf(int frame, const std::string& end) const {
+  return folder() / "work" / fmt::format("{:04}{}", frame, end);
+}
+
 void checkPlan(BatchPlan& plan) {
   std::set<std::string> names;
   std::map<std::string, std::string> makers;
@@ -173,14 +177,14 @@ TaskState readState(const BatchPlan& plan, const BatchTask& task) {
   return out;
 }
 
-std::vector<int64_t> sizesOf(const BatchPlan& plan, const BatchTask& task) {
+std::optional<std::vector<int64_t>> sizesOf(const BatchPlan& plan, const BatchTask& task) {
   std::vector<int64_t> out;
   for (const std::string& file : task.makes) {
     std::error_code missing;
     const fs::path path = fs::path(plan.workingFolder) / file;
     const bool isFolder = fs::is_directory(path, missing);
-    const auto size = isFolder ? 0 : fs::file_size(path, missing);
-    out.push_back(missing ? -1 : static_cast<int64_t>(size));
+    out.push_back(isFolder ? 0 : static_cast<int64_t>(fs::file_size(path, missing)));
+    if (missing) return std::nullopt;
   }
   return out;
 }
@@ -188,7 +192,6 @@ std::vector<int64_t> sizesOf(const BatchPlan& plan, const BatchTask& task) {
 std::vector<TaskState> statesOf(const BatchPlan& plan) {
   std::map<std::string, bool> stillNeeded;
   std::vector<TaskState> out(plan.tasks.size());
-  const auto isThere = [](int64_t size) { return size >= 0; };
   for (size_t i = plan.tasks.size(); i-- > 0;) {
     const BatchTask& task = plan.tasks[i];
     const auto needed = stillNeeded.find(task.name);
@@ -196,10 +199,9 @@ std::vector<TaskState> statesOf(const BatchPlan& plan) {
     if (needed != stillNeeded.end() && !needed->second)
       out[i].kind = TaskState::Done;
     else if (out[i].kind == TaskState::Done) {
-      const std::vector<int64_t> sizes = sizesOf(plan, task);
-      const bool whole =
-          needed == stillNeeded.end() ? std::all_of(sizes.begin(), sizes.end(), isThere) : sizes == out[i].sizes;
-      if (!whole) out[i].kind = TaskState::Waiting;
+      const auto sizes = sizesOf(plan, task);
+      const bool isWhole = sizes && (needed == stillNeeded.end() || *sizes == out[i].sizes);
+      if (!isWhole) out[i].kind = TaskState::Waiting;
     }
     for (const std::string& n : task.needs) stillNeeded[n] |= out[i].kind != TaskState::Done;
   }

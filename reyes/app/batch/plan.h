@@ -27,6 +27,8 @@ struct BatchPlan {
 
   std::filesystem::path folder() const { return file.parent_path(); }
   std::filesystem::path logOf(const BatchTask& task) const { return folder() / "log" / (task.name + ".log"); }
+  /// A file between tasks of a frame.
+  std::filesystem::path workOf(int frame, const std::string& end) const;
   std::filesystem::path stateOf(const BatchTask& task) const { return folder() / "state" / (task.name + ".json"); }
   /// Returns null if there is none.
   const BatchTask* find(const std::string& name) const;
@@ -59,8 +61,8 @@ std::string taskName(int frame, const std::string& stage);
 uint64_t taskSum(const BatchTask& task);
 /// Waiting if there is none, or if the task has been edited since.
 TaskState readState(const BatchPlan& plan, const BatchTask& task);
-/// Bytes of the files that a task makes; -1 for one that is not there.
-std::vector<int64_t> sizesOf(const BatchPlan& plan, const BatchTask& task);
+/// Bytes of the files that a task makes; nothing if one of them is not there.
+std::optional<std::vector<int64_t>> sizesOf(const BatchPlan& plan, const BatchTask& task);
 /// The states of all tasks. A task is done only if what it made is still there, or if all tasks that need it are done.
 /// Files that other tasks need must have the size that they were made with.
 std::vector<TaskState> statesOf(const BatchPlan& plan);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "reyes/app/chart/html.h"
 #include "reyes/base/temporary_folder.h"
@@ -19,25 +20,56 @@ using Json = nlohmann::ordered_json;
 constexpr size_t kLogLines = 6;
 constexpr int kThumbnail = 160;  ///< Pixels of the longer edge.
 
+/// What a frame may be, and the frames of a report that are.
+struct FrameState {
+  const char* name;
+  std::vector<int> BatchReport::*frames;
+};
+constexpr FrameState kFinished{"finished", &BatchReport::finished}, kRunning{"running", &BatchReport::running},
+    kWaiting{"waiting", &BatchReport::waiting}, kFailed{"failed", &BatchReport::failed},
+    kBlocked{"blocked", &BatchReport::blocked};
+constexpr FrameState kUnfinished[] = {kRunning, kWaiting, kFailed, kBlocked};
+
 struct FrameFigures {
-  bool allDone = true, anyFailed = false, anyRunning = false, anyDone = false;
+  bool allDone = true, anyFailed = false, anyBlocked = false, anyRunning = false, anyDone = false;
   double cpu_s = 0, wall_s = 0;
   int64_t peak_bytes = 0;
   int worstCode = 0;
 
-  const char* state() const {
-    return anyFailed ? "failed" : allDone ? "finished" : anyRunning || anyDone ? "running" : "waiting";
+  const FrameState& state() const {
+    return anyFailed               ? kFailed
+           : allDone               ? kFinished
+           : anyBlocked            ? kBlocked
+           : anyRunning || anyDone ? kRunning
+                                   : kWaiting;
   }
 };
 
+/// For each task the failed one that it waits for, directly or by way of others; null if there is none.
+std::vector<const BatchTask*> blockersOf(const BatchPlan& plan, const std::vector<TaskState>& states) {
+  std::map<std::string, const BatchTask*> blockerOfThose;  // of tasks that need the one of this name
+  std::vector<const BatchTask*> out;
+  for (size_t i = 0; i < states.size(); ++i) {
+    const BatchTask& task = plan.tasks[i];
+    const BatchTask*& blocker = out.emplace_back();
+    for (const std::string& need : task.needs)
+      if (!blocker) blocker = blockerOfThose[need];
+    if (states[i].kind == TaskState::Done || states[i].kind == TaskState::Running) blocker = nullptr;
+    blockerOfThose[task.name] = states[i].kind == TaskState::Failed ? &task : blocker;
+  }
+  return out;
+}
+
 std::map<int, FrameFigures> figuresOf(const BatchPlan& plan, const std::vector<TaskState>& states) {
   std::map<int, FrameFigures> out;
+  const std::vector<const BatchTask*> blockers = blockersOf(plan, states);
   for (size_t i = 0; i < states.size(); ++i) {
     FrameFigures& f = out[plan.tasks[i].frame];
     const TaskState& s = states[i];
     f.allDone &= s.kind == TaskState::Done;
     f.anyDone |= s.kind == TaskState::Done;
     f.anyFailed |= s.kind == TaskState::Failed;
+    f.anyBlocked |= blockers[i] != nullptr;
     f.anyRunning |= s.kind == TaskState::Running;
     f.cpu_s += s.cpu_s;
     f.wall_s += s.wall_s;
@@ -45,6 +77,15 @@ std::map<int, FrameFigures> figuresOf(const BatchPlan& plan, const std::vector<T
     f.worstCode = std::max(f.worstCode, s.code);
   }
   return out;
+}
+
+/// Numbers of the other frames that task `failed` holds up.
+std::vector<int> framesBehind(const BatchPlan& plan, size_t failed, const std::vector<const BatchTask*>& blockers) {
+  std::set<int> out;
+  for (size_t i = failed + 1; i < blockers.size(); ++i)
+    if (blockers[i] == &plan.tasks[failed] && plan.tasks[i].frame != plan.tasks[failed].frame)
+      out.insert(plan.tasks[i].frame);
+  return {out.begin(), out.end()};
 }
 
 /// Numbers of frames as --frames takes them.
@@ -95,18 +136,16 @@ std::string escaped(const std::string& text) {
 BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states) {
   BatchReport out;
   for (const auto& [number, f] : figuresOf(plan, states)) {
-    (f.anyFailed                 ? out.failed
-     : f.allDone                 ? out.finished
-     : f.anyRunning || f.anyDone ? out.running
-                                 : out.waiting)
-        .push_back(number);
+    (out.*f.state().frames).push_back(number);
     out.cpu_s += f.cpu_s;
     out.peak_bytes = std::max(out.peak_bytes, f.peak_bytes);
   }
+  const std::vector<const BatchTask*> blockers = blockersOf(plan, states);
   std::map<std::string, std::pair<double, int>> timesOfStage;
   int atOnce = 0;
   for (size_t i = 0; i < states.size(); ++i) {
-    if (states[i].kind == TaskState::Failed) out.failures.push_back(plan.tasks[i].name);
+    if (states[i].kind == TaskState::Failed)
+      out.failures.push_back({plan.tasks[i].name, framesBehind(plan, i, blockers)});
     if (states[i].kind == TaskState::Running) ++atOnce;
     if (states[i].kind != TaskState::Done) continue;
     auto& [sum, count] = timesOfStage[plan.tasks[i].stage];
@@ -116,7 +155,7 @@ BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states
   double left = 0;
   bool known = !timesOfStage.empty();
   for (size_t i = 0; i < states.size(); ++i) {
-    if (states[i].kind == TaskState::Done || states[i].kind == TaskState::Failed) continue;
+    if (states[i].kind == TaskState::Done || states[i].kind == TaskState::Failed || blockers[i]) continue;
     const auto stage = timesOfStage.find(plan.tasks[i].stage);
     known &= stage != timesOfStage.end();
     if (stage != timesOfStage.end()) left += stage->second.first / stage->second.second;
@@ -128,13 +167,15 @@ BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states
 std::string textOf(const BatchPlan& plan, const BatchReport& report) {
   std::string out = fmt::format("finished {} of {} frames, {} %\n", report.finished.size(), report.frames(),
                                 report.frames() > 0 ? 100 * report.finished.size() / report.frames() : 100);
-  for (const auto& [name, numbers] :
-       {std::pair{"running", &report.running}, {"waiting", &report.waiting}, {"failed", &report.failed}})
-    if (!numbers->empty()) out += fmt::format("{} {}: {}\n", name, numbers->size(), rangesOf(*numbers));
+  for (const auto& [name, frames] : kUnfinished)
+    if (const std::vector<int>& numbers = report.*frames; !numbers.empty())
+      out += fmt::format("{} {}: {}\n", name, numbers.size(), rangesOf(numbers));
   if (report.left_s > 0) out += fmt::format("about {:.0f} s are left\n", report.left_s);
-  for (const std::string& name : report.failures)
-    out +=
-        fmt::format("task {} failed; its log ends with\n{}", name, lastLines(plan.logOf(*plan.find(name)), kLogLines));
+  for (const auto& [task, blocks] : report.failures) {
+    const std::string waits = blocks.empty() ? "" : fmt::format(", and frames {} wait for it", rangesOf(blocks));
+    out += fmt::format("task {} failed{}; its log ends with\n{}", task, waits,
+                       lastLines(plan.logOf(*plan.find(task)), kLogLines));
+  }
   return out;
 }
 
@@ -143,27 +184,26 @@ std::string jsonOf(const BatchPlan& plan, const std::vector<TaskState>& states) 
   Json frames = Json::array();
   for (const auto& [number, f] : figuresOf(plan, states))
     frames.push_back({{"frame", number},
-                      {"state", f.state()},
+                      {"state", f.state().name},
                       {"cpu_s", f.cpu_s},
                       {"wall_s", f.wall_s},
                       {"peak_bytes", f.peak_bytes},
                       {"exit_code", f.worstCode}});
   Json failures = Json::array();
-  for (const std::string& name : report.failures)
-    failures.push_back({{"task", name},
-                        {"log", plan.logOf(*plan.find(name)).string()},
-                        {"last_lines", lastLines(plan.logOf(*plan.find(name)), kLogLines)}});
+  for (const auto& [task, blocks] : report.failures)
+    failures.push_back({{"task", task},
+                        {"blocks", blocks},
+                        {"log", plan.logOf(*plan.find(task)).string()},
+                        {"last_lines", lastLines(plan.logOf(*plan.find(task)), kLogLines)}});
   Json out{{"plan", plan.file.string()},
            {"frames", report.frames()},
            {"finished", report.finished.size()},
-           {"running", report.running.size()},
-           {"waiting", report.waiting.size()},
-           {"failed", report.failed.size()},
            {"cpu_s", report.cpu_s},
            {"peak_bytes", report.peak_bytes},
            {"left_s", report.left_s < 0 ? Json() : Json(report.left_s)},
            {"failures", failures},
            {"by_frame", frames}};
+  for (const auto& [name, numbers] : kUnfinished) out[name] = (report.*numbers).size();
   return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -172,7 +212,8 @@ std::string pageOf(const BatchPlan& plan, const std::vector<TaskState>& states) 
   const std::string title = "Batch " + plan.folder().filename().string();
   Markup page;
   page.openPage(escaped(title), escaped(title),
-                "figure{display:inline-block;margin:4px;font-size:small}.failed{color:#c00}td,th{padding:0 8px}");
+                "figure{display:inline-block;margin:4px;font-size:small}.failed{color:#c00}.blocked{color:#c00}td,th{"
+                "padding:0 8px}");
   page.put("<pre>{}</pre>\n", escaped(textOf(plan, report)));
   const TemporaryFolder folder(fs::temp_directory_path());
   const std::string png = (folder.path() / "small.png").string();
@@ -183,8 +224,8 @@ std::string pageOf(const BatchPlan& plan, const std::vector<TaskState>& states) 
   }
   page.put("<table><tr><th>frame<th>state<th>CPU s<th>wall s<th>memory<th>exit code</tr>\n");
   for (const auto& [number, f] : figuresOf(plan, states))
-    page.put("<tr class=\"{}\"><td>{}<td>{}<td>{:.2f}<td>{:.2f}<td>{}<td>{}</tr>\n", f.state(), number, f.state(),
-             f.cpu_s, f.wall_s, megabytes(static_cast<double>(f.peak_bytes)), f.worstCode);
+    page.put("<tr class=\"{}\"><td>{}<td>{}<td>{:.2f}<td>{:.2f}<td>{}<td>{}</tr>\n", f.state().name, number,
+             f.state().name, f.cpu_s, f.wall_s, megabytes(static_cast<double>(f.peak_bytes)), f.worstCode);
   page.put("</table>\n");
   page.closePage();
   return page.take();

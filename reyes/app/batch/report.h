@@ -4,16 +4,23 @@
 
 namespace tomales {
 
+/// A task that failed.
+struct BatchFailure {
+  std::string task;
+  std::vector<int> blocks;  ///< Numbers of other frames that cannot be made without it.
+};
+
 struct BatchReport {
-  /// Numbers of frames. A frame is finished when all of its tasks are, and fails if one of them does.
-  std::vector<int> finished, running, failed, waiting;
-  std::vector<std::string> failures;  ///< Names of the tasks that failed.
+  /// Numbers of frames. A frame is finished when all of its tasks are, and fails if one of them does; it is blocked if
+  /// one of them needs a task that failed.
+  std::vector<int> finished, running, failed, blocked, waiting;
+  std::vector<BatchFailure> failures;
   double cpu_s = 0;
   int64_t peak_bytes = 0;
   double left_s =
       -1;  ///< Estimated from the tasks that are done, by as many at a time as run now; negative: not known.
 
-  size_t frames() const { return finished.size() + running.size() + failed.size() + waiting.size(); }
+  size_t frames() const { return finished.size() + running.size() + failed.size() + blocked.size() + waiting.size(); }
 };
 
 BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states);

@@ -14,6 +14,7 @@
 #include "reyes/app/watch/cpu_time.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/chunk_file.h"
+#include "reyes/base/nursery.h"
 #include "reyes/base/process.h"
 
 namespace tomales {
@@ -47,10 +48,11 @@ RunningTask::RunningTask(const BatchPlan& plan, const BatchTask& task, int attem
   state_.attempts = attempt;
   state_.host = hostName();
   writeState(plan, task, state_);
-  ChildProgram program{"/proc/self/exe", {"tomales"}, {{in, 0}, {out, 1}, {out, 2}}};
-  program.arguments.insert(program.arguments.end(), task.arguments.begin(), task.arguments.end());
+  std::vector<std::string> arguments{"tomales"};
+  arguments.insert(arguments.end(), task.arguments.begin(), task.arguments.end());
   int problem = 0;
-  child_ = startChild(program, problem);
+  child_ = startInNursery(plan.workingFolder, log.string(), arguments);
+  if (child_ < 0) child_ = startChild({"/proc/self/exe", arguments, {{in, 0}, {out, 1}, {out, 2}}}, problem);
   closeBoth();
   if (child_ < 0)
     throw WriteError(fmt::format("task \"{}\" could not be started: {}", task.name, std::strerror(problem)));
@@ -73,9 +75,9 @@ bool RunningTask::ended() {
   state_.peak_bytes = int64_t{used.ru_maxrss} * 1024;
   state_.kind = succeeded(state_.code) ? TaskState::Done : stopped_ ? TaskState::Waiting : TaskState::Failed;
   std::error_code none;
-  state_.sizes = sizesOf(plan_, task_);
-  if (state_.kind == TaskState::Done && std::count(state_.sizes.begin(), state_.sizes.end(), -1) > 0)
-    state_.kind = TaskState::Failed;
+  const auto sizes = sizesOf(plan_, task_);
+  state_.sizes = sizes.value_or(std::vector<int64_t>());
+  if (state_.kind == TaskState::Done && !sizes) state_.kind = TaskState::Failed;
   writeState(plan_, task_, state_);
   if (state_.kind == TaskState::Done)
     for (const std::string& file : task_.removes) fs::remove(fs::path(plan_.workingFolder) / file, none);

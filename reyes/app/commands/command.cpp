@@ -10,6 +10,7 @@
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/crash_note.h"
 #include "reyes/base/deep_stack.h"
+#include "reyes/base/nursery.h"
 
 namespace tomales {
 namespace {
@@ -69,8 +70,16 @@ int runGuarded(int argc, char** argv) {
 
 }  // namespace
 
+int runTexts(const std::vector<std::string>& arguments) {
+  std::vector<char*> argv;
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  return run(static_cast<int>(arguments.size()), argv.data());
+}
+
 int run(int argc, char** argv) {
   openStandardFiles();
+  if (argc > 1 && std::string(argv[1]) == "batch") openNursery(runTexts);  // before there are threads
   endWithMessages();
   reportCrashes();
   watchSignals();  // before other threads start, which must not get the signals

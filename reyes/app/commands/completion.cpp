@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
+std::string listed(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& w : words) out += (out.empty() ? "" : " ") + w;
   return out;
@@ -40,9 +40,9 @@ void addCommand(const CLI::App& command, std::string& choices, std::string& opti
     all.insert(all.end(), names.begin(), names.end());
     if (words.empty()) continue;
     for (const std::string& n : names)
-      choices += "    '" + command.get_name() + " " + n + "') words='" + joined(words) + "' ;;\n";
+      choices += "    '" + command.get_name() + " " + n + "') words='" + listed(words) + "' ;;\n";
   }
-  options += "    " + command.get_name() + ") words='" + joined(all) + "' ;;\n";
+  options += "    " + command.get_name() + ") words='" + listed(all) + "' ;;\n";
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ std::string completionScript(const CLI::App& program) {
          "  esac\n"
          "  if [ -z \"$words\" ] && [ \"$COMP_CWORD\" -eq 1 ] && [[ $word != -* ]]; then\n"
          "    words='" +
-         joined(commands) +
+         listed(commands) +
          "'\n"
          "  elif [ -z \"$words\" ] && [[ $word == -* ]]; then\n"
          "    case $command in\n" +

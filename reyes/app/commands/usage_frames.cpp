@@ -101,6 +101,9 @@ void buildGather(CLI::App& app, Invocation& in, int& code) {
                 "Start from these records and add where they leave points uncovered or disagree; with --crop "
                 "those inside are gathered anew")
       ->type_name("OTHER.icf");
+  c->add_flag_callback(
+      "--no-answers", [&in] { in.render.keepsAnswers = false; },
+      "Keep records alone, and not what the rays of shading say: shade traces these itself, with the same bits");
   c->add_flag("--by-light", in.render.byLight,
               "Keep what each light brings, so that shade and relight dim and colour lights with all that they bounce");
   addCrop(*c, in.render);
@@ -212,12 +215,20 @@ void buildBatch(CLI::App& app, Invocation& in, int& code) {
     addLightOptions(*c, s);
     addTrust(*c, s.trust);
   });
+  const auto target = added(*c, [&] {
+    addTarget(*c, s);
+    addShotTarget(*c, s);
+  });
+  for (const char* passes : {"--tiles", "--share-records"})
+    for (const char* chooses : {"--target-error", "--time-budget"})
+      c->get_option(passes)->excludes(c->get_option(chooses));
   c->add_option("SCENE", b.what,
                 "RIB files, or a plan to go on with; or status, cancel, retry, log with a PLAN (log PLAN FRAME)")
       ->required();
-  c->callback([&, picture, light] {
+  c->callback([&, picture, light, target] {
     b.plan.pictureArguments = givenOf(picture);
     b.plan.lightArguments = givenOf(light);
+    b.plan.targetArguments = givenOf(target);
     b.plan.lightArguments.insert(b.plan.lightArguments.end(), {"-t", std::to_string(b.slurm.cpus)});
     b.slurm.atOnce = b.processes;
     code = batchCommand(b);

@@ -13,15 +13,16 @@ bool makesMaps(const GiMethod& method) {
   return !method.byPointClouds && (method.mode == GiMode::Atlas || method.mode == GiMode::Radiosity);
 }
 
-/// Tells whether it is worth the time to bind shaders: a light that asks for maps by its shader's default is missed.
-bool mayAsk(const Scene& scene, const RenderSettings& settings) {
-  if (settings.gi) return makesMaps(*settings.gi);
-  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const std::shared_ptr<LightCall>& light) {
-    const Param* radiance = findParam(light->shader.params, "radiance");
-    return radiance && !radiance->strings.empty() &&
-           std::any_of(std::begin(kGiMethods), std::end(kGiMethods),
-                       [&](const GiMethod& m) { return makesMaps(m) && m.radiance == radiance->strings.front(); });
-  });
+/// The method of a frame as its lights alone tell it: the rest of the scene takes longer to open and to bind.
+const GiMethod& methodOfLights(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Log& log) {
+  Scene lights;
+  lights.options = scene.options;
+  lights.cameraFromWorld = scene.cameraFromWorld;
+  lights.worldFromNamed = scene.worldFromNamed;
+  lights.lights = scene.lights;
+  lights.where = scene.where;
+  Stats stats;
+  return methodOf(settings, ShadingSystem(lights, shaders, nullptr, log, stats));
 }
 
 }  // namespace
@@ -48,11 +49,11 @@ void makeSharedLight(Scene& scene, ShaderRegistry& shaders, const RenderSettings
 }
 
 std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& settings, Log& log) {
-  if (!mayAsk(scene, settings)) return std::nullopt;
-  Stats stats;
+  if (settings.gi && !makesMaps(*settings.gi)) return std::nullopt;
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
+  if (!makesMaps(methodOfLights(scene, *shaders, settings, log))) return std::nullopt;
+  Stats stats;
   const FrameJob job(scene, *shaders, settings, stats, log);
-  if (!makesMaps(job.method())) return std::nullopt;
   SharedLight out;
   out.folder = atlasFolder(settings, job.shading());
   if (!out.folder.empty() && isMadeByHand(out.folder)) return std::nullopt;

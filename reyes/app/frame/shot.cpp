@@ -93,7 +93,9 @@ void ShotJob::prepareLight() {
   if (files_->hasIrradiance()) {
     IrradianceShot& given = files_->irradiance();
     lightEdits_ = editsSince(given, shot_.scene, job_->shading());
-    if (given.emitters && files_->hasAnswers()) job_->services()->useEmitters(*given.emitters);
+    if (given.emitters && files_->isOfShot()) job_->services()->useEmitters(*given.emitters);
+    if (given.learnt && files_->isOfShot() && settings_.edits.empty() && !gathers_)
+      job_->services()->useLearnt(given.learnt);
     moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
     std::optional<PixelRect> anew;
     if (gathersAnew_) {
@@ -224,7 +226,7 @@ std::vector<std::shared_ptr<LightCall>> ShotJob::lightsOfRecords() const {
 }
 
 bool ShotJob::copyAnswers(const std::set<uint32_t>& except, IcfWriter& out) {
-  if (!files_->hasAnswers()) return true;
+  if (!files_->isOfShot()) return true;
   std::string error;
   for (uint32_t i = 0; i < shot_.frame.tileCount(); ++i) {
     if (except.contains(i)) continue;
@@ -259,14 +261,15 @@ void ShotJob::gatherIrradiance() {
   job_->gather(shot_.frame, [&](size_t index) {
     return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? read(index) : nullptr;
   });
-  const bool written = recordAnswers(*out) && copyAnswers(inCrop, *out);
+  const bool written = !settings_.keepsAnswers || (recordAnswers(*out) && copyAnswers(inCrop, *out));
   IrradianceShot shot{interrupted() ? 0 : files_->dfb().shotSum(),
                       job_->giSettings(),
                       shot_.scene.cameraFromWorldAtOpen(),
                       {},
                       tools->rays->emitters().table(),
                       lightsOfRecords(),
-                      job_->services()->shareGroups()};
+                      job_->services()->shareGroups(),
+                      job_->services()->learnt()};
   shot.caches = job_->services()->takeCaches();
   world_->report();
   if (!written || !out->finish(shot)) return unwritten(out->error());

@@ -21,7 +21,7 @@ std::shared_ptr<ShotFiles> ShotFiles::open(const RenderSettings& settings, Log& 
     return nullptr;
   }
   out->irradiance_ = out->icf_->takeShot();
-  if (!out->hasAnswers())
+  if (!out->isOfShot())
     log.report(Severity::Warning, "icf-shot", wholeFile(out->icfPath_),
                "was gathered for another shot: its irradiance is used, its shadows are not");
   return out;
@@ -35,7 +35,7 @@ std::optional<DeepTile> ShotFiles::load(size_t tile, Log& log) const {
                "bucket " + std::to_string(tile) + " is left out of the picture: " + error);
     return out;
   }
-  if (!hasAnswers()) return out;
+  if (!isOfShot()) return out;
   if (auto known = answers(tile, error)) {
     out->answers = std::move(*known);
   } else {

@@ -22,9 +22,9 @@ class ShotFiles {
   const IrradianceShot& irradiance() const { return irradiance_; }
   /// Names the records and their settings; 0 without an .icf.
   uint64_t irradianceSum() const { return icf_ ? icf_->sum() : 0; }
-  /// Tells whether the answers of rays were recorded for this shot.
-  bool hasAnswers() const { return icf_ && irradiance_.shot == dfb_->shotSum(); }
-  /// Null: they are damaged, which `error` explains. Pre: hasAnswers().
+  /// Tells whether the .icf was gathered for this shot: its answers of rays, if it has any, are true then.
+  bool isOfShot() const { return icf_ && irradiance_.shot == dfb_->shotSum(); }
+  /// Null: they are damaged, which `error` explains. Pre: isOfShot().
   std::optional<std::vector<RayAnswers>> answers(size_t tile, std::string& error) const {
     return icf_->answers(tile, error);
   }

@@ -1,0 +1,33 @@
+// Verb: scene -> what a batch has to know of its frames before it makes a plan of them. Threads: one caller.
+#pragma once
+#include <map>
+
+#include "reyes/app/batch/make_plan.h"
+#include "reyes/app/frame/shared_light.h"
+#include "reyes/base/log.h"
+
+namespace tomales {
+
+/// What a frame of the scene writes.
+struct FrameFiles {
+  int worlds = 0;
+  bool maps = false;                            ///< It writes maps for later frames, and nothing else.
+  bool joins = true;                            ///< All are pictures in OpenEXR that can be made of tiles.
+  std::vector<std::string> files;               ///< The first is the picture.
+  std::vector<std::vector<std::string>> tiles;  ///< The same for each tile; empty without tiles.
+  std::optional<SharedLight> light;
+};
+
+struct BatchFrames {
+  static constexpr int kMake = std::numeric_limits<int>::min();
+  std::map<int, FrameFiles> frames;  ///< By their numbers.
+  std::vector<int> events;           ///< Numbers of frames, and kMake for Make requests, in the order of the stream.
+  bool hasMakes = false;             ///< Some of them are kMake.
+  bool apart = true;                 ///< Frames do not depend on each other.
+};
+
+/// Reads the scene once, without rendering. Returns nothing if it cannot be read or has no such frames, or if rendering
+/// them by such a plan would go wrong, which is reported. `plan`: its folder will hold the tiles.
+std::optional<BatchFrames> readFrames(const PlanOptions& options, const BatchPlan& plan, Log& log);
+
+}  // namespace tomales
