@@ -35,6 +35,7 @@ GiServices::~GiServices() = default;
 void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
                             const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
                             const std::function<void(int stride)>& covered) {
+  impl_->bounceCost = {};
   measureLight(*impl_, layout, tiles, progress, cancelled);
   if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
 }
@@ -47,6 +48,8 @@ void GiServices::startAgain(const GiSettings& settings) {
   impl_->spots = BrightSpots{};
   impl_->bounces = BounceCaches{};
 }
+
+GiServices::BounceCost GiServices::bounceCost() const { return impl_->bounceCost; }
 
 void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }
 
