@@ -13,7 +13,7 @@ constexpr double kLeastShare = 0.03;
 /// How far the search goes from the base, up and down, in steps of half an octave.
 constexpr int kFewerRays = 6, kNarrower = 8, kWider = 4, kFewerLightSamples = 4;
 /// How far it goes at most, whatever trials had.
-constexpr int kMostRays = 9600, kMostPaths = 1024, kMostLightSamples = 1024;
+constexpr int kMostRaysOfRecord = 9600, kMostPathsOfPoint = 1024, kMostLightSamples = 1024;
 constexpr double kLeastRaysPower = 0.2, kMostRaysPower = 1.2;
 constexpr double kFarFromKnown = 4;  ///< What is seen at so many times a setting says how the cost changes.
 constexpr int kFineSteps = 16;       ///< Steps of an octave where a time is to be used up.
@@ -158,7 +158,7 @@ void ErrorModel::correct(const QualityTrial& picture) {
   if (const double expected = directError(q); expected > 0) directScale_ *= picture.direct / expected;
 }
 
-int ErrorModel::mostSamples() const { return tracesPaths() ? kMostPaths : kMostRays; }
+int ErrorModel::mostSamples() const { return tracesPaths() ? kMostPathsOfPoint : kMostRaysOfRecord; }
 
 template <class Better>
 LightQuality ErrorModel::search(const Better& better, const std::function<bool(const LightQuality&)>& isAllowed) const {

@@ -20,6 +20,7 @@ constexpr int kLeastRays = 20;    ///< but the round has at least these.
 constexpr int kMostRounds = 4;
 constexpr double kBetter = 0.95;        ///< Another round is worth it for so many times the error,
 constexpr double kMuchBetter = 0.85;    ///< and records of another width.
+constexpr double kShareOfProbe = 0.12;  ///< Share of the time left that a probe may take.
 constexpr size_t kBucketsOfProbe = 16;  ///< One bucket of so many tells what more rays cost.
 constexpr int kLampsOfAudit = 16;       ///< Light samples of a picture whose audit takes as long as those of trials.
 /// Lamps lose no more of their planned samples where gathering was late: a picture that is late too is better than
@@ -73,19 +74,25 @@ class BudgetedFrame {
   /// first round has few rays, and the rounds after it the time that is left.
   void gatherInRounds() {
     ErrorModel& model = trials_.model;
-    learnRays();
     LightQuality next = firstRound();
     for (int round = 1;; ++round) {
       choose(next);
       const double before_s = job_.elapsed_s();
       job_.gatherShown(layout_, tiles_);
       if (interrupted()) return;
-      tellStep("gathering", quality_, model.gatherCost(quality_), job_.elapsed_s() - before_s);
-      model.correctGatherCost(quality_, job_.elapsed_s() - before_s);
+      const double took_s = job_.elapsed_s() - before_s;
+      tellStep("gathering", quality_, model.gatherCost(quality_), took_s);
+      model.correctGatherCost(quality_, took_s);
       const double left = std::max(0.0, left_s());
       next = bestAfter(quality_, left);
       const LightQuality stays = model.bestLamps(quality_, left);
       if (round == kMostRounds || model.cost(next) > left || model.error(next) > kBetter * model.error(stays)) break;
+      if (round > 1 || !mayProbe(next, left)) continue;
+      learnRays(quality_, next);
+      if (interrupted()) return;
+      model.correctGatherCost(quality_, took_s);
+      next = bestAfter(quality_, std::max(0.0, left_s()));
+      if (model.error(next) > model.error(quality_)) next = quality_;  // the probe took too long
     }
     job_.endGather(layout_, tiles_);
   }
@@ -93,7 +100,8 @@ class BudgetedFrame {
   /// Records of other widths are more or fewer, which costs what the rounds have learnt.
   LightQuality bestAfter(const LightQuality& last, double left) const {
     const LightQuality any = trials_.model.best(left), asWide = trials_.model.bestAsWide(last, left);
-    return trials_.model.error(any) < kMuchBetter * trials_.model.error(asWide) ? any : asWide;
+    const bool fills = trials_.model.cost(asWide) > kBetter * left;
+    return !fills || trials_.model.error(any) < kMuchBetter * trials_.model.error(asWide) ? any : asWide;
   }
 
   static LightQuality withFewRays(LightQuality q) {
@@ -101,20 +109,27 @@ class BudgetedFrame {
     return q;
   }
 
+  size_t bucketsOfProbe() const {
+    return std::min(trials_.tried.size(), std::max<size_t>(1, trials_.seen.size() / kBucketsOfProbe));
+  }
+
+  bool mayProbe(const LightQuality& many, double left) const {
+    const double share =
+        static_cast<double>(bucketsOfProbe()) / std::max<double>(1, static_cast<double>(trials_.seen.size()));
+    return many.samples >= 2 * quality_.samples && share * trials_.model.gatherCost(many) < kShareOfProbe * left;
+  }
+
   /// A ray of many costs less than one of few, and how much less depends on what it meets. A few buckets tell.
-  void learnRays() {
-    const double left = std::max(0.0, left_s());
-    const LightQuality planned = trials_.model.best(left), few = withFewRays(planned);
-    const size_t count = std::min(trials_.tried.size(), std::max<size_t>(1, trials_.seen.size() / kBucketsOfProbe));
-    if (few.samples == planned.samples || count == 0 || trials_.model.cost(planned) > left) return;
+  void learnRays(const LightQuality& few, const LightQuality& many) {
+    const size_t count = bucketsOfProbe();
     const std::span<const size_t> which = std::span(trials_.tried).first(count);
     const QualityTrial cheap = secondsToGather(job_, layout_, tiles_, which, few);
     if (interrupted()) return;
-    const QualityTrial dear = secondsToGather(job_, layout_, tiles_, which, planned);
+    const QualityTrial dear = secondsToGather(job_, layout_, tiles_, which, many);
     log_.report(Severity::Info, "time-budget", {},
                 fmt::format("after {:.3g} s: {} buckets took {:.3g} s with {} and {:.3g} s with {}", job_.elapsed_s(),
                             count, cheap.gatherCost + cheap.bounceCost, optionsOf(few),
-                            dear.gatherCost + dear.bounceCost, optionsOf(planned)));
+                            dear.gatherCost + dear.bounceCost, optionsOf(many)));
     trials_.model.learnRays(cheap, dear);
   }
 

@@ -161,8 +161,8 @@ TEST(ErrorModel, PathsAreTracedWhileThePictureIsShaded) {
   };
   const ErrorModel model(paths({16, -1, 0}), paths({64, -1, 0}), {});
   EXPECT_NEAR(model.cost({256, -1, 0}), 266, 1e-6);
-  EXPECT_LE(model.cost(model.best(150)), 150);
-  EXPECT_GT(model.cost(model.best(150)), 140);
+  EXPECT_LE(model.cost(model.best(151)), 151);
+  EXPECT_GT(model.cost(model.best(151)), 149);
 }
 
 TEST(ErrorModel, IsCorrectedByAPictureThatErrsMoreThanItSaid) {
