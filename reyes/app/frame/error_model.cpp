@@ -15,6 +15,8 @@ constexpr int kFewerRays = 6, kNarrower = 8, kWider = 4, kFewerLightSamples = 4;
 /// How far it goes at most, whatever trials had.
 constexpr int kMostRaysOfRecord = 9600, kMostPathsOfPoint = 1024, kMostLightSamples = 1024;
 constexpr double kLeastRaysPower = 0.2, kMostRaysPower = 1.2;
+/// Of costs that were seen in the same buckets, where other powers are chance.
+constexpr double kLeastKnownPower = 0.6, kMostKnownPower = 1;
 constexpr double kFarFromKnown = 4;  ///< What is seen at so many times a setting says how the cost changes.
 constexpr int kFineSteps = 16;       ///< Steps of an octave where a time is to be used up.
 
@@ -139,7 +141,7 @@ double ErrorModel::shadeCost(const LightQuality& q) const {
 void ErrorModel::learnRays(const QualityTrial& few, const QualityTrial& many) {
   const double s0 = few.quality.samples, s1 = many.quality.samples;
   if (few.gatherCost > 0 && many.gatherCost > 0)
-    raysPower_ = power(s0, few.gatherCost, s1, many.gatherCost, kLeastRaysPower, kMostRaysPower);
+    raysPower_ = power(s0, few.gatherCost, s1, many.gatherCost, kLeastKnownPower, kMostKnownPower);
   if (few.bounceCost > 0 && many.bounceCost > 0) bouncesPower_ = power(s0, few.bounceCost, s1, many.bounceCost, 0, 1);
 }
 

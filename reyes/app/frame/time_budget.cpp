@@ -18,8 +18,10 @@ constexpr double kShareOfNarrowTrial = 0.1, kShareOfFirstRound = 0.15, kShareOfM
 constexpr int kFewerInFirst = 8;  ///< The first round, and shading that only measures, have so many times fewer rays,
 constexpr int kLeastRays = 20;    ///< but the round has at least these.
 constexpr int kMostRounds = 4;
-constexpr double kBetter = 0.95;        ///< Another round is worth it for so many times the error,
-constexpr double kMuchBetter = 0.85;    ///< and records of another width.
+constexpr double kBetter = 0.95;      ///< Another round is worth it for so many times the error,
+constexpr double kMuchBetter = 0.85;  ///< and records of another width.
+constexpr int kMostGrowth =
+    12;  ///< A round has at most so many times the rays of the one before, which says what they cost.
 constexpr double kShareOfProbe = 0.12;  ///< Share of the time left that a probe may take.
 constexpr size_t kBucketsOfProbe = 16;  ///< One bucket of so many tells what more rays cost.
 constexpr int kLampsOfAudit = 16;       ///< Light samples of a picture whose audit takes as long as those of trials.
@@ -88,7 +90,7 @@ class BudgetedFrame {
       const LightQuality stays = model.bestLamps(quality_, left);
       if (round == kMostRounds || model.cost(next) > left || model.error(next) > kBetter * model.error(stays)) break;
       if (round > 1 || !mayProbe(next, left)) continue;
-      learnRays(quality_, next);
+      learnRays(quality_.samples, next);
       if (interrupted()) return;
       model.correctGatherCost(quality_, took_s);
       next = bestAfter(quality_, std::max(0.0, left_s()));
@@ -101,7 +103,9 @@ class BudgetedFrame {
   LightQuality bestAfter(const LightQuality& last, double left) const {
     const LightQuality any = trials_.model.best(left), asWide = trials_.model.bestAsWide(last, left);
     const bool fills = trials_.model.cost(asWide) > kBetter * left;
-    return !fills || trials_.model.error(any) < kMuchBetter * trials_.model.error(asWide) ? any : asWide;
+    LightQuality out = !fills || trials_.model.error(any) < kMuchBetter * trials_.model.error(asWide) ? any : asWide;
+    out.samples = std::min(out.samples, kMostGrowth * last.samples);
+    return out;
   }
 
   static LightQuality withFewRays(LightQuality q) {
@@ -120,7 +124,9 @@ class BudgetedFrame {
   }
 
   /// A ray of many costs less than one of few, and how much less depends on what it meets. A few buckets tell.
-  void learnRays(const LightQuality& few, const LightQuality& many) {
+  void learnRays(int fewer, const LightQuality& many) {
+    LightQuality few = many;
+    few.samples = fewer;
     const size_t count = bucketsOfProbe();
     const std::span<const size_t> which = std::span(trials_.tried).first(count);
     const QualityTrial cheap = secondsToGather(job_, layout_, tiles_, which, few);
