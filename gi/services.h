@@ -108,6 +108,13 @@ class GiServices final : public ShadeServices {
   /// must be the same, and records are not kept for a later run.
   void startAgain(const GiSettings& settings);
 
+  /// What the last gatherPass() has taken for records of further bounces, which are about as many for a small part of
+  /// the frame as for all of it.
+  struct BounceCost {
+    double rays = 0, time_s = 0;
+  };
+  BounceCost bounceCost() const;
+
   /// The caches of gatherPass(); frozen while shading.
   const std::vector<PreparedCache>& caches() const;
   std::vector<PreparedCache> takeCaches();  ///< Moves the caches out; none remain.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 #include <optional>
 #include <unordered_set>
@@ -150,8 +151,12 @@ class GatherPass {
       gather.samples = std::max(gather.samples, c.plan.gather.samples);
       gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
     }
+    const auto start = std::chrono::steady_clock::now();
+    const double raysBefore = state_.stats.lightRays();
     state_.learnt->bounces.fill(*tools_, state_.camera, points, gather, bounces,
                                 {state_.stats, cancelled_, state_.kept, state_.groups});
+    state_.bounceCost = {state_.stats.lightRays() - raysBefore,
+                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
   }
 
   // Returns the points of this phase that no earlier record serves, in the order of pixels, whatever the buckets are. A

@@ -53,7 +53,7 @@ std::span<const LightShare> lightOf(const GiState& state, const PreparedCache& p
 /// A draw from the normal distribution (Box and Muller 1958) that belongs to a place.
 float normalDraw(const vec3& place) {
   const uint32_t name = hashCombine(std::bit_cast<uint32_t>(place.x), std::bit_cast<uint32_t>(place.y),
-                                    std::bit_cast<uint32_t>(place.z), randomStream("sets"));
+                                    std::bit_cast<uint32_t>(place.z), randomStream("reca"));
   const float radius = std::sqrt(-2 * std::log(1 - unitFloat(name)));
   return radius * std::cos(2 * kPi * unitFloat(hash32(name)));
 }
@@ -189,7 +189,7 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
   GatherPlan plan = planFor(state, points.group(), query);
   const auto prepared = preparedFor(state, plan);
   plan.gather.samples = shareOfBranch(plan.gather.samples, kLeastOfHemisphere, context);
-  if (context.redrawn) plan.gather.seed = hashCombine(plan.gather.seed, randomStream("sets"));
+  if (context.redrawn) plan.gather.seed = hashCombine(plan.gather.seed, randomStream("alon"));
   const GatherPlaces places(state, points);
   const bool isKnown = prepared != state.caches.end(),
              keeps = isKnown && context.answers && context.answers->recordsStay && !context.redrawn;

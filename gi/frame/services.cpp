@@ -35,6 +35,7 @@ GiServices::~GiServices() = default;
 void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
                             const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
                             const std::function<void(int stride)>& covered) {
+  impl_->bounceCost = {};
   measureLight(*impl_, layout, tiles, progress, cancelled);
   if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
 }
@@ -46,6 +47,8 @@ void GiServices::startAgain(const GiSettings& settings) {
   impl_->redrawn.clear();
   impl_->learnt = std::make_shared<LearntLight>();
 }
+
+GiServices::BounceCost GiServices::bounceCost() const { return impl_->bounceCost; }
 
 void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }
 

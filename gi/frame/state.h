@@ -34,6 +34,7 @@ struct GiState {
   HitRadianceSource hitRadianceSource{};                     ///< May be empty.
   mutable std::unique_ptr<const HitRadiance> hitRadiance{};  ///< Set in GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
+  GiServices::BounceCost bounceCost{};        ///< Of the last gather pass.
   std::optional<PhotonPasses> passes{};       ///< Empty: no photons are counted.
   std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.
   /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.

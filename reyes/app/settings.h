@@ -60,6 +60,7 @@ struct RenderSettings {
   double targetError = 0;    ///< The mean relative error of light to reach; 0: settings are as they are given.
   double targetSmudges = 0;  ///< Deviation of smudges to reach with it; 0: as targetError.
   double timeBudget_s = 0;   ///< Time that a frame may take; 0: as long as its settings ask.
+  double reading_s = 0;      ///< Of which reading it took so much.
   std::optional<std::vector<int>> pilotFrames;  ///< Frames on which settings of light are found for all. Sorted.
   std::string shotSettings;                     ///< A file that keeps them for other runs; empty: none.
   int auditEvery = 10;  ///< Of the frames that they hold for, those whose number this divides are audited; 0: none.

@@ -53,8 +53,15 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"pass", "passes of photons that are counted at points"},
     {"audi", "pixels that are audited"},
     {"sets", "light that an audit finds there, set by set"},
+    {"bloc", "blocks of pixels that an audit looks at for smudges"},
+    {"cell", "pixels of such a block"},
+    {"even", "light that an audit finds in blocks, set by set"},
     {"targ", "buckets of trials, and the audits of one frame"},
     {"boot", "pixels that are drawn again to know how certain an audit is"},
+    {"resa", "the same for blocks"},
+    {"anew", "light of the other draw that shows a pixel's standard error"},
+    {"reca", "the noise of a record in that draw"},
+    {"alon", "rays of points without records in that draw"},
 };
 
 consteval bool randomStreamsDiffer() {

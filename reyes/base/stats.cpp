@@ -4,6 +4,10 @@
 
 namespace tomales {
 
+double Stats::lightRays() const {
+  return static_cast<double>(rays.gather + rays.transmission + rays.specular + rays.reference);
+}
+
 void Stats::addShader(const std::string& name, int64_t vertices, double time_s) {
   const std::lock_guard lock(mutex_);
   ShaderFigures& f = shaders_[name];

@@ -49,6 +49,9 @@ struct Stats {
     Counter grids{0}, geometry{0}, deepFrame{0};
   } memoryBytes;
 
+  /// Rays that light has taken so far, but those of photons.
+  double lightRays() const;
+
   /// Adds to the figures of one named shader ("shade.by_shader").
   void addShader(const std::string& name, int64_t vertices, double time_s);
   /// Adds wall and CPU time to a stage of the frame ("parse", "hide", "gather", "shade", "image", "write").

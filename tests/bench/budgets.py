@@ -1,6 +1,6 @@
 """How near to its end a frame with `--time-budget` ends, in CPU seconds, so that other jobs of the machine do not count.
 
-    tests/bench/budgets.py build/release/tomales [--scenes cornell interior random1] [--budgets 5 10 20] [--seeds 2] [--format 256x256] [--audit]
+    tests/bench/budgets.py build/release/tomales [--scenes cornell interior random1] [--budgets 5 10 20] [--seeds 2] [--format 256x256] [--audit] [-v]
 
 A library that is loaded before others (made here with the C compiler) tells the program the CPU time of its process where it asks for the time since
 the machine was started. With one thread that is what its clock would say on a quiet machine. It writes the table in docs/measured/error.md.
@@ -35,9 +35,10 @@ def main():
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--format", default="256x256")
     parser.add_argument("--audit", action="store_true")
+    parser.add_argument("-v", dest="verbose", action="store_true", help="say what each round was expected to take, and took")
     given = parser.parse_args()
     runs = near = early = late = 0
-    print("| scene | budget | CPU s | chosen |\n|---|---|---|---|", flush=True)
+    print("| scene | budget, s | CPU s | of the budget | before shading, s | shading, s: expected | took | chosen |\n|---|---|---|---|---|---|---|---|", flush=True)
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
         (folder / "clock.c").write_text(CLOCK)
@@ -51,13 +52,18 @@ def main():
             for budget in given.budgets:
                 for seed in range(1, given.seeds + 1):
                     said = subprocess.run([given.tomales, "render", path, "-t", "1", "--format", given.format, "-o", folder / "out.exr", "--time-budget", str(budget),
-                                           "--light-seed", str(seed), "--stats", folder / "stats.json", *(["--audit"] if given.audit else [])],
+                                           "--light-seed", str(seed), "--stats", folder / "stats.json", "-v", *(["--audit"] if given.audit else [])],
                                           check=True, capture_output=True, text=True, cwd=folder, env={**os.environ, "LD_PRELOAD": str(folder / "clock.so")}).stderr
-                    cpu_s = json.loads((folder / "stats.json").read_text())["cpu_s"]
+                    stats = json.loads((folder / "stats.json").read_text())
+                    cpu_s = stats["cpu_s"]
+                    steps = re.search(r"shading begins after (\S+) s and takes about (\S+) s", said)
                     runs, near = runs + 1, near + (0.9 <= cpu_s / budget <= 1.1)
                     early, late = early + (cpu_s < 0.8 * budget), late + (cpu_s > 1.1 * budget)
                     chosen = (re.search(r"chose (.*?) for", said) or ["", "the scene's"])[1]
-                    print(f"| {scene} | {budget:g} | {cpu_s:.1f} | `{chosen}`{' time-over' if '[time-over]' in said else ''} |", flush=True)
+                    over = " time-over" if "[time-over]" in said else ""
+                    print(f"| {scene} | {budget:g} | {cpu_s:.1f} | {cpu_s / budget:.2f} | {steps[1]} | {steps[2]} | {stats['time_s']['shade']:.1f} | `{chosen}`{over} |", flush=True)
+                    if given.verbose:
+                        print("".join(f"    {line}\n" for line in said.splitlines() if "was expected to take" in line), end="", flush=True)
     print(f"\n{runs} frames: {near} within 10 % of the budget, {early} before 80 % of it, {late} more than 10 % late")
 
 

@@ -23,6 +23,12 @@ def reach(out, target, *arguments, command=("room.rib",)):
     return chosen and chosen[1].split(), json.loads((t.folder / "stats.json").read_text()).get("audit"), result
 
 
+def last_of(picture):
+    """The settings that the header tells."""
+    header = subprocess.run(["oiiotool", "--info", "-v", t.folder / picture], capture_output=True, text=True).stdout
+    return re.search(r'tomales:chosen: "(.*)"', header)[1].split()
+
+
 def setting(options, name):
     return float(options[options.index(name) + 1])
 
@@ -34,8 +40,7 @@ t.expect(fine_audit["picture"]["mean"] < 0.022 and "target-missed" not in result
 t.expect(setting(fine, "--light-samples") > setting(coarse, "--light-samples"), "with more samples of the lamp")
 t.expect(setting(fine, "--samples") / setting(fine, "--max-error") > setting(coarse, "--samples") / setting(coarse, "--max-error"),
          "and with more rays, or narrower records")
-header = subprocess.run(["oiiotool", "--info", "-v", t.folder / "fine.exr"], capture_output=True, text=True).stdout
-last = re.search(r'tomales:chosen: "(.*)"', header)[1].split()
+last = last_of("fine.exr")
 t.run("room.rib", "-o", "byhand.exr", *last)
 t.expect(pixels(t.folder / "byhand.exr") == pixels(t.folder / "fine.exr"), f"the header says what gives the same picture: {last}")
 reach("threads.exr", "2%", "-t", "3")
@@ -47,13 +52,18 @@ t.expect(shot == fine and pixels(t.folder / "shot.exr") == pixels(t.folder / "fi
 
 lamp, audit, _ = reach("lamp.exr", "1%", command=("lamp.rib",))
 t.expect(lamp[0] == "--light-samples" and len(lamp) == 2 and audit["picture"]["mean"] < 0.011, f"without indirect light the lamp alone is chosen for: {lamp}")
+_, audit, result = reach("beyond.exr", "0.0001%", "--audit=20", command=("lamp.rib",))
+t.expect("[target-beyond]" in result.stderr and re.search(r"beyond what .* can reach here: [0-9.e-]+ % .* or [0-9.]+ (s|min) here and now", result.stderr),
+         f"an error that no settings reach is told at once, with what they reach and the time: {result.stderr[:400]}")
+t.expect("[target-missed]" in result.stderr and setting(last_of("beyond.exr"), "--light-samples") == 1024, "the best settings are tried")
 _, audit, result = reach("paths.exr", "10%", "--gi", "reference", "--ray-geometry", "scene")
 t.expect(result.returncode == 0 and audit["picture"]["mean"] < 0.11, f"paths of the reference are chosen: {audit['picture']['mean']:.4f}")
 _, audit, result = reach("progressive.exr", "5%", "--gi", "progressive", "--photons", "20000")
 t.expect("[target-unused]" in result.stderr and "indirect" in audit, "light of photons is audited alone, which is said")
 
 for bad in ("0%", "0", "-2%", "100%", "nan", "much", "2"):
-    t.expect_run(f"--target-error {bad} is refused", ["room.rib", f"--target-error={bad}"], 1, "--target-error")
+    t.expect_run(f"--target-error {bad} is refused, with the range that is allowed", ["room.rib", f"--target-error={bad}"], 1, "--target-error", "more than 0% and less than 100%")
+t.expect_run("so is --target-smudges 0%", ["room.rib", "--target-error=2%", "--target-smudges=0%"], 1, "--target-smudges", "more than 0% and less than 100%")
 def within(seconds):
     result = t.run("room.rib", "-o", "budget.exr", "--time-budget", seconds, "--stats", "stats.json")
     chosen = re.search(r"chose (.*) for .* s: .* \[time-budget\]", result.stderr)
@@ -62,13 +72,15 @@ def within(seconds):
 
 
 long, result = within("20s")
+held = t.run("room.rib", "-o", "byhand.exr", *last_of("budget.exr"))
+t.expect(pixels(t.folder / "byhand.exr") == pixels(t.folder / "budget.exr"), "the settings of a budget give the same picture by hand")
 t.expect("[time-over]" not in result.stderr, "20 s are enough for trials")
 short, result = within("0.01")
 t.expect("[time-over]" in result.stderr, "a hundredth of a second is not, which is said")
 t.expect(setting(long, "--samples") / setting(long, "--max-error") > setting(short, "--samples") / setting(short, "--max-error"),
          f"more time brings finer settings: {long} against {short}")
 for bad in ("0", "-3", "soon"):
-    t.expect_run(f"--time-budget {bad} is refused", ["room.rib", f"--time-budget={bad}"], 1, "--time-budget")
+    t.expect_run(f"--time-budget {bad} is refused", ["room.rib", f"--time-budget={bad}"], 1, "--time-budget", "more than 0 s")
 t.expect_run("an error and a time exclude each other", ["room.rib", "--target-error", "2%", "--time-budget", "5"], 1, "--time-budget")
 t.expect_run("a setting that is chosen cannot be given", ["room.rib", "--target-error", "2%", "--samples", "100"], 1, "--samples")
 t.finish()

@@ -9,6 +9,9 @@
 namespace tomales {
 namespace {
 
+const std::string kRangeOfShares = ": more than 0% and less than 100% are allowed";
+const std::string kRangeOfTimes = ": more than 0 s are needed";
+
 const GiMethod* giOrUsageError(const std::string& text) {
   if (const auto method = parseGi(text)) return *method;
   throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, " + giMethodNames());
@@ -251,11 +254,13 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
 void addTarget(CLI::App& app, RenderSettings& s) {
   CLI::Option* target = addParsed(app, "--target-error", s.targetError, parseShare, "2%",
                                   "Choose --samples, --max-error and --light-samples for a mean error of the light of "
-                                  "this size: trials find what they bring on this scene, and an audit checks it");
+                                  "this size: trials find what they bring on this scene, and an audit checks it",
+                                  kRangeOfShares);
   CLI::Option* budget = addParsed(app, "--time-budget", s.timeBudget_s, parseSeconds, "5m",
-                                  "Choose them for the least error that a frame reaches in this time");
+                                  "Choose them for the least error that a frame reaches in this time", kRangeOfTimes);
   addParsed(app, "--target-smudges", s.targetSmudges, parseShare, "1%",
-            "With --target-error: how uneven smooth regions may be, in blocks of 8 x 8 pixels (default: that error)")
+            "With --target-error: how uneven smooth regions may be, in blocks of 8 x 8 pixels (default: that error)",
+            kRangeOfShares)
       ->needs(target);
   budget->excludes(target);
   for (const char* chosen : {"--samples", "--max-error", "--light-samples", "--irradiance", "--draft"})

@@ -6,13 +6,14 @@
 
 namespace tomales {
 
-/// Adds an option whose text must parse: it stores the value or makes the usage error.
+/// Adds an option whose text must parse: it stores the value or makes the usage error. `range` says what values of this
+/// form are allowed, if not all are.
 template <class T, class Parse>
 CLI::Option* addParsed(CLI::App& app, const std::string& name, T& target, Parse parse, const std::string& form,
-                       const std::string& help) {
-  const auto take = [&target, parse, name, form](const std::string& text) {
+                       const std::string& help, const std::string& range = {}) {
+  const auto take = [&target, parse, name, form, range](const std::string& text) {
     const auto value = parse(text);
-    if (!value) throw CLI::ValidationError(name, "\"" + text + "\" is not of the form " + form);
+    if (!value) throw CLI::ValidationError(name, "\"" + text + "\" is not of the form " + form + range);
     target = *value;
   };
   return app.add_option_function<std::string>(name, take, help)->type_name(form);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <set>
 
@@ -138,6 +139,7 @@ class RenderRun {
   /// The settings of a frame, with those of light that hold for the shot.
   RenderSettings held(Scene& scene) {
     RenderSettings out = settings_;
+    out.reading_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - readingSince_).count();
     if (!choosesQuality(settings_) || writesMapsAlone(scene.options, settings_)) return out;
     const int frame = scene.options.frame;
     if (frame != pictureFrame_) picture_ = 0;
@@ -166,6 +168,7 @@ class RenderRun {
   }
 
   void beginReading() {
+    readingSince_ = std::chrono::steady_clock::now();
     parse_.emplace(report_.stats(), "parse");
     meter_.emplace(settings_.progress, "reading");
   }
@@ -206,7 +209,8 @@ class RenderRun {
   const Job job_;
   const bool seen_;
   const ThreadLimit threads_;
-  std::optional<StageTimer> parse_;     // while the scene is read
+  std::optional<StageTimer> parse_;  // while the scene is read
+  std::chrono::steady_clock::time_point readingSince_;
   std::optional<ProgressMeter> meter_;  // likewise
   std::set<std::string> written_;
   std::optional<HeldQuality> held_;

@@ -58,6 +58,12 @@ std::vector<SampledColor> Audit::shade(ShadeContext context) const {
   return shadeAuditPixels(pixels_, samplesPerPixel_, scene_, shading_, context);
 }
 
+double Audit::pointCount() const {
+  double out = 0;
+  for (const AuditPixel& p : pixels_) out += pointsOf(p.tile);
+  return out;
+}
+
 std::vector<vec3> Audit::colors(const ShadeContext& context) const {
   std::vector<vec3> out;
   for (const SampledColor& c : shade(context)) out.push_back(c.mean);

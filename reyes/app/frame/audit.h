@@ -61,7 +61,7 @@ class Audit {
 
   /// The colours of the pixels in that picture.
   std::vector<SampledColor> shade(ShadeContext context) const;
-  size_t pixelCount() const { return pixels_.size(); }
+  double pointCount() const;  ///< Points that these pixels see.
 
  private:
   int findDirect(ShadeContext context);

@@ -87,7 +87,7 @@ SmudgeEstimate estimateSmudges(int size, std::span<const SmoothBlock> blocks) {
   const auto count = static_cast<uint32_t>(blocks.size());
   for (uint32_t r = 0; r < kResamples; ++r) {
     SmudgeSums drawn;
-    for (uint32_t i = 0; i < count; ++i) drawn.add(blocks[hashCombine(randomStream("boot"), r, i) % count]);
+    for (uint32_t i = 0; i < count; ++i) drawn.add(blocks[hashCombine(randomStream("resa"), r, i) % count]);
     deviations.push_back(drawn.deviation());
   }
   out.low = percentile(deviations, kOutside);

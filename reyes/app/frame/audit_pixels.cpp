@@ -113,6 +113,12 @@ DeepTile copyPixels(const DeepTile& from, const PixelRect& rect, std::span<const
   return copy.take();
 }
 
+double pointsOf(const DeepTile& tile) {
+  double out = 0;
+  for (const ShadePoints& batch : tile.batches) out += batch.count();
+  return out;
+}
+
 SampledColor colorOf(const DeepTile& tile, const ivec2& at, int samplesPerPixel) {
   const auto count = static_cast<size_t>(samplesPerPixel);
   std::vector<vec3> clear(count, vec3(1.0f)), colors(count, vec3(0.0f));

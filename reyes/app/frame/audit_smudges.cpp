@@ -51,7 +51,7 @@ struct SmudgeAudit::Blocks {
     const int step = size / kCellsAcross;
     const uint32_t place = hashCombine(static_cast<uint32_t>(corners[block].x), static_cast<uint32_t>(corners[block].y),
                                        static_cast<uint32_t>(cell), seed);
-    const uint32_t at = hashCombine(place, randomStream("audi")) % static_cast<uint32_t>(step * step);
+    const uint32_t at = hashCombine(place, randomStream("cell")) % static_cast<uint32_t>(step * step);
     return corners[block] + ivec2(cell % kCellsAcross, cell / kCellsAcross) * step +
            ivec2(static_cast<int>(at) % step, static_cast<int>(at) / step);
   }
@@ -98,7 +98,7 @@ void SmudgeAudit::add(int size) {
           isCovered = covered_[cellAt(x, y)] == kPixelsOfBlock;
       const uint32_t place = hashCombine(static_cast<uint32_t>(left), static_cast<uint32_t>(top));
       if (isCovered)
-        order.emplace_back(hashCombine(place, plan_.seed, randomStream("audi"), static_cast<uint32_t>(size)),
+        order.emplace_back(hashCombine(place, plan_.seed, randomStream("bloc"), static_cast<uint32_t>(size)),
                            ivec2(left, top));
     }
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
@@ -167,7 +167,7 @@ void SmudgeAudit::addSets(Blocks& blocks, ShadeContext context, int rays) const 
   context.lightSamples = plan_.lightSamples;
   const float share = static_cast<float>(rays) / static_cast<float>(blocks.rays + rays);
   for (uint32_t set = 0; set < 2; ++set) {
-    context.seed = hashCombine(plan_.seed, randomStream("sets"), static_cast<uint32_t>(blocks.size),
+    context.seed = hashCombine(plan_.seed, randomStream("even"), static_cast<uint32_t>(blocks.size),
                                2 * static_cast<uint32_t>(blocks.rays) + set);
     std::vector<float>& mean = blocks.sets[set];
     const std::vector<float> more = shade(blocks, context, static_cast<int>(set));

@@ -11,8 +11,14 @@ namespace {
 /// Noise and bias each have at least this share of an error's square: a trial may show none of it by chance.
 constexpr double kLeastShare = 0.03;
 /// How far the search goes from the base, up and down, in steps of half an octave.
-constexpr int kFewerRays = 6, kMoreRays = 12, kNarrower = 8, kWider = 4;
-constexpr int kFewerLightSamples = 4, kMoreLightSamples = 16;
+constexpr int kFewerRays = 6, kNarrower = 8, kWider = 4, kFewerLightSamples = 4;
+/// How far it goes at most, whatever trials had.
+constexpr int kMostRaysOfRecord = 9600, kMostPathsOfPoint = 1024, kMostLightSamples = 1024;
+constexpr double kLeastRaysPower = 0.2, kMostRaysPower = 1.2;
+/// Of costs that were seen in the same buckets, where other powers are chance.
+constexpr double kLeastKnownPower = 0.6, kMostKnownPower = 1;
+constexpr double kFarFromKnown = 4;  ///< What is seen at so many times a setting says how the cost changes.
+constexpr int kFineSteps = 16;       ///< Steps of an octave where a time is to be used up.
 
 /// The power of x by which y changes between two trials, within limits.
 double power(double x0, double y0, double x1, double y1, double least, double most) {
@@ -28,6 +34,9 @@ double rounded(double x) {
 
 double halfOctaves(int steps) { return std::pow(2.0, 0.5 * steps); }
 
+/// Half octaves from x to `most`.
+int stepsTo(double most, double x) { return static_cast<int>(std::floor(2 * std::log2(most / x) + 1e-6)); }
+
 double ratio(double x, double base) { return x > 0 && base > 0 ? x / base : 1; }
 
 }  // namespace
@@ -42,6 +51,21 @@ std::string optionsOf(const LightQuality& q) {
   if (q.lightSamples > 0) add("--light-samples", q.lightSamples);
   return out;
 }
+
+CostLine::CostLine(double x0, double cost0, double x1, double cost1) : x0_(x0), cost0_(cost0) {
+  if (!(cost0 > 0) || !(x0 > 0) || !(x1 > x0)) return;
+  fixed_ = std::clamp((x1 / x0 - cost1 / cost0) / (x1 / x0 - 1), 0.0, 1.0);
+}
+
+void CostLine::learn(double x, double cost) {
+  if (!(cost > 0)) return;
+  if (x >= kFarFromKnown * x0_)
+    *this = CostLine(x0_, cost0_, x, cost);
+  else if (at(x) > 0)
+    cost0_ *= cost / at(x);
+}
+
+double CostLine::at(double x) const { return cost0_ * (fixed_ + (1 - fixed_) * ratio(x, x0_)); }
 
 RecordError::RecordError(const Seen& base, const Seen& finer, const std::optional<Seen>& wider) : base_(base.quality) {
   const double all = base.error * base.error, left = finer.error * finer.error;
@@ -82,8 +106,10 @@ ErrorModel::ErrorModel(const QualityTrial& base, const QualityTrial& finer, cons
   const double s0 = base.quality.samples, s1 = finer.quality.samples;
   const double l0 = base.quality.lightSamples, l1 = finer.quality.lightSamples;
   directPower_ = power(l0, base.direct, l1, finer.direct, -1.5, -0.25);
-  raysPower_ = power(s0, base.gatherCost, s1, finer.gatherCost, 0.2, 1.2);
-  shadowsPower_ = power(l0, base.shadeCost, l1, finer.shadeCost, 0, 1.2);
+  raysPower_ = power(s0, base.gatherCost, s1, finer.gatherCost, kLeastRaysPower, kMostRaysPower);
+  bouncesPower_ = power(s0, base.bounceCost, s1, finer.bounceCost, 0, 1);
+  shading_ = tracesPaths() ? CostLine(s0, base.shadeCost, s1, finer.shadeCost)
+                           : CostLine(l0, base.shadeCost, l1, finer.shadeCost);
   if (!wider) return;
   recordsPower_ = narrowRecordsPower_ =
       power(base.quality.maxError, base.gatherCost, wider->quality.maxError, wider->gatherCost, -2, -0.1);
@@ -103,12 +129,28 @@ double ErrorModel::error(const LightQuality& q) const { return std::hypot(indire
 
 double ErrorModel::gatherCost(const LightQuality& q) const {
   const double width = ratio(q.maxError, base_.quality.maxError);
-  return base_.gatherCost * std::pow(ratio(q.samples, base_.quality.samples), raysPower_) *
-         std::pow(width, width < 1 ? narrowRecordsPower_ : recordsPower_);
+  return gatherScale_ * (base_.gatherCost * std::pow(ratio(q.samples, base_.quality.samples), raysPower_) *
+                             std::pow(width, width < 1 ? narrowRecordsPower_ : recordsPower_) +
+                         base_.bounceCost * std::pow(ratio(q.samples, base_.quality.samples), bouncesPower_));
 }
 
 double ErrorModel::shadeCost(const LightQuality& q) const {
-  return base_.shadeCost * std::pow(ratio(q.lightSamples, base_.quality.lightSamples), shadowsPower_);
+  return shading_.at(tracesPaths() ? q.samples : q.lightSamples);
+}
+
+void ErrorModel::learnRays(const QualityTrial& few, const QualityTrial& many) {
+  const double s0 = few.quality.samples, s1 = many.quality.samples;
+  if (few.gatherCost > 0 && many.gatherCost > 0)
+    raysPower_ = power(s0, few.gatherCost, s1, many.gatherCost, kLeastKnownPower, kMostKnownPower);
+  if (few.bounceCost > 0 && many.bounceCost > 0) bouncesPower_ = power(s0, few.bounceCost, s1, many.bounceCost, 0, 1);
+}
+
+void ErrorModel::correctGatherCost(const LightQuality& q, double cost) {
+  if (const double expected = gatherCost(q); expected > 0 && cost > 0) gatherScale_ *= cost / expected;
+}
+
+void ErrorModel::correctShadeCost(const LightQuality& q, double cost) {
+  shading_.learn(tracesPaths() ? q.samples : q.lightSamples, cost);
 }
 
 void ErrorModel::correct(const QualityTrial& picture) {
@@ -118,18 +160,17 @@ void ErrorModel::correct(const QualityTrial& picture) {
   if (const double expected = directError(q); expected > 0) directScale_ *= picture.direct / expected;
 }
 
-int ErrorModel::lightSamplesAt(int step) const {
-  return std::max(1, static_cast<int>(std::lround(base_.quality.lightSamples * halfOctaves(step))));
-}
+int ErrorModel::mostSamples() const { return tracesPaths() ? kMostPathsOfPoint : kMostRaysOfRecord; }
 
 template <class Better>
-LightQuality ErrorModel::search(const Better& better) const {
+LightQuality ErrorModel::search(const Better& better, const std::function<bool(const LightQuality&)>& isAllowed) const {
   const LightQuality& base = base_.quality;
   const auto steps = [](bool varies, int down, int up) { return varies ? std::pair(-down, up) : std::pair(0, 0); };
-  const auto [fewest, most] = steps(base.samples > 0 && base_.indirect > 0, kFewerRays, kMoreRays);
+  const auto [fewest, most] =
+      steps(base.samples > 0 && base_.indirect > 0, kFewerRays, stepsTo(mostSamples(), base.samples));
   const auto [narrowest, widest] = steps(base.maxError > 0 && base_.indirect > 0, kNarrower, kWider);
-  const auto [fewestLight, mostLight] =
-      steps(base.lightSamples > 0 && base_.direct > 0, kFewerLightSamples, kMoreLightSamples);
+  const auto [fewestLight, mostLight] = steps(base.lightSamples > 0 && base_.direct > 0, kFewerLightSamples,
+                                              stepsTo(kMostLightSamples, base.lightSamples));
   std::optional<LightQuality> found;
   for (int s = fewest; s <= most; ++s)
     for (int m = narrowest; m <= widest; ++m)
@@ -142,10 +183,12 @@ LightQuality ErrorModel::search(const Better& better) const {
         if (base_.direct == 0) q.lightSamples = 0;
         if (q.samples > 0) q.samples = static_cast<int>(rounded(q.samples * halfOctaves(s)));
         if (q.maxError > 0) q.maxError = static_cast<float>(rounded(q.maxError * halfOctaves(m)));
-        if (q.lightSamples > 0) q.lightSamples = lightSamplesAt(l);
+        if (q.lightSamples > 0)
+          q.lightSamples = std::max(1, static_cast<int>(std::lround(q.lightSamples * halfOctaves(l))));
+        if (isAllowed && !isAllowed(q)) continue;
         if (!found || better(q, *found)) found = q;
       }
-  return *found;
+  return found.value_or(base);
 }
 
 double ErrorModel::timesTarget(const LightQuality& q, const ErrorTarget& target) const {
@@ -160,22 +203,41 @@ LightQuality ErrorModel::cheapest(const ErrorTarget& target) const {
   });
 }
 
-LightQuality ErrorModel::best(double most) const {
-  return search([&](const LightQuality& a, const LightQuality& b) {
+LightQuality ErrorModel::best(double most) const { return bestOf(most, {}); }
+
+LightQuality ErrorModel::bestAsWide(const LightQuality& given, double most) const {
+  return bestOf(most, [&](const LightQuality& q) { return q.maxError == given.maxError; });
+}
+
+LightQuality ErrorModel::bestOf(double most, const std::function<bool(const LightQuality&)>& isAllowed) const {
+  const auto isBetter = [&](const LightQuality& a, const LightQuality& b) {
     const double costA = cost(a), costB = cost(b);
     if (costA <= most && costB <= most) return timesTarget(a, {1, 1}) < timesTarget(b, {1, 1});
     return costA < costB;
-  });
+  };
+  return withMoreRays(search(isBetter, isAllowed), most);
+}
+
+LightQuality ErrorModel::withMoreRays(const LightQuality& given, double most) const {
+  LightQuality out = given;
+  for (int step = 1; given.samples > 0; ++step) {
+    LightQuality q = given;
+    q.samples = static_cast<int>(rounded(given.samples * std::pow(2.0, 1.0 * step / kFineSteps)));
+    if (q.samples > mostSamples() || cost(q) > most) break;
+    out = q;
+  }
+  return out;
 }
 
 LightQuality ErrorModel::bestLamps(const LightQuality& given, double most) const {
   LightQuality out = given;
-  for (int step = -kFewerLightSamples; step <= kMoreLightSamples && base_.direct > 0 && given.lightSamples > 0;
-       ++step) {
-    LightQuality q = given;
-    q.lightSamples = lightSamplesAt(step);
-    if (step == -kFewerLightSamples || shadeCost(q) <= most) out = q;
+  if (!(base_.direct > 0) || given.lightSamples <= 0) return out;
+  int low = 1, high = kMostLightSamples + 1;  // the most is `low`, or between them
+  while (high - low > 1) {
+    out.lightSamples = (low + high) / 2;
+    (shadeCost(out) <= most ? low : high) = out.lightSamples;
   }
+  out.lightSamples = low;
   return out;
 }
 

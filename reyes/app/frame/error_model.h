@@ -1,6 +1,7 @@
 // How the error of light in a picture, and what it costs, depend on the settings. A few trials on the scene
 // itself decide the model's constants. It knows neither scene nor renderer.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -22,8 +23,9 @@ struct QualityTrial {
   LightQuality quality;
   double indirect = 0, direct = 0;
   double smudges = 0;     ///< SmudgeEstimate::deviation; 0 if nothing was smooth, or only noise was found.
-  double gatherCost = 0;  ///< What the whole frame takes before it is shaded,
-  double shadeCost = 0;   ///< and while it is shaded, in rays or in seconds.
+  double gatherCost = 0;  ///< What the records of the whole frame take before it is shaded,
+  double bounceCost = 0;  ///< those of further bounces, which are as many for a small part of the frame,
+  double shadeCost = 0;   ///< and shading, in rays or in seconds.
 };
 
 /// What a picture may err.
@@ -60,7 +62,20 @@ class RecordError {
   double power_ = 0, narrowPower_ = 0, scale_ = 1;
 };
 
-/// Errors and costs of a frame. The direct error and the costs are powers of the settings, from two trials each.
+/// A cost that has a fixed part, and one that is proportional to a setting, from two trials.
+class CostLine {
+ public:
+  CostLine() = default;
+  CostLine(double x0, double cost0, double x1, double cost1);
+  double at(double x) const;
+  /// Goes through what was seen at x, if that is not too near to what it knows: then it is only scaled.
+  void learn(double x, double cost);
+
+ private:
+  double x0_ = 0, cost0_ = 0, fixed_ = 1;
+};
+
+/// Errors and costs of a frame. The direct error and the costs of records are powers of the settings.
 /// Records that are narrower than the base have a power of their own: far fewer of them are as wide as they may be.
 class ErrorModel {
  public:
@@ -77,6 +92,11 @@ class ErrorModel {
   double gatherCost(const LightQuality&) const;
   double shadeCost(const LightQuality&) const;
   double cost(const LightQuality& q) const { return gatherCost(q) + shadeCost(q); }
+  /// Learns from two trials in the same buckets how the cost of gathering changes with rays.
+  void learnRays(const QualityTrial& few, const QualityTrial& many);
+  /// Learn from what the whole frame has taken.
+  void correctGatherCost(const LightQuality&, double cost);
+  void correctShadeCost(const LightQuality&, double cost);
 
   /// Scales the errors to those that a picture has had.
   void correct(const QualityTrial& picture);
@@ -84,24 +104,30 @@ class ErrorModel {
   /// The quality that reaches the target at the least cost. If none does within the range in which the model may be
   /// believed, the one that comes nearest.
   LightQuality cheapest(const ErrorTarget& target) const;
-  /// The quality that costs no more and of which the worse of mean error and smudges is least. If none does, the
-  /// cheapest one.
+  /// The quality that costs no more and of which the worse of mean error and smudges is least, with as many rays as
+  /// that leaves room for. If none does, the cheapest one.
   LightQuality best(double most) const;
-  /// The same with the rays and records of `given`: only light samples are chosen, for the cost of shading.
+  /// The same with records as wide as those of `given`.
+  LightQuality bestAsWide(const LightQuality& given, double most) const;
+  /// The most light samples, with the rays and records of `given`, that cost no more in shading.
   LightQuality bestLamps(const LightQuality& given, double most) const;
 
  private:
   template <class Better>
-  LightQuality search(const Better& better) const;
+  LightQuality search(const Better& better, const std::function<bool(const LightQuality&)>& isAllowed = {}) const;
+  LightQuality bestOf(double most, const std::function<bool(const LightQuality&)>& isAllowed) const;
   /// How many times the target it errs.
   double timesTarget(const LightQuality&, const ErrorTarget&) const;
 
-  int lightSamplesAt(int step) const;
+  bool tracesPaths() const { return base_.quality.samples > 0 && !(base_.quality.maxError > 0); }
+  int mostSamples() const;
+  LightQuality withMoreRays(const LightQuality&, double most) const;
 
   QualityTrial base_;
   RecordError indirect_, smudges_;
-  double directPower_ = 0, raysPower_ = 0, recordsPower_ = 0, narrowRecordsPower_ = 0, shadowsPower_ = 0;
-  double directScale_ = 1;
+  CostLine shading_;
+  double directPower_ = 0, raysPower_ = 0, recordsPower_ = 0, narrowRecordsPower_ = 0, bouncesPower_ = 0;
+  double directScale_ = 1, gatherScale_ = 1;
 };
 
 }  // namespace tomales

@@ -9,6 +9,7 @@
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/target.h"
+#include "reyes/app/frame/time_budget.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/preview.h"
 #include "reyes/app/watch/sketch.h"
@@ -142,7 +143,7 @@ bool FrameJob::steersLight() const {
 }
 
 double FrameJob::elapsed_s() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return settings_.reading_s + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void FrameJob::setQuality(const LightQuality& quality) {
@@ -151,6 +152,11 @@ void FrameJob::setQuality(const LightQuality& quality) {
 }
 
 void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
+  gatherShown(layout, tiles);
+  endGather(layout, tiles);
+}
+
+void FrameJob::gatherShown(const DeepFrame& layout, const TileReader& tiles) {
   if (!(gathers() || counts_) || interrupted()) return;
   const StageTimer timer(stats_, "gather");
   const auto progress = meter_.pass("gathering", makesLight() ? lightMade() : hidden_, gathered_);
@@ -165,6 +171,10 @@ void FrameJob::gather(const DeepFrame& layout, const TileReader& tiles) {
     };
   gatherRecords(layout, tiles, progress, show);
   if (!interrupted()) progress(1);
+}
+
+void FrameJob::endGather(const DeepFrame& layout, const TileReader& tiles) {
+  if (!(gathers() || counts_)) return;
   warnOfNoise(services_->caches(), log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && gathers() && !interrupted())

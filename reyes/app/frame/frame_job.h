@@ -65,10 +65,14 @@ class FrameJob {
   /// Writes a coarse picture of the whole frame beside the first Display's file, in direct light, for those who stop
   /// before it is finished. It is removed when the Displays are written.
   void writeSketch(const DeepFrame& layout, const TileReader& tiles);
-  /// Seconds since the job was made, before anything was hidden.
+  /// Seconds since the frame began to be read.
   double elapsed_s() const;
   /// Gathers, warns of what the records show, and keeps light for later frames if the command line asks for it.
   void gather(const DeepFrame& layout, const TileReader& tiles);
+  /// The first part of it, for records that may be gathered again: what is there is shown.
+  void gatherShown(const DeepFrame& layout, const TileReader& tiles);
+  /// The rest of it, for those that stay.
+  void endGather(const DeepFrame& layout, const TileReader& tiles);
   void gatherRecords(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress = {},
                      const std::function<void(int)>& covered = {});
   /// What `--audit` asks for, at pixels that this seed decides.

@@ -26,7 +26,7 @@ void FrameJob::beginNoise() {
 void FrameJob::tellNoise(DeepTile& tile) const {
   if (noise_ < 0) return;
   ShadeContext context = shadeContext();
-  context.seed = hashCombine(context.seed, randomStream("sets"));
+  context.seed = hashCombine(context.seed, randomStream("anew"));
   context.redrawn = context.sketch = true;
   DeepTile other = tile;
   other.shaded.clear();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <vector>
 
 #include "reyes/app/frame/audit.h"
@@ -39,12 +40,17 @@ std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& lay
   return out;
 }
 
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
 class Trials {
  public:
   Trials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan, Stats& stats)
       : job_(job), layout_(layout), plan_(plan), stats_(stats) {
     for (size_t t = 0; t < layout.tileCount(); ++t)
-      if (const auto tile = tiles(t); tile && !tile->fragments.empty()) seen_.push_back(t);
+      if (const auto tile = tiles(t); tile && !tile->fragments.empty()) {
+        seen_.push_back(t);
+        points_[t] = pointsOf(*tile);
+      }
     some_ = someOf(seen_, layout, plan.seed);
     tiles_ = [&tiles, some = some_](size_t t) {
       return std::binary_search(some.begin(), some.end(), t) ? tiles(t) : nullptr;
@@ -64,7 +70,9 @@ class Trials {
     const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords, audit)) : std::nullopt;
     ErrorModel model(first, second, third);
     if (records) tryNarrower(first, model, audit);
-    return {model, some_.size(), seen_.size(), audit_s_, light_s_ > 0 ? lightRays_ / light_s_ : 0};
+    std::vector<size_t> tried = some_;
+    std::stable_sort(tried.begin(), tried.end(), [&](size_t a, size_t b) { return points_.at(a) > points_.at(b); });
+    return {model, seen_, tried, audit_s_, light_s_ > 0 ? lightRays_ / light_s_ : 0};
   }
 
  private:
@@ -90,10 +98,10 @@ class Trials {
   QualityTrial trialOf(const LightQuality& quality, Audit& audit) {
     QualityTrial out{quality};
     job_.setQuality(quality);
-    out.gatherCost = inFrame() * costOf([&] { job_.gatherRecords(layout_, tiles_); });
-    const double pixels = 1.0 * layout_.crop.width() * layout_.crop.height();
-    out.shadeCost = pixels / std::max<double>(1, static_cast<double>(audit.pixelCount())) *
-                    costOf([&] { audit.shade(job_.shadeContext()); });
+    const double gathering = costOf([&] { job_.gatherRecords(layout_, tiles_); });
+    if (job_.services()) out.bounceCost = inUnit(job_.services()->bounceCost());
+    out.gatherCost = inFrame() * std::max(0.0, gathering - out.bounceCost);
+    out.shadeCost = shadeCost(audit);
     const double before_s = seconds();
     const AuditReport report = audit.of(job_.shadeContext());
     audit_s_ += seconds() - before_s;
@@ -103,28 +111,35 @@ class Trials {
     return out;
   }
 
+  /// Neighbouring pixels share points, so that pixels alone cost more. What small pieces take says little of the time
+  /// of whole buckets, and pixels say more of their rays.
+  double shadeCost(const Audit& audit) {
+    double all = 0, some = 0;
+    for (const auto& [tile, points] : points_) all += points;
+    for (const size_t t : some_) some += points_.at(t);
+    if (plan_.unit == CostUnit::Seconds) return all / std::max(1.0, some) * secondsToShade(job_, tiles_, some_);
+    return all / std::max(1.0, audit.pointCount()) * costOf([&] { audit.shade(job_.shadeContext()); });
+  }
+
+  double inUnit(const GiServices::BounceCost& cost) const {
+    return plan_.unit == CostUnit::Seconds ? cost.time_s : cost.rays;
+  }
+
   template <class Work>
   double costOf(const Work& work) {
-    const double rays = rayCount(), time_s = seconds();
+    const double rays = stats_.lightRays(), time_s = seconds();
     work();
-    const double moreRays = rayCount() - rays, more_s = seconds() - time_s;
+    const double moreRays = stats_.lightRays() - rays, more_s = seconds() - time_s;
     lightRays_ += moreRays;
     light_s_ += more_s;
     return plan_.unit == CostUnit::Seconds ? more_s : moreRays;
   }
-  double rayCount() const {
-    const auto& r = stats_.rays;
-    return static_cast<double>(r.gather + r.transmission + r.specular + r.reference);
-  }
-  static double seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
-
   FrameJob& job_;
   const DeepFrame& layout_;
   const TrialPlan plan_;
   Stats& stats_;
-  TileReader tiles_;  ///< Reads the buckets that are tried.
+  TileReader tiles_;                 ///< Reads the buckets that are tried.
+  std::map<size_t, double> points_;  ///< Of each tile that sees something.
   std::vector<size_t> seen_, some_;
   double audit_s_ = 0, light_s_ = 0, lightRays_ = 0;
 };
@@ -135,6 +150,29 @@ std::string TrialsResult::timeOf(double rays) const {
   const double time_s = raysPerSecond > 0 ? rays / raysPerSecond : 0;
   if (time_s < 100) return fmt::format("{:.2g} s", time_s);
   return time_s < 6000 ? fmt::format("{:.0f} min", time_s / 60) : fmt::format("{:.0f} h", time_s / 3600);
+}
+
+QualityTrial secondsToGather(FrameJob& job, const DeepFrame& layout, const TileReader& tiles,
+                             std::span<const size_t> which, const LightQuality& quality) {
+  QualityTrial out{quality};
+  job.setQuality(quality);
+  const double start_s = seconds();
+  job.gatherRecords(layout, [&](size_t t) { return std::ranges::count(which, t) > 0 ? tiles(t) : nullptr; });
+  if (job.services()) out.bounceCost = job.services()->bounceCost().time_s;
+  out.gatherCost = std::max(0.0, seconds() - start_s - out.bounceCost);
+  return out;
+}
+
+double secondsToShade(FrameJob& job, const TileReader& tiles, std::span<const size_t> which) {
+  constexpr size_t kAtOnce = 64;
+  const double start_s = seconds();
+  for (size_t first = 0; first < which.size() && !interrupted(); first += kAtOnce) {
+    std::vector<DeepTile> copies;
+    for (const size_t t : which.subspan(first, std::min(kAtOnce, which.size() - first)))
+      if (const auto tile = tiles(t)) copies.push_back(*tile);
+    job.shadeApart(copies, nullptr, true);
+  }
+  return seconds() - start_s;
 }
 
 TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,

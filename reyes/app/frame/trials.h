@@ -1,7 +1,9 @@
 // Trials in a few buckets of a frame: what error its light has with some settings, and what it costs.
 #pragma once
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "reyes/app/frame/error_model.h"
 #include "reyes/app/frame/frame_job.h"
@@ -24,13 +26,20 @@ struct TrialPlan {
 
 struct TrialsResult {
   ErrorModel model;
-  size_t buckets = 0, ofBuckets = 0;  ///< Those that were tried, and all that see something.
-  double audit_s = 0;                 ///< What an audit of the frame may take.
-  double raysPerSecond = 0;           ///< On this machine now, for messages alone.
+  std::vector<size_t> seen;   ///< Buckets that see something,
+  std::vector<size_t> tried;  ///< and those of them that were tried, the one of most points first.
+  double audit_s = 0;         ///< What an audit of the frame may take.
+  double raysPerSecond = 0;   ///< On this machine now, for messages alone.
 
   /// How long so many rays take, in words.
   std::string timeOf(double rays) const;
 };
+
+/// Gathers in these buckets alone, and returns the wall time that it took as the costs of the trial.
+QualityTrial secondsToGather(FrameJob& job, const DeepFrame& layout, const TileReader& tiles,
+                             std::span<const size_t> which, const LightQuality& quality);
+/// Shades these tiles as the picture will be, forgets them, and returns the wall time that it took.
+double secondsToShade(FrameJob& job, const TileReader& tiles, std::span<const size_t> which);
 
 /// Lights and audits the buckets two to four times. What is gathered stays with the job until its next setQuality().
 TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,

@@ -75,8 +75,94 @@ TEST(ErrorModel, GivesTheMostLightSamplesForATimeAndLeavesRaysAlone) {
   const LightQuality chosen = model.bestLamps({300, 0.7f, 4}, 400000);
   EXPECT_EQ(chosen.samples, 300);
   EXPECT_EQ(chosen.maxError, 0.7f);
-  EXPECT_EQ(chosen.lightSamples, 16);
+  EXPECT_EQ(chosen.lightSamples, 20);
   EXPECT_EQ(model.bestLamps({300, 0.7f, 4}, 0).lightSamples, 1);
+}
+
+TEST(ErrorModel, FillsATimeWithRays) {
+  const ErrorModel model = Frame().model();
+  for (double most : {3e5, 5e5, 1.1e6, 2.3e6, 7e6}) {
+    const LightQuality chosen = model.best(most);
+    EXPECT_LE(model.cost(chosen), most);
+    EXPECT_GT(model.cost(chosen), 0.93 * most) << optionsOf(chosen);
+  }
+}
+
+TEST(ErrorModel, GoesAsFarWhateverRaysTheTrialsHad) {
+  const Frame frame;
+  const ErrorModel brief(frame.trial({37, 1, 1}), frame.trial({150, 1, 4}), frame.trial({37, 2, 1}));
+  for (const ErrorModel& model : {brief, frame.model()}) {
+    EXPECT_GT(model.best(1e12).samples, 9000);
+    EXPECT_LE(model.best(1e12).samples, 9600);
+    EXPECT_EQ(model.bestLamps({300, 1, 4}, 1e12).lightSamples, 1024);
+  }
+}
+
+TEST(ErrorModel, KnowsThatRecordsOfFurtherBouncesAreNotMoreWhereOthersAre) {
+  const Frame frame;
+  const auto trial = [&](const LightQuality& q) {
+    QualityTrial out = frame.trial(q);
+    out.bounceCost = 4000.0 * std::sqrt(q.samples);
+    return out;
+  };
+  ErrorModel model(trial({150, 1, 4}), trial({600, 1, 16}), trial({150, 2, 4}));
+  for (const LightQuality& q : {LightQuality{75, 0.5, 2}, LightQuality{1200, 1.5, 64}})
+    EXPECT_NEAR(model.gatherCost(q) / (trial(q).gatherCost + trial(q).bounceCost), 1, 1e-6);
+}
+
+TEST(ErrorModel, KnowsThatAPointCostsSomethingWithoutItsLamps) {
+  const auto trial = [](const LightQuality& q) {
+    QualityTrial out = Frame().trial(q);
+    out.shadeCost = 50 + 2 * q.lightSamples;
+    return out;
+  };
+  ErrorModel model(trial({150, 1, 4}), trial({600, 1, 16}), {});
+  EXPECT_NEAR(model.shadeCost({600, 1, 1}), 52, 1e-6);
+  EXPECT_NEAR(model.shadeCost({600, 1, 256}), 562, 1e-6);
+  model.correctShadeCost({600, 1, 128}, 58 + 6 * 124);
+  EXPECT_NEAR(model.shadeCost({600, 1, 1024}), 58 + 6 * 1020, 1e-6) << "what is seen far away decides the slope";
+}
+
+TEST(ErrorModel, LearnsWhatRaysCostFromTrialsInTheSameBuckets) {
+  const Frame frame;
+  ErrorModel model = frame.model();
+  QualityTrial few{{100, 1, 4}}, many{{1600, 1, 4}};
+  few.gatherCost = 3;
+  many.gatherCost = 3 * 8;
+  model.learnRays(few, many);
+  EXPECT_NEAR(model.gatherCost({1600, 1, 4}) / model.gatherCost({100, 1, 4}), 8, 1e-6);
+  model.correctGatherCost({100, 1, 4}, 50);
+  EXPECT_NEAR(model.gatherCost({1600, 1, 4}), 400, 1e-6);
+}
+
+TEST(ErrorModel, KeepsTheWidthOfRecordsWhereThatIsAsked) {
+  const ErrorModel model = Frame().model();
+  const LightQuality wide{150, 2, 4}, chosen = model.bestAsWide(wide, 1e6);
+  EXPECT_EQ(chosen.maxError, 2);
+  EXPECT_LE(model.cost(chosen), 1e6);
+  EXPECT_GE(model.error(chosen), model.error(model.best(1e6)));
+}
+
+TEST(ErrorModel, IsCorrectedByWhatTheFrameHasTaken) {
+  ErrorModel model = Frame().model();
+  const LightQuality q{150, 1, 4}, other{600, 0.5f, 16};
+  const double gather = model.gatherCost(other), shade = model.shadeCost(other);
+  model.correctGatherCost(q, 0.7 * model.gatherCost(q));
+  model.correctShadeCost(q, 2 * model.shadeCost(q));
+  EXPECT_NEAR(model.gatherCost(other), 0.7 * gather, 1e-6 * gather);
+  EXPECT_NEAR(model.shadeCost(other), 2 * shade, 1e-6 * shade);
+  model.correctShadeCost(q, 0);
+  EXPECT_NEAR(model.shadeCost(other), 2 * shade, 1e-6 * shade) << "what took no time tells nothing";
+}
+
+TEST(ErrorModel, PathsAreTracedWhileThePictureIsShaded) {
+  const auto paths = [](const LightQuality& q) {
+    return QualityTrial{q, 0.3 / std::sqrt(q.samples), 0.01, 0, 0, 0, 10.0 + q.samples};
+  };
+  const ErrorModel model(paths({16, -1, 0}), paths({64, -1, 0}), {});
+  EXPECT_NEAR(model.cost({256, -1, 0}), 266, 1e-6);
+  EXPECT_LE(model.cost(model.best(151)), 151);
+  EXPECT_GT(model.cost(model.best(151)), 149);
 }
 
 TEST(ErrorModel, IsCorrectedByAPictureThatErrsMoreThanItSaid) {

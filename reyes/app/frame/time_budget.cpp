@@ -1,0 +1,216 @@
+#include "reyes/app/frame/time_budget.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reyes/app/frame/provenance.h"
+#include "reyes/app/frame/target.h"
+#include "reyes/app/frame/trials.h"
+#include "reyes/app/watch/interrupt.h"
+
+namespace tomales {
+namespace {
+
+constexpr double kShareToPlan = 0.96;  ///< Share of the time left that is planned.
+/// Share of the time left that a trial of narrow records, the first round, and shading that only measures may take.
+constexpr double kShareOfNarrowTrial = 0.1, kShareOfFirstRound = 0.15, kShareOfMeasuring = 0.2;
+constexpr int kFewerInFirst = 8;  ///< The first round, and shading that only measures, have so many times fewer rays,
+constexpr int kLeastRays = 20;    ///< but the round has at least these.
+constexpr int kMostRounds = 4;
+constexpr double kBetter = 0.95;      ///< Another round is worth it for so many times the error,
+constexpr double kMuchBetter = 0.85;  ///< and records of another width.
+constexpr int kMostGrowth =
+    12;  ///< A round has at most so many times the rays of the one before, which says what they cost.
+constexpr double kShareOfProbe = 0.12;  ///< Share of the time left that a probe may take.
+constexpr size_t kBucketsOfProbe = 16;  ///< One bucket of so many tells what more rays cost.
+constexpr int kLampsOfAudit = 16;       ///< Light samples of a picture whose audit takes as long as those of trials.
+/// Lamps lose no more of their planned samples where gathering was late: a picture that is late too is better than
+/// noise.
+constexpr int kMostCutOfLamps = 4;
+constexpr double kBrief_s = 60;  ///< Trials are brief where less time is left.
+
+class BudgetedFrame {
+ public:
+  BudgetedFrame(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
+                Stats& stats, Log& log)
+      : job_(job), layout_(layout), tiles_(tiles), settings_(settings), log_(log), trials_(makeTrials(stats)) {}
+
+  void run() {
+    const double planned_s = left_s();
+    if (job_.gathers())
+      gatherInRounds();
+    else
+      choose(trials_.model.best(left_s()));
+    if (interrupted()) return;
+    measureShading();
+    if (interrupted()) return;
+    spendRest();
+    tell(planned_s);
+  }
+
+ private:
+  TrialsResult makeTrials(Stats& stats) {
+    job_.writeSketch(layout_, tiles_);
+    const auto remaining_s = [&] { return std::max(0.0, settings_.timeBudget_s - job_.elapsed_s()); };
+    const TrialPlan plan{CostUnit::Seconds, remaining_s() < kBrief_s, seedOfTrials(settings_),
+                         [=](const ErrorModel& m) { return m.best(kShareToPlan * remaining_s()); },
+                         [=] { return kShareOfNarrowTrial * remaining_s(); }};
+    return tomales::makeTrials(job_, layout_, tiles_, plan, stats);
+  }
+
+  /// What gathering and shading may take from now on; negative if there is nothing left.
+  double left_s() const {
+    // An audit takes many times as many light samples as the picture.
+    const double audit_s =
+        settings_.audit > 0 ? trials_.audit_s * std::max(1, quality_.lightSamples / kLampsOfAudit) : 0;
+    return kShareToPlan * (settings_.timeBudget_s - job_.elapsed_s() - audit_s);
+  }
+
+  void choose(const LightQuality& quality) {
+    quality_ = quality;
+    job_.setQuality(quality);
+  }
+
+  /// How many records a frame needs, and what those of further bounces cost, is only known from the whole frame. So the
+  /// first round has few rays, and the rounds after it the time that is left.
+  void gatherInRounds() {
+    ErrorModel& model = trials_.model;
+    LightQuality next = firstRound();
+    for (int round = 1;; ++round) {
+      choose(next);
+      const double before_s = job_.elapsed_s();
+      job_.gatherShown(layout_, tiles_);
+      if (interrupted()) return;
+      const double took_s = job_.elapsed_s() - before_s;
+      tellStep("gathering", quality_, model.gatherCost(quality_), took_s);
+      model.correctGatherCost(quality_, took_s);
+      const double left = std::max(0.0, left_s());
+      next = bestAfter(quality_, left);
+      const LightQuality stays = model.bestLamps(quality_, left);
+      if (round == kMostRounds || model.cost(next) > left || model.error(next) > kBetter * model.error(stays)) break;
+      if (round > 1 || !mayProbe(next, left)) continue;
+      learnRays(quality_.samples, next);
+      if (interrupted()) return;
+      model.correctGatherCost(quality_, took_s);
+      next = bestAfter(quality_, std::max(0.0, left_s()));
+      if (model.error(next) > model.error(quality_)) next = quality_;  // the probe took too long
+    }
+    job_.endGather(layout_, tiles_);
+  }
+
+  /// Records of other widths are more or fewer, which costs what the rounds have learnt.
+  LightQuality bestAfter(const LightQuality& last, double left) const {
+    const LightQuality any = trials_.model.best(left), asWide = trials_.model.bestAsWide(last, left);
+    const bool fills = trials_.model.cost(asWide) > kBetter * left;
+    LightQuality out = !fills || trials_.model.error(any) < kMuchBetter * trials_.model.error(asWide) ? any : asWide;
+    out.samples = std::min(out.samples, kMostGrowth * last.samples);
+    return out;
+  }
+
+  static LightQuality withFewRays(LightQuality q) {
+    q.samples = std::max(std::min(q.samples, kLeastRays), q.samples / kFewerInFirst);
+    return q;
+  }
+
+  size_t bucketsOfProbe() const {
+    return std::min(trials_.tried.size(), std::max<size_t>(1, trials_.seen.size() / kBucketsOfProbe));
+  }
+
+  bool mayProbe(const LightQuality& many, double left) const {
+    const double share =
+        static_cast<double>(bucketsOfProbe()) / std::max<double>(1, static_cast<double>(trials_.seen.size()));
+    return many.samples >= 2 * quality_.samples && share * trials_.model.gatherCost(many) < kShareOfProbe * left;
+  }
+
+  /// A ray of many costs less than one of few, and how much less depends on what it meets. A few buckets tell.
+  void learnRays(int fewer, const LightQuality& many) {
+    LightQuality few = many;
+    few.samples = fewer;
+    const size_t count = bucketsOfProbe();
+    const std::span<const size_t> which = std::span(trials_.tried).first(count);
+    const QualityTrial cheap = secondsToGather(job_, layout_, tiles_, which, few);
+    if (interrupted()) return;
+    const QualityTrial dear = secondsToGather(job_, layout_, tiles_, which, many);
+    log_.report(Severity::Info, "time-budget", {},
+                fmt::format("after {:.3g} s: {} buckets took {:.3g} s with {} and {:.3g} s with {}", job_.elapsed_s(),
+                            count, cheap.gatherCost + cheap.bounceCost, optionsOf(few),
+                            dear.gatherCost + dear.bounceCost, optionsOf(many)));
+    trials_.model.learnRays(cheap, dear);
+  }
+
+  LightQuality firstRound() const {
+    const double left = std::max(0.0, left_s());
+    const LightQuality out = withFewRays(trials_.model.best(left));
+    return trials_.model.gatherCost(out) <= kShareOfFirstRound * left ? out
+                                                                      : trials_.model.best(kShareOfFirstRound * left);
+  }
+
+  /// Shades the whole frame with few samples, where that tells for little what shading it with more will take.
+  void measureShading() {
+    const double left = std::max(0.0, left_s());
+    const LightQuality planned = job_.gathers() ? trials_.model.bestLamps(quality_, left) : quality_;
+    LightQuality few = planned;
+    if (few.lightSamples > 1) few.lightSamples = std::max(1, few.lightSamples / kFewerInFirst);
+    if (!job_.gathers() && few.samples > 1) few.samples = std::max(1, few.samples / kFewerInFirst);
+    if (few == planned || trials_.model.shadeCost(few) > kShareOfMeasuring * left) return;
+    if (job_.gathers())
+      job_.setLightSamples(few.lightSamples);
+    else
+      job_.setQuality(few);
+    const double took_s = secondsToShade(job_, tiles_, trials_.seen);
+    tellStep("shading", few, trials_.model.shadeCost(few), took_s);
+    trials_.model.correctShadeCost(few, took_s);
+  }
+
+  void tellStep(const char* step, const LightQuality& quality, double expected_s, double took_s) {
+    log_.report(Severity::Info, "time-budget", {},
+                fmt::format("after {:.3g} s: {} with {} was expected to take {:.3g} s, and took {:.3g} s",
+                            job_.elapsed_s(), step, optionsOf(quality), expected_s, took_s));
+  }
+
+  void spendRest() {
+    const double left = std::max(0.0, left_s());
+    if (job_.gathers()) {
+      const int fewest = quality_.lightSamples / kMostCutOfLamps;
+      quality_ = trials_.model.bestLamps(quality_, left);
+      quality_.lightSamples = std::max(quality_.lightSamples, fewest);
+      job_.setLightSamples(quality_.lightSamples);
+    } else {
+      quality_ = trials_.model.best(left);
+      choose(trials_.model.bestLamps(quality_, left));
+    }
+  }
+
+  void tell(double planned_s) {
+    log_.report(Severity::Note, "time-budget", {},
+                fmt::format("{} for {:.3g} s: trials in {} of {} buckets expect a mean error of {:.2g} %; shading "
+                            "begins after {:.3g} s and takes about {:.2g} s",
+                            wordsFor(quality_), settings_.timeBudget_s, trials_.tried.size(), trials_.seen.size(),
+                            100 * trials_.model.error(quality_), job_.elapsed_s(), trials_.model.shadeCost(quality_)));
+    describeQuality(job_.scene().options, optionsOf(quality_), settings_);
+    if (settings_.onQuality) settings_.onQuality(quality_);
+    if (planned_s > 0) return;
+    log_.report(
+        Severity::Warning, "time-over", {},
+        fmt::format("{:.3g} s are too short: hiding and trials alone took {:.3g} s; light has the coarsest settings",
+                    settings_.timeBudget_s, settings_.timeBudget_s - planned_s / kShareToPlan));
+  }
+
+  FrameJob& job_;
+  const DeepFrame& layout_;
+  const TileReader& tiles_;
+  const RenderSettings& settings_;
+  Log& log_;
+  TrialsResult trials_;
+  LightQuality quality_;
+};
+
+}  // namespace
+
+void useTimeBudget(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
+                   Stats& stats, Log& log) {
+  BudgetedFrame(job, layout, tiles, settings, stats, log).run();
+}
+
+}  // namespace tomales
