@@ -71,10 +71,10 @@ def within(seconds):
     return chosen[1].split(), result
 
 
-long, result = within("20s")
+long, result = within("6s")
 held = t.run("room.rib", "-o", "byhand.exr", *last_of("budget.exr"))
 t.expect(pixels(t.folder / "byhand.exr") == pixels(t.folder / "budget.exr"), "the settings of a budget give the same picture by hand")
-t.expect("[time-over]" not in result.stderr, "20 s are enough for trials")
+t.expect("[time-over]" not in result.stderr, "6 s are enough for trials")
 short, result = within("0.01")
 t.expect("[time-over]" in result.stderr, "a hundredth of a second is not, which is said")
 t.expect(setting(long, "--samples") / setting(long, "--max-error") > setting(short, "--samples") / setting(short, "--max-error"),
