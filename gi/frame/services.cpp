@@ -37,7 +37,13 @@ void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
                             const std::function<void(int stride)>& covered) {
   impl_->bounceCost = {};
   measureLight(*impl_, layout, tiles, progress, cancelled);
-  if (impl_->settings.mode != GiMode::Reference) fillCaches(*impl_, layout, tiles, progress, cancelled, covered);
+  if (impl_->settings.mode == GiMode::Reference) return;
+  const auto show = [&](int stride) {
+    impl_->mixAnew();
+    covered(stride);
+  };
+  fillCaches(*impl_, layout, tiles, progress, cancelled, covered ? show : std::function<void(int)>());
+  impl_->mixAnew();
 }
 
 void GiServices::startAgain(const GiSettings& settings) {
@@ -46,6 +52,7 @@ void GiServices::startAgain(const GiSettings& settings) {
   impl_->caches.clear();
   impl_->redrawn.clear();
   impl_->learnt = std::make_shared<LearntLight>();
+  impl_->mixAnew();
 }
 
 GiServices::BounceCost GiServices::bounceCost() const { return impl_->bounceCost; }
@@ -63,7 +70,7 @@ void GiServices::useCaches(std::vector<PreparedCache> caches, std::optional<Pixe
   impl_->caches = std::move(caches);
   impl_->anew = anew;
   impl_->cachesGiven = !impl_->caches.empty();
-  impl_->mixed = impl_->gains.empty() ? nullptr : std::make_unique<MixedLight>();
+  impl_->mixAnew();
 }
 std::shared_ptr<LearntLight> GiServices::learnt() const { return impl_->learnt; }
 void GiServices::useLearnt(std::shared_ptr<LearntLight> learnt) { impl_->learnt = std::move(learnt); }
@@ -73,7 +80,7 @@ void GiServices::mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew) {
   impl_->gainsOfNew = std::move(ofNew);
   if (gains == impl_->gains) return;
   impl_->gains = std::move(gains);
-  impl_->mixed = impl_->gains.empty() ? nullptr : std::make_unique<MixedLight>();
+  impl_->mixAnew();
 }
 
 void GiServices::redrawRecords() {

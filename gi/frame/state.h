@@ -43,6 +43,8 @@ struct GiState {
   std::vector<vec3> gains{};            ///< One for each of these groups; empty if all are 1.
   std::vector<vec3> gainsOfNew{};       ///< The same for light that is gathered while shading.
   std::unique_ptr<MixedLight> mixed{};  ///< With these gains; null if they are empty.
+  /// To be called when the gains or the records have changed.
+  void mixAnew() { mixed = gains.empty() ? nullptr : std::make_unique<MixedLight>(); }
   /// Indexed as `caches`: that light, with another draw of each record's noise; empty before redrawRecords().
   std::vector<std::vector<LightShare>> redrawn{};
 };

@@ -16,8 +16,6 @@ namespace {
 
 using Body = int (*)(const std::vector<std::string>& arguments);
 
-constexpr int kNotBegun = 127;
-
 int nursery = -1;  ///< The socket to it; -1: there is none.
 
 bool sendAll(int socket, const void* data, size_t size) {
@@ -61,12 +59,15 @@ bool redirect(const char* file, int flags, std::initializer_list<int> to) {
   return good;
 }
 
-/// `texts`: the folder, the log, and the arguments.
-[[noreturn]] void runChild(std::vector<std::string> texts, pid_t owner, pid_t middle, Body body) {
+/// `texts`: the folder, the log, and the arguments. The child begins when it reads a byte from `go`.
+[[noreturn]] void runChild(std::vector<std::string> texts, pid_t owner, pid_t middle, int go, Body body) {
   while (::getppid() == middle) ::sched_yield();  // until it has ended: the owner is the parent then
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::setpgid(0, 0);
-  const bool ready = ::getppid() == owner && ::chdir(texts[0].c_str()) == 0 &&
+  char byte = 0;
+  const bool isKnown = receiveAll(go, &byte, 1);
+  ::close(go);
+  const bool ready = isKnown && ::getppid() == owner && ::chdir(texts[0].c_str()) == 0 &&
                      redirect("/dev/null", O_RDONLY, {STDIN_FILENO}) &&
                      redirect(texts[1].c_str(), O_WRONLY | O_CREAT | O_APPEND, {STDOUT_FILENO, STDERR_FILENO});
   if (!ready) ::_exit(kNotBegun);
@@ -74,33 +75,37 @@ bool redirect(const char* file, int flags, std::initializer_list<int> to) {
   std::exit(body(texts));
 }
 
-/// The child's parent ends at once, so that the owner, to whom orphans come, can wait for the child.
-pid_t begin(int socket, const std::vector<std::string>& texts, pid_t owner, Body body) {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) return -1;
+/// The child's parent ends at once, so that the owner, to whom orphans come, can wait for the child. The child begins
+/// when the owner has been told of it: one that is not known would run beside the one that takes its place.
+/// Returns false if the owner is gone, or nothing can be had to begin with.
+bool begin(int socket, const std::vector<std::string>& texts, pid_t owner, Body body) {
+  int ends[2], go[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return false;
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, go) != 0) return false;
   pid_t child = -1;
   const pid_t middle = ::fork();
   if (middle == 0) {
     const pid_t self = ::getpid();
     child = ::fork();
     if (child == 0) {
-      for (const int file : {socket, ends[0], ends[1]}) ::close(file);
-      runChild(texts, owner, self, body);
+      for (const int file : {socket, ends[0], ends[1], go[1]}) ::close(file);
+      runChild(texts, owner, self, go[0], body);
     }
     ::_exit(::write(ends[1], &child, sizeof child) == sizeof child ? 0 : kNotBegun);
   }
   ::close(ends[1]);
+  ::close(go[0]);
   if (middle > 0 && ::read(ends[0], &child, sizeof child) != sizeof child) child = -1;
   ::close(ends[0]);
   if (middle > 0) ::waitpid(middle, nullptr, 0);
-  return child;
+  const bool isTold = sendAll(socket, &child, sizeof child);
+  if (isTold && child > 0) sendAll(go[1], "", 1);
+  ::close(go[1]);
+  return isTold;
 }
 
 [[noreturn]] void serve(int socket, pid_t owner, Body body) {
-  for (std::vector<std::string> texts; receiveTexts(socket, texts);) {
-    const pid_t child = begin(socket, texts, owner, body);
-    if (!sendAll(socket, &child, sizeof child)) break;
-  }
+  for (std::vector<std::string> texts; receiveTexts(socket, texts) && begin(socket, texts, owner, body);) continue;
   ::_exit(0);
 }
 
@@ -108,6 +113,7 @@ pid_t begin(int socket, const std::vector<std::string>& texts, pid_t owner, Body
 
 void openNursery(Body body) {
   int ends[2];
+  ::signal(SIGCHLD, SIG_DFL);  // ignored, as a parent may leave it, it would take the exit codes of children
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return;
   const pid_t owner = ::getpid(), child = ::prctl(PR_SET_CHILD_SUBREAPER, 1) == 0 ? ::fork() : -1;
   if (child == 0) {

@@ -8,8 +8,12 @@
 
 namespace tomales {
 
+/// The exit code of a child that could not begin.
+constexpr int kNotBegun = 127;
+
 /// Forks the process that the children are forked from. Call it before this one has other threads. A child calls `body`
-/// and ends with the exit code that it returns.
+/// and ends with the exit code that it returns. From then on orphans among the descendants of this process become its
+/// children.
 void openNursery(int (*body)(const std::vector<std::string>& arguments));
 
 /// Starts a child in a folder, as leader of a process group of its own. Its output and errors go to the end of a file.

@@ -1,5 +1,6 @@
 // Verb: scene -> what a batch has to know of its frames before it makes a plan of them. Threads: one caller.
 #pragma once
+#include <limits>
 #include <map>
 
 #include "reyes/app/batch/make_plan.h"

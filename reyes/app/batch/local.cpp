@@ -1,5 +1,7 @@
 #include "reyes/app/batch/local.h"
 
+#include <sys/wait.h>
+
 #include <list>
 #include <map>
 #include <thread>
@@ -56,11 +58,22 @@ class LocalRun {
       }
       it = running_.erase(it);
     }
+    reapOrphans();
     return any;
   }
   const std::vector<TaskState>& states() const { return states_; }
 
  private:
+  /// What tasks have left running comes to this process when they end (openNursery()).
+  void reapOrphans() const {
+    const auto isTask = [&](pid_t child) {
+      return std::ranges::any_of(running_, [&](const auto& r) { return r.second->child() == child; });
+    };
+    for (siginfo_t info{}; ::waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) == 0; info = {}) {
+      if (info.si_pid == 0 || isTask(info.si_pid)) return;
+      ::waitpid(info.si_pid, nullptr, 0);
+    }
+  }
   bool isReady(size_t i) const {
     const auto& needs = plan_.tasks[i].needs;
     return std::all_of(needs.begin(), needs.end(),

@@ -138,8 +138,7 @@ class PlanMaker {
     append(arguments, target_);
     append(arguments, render.files);
     const std::string name = "settings";
-    plan_.tasks.push_back(
-        {name, name, pilots.empty() ? numbers.front() : pilots.front(), arguments, needs, {file}, {}});
+    plan_.tasks.push_back({name, name, numbers.front(), arguments, needs, {file}, {}});
     return {name};
   }
 

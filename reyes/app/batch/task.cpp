@@ -64,11 +64,11 @@ bool RunningTask::ended() {
   int status = 0;
   // The guard goes before the process is waited for: another may have its number afterwards.
   siginfo_t info{};
-  if (::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == 0)
-    return false;
+  const bool isOurs = ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0;
+  if (isOurs ? info.si_pid == 0 : errno != ECHILD) return false;
   guard_.reset();
   rusage used{};
-  ::wait4(child_, &status, 0, &used);
+  if (!isOurs || ::wait4(child_, &status, 0, &used) != child_) status = W_EXITCODE(kNotBegun, 0);
   state_.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   state_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   state_.cpu_s = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);

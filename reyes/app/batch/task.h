@@ -23,6 +23,7 @@ class RunningTask {
   /// Asks it to end, as a farm does.
   void stop();
   const TaskState& state() const { return state_; }
+  pid_t child() const { return child_; }
   const BatchTask& task() const { return task_; }
 
  private:

@@ -34,7 +34,9 @@ class PilotRun {
     if (held_.pilots.empty() || (held_.pilots.size() == 1 && settings_.shotSettings.empty() && !settings_.pilotFrames))
       return std::nullopt;
     read([this](Scene&& scene) { take(scene); }, true);
-    if (interrupted() || held_.worlds.empty()) return std::nullopt;
+    if (interrupted()) return std::nullopt;
+    // A file that says that nothing was chosen keeps others from trying again.
+    if (held_.worlds.empty()) return settings_.shotSettings.empty() ? std::nullopt : std::optional(held_);
     std::vector<std::string> chosen;
     for (const LightQuality& q : held_.worlds) chosen.push_back(optionsOf(q));
     log_.report(Severity::Note, "shot-settings", {},
@@ -50,9 +52,15 @@ class PilotRun {
     if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
     rib.onScene = onScene;
     // A pilot reads what Make requests before it have made.
-    if (makes) rib.onMake = [this](const Request& request) { performMake(request, settings_.outputRoot, log_); };
+    if (makes) rib.onMake = [this](const Request& request) { make(request); };
     Log quiet(Log::Verbosity::Quiet);  // what is wrong with the scene is said when it is rendered
     readRib(settings_.files, rib, quiet);
+  }
+
+  void make(const Request& request) {
+    const int place = makes_++;
+    if (!settings_.makes || std::ranges::binary_search(*settings_.makes, place))
+      performMake(request, settings_.outputRoot, log_);
   }
 
   /// The numbers of the frames to be rendered.
@@ -97,7 +105,7 @@ class PilotRun {
   const RenderSettings& settings_;
   Log& log_;
   HeldQuality held_;
-  int world_ = -1, frame_ = -1;
+  int world_ = -1, frame_ = -1, makes_ = 0;
   size_t picture_ = 0;
 };
 

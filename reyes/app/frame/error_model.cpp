@@ -17,6 +17,8 @@ constexpr int kMostRaysOfRecord = 9600, kMostPathsOfPoint = 1024, kMostLightSamp
 constexpr double kLeastRaysPower = 0.2, kMostRaysPower = 1.2;
 /// Of costs that were seen in the same buckets, where other powers are chance.
 constexpr double kLeastKnownPower = 0.6, kMostKnownPower = 1;
+/// The most of a cost that two trials may find to be fixed: the first also pays for what is read once.
+constexpr double kMostFixed = 0.95;
 constexpr double kFarFromKnown = 4;  ///< What is seen at so many times a setting says how the cost changes.
 constexpr int kFineSteps = 16;       ///< Steps of an octave where a time is to be used up.
 
@@ -35,7 +37,7 @@ double rounded(double x) {
 double halfOctaves(int steps) { return std::pow(2.0, 0.5 * steps); }
 
 /// Half octaves from x to `most`.
-int stepsTo(double most, double x) { return static_cast<int>(std::floor(2 * std::log2(most / x) + 1e-6)); }
+int stepsTo(double most, double x) { return x > 0 ? static_cast<int>(std::floor(2 * std::log2(most / x) + 1e-6)) : 0; }
 
 double ratio(double x, double base) { return x > 0 && base > 0 ? x / base : 1; }
 
@@ -54,12 +56,12 @@ std::string optionsOf(const LightQuality& q) {
 
 CostLine::CostLine(double x0, double cost0, double x1, double cost1) : x0_(x0), cost0_(cost0) {
   if (!(cost0 > 0) || !(x0 > 0) || !(x1 > x0)) return;
-  fixed_ = std::clamp((x1 / x0 - cost1 / cost0) / (x1 / x0 - 1), 0.0, 1.0);
+  fixed_ = std::clamp((x1 / x0 - cost1 / cost0) / (x1 / x0 - 1), 0.0, kMostFixed);
 }
 
 void CostLine::learn(double x, double cost) {
   if (!(cost > 0)) return;
-  if (x >= kFarFromKnown * x0_)
+  if (x >= kFarFromKnown * x0_ && cost > at(x))
     *this = CostLine(x0_, cost0_, x, cost);
   else if (at(x) > 0)
     cost0_ *= cost / at(x);
@@ -129,9 +131,17 @@ double ErrorModel::error(const LightQuality& q) const { return std::hypot(indire
 
 double ErrorModel::gatherCost(const LightQuality& q) const {
   const double width = ratio(q.maxError, base_.quality.maxError);
-  return gatherScale_ * (base_.gatherCost * std::pow(ratio(q.samples, base_.quality.samples), raysPower_) *
-                             std::pow(width, width < 1 ? narrowRecordsPower_ : recordsPower_) +
-                         base_.bounceCost * std::pow(ratio(q.samples, base_.quality.samples), bouncesPower_));
+  return gatherScale_ * base_.gatherCost * std::pow(ratio(q.samples, base_.quality.samples), raysPower_) *
+             std::pow(width, width < 1 ? narrowRecordsPower_ : recordsPower_) +
+         bounceCost(q);
+}
+
+double ErrorModel::bounceCost(const LightQuality& q) const {
+  return gatherScale_ * base_.bounceCost * std::pow(ratio(q.samples, base_.quality.samples), bouncesPower_);
+}
+
+double ErrorModel::gatherCostOf(double share, const LightQuality& q) const {
+  return share * (gatherCost(q) - bounceCost(q)) + bounceCost(q);
 }
 
 double ErrorModel::shadeCost(const LightQuality& q) const {

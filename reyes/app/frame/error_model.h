@@ -22,10 +22,11 @@ std::string optionsOf(const LightQuality&);
 struct QualityTrial {
   LightQuality quality;
   double indirect = 0, direct = 0;
-  double smudges = 0;     ///< SmudgeEstimate::deviation; 0 if nothing was smooth, or only noise was found.
-  double gatherCost = 0;  ///< What the records of the whole frame take before it is shaded,
-  double bounceCost = 0;  ///< those of further bounces, which are as many for a small part of the frame,
-  double shadeCost = 0;   ///< and shading, in rays or in seconds.
+  double smudges = 0;  ///< SmudgeEstimate::deviation; 0 if nothing was smooth, or only noise was found.
+  // Costs of the whole frame, in rays or in seconds.
+  double gatherCost = 0;  ///< Of the records of its points.
+  double bounceCost = 0;  ///< Of those of further bounces (GiServices::BounceCost).
+  double shadeCost = 0;
 };
 
 /// What a picture may err.
@@ -68,7 +69,8 @@ class CostLine {
   CostLine() = default;
   CostLine(double x0, double cost0, double x1, double cost1);
   double at(double x) const;
-  /// Goes through what was seen at x, if that is not too near to what it knows: then it is only scaled.
+  /// Goes through what was seen at x, if that is far from what it knows and costs more than expected. Otherwise it is
+  /// only scaled: a line that is too flat would find any setting cheap.
   void learn(double x, double cost);
 
  private:
@@ -90,6 +92,8 @@ class ErrorModel {
   double error(const LightQuality&) const;  ///< Both together, which are independent.
   double smudges(const LightQuality& q) const { return smudges_.at(q); }
   double gatherCost(const LightQuality&) const;
+  /// The same for a share of the frame, which needs all records of further bounces.
+  double gatherCostOf(double share, const LightQuality&) const;
   double shadeCost(const LightQuality&) const;
   double cost(const LightQuality& q) const { return gatherCost(q) + shadeCost(q); }
   /// Learns from two trials in the same buckets how the cost of gathering changes with rays.
@@ -119,6 +123,7 @@ class ErrorModel {
   /// How many times the target it errs.
   double timesTarget(const LightQuality&, const ErrorTarget&) const;
 
+  double bounceCost(const LightQuality&) const;
   bool tracesPaths() const { return base_.quality.samples > 0 && !(base_.quality.maxError > 0); }
   int mostSamples() const;
   LightQuality withMoreRays(const LightQuality&, double most) const;

@@ -15,13 +15,14 @@ namespace {
 constexpr double kShareToPlan = 0.96;  ///< Share of the time left that is planned.
 /// Share of the time left that a trial of narrow records, the first round, and shading that only measures may take.
 constexpr double kShareOfNarrowTrial = 0.1, kShareOfFirstRound = 0.15, kShareOfMeasuring = 0.2;
-constexpr int kFewerInFirst = 8;  ///< The first round, and shading that only measures, have so many times fewer rays,
-constexpr int kLeastRays = 20;    ///< but the round has at least these.
+/// The first round, and shading that only measures, have so many times fewer rays.
+constexpr int kFewerInFirst = 8;
+constexpr int kLeastRays = 20;  ///< The first round has at least these.
 constexpr int kMostRounds = 4;
-constexpr double kBetter = 0.95;      ///< Another round is worth it for so many times the error,
-constexpr double kMuchBetter = 0.85;  ///< and records of another width.
-constexpr int kMostGrowth =
-    12;  ///< A round has at most so many times the rays of the one before, which says what they cost.
+constexpr double kBetter = 0.95;      ///< Another round is worth it if the error falls to this share.
+constexpr double kMuchBetter = 0.85;  ///< Records of another width are worth it if it falls to this share.
+/// A round has at most so many times the rays of the one before, which says what they cost.
+constexpr int kMostGrowth = 12;
 constexpr double kShareOfProbe = 0.12;  ///< Share of the time left that a probe may take.
 constexpr size_t kBucketsOfProbe = 16;  ///< One bucket of so many tells what more rays cost.
 constexpr int kLampsOfAudit = 16;       ///< Light samples of a picture whose audit takes as long as those of trials.
@@ -120,7 +121,10 @@ class BudgetedFrame {
   bool mayProbe(const LightQuality& many, double left) const {
     const double share =
         static_cast<double>(bucketsOfProbe()) / std::max<double>(1, static_cast<double>(trials_.seen.size()));
-    return many.samples >= 2 * quality_.samples && share * trials_.model.gatherCost(many) < kShareOfProbe * left;
+    LightQuality few = many;
+    few.samples = quality_.samples;
+    const double cost = trials_.model.gatherCostOf(share, few) + trials_.model.gatherCostOf(share, many);
+    return many.samples >= 2 * quality_.samples && cost < kShareOfProbe * left;
   }
 
   /// A ray of many costs less than one of few, and how much less depends on what it meets. A few buckets tell.

@@ -81,7 +81,7 @@ class Trials {
     if (!(maxError > 0 && maxError < kMuchNarrower * base.quality.maxError)) return;
     LightQuality quality = base.quality;
     quality.maxError = maxError;
-    if (model.gatherCost(quality) <= inFrame() * plan_.mostOfNarrow()) model.addNarrower(trialOf(quality, audit));
+    if (model.gatherCostOf(1 / inFrame(), quality) <= plan_.mostOfNarrow()) model.addNarrower(trialOf(quality, audit));
   }
 
   QualityTrial trial(LightQuality quality, Audit& audit) {
@@ -134,6 +134,7 @@ class Trials {
     light_s_ += more_s;
     return plan_.unit == CostUnit::Seconds ? more_s : moreRays;
   }
+
   FrameJob& job_;
   const DeepFrame& layout_;
   const TrialPlan plan_;

@@ -26,8 +26,8 @@ struct TrialPlan {
 
 struct TrialsResult {
   ErrorModel model;
-  std::vector<size_t> seen;   ///< Buckets that see something,
-  std::vector<size_t> tried;  ///< and those of them that were tried, the one of most points first.
+  std::vector<size_t> seen;   ///< Buckets that see something.
+  std::vector<size_t> tried;  ///< Those of them that were tried, the one of most points first.
   double audit_s = 0;         ///< What an audit of the frame may take.
   double raysPerSecond = 0;   ///< On this machine now, for messages alone.
 

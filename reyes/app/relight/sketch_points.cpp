@@ -1,6 +1,12 @@
 #include "reyes/app/relight/sketch_points.h"
 
 namespace tomales {
+namespace {
+
+/// Of light that is interpolated: one for each layer, and for each normal that an edit of bumps has made.
+constexpr size_t kMostAnswersOfPoint = 32;
+
+}  // namespace
 
 void SketchPoints::add(size_t bucket, const DeepTile& tile, size_t to) {
   const std::lock_guard lock(mutex_);
@@ -19,6 +25,10 @@ std::vector<vec3> SketchPoints::shade(ShotJob& job) {
   std::vector<DeepTile> tiles;
   for (Reduced& r : reduced_) {
     if (r.tile.answers.empty()) r.tile.answers.assign(r.tile.batches.size(), none);
+    for (size_t b = 0; b < r.tile.batches.size(); ++b)
+      if (auto& kept = r.tile.answers[b].interpolated;
+          kept.size() > kMostAnswersOfPoint * static_cast<size_t>(r.tile.batches[b].count()))
+        kept.clear();
     r.tile.shaded.clear();
     tiles.push_back(std::move(r.tile));
   }

@@ -123,6 +123,22 @@ TEST(ErrorModel, KnowsThatAPointCostsSomethingWithoutItsLamps) {
   EXPECT_NEAR(model.shadeCost({600, 1, 1024}), 58 + 6 * 1020, 1e-6) << "what is seen far away decides the slope";
 }
 
+TEST(ErrorModel, DoesNotBelieveThatLightSamplesCostNothing) {
+  const auto model = [](double cheap, double dear) {
+    const auto trial = [&](const LightQuality& q) {
+      QualityTrial out = Frame().trial(q);
+      out.shadeCost = q.lightSamples > 4 ? dear : cheap;
+      return out;
+    };
+    return ErrorModel(trial({150, 1, 4}), trial({600, 1, 16}), {});
+  };
+  EXPECT_GT(model(10, 9).shadeCost({150, 1, 1024}), 100) << "the first trial has paid for what is read once";
+  ErrorModel seen = model(10, 20);
+  seen.correctShadeCost({150, 1, 16}, 5);
+  EXPECT_NEAR(seen.shadeCost({150, 1, 16}), 5, 1e-6);
+  EXPECT_GT(seen.shadeCost({150, 1, 256}), 30) << "what costs less than expected makes the line no flatter";
+}
+
 TEST(ErrorModel, LearnsWhatRaysCostFromTrialsInTheSameBuckets) {
   const Frame frame;
   ErrorModel model = frame.model();

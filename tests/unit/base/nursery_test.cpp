@@ -51,7 +51,8 @@ TEST(Nursery, RunsAFunctionInChildrenOfThisProcess) {
   EXPECT_EQ(writtenTo(log), "a||with blanks|" + here + "\n" + large + "|" + here + "\n") << "the log goes on";
 
   const pid_t waiting = startInNursery(folder.path(), folder.path() / "other", {"wait"});
-  while (writtenTo(folder.path() / "other").empty()) ::usleep(1000);
+  ASSERT_GT(waiting, 0);
+  for (int i = 0; i < 10000 && writtenTo(folder.path() / "other").empty(); ++i) ::usleep(1000);
   EXPECT_EQ(::getpgid(waiting), waiting);
   EXPECT_EQ(::kill(-waiting, SIGKILL), 0);
   EXPECT_TRUE(WIFSIGNALED(statusOf(waiting)));
