@@ -89,10 +89,14 @@ class Relighting {
     std::string variable{};
     PixelRect pixels{};
   };
-  /// The shaded buckets that parts of a layer share, without their points.
+  /// A shaded bucket that parts of a layer share.
+  struct SharedTile {
+    std::shared_ptr<const DeepTile> outline;  ///< The bucket without points and colours, which all layers share.
+    std::vector<ShadedPoints> shaded;
+  };
   struct SharedTiles {
     uint32_t number = 0;
-    std::map<size_t, DeepTile> tiles;
+    std::map<size_t, SharedTile> tiles;
   };
 
   bool openFiles();
@@ -129,6 +133,7 @@ class Relighting {
   ShotJob& jobFor(const EditState& edit, const std::string& variable = "");
   std::string fileOfEdit(const EditState& edit) const;
   void take(const Step& step, const Image& rows);
+  std::shared_ptr<const DeepTile> outlineOf(size_t bucket, const DeepTile& tile);
   bool isNeededBesides(const Layer& layer, size_t bucket, size_t part) const;
   ShownTiles plainTiles();
   /// The shade group of the nearest thing at a raster pixel.
@@ -172,7 +177,8 @@ class Relighting {
   std::string gatheredFile_;
   Image finished_;  ///< The whole picture before exposure and imager.
 
-  std::vector<SharedTiles> shared_;  ///< Of each layer; guarded by a mutex of its own.
+  std::vector<SharedTiles> shared_;  ///< Of each layer; guarded, like outlines_, by a mutex of its own.
+  std::map<size_t, std::weak_ptr<const DeepTile>> outlines_;
   std::mutex sharing_;
   std::vector<vec3> glow_;        ///< Layer 1 in full floats; the thread's own.
   std::vector<vec3> coarseGlow_;  ///< The same, coarse.

@@ -183,7 +183,8 @@ void Relighting::shadePart(const Step& step) {
                            {
                              const std::lock_guard lock(sharing_);
                              if (const auto known = shared.tiles.find(index); known != shared.tiles.end()) {
-                               tile = known->second;
+                               tile = *known->second.outline;
+                               tile.shaded = known->second.shaded;
                                return true;
                              }
                            }
@@ -197,10 +198,23 @@ void Relighting::shadePart(const Step& step) {
                            if (!isNeeded)
                              shared.tiles.erase(index);
                            else if (!shared.tiles.contains(index))
-                             shared.tiles.emplace(index, withoutPoints(tile));
+                             shared.tiles.emplace(index, SharedTile{outlineOf(index, tile), tile.shaded});
                          }};
   job.show(
       part, tiles, [&](const Image& rows) { take(step, rows); }, cancel_);
+}
+
+// Pre: sharing_ is locked.
+std::shared_ptr<const DeepTile> Relighting::outlineOf(size_t bucket, const DeepTile& tile) {
+  std::weak_ptr<const DeepTile>& known = outlines_[bucket];
+  auto outline = known.lock();
+  if (!outline) {
+    DeepTile made = withoutPoints(tile);
+    made.shaded.clear();
+    outline = std::make_shared<const DeepTile>(std::move(made));
+    known = outline;
+  }
+  return outline;
 }
 
 size_t Relighting::placeOf(int x, int y) const {
