@@ -160,6 +160,16 @@ void Scene::findGroup(Object& o, int index) {
   groups.push_back(std::move(group));
 }
 
+Scene Scene::withoutObjects() const {
+  Scene out;
+  out.options = options;
+  out.cameraFromWorld = cameraFromWorld;
+  out.lights = lights;
+  out.worldFromNamed = worldFromNamed;
+  out.where = where;
+  return out;
+}
+
 void Scene::freeze() {
   groups.clear();
   groupsByHash_.clear();

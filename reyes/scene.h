@@ -108,6 +108,9 @@ struct Scene {
   /// Opens all procedurals that are `wanted`, nested ones included. Call it before any object is used.
   void open(const std::function<bool(const Attributes&)>& wanted);
 
+  /// Its options, spaces, lights and place alone.
+  Scene withoutObjects() const;
+
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
   /// Finds "current" from a named space (camera, current, world, or a CoordinateSystem). False if it is unknown.
   bool cameraFromNamed(const std::string& name, mat4& out) const;

@@ -20,12 +20,7 @@ RecordFileKind dfbKind() {
 
 /// One empty object for each group, so that messages still name an object and its place.
 Scene withoutGeometry(const Scene& scene) {
-  Scene out;
-  out.options = scene.options;
-  out.cameraFromWorld = scene.cameraFromWorld;
-  out.lights = scene.lights;
-  out.worldFromNamed = scene.worldFromNamed;
-  out.where = scene.where;
+  Scene out = scene.withoutObjects();
   out.groups = scene.groups;
   for (ShadeGroup& group : out.groups) {
     Object empty;

@@ -66,17 +66,17 @@ class Server:
     def json(self, path):
         return json.loads(self.get(path)[2])
 
-    def news(self, after=0):
-        data = self.get(f"news?after={after}")[2]
+    def news(self, after=0, told=0):
+        data = self.get(f"news?after={after}&told={told}")[2]
         length = struct.unpack_from("<I", data)[0]
         return json.loads(data[4:4 + length]), data[4 + length:]
 
     def settled(self):
         """Waits until every layer is that of the present edit, and the check has been made."""
-        end, after = time.time() + PATIENCE_S, 0
+        end, after, told = time.time() + PATIENCE_S, 0, 0
         while time.time() < end:
-            status, _ = self.news(after)
-            after = status["after"]
+            status, _ = self.news(after, told)
+            after, told = status["after"], status["told"]
             if status["checked"] and not any(layer["old"] for layer in status["layers"][1:]) and not status["doing"]:
                 return status
         return None

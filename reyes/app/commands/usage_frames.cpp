@@ -11,6 +11,11 @@
 namespace tomales {
 namespace {
 
+void addMemoryLimit(CLI::App& app, RenderSettings& s, const std::string& otherwise) {
+  addParsed(app, "--memory-limit", s.memoryLimit, parseBytes, "600M",
+            "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file " + otherwise);
+}
+
 void buildRender(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c =
       app.add_subcommand("render", "Render RIB files, taken as one stream; - is standard input (the default command)");
@@ -34,9 +39,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   c->add_option("--allow-program", in.render.trust.program,
                 "The RIB may start this program, by this very command, and no other")
       ->type_name("COMMAND");
-  addParsed(
-      *c, "--memory-limit", in.render.memoryLimit, parseBytes, "600M",
-      "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file (default: no limit)");
+  addMemoryLimit(*c, in.render, "(default: no limit)");
   addTarget(*c, in.render);
   addShotTarget(*c, in.render);
   c->add_option("SCENE", in.render.files, "RIB files")->required();
@@ -147,6 +150,7 @@ void buildRelight(CLI::App& app, Invocation& in, int& code) {
   addCrop(*c, r.render);
   addLightOptions(*c, r.render);
   addRunOptions(*c, r.render);
+  addMemoryLimit(*c, r.render, "(default: 640 MB of buckets)");
   addShotOptions(*c, r.render, "A deep frame buffer, or a scene, which is hidden first", "SHOT.dfb|SCENE.rib");
   c->callback([&] { code = relightFirst(in.relight); });
 }

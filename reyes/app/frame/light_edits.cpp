@@ -17,20 +17,25 @@ std::map<std::string, Param> otherParams(const ShaderCall& light, const TmShader
   return out;
 }
 
-/// What an edit multiplies the light by; empty if it changes more than that.
-std::optional<vec3> gainOf(const LightCall& then, const LightCall& now, const ShadingSystem& shading) {
+struct LightChange {
+  vec3 gain{1};        ///< What its factors multiply the light by.
+  bool isGain = true;  ///< Nothing else has changed.
+};
+
+LightChange changeOf(const LightCall& then, const LightCall& now, const ShadingSystem& shading) {
   const TmShader& shader = *shading.lightShader(now.index);
   const ShaderCall &a = then.shader, &b = now.shader;
-  if (a == b && then.castsShadows == now.castsShadows) return vec3(1.0f);
-  if (a.name != b.name || then.castsShadows != now.castsShadows || !(a.worldFromShader == b.worldFromShader) ||
-      otherParams(a, shader) != otherParams(b, shader))
-    return std::nullopt;
+  LightChange out;
+  out.isGain = a.name == b.name && then.castsShadows == now.castsShadows && a.worldFromShader == b.worldFromShader &&
+               otherParams(a, shader) == otherParams(b, shader);
+  if (a == b || a.name != b.name) return out;
   const vec3 before = shading.lightFactor(now.index, a.params), after = shading.lightFactor(now.index, b.params);
-  vec3 out(1.0f);
   for (int c = 0; c < 3; ++c) {
     if (before[c] == after[c]) continue;
-    if (before[c] == 0) return std::nullopt;
-    out[c] = after[c] / before[c];
+    if (before[c] != 0)
+      out.gain[c] = after[c] / before[c];
+    else
+      out.isGain = false;
   }
   return out;
 }
@@ -49,13 +54,14 @@ LightEdits editsSince(const IrradianceShot& gathered, const Scene& now, const Sh
   for (size_t l = 0; l < now.lights.size(); ++l) {
     if (!bounces(shading, l)) continue;
     const auto group = std::ranges::find(gathered.groups, shading.lightGroup(static_cast<int>(l)));
-    const std::optional<vec3> gain = gainOf(*gathered.lights[l], *now.lights[l], shading);
-    const bool known = group != gathered.groups.end();
-    const vec3 kept = known
-                          ? gains[static_cast<size_t>(group - gathered.groups.begin())].value_or(gain.value_or(vec3(1)))
-                          : vec3(1.0f);
-    if (!gain || *gain != kept) out.stale.push_back(now.lights[l]->handle);
-    if (known) gains[static_cast<size_t>(group - gathered.groups.begin())] = kept;
+    const LightChange change = changeOf(*gathered.lights[l], *now.lights[l], shading);
+    vec3 kept(1.0f);
+    if (group != gathered.groups.end()) {
+      std::optional<vec3>& gain = gains[static_cast<size_t>(group - gathered.groups.begin())];
+      if (!gain) gain = change.gain;
+      kept = *gain;
+    }
+    if (!change.isGain || change.gain != kept) out.stale.push_back(now.lights[l]->handle);
   }
   for (const auto& of : gains) out.gains.push_back(of.value_or(vec3(1.0f)));
   if (std::ranges::all_of(out.gains, [](const vec3& gain) { return gain == vec3(1.0f); })) out.gains.clear();

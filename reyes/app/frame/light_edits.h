@@ -5,7 +5,8 @@
 namespace tomales {
 
 struct LightEdits {
-  /// The gain of each of IrradianceShot::groups (GiServices::mixShares); empty if all are 1 or there are no shares.
+  /// The gain of each of IrradianceShot::groups (GiServices::mixShares); empty if all are 1 or there are no shares. A
+  /// light that has moved, too, and is half as bright, bounces half of what it bounced from its old place.
   std::vector<vec3> gains;
   /// Handles of changed lights whose bounced light does not follow: the records have no shares, or more is changed than
   /// parameters that are factors (isFactor()), or the gain differs from that of another light of the group.

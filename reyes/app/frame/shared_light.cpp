@@ -15,12 +15,7 @@ bool makesMaps(const GiMethod& method) {
 
 /// The method of a frame as its lights alone tell it: the rest of the scene takes longer to open and to bind.
 const GiMethod& methodOfLights(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Log& log) {
-  Scene lights;
-  lights.options = scene.options;
-  lights.cameraFromWorld = scene.cameraFromWorld;
-  lights.worldFromNamed = scene.worldFromNamed;
-  lights.lights = scene.lights;
-  lights.where = scene.where;
+  const Scene lights = scene.withoutObjects();
   Stats stats;
   return methodOf(settings, ShadingSystem(lights, shaders, nullptr, log, stats));
 }

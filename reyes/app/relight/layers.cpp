@@ -148,13 +148,24 @@ uint64_t LayerStore::newest() const {
   return serial_;
 }
 
-void LayerStore::wait(uint64_t after) const {
+void LayerStore::wait(uint64_t after, uint64_t told) const {
   std::unique_lock lock(mutex_);
-  if (!blocks_.empty() && blocks_.back().serial > after) return;
-  changed_.wait_for(lock, kPatience);
+  changed_.wait_for(lock, kPatience,
+                    [&] { return woken_ > told || (!blocks_.empty() && blocks_.back().serial > after); });
 }
 
-void LayerStore::wake() const { changed_.notify_all(); }
+void LayerStore::wake() const {
+  {
+    const std::lock_guard lock(mutex_);
+    ++woken_;
+  }
+  changed_.notify_all();
+}
+
+uint64_t LayerStore::woken() const {
+  const std::lock_guard lock(mutex_);
+  return woken_;
+}
 
 vec3 LayerStore::at(size_t layer, int x, int y) const {
   const std::lock_guard lock(mutex_);

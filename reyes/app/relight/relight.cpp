@@ -254,13 +254,16 @@ class Relight {
     const size_t bytes =
         q.parameters.contains("bytes") ? std::min<size_t>(numberOf(q, "bytes"), kMostBlocks_bytes) : kMostBlocks_bytes;
     const bool full = q.parameters.contains("last");
-    if (!ended_ && !full) relighting_.layers().wait(after);
+    const LayerStore& layers = relighting_.layers();
+    if (!ended_ && !full) layers.wait(after, q.parameters.contains("told") ? numberOf(q, "told") : layers.woken());
+    const uint64_t told = layers.woken();  // before what is told, so that nothing later is taken for told
     std::string blocks = full ? relighting_.layers().blocksAfter(after, bytes, numberOf(q, "last"))
                               : relighting_.layers().reducedAfter(after, bytes);
     Json status = relighting_.status();
     status["after"] = after;
     status["newest"] = relighting_.layers().newest();
     status["editor"] = editor_.page();
+    status["told"] = told;
     std::string text = status.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const auto length = static_cast<uint32_t>(text.size());

@@ -15,6 +15,19 @@ namespace {
 constexpr int64_t kTilesHeld_bytes = int64_t{640} << 20;  ///< Other tiles are read anew by every pass.
 constexpr int kBucketsAcross = 4;                         ///< Buckets along an edge of a part that is shaded at once.
 
+/// Tells whether light may add up on other surfaces under one edit than under the other. Parameters of a light change
+/// what arrives, and not what a surface makes of it.
+bool mayBeLinearElsewhere(const EditState& a, const EditState& b) {
+  const auto lights = [](const EditState& s) {
+    std::map<std::string, std::string> out;
+    for (const auto& [owner, edit] : s.shaders[kLights])
+      if (!edit.shader.empty()) out.emplace(owner, edit.shader);
+    return out;
+  };
+  return a.shaders[kSurfaces] != b.shaders[kSurfaces] || a.shaders[kAtmospheres] != b.shaders[kAtmospheres] ||
+         lights(a) != lights(b);
+}
+
 }  // namespace
 
 Relighting::Relighting(const RenderSettings& settings, Stats& stats, Log& log)
@@ -208,14 +221,7 @@ void Relighting::wantPresent() {
 void Relighting::edit(const Json& json) {
   const EditState state = stateOf(json, *editable_);
   const std::lock_guard lock(mutex_);
-  // Another shader may not be linear in light where the one before it was.
-  const auto swaps = [](const EditState& s) {
-    std::vector<std::string> out;
-    for (const auto& owners : s.shaders)
-      for (const auto& [owner, edit] : owners) out.push_back(owner + ":" + edit.shader);
-    return out;
-  };
-  if (swaps(state) != swaps(present_)) checked_ = false;
+  if (mayBeLinearElsewhere(state, present_)) checked_ = false;
   present_ = state;
   wantsWhole_ = false;
   wantPresent();

@@ -136,8 +136,7 @@ class Relighting {
   std::shared_ptr<const DeepTile> outlineOf(size_t bucket, const DeepTile& tile);
   bool isNeededBesides(const Layer& layer, size_t bucket, size_t part) const;
   ShownTiles plainTiles();
-  /// The shade group of the nearest thing at a raster pixel.
-  std::optional<int> groupAt(int x, int y) const;
+  size_t bucketAt(int x, int y) const;  ///< Of a raster pixel.
   size_t placeOf(int x, int y) const;
 
   RenderSettings settings_;

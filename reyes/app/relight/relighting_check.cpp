@@ -35,6 +35,15 @@ void Relighting::checkLinearity(const Step& step) {
   ShotJob& job = jobFor(other);
   job.choose(nullptr, true);
   std::map<std::string, int> off;
+  std::map<size_t, std::shared_ptr<const DeepTile>> seen;  // of the part
+  const auto nameAt = [&](int x, int y) -> std::string {
+    const size_t bucket = bucketAt(x, y);
+    const auto [tile, isNew] = seen.try_emplace(bucket);
+    if (isNew) tile->second = tiles_->read(bucket);
+    const std::optional<int> group = tile->second ? groupAt(*tile->second, x, y) : std::nullopt;
+    if (!group) return "";
+    return files_->dfb().shot().scene.groups[static_cast<size_t>(*group)].attributes->name;
+  };
   const auto compare = [&](const Image& rows) {
     for (int y = 0; y < rows.height; ++y)
       for (int x = 0; x < rows.width; ++x) {
@@ -45,13 +54,13 @@ void Relighting::checkLinearity(const Step& step) {
           rounding += kHalfRounding * glm::abs(share);
         }
         if (!glm::any(glm::greaterThan(glm::abs(mixed - colorAt(rows, x, y)), rounding))) continue;
-        const std::optional<int> group = groupAt(rows.originX + x, rows.originY + y);
-        const auto& groups = files_->dfb().shot().scene.groups;
-        ++off[group ? groups[static_cast<size_t>(*group)].attributes->name : ""];
+        ++off[nameAt(rows.originX + x, rows.originY + y)];
       }
   };
-  for (size_t i = 0; i < parts_.size() && !cancel_; i += kPartsPerCheck)
+  for (size_t i = 0; i < parts_.size() && !cancel_; i += kPartsPerCheck) {
     if (parts_[i].width() > 0 && parts_[i].height() > 0) job.show(parts_[i], plainTiles(), compare, cancel_);
+    seen.clear();
+  }
   const std::lock_guard lock(mutex_);
   if (cancel_) return;
   notLinear_.clear();

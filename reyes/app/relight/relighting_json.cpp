@@ -140,23 +140,26 @@ Json Relighting::status() const {
       {"bytes", layers_->bytes()}};
 }
 
-std::optional<int> Relighting::groupAt(int x, int y) const {
-  const auto shot = files();
-  const DeepFrame& frame = shot->dfb().shot().frame;
-  const auto index = static_cast<size_t>(frame.rowOf(y) * frame.columns + (x - frame.padded.x0) / frame.bucketWidth);
-  std::string error;
-  const auto tile = shot->dfb().tile(index, error);
-  if (!tile || tile->pixel(x, y).count == 0) return std::nullopt;
-  const Facet& nearest = tile->facets[tile->fragments[tile->pixel(x, y).first].facet];
-  return tile->batches[static_cast<size_t>(nearest.batch)].group();
+size_t Relighting::bucketAt(int x, int y) const {
+  const DeepFrame& frame = files()->dfb().shot().frame;
+  return static_cast<size_t>(frame.rowOf(y) * frame.columns + (x - frame.padded.x0) / frame.bucketWidth);
+}
+
+std::optional<int> groupAt(const DeepTile& tile, int x, int y) {
+  const DeepPixel& pixel = tile.pixel(x, y);
+  if (pixel.count == 0) return std::nullopt;
+  const Facet& nearest = tile.facets[tile.fragments[pixel.first].facet];
+  return tile.batches[static_cast<size_t>(nearest.batch)].group();
 }
 
 Json Relighting::objectAt(int x, int y) const {
   const int atX = window_.x0 + x, atY = window_.y0 + y;
   if (!window_.contains(atX, atY)) throw BadRequest("this pixel is outside of the picture");
-  const std::optional<int> group = groupAt(atX, atY);
-  if (!group) return Json::object();
   const auto shot = files();
+  std::string error;
+  const auto tile = shot->dfb().tile(bucketAt(atX, atY), error);
+  const std::optional<int> group = tile ? groupAt(*tile, atX, atY) : std::nullopt;
+  if (!group) return Json::object();
   const Attributes& a = *shot->dfb().shot().scene.groups[static_cast<size_t>(*group)].attributes;
   return {{"object", a.name}, {"shader", a.surface ? a.surface->name : "defaultsurface"}};
 }

@@ -1,6 +1,7 @@
 // Private to Relighting: the numbers of its layers, and what their lights are multiplied by.
 #pragma once
 #include "reyes/app/relight/edit_state.h"
+#include "reyes/deep.h"
 #include "reyes/image.h"
 
 namespace tomales {
@@ -14,6 +15,9 @@ inline std::vector<float> unitOf(const EditableParam& param) {
   if (std::ranges::count(out, 0.0f) > 0) std::ranges::fill(out, 1.0f);
   return out;
 }
+
+/// The shade group of the nearest thing at a raster pixel of a bucket.
+std::optional<int> groupAt(const DeepTile& tile, int x, int y);
 
 /// The variables and channels that a page may ask for.
 std::vector<std::string> variablesOf(const Options& options);

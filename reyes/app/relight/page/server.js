@@ -32,10 +32,10 @@ export const link = { rate: 2e7, received: 0 };
 /** Calls `tell(status, blocks)` with all that is new, until the program ends: coarse where the link is slow, and at full size
     when nothing newer waits. */
 export const listen = async (tell) => {
-  for (let seen = 0, fine = 0, newest = 0; ;) {
+  for (let seen = 0, fine = 0, newest = 0, told = 0; ;) {
     const bytes = Math.round(Math.min(Math.max(link.rate * kWait_s, kLeast_bytes), kMost_bytes));
     const refines = newest <= seen && fine < seen;
-    const question = refines ? `news?after=${fine}&last=${seen}&bytes=${bytes}` : `news?after=${seen}&bytes=${bytes}`;
+    const question = refines ? `news?after=${fine}&last=${seen}&bytes=${bytes}` : `news?after=${seen}&told=${told}&bytes=${bytes}`;
     const answer = await reply(await fetch(question)), begun = performance.now();
     const buffer = await answer.arrayBuffer(), seconds = Math.max(performance.now() - begun, 0.1) / 1000;
     link.received += buffer.byteLength;
@@ -45,6 +45,7 @@ export const listen = async (tell) => {
     const status = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     const blocks = blocksOf(buffer, 4 + length);
     newest = status.newest;
+    told = status.told;
     if (refines) fine = status.after;
     else if (fine === seen && blocks.every((b) => b.step === 1 || b.step === kCoarse)) fine = seen = status.after;
     else seen = status.after;
