@@ -2,15 +2,13 @@
 
 #include <utility>
 
-#include "gi/cache/amendments/behind.h"
 #include "gi/cache/amendments/disputes.h"
-#include "gi/cache/amendments/reach.h"
 #include "gi/cache/amendments/second_order.h"
 #include "gi/cache/amendments/slopes.h"
 #include "gi/cache/amendments/switches.h"
 #include "gi/cache/published.h"
 #include "gi/cache/record_tree.h"
-#include "reyes/base/simd.h"
+#include "gi/cache/vicinity.h"
 
 namespace tomales {
 namespace {
@@ -19,53 +17,21 @@ constexpr size_t kRun = 64;  // greatest number of lookups that share their cand
 // greatest diagonal of the places of a run: incoherent points would share too many candidates
 constexpr float kRunPixels = 24;
 
+// What is compared to choose candidates is rounded by less, relatively.
+constexpr float kSlack = 1e-4f;
+
 struct Candidate {
   uint32_t record;
   float weight;
 };
 
-/// The records that may serve some of the places of a run, as arrays.
-struct Vicinity {
-  std::vector<uint32_t> records;
-  AlignedVector<float> x, y, z, nx, ny, nz, size, limit, slack;
-
-  void clear() {
-    records.clear();
-    for (auto* a : {&x, &y, &z, &nx, &ny, &nz, &size, &limit}) a->clear();
-  }
-  void add(uint32_t record, const IrradianceRecord& r, float recordSize) {
-    records.push_back(record);
-    x.push_back(r.position.x);
-    y.push_back(r.position.y);
-    z.push_back(r.position.z);
-    nx.push_back(r.normal.x);
-    ny.push_back(r.normal.y);
-    nz.push_back(r.normal.z);
-    size.push_back(recordSize);
-    limit.push_back(r.limit);
-  }
+/// Memory that lookups of one thread use again.
+struct Search {
+  std::vector<uint32_t> near;
+  Vicinity vicinity;
+  std::vector<Serving> serving;
+  std::vector<Candidate> found;
 };
-
-/// Bounds of what a record may serve, before rounding.
-struct ValidityBounds {
-  static constexpr float kRounding = 1e-4f;  ///< Relative, of what is compared to choose candidates.
-  float least, most, scale;  ///< The radius is the record's size, clamped between least and most, times scale.
-  float cosine;              ///< Least cosine of the angle between normals.
-};
-
-/// slack[i] > 0: record i may serve a point at p with normal n.
-TOMALES_HOT void findSlack(const Vicinity& v, const vec3& p, const vec3& n, const ValidityBounds& reach, float* slack) {
-  const float *x = v.x.data(), *y = v.y.data(), *z = v.z.data(), *nx = v.nx.data(), *ny = v.ny.data(),
-              *nz = v.nz.data();
-  const float *size = v.size.data(), *limit = v.limit.data();
-  const size_t count = v.records.size();
-  for (size_t i = 0; i < count; ++i) {
-    const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
-    const float radius = std::min(reach.scale * std::max(std::min(size[i], reach.most), reach.least), limit[i]);
-    const float near = radius * radius - (dx * dx + dy * dy + dz * dz);
-    slack[i] = std::min(near, n.x * nx[i] + n.y * ny[i] + n.z * nz[i] - reach.cosine);
-  }
-}
 
 }  // namespace
 
@@ -85,7 +51,7 @@ struct IrradianceCache::Impl {
   float size(const IrradianceRecord& r) const {
     return std::visit([&](const auto& equations) { return equations.size(r); }, published);
   }
-  float reach(float recordSize, float pixelSize) const { return radiusOf(recordSize, settings, pixelSize); }
+  float reach(float recordSize, float pixelSize) const { return rangeAt(pixelSize, 1).radiusOf(recordSize); }
 
   void insert(uint32_t index) {
     const IrradianceRecord& r = records[index];
@@ -109,39 +75,65 @@ struct IrradianceCache::Impl {
     }
   }
 
-  // The weight falls smoothly to 0 where the record stops being used, so that interpolation has no seams.
-  float weight(const IrradianceRecord& r, const vec3& x, const vec3& n, float pixelSize, float wider) const {
-    const float covers = reach(size(r), pixelSize), radius = std::min(covers * reachFactor(r, covers, wider), r.limit);
-    const vec3 step = x - r.position;
-    const float distance2 = dot(step, step);
-    if (!(distance2 < radius * radius)) return 0;
-    const float fades = fadesBehind ? frontFactor(r, step, n, radius, pixelSize / settings.kappa) : 1.0f;
-    if (!(fades > 0)) return 0;
-    const float position = std::sqrt(distance2) / radius, angle = std::sqrt(std::max(0.0f, 1 - dot(n, r.normal)));
-    return fades * std::visit([&](const auto& equations) { return equations.weight(position, angle); }, published);
-  }
-
-  // The candidates are in the order of the records, so that the result does not depend on the shape of the tree.
-  std::vector<Candidate> candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
-    std::vector<Candidate> out;
-    tree.visit(
-        {x, x}, [&](float recordSize) { return reach(recordSize, pixelSize); },
-        [&](uint32_t i) {
-          if (const float w = weight(records[i], x, n, pixelSize, 1); w > 0) out.push_back({i, w});
-        });
-    std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
-    return out;
-  }
-
-  ValidityBounds boundsAt(float pixelSize, float wider) const {
+  Range rangeAt(float pixelSize, float wider) const {
     const float least = std::visit([](const auto& equations) { return equations.leastCosine(); }, published);
-    return {settings.minPixels * pixelSize, settings.maxPixels * pixelSize,
-            wider * (1 + ValidityBounds::kRounding) / settings.kappa, least - ValidityBounds::kRounding};
+    return {settings.minPixels * pixelSize,
+            settings.maxPixels * pixelSize,
+            settings.kappa,
+            pixelSize / settings.kappa,
+            wider,
+            least - kSlack,
+            fadesBehind};
+  }
+
+  /// Makes all records that may serve a place in this region search.vicinity, in the order of the records: sums must
+  /// not depend on the shape of the tree.
+  void findNear(const Bound3& region, const Range& farthest, Search& search) const {
+    const auto reachOf = [&](float recordSize) {
+      return (1 + kSlack) * farthest.wider * farthest.radiusOf(recordSize);
+    };
+    search.near.clear();
+    tree.visit(region, reachOf, [&](uint32_t i) {
+      const IrradianceRecord& r = records[i];
+      const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
+      const float radius = std::min(reachOf(size(r)), (1 + kSlack) * r.limit);
+      if (dot(off, off) <= radius * radius) search.near.push_back(i);
+    });
+    std::ranges::sort(search.near);
+    search.vicinity.assign(search.near, records, [this](const IrradianceRecord& r) { return size(r); });
+  }
+
+  /// Replaces search.found by the candidates at a place. Pre: findNear() has been called for a region around it. The
+  /// weight falls smoothly to 0 where the record stops being used, so that interpolation has no seams.
+  void findAt(const vec3& x, const vec3& n, const Range& range, Search& search) const {
+    search.vicinity.find(x, n, range, search.serving);
+    search.found.clear();
+    std::visit(
+        [&](const auto& equations) {
+          for (const Serving& s : search.serving)
+            if (const float w = s.fades * equations.weight(s.position, s.angle); w > 0)
+              search.found.push_back({s.record, w});
+        },
+        published);
+  }
+
+  /// The same for one place alone.
+  const std::vector<Candidate>& candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
+    Search& search = searchOfThread();
+    const Range range = rangeAt(pixelSize, 1);
+    findNear({x, x}, range, search);
+    findAt(x, n, range, search);
+    return search.found;
+  }
+
+  static Search& searchOfThread() {
+    thread_local Search search;
+    return search;
   }
 
   /// Lookups that lie close together share one walk through the tree.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider,
-              std::span<const LightShare> light, Vicinity& near, std::vector<Candidate>& found) const {
+              std::span<const LightShare> light, Search& search) const {
     Bound3 region;
     float pixelSize = 0;
     for (const IrradiancePlace& p : places) {
@@ -150,31 +142,13 @@ struct IrradianceCache::Impl {
     }
     const size_t half = places.size() / 2;
     if (places.size() > kRun || (half > 0 && !(glm::length(region.size()) <= kRunPixels * pixelSize))) {
-      lookup(places.first(half), out, wider, light, near, found);
-      return lookup(places.subspan(half), out + half, wider, light, near, found);
+      lookup(places.first(half), out, wider, light, search);
+      return lookup(places.subspan(half), out + half, wider, light, search);
     }
-    near.clear();
-    const ValidityBounds farthest = boundsAt(pixelSize, wider);
-    const auto reachOf = [&](float recordSize) {
-      return farthest.scale * std::max(std::min(recordSize, farthest.most), farthest.least);
-    };
-    tree.visit(region, reachOf, [&](uint32_t i) {
-      const IrradianceRecord& r = records[i];
-      const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
-      const float radius = std::min(reachOf(size(r)), (1 + ValidityBounds::kRounding) * r.limit);
-      if (dot(off, off) <= radius * radius) near.add(i, r, size(r));
-    });
-    near.slack.resize(near.records.size());
+    findNear(region, rangeAt(pixelSize, wider), search);
     for (const IrradiancePlace& p : places) {
-      findSlack(near, p.position, p.normal, boundsAt(p.pixelSize, wider), near.slack.data());
-      found.clear();
-      for (size_t k = 0; k < near.records.size(); ++k) {
-        if (!(near.slack[k] > 0)) continue;
-        const float w = weight(records[near.records[k]], p.position, p.normal, p.pixelSize, wider);
-        if (w > 0) found.push_back({near.records[k], w});
-      }
-      std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.record < b.record; });
-      *out++ = blend(found, p.position, p.shadingNormal, p.pixelSize, light);
+      findAt(p.position, p.normal, rangeAt(p.pixelSize, wider), search);
+      *out++ = blend(search.found, p.position, p.shadingNormal, p.pixelSize, light);
     }
   }
 
@@ -264,9 +238,7 @@ void IrradianceCache::lookup(std::span<const IrradiancePlace> places, Irradiance
   if (places.empty()) return;
   if (!impl_->has(Amendment::Reach)) wider = 1;
   if (impl_->settings.kappa < kInfinity) {
-    thread_local Vicinity near;
-    thread_local std::vector<Candidate> found;
-    return impl_->lookup(places, out, wider, light, near, found);
+    return impl_->lookup(places, out, wider, light, Impl::searchOfThread());
   }
   for (const IrradiancePlace& p : places) *out++ = impl_->blend({}, p.position, p.shadingNormal, p.pixelSize, light);
 }
@@ -276,7 +248,8 @@ std::vector<LightShare> IrradianceCache::mixed(std::span<const vec3> gains) cons
   out.reserve(impl_->records.size());
   for (const IrradianceRecord& r : impl_->records) {
     LightShare& sum = out.emplace_back();
-    for (size_t g = 0; g < gains.size(); ++g) sum.add(r.shares[g], gains[g]);
+    for (size_t g = 0; g < gains.size(); ++g)
+      if (gains[g] != vec3(0.0f)) sum.add(r.shares[g], gains[g]);
   }
   return out;
 }

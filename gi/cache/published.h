@@ -53,10 +53,4 @@ inline Published publishedBy(PublishedEquations equations, float kappa) {
   return Screen{kappa};
 }
 
-/// The distance at which the error reaches 1: the denominator of eq. 3 over kappa. The split sphere as it was published
-/// has no limits in pixels.
-inline float radiusOf(float size, const CacheSettings& settings, float pixelSize) {
-  return std::max(std::min(size, settings.maxPixels * pixelSize), settings.minPixels * pixelSize) / settings.kappa;
-}
-
 }  // namespace tomales

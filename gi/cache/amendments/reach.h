@@ -7,14 +7,20 @@
 
 namespace tomales {
 
+/// The inverse of the distance over which the gradients change a record's light by kSteep of itself; infinite where
+/// there is no light.
+inline float steepnessOf(const IrradianceRecord& r) {
+  constexpr float kSteep = 0.3f;  // more lets the dark side of edges get light
+  const vec3 slope = r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2];
+  const float most = kSteep * (r.E.x + r.E.y + r.E.z);
+  return most > 0 ? glm::length(slope) / most : kInfinity;
+}
+
 /// Factor on a record's radius: `wider` where light does not change over the radius, and 1 where it changes by kSteep
 /// of itself.
-inline float reachFactor(const IrradianceRecord& r, float radius, float wider) {
-  constexpr float kSteep = 0.3f;  // more lets the dark side of edges get light
-  const vec3 change = radius * (r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2]);
-  const float most = kSteep * (r.E.x + r.E.y + r.E.z);
-  const float even = dot(change, change) < most * most ? 1 - dot(change, change) / (most * most) : 0.0f;
-  return 1 + (wider - 1) * even;
+inline float reachFactor(float steepness, float radius, float wider) {
+  const float change = radius * steepness;
+  return 1 + (wider - 1) * std::max(0.0f, 1 - change * change);
 }
 
 }  // namespace tomales

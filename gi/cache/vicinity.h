@@ -1,0 +1,55 @@
+// Private to gi/irradiance_cache: the records that may serve some of the places of a run of lookups, as arrays, so that
+// vector instructions compare each place with all of them. Space: that of the cache.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "gi/irradiance_cache.h"
+#include "reyes/base/simd.h"
+
+namespace tomales {
+
+/// How far records of a given size serve, for places of one pixel size.
+struct Range {
+  float least, most;  ///< The clamps R- and R+ of approximate-gi eq. 3.
+  float kappa;        ///< The divisor of radii in eq. 2.
+  float pixel;        ///< Root of the projected pixel area at kappa 1.
+  float wider;        ///< Greatest factor on a radius (Amendment::Reach).
+  float leastCosine;  ///< Between the normal of a place and that of a record that serves it.
+  bool fadesBehind;   ///< Amendment::Behind
+
+  /// The distance at which the error reaches 1: the denominator of eq. 3 over kappa. The split sphere as it was
+  /// published has no limits in pixels.
+  float radiusOf(float size) const { return std::max(std::min(size, most), least) / kappa; }
+};
+
+/// A record that serves a place, and what its weight depends on.
+struct Serving {
+  uint32_t record;
+  float position;  ///< The distance over the radius; less than 1.
+  float angle;     ///< sqrt(1 - n.ni)
+  float fades;     ///< A factor on the weight; more than 0.
+};
+
+class Vicinity {
+ public:
+  /// Replaces all records by these. Each lookup finds them in this order.
+  template <class SizeOf>
+  void assign(const std::vector<uint32_t>& indices, const IrradianceRecords& records, const SizeOf& sizeOf) {
+    clear();
+    for (const uint32_t i : indices) add(i, records[i], sizeOf(records[i]));
+  }
+  /// Replaces `out` by the records that serve this place.
+  void find(const vec3& position, const vec3& normal, const Range& range, std::vector<Serving>& out);
+
+ private:
+  void clear();
+  void add(uint32_t index, const IrradianceRecord& record, float size);
+
+  std::vector<uint32_t> records_;
+  AlignedVector<float> x_, y_, z_, nx_, ny_, nz_, size_, limit_, steepness_, unseen_;
+  AlignedVector<float> position_, angle_, fades_;  ///< As in Serving; fades_ is 0 where the record does not serve.
+};
+
+}  // namespace tomales
