@@ -86,6 +86,11 @@ key, rim, both = picture("key.exr"), picture("rim.exr"), picture("room.exr")
 worst = max(abs(key[p][c] + rim[p][c] - both[p][c]) for p in both for c in range(3))
 suite.expect(worst < 2e-5, f"the pictures of one light each add up to that of both ({worst:.1e})")
 
+# What a light bounces does not follow it to another place, but goes when it is put out there.
+suite.write("away.rib", 'LightSource "pointlight" "key" "from" [-0.5 0.6 -0.3] "intensity" [0]\n')
+suite.expect_run("a light that is moved and put out", shade("away.exr", "--irradiance", "room.icf", "--edit", "away.rib"), 0, "light-stale", '"key"')
+suite.expect(picture("away.exr") == rim, "brings nothing")
+
 suite.write("cone.rib", 'LightSource "spotlight" "rim" "coneangle" [0.3]\n')
 suite.expect_run("another cone is no factor", shade("cone.exr", "--irradiance", "room.icf", "--edit", "cone.rib"), 0, "light-stale", '"rim"')
 suite.run("gather", "room.dfb", "-o", "part.icf", "--irradiance", "room.icf", "--crop", "0,0.5,0,1", "--edit", "cone.rib", "-q")

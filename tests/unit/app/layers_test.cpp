@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
@@ -102,6 +103,16 @@ TEST(Layers, FullSizeComesInPiecesUpToTheLastBlockThatIsAskedFor) {
   while (after < 3)
     for (const Block& b : blocksOf(store.blocksAfter(after, 1, 3))) seen.push_back(b.x);
   EXPECT_EQ(seen, (std::vector<uint32_t>{0, 16, 32}));
+}
+
+TEST(Layers, NewsThatCameBeforeSomebodyWaitsForItEndsTheWait) {
+  const LayerStore store({0, 0, 1, 1}, 1);
+  const uint64_t told = store.woken();
+  store.wake();
+  EXPECT_EQ(store.woken(), told + 1);
+  const auto start = std::chrono::steady_clock::now();
+  store.wait(store.newest(), told);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));  // without news it takes five
 }
 
 TEST(Layers, WhatHalfFloatsCannotHoldBecomesTheNearestThatTheyCan) {
