@@ -112,7 +112,7 @@ TEST(Layers, NewsThatCameBeforeSomebodyWaitsForItEndsTheWait) {
   EXPECT_EQ(store.woken(), told + 1);
   const auto start = std::chrono::steady_clock::now();
   store.wait(store.newest(), told);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));  // without news it takes five
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));  // without news it takes longer
 }
 
 TEST(Layers, WhatHalfFloatsCannotHoldBecomesTheNearestThatTheyCan) {
