@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <filesystem>
 #include <thread>
@@ -12,6 +11,7 @@
 #include "reyes/app/frame/granted.h"
 #include "reyes/app/page_files.h"
 #include "reyes/app/relight/http_server.h"
+#include "reyes/app/relight/pages.h"
 #include "reyes/app/relight/relighting.h"
 #include "reyes/app/relight/saved_edits.h"
 #include "reyes/app/watch/interrupt.h"
@@ -49,51 +49,6 @@ std::string textOf(const HttpQuestion& q, const std::string& name) {
   const auto found = q.parameters.find(name);
   return found == q.parameters.end() ? "" : found->second;
 }
-
-/// The page that edits, by the number that it has given itself; others watch. Threads: any.
-class Editor {
- public:
-  /// Tells whether this page may edit: it does already, it takes over, or nobody does. Page 0 has no number.
-  bool admits(uint64_t page, bool takesOver) {
-    uint64_t nobody = 0;
-    if (takesOver)
-      page_ = page;
-    else
-      page_.compare_exchange_strong(nobody, page);
-    return page_ == page;
-  }
-  /// Returns true if it was the one.
-  bool leave(uint64_t page) { return page_.compare_exchange_strong(page, 0); }
-  uint64_t page() const { return page_; }
-
- private:
-  std::atomic<uint64_t> page_{0};
-};
-
-/// Waits for what is prepared meanwhile. Threads: any.
-class Gate {
- public:
-  /// `good`: what waits may go on; else it has to end.
-  void open(bool good) {
-    const std::lock_guard lock(mutex_);
-    good_ = good;
-    changed_.notify_all();
-  }
-  bool isOpen() const {
-    const std::lock_guard lock(mutex_);
-    return good_.has_value();
-  }
-  void pass() const {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return good_.has_value(); });
-    if (!*good_) throw BadRequest("the shot cannot be shown: the terminal says why");
-  }
-
- private:
-  mutable std::mutex mutex_;
-  mutable std::condition_variable changed_;
-  std::optional<bool> good_;
-};
 
 class Relight {
  public:
