@@ -69,6 +69,8 @@ IncludeSearch::IncludeSearch(const PreprocessOptions& options, const std::string
   for (const std::string& folder : folders_) permitted_.push_back(realPath(folder));
   if (!ownFolder.empty()) permitted_.push_back(realPath(ownFolder));
   std::erase(permitted_, std::string());
+  if (ownFolder.empty()) return;
+  for (const char* folder : {"/include", "/..", "/../include"}) collections_.push_back(ownFolder + folder);
 }
 
 bool IncludeSearch::isPermitted(const std::string& path) const {
@@ -90,6 +92,11 @@ ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::st
     if (isPermitted(real)) return readFile(path);
     out.failure = "it is outside of the folders from which files may be included";
   }
+  if (fs::path(wanted).extension() == ".h" && fs::path(wanted).filename() == wanted)
+    for (const std::string& folder : collections_) {
+      const std::string path = folder + "/" + wanted, real = realPath(path);
+      if (!real.empty() && folderOf(real) == realPath(folder)) return readFile(path);
+    }
   const std::string_view own = standard_ ? standardHeader(wanted) : std::string_view();
   return own.empty() ? out : asFile(wanted, std::string(own));
 }

@@ -30,6 +30,9 @@ class IncludeSearch {
   std::vector<std::string> folders_;    ///< In the order in which they are searched.
   bool standard_;                       ///< True if the renderer's own headers come last.
   std::vector<std::string> permitted_;  ///< Paths without symbolic links.
+  /// Where collections of shaders keep their headers, as K-3D does above the folders of surfaces and displacements.
+  /// Headers alone are read from there, and by plain names alone.
+  std::vector<std::string> collections_;
 };
 
 /// The folder part of a path: "." for a plain name.

@@ -90,6 +90,28 @@ TEST_F(Includes, ReadNothingOutsideOfTheFolders) {
       << "a folder whose name begins alike";
 }
 
+TEST_F(Includes, LookForHeadersWhereCollectionsOfShadersKeepThem) {
+  for (const char* folder : {"include", "own/include"}) fs::create_directories(root_ / folder);
+  write("include/x.h", "beside");
+  EXPECT_EQ(read("#include \"x.h\"\n1"), "beside 1");
+  write("x.h", "above");
+  EXPECT_EQ(read("#include <x.h>\n1"), "above 1");
+  write("own/include/x.h", "below");
+  EXPECT_EQ(read("#include \"x.h\"\n1"), "below 1");
+  write("headers/x.h", "headers");
+  EXPECT_EQ(read("#include \"x.h\"\n1"), "headers 1");
+}
+
+TEST_F(Includes, LookForNothingElseThere) {
+  const std::string refused = "': there is no such file beside the file or in the folders for headers";
+  write("notes", "secret");
+  write("notes.txt", "secret");
+  write("secret/x.h", "secret");
+  fs::create_symlink(root_ / "secret/x.h", root_ / "link.h");
+  for (const std::string name : {"notes", "notes.txt", "secret/x.h", "link.h"})
+    EXPECT_EQ(read("#include \"" + name + "\"\n"), " !cannot include '" + name + refused);
+}
+
 TEST_F(Includes, MayGoUpWithinAPermittedFolder) {
   write("headers/x.h", "x");
   EXPECT_EQ(read("#include \"../headers/x.h\"\n1"), "x 1");
