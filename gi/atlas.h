@@ -23,7 +23,7 @@ namespace tomales {
 struct AtlasSettings {
   PhotonSettings photons;
   PhotonIrradianceSettings irradiance;
-  PhotonIrradianceSettings caustics{50, 1};  ///< Sharp: every photon gets an estimate.
+  PhotonIrradianceSettings caustics{50, 1};  ///< Caustics are sharp, so every photon gets an estimate.
   /// maxError is a share of the map's mean irradiance (the paper's is absolute). An estimate is a mean over 50 photons,
   /// and every fourth has one: voxels as wide as the disks hold all of their detail, in a quarter of the bricks.
   BrickSettings bricks{.maxError = 0.03f, .coarseness = 2};
@@ -31,7 +31,7 @@ struct AtlasSettings {
   uint64_t world = 0;                  ///< worldSum() of the scene.
 };
 
-/// The names of the maps of each of Scene::groups, and the number of its surface there: surfaces that touch do not
+/// The names of the maps of each of Scene::groups, and the number of its surface there. Surfaces that touch do not
 /// share light.
 struct MapNames {
   std::vector<std::string> global;
@@ -73,16 +73,16 @@ void writeIrradiance(const std::filesystem::path& photons, const std::filesystem
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                                   BrickSettings settings);
 
-/// Returns false if they were made of these points and settings already, and are kept. Throws FileError.
+/// Makes the map again if its points or settings have changed. Returns false if it is kept. Throws FileError.
 bool renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                            const BrickSettings& settings, Stats& stats);
 /// Reads the MadeFrom of a point cloud; zeros for a file that is missing or damaged.
 MadeFrom pointsMadeFrom(const std::filesystem::path& path);
 
-/// Are the photons of this scene and these settings in FOLDER/photons?
+/// Tells whether FOLDER/photons holds the photons of this scene and these settings.
 bool hasPhotons(const std::filesystem::path& folder, const MapNames& names, const AtlasSettings& settings);
-/// Makes irradiance and brick maps of the photons in FOLDER/photons, as far as they are not there yet, of the maps of
-/// one part. Throws FileError.
+/// Makes irradiance and brick maps from the photons in FOLDER/photons, for the maps of one part, unless they are there
+/// already. Throws FileError.
 void writeMaps(const std::filesystem::path& folder, WorkPart part, const Scene& scene, const RayScene& rays,
                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
                Log& log);
@@ -139,7 +139,7 @@ class IrradianceAtlas {
   mutable BrickCache cache_;
   mat4 worldFromCurrent_;
   float worldFromCurrentScale_;
-  std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< In the order of their names.
+  std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< Sorted by name.
   struct Photons {
     MadeFrom from;
     CausticPhotons photons;

@@ -20,7 +20,8 @@ enum class ErrorFunction {
 /// The published equations that a function has; gi/cache/published.h has a type for each.
 enum class PublishedEquations { Screen, SplitSphere, Hessian };
 
-/// What this renderer adds to the published equations; gi/cache/amendments/switches.h says where each is.
+/// The amendments that this renderer adds to the published equations; gi/cache/amendments/switches.h says where each
+/// is.
 enum class Amendment { SecondOrder, Disputes, Reach, Behind, Occluders, Slopes };
 
 constexpr uint32_t bitOf(Amendment amendment) { return uint32_t{1} << static_cast<uint32_t>(amendment); }
@@ -29,8 +30,8 @@ constexpr uint32_t bitOf(Amendment amendment) { return uint32_t{1} << static_cas
 /// (docs/measured/irradiance_cache.md).
 inline constexpr float kSplitSphereKappa = 4;
 inline constexpr float kNoLimit = std::numeric_limits<float>::infinity();
-/// For comparison with what was published: records do not check each other, each is extrapolated by its own gradients
-/// alone, and none serves farther in shading than where records are placed.
+/// The amendments that are left out for comparison with what was published: records do not check each other, each is
+/// extrapolated by its own gradients alone, and none serves farther in shading than where records are placed.
 inline constexpr uint32_t kAsPublished =
     bitOf(Amendment::SecondOrder) | bitOf(Amendment::Disputes) | bitOf(Amendment::Reach);
 

@@ -16,7 +16,7 @@ struct IrradianceShot {
   std::vector<PreparedCache> caches;  ///< In camera space.
   /// Empty if an emitter is curved or cut by trim curves: sampling it needs its geometry.
   std::optional<EmitterTable> emitters;
-  std::vector<std::shared_ptr<LightCall>> lights;  ///< As they were when the records were gathered; as Scene::lights.
+  std::vector<std::shared_ptr<LightCall>> lights;  ///< Scene::lights as they were when the records were gathered.
   std::vector<std::string> groups;  ///< The groups of lights whose shares the records hold (GiServices::keepShares).
   std::shared_ptr<LearntLight> learnt;  ///< In camera space, for this shot alone.
 };

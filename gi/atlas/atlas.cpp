@@ -185,7 +185,7 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
                const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeAtlasFolder(irradiance);
-  // Where direct light is stored too, hits have no other way to their light: they look up what there is.
+  // If photons hold direct light too, hits have no other source of it: they take whatever is stored near them.
   const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(rays);
   size_t finished = 0;
   std::vector<MapFigures> made;

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kPlaces = 2048;  ///< In all maps together.
+constexpr size_t kPlaces = 2048;  ///< Number of places in all maps together.
 constexpr int kDirections = 8;
 /// The distance of the farthest photons of an estimate, in radii of the disk that it stands for. An estimate is made of
 /// fifty photons and stands for the place of four, with disks that overlap.

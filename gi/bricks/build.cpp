@@ -66,7 +66,7 @@ class Builder {
   }
 
  private:
-  /// The data of one level. Only these and the points are in memory.
+  /// The data of one level. Memory holds no more than this and the points.
   struct Level {
     explicit Level(size_t width) : sums(width) {}
     BrickAccumulator sums;

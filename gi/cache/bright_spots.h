@@ -30,7 +30,7 @@ class BrightSpots {
     vec3 halfU{0}, halfV{0};  ///< Perpendicular vectors from the rectangle's centre to the middles of two edges.
   };
   BrightSpots() = default;
-  /// Those that another has learnt.
+  /// Takes over spots that another object has learnt.
   BrightSpots(std::vector<Spot> spots, float irradiance)
       : spots_(std::move(spots)), irradiance_(irradiance), records_(1) {}
   /// Computes the spots anew. The same finds in the same order give the same spots.

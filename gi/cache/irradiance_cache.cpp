@@ -17,7 +17,7 @@ constexpr size_t kRun = 64;  // greatest number of lookups that share their cand
 // greatest diagonal of the places of a run: incoherent points would share too many candidates
 constexpr float kRunPixels = 24;
 
-// What is compared to choose candidates is rounded by less, relatively.
+// Relative margin of the values that choose candidates. It exceeds their rounding error.
 constexpr float kSlack = 1e-4f;
 
 struct Candidate {

@@ -43,7 +43,7 @@ bool comesBefore(const PointCloud& cloud, uint32_t a, uint32_t b) {
   return std::lexicographical_compare(cloud.at(a), cloud.at(a) + width, cloud.at(b), cloud.at(b) + width);
 }
 
-/// Without copies: buckets on whose border a micropolygon lies shade it each for itself.
+/// Returns the sorted points without copies. Buckets on whose border a micropolygon lies shade it each for itself.
 PointCloud sorted(const PointCloud& cloud) {
   std::vector<uint32_t> order(cloud.count());
   std::iota(order.begin(), order.end(), 0u);

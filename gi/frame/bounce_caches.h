@@ -24,10 +24,10 @@ class BounceCaches {
   /// nothing.
   void fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
             const GatherSettings& gather, int bounces, const Run& run);
-  /// All that lookup() knows, for files.
+  /// The members that lookup() needs, for files.
   struct Levels {
     Bound3 bound;
-    std::vector<std::vector<IrradianceRecord>> records;  ///< Of each level.
+    std::vector<std::vector<IrradianceRecord>> records;  ///< Indexed by level.
     std::vector<std::string> groups;                     ///< Each record has the share of each of these.
     float leastDistance = 0;
   };

@@ -19,8 +19,8 @@ namespace tomales {
 namespace {
 
 constexpr int kPilotPhases = 3;  // bright spots are learnt from the records of these phases
-// With so many rays or more, all records have the same directions: what those miss changes little between records, and
-// is no more than other directions miss (docs/decisions/0095).
+// Number of rays from which on all records have the same directions. The light that those miss changes little between
+// records, and is no more than other directions miss (docs/decisions/0095).
 constexpr int kManyRays = 512;
 // the first records that look for bright spots have so many times fewer rays, of their own
 constexpr int kRaysPerPilotRay = 4;

@@ -22,7 +22,8 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
 // Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
-/// For photons that nobody limits. What is left after so many surfaces of reflectance 0.75 is a hundredth.
+/// Surfaces on a photon's path, if nobody limits them. A hundredth of the light is left after so many of reflectance
+/// 0.75.
 constexpr int kAuditBounces = 16;
 
 /// E/pi of light that came by mirrors and glass, which gather rays do not find.

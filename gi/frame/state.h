@@ -34,7 +34,7 @@ struct GiState {
   HitRadianceSource hitRadianceSource{};                     ///< May be empty.
   mutable std::unique_ptr<const HitRadiance> hitRadiance{};  ///< Set in GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
-  GiServices::BounceCost bounceCost{};        ///< Of the last gather pass.
+  GiServices::BounceCost bounceCost{};        ///< The cost of the last gather pass.
   std::optional<PhotonPasses> passes{};       ///< Empty: no photons are counted.
   std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.
   /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.
@@ -42,10 +42,10 @@ struct GiState {
   std::vector<std::string> groups{};    ///< The groups of lights whose shares records hold; empty: none.
   std::vector<vec3> gains{};            ///< One for each of these groups; empty if all are 1.
   std::vector<vec3> gainsOfNew{};       ///< The same for light that is gathered while shading.
-  std::unique_ptr<MixedLight> mixed{};  ///< With these gains; null if they are empty.
-  /// To be called when the gains or the records have changed.
+  std::unique_ptr<MixedLight> mixed{};  ///< Light mixed with these gains; null if they are empty.
+  /// Call this when the gains or the records have changed.
   void mixAnew() { mixed = gains.empty() ? nullptr : std::make_unique<MixedLight>(); }
-  /// Indexed as `caches`: that light, with another draw of each record's noise; empty before redrawRecords().
+  /// Light of the records, indexed as `caches`, with another draw of each record's noise; empty before redrawRecords().
   std::vector<std::vector<LightShare>> redrawn{};
 };
 
@@ -110,7 +110,8 @@ BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPl
 
 /// The places where the active points look, with no answer yet.
 BatchLookup placesOf(const GatherPlaces&, const ShadePoints&, const uint8_t* active, TmConstVec3 N);
-/// As lookUp(), but without the cache if context.answers, which must not be null, holds an answer for each place.
+/// Does the same as lookUp(), but without the cache if context.answers, which must not be null, holds an answer for
+/// each place.
 BatchLookup recallOrLookUp(const GiState&, const PreparedCache&, const GatherPlaces&, const ShadePoints&,
                            const uint8_t* active, TmConstVec3 N, const ShadeContext&);
 

@@ -24,9 +24,9 @@ class CausticPhotons {
 
   PhotonTree tree_;
   int power_;                  ///< Offset of the channel.
-  std::vector<float> radius_;  ///< Of each photon's disk, in the order of the tree.
-  /// Boxes around the disks: of so many photons that follow each other in the tree, of so many of these boxes, and so
-  /// on up to one.
+  std::vector<float> radius_;  ///< Radius of each photon's disk, in the order of the tree.
+  /// Levels of boxes around the disks: a box of the lowest level holds a number of photons that follow each other in
+  /// the tree, a box of the next as many boxes, and so on up to one.
   std::vector<std::vector<Bound3>> boxes_;
 };
 

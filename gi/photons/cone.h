@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// From outside a sphere around the scene only the cone to it counts, however far away the light is. From within, all
-/// directions do.
+/// Directions from a light. From outside a sphere around the scene only the cone to it counts, however far away the
+/// light is. From within, all directions do.
 class PhotonCone {
  public:
   static constexpr int kRows = 64, kColumns = 128;

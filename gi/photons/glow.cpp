@@ -83,7 +83,7 @@ void GlowPhotons::survey(Surface& out, size_t mostProbes) const {
   const size_t polygons = out.mesh->quads.size();
   if (polygons == 0) return;
   out.columns = std::clamp(static_cast<int>(std::sqrt(mostProbes / polygons)), 1, kMostColumns);
-  // Where there are more cells than probes, neighbours share one.
+  // Neighbouring cells share a probe if there are more cells than probes.
   const size_t perPolygon = static_cast<size_t>(out.columns * out.columns), cells = polygons * perPolygon,
                run = (cells + mostProbes - 1) / mostProbes, asked = (cells + run - 1) / run;
   std::vector<double> brightness(asked, 0.0), areas(cells, 0.0);
@@ -151,7 +151,7 @@ std::vector<vec3> GlowPhotons::radianceAlong(const std::vector<Start>& starts, c
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   for (size_t i = 0; i < starts.size(); ++i) {
-    // What is seen from here is filtered over the cell.
+    // The ray's radius filters what is seen from here over the cell.
     const vec3& P = starts[i].P;
     const float radius = std::max(0.5f * std::sqrt(starts[i].area), roundingAt(P) + 1e-20f);
     Ray ray{P + radius * directions[i], -directions[i]};

@@ -34,7 +34,7 @@ constexpr float kMuchBent = 0.95f;  ///< Length of the mean normal: a hemisphere
 struct Estimate {
   vec3 irradiance{0.0f};
   float radius = 0;                ///< 0 if no estimate was made.
-  bool few = false, bent = false;  ///< As in EstimateFigures.
+  bool few = false, bent = false;  ///< The same facts as in EstimateFigures.
   float clump = 1;
   bool acrossWalls = false;
 };

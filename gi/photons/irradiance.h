@@ -43,8 +43,9 @@ struct EstimateFigures {
   }
 };
 
-/// How far it is from P along a surface with normal N to walls behind which the surface goes on, at most `reach`, in
-/// even directions from the tangent of orthonormalBasis() on. Threads: calls are concurrent.
+/// Distances from P, along a surface with normal N, to walls behind which the surface goes on; they are at most
+/// `reach`. The directions are evenly spaced and start with the tangent of orthonormalBasis(). Threads: calls are
+/// concurrent.
 constexpr size_t kSightLines = 8;
 using SightLines = std::array<float, kSightLines>;
 using SightAlongSurface = std::function<SightLines(const vec3& P, const vec3& N, float reach)>;

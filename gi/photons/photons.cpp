@@ -21,7 +21,7 @@ class Series {
       if (const auto n = static_cast<size_t>(p.bounces); n < power_.size()) power_[n] += double{luminance(p.power)};
   }
 
-  /// What each arrival is of the one before, at the end. `emitted`: all power, in place of first arrivals.
+  /// Returns the ratio of successive arrivals at the end. `emitted`: all power, in place of first arrivals.
   double ratio(double emitted) const {
     const size_t n = power_.size();
     if (n < 2 || !(power_[n - 1] > 0)) return 0;

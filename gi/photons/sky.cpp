@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kCorners = SkyCells::kRows + 1;  ///< From pole to pole
+constexpr int kCorners = SkyCells::kRows + 1;  ///< Rows of corners from pole to pole.
 constexpr float kEven =
     1.0f / 64;  ///< Share of photons that fall anywhere: light that no corner of a cell has seen is not lost.
 constexpr float kThroughPortals = 0.75f;  ///< Share of photons through portals, where there are portals.

@@ -33,9 +33,9 @@ class Disputes {
     return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
   }
 
-  /// How far a record may reach that disagrees at this distance. Where light is steep, no record is needed nearer than
-  /// a pixel: it would be the noise of single pixels, each paid with a hemisphere. Where points see different surfaces,
-  /// something thinner than that lies between them.
+  /// Returns how far a record may reach that disagrees at this distance. Where light is steep, no record is needed
+  /// nearer than a pixel: such records would follow the noise of single pixels, each at the cost of a hemisphere. Where
+  /// points see different surfaces, something thinner than a pixel may lie between them.
   float limit(Disagreement disagreement, float distance, float pixelSize) const {
     if (disagreement == Disagreement::None) return kInfinity;
     return disagreement == Disagreement::Discontinuous ? distance
@@ -54,7 +54,7 @@ class Disputes {
 
   const bool on_;
   const float tolerance_, kappa_;
-  double luminanceSum_ = 0;  ///< Over the records' E.
+  double luminanceSum_ = 0;  ///< Sum of the luminances of the records' E.
   size_t records_ = 0;
 };
 
