@@ -21,8 +21,8 @@ constexpr double kRateRounding = 1e-3;  ///< Half a circle is twelve polygons, w
 constexpr float kLeastChord = 1e-4f;
 /// Limits for one patch; levels are diced only where rays come.
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
-/// What a patch may have in any picture, and how many times the polygons that would cover the picture evenly: a plane
-/// that reaches from the eye to the horizon needs many more.
+/// Number of polygons that a patch may have in any picture, and its greatest number in multiples of the polygons that
+/// would cover the picture evenly. A plane that reaches from the eye to the horizon needs many more than these.
 constexpr double kAlwaysQuads = 1 << 16, kMostOfPicture = 256;
 constexpr double kMostSharing = 16;  ///< Patches of an object that share these limits.
 
@@ -93,7 +93,7 @@ CoarseRate limited(const Object& o, double nu, double nv, double most, const cha
 /// The fineness that polygons should have.
 struct Fineness {
   float edge_px, turn;  ///< Upper limits of an edge's length and of the normal's turn along it in radians.
-  float least_px;       ///< On shorter edges the normal may turn farther.
+  float least_px;       ///< Least edge length for which `turn` counts. On shorter edges the normal may turn farther.
   const char* remedy;   ///< Advice that makes the polygons coarser, for the warning.
 };
 

@@ -39,7 +39,8 @@ struct RayScene::Impl {
   const Camera& camera;
   const bool hitList;
   const SharedShapes shapes;
-  const std::vector<CoarseGroup> groups;  ///< Without the polygons of `shapes`, but with their deviation and size.
+  // The groups without the polygons of `shapes`, but with the deviation and size of those.
+  const std::vector<CoarseGroup> groups;
   const Chunks chunks;
   const std::vector<bool> opacityIsConstant;
   const std::vector<uint32_t> masks;
