@@ -56,7 +56,7 @@ Color photonmap(const char* file, const Point& p, const Normal& n, const char* f
   return found;
 }
 
-/// E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
+/// Returns E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
 inline Color caustic(const Point& p, const Normal& n) {
   const std::string file = askText(TM_OF_ATTRIBUTES, "photon:causticmap");
   return file.empty() ? Color() : photonmap(file.c_str(), p, n);

@@ -28,7 +28,7 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   }
   return sum;
 }
-/// What specular() divides by the roughness to get its exponent, as Option "shade" "specular" says
+/// Returns the number that specular() divides by the roughness to get its exponent, as Option "shade" "specular" says
 /// (docs/decisions/0004).
 inline float specularScale() {
   float& scale = Run::now().specularScale;
@@ -39,7 +39,8 @@ inline float specularScale() {
 inline Float specularbrdf(const Vector& L, const Normal& N, const Vector& V, const Float& roughness) {
   return pow(max(0, dot(normalize(N), normalize(normalize(L) + normalize(V)))), specularScale() / roughness);
 }
-/// A random number that all points of a call share if their surfaces have one name (Attribute "identifier" "name").
+/// Returns a random number that all points of a call share if their surfaces have one name (Attribute "identifier"
+/// "name").
 inline Float randomGrid() {
   uint32_t hash = 0;
   for (const char c : askText(TM_OF_ATTRIBUTES, "identifier:name")) hash = rsl::latticeHash(int32_t(hash), c, 0);
@@ -53,7 +54,7 @@ template <class... List>
 Color trace(const Point& p, const Vector& r, const char* first, const List&... list) {
   return trace(p, r, listed(tmRayDefaults(), first, list...));
 }
-/// RSL's float trace(): how far the ray goes, or 1e30 where it meets nothing.
+/// Implements RSL's float trace(): returns how far the ray goes, or 1e30 where it meets nothing.
 inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& options = tmRayDefaults()) {
   Float out;
   grid()->call->trace(grid()->host, grid(), &options, p, r, TmVec3{}, out.data());
@@ -84,7 +85,8 @@ Float occlusion(const Point& p, const Normal& n, int samples, const List&... lis
   occlusion(p, n, samples, all);
   return covered;
 }
-/// The mean radiance that arrives from the hemisphere around n (or the cone of the list), not multiplied by Cs or pi.
+/// Returns the mean radiance that arrives from the hemisphere around n (or the cone of the list), not multiplied by Cs
+/// or pi.
 template <class... List>
 Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&... list) {
   HemisphereList all = listed(HemisphereList(), list...);
