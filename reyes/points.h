@@ -112,12 +112,12 @@ class ShadePoints {
   TmConstVec3 vec(int c) const { return {channel(c), channel(c + 1), channel(c + 2)}; }
 
   vec3 position(int i) const { return get3(kPx, i); }
-  /// The shading normal turned to the side that the viewer sees (RSL faceforward(N, I)).
+  /// Returns the shading normal turned to the side that the viewer sees (RSL faceforward(N, I)).
   vec3 facingNormal(int i) const {
     const vec3 n = get3(kNx, i);
     return dot(get3(kIx, i), get3(kNgx, i)) > 0 ? -n : n;
   }
-  /// Length of the longer edge of the micropolygon that the point stands for; 0 at ray hits.
+  /// Returns the length of the longer edge of the micropolygon that the point stands for; 0 at ray hits.
   float edgeLength(int i) const {
     return std::max(glm::length(get3(kDpduX, i)) * std::abs(channel(kDu)[i]),
                     glm::length(get3(kDpdvX, i)) * std::abs(channel(kDv)[i]));

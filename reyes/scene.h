@@ -34,7 +34,7 @@ struct Object {
   std::vector<float>
       keyTimes;  ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
   float displacementBound = 0;  ///< In camera space.
-  bool flipsNormal = false;     ///< cameraFromObject mirrors, or Orientation is inside (not both).
+  bool flipsNormal = false;     ///< True if either cameraFromObject mirrors or Orientation is inside, but not both.
   bool subtracted = false;      ///< Its solid lies on the side of its normals, which are turned for shading.
   int group = -1;               ///< Index of its ShadeGroup.
   uint32_t name = 0;            ///< Name for random numbers: the same for any order in which procedurals are opened.
@@ -96,7 +96,7 @@ struct Scene {
   /// attributes.
   void freeze();
 
-  /// Is the shutter open for some time, and motion wanted? Otherwise nothing is blurred.
+  /// Tells whether the shutter is open for some time, and motion wanted. Otherwise nothing is blurred.
   bool shutterIsOpen() const { return options.sampleMotion && options.shutterClose > options.shutterOpen; }
   /// Opens a procedural. The result has its derived fields except for its groups. The scene does not change.
   Expansion opened(const Procedural& procedural) const;
@@ -108,7 +108,7 @@ struct Scene {
   /// Opens all procedurals that are `wanted`, nested ones included. Call it before any object is used.
   void open(const std::function<bool(const Attributes&)>& wanted);
 
-  /// Its options, spaces, lights and place alone.
+  /// Returns a scene with its options, spaces, lights and place alone.
   Scene withoutObjects() const;
 
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
@@ -129,7 +129,7 @@ struct Scene {
   std::vector<int> dropped_;  ///< Indices that may be used again.
 };
 
-/// False if the scene was read from a .dfb, which leaves shapes out.
+/// Returns false if the scene was read from a .dfb, which leaves shapes out.
 inline bool hasGeometry(const Scene& scene) { return scene.objects.empty() || !scene.objects.front().shapes.empty(); }
 
 std::string objectName(const Object& object);  ///< Its identifier name, or "object at FILE:LINE".

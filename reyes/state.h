@@ -184,8 +184,9 @@ struct Attributes {
     std::optional<float> bias, offset;
     bool displacements = false;       ///< Rays see its displacement.
     bool displacementsGiven = false;  ///< The scene says so or not; else raytrace/visible_displacement.h chooses.
-    float chosenFiner = 0;            ///< What it has multiplied the tessellation by; 0: it has not chosen.
-    bool sampleMotion = true;         ///< Rays from this object see motion.
+    // The factor by which raytrace/visible_displacement.h has multiplied the tessellation; 0: it has not chosen.
+    float chosenFiner = 0;
+    bool sampleMotion = true;  ///< Rays from this object see motion.
     int maxDiffuseDepth = 1,
         maxSpecularDepth = 2;  ///< Bounces that may follow one at this object; an earlier object's limit still applies.
     std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; if empty, they see all
@@ -213,8 +214,8 @@ struct Attributes {
   } radiosity;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
   bool rasterOrient = true;  ///< Attribute "dice" "rasterorient"
-  /// Attribute "cull": are micropolygons left out that the camera does not see, because something hides them or because
-  /// they are one-sided and face away? Else shaders run there too, for what they bake.
+  /// Attribute "cull": true if micropolygons are left out that the camera does not see, because something hides them or
+  /// because they are one-sided and face away. Else shaders run there too, for what they bake.
   struct Cull {
     bool hidden = true, backfacing = true;
     bool operator==(const Cull&) const = default;
