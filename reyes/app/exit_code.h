@@ -11,7 +11,7 @@ namespace tomales {
 enum ExitCode { kDone = 0, kUsage = 1, kUnreadable = 2, kIncomplete = 3, kUnwritable = 4 };
 
 ExitCode exitCodeOf(Severity severity);
-/// The code for the worst that was reported. With `strict` a warning counts as something missing.
+/// Returns the code for the worst that was reported. With `strict` a warning counts as something missing.
 ExitCode exitCodeOf(const Log& log, bool strict = false);
 /// All exit codes and their meanings, for --help.
 std::string exitCodeHelp();

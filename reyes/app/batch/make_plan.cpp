@@ -259,7 +259,8 @@ class PlanMaker {
   Log& log_;
   BatchPlan plan_;
   BatchFrames scene_;
-  std::vector<std::string> target_;  ///< For frames that are not maps: what their light has to reach.
+  /// Arguments for frames other than maps: the target that their light has to reach.
+  std::vector<std::string> target_;
   std::map<int, LightOfFrame> light_;
 };
 

@@ -22,7 +22,7 @@ struct BatchTask {
 struct BatchPlan {
   std::filesystem::path file;         ///< The plan itself; its folder has states and logs.
   std::string workingFolder;          ///< Relative names start there.
-  std::vector<std::string> pictures;  ///< For people: the first picture of each frame.
+  std::vector<std::string> pictures;  ///< The first picture of each frame, for people.
   std::vector<BatchTask> tasks;       ///< A task stands after those that it needs.
 
   std::filesystem::path folder() const { return file.parent_path(); }
@@ -45,7 +45,7 @@ void makeFolders(const BatchPlan& plan);
 /// Throws WriteError.
 void writePlan(const BatchPlan& plan);
 
-/// What is known of a task: the contents of its file of state.
+/// The known facts about a task: the contents of its file of state.
 struct TaskState {
   enum Kind { Waiting, Running, Done, Failed } kind = Waiting;
   int attempts = 0;  ///< Number of runs since the task was last started anew.

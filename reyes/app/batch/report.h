@@ -1,4 +1,4 @@
-// What is known of a batch, for people and for farms. Threads: plain functions.
+// The state of a batch, for people and for farms. Threads: plain functions.
 #pragma once
 #include "reyes/app/batch/plan.h"
 

@@ -118,7 +118,7 @@ std::optional<std::vector<const JobArray*>> leadersOf(const std::vector<const Ba
   return out;
 }
 
-/// As many tasks together as an array may have.
+/// Divides tasks into parts of as many as an array may have.
 std::vector<std::vector<const BatchTask*>> inParts(const std::vector<const BatchTask*>& tasks) {
   std::vector<std::vector<const BatchTask*>> out;
   for (size_t i = 0; i < tasks.size(); ++i) {
@@ -194,7 +194,7 @@ exit $code
                            quoted(partOfPlan(plan, array).file.string()), kMostAttempts, kRequeue);
 }
 
-/// What sbatch shall wait for; empty for nothing.
+/// Returns the jobs that sbatch shall wait for, as --dependency takes them; empty for none.
 std::string dependencyOf(const JobArray& array, const Arrays& all) {
   std::string out;
   for (const auto& other : all) {

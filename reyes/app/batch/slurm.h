@@ -8,7 +8,7 @@
 namespace tomales {
 
 struct SlurmOptions {
-  std::string partition, time, memory;  ///< As sbatch takes them; empty for the cluster's default.
+  std::string partition, time, memory;  ///< Values for options of sbatch; empty for the cluster's default.
   int cpus = 1;                         ///< Processors of each task.
   int atOnce = 0;                       ///< Most tasks of one array at a time; 0 for no limit.
 };

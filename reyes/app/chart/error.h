@@ -11,7 +11,8 @@ namespace tomales {
 
 /// Figures of |test - reference| / (reference + 0.01) over the colours of all pixels where the reference is not black.
 struct ErrorFigures {
-  double mean = 0;      ///< Without the noise of the reference (ChartReference::errorOf); 0 if that hides it all.
+  /// The mean without the noise of the reference (ChartReference::errorOf); 0 if that hides it all.
+  double mean = 0;
   double measured = 0;  ///< The mean with that noise.
   double p99 = 0;       ///< The 99th percentile, with that noise.
   double bias = 0;      ///< The sums of all pixels: test / reference - 1.
@@ -20,10 +21,10 @@ struct ErrorFigures {
       0;  ///< Pixels that are infinite or no numbers: in the test they count as black, in the reference not at all.
   double confidence =
       0;  ///< Half the 95 % interval of `mean` that the noise of the reference leaves (jackknife over its batches).
-  std::vector<double> without{};  ///< What `measured` would be without each batch of the reference.
+  std::vector<double> without{};  ///< Indexed by batch of the reference: the value of `measured` without that batch.
 };
 
-/// How much more one picture is off than another, and half the 95 % interval. Both were held against the same
+/// The difference of the errors of two pictures, and half of its 95 % interval. Both were compared with the same
 /// reference, whose noise mostly cancels in the difference.
 struct ErrorDifference {
   double mean = 0, confidence = 0;

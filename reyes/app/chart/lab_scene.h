@@ -37,7 +37,7 @@ struct LabScene {
   std::vector<std::string> common, truth;
   std::vector<LabMethod> methods;
   std::optional<LabLimit> limit;
-  std::string note;  ///< What the manual says about the scene.
+  std::string note;  ///< Words of the manual about the scene.
   std::string text;  ///< The text of the whole file.
 };
 

@@ -32,7 +32,8 @@
 namespace tomales {
 namespace {
 
-/// What Make requests read matters only where the command line may rename it or change its size.
+/// Finds the pictures that Make requests read. They matter only where the command line may rename them or change their
+/// size.
 RenderSettings withSources(RenderSettings settings) {
   if (namesPicture(settings.output) || settings.format || settings.crop) settings.sources = makeSources(settings.files);
   return settings;
@@ -214,8 +215,8 @@ class RenderRun {
   std::optional<ProgressMeter> meter_;  // likewise
   std::set<std::string> written_;
   std::optional<HeldQuality> held_;
-  int pictureFrame_ = 0;  // Of the last picture,
-  size_t picture_ = 0;    // and the next one's number in that frame.
+  int pictureFrame_ = 0;  // Frame of the last picture.
+  size_t picture_ = 0;    // Number of the next picture in that frame.
   int scenes_ = 0, rendered_ = 0, makes_ = 0;
   bool made_ = false;  // True if a Make request was performed.
   bool outputUsed_ = false;

@@ -144,8 +144,8 @@ Denoised denoise(const HalfBuffers& in) {
       const double da = a - in.b[c][i], db = b - in.a[c][i], apart = a - b, noise = in.a[c][i] - in.b[c][i];
       sum += 0.5 * (double{in.a[c][i]} + in.b[c][i]);
       before += 0.25 * noise * noise;
-      // The variance of one half's answer is half of their squared difference, and the mean has half of that. What else
-      // an answer differs from the other half by, beside that half's noise, is its bias: the two are independent.
+      // The variance of one half's answer is half of their squared difference, and the mean has half of that. An answer
+      // differs from the other half by that half's noise and by its own bias, which are independent.
       left += 0.25 * apart * apart;
       bias += 0.5 * (da * da + db * db) - 0.5 * noise * noise - 0.5 * apart * apart;
     }

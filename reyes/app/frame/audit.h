@@ -23,33 +23,34 @@ struct AuditPlan {
 };
 
 struct AuditReport {
-  size_t pixels = 0;      ///< Those that the errors are of: they see something that is lit.
-  int paths = 0;          ///< At each point that they see, for indirect light; 0 if that was not audited.
-  int lightSamples = 0;   ///< At each of them, of each light; 0 if direct light was not audited.
-  ErrorEstimate picture;  ///< Of all light together. All errors are shares of the picture's colour,
-  std::optional<ErrorEstimate> indirect, direct;  ///< those of one kind of light too.
+  size_t pixels = 0;      ///< Number of pixels that the errors are taken from: they see something that is lit.
+  int paths = 0;          ///< Paths for indirect light at each point that these pixels see; 0 if that was not audited.
+  int lightSamples = 0;   ///< Samples of each light at each of these points; 0 if direct light was not audited.
+  ErrorEstimate picture;  ///< Error of all light together. All errors are shares of the picture's colour.
+  /// Errors of one kind of light. They too are shares of the picture's colour.
+  std::optional<ErrorEstimate> indirect, direct;
   /// The mean error that too few samples in pixels add to those, about: what independent samples would bring. They are
   /// stratified, and filters are wider than a pixel, so it is mostly less; what no sample sees can make it more.
   double pixelSamples = 0;
-  std::vector<SmudgeEstimate> smudges;  ///< For each size of blocks that enough smooth ones were found of.
+  std::vector<SmudgeEstimate> smudges;  ///< One for each size of blocks of which there are enough smooth ones.
 
-  /// The smallest size, whose blocks show what those of larger sizes do; null if no region is smooth.
+  /// Returns the smallest size, whose blocks show what those of larger sizes do; null if no region is smooth.
   const SmudgeEstimate* finestSmudges() const { return smudges.empty() ? nullptr : &smudges.front(); }
 };
 
-/// What a kind of light brings to each pixel: in the picture, and by two independent sets of many rays.
+/// The light of one kind at each pixel: in the picture, and by two independent sets of many rays.
 struct FoundLight {
   std::vector<vec3> picture, sets[2];
-  int rays = 0;  ///< Number in each set.
+  int rays = 0;  ///< Number of rays in each set.
 
-  /// What is missing in the picture.
+  /// Returns the light that is missing in the picture.
   vec3 missing(size_t p) const { return 0.5f * (sets[0][p] + sets[1][p]) - picture[p]; }
   vec3 noise(size_t p) const { return 0.5f * (sets[0][p] - sets[1][p]); }
 };
 
-/// Some pixels of a frame, and the light that is right there. Several pictures of them can be compared with the same
-/// light, whose rays are traced when the first one wants them. The same bits for any number of threads; nothing of the
-/// frame changes. The references outlive it. Not for several threads at once.
+/// Some pixels of a frame, and their true light. Several pictures can be compared with the same light, whose rays are
+/// traced when the first one wants them. The bits are the same for any number of threads; nothing of the frame changes.
+/// The references outlive it. Threads: one at a time.
 class Audit {
  public:
   Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,

@@ -11,14 +11,14 @@
 namespace tomales {
 
 struct SmudgePlan {
-  size_t blocks = 37;    ///< Of each size.
-  size_t sizes = 4;      ///< The first so many of kSmudgeSizes.
-  uint32_t seed = 0;     ///< Decides which, and the rays there.
-  int lightSamples = 0;  ///< Of each light, to find what is right.
+  size_t blocks = 37;    ///< Number of blocks of each size.
+  size_t sizes = 4;      ///< Number of sizes, the first ones of kSmudgeSizes.
+  uint32_t seed = 0;     ///< Decides which blocks, and the rays there.
+  int lightSamples = 0;  ///< Samples of each light that find the truth.
 };
 
-/// Some blocks of pixels of each size, and the light that is right there, whose rays are traced when the first picture
-/// wants them. The same bits for any number of threads. The references outlive it. Not for several threads at once.
+/// Some blocks of pixels of each size, and their true light, whose rays are traced when the first picture wants them.
+/// The bits are the same for any number of threads. The references outlive it. Threads: one at a time.
 class SmudgeAudit {
  public:
   SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,

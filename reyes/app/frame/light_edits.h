@@ -1,4 +1,4 @@
-// What has become of the lights of a frame since irradiance records were gathered under them.
+// The changes of the lights of a frame since irradiance records were gathered under them.
 #pragma once
 #include "gi/icf.h"
 

@@ -1,4 +1,4 @@
-// Which files a frame writes: the scene's Displays, as the command line changes them.
+// Decides which files a frame writes: the scene's Displays, as the command line changes them.
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/base/plugin_trust.h"

@@ -1,5 +1,5 @@
-// What the headers of pictures say about where they come from, and whether a picture on the disk is that of a frame.
-// OpenEXR alone has room for it (docs/displays.md).
+// The facts in the headers of pictures about where they come from, and the test whether a picture on the disk is that
+// of a frame. OpenEXR alone has room for them (docs/displays.md).
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/dfb.h"

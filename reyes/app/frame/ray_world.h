@@ -33,7 +33,8 @@ class RayGeometry {
   RayTools tools_;
 };
 
-/// What one shading of a shot leaves for the next: both use the same registry of shaders. Its geometry may be null.
+/// The parts that one shading of a shot leaves for the next: both use the same registry of shaders. Its geometry may be
+/// null.
 struct KeptGeometry {
   std::unique_ptr<ShaderRegistry> shaders;
   std::unique_ptr<RayGeometry> geometry;

@@ -16,10 +16,11 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kBytesOfTilePixel = 64;  ///< For a pixel of a shaded tile without its points and variables,
-constexpr int64_t kBytesOfPoints = 192;    ///< and for its points, both at shading rate 1.
-constexpr int64_t kBytesOfBucket = 96;     ///< For each bucket's place in lists.
-constexpr int64_t kRowsInMemory = 128;     ///< Rows of pixels, while a picture is made row by row.
+/// Memory for a pixel of a shaded tile at shading rate 1, without its points and variables.
+constexpr int64_t kBytesOfTilePixel = 64;
+constexpr int64_t kBytesOfPoints = 192;  ///< Memory for its points at shading rate 1.
+constexpr int64_t kBytesOfBucket = 96;   ///< Memory for each bucket's place in lists.
+constexpr int64_t kRowsInMemory = 128;   ///< Rows of pixels in memory, while a picture is made row by row.
 constexpr int64_t kUsualLimit = int64_t{1} << 30;
 
 int64_t pixelsOf(const Scene& scene) {

@@ -48,7 +48,7 @@ class ShotJob {
   bool edit();
   void prepareLight();
   void prepareShares();
-  /// What an interrupted run has gathered, with --resume; null if nothing is kept.
+  /// Returns the records that an interrupted run has gathered, with --resume; null if nothing is kept.
   std::unique_ptr<KeptWork> keptGather() const;
   /// Warns of edits that change bounced light, which records keep as it was when they were gathered.
   void warnOfStaleLight() const;
@@ -71,7 +71,7 @@ class ShotJob {
   Shot shot_;
   std::vector<std::shared_ptr<const Attributes>> attributesOfFile_{};  ///< Before edits; indexed by shade group.
   LightEdits lightEdits_;
-  const std::string* shownLights_ = nullptr;  ///< What choose() has been given.
+  const std::string* shownLights_ = nullptr;  ///< The lights that choose() has been given.
   bool showsIndirect_ = true;
   bool gathers_ = false;      ///< True if records are made for a file.
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.

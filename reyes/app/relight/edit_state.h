@@ -1,5 +1,5 @@
-// What a page has changed of a shot. It is checked against what may be changed before anything is made of it, and
-// becomes an edit file of `tomales shade --edit`. Threads: plain values.
+// The changes that a page has made to a shot. They are checked against what may be changed before anything is made of
+// them, and become an edit file of `tomales shade --edit`. Threads: plain values.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,18 +22,18 @@ struct Watches : std::runtime_error {
 };
 
 struct ShaderEdit {
-  std::string shader{};  ///< The one in the place of the scene's; empty if that stays.
+  std::string shader{};  ///< Name of the shader in the place of the scene's; empty if that stays.
   std::map<std::string, ParamValue> params{};
   bool operator==(const ShaderEdit&) const = default;
 };
 struct ObjectEdit {
   std::optional<std::array<float, 3>> color{};
-  std::map<std::string, bool> lights{};  ///< By handle: it shines on the object, or not.
+  std::map<std::string, bool> lights{};  ///< Indexed by handle: true if the light shines on the object.
   bool operator==(const ObjectEdit&) const = default;
 };
 
 struct EditState {
-  std::array<std::map<std::string, ShaderEdit>, kShaderSlots> shaders{};  ///< By owner.
+  std::array<std::map<std::string, ShaderEdit>, kShaderSlots> shaders{};  ///< Indexed by owner.
   std::map<std::string, ObjectEdit> objects{};
   std::optional<std::array<float, 2>> exposure{};
   bool operator==(const EditState&) const = default;

@@ -36,7 +36,7 @@ std::optional<EditableParam> paramOf(const TmParamDecl& decl, TmRole role, const
   return out;
 }
 
-/// What a light's request says of its group.
+/// Returns the parameter of a light's request that names its group.
 std::string groupOf(const ShaderCall& call) {
   for (const TmParamDecl& decl : standardParams(TM_LIGHT))
     if (const Param* given = findParam(call.params, decl.name);

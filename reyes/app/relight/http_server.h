@@ -20,7 +20,7 @@ struct HttpQuestion {
   std::string body;
 };
 
-/// How often a handler may be asked; further requests get status 429.
+/// Limits of the requests to a handler; further ones get status 429.
 struct HttpRate {
   double burst = 1000, perSecond = 300;
 };

@@ -290,7 +290,7 @@ class Relight {
   }
 
   const RelightCommand& command_;
-  const TemporaryFolder folder_;  ///< For a scene that is hidden first.
+  const TemporaryFolder folder_;  ///< Holds a scene that is hidden first.
   RenderSettings shot_;
   Log& log_;
   Relighting relighting_;
