@@ -36,7 +36,7 @@ std::string lowered(std::string_view text) {
 
 std::vector<std::string> nearNames(std::string_view wanted, const std::vector<std::string>& known, size_t most) {
   if (wanted.size() > kMostNameLength) return {};
-  // In a short word one letter may be wrong, in a longer one a third of them.
+  // One letter may be wrong in a short word, and a third of the letters in a longer one.
   const size_t farthest = std::max<size_t>(1, wanted.size() / 3);
   std::vector<std::pair<size_t, const std::string*>> near;
   for (const std::string& name : known) {

@@ -42,8 +42,8 @@ struct StandardPlace {
   const char *kind, *variable, *folder;
 };
 std::span<const StandardPlace> standardPlaces();
-/// Where files of a kind are looked for after the folders that the scene names. Empty: nowhere, or there is no such
-/// kind.
+/// Returns the folders where files of a kind are looked for after the folders that the scene names. Empty: nowhere, or
+/// there is no such kind.
 std::string standardPath(const std::string& kind);
 /// Puts folders before those that standardPath() has. Threads: none may run. Pre: the kind is one of standardPlaces().
 void addToStandardPath(const std::string& kind, const std::string& folders);
