@@ -29,7 +29,7 @@ struct GiMethod {
   bool fullGeometry = false;       ///< Rays see micropolygons unless --ray-geometry says otherwise.
   bool isReference = false;        ///< Direct light has as many samples as there are paths.
   bool countsPhotons = false;      ///< Photons are counted at visible points before the frame is shaded.
-  // It counts only photons that come by mirrors and glass, and none where no surface is one.
+  /// It counts only photons that come by mirrors and glass, and none where no surface is one.
   bool causticsAlone = false;
 };
 

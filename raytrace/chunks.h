@@ -29,7 +29,7 @@ struct Chunk {
 
 /// Lattices of the tiles of a chunk, with rows along u, one after the other.
 struct ChunkMesh {
-  // At least 4 readable bytes follow the last element. A tile that is not finite is NaN.
+  /// At least 4 readable bytes follow the last element. A tile that is not finite is NaN.
   std::vector<vec3> P;
   std::vector<uint32_t> N;            ///< Normals on the RISpec side, packed as in reyes/base/packed_normal.h.
   std::vector<uint32_t> firstVertex;  ///< Indexed by tile.

@@ -39,7 +39,7 @@ struct RayScene::Impl {
   const Camera& camera;
   const bool hitList;
   const SharedShapes shapes;
-  // The groups without the polygons of `shapes`, but with the deviation and size of those.
+  /// The groups without the polygons of `shapes`, but with the deviation and size of those.
   const std::vector<CoarseGroup> groups;
   const Chunks chunks;
   const std::vector<bool> opacityIsConstant;

@@ -19,7 +19,7 @@ namespace tomales {
 struct Facet {
   int batch;  ///< Index in DeepTile::batches.
   int point[4];
-  // True if Attributes::matte is set: the facet hides what is behind it and leaves no colour and no alpha.
+  /// True if Attributes::matte is set: the facet hides what is behind it and leaves no colour and no alpha.
   bool matte = false;
   float edge = 0;  ///< Edge length kept by DeepTile::forgetPoints(); read it by edgeOf().
 };

@@ -62,7 +62,7 @@ class DensityGrid {
   mat4 indexFromObject_;
   Bound3 bound_;
   std::vector<int32_t> brickOf_;  ///< Indexed by brick, z fastest: its number among those in `values_`; -1: none.
-  // Indexed by brick: 1 if some corner of the cells that begin in the brick is dense.
+  /// Indexed by brick: 1 if some corner of the cells that begin in the brick is dense.
   std::vector<uint8_t> occupied_;
   std::vector<float> values_;
 };

@@ -13,7 +13,7 @@ std::string suppliedDriver(const std::string& type);
 
 /// The facts that a driver is told when it opens a picture.
 struct DriverPicture {
-  // The name and mode that the Display gives.
+  /// The name and mode that the Display gives.
   std::string name, mode;
   int width = 0, height = 0, x = 0, y = 0, fullWidth = 0, fullHeight = 0;  ///< The fields of TmDisplayPicture.
   float pixelAspect = 1;

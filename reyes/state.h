@@ -184,7 +184,7 @@ struct Attributes {
     std::optional<float> bias, offset;
     bool displacements = false;       ///< Rays see its displacement.
     bool displacementsGiven = false;  ///< The scene says so or not; else raytrace/visible_displacement.h chooses.
-    // The factor by which raytrace/visible_displacement.h has multiplied the tessellation; 0: it has not chosen.
+    /// The factor by which raytrace/visible_displacement.h has multiplied the tessellation; 0: it has not chosen.
     float chosenFiner = 0;
     bool sampleMotion = true;  ///< Rays from this object see motion.
     int maxDiffuseDepth = 1,

@@ -9,7 +9,7 @@ namespace {
 constexpr size_t kMostSpots = 64, kMostHits = 1 << 15;
 constexpr size_t kLeastHits = 4;  ///< A spot needs so many hits: a single one may be a mirror's, or chance.
 constexpr size_t kHitsToSplit = 16;
-// Least distance to a spot, in its radii. The rays of the hemisphere find nearer spots.
+/// Least distance to a spot, in its radii. The rays of the hemisphere find nearer spots.
 constexpr float kNearest = 3;
 constexpr float kRounding = 1e-3f;
 /// A cluster becomes a rectangle if its hits lie this close to a plane, in radii, and its mean normal is this close to

@@ -49,7 +49,7 @@ class Vicinity {
 
   std::vector<uint32_t> records_;
   AlignedVector<float> x_, y_, z_, nx_, ny_, nz_, size_, limit_, steepness_, unseen_;
-  // The values of Serving; fades_ is 0 where the record does not serve.
+  /// The values of Serving; fades_ is 0 where the record does not serve.
   AlignedVector<float> position_, angle_, fades_;
 };
 
