@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// How far an argument's type is from the slot of a built-in function. Negative if it does not suit the slot.
+/// Returns how far an argument's type is from the slot of a built-in function. Negative if it does not suit the slot.
 int suits(const Slot& slot, const Expr& e, int far) {
   if (e.type == kUnknown) return 0;
   if (slot.any) return !slot.array || e.type.isArray() ? 0 : -1;

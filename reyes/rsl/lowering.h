@@ -32,8 +32,8 @@ class Lowering {
   Instruction& emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in);
   /// Emits an instruction with one result, of its signature's shape (of `shape` if that is `*`).
   int32_t compute(Op op, std::vector<int32_t> in, Shape shape = Shape::Number);
-  void copy(int32_t to, int32_t from);        ///< At the active points.
-  void initialise(int32_t to, int32_t from);  ///< At all points: no other value is there yet.
+  void copy(int32_t to, int32_t from);        ///< Writes the active points.
+  void initialise(int32_t to, int32_t from);  ///< Writes all points: no other value is there yet.
   /// Emits into a block of its own what `body` emits.
   template <class Body>
   Block block(const Body& body);

@@ -45,7 +45,7 @@ class Sources {
 
  private:
   std::deque<SourceFile> files_;
-  std::deque<std::vector<size_t>> lineStarts_;  ///< For each file, the offsets of its lines in its text.
+  std::deque<std::vector<size_t>> lineStarts_;  ///< The offsets of the lines of each file in its text.
   std::deque<Expansion> expansions_;
 };
 

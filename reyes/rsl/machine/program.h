@@ -26,7 +26,7 @@ struct Step {
   std::vector<Steps> blocks;
 };
 
-/// Where a register lies.
+/// The place of a register.
 enum class Where : uint8_t {
   Nowhere,   ///< Nothing uses it.
   Constant,  ///< It lies `at` floats behind the program's first constant.

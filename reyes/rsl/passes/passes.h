@@ -30,7 +30,7 @@ void shareExpressions(Code& code);
 
 /// Turns steps of computed values into code (forward differentiation): the change of a product is computed from the
 /// changes of its factors. Steps remain for what the host knows: globals and parameters. Displacements keep theirs,
-/// since the host differences their grid. To be called after inferDetail().
+/// since the host differences their grid. Call it after inferDetail().
 void deriveSteps(Code& code);
 
 /// Removes instructions whose results nobody reads, and stores that others overwrite. A value that is computed to be

@@ -27,7 +27,7 @@ class IncludeSearch {
 
  private:
   bool isPermitted(const std::string& realPath) const;
-  std::vector<std::string> folders_;    ///< In the order in which they are searched.
+  std::vector<std::string> folders_;    ///< Folders in the order in which they are searched.
   bool standard_;                       ///< True if the renderer's own headers come last.
   std::vector<std::string> permitted_;  ///< Paths without symbolic links.
 };

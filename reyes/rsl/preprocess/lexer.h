@@ -11,7 +11,7 @@ namespace tomales::compiler {
 enum class LexemeKind : uint8_t {
   Name,
   Number,  ///< A pp-number of C, which may be no number in the end, such as "1x".
-  String,  ///< With its quotes, and with escapes as written.
+  String,  ///< A text with its quotes, and with escapes as written.
   Character,
   Punctuator,
   Other,    ///< A byte that begins none of these.
