@@ -20,7 +20,7 @@ constexpr int kLeastInBranch = 4;
 struct LampOfPoint {
   uint32_t lamp = kNoLamp;
   int sample = 0, samples = 1;
-  float expected = 1;  ///< How many samples the point draws of this lamp, on the average.
+  float expected = 1;  ///< Mean number of samples that the point draws of this lamp.
 };
 
 int mostDrawn(const Batch& batch, const BoundLight& light) {

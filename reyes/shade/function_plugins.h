@@ -20,7 +20,7 @@ class FunctionPlugins {
   std::vector<const TmFunction*> named(const std::string& name, const std::vector<std::string>& folders);
 
  private:
-  using Functions = std::map<std::string, std::vector<const TmFunction*>>;  ///< By the name that shaders call.
+  using Functions = std::map<std::string, std::vector<const TmFunction*>>;  ///< Indexed by the name that shaders call.
   void open(const std::string& folder, Functions& out);
   void load(const std::string& path, Functions& out);
   void refuse(const std::string& path, const std::string& problem);

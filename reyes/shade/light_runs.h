@@ -1,4 +1,5 @@
-// Which lights run at a batch of points, and the grid that a light shader gets there. Shared by the files of Lights.
+// Decides which lights run at a batch of points, and makes the grid that a light shader gets there. The files of Lights
+// share it.
 #pragma once
 #include "reyes/shade/batch.h"
 

@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-/// What a lamp that sends nothing counts for, as a share of the brightest: surfaces see that it is there.
+/// Weight of a lamp that sends nothing, as a share of the brightest: surfaces see that it is there.
 constexpr float kDark = 1e-6f;
 
 /// A number that may differ from light to light of a set.

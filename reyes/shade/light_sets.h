@@ -19,7 +19,7 @@ struct BoundScene;
 constexpr size_t kFewLights = 4, kFewWithoutShadows = 32;
 
 struct LightSet {
-  std::vector<const BoundLight*> lights;  ///< In the order of the tree's lamps.
+  std::vector<const BoundLight*> lights;  ///< Indexed as the tree's lamps.
   std::vector<int> varying;               ///< The parameters whose values differ.
   LightTree tree;
 };

@@ -49,11 +49,11 @@ class LightTree {
  private:
   struct Node {
     vec3 center;
-    float radius;    ///< Of the sphere around its bound.
-    float power;     ///< Of its lamps together.
+    float radius;    ///< Radius of the sphere around its bound.
+    float power;     ///< Power of its lamps together.
     uint32_t right;  ///< The second child; the first one follows its parent. A leaf's is 0.
     uint32_t end;    ///< The number behind the last node below it.
-    uint32_t lamp;   ///< Of a leaf.
+    uint32_t lamp;   ///< The lamp of a leaf.
   };
   uint32_t build(std::span<uint32_t> order);
   /// The light that is expected of the lamps below a node.

@@ -31,7 +31,7 @@ struct LightRequest {
 
 /// The sums of the shadow rays of one light so far, at each point.
 struct ShadowTally {
-  float* traced;  ///< How many rays were traced.
+  float* traced;  ///< Number of rays that were traced.
   TmVec3 passed;  ///< The sum of the light that they let pass.
 };
 
@@ -72,9 +72,9 @@ class Lights {
   void ask(const LightRequest& request) { request_ = &request; }
   /// The sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
-  /// All samples of all lights that have a direction, in the order of Attributes::lights. They are unshadowed until
-  /// shadow() has been called. Without `indirect`, indirect lights do not run, which may cost many rays, unless they
-  /// have run already; if they do later, their samples come last.
+  /// Returns all samples of all lights that have a direction, in the order of Attributes::lights. They are unshadowed
+  /// until shadow() has been called. Without `indirect`, indirect lights, which may cost many rays, do not run unless
+  /// they have run already. If they do later, their samples come last.
   std::vector<LightSample>& samples(Batch& batch, bool indirect = true);
   /// Has the shader asked what lights it?
   bool asked() const { return evaluated_ || ambientAsked_; }
@@ -116,7 +116,7 @@ class Lights {
   void forEachSetWithExtent(Batch& batch, const Body& body) const;
   bool evaluated_ = false, indirectEvaluated_ = false, ambientAsked_ = false;
   std::deque<std::vector<TmValue>> params_;
-  int lobes_ = 0;  ///< How many lobes along() has been given.
+  int lobes_ = 0;  ///< Number of lobes that along() has been given.
   std::deque<ShadowTally> tallies_;
   std::map<const LightSet*, LightCuts> cuts_;
   std::vector<LightSample> samples_, chosen_;  ///< All samples; the samples of group_.

@@ -49,7 +49,7 @@ const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConst
 struct OpenSky {
   const char* picture;
   mat3 toMap;
-  float* angle;  ///< In radians.
+  float* angle;  ///< Angle in radians.
   TmVec3 direction, color;
 
   OpenSky(Batch& batch, const TmGrid* g, const TmRayOptions& o)

@@ -12,7 +12,7 @@ namespace tomales {
 struct ParameterValue {
   std::vector<float> floats;         ///< arrayLength values; empty for strings.
   std::vector<std::string> strings;  ///< arrayLength strings; empty for numbers.
-  std::string remark;                ///< How the given value had to be changed; empty if it was not.
+  std::string remark;                ///< Says how the given value had to be changed; empty if it was not.
 };
 
 /// The value for a parameter, or its default if `given` is null. Conversions are those of RISpec 3.2 section 11 (a

@@ -1,4 +1,4 @@
-// What the host knows of each role of a parameter (TmRole).
+// The facts that the host knows of each role of a parameter (TmRole).
 #pragma once
 #include "reyes/shade.h"
 

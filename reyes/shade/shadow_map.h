@@ -19,7 +19,8 @@ struct ShadowReceiver {
 };
 
 struct ShadowLookup {
-  float bias = -1;  ///< How much nearer to the light a surface must be; negative: by slope and texel size.
+  /// Distance by which a surface must be nearer to the light to cast a shadow; negative: by slope and texel size.
+  float bias = -1;
   float blur = 0;   ///< Added to the covered region, as a fraction of the map.
   float width = 1;  ///< Scales the micropolygon.
   int samples = 16;

@@ -34,8 +34,8 @@ class Sky {
   void setPortals(Portals portals) { portals_ = std::move(portals); }
   const Portals& portals() const { return portals_; }
 
-  /// A unit direction from which to light a point P with unit normal N, and its density over solid angle. For an N of
-  /// 0, in the air, directions are even.
+  /// Returns a unit direction from which to light a point P with unit normal N, and its density over solid angle. For
+  /// an N of 0, in the air, directions are even.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& density) const;
   float density(const vec3& P, const vec3& N, const vec3& L) const;
 

@@ -22,7 +22,7 @@ std::optional<Space> findSpace(const Batch& batch, const std::string& name);
 /// space (null: "world"). An unknown name is reported, and the world is used.
 mat3 environmentDirections(const Batch& batch, const char* space);
 
-/// For spaces that are projected; it transforms points only.
+/// Transforms points, and nothing else, to spaces that are projected.
 vec3 projectedFromCurrent(const Batch& batch, Space::Kind kind, const vec3& p);
 /// A depth of 0 means the near clipping plane, as in RISpec: transform("NDC", "screen", point (x, y, 0)) is a common
 /// way to ask for the corners of the picture, and no position in the picture has the depth of the eye.

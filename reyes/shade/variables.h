@@ -1,4 +1,5 @@
-// What Displays want of a surface beside its colour and opacity: outputs of the shader, geometry, light groups.
+// The variables that Displays want of a surface beside its colour and opacity: outputs of the shader, geometry, light
+// groups.
 #pragma once
 #include "reyes/output.h"
 #include "reyes/points.h"
@@ -10,7 +11,7 @@ namespace tomales {
 class Batch;
 struct BoundGroup;
 
-/// Where a group finds one of FrameOutput::variables.
+/// The place where a group finds one of FrameOutput::variables.
 struct BoundVariable {
   VariableSource from = VariableSource::Nothing;
   int index = 0;             ///< The number of a channel in ShadePoints, or of an output in TmShader::params.
