@@ -82,7 +82,7 @@ BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids,
     if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kDepthRounding * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
     const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);
-    // Where both reach over, the nearer sample stays.
+    // The nearer sample stays where both reach over.
     const bool nearer = d < otherD || (d == otherD && grids.precedes(cells[s], otherCells[s]));
     const uint64_t sample = left & (~left + 1);
     if (reaches && !(otherReaches && nearer)) out.first |= sample;

@@ -34,8 +34,8 @@ std::array<Border, 4> bordersOf(const Grid& g, int first) {
            {kEdgeV1, first + g.nv * row, 1, -row, g.nu}}};
 }
 
-/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h apart on
-/// a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
+/// Returns how far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h
+/// apart on a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
@@ -92,11 +92,12 @@ bool mayBulge(const float* x, const float* y, const Border& b, int k) {
   return dot(bend, vec2{x[v + b.inward] - x[v], y[v + b.inward] - y[v]}) > 0;
 }
 
-/// How far a border reaches out.
+/// The facts that decide how far a border reaches out.
 struct Reach {
-  bool open;       ///< It ends the surface, and
-  bool cut;        ///< a line cuts off what is beyond.
-  float least_px;  ///< Where it looks straight; it is more than kLeastReach_px if the border is displaced.
+  bool open;  ///< True if it ends the surface.
+  bool cut;   ///< True if a line cuts off what is beyond.
+  /// Least reach, where the border looks straight; it is more than kLeastReach_px if the border is displaced.
+  float least_px;
 };
 
 float reachAt(const Grid& g, const Border& b, const float* x, const float* y, int k, const Reach& reach,
@@ -140,7 +141,7 @@ std::optional<BorderLine> lineOf(const std::array<vec3, 2>& ends, const mat4& ca
   return BorderLine{onLattice(at[0]), onLattice(at[1])};
 }
 
-/// What closes the borders of one piece.
+/// The measures that close the borders of one piece.
 struct Plan {
   uint8_t reaching = 0;  ///< PatchEdge bits.
   std::array<BorderLine, 4> lines{};

@@ -129,8 +129,8 @@ struct SmoothFigures {
   double smudges = 0, specks = 0;
 };
 
-/// What shows on a smooth wall, in blocks of so many pixels along an edge. Ratios of test and reference, so that a
-/// picture which is brighter as a whole has neither.
+/// Returns what shows on a smooth wall, in blocks of so many pixels along an edge. Both figures come from ratios of
+/// test and reference, so that a picture which is brighter as a whole has neither smudges nor specks.
 SmoothFigures smoothFigures(const Image& test, const Image& reference, int block) {
   constexpr double kSpeck = 0.2;  // of a pixel, over its block
   const auto light = [](const Image& image) {

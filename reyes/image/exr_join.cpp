@@ -23,7 +23,7 @@ namespace {
 /// Attributes that say which part of the frame a tile is, and so differ between tiles of one frame.
 constexpr const char* kOfTile[] = {"dataWindow", "chunkCount"};
 
-/// What it means when the tiles' attributes differ; others are only named.
+/// Messages for attributes that differ between tiles; other attributes are only named.
 constexpr std::pair<const char*, const char*> kMeanings[] = {
     {"displayWindow", "the frames are of different sizes"},
     {"channels", "their channels differ"},

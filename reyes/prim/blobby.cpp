@@ -22,7 +22,7 @@ struct SurfacePoint {
   dvec3 p, du, dv, normal;
 };
 
-/// What becomes of a point whose way does not meet the surface.
+/// The fate of a point whose way does not meet the surface.
 enum class Lost {
   Stays,  ///< It is on the mesh of this surface, and so near to it.
   /// It goes as far as its way reaches: the mesh is of another key time, and its reach ends where vertices are lost, so

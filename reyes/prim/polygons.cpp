@@ -133,7 +133,7 @@ class Polygons : public Prim {
   Decomposition parts_;
   std::vector<vec3> positions_;
   std::vector<int> vertices_;
-  std::vector<Middle> middles_;  ///< By corner.
+  std::vector<Middle> middles_;  ///< Indexed by corner.
 };
 
 void requireLoops(const std::vector<int>& loopCounts, size_t loops) {

@@ -148,7 +148,7 @@ constexpr int kPatches[][16] = {
     {68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83},              // spout
     {80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95},              // spout
 };
-constexpr int kRoundPatch = 6;  ///< So many patches are quarters.
+constexpr int kRoundPatch = 6;  ///< Number of the first patches, which are quarters.
 
 /// A patch reflected at x = 0, at y = 0 or both, with the outside out.
 BezierPatch reflected(const int (&controls)[16], bool atX, bool atY) {

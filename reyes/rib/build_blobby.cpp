@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kAdd = 0, kConstant = 1000, kEllipsoid = 1001;
 
-constexpr int kStretches = 4;  ///< Of the time between two keys of a Blobby.
+constexpr int kStretches = 4;  ///< Number of parts into which the time between two keys of a Blobby is divided.
 
 bool isOfBlobs(const Request& points) {
   const Param* type = points.name == "Points" ? findParam(points.params, "type") : nullptr;

@@ -47,12 +47,12 @@ struct Master {
     Basis uBasis, vBasis;
     bool roundCurves;
     std::shared_ptr<const TrimLoops>
-        trim;           ///< As the fields above, what it was built with; the rest follows from the request.
+        trim;           ///< It was built with this and the fields above; the rest follows from the request.
     float reach;        ///< The result of reachOf() for the requests.
     uint64_t contents;  ///< The result of contentsOf() for them.
   };
   std::vector<Request> requests;
-  std::map<size_t, Shapes> shapes;  ///< By index of the request.
+  std::map<size_t, Shapes> shapes;  ///< Indexed by the request's number.
   std::mutex mutex;                 ///< Protects the shapes: procedurals are opened by several threads.
 };
 

@@ -16,8 +16,8 @@ constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
 constexpr float kLeastReach_px = 0.05f;  ///< Vertices are snapped by this, and it closes T-vertices.
 constexpr int kRound_cells = 6;  ///< A disk of at most so many cells is shaded as one cell: only P varies over it.
-/// In edges of a micropolygon. A disk whose bound, 1.5 times as wide as the disk, is no wider than this takes few cells
-/// however it is measured.
+/// Greatest width of the bound of a dot, in edges of a micropolygon. The bound is 1.5 times as wide as the disk. A disk
+/// within it takes few cells however it is measured.
 constexpr float kDot = 4;
 /// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
