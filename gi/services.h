@@ -90,7 +90,7 @@ class GiServices final : public ShadeServices {
   void setAtlas(std::unique_ptr<const IrradianceAtlas> atlas);
   /// Sets a function that brings the atlas when the first point has to be gathered. Any thread may call it.
   void setAtlasSource(AtlasSource source);
-  /// The same for what gather rays meet in GiMode::Radiosity.
+  /// Sets the function that brings the radiance of what gather rays meet in GiMode::Radiosity.
   void setHitRadianceSource(HitRadianceSource source);
   /// Lets gatherPass() count photons, in GiMode::Reference and Progressive.
   void setPhotonPasses(PhotonPasses passes);

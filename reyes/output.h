@@ -68,7 +68,7 @@ using Selection = std::vector<SelectedFloat>;
 struct FrameOutput {
   std::vector<Variable> variables;
   std::vector<Channel> channels;
-  std::vector<Selection> displays;  ///< In the order of Options::displays.
+  std::vector<Selection> displays;  ///< Indexed as Options::displays.
   int floatsPerPoint = 0;           ///< Floats of all variables.
   int floatsPerPixel = 5;           ///< Floats of all channels.
   bool shades = true;               ///< False if only depth is wanted, so that opaque surfaces need no shader.

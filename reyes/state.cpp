@@ -32,7 +32,8 @@ bool affineAndRegular(const mat4& m) {
          std::abs(glm::determinant(mat3(m))) > 1e-6f * size;
 }
 
-/// Can the motion from a to b be a rotation? It cannot if only the position differs, nor through a mirror.
+/// Tells whether the motion from a to b can be a rotation. It cannot if only the position differs, nor through a
+/// mirror.
 bool mayTurn(const mat4& a, const mat4& b) {
   return mat3(a) != mat3(b) && affineAndRegular(a) && affineAndRegular(b) &&
          (glm::determinant(mat3(a)) > 0) == (glm::determinant(mat3(b)) > 0);

@@ -73,9 +73,9 @@ struct ChannelCall {
   SourceLoc where;
 };
 
-/// How a pixel's depth is made from its samples that see something opaque: the least, the greatest, the mean; or the
-/// least mean of a sample's two nearest surfaces (Woo 1992), where the far clipping plane replaces a missing second
-/// one.
+/// The way in which a pixel's depth is made from its samples that see something opaque: the least, the greatest, the
+/// mean; or the least mean of a sample's two nearest surfaces (Woo 1992), where the far clipping plane replaces a
+/// missing second one.
 enum class DepthFilter { Min, Max, Average, Midpoint };
 
 enum class ProjectionKind { Orthographic, Perspective, Null };

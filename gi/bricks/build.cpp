@@ -145,7 +145,7 @@ class Builder {
     }
   }
 
-  /// The same for points on disk. Returns false if there are none.
+  /// Does the same for points on disk. Returns false if there are none.
   bool accumulate(const PointTiles& tiles, uint64_t most, int level, const glm::ivec3& place, BrickNode& node) {
     if (tiles.count(level, place) <= most || level == PointTiles::kDeepest || level >= settings_.maxDepth) {
       const Bound3 box = tiles.box(level, place);

@@ -22,7 +22,7 @@ class PointTiles {
   /// share their border to the bit.
   Bound3 box(int level, const glm::ivec3& place) const;
   uint64_t count(int level, const glm::ivec3& place) const;
-  /// Does count() count this point? Every point lies in one cube of each level.
+  /// Tells whether count() counts this point. Every point lies in one cube of each level.
   bool contains(int level, const glm::ivec3& place, const vec3& P) const {
     return cellOf(P) >> (kDeepest - level) == place;
   }

@@ -117,7 +117,7 @@ struct IrradianceCache::Impl {
         published);
   }
 
-  /// The same for one place alone.
+  /// Does the same for one place alone.
   const std::vector<Candidate>& candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
     Search& search = searchOfThread();
     const Range range = rangeAt(pixelSize, 1);

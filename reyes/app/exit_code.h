@@ -19,7 +19,7 @@ std::string exitCodeHelp();
 /// The severity of an exception that ends a command: Error if a file cannot be read; else Output, as where something
 /// cannot be written, or where memory or threads do not suffice to make it.
 Severity severityOf(const std::exception& e);
-/// The same where a substitute is rendered instead: Missing takes the place of Error.
+/// Returns the severity where a substitute is rendered instead: Missing takes the place of Error.
 Severity severityOfLoss(const std::exception& e);
 /// The message of an exception for the user.
 std::string messageOf(const std::exception& e);

@@ -23,7 +23,7 @@ std::vector<std::string> pluginFiles(const std::string& name, const std::string&
 /// with ".." or an absolute one leads out of the trusted folders, so they are not searched for it.
 PluginFiles findPlugins(const std::string& name, const std::string& searchPath, const PluginTrust& trust);
 
-/// Does the name of a plugin lead out of the folders that are searched for it?
+/// Tells whether the name of a plugin leads out of the folders that are searched for it.
 bool leavesFolders(const std::string& name);
 
 }  // namespace tomales

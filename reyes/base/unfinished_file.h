@@ -21,7 +21,7 @@ namespace tomales {
 enum class UnfinishedKind {
   Scratch,    ///< Its name is a ScratchPath, and it is removed unless it is finished. The target must be a regular file
               ///< or not exist.
-  Stream,     ///< As Scratch; but devices, pipes and what /dev/stdout and /dev/fd lead to are written directly.
+  Stream,     ///< It is as Scratch, but devices, pipes and the targets of /dev/stdout and /dev/fd are written directly.
   Resumable,  ///< It is called NAME.part, is locked, and stays until it is finished or discarded. It begins with the
               ///< contents of an earlier one.
 };
@@ -71,8 +71,8 @@ bool moveFinished(const std::filesystem::path& from, const std::filesystem::path
 /// A TemporaryFolder for moveFinished() belongs beside it.
 std::filesystem::path throughLinks(const std::filesystem::path& target);
 
-/// Is `target`, by whatever name, one of these? A command
-/// that would replace one of its own inputs says so before.
+/// Tells whether `target`, by whatever name, is one of these. A command that would replace one of its own inputs says
+/// so before.
 bool isAmong(const std::filesystem::path& target, const std::vector<std::string>& files);
 
 }  // namespace tomales

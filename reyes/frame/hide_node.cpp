@@ -25,7 +25,8 @@ constexpr float kFewParticles = 1.0f / 64, kManyParticles = 1;
 /// many small things side by side would wait for each other.
 enum class Opening : uint8_t { Shared, Transient, AtOnce };
 
-/// Is all of an object visited, whatever hides it? The visible surface of a solid depends on all its pieces.
+/// Tells whether all of an object is visited, whatever hides it. The visible surface of a solid depends on all its
+/// pieces.
 bool isVisitedWhole(const Object& o) { return o.solid >= 0 || !o.attributes->cull.hidden; }
 
 class OpeningNode : public HideNode {

@@ -94,7 +94,7 @@ HWY_INLINE Ints turnsRight(const SeenVertex& p, const SeenVertex& q, const SeenV
   return hn::BitCast(kI, hn::VecFromMask(kF, hn::Lt(area, hn::Zero(kF))));
 }
 
-/// Is a sample on the same side of all three edges of a triangle that may be seen?
+/// Tells whether a sample is on the same side of all three edges of a triangle that may be seen.
 HWY_INLINE Mask inside(Ints left0, Ints left1, Ints left2, Ints right, float facing) {
   Ints in = hn::And(hn::And(hn::Xor(left0, right), hn::Xor(left1, right)), hn::Xor(left2, right));
   if (facing != 0) in = facing > 0 ? hn::AndNot(right, in) : hn::And(right, in);

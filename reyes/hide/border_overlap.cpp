@@ -31,9 +31,9 @@ class BorderCell {
     joined_ = raster_.reaching.empty() ? 0 : at & raster_.reaching[static_cast<size_t>(grid_.pieceOfCell(cell))];
   }
 
-  /// Does it lie at a border that joins a neighbour?
+  /// Tells whether the cell lies at a border that joins a neighbour.
   bool joins() const { return joined_ != 0; }
-  /// Does it reach, at a point of the raster, beyond such a border as it was before it was pushed out?
+  /// Tells whether the cell reaches, at a point of the raster, beyond such a border as it was before it was pushed out.
   bool reachesTo(const vec2& at) const {
     const int b = a_ + 1, c = a_ + grid_.nu + 1, d = c + 1;
     return beyond(kEdgeU0, a_, c, b, at) || beyond(kEdgeU1, b, d, a_, at) || beyond(kEdgeV0, a_, b, c, at) ||

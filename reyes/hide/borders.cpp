@@ -84,7 +84,7 @@ float areaSign(const float* x, const float* y, const Border& b, int k) {
   return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
 }
 
-/// Does the surface end at a curve that bulges out at vertex k? It is not known of a single chord.
+/// Tells whether the surface ends at a curve that bulges out at vertex k. It is not known of a single chord.
 bool mayBulge(const float* x, const float* y, const Border& b, int k) {
   if (b.count < 2) return true;
   const int v = b.first + std::clamp(k, 1, b.count - 1) * b.step, before = v - b.step, after = v + b.step;

@@ -27,13 +27,13 @@ struct RasterJob {
 
 /// Rasterises a grid with one motion key, in focus.
 void rasterizeStill(const RasterJob& job);
-/// The same for a grid of round cells: Grid::round.
+/// Does the same for a grid of round cells: Grid::round.
 void rasterizeRound(const RasterJob& job);
 /// Rasterises a grid that moves or is out of focus: a sample meets the vertices where they are at its time, seen
 /// through its point of the lens.
 void rasterizeBlurred(const RasterJob& job);
 
-/// Do trim curves, clipping and levels of detail keep all of the job's grid?
+/// Tells whether trim curves, clipping and levels of detail keep all of the job's grid.
 inline bool keepsAll(const RasterJob& job) {
   return job.raster.grid->kept.empty() && !job.raster.clipped && job.raster.detail.whole();
 }
@@ -43,7 +43,7 @@ inline Kept keptOf(const RasterJob& job, int cell) {
   const Kept kept = given.empty() ? Kept::All : given[static_cast<size_t>(cell)];
   return kept == Kept::All && (job.raster.clipped || !job.raster.detail.whole()) ? Kept::Part : kept;
 }
-/// Do these keep the point of a cell that a sample meets? Pre: the cell covers it.
+/// Tells whether these keep the point of a cell that a sample meets. Pre: the cell covers it.
 bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane);
 /// Tests the same for the lanes of a mask that counts from `firstLane`.
 uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64_t lanes);

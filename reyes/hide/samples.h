@@ -30,7 +30,7 @@ class GridTable {
   /// Frees every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }          ///< Number of grids that are not freed.
-  bool anySmooth() const { return anySmooth_; }  ///< Is any grid RasterGrid::smooth?
+  bool anySmooth() const { return anySmooth_; }  ///< True if any grid is RasterGrid::smooth.
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
 
@@ -80,7 +80,7 @@ struct SampleBuffer {
   std::vector<DepthConflict>
       depthConflicts;  ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
 
-  /// Do 16 bits hold the positions on the lattice?
+  /// Tells whether 16 bits hold the positions on the lattice.
   bool fitsLattice() const {
     return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px && std::max(rect.x1, rect.y1) <= kMostExact_px;
   }
@@ -119,15 +119,15 @@ struct SampleBuffer {
   }
   /// All cells that some sample sees or, for solids, may see, sorted.
   std::vector<uint32_t> seen() const;
-  /// Is every sample of the pixels nearer than depth key d?
+  /// Tells whether every sample of the pixels is nearer than depth key d.
   bool hides(const PixelRect& pixels, float d) const {
     for (int row = pixels.y0; row < pixels.y1; ++row)
       for (int column = pixels.x0; column < pixels.x1; ++column)
         if (!(far[pixelIndex(column, row)] < d)) return false;
     return true;
   }
-  /// Is every sample within a raster bound nearer? In a few pixels samples are tested one by one, because a small bound
-  /// mostly lies between them.
+  /// Tells whether every sample within a raster bound is nearer. In a few pixels samples are tested one by one, because
+  /// a small bound mostly lies between them.
   bool hides(const Bound2& bound, float d) const;
 
  private:

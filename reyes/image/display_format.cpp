@@ -19,7 +19,7 @@ bool everyFormatTakes(const std::string& name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// Does its type say which data are written, and not only in which format?
+/// Tells whether the Display's type says which data are written, and not only in which format.
 bool writesPass(const DisplayCall& display) { return writesMap(display) || writesDeep(display); }
 
 std::string compressionOf(const DisplayCall& display) {
@@ -59,7 +59,7 @@ void setExr(const DisplayCall& display, FileFormat& format) {
   format.metadata = metadataOf(display);
 }
 
-/// Is the type of this Display left to drivers?
+/// Tells whether the type of this Display is left to drivers.
 bool namesDriver(const DisplayCall& display) {
   return !writesPass(display) && display.type != "file" && display.type != "null" && !formatOfType(display.type);
 }

@@ -79,7 +79,8 @@ void refuseStranger(const PictureTile& first, const PictureTile& tile) {
     throw FileError(fmt::format("\"{}\" is no tile of the frame of \"{}\": {}", tile.path, first.path, why));
 }
 
-/// Does a tile cover each pixel? The edges of the tiles divide the window into cells that are covered wholly or not.
+/// Refuses tiles that leave a pixel out. The edges of the tiles divide the window into cells that are covered wholly or
+/// not.
 void refuseGaps(const std::vector<PictureTile>& tiles, const PixelRect& whole) {
   std::set<int> columns{whole.x0}, rows{whole.y0};
   for (const PictureTile& t : tiles)

@@ -39,7 +39,7 @@ const PictureFormat& driverFormat();
 /// Returns null if there is none.
 const PictureFormat* formatOfType(std::string_view displayType);
 const PictureFormat* formatOfExtension(const std::string& path);
-/// Does some format take this parameter of a Display?
+/// Tells whether some format takes this parameter of a Display.
 bool anyFormatTakes(std::string_view param);
 /// The titles of formats that hold floating point numbers: "OpenEXR or TIFF".
 std::string floatFormats();

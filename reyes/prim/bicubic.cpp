@@ -58,7 +58,7 @@ glm::dvec3 weighted(const BezierPatch& patch, const Weights& u, const Weights& v
   return sum;
 }
 
-/// Do all control points lie on a line, so that there is no normal anywhere?
+/// Tells whether all control points lie on a line, so that there is no normal anywhere.
 bool isLine(const BezierPatch& patch) {
   const auto control = [&](size_t k) { return controlOf(patch, k); };
   glm::dvec3 along(0);

@@ -28,7 +28,7 @@ struct Pieces {
 /// and also at later keys of a polygon that cannot be cut alike at all keys.
 Pieces convexPieces(const Outlines& keys);
 
-/// Does every corner turn, and turn the same way, at all keys?
+/// Tells whether every corner turns, and turns the same way, at all keys.
 bool isStrictlyConvex(const Outlines& keys);
 
 }  // namespace tomales

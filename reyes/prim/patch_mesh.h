@@ -99,7 +99,7 @@ class PatchMesh : public Prim {
 /// weights are positive.
 PrimPtr makeRationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params,
                          Problems& problems);
-/// Do the parameters ask for a rational mesh?
+/// Tells whether the parameters ask for a rational mesh.
 bool isRational(const ParamList& params);
 
 }  // namespace tomales

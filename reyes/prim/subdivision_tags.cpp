@@ -42,7 +42,7 @@ class TagReader {
   MeshTags out;
 
  private:
-  /// Does the tag have one sharpness for all, or one for each of `count`?
+  /// Tells whether the tag has one sharpness for all, or one for each of `count`.
   bool sharpnessFits(const Tag& tag, size_t count) {
     const bool fits = tag.floats.size() == 1 || (count > 0 && tag.floats.size() == count);
     if (!fits)

@@ -20,7 +20,7 @@ bool isOfBlobs(const Request& points) {
   return type && !type->strings.empty() && type->strings[0] == "blobby";
 }
 
-/// Do they differ in numbers alone?
+/// Tells whether the requests differ in numbers alone.
 bool differInNumbers(const Request& a, const Request& b) {
   const auto sameArg = [](const RibArg& x, const RibArg& y) {
     return x.integers == y.integers && x.numbers.size() == y.numbers.size();

@@ -86,7 +86,7 @@ class Lexer {
   std::unordered_map<uint64_t, std::string> strings_;
 };
 
-/// Is it a byte that begins an encoded token? The rest above 0177 is reserved.
+/// Tells whether the byte begins an encoded token. The rest above 0177 is reserved.
 inline bool isBinary(int c) { return (c >= 0200 && c <= 0246) || (c >= 0310 && c <= 0320); }
 
 }  // namespace tomales::rib

@@ -76,7 +76,7 @@ class Lights {
   /// until shadow() has been called. Without `indirect`, indirect lights, which may cost many rays, do not run unless
   /// they have run already. If they do later, their samples come last.
   std::vector<LightSample>& samples(Batch& batch, bool indirect = true);
-  /// Has the shader asked what lights it?
+  /// Tells whether the shader has asked for the light that arrives.
   bool asked() const { return evaluated_ || ambientAsked_; }
   /// The lights that run at every point of the batch: all, or those that no set holds.
   const std::vector<const BoundLight*>& alone(const Batch& batch) const;

@@ -67,7 +67,7 @@ class Setting {
   Color color_{};
 };
 
-/// What set() found out about an entry of a list.
+/// The result of set() for an entry of a list.
 struct Entry {
   bool known = true;
   const char* idle = nullptr;  ///< Why the entry, which other renderers know, changes nothing here. Null otherwise.

@@ -20,7 +20,7 @@ void refuseIfOnCluster(const BatchPlan& plan);
 /// Writes the scripts of tasks that are not done, and submits them. Returns the number of jobs. What was submitted is
 /// taken back if one of them is refused, which throws FileError.
 size_t submitToSlurm(const BatchPlan& plan, const SlurmOptions& options);
-/// Was the plan given to Slurm?
+/// Tells whether the plan was given to Slurm.
 bool hasJobs(const BatchPlan& plan);
 void cancelJobs(const BatchPlan& plan);
 

@@ -41,7 +41,8 @@ std::optional<double> secondsToReach(const ChartReport& report, size_t curve, do
 /// The point of a curve that is off least; null if it has none. An index past all curves means the least of all points.
 const ChartPoint* mostAccurate(const ChartReport& report, size_t curve);
 
-/// Do all its points have the same error? Its settings then change the cost alone, if they affect this scene at all.
+/// Tells whether all its points have the same error. Its settings then change the cost alone, if they affect this scene
+/// at all.
 bool isFlat(const ChartReport& report, size_t curve);
 
 // Both return false if the file could not be written.

@@ -15,7 +15,7 @@
 namespace tomales {
 namespace {
 
-/// Does the text name a command? If not, the arguments are those of render.
+/// Tells whether the text names a command. If not, the arguments are those of render.
 bool namesCommand(const CLI::App& app, const std::string& text) {
   for (const char* name : {"-h", "--help", "--help-all", "--version"})
     if (text == name) return true;

@@ -10,7 +10,7 @@ namespace tomales {
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading);
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading);
-/// Do the maps of GiMode::Atlas hold direct light? Those made by hand say so themselves.
+/// Tells whether the maps of GiMode::Atlas hold direct light. Maps that were made by hand say so themselves.
 bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading);
 
 /// Prepares the atlas in the atlasFolder(), where maps that are still true are used and the rest made, or else in a

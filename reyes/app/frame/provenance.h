@@ -34,8 +34,8 @@ void describeAudit(Options& options, const std::string& sentence, const RenderSe
 /// Adds the settings of light that the program has chosen.
 void describeQuality(Options& options, const std::string& chosen, const RenderSettings& settings);
 
-/// Do all files of the frame's Displays hold these contents? Formats without such headers cannot tell, which is
-/// reported, and neither can display drivers.
+/// Tells whether all files of the frame's Displays hold these contents. Formats without such headers cannot tell, which
+/// is reported, and neither can display drivers.
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log);
 
 }  // namespace tomales

@@ -68,8 +68,8 @@ void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Lo
                            MB(stats.memoryBytes.grids), MB(stats.raytrace.bytes)));
 }
 
-/// May buckets be shaded and filtered right after hiding, while they are in the cache, row by row? Not if that would
-/// take more geometry into memory, or if the scene asks for another order.
+/// Tells whether buckets may be shaded and filtered right after hiding, while they are in the cache, row by row. They
+/// may not if that would take more geometry into memory, or if the scene asks for another order.
 bool mayStream(const Scene& scene) { return scene.procedurals.empty() && scene.options.bucketOrder == "horizontal"; }
 
 /// Returns false if the file cannot be read, which is reported.

@@ -54,7 +54,7 @@ std::set<std::string> namesIn(const std::string& folder, const std::string& endi
   return out;
 }
 
-/// Is there a shader of this kind in a text? It need not compile.
+/// Tells whether there seems to be a shader of this kind in a text. It need not compile.
 bool seemsToHave(const fs::path& file, TmKind kind, const std::string& name) {
   std::error_code none;
   if (fs::file_size(file, none) > kMostText_bytes) return false;

@@ -168,7 +168,7 @@ void Relighting::start() {
   thread_ = std::thread([this] { work(); });
 }
 
-/// Does the page mix the layer by the factor of this light? Lights of one layer may each have another.
+/// Tells whether the page mixes the layer by the factor of this light. Lights of one layer may each have another.
 bool Relighting::isMixed(const Layer& layer, const std::string& handle) const {
   return layer.handles.size() == 1 && layer.handles.front() == handle;
 }

@@ -64,13 +64,14 @@ struct Angle {
   double rest;
   uint64_t quarters;
 };
-/// For numbers below kFar, where the product with the first 33 bits of half pi is exact (Cody and Waite).
+/// angleOf() takes numbers below this, for which the product with the first 33 bits of half pi is exact (Cody and
+/// Waite).
 constexpr float kFar = 0x1p20f;
 RSL_INLINE Angle angleOf(float x) {
   const double sum = x * 0x1.45f306dc9c883p-1 + kRounding, quarters = sum - kRounding;
   return {(x - quarters * 0x1.921fb544p+0) - quarters * 0x1.0b4611a626331p-34, bitsOf(sum)};
 }
-/// For all other numbers.
+/// Reduces all other numbers.
 Angle farAngleOf(float x);
 
 RSL_INLINE float sineOf(Angle a) {
