@@ -47,7 +47,7 @@ struct MapNames {
 };
 MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasSettings& settings);
 
-/// The file of a map in a folder.
+/// Returns the file of a map in a folder.
 std::filesystem::path atlasFile(const std::filesystem::path& folder, const std::string& map, const char* extension);
 void makeAtlasFolder(const std::filesystem::path& folder);  ///< Throws WriteError.
 
@@ -110,15 +110,15 @@ class IrradianceAtlas {
   /// theirs, match any.
   std::optional<std::string> strange(uint64_t world) const;
 
-  /// E/pi at P (current space) on the side of N, averaged over a radius; 0 where there is no data. `acrossWalls`: as in
-  /// BrickMap::lookup().
+  /// Returns E/pi at P (current space) on the side of N, averaged over a radius; 0 where there is no data.
+  /// `acrossWalls`: as in BrickMap::lookup().
   vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius, bool& acrossWalls) const {
     acrossWalls = false;
     return look(mapOfGroup_, group, P, N, radius, &acrossWalls).value_or(vec3(0.0f));
   }
-  /// The same for light that came by mirrors and glass alone.
+  /// Returns the same for light that came by mirrors and glass alone.
   vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const;
-  /// The same as irradianceOverPi(), but empty where there is no data.
+  /// Returns the same as irradianceOverPi(), but empty where there is no data.
   std::optional<vec3> bakedOverPi(int group, const vec3& P, const vec3& N, float radius) const {
     return look(mapOfGroup_, group, P, N, radius);
   }
@@ -131,7 +131,7 @@ class IrradianceAtlas {
   const BrickMap* open(const std::filesystem::path& file);
   void openCaustics(const std::filesystem::path& folder, const MapNames& names);
   vec3 worldNormal(const vec3& N) const { return normalizeOr(transformVector(worldFromCurrent_, N), N); }
-  /// Number of a group's surface in a map; 0: not known, as maps of another scene have other numbers.
+  /// Returns the number of a group's surface in a map; 0: not known, as maps of another scene have other numbers.
   int surfaceIn(const MadeFrom& from, int group) const {
     return world_ != 0 && from.world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
   }

@@ -85,7 +85,7 @@ constexpr std::optional<ErrorFunction> errorFunctionNamed(std::string_view name)
   return std::nullopt;
 }
 
-/// The names for help texts: "screen|ward".
+/// Returns the names for help texts: "screen|ward".
 inline std::string errorFunctionNames() {
   std::string out;
   for (const ErrorFunctionInfo& info : kErrorFunctions) out += (out.empty() ? "" : "|") + std::string(info.name);

@@ -49,9 +49,9 @@ IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, cons
                         const GatherSettings& settings, const KnownLight& known, Stats& stats,
                         BrightFind* find = nullptr, std::span<const std::string> groups = {});
 
-/// The shade groups that rays from a group may hit; null if it is all.
+/// Returns the shade groups that rays from a group may hit; null if it is all.
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings);
-/// Radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
+/// Returns the radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
 inline float spreadOfRays(int samples) { return 1 / std::sqrt(static_cast<float>(samples)); }
 
 /// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the

@@ -73,10 +73,10 @@ class IrradianceCache {
   /// `light` then.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider = 1,
               std::span<const LightShare> light = {}) const;
-  /// The light of each record where each share is multiplied by its gain. Pre: every record has as many shares.
+  /// Returns the light of each record where each share is multiplied by its gain. Pre: every record has as many shares.
   std::vector<LightShare> mixed(std::span<const vec3> gains) const;
-  /// The same, which the cache keeps until it is asked for other gains or has more records: a frame that is shaded
-  /// again and again asks for the same. Threads: one at a time.
+  /// Returns the same, which the cache keeps until it is asked for other gains or has more records: a frame that is
+  /// shaded again and again asks for the same. Threads: one at a time.
   std::span<const LightShare> keptMix(std::span<const vec3> gains) const;
   const IrradianceRecords& records() const;
   const Bound3& bound() const;

@@ -115,7 +115,7 @@ class GiServices final : public ShadeServices {
   };
   BounceCost bounceCost() const;
 
-  /// The caches of gatherPass(); frozen while shading.
+  /// Returns the caches of gatherPass(); frozen while shading.
   const std::vector<PreparedCache>& caches() const;
   std::vector<PreparedCache> takeCaches();  ///< Moves the caches out; none remain.
   /// Sets caches instead of a gather pass or before one. The gather pass then adds records where these leave points

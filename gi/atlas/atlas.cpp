@@ -25,7 +25,7 @@ constexpr double kStoredBytes = 2.5 * 36;
 constexpr double kLeastOfMap =
     1e-3;  ///< Share of its map's area that a surface needs to have a number: leaves share their photons.
 
-/// Area of the boxes of each group's objects in world space, so that every camera finds the same maps.
+/// Returns the area of the boxes of each group's objects in world space, so that every camera finds the same maps.
 std::vector<double> boxAreas(const Scene& scene) {
   std::vector<double> areas(scene.groups.size(), 0.0);
   for (const Object& o : scene.objects) {

@@ -59,7 +59,7 @@ class WallTest {
   WallTest(const RayScene& rays, const BrickMap& map, const std::vector<int>& surfaces)
       : rays_(rays), map_(map), surfaces_(surfaces), world_(rays.scene()), current_(glm::inverse(world_.points)) {}
 
-  /// The object through which light comes to the place; -1: none.
+  /// Returns the object through which light comes to the place; -1: none.
   int leakAt(const Place& place) const {
     const vec3 P = transformPoint(current_, place.P), N = normalizeOr(transformVector(current_, place.N), vec3(0));
     const float reach = kReach * place.radius / world_.scale;

@@ -46,7 +46,7 @@ struct IrradianceRecord {
   std::vector<LightShare> shares;  ///< One for each group of lights that was asked for; empty: not known.
 };
 
-/// The record as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
+/// Returns the record as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
 inline IrradianceRecord withGains(IrradianceRecord record, std::span<const vec3> gains) {
   LightShare sum;
   float most = 1;

@@ -19,7 +19,7 @@ struct Range {
   float leastCosine;  ///< Least cosine between the normals of a place and of a record that serves it.
   bool fadesBehind;   ///< True if Amendment::Behind is on.
 
-  /// The distance at which the error reaches 1: the denominator of eq. 3 over kappa. The split sphere as it was
+  /// Returns the distance at which the error reaches 1: the denominator of eq. 3 over kappa. The split sphere as it was
   /// published has no limits in pixels.
   float radiusOf(float size) const { return std::max(std::min(size, most), least) / kappa; }
 };

@@ -57,7 +57,7 @@ PointCloud sorted(const PointCloud& cloud) {
   return out;
 }
 
-/// Empty if there is no material of this name.
+/// Returns nothing if there is no material of this name.
 std::optional<Translucency> materialOf(const TmSubsurfaceOptions& s) {
   const auto triple = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
   if (s.material) return translucencyOf(s.material);

@@ -33,8 +33,8 @@ class BounceCaches {
   };
   Levels levels() const;
   void restore(const Levels& levels);
-  /// E/pi after so many bounces. A weight of 0 means that it is not known. lights: null, or one of Run::groups, whose
-  /// lights alone shine.
+  /// Returns E/pi after so many bounces. A weight of 0 means that it is not known. lights: null, or one of Run::groups,
+  /// whose lights alone shine.
   IrradianceEstimate lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
                             const vec3& shadingNormal, const std::string* lights) const;
 

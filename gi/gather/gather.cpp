@@ -77,7 +77,7 @@ class Hemisphere {
             scratch_.firstHits.distances,
             scratch_.spread};
   }
-  /// The radiance of each cell that each group of lights brings; after trace().
+  /// Returns the radiance of each cell that each group of lights brings; after trace().
   const std::vector<std::vector<vec3>>& shares() const { return scratch_.seen.shares; }
 
   std::vector<float>& upright() { return scratch_.upright; }

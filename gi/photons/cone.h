@@ -22,8 +22,8 @@ class PhotonCone {
   vec3 place(const vec3& local, float distance) const;  ///< Place at this distance from the light.
   double cellSolidAngle() const;
   float start() const { return start_; }  ///< Distance from the light at which its photons begin.
-  /// Distance at which the light shader is evaluated: at the scene if the light is outside, because its shader decides
-  /// how light falls off.
+  /// Returns the distance at which the light shader is evaluated: at the scene if the light is outside, because its
+  /// shader decides how light falls off.
   float askingDistance() const { return distance_ > 0 ? distance_ : 1.0f; }
 
  private:

@@ -22,7 +22,7 @@ constexpr size_t kFew = 8;  ///< Fewer photons do not show how far apart they ar
 constexpr float kMuchCloser = 0.5f;
 constexpr float kMostOfMap = 0.05f;
 
-/// A circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
+/// Returns a circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
 vec2 segment(float theta) {
   const float area = theta - std::sin(theta) * std::cos(theta), s = std::sin(theta);
   return {area / kPi, area > 0 ? 2 * s * s * s / (3 * area) : 1.0f};
@@ -39,21 +39,21 @@ struct Estimate {
   bool acrossWalls = false;
 };
 
-/// Radius of the disk that stands for `every` of `count` photons on an area.
+/// Returns the radius of the disk that stands for `every` of `count` photons on an area.
 float diskRadius(float area, size_t count, int every) {
   return kOverlap *
          std::sqrt(area * static_cast<float>(every) / (kPi * static_cast<float>(std::max<size_t>(count, 1))));
 }
 
-/// Radius by the nearest few alone: where photons are rare, the farther ones lie on other surfaces, and the disk must
-/// not reach there. Pre: sorted.
+/// Returns the radius by the nearest few alone: where photons are rare, the farther ones lie on other surfaces, and the
+/// disk must not reach there. Pre: sorted.
 float nearRadius(const std::vector<NearPhoton>& photons, int every) {
   const size_t few = std::min(photons.size(), std::max(kFew, 2 * static_cast<size_t>(every)));
   return diskRadius(kPi * photons[few - 1].distance2, few, every);
 }
 
-/// The clumping of one estimate, EstimateFigures::clumps. The farthest of the few, the farthest of all (`inside`
-/// excludes it) and the photon at the middle do not count. Pre: sorted.
+/// Returns the clumping of one estimate, EstimateFigures::clumps. The farthest of the few, the farthest of all
+/// (`inside` excludes it) and the photon at the middle do not count. Pre: sorted.
 float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside) {
   if (photons.size() <= kFew || !(photons[kFew - 1].distance2 > 0)) return 1;
   return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);

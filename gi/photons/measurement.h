@@ -28,8 +28,8 @@ class PhotonMeasurement {
   void count(std::span<const StoredPhoton> photons);
 
   vec3 overPi(size_t point) const;  ///< Mean E/pi of the passes.
-  /// The expected absolute error of overPi() by noise, all points together, over the mean of overPi(): half the mean
-  /// difference of even and odd passes. Negative before there are two passes, or if no photon counted.
+  /// Returns the expected absolute error of overPi() by noise, all points together, over the mean of overPi(): half the
+  /// mean difference of even and odd passes. Negative before there are two passes, or if no photon counted.
   double noise() const;
   size_t size() const { return points_.size(); }
 

@@ -27,7 +27,7 @@ class Series {
     if (n < 2 || !(power_[n - 1] > 0)) return 0;
     return std::min(power_[n - 1] / (n == 2 ? emitted : power_[n - 2]), kLargestRatio);
   }
-  /// The share of reflected light that would arrive later if it went on as a geometric series.
+  /// Returns the share of reflected light that would arrive later if it went on as a geometric series.
   double left(double emitted) const {
     const double r = ratio(emitted), rest = power_.back() * r / (1 - r),
                  reflected = std::accumulate(power_.begin() + 1, power_.end(), 0.0);

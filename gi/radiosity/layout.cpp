@@ -65,7 +65,7 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
   return chart;
 }
 
-/// The limit for all maps together. A small picture gets fewer, since it shows little of them.
+/// Returns the limit for all maps together. A small picture gets fewer, since it shows little of them.
 int64_t mostTexels(const Camera& camera, const RadiositySettings& settings) {
   const int64_t ofPicture = kMostOfPixel * camera.xResolution() * camera.yResolution();
   return std::min(settings.mostTexels, std::max(kAlwaysTexels, ofPicture));

@@ -42,7 +42,8 @@ class Disputes {
                                                        : std::max(distance, kFinestPixels * pixelSize / kappa_);
   }
 
-  /// Standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the hits.
+  /// Returns the standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the
+  /// hits.
   static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
 
  private:
