@@ -66,8 +66,8 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
          !camera.outside(bound.grown(o.displacementBound), {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
-/// The greatest number of polygons that a patch may have when their edges are so long. A small picture shows few
-/// polygons, however many a patch of enormous coordinates asks for.
+/// Returns the greatest number of polygons that a patch may have when their edges are so long. A small picture shows
+/// few polygons, however many a patch of enormous coordinates asks for.
 double mostQuads(const Object& o, const Camera& camera, float edge_px) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
   const double pixels = 1.0 * camera.xResolution() * camera.yResolution();

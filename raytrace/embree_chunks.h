@@ -27,7 +27,7 @@ class EmbreeChunks {
   /// Returns Embree's mask of the geometry with this number, counted from the first.
   uint32_t maskOf(size_t geometry) const { return members_[geometry].mask; }
   const Geometry& geometryOf(uint32_t chunk) const { return described_[chunks_.all()[chunk].group]; }
-  /// Unit normal at a hit, on the RISpec side.
+  /// Returns the unit normal at a hit, on the RISpec side.
   vec3 normal(const PolygonHit& hit) const;
   ResidentFigures figures() const { return cache_.figures(); }
   /// Returns true once a ray has passed through a chunk for which there was no memory, because Embree lets no exception

@@ -34,9 +34,9 @@ inline float recordingWindow(float offset) { return (1 + kMergeShare) * offset; 
 /// Sorts by t. The rest of the order makes results independent of the traversal.
 void sortAlongRay(HitList& list);
 
-/// A ray that meets an edge of two polygons, or the diagonal of one, reports one surface twice. Surfaces of a
-/// closed shape alternate between entering and leaving, so two close hits in the same sense are one surface.
-/// The objects may differ: at the crease of two walls a ray leaves both, and neither shadows it.
+/// Tells whether two hits are one surface. A ray that meets an edge of two polygons, or the diagonal of one, reports
+/// one surface twice. Surfaces of a closed shape alternate between entering and leaving, so two close hits in the same
+/// sense are one surface. The objects may differ: at the crease of two walls a ray leaves both, and neither shadows it.
 bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance);
 
 /// Returns the rounding error of positions: a few units in the last place of their distance from the eye.

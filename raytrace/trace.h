@@ -162,7 +162,7 @@ class RayScene {
   /// Returns the share of light that passes through the Volumes along a ray up to tMax.
   vec3 passedByVolumes(const Ray& ray, float tMax, RayMask mask) const;
 
-  /// The surfaces of area lights.
+  /// Returns the surfaces of area lights.
   const Emitters& emitters() const;
 
   const Scene& scene() const;
