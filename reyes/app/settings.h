@@ -118,7 +118,7 @@ std::optional<std::array<int, 2>> parsePixel(const std::string& text);          
 std::optional<std::array<float, 4>> parseCrop(const std::string& text);                     ///< "0,0.5,0.25,1"
 std::optional<std::vector<int>> parseFrames(const std::string& text);                       ///< "1-10x2,15", "none"
 std::optional<int64_t> parseBytes(const std::string& text);                                 ///< "600M", "2G", "1000000"
-/// Null for "scene", which leaves it to the scene.
+/// Returns null for "scene", which leaves it to the scene.
 std::optional<const GiMethod*> parseGi(const std::string& text);
 /// "2%" or "0.02"; more than 0 and less than 1.
 std::optional<double> parseShare(const std::string& text);

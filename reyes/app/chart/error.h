@@ -40,7 +40,7 @@ class ChartReference {
   int batches() const { return static_cast<int>(batches_.size()); }
   const Image& mean() const { return mean_; }
   bool isBlack() const;  ///< True if no pixel has light that is a number.
-  /// The mean error of the reference itself, from the spread of its batches; infinite with fewer than two.
+  /// Returns the mean error of the reference itself, from the spread of its batches; infinite with fewer than two.
   double noiseFloor() const;
   /// Takes the reference's own noise out of the error by the jackknife (Efron and Stein 1981): the square of an error
   /// is taken to grow by the variance of the reference, which is that of one batch over their number. For differences
@@ -61,7 +61,7 @@ class ChartReference {
 /// Returns ", 3 pixels not finite", or nothing if all are.
 std::string notFiniteNote(const ErrorFigures& error);
 
-/// The brightest that counts in a picture: all but a few pixels are darker, and it is not far above the median.
+/// Returns the brightest that counts in a picture: all but a few pixels are darker, and it is not far above the median.
 float brightness(const Image& image);
 /// Returns the largest reduction of at most `size` pixels, times a gain: squares of a whole number of pixels are
 /// averaged to one.

@@ -41,7 +41,7 @@ std::string plotScripts();
 std::string drawPlot(const Plot& plot);
 /// Draws shares below each other on a linear axis, with a line at 0.
 std::string drawDifferences(const std::string& title, const std::vector<PlotDifference>& rows);
-/// The colour of a curve, by its index.
+/// Returns the colour of a curve, by its index.
 const char* plotColor(size_t curve);
 
 }  // namespace tomales

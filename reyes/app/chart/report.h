@@ -38,7 +38,8 @@ void markBest(ChartReport& report);
 /// nothing if it does not.
 std::optional<double> secondsToReach(const ChartReport& report, size_t curve, double error);
 
-/// The point of a curve that is off least; null if it has none. An index past all curves means the least of all points.
+/// Returns the point of a curve that is off least; null if it has none. An index past all curves means the least of all
+/// points.
 const ChartPoint* mostAccurate(const ChartReport& report, size_t curve);
 
 /// Tells whether all its points have the same error. Its settings then change the cost alone, if they affect this scene

@@ -137,7 +137,7 @@ class RenderRun {
     beginReading();
   }
 
-  /// The settings of a frame, with those of light that hold for the shot.
+  /// Returns the settings of a frame, with those of light that hold for the shot.
   RenderSettings held(Scene& scene) {
     RenderSettings out = settings_;
     out.reading_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - readingSince_).count();

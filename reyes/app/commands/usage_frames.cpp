@@ -169,7 +169,7 @@ std::vector<std::string> givenOf(const std::vector<CLI::Option*>& options) {
   return out;
 }
 
-/// The options that `add` gives to the command.
+/// Returns the options that `add` gives to the command.
 template <class Add>
 std::vector<CLI::Option*> added(CLI::App& app, const Add& add) {
   const auto before = app.get_options();

@@ -39,7 +39,7 @@ Plane smoothed(const Plane& in, const Size& size, int reach) {
   return out;
 }
 
-/// The variance of one half, from the differences of both, which have the same.
+/// Returns the variance of one half, from the differences of both, which have the same.
 Color varianceOf(const HalfBuffers& in, const Size& size) {
   Color out;
   for (size_t c = 0; c < 3; ++c) {
@@ -88,8 +88,8 @@ Candidate judged(Color a, Color b, const HalfBuffers& in, const Color& variance,
   return {std::move(a), std::move(b), std::move(near), std::move(around)};
 }
 
-/// The number of the candidate for a pixel; 0 does not filter. The pixels around choose, so that the error at the pixel
-/// says of the chosen one what it would say of any.
+/// Returns the number of the candidate for a pixel; 0 does not filter. The pixels around choose, so that the error at
+/// the pixel says of the chosen one what it would say of any.
 size_t bestAt(size_t pixel, const std::vector<Candidate>& candidates) {
   const Candidate& none = candidates[0];
   size_t best = 0;

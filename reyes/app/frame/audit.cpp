@@ -117,7 +117,7 @@ void Audit::addSets(FoundLight& light, ShadeContext context, int rays) const {
   light.rays += rays;
 }
 
-/// The errors that these kinds of light make together, at the pixels that are lit.
+/// Returns the errors that these kinds of light make together, at the pixels that are lit.
 std::vector<AuditedError> Audit::errorsOf(std::initializer_list<const FoundLight*> kinds) const {
   std::vector<AuditedError> out;
   for (size_t p = 0; p < pixels_.size(); ++p) {

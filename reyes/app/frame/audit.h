@@ -56,11 +56,11 @@ class Audit {
   Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
         const AuditPlan& plan, const std::atomic<bool>& cancelled);
 
-  /// The errors of the picture that is shaded in this context. Pre: gathering is done, so that shading gives the
-  /// picture's colours.
+  /// Returns the errors of the picture that is shaded in this context. Pre: gathering is done, so that shading gives
+  /// the picture's colours.
   AuditReport of(const ShadeContext& context);
 
-  /// The colours of the pixels in that picture.
+  /// Returns the colours of the pixels in that picture.
   std::vector<SampledColor> shade(ShadeContext context) const;
   double pointCount() const;  ///< Points that these pixels see.
 

@@ -17,7 +17,7 @@ struct ErrorEstimate {
   double noise = 0;          ///< Mean of AuditedError::noise.
   double p99 = 0;  ///< 99 % of the places err by less. A few places decide this, so nothing says how certain it is.
 
-  /// False if the audit is noisier than the picture errs, so that it has only found a bound of the error.
+  /// Returns false if the audit is noisier than the picture errs, so that it has only found a bound of the error.
   bool tells() const { return mean >= noise; }
 };
 

@@ -146,7 +146,7 @@ void SmudgeAudit::copyPixelsOf(Blocks& blocks) {
       if (!part.tile.pixels.empty()) blocks.parts.push_back(std::move(part));
 }
 
-/// The luminance at each cell of each block; 0 at the cells of the other half.
+/// Returns the luminance at each cell of each block; 0 at the cells of the other half.
 std::vector<float> SmudgeAudit::shade(const Blocks& blocks, const ShadeContext& context, int half) const {
   std::vector<float> out(blocks.corners.size() * kPixelsOfBlock);
   parallelFor(blocks.parts.size(), 1, [&](size_t p, size_t) {

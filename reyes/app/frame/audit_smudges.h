@@ -26,8 +26,8 @@ class SmudgeAudit {
 
   ~SmudgeAudit();
 
-  /// The smudges of the picture that is shaded in this context, for each size that has enough blocks, which all see
-  /// something. Pre: as for Audit::of().
+  /// Returns the smudges of the picture that is shaded in this context, for each size that has enough blocks, which all
+  /// see something. Pre: as for Audit::of().
   std::vector<SmudgeEstimate> of(const ShadeContext& context);
 
  private:

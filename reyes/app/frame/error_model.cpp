@@ -23,7 +23,7 @@ constexpr double kMostFixed = 0.95;
 constexpr double kFarFromKnown = 4;
 constexpr int kFineSteps = 16;  ///< Steps of an octave where a time is to be used up.
 
-/// The power of x by which y changes between two trials, within limits.
+/// Returns the power of x by which y changes between two trials, within limits.
 double power(double x0, double y0, double x1, double y1, double least, double most) {
   if (!(y0 > 0) || !(y1 > 0) || x0 == x1) return std::clamp(0.0, least, most);
   return std::clamp(std::log(y1 / y0) / std::log(x1 / x0), least, most);

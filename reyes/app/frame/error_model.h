@@ -53,7 +53,7 @@ class RecordError {
   /// Scales it to what a picture of this quality has had.
   void correct(const Seen& picture);
   double at(const LightQuality&) const;
-  /// True if a picture may err in this way at all.
+  /// Returns true if a picture may err in this way at all.
   bool any() const { return noise_ + bias_ > 0; }
 
  private:
@@ -91,7 +91,7 @@ class ErrorModel {
   double error(const LightQuality&) const;  ///< Both together, which are independent.
   double smudges(const LightQuality& q) const { return smudges_.at(q); }
   double gatherCost(const LightQuality&) const;
-  /// The same for a share of the frame, which needs all records of further bounces.
+  /// Returns the same for a share of the frame, which needs all records of further bounces.
   double gatherCostOf(double share, const LightQuality&) const;
   double shadeCost(const LightQuality&) const;
   double cost(const LightQuality& q) const { return gatherCost(q) + shadeCost(q); }
@@ -104,15 +104,15 @@ class ErrorModel {
   /// Scales the errors to those that a picture has had.
   void correct(const QualityTrial& picture);
 
-  /// The quality that reaches the target at the least cost. If none does within the range in which the model may be
-  /// believed, the one that comes nearest.
+  /// Returns the quality that reaches the target at the least cost. If none does within the range in which the model
+  /// may be believed, the one that comes nearest.
   LightQuality cheapest(const ErrorTarget& target) const;
-  /// The quality that costs no more and of which the worse of mean error and smudges is least, with as many rays as
-  /// that leaves room for. If none does, the cheapest one.
+  /// Returns the quality that costs no more and of which the worse of mean error and smudges is least, with as many
+  /// rays as that leaves room for. If none does, the cheapest one.
   LightQuality best(double most) const;
-  /// The same with records as wide as those of `given`.
+  /// Returns the same with records as wide as those of `given`.
   LightQuality bestAsWide(const LightQuality& given, double most) const;
-  /// The most light samples, with the rays and records of `given`, that cost no more in shading.
+  /// Returns the most light samples, with the rays and records of `given`, that cost no more in shading.
   LightQuality bestLamps(const LightQuality& given, double most) const;
 
  private:

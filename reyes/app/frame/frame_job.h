@@ -110,7 +110,7 @@ class FrameJob {
   ShadeContext shadeContext() const;
   GiServices* services() const { return services_.get(); }
   ShadingSystem& shading() const { return *shading_; }
-  /// Null if nothing traces rays. Pre: prepareRays().
+  /// Returns null if nothing traces rays. Pre: prepareRays().
   const RayTools* rayTools() const { return raySource_ ? raySource_() : nullptr; }
   FrameControl control(const char* pass, float begin, float end);
   /// Returns a callback for the progress of the maps that indirect light needs before anything is gathered.

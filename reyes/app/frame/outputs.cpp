@@ -33,7 +33,7 @@ void writeForScreens(DisplayCall& display, const Options& options) {
   display.params.push_back(std::move(transfer));
 }
 
-/// The name of another Display's file beside `output`, which takes the place of `first`.
+/// Returns the name of another Display's file beside `output`, which takes the place of `first`.
 std::string beside(const std::string& output, const std::string& first, const std::string& other) {
   const fs::path to(output), from(other);
   const std::string replaced = fs::path(first).stem().string(), stem = from.stem().string();

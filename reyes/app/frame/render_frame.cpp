@@ -46,8 +46,8 @@ bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
   return false;
 }
 
-/// The memory for hidden buckets: what --memory-limit leaves beside what is in memory now, not counting `held` bytes of
-/// buckets, and beside the size that caches may grow to.
+/// Returns the memory for hidden buckets: what --memory-limit leaves beside what is in memory now, not counting `held`
+/// bytes of buckets, and beside the size that caches may grow to.
 int64_t tileBudget(const RenderSettings& settings, int64_t held) {
   if (!settings.memoryLimit) return kUsualLimit;
   const int64_t caches = textureShare(*settings.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings));

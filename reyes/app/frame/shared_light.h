@@ -23,7 +23,7 @@ struct SharedLight {
 /// Returns nothing if the frame makes no maps that others could use. It opens what rays may meet.
 std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& settings, Log& log);
 
-/// The brick map of that name, and what else it is made with.
+/// Returns the brick map of that name, and what else it is made with.
 std::vector<std::string> filesOfMap(const SharedLight& light, const std::string& folder, const std::string& map);
 std::string photonsOfMap(const std::string& folder, const std::string& map);
 

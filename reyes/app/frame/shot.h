@@ -13,7 +13,7 @@ class ShotJob {
  public:
   /// Returns null if a file cannot be read, which is reported.
   static std::unique_ptr<ShotJob> open(const RenderSettings& settings, Stats& stats, Log& log);
-  /// The same with files that are open already; one job at a time may use them.
+  /// Does the same with files that are open already; one job at a time may use them.
   static std::unique_ptr<ShotJob> open(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats,
                                        Log& log);
   ~ShotJob();

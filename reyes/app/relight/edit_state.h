@@ -41,7 +41,7 @@ struct EditState {
   const ShaderEdit* edit(ShaderSlot slot, const std::string& owner) const;
 };
 
-/// The shader of an owner under an edit, with the values that it has without the edit's parameters.
+/// Returns the shader of an owner under an edit, with the values that it has without the edit's parameters.
 const EditableShader& shaderUnder(const EditState& state, ShaderSlot slot, const std::string& owner,
                                   const Editable& editable);
 
@@ -49,10 +49,10 @@ const EditableShader& shaderUnder(const EditState& state, ShaderSlot slot, const
 EditState stateOf(const Json& json, const Editable& editable);
 Json jsonOf(const EditState& state);
 Json jsonOf(const ParamValue& value);
-/// The edit file of a state: the same text for the same state.
+/// Returns the edit file of a state: the same text for the same state.
 std::string ribOf(const EditState& state, const Editable& editable);
-/// The state of edit files, of which the later ones change the earlier. Throws BadRequest if they change more than a
-/// page can.
+/// Returns the state of edit files, of which the later ones change the earlier. Throws BadRequest if they change more
+/// than a page can.
 EditState stateOfRib(const std::vector<std::string>& files, const Editable& editable);
 
 }  // namespace tomales

@@ -67,14 +67,14 @@ class Editable {
   const std::vector<EditableShader>& of(ShaderSlot slot) const { return shaders_[slot]; }
   const std::vector<EditableObject>& objects() const { return objects_; }
   const std::array<float, 2>& exposure() const { return exposure_; }  ///< Gain and gamma.
-  /// Null if nothing of that name can be changed.
+  /// Returns null if nothing of that name can be changed.
   const EditableShader* find(ShaderSlot slot, const std::string& owner) const;
   const EditableObject* object(const std::string& name) const;
 
-  /// The names of shaders that may take the place of others: built-in ones, and those of the files that the scene's
-  /// shaders are looked for in.
+  /// Returns the names of shaders that may take the place of others: built-in ones, and those of the files that the
+  /// scene's shaders are looked for in.
   std::vector<std::string> offered(ShaderSlot slot) const;
-  /// A shader of one of these names; null if it is none of this kind. It stays as long as this object.
+  /// Returns a shader of one of these names; null if it is none of this kind. It stays as long as this object.
   const EditableShader* describe(ShaderSlot slot, const std::string& name) const;
 
  private:

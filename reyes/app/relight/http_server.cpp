@@ -93,7 +93,7 @@ struct HttpServer::Impl {
     return !request.has_header("Origin") || request.get_header_value("Origin") == "http://" + host;
   }
 
-  /// The path behind the token; empty if it is not there.
+  /// Returns the path behind the token; empty if it is not there.
   std::optional<std::string> pathOf(const httplib::Request& request) const {
     const std::string& path = request.path;
     const size_t end = token.size() + 1;

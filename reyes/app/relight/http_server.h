@@ -39,7 +39,7 @@ class HttpServer {
   /// Answers from a thread of its own until stop().
   void start();
   void stop();
-  /// The address of the page, with the token.
+  /// Returns the address of the page, with the token.
   std::string url() const;
 
  private:

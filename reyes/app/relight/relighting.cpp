@@ -243,7 +243,7 @@ void Relighting::pointAt(int x, int y) {
   pointerY_ = window_.y0 + y;
 }
 
-/// The pixels by their raster coordinates.
+/// Returns the pixels by their raster coordinates.
 PixelRect Relighting::insideOfWindow(const PixelRect& p) const {
   const PixelRect out{
       window_.x0 + std::clamp(p.x0, 0, window_.width()), window_.y0 + std::clamp(p.y0, 0, window_.height()),

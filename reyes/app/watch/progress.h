@@ -24,7 +24,7 @@ class ProgressMeter {
 
   /// Begins a pass whose share nobody knows.
   void begin(const char* pass);
-  /// A callback for a pass, whose 0..1 is [begin, end] of the frame. The pass begins with the first call.
+  /// Returns a callback for a pass, whose 0..1 is [begin, end] of the frame. The pass begins with the first call.
   std::function<void(float)> pass(const char* name, float begin, float end);
   /// Tells that the frame is done, and its last pass with it.
   void finish();

@@ -24,8 +24,8 @@ class RunReport {
   /// Opens --log, and says there what runs. `log` and `settings` outlive it.
   RunReport(const RenderSettings& settings, Log& log);
 
-  /// The counters of the frame that is being made, or of the run where --stats names one file for all frames. The
-  /// reference stays.
+  /// Returns the counters of the frame that is being made, or of the run where --stats names one file for all frames.
+  /// The reference stays.
   Stats& stats() { return *stats_; }
   /// Tells the number of the frame that is being made. The scene that was read before belongs to it.
   void begin(int frame) { frame_ = frame; }
