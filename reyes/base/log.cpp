@@ -26,7 +26,7 @@ void addPlace(LogEntry& entry, const SourceLoc& where) {
     places.push_back(where);
 }
 
-/// The beginning of a message, for a line that refers to one that was printed in full before.
+/// Returns the beginning of a message, for a line that refers to one that was printed in full before.
 std::string beginning(const std::string& message) {
   constexpr size_t kLongest = 60;
   const size_t end = std::min(message.find_first_of(";\n"), message.size());

@@ -20,7 +20,7 @@ struct SourceLoc {
   std::shared_ptr<const std::string> file;
   int line = 0;
   std::string text() const;
-  /// The folder of the file as it was named; empty if there is none, or if the file lies in the working folder.
+  /// Returns the folder of the file as it was named; empty if there is none, or if the file lies in the working folder.
   std::filesystem::path folder() const { return file ? std::filesystem::path(*file).parent_path() : ""; }
 };
 

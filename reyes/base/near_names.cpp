@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t kMostNameLength = 64;  ///< A longer word is not taken for a misspelling.
 
-/// The number of letters to insert, remove, change, or exchange with their neighbour.
+/// Returns the number of letters to insert, remove, change, or exchange with their neighbour.
 size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1), above, twoAbove;
   for (size_t j = 0; j <= b.size(); ++j) row[j] = j;

@@ -17,7 +17,7 @@ struct PluginFiles {
   std::vector<std::string> refused;  ///< Plugins in folders that are not trusted, if a trusted one has none.
 };
 
-/// The paths of NAME.so in the folders of a search path.
+/// Returns the paths of NAME.so in the folders of a search path.
 std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath);
 /// Finds NAME.so in the trusted folders, then along the scene's search path (if empty, in the working folder). A name
 /// with ".." or an absolute one leads out of the trusted folders, so they are not searched for it.

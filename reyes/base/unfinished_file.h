@@ -34,11 +34,12 @@ class UnfinishedFile {
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
-  /// The path for libraries that open files by name: the file exists already, and must be written over, not replaced.
+  /// Returns the path for libraries that open files by name: the file exists already, and must be written over, not
+  /// replaced.
   const std::string& path() const { return path_; }
   /// It is open for reading and writing.
   int descriptor() const { return descriptor_; }
-  /// The same file for stdio. Pre: descriptor() is not used as well.
+  /// Returns the same file for stdio. Pre: descriptor() is not used as well.
   std::FILE* stream();
   /// Gives the file its name. Returns false on failure: `error` says why, and the file is removed unless resumable.
   bool finish(std::string& error);
