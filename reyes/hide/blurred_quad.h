@@ -58,7 +58,7 @@ struct SeenVertex {
   Floats x, y, d;
 };
 
-/// Position of a vertex at the time of a sample, seen through its point of the lens.
+/// Returns the position of a vertex at the time of a sample, seen through its point of the lens.
 template <class B>
 HWY_INLINE SeenVertex seen(const BlurredQuad<B>& q, int c, const SampleVector& s, Floats focus) {
   SeenVertex v{all(q.x[0][c]), all(q.y[0][c]), all(q.d[0][c])};
@@ -101,8 +101,8 @@ HWY_INLINE Mask inside(Ints left0, Ints left1, Ints left2, Ints right, float fac
   return hn::RebindMask(kF, hn::Lt(in, hn::Zero(kI)));
 }
 
-/// The samples that the quad covers, and their depth keys. facing: RasterGrid::facing, at the time and lens point of
-/// each sample.
+/// Returns the samples that the quad covers, and their depth keys. facing: RasterGrid::facing, at the time and lens
+/// point of each sample.
 template <class B>
 HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, float facing, Floats& depth) {
   const SeenVertex a = seen(q, 0, s, focus), b = seen(q, 1, s, focus), c = seen(q, 2, s, focus),

@@ -129,7 +129,7 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
 
 vec2 onLattice(const vec2& at) { return {snapToLattice(at.x), snapToLattice(at.y)}; }
 
-/// The line at which a straight edge ends. Null: an end is too far away to be seen exactly.
+/// Returns the line at which a straight edge ends. Null: an end is too far away to be seen exactly.
 std::optional<BorderLine> lineOf(const std::array<vec3, 2>& ends, const mat4& cameraFromObject, const Camera& camera) {
   vec2 at[2];
   for (int k = 0; k < 2; ++k) {
@@ -163,8 +163,8 @@ Plan planOf(const Grid::Piece& piece, const Object& o, const Camera& camera, boo
   return plan;
 }
 
-/// The borders that end at lines. They are pushed out too: the lattice may leave nothing of a narrow cell at the line
-/// itself.
+/// Returns the borders that end at lines. They are pushed out too: the lattice may leave nothing of a narrow cell at
+/// the line itself.
 int edgesAtLines(const RasterGrid& r, size_t piece) {
   int edges = 0;
   for (size_t e = 0; e < 4 && !r.lines.empty(); ++e)

@@ -37,7 +37,7 @@ void rasterizeBlurred(const RasterJob& job);
 inline bool keepsAll(const RasterJob& job) {
   return job.raster.grid->kept.empty() && !job.raster.clipped && job.raster.detail.whole();
 }
-/// The part of a cell that trim curves, clipping and levels of detail keep.
+/// Returns the part of a cell that trim curves, clipping and levels of detail keep.
 inline Kept keptOf(const RasterJob& job, int cell) {
   const std::vector<Kept>& given = job.raster.grid->kept;
   const Kept kept = given.empty() ? Kept::All : given[static_cast<size_t>(cell)];

@@ -86,12 +86,12 @@ struct SampleBuffer {
   }
   /// Makes times and lens positions, for the first grid that moves or is out of focus.
   void showBlur();
-  /// The number of a lane that DetailShare compares.
+  /// Returns the number of a lane that DetailShare compares.
   float detail(size_t lane) const {
     const size_t width = static_cast<size_t>(lanes);
     return pattern_.detail(patternAt_[lane / width])[lane % width];
   }
-  /// The layers that get the samples of a transparent grid or a solid.
+  /// Returns the layers that get the samples of a transparent grid or a solid.
   TransparentLayers& layersOf(const RasterGrid& raster) { return raster.inSolid ? crossings : layers; }
   /// Samples of a pixel.
   int sampleCount() const { return pattern_.count(); }
@@ -117,7 +117,7 @@ struct SampleBuffer {
             std::min(floorWithin(hi.x, rect.x0, rect.x1) + 1, rect.x1),
             std::min(floorWithin(hi.y, rect.y0, rect.y1) + 1, rect.y1)};
   }
-  /// All cells that some sample sees or, for solids, may see, sorted.
+  /// Returns all cells that some sample sees or, for solids, may see, sorted.
   std::vector<uint32_t> seen() const;
   /// Tells whether every sample of the pixels is nearer than depth key d.
   bool hides(const PixelRect& pixels, float d) const {

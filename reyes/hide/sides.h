@@ -17,7 +17,7 @@ enum class Side : uint8_t {
 /// Finds the sides of cells that may be seen, by the cells' first vertices: bits of Side. Both are set where the side
 /// depends on the sample. Moving cells are judged at shutter open, where they are shaded.
 void findSides(const RasterGrid& raster, float facingSign, std::vector<int32_t>& sides);
-/// The side that a sample sees of a cell that covers it.
+/// Returns the side that a sample sees of a cell that covers it.
 Side sideAt(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
 }  // namespace tomales
