@@ -121,7 +121,7 @@ class Blobby : public Prim {
     return {blend(position), byU(position), byV(position), blend(outward), byU(outward), byV(outward), blend(reach)};
   }
 
-  /// Bound of the points that pointOn() may give for a rectangle.
+  /// Returns the bound of the points that pointOn() may give for a rectangle.
   Bound3 hullOf(uint32_t patch, const UvRect& rect) const {
     std::array<vec3, 4> corners;
     float reach = 0;

@@ -71,8 +71,8 @@ class Contourer {
     refine(0, field);
   }
 
-  /// Least factor on the cells for the surface to fit, estimated from the share of the box that was done when there
-  /// were too many: a surface has a quarter of the cells when they are twice as large.
+  /// Returns the least factor on the cells for the surface to fit, estimated from the share of the box that was done
+  /// when there were too many: a surface has a quarter of the cells when they are twice as large.
   double wantedCoarsening() const {
     return std::clamp(std::sqrt(std::pow(unit_ * cells_[0].size, 3) / std::max(done_, 1e-300)), kLeastCoarsening,
                       kMostCoarsening);
@@ -180,7 +180,7 @@ class Contourer {
     out_.vertices.push_back({vec3(p), vec3(outwardAt(field, p)), static_cast<float>(reach)});
   }
 
-  /// The smallest cell around a point, given in halves of finest cells so that no point lies on a face.
+  /// Returns the smallest cell around a point, given in halves of finest cells so that no point lies on a face.
   uint32_t cellAround(const Lattice& halves) const {
     uint32_t index = 0;
     while (cells_[index].firstChild != 0) {

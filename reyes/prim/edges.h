@@ -21,7 +21,7 @@ class EdgeFaces {
     for (int a = 0; a <= most; ++a) std::sort(others_.begin() + firstOf(a), others_.begin() + lastOf(a));
   }
 
-  /// Number of faces at the edge between vertices a and b; 0 if there is no such edge.
+  /// Returns the number of faces at the edge between vertices a and b; 0 if there is no such edge.
   int count(int a, int b) const {
     if (a > b) std::swap(a, b);
     if (a < 0 || static_cast<size_t>(a) + 1 >= end_.size()) return 0;

@@ -155,8 +155,8 @@ class EarClipper {
     return {};
   }
 
-  /// The first true ear after the last one that was cut; failing that a corner without area; failing that the largest
-  /// corner.
+  /// Returns the first true ear after the last one that was cut; failing that a corner without area; failing that the
+  /// largest corner.
   int findEar() {
     if (out_.disjoint)
       if (const auto ear = firstCorner([&](int i) { return isEar(i); })) return *ear;

@@ -45,7 +45,7 @@ class Bridger {
 
  private:
   int size() const { return static_cast<int>(walk_.size()); }
-  /// The number of the corner at a position in the walk, which goes round.
+  /// Returns the number of the corner at a position in the walk, which goes round.
   uint32_t number(int i) const { return walk_[static_cast<size_t>((i + size()) % size())]; }
   const Point2& corner(int i) const { return p_[number(i)]; }
 
@@ -75,7 +75,7 @@ class Bridger {
     return -1;
   }
 
-  /// Position in the walk of a corner to which m can be joined; -1 if there is none.
+  /// Returns the position in the walk of a corner to which m can be joined; -1 if there is none.
   int findCorner(const Point2& m) const {
     double hit = kInfinity;
     int edge = -1;

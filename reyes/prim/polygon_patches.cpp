@@ -17,7 +17,7 @@ Bound3 boundOf(const std::vector<vec3>& points) {
   return box;
 }
 
-/// A vector whose length grows with the area, or 0 where points enclose none.
+/// Returns a vector whose length grows with the area, or 0 where points enclose none.
 glm::dvec3 areaNormal(const std::vector<vec3>& points, const Bound3& box) {
   if (points.size() < 3) return glm::dvec3(0);
   const double leastArea = 1e-9 * glm::dot(box.size(), box.size());

@@ -90,7 +90,7 @@ class TagReader {
     return false;
   }
 
-  /// The argument of a tag that has one: 1 if it is missing, -1 (with a sentence) if it is out of range.
+  /// Returns the argument of a tag that has one: 1 if it is missing, -1 (with a sentence) if it is out of range.
   int choice(const Tag& tag, int highest) {
     const int given = tag.ints.empty() ? 1 : tag.ints[0];
     if (given >= 0 && given <= highest) return given;
