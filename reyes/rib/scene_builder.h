@@ -28,7 +28,7 @@ class SceneBuilder : public RiSink {
   /// Tells that the stream is over: it renders a world whose WorldEnd is missing.
   void finish(const SourceLoc& where);
 
-  /// True where geometry may be left for later.
+  /// Returns true where geometry may be left for later.
   bool takesProcedurals() const;
   /// Pre: takesProcedurals(), and the bound is a box.
   void addProcedural(const std::vector<float>& bound, std::function<Expansion()> open, const SourceLoc& where);
