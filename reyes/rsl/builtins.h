@@ -59,9 +59,9 @@ struct Builtin {
 /// of plugins cannot have.
 std::optional<Builtin> builtinOf(const TmFunction& function);
 
-/// All rows. Those of one name are together.
+/// Returns all rows. Those of one name are together.
 std::span<const Builtin> builtins();
-/// The rows of a name: [first, first + count) of builtins(). The count is 0 if there is none.
+/// Returns the rows of a name: [first, first + count) of builtins(). The count is 0 if there is none.
 std::pair<int32_t, int32_t> rowsOf(std::string_view name);
 
 }  // namespace tomales::compiler

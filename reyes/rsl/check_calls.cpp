@@ -36,7 +36,7 @@ std::string signature(const Function& f) {
   return out + ")";
 }
 
-/// The value of an expression of written numbers alone.
+/// Returns the value of an expression of written numbers alone.
 std::optional<float> written(const Expr& e) {
   if (e.kind == ExprKind::Number) return e.number;
   if (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary) return std::nullopt;

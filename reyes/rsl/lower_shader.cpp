@@ -9,7 +9,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// The default without a cast to shader space, which is meant anyway.
+/// Returns the default without a cast to shader space, which is meant anyway.
 const Expr& inShaderSpace(const Expr& e) {
   const bool spatial = e.written.isTriple() && e.written.base != Base::Color;
   return e.kind == ExprKind::Cast && e.text == "shader" && spatial ? *e.args[0] : e;

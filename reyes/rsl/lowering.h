@@ -69,7 +69,7 @@ class Lowering {
   /// The same, as a type that may be another. A number stays a number where a triple is wanted, since it counts for all
   /// components; where a matrix is wanted, it becomes one.
   int32_t value(const Expr& e, const Type& wanted);
-  /// A number that stands for a triple, as a triple: for what reads each component by itself.
+  /// Returns a number that stands for a triple, as a triple: for what reads each component by itself.
   int32_t widened(int32_t reg, const Type& type);
   /// Evaluates the list in order. Values that a later expression may change are copied.
   std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
@@ -82,7 +82,8 @@ class Lowering {
   int32_t assign(const Expr& e);
   int32_t cast(const Expr& e);
   void store(const Expr& to, int32_t from);
-  /// The register that a call may write for `to`. `after` lists what must be stored if `to` is not a plain variable.
+  /// Returns the register that a call may write for `to`. `after` lists what must be stored if `to` is not a plain
+  /// variable.
   int32_t target(const Expr& to, std::vector<std::pair<const Expr*, int32_t>>& after);
 
   // --- lower_calls.cpp

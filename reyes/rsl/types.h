@@ -25,7 +25,7 @@ struct Operation {
   Type operand = kUnknown;  ///< The type that both sides are converted to; unknown if they are left as they are.
   bool negated = false;     ///< True if the result is the opposite of the instruction's.
 };
-/// The operation of a binary operator; empty if there is none for these types.
+/// Returns the operation of a binary operator; empty if there is none for these types.
 std::optional<Operation> binaryOperation(std::string_view text, const Type& left, const Type& right);
 
 }  // namespace tomales::compiler

@@ -34,7 +34,7 @@ RSL_INLINE double exp2Of(double x) {
                     0.0096184889600560896, 0.0013399931312495374, 0.00015345811162244401) *
          doubleOf((bitsOf(sum) << 52) + (uint64_t{1023} << 52));
 }
-/// The logarithm of a number that is not negative, to base 2.
+/// Returns the logarithm of a number that is not negative, to base 2.
 RSL_INLINE double log2Of(float x) {
   const uint64_t bits = bitsOf(x);  // a double holds the subnormal floats as normal numbers
   const double exponent = doubleOf((bits >> 52) | bitsOf(0x1p52)) - (0x1p52 + 1023),
@@ -95,7 +95,7 @@ RSL_INLINE float tangentOf(Angle a) {
                             doubleOf((c & ~other) | (s & other)));
 }
 
-/// The arctangent of a number in [0, 1].
+/// Returns the arctangent of a number in [0, 1].
 RSL_INLINE double unitArctangentOf(double x) {
   return x * polynomial(x * x, 0.99999999994124593, -0.33333331571170629, 0.19999912048506968, -0.14283980718689059,
                         0.11093241013609598, -0.089802383343366414, 0.072457170906466064, -0.054279101224675876,

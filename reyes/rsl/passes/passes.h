@@ -8,7 +8,7 @@ namespace tomales::compiler {
 
 /// Tells whether a surface assigns P.
 bool movesPoints(const Code& lowered);
-/// The part of such a surface that moves the points, as a displacement with the same parameters.
+/// Returns the part of such a surface that moves the points, as a displacement with the same parameters.
 Code displacementOf(const Code& lowered);
 /// Makes it the surface for points that displacementOf() has moved: nobody sees what it assigns to P.
 void leavePoints(Code& lowered);

@@ -135,7 +135,7 @@ class Rule {
   }
 
  private:
-  /// The rules for functions of numbers, which hold for each component.
+  /// Returns the rules for functions of numbers, which hold for each component.
   std::vector<int32_t> number() {
     const auto square = [&](int32_t r) { return each(Op::Mul, {r, r}); };
     const bool isNumber = shape(y()) == Shape::Number;

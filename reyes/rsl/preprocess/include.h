@@ -32,7 +32,7 @@ class IncludeSearch {
   std::vector<std::string> permitted_;  ///< Paths without symbolic links.
 };
 
-/// The folder part of a path: "." for a plain name.
+/// Returns the folder part of a path: "." for a plain name.
 std::string folderOf(const std::string& path);
 
 }  // namespace tomales::compiler
