@@ -104,8 +104,8 @@ class Batch {
   std::deque<std::string> answers_;
 };
 
-/// The default options, with the fields that a caller gives. The caller's struct begins with structBytes, which tells
-/// how many fields its release has. It may be null.
+/// Returns the default options, with the fields that a caller gives. The caller's struct begins with structBytes, which
+/// tells how many fields its release has. It may be null.
 template <class Options>
 Options givenOptions(const Batch& batch, Options options, const Options* given) {
   if (given && given->structBytes < sizeof given->structBytes)

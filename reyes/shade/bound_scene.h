@@ -60,7 +60,7 @@ struct BoundGroup {
   std::shared_ptr<const LightChoice> choice;
   std::optional<IndirectQuery> indirect;
   std::vector<BoundVariable> variables;  ///< Indexed as FrameOutput::variables.
-  /// The surface for rays that gather diffuse light.
+  /// Returns the surface for rays that gather diffuse light.
   const BoundShader& forDiffuseRays() const { return indirectSurface ? *indirectSurface : *surface; }
   int CsOffset = -1, OsOffset = -1, sOffset = -1, tOffset = -1, primvarFloats = 0;
 };

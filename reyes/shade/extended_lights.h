@@ -38,7 +38,7 @@ void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light);
 /// together, over solid angle.
 void radianceToSample(const TmGrid& g, const float* density);
 
-/// The vectors to just before the points on the emitter, so that its own geometry is not in the way.
+/// Returns the vectors to just before the points on the emitter, so that its own geometry is not in the way.
 TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach);
 
 }  // namespace tomales

@@ -15,8 +15,8 @@ class FunctionPlugins {
   explicit FunctionPlugins(Log& log) : log_(log) {}
   FunctionPlugins(const FunctionPlugins&) = delete;
 
-  /// The functions of that name in these folders, ordered by folder, then by the plugin's file name, then as the plugin
-  /// lists them.
+  /// Returns the functions of that name in these folders, ordered by folder, then by the plugin's file name, then as
+  /// the plugin lists them.
   std::vector<const TmFunction*> named(const std::string& name, const std::vector<std::string>& folders);
 
  private:

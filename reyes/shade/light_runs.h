@@ -14,10 +14,10 @@ inline bool bringsStored(Illumination light) {
 
 /// Tells whether the light counts for rays of the batch's kind.
 bool isOn(const BoundLight& light, const Batch& batch);
-/// The same, where lights light the batch.
+/// Tells the same where lights light the batch.
 bool applies(const BoundLight& light, const Batch& batch);
 
-/// The grid of the points for a light shader, without neighbours; its results have room for those.
+/// Returns the grid of the points for a light shader, without neighbours; its results have room for those.
 TmGrid lightGrid(Batch& batch, const BoundLight& light);
 /// Makes room for the outputs of a light, so that lightsource() can read them.
 void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params);

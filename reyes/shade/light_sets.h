@@ -33,7 +33,7 @@ struct LightSets {
 /// lamps with geometry are known by then.
 class LightChoice {
  public:
-  /// Null if all lights run. `lights` are the same each time.
+  /// Returns null if all lights run. `lights` are the same each time.
   const LightSets* sets(const BoundScene& scene, const std::vector<const BoundLight*>& lights) const;
 
  private:

@@ -32,7 +32,7 @@ std::string named(const std::set<std::string>& names) {
   return n > kMostNamed ? fmt::format("{} and {} more", out, n - kMostNamed) : out;
 }
 
-/// The name of the smallest object around a point. Empty if there is none, or shapes are not at hand.
+/// Returns the name of the smallest object around a point. Empty if there is none, or shapes are not at hand.
 std::string around(const Scene& scene, const vec3& place) {
   const Object* smallest = nullptr;
   float least = kInfinity;

@@ -104,7 +104,8 @@ struct ShadowMap::View {
   vec2 center, scale;  ///< texel = center + scale (x, y) [/ z]
   bool perspective;
 
-  /// The depth of the receiver's plane where the ray of a texel position meets it, or that of P if this leaves `reach`.
+  /// Returns the depth of the receiver's plane where the ray of a texel position meets it, or that of P if this leaves
+  /// `reach`.
   float depth(const vec2& texelAt, float reach) const {
     const vec2 xy = (texelAt - center) / scale;
     float z = P.z;

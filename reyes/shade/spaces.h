@@ -15,7 +15,7 @@ struct Space {
   mat4 currentFromSpace{1.0f};
 };
 
-/// Empty if there is no such space.
+/// Returns nothing if there is no such space.
 std::optional<Space> findSpace(const Batch& batch, const std::string& name);
 
 /// Transforms from current space to the directions by which environment() looks up a picture that stands in the named
