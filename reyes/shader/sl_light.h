@@ -35,7 +35,7 @@ inline float specularScale() {
   if (scale == 0) scale = askText(TM_OF_OPTIONS, "shade:specular") == "rispec" ? 1 : 8;
   return scale;
 }
-/// The lobe of specular(). L and V may have any length.
+/// Returns the lobe of specular(). L and V may have any length.
 inline Float specularbrdf(const Vector& L, const Normal& N, const Vector& V, const Float& roughness) {
   return pow(max(0, dot(normalize(N), normalize(normalize(L) + normalize(V)))), specularScale() / roughness);
 }
@@ -95,7 +95,7 @@ Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&.
   occlusion(p, n, samples, all);
   return radiance;
 }
-/// The old name of indirectdiffuse().
+/// Does the same as indirectdiffuse(), under its old name.
 template <class... List>
 Color indirect(const Point& p, const Normal& n, int samples, const List&... list) {
   return indirectdiffuse(p, n, samples, list...);

@@ -39,8 +39,8 @@ inline Float snoise(const Triple& p) { return 2 * noise(p) - 1; }
 inline Float filteredsnoise(const Triple& p, const Float& width) {
   return snoise(p) * (1 - smoothstep(0.2f, 0.75f, width));
 }
-/// A sum of octaves, each `lacunarity` times as fine and `gain` times as strong as the one before; `each` makes of an
-/// octave what is added.
+/// Returns a sum of octaves, each `lacunarity` times as fine and `gain` times as strong as the one before; `each` makes
+/// of an octave what is added.
 template <class Each>
 Float octaves(const Point& p, const Float& width, int most, float lacunarity, float gain, const Each& each) {
   Float sum = 0;
@@ -53,7 +53,7 @@ Float octaves(const Point& p, const Float& width, int most, float lacunarity, fl
 inline Float fBm(const Point& p, const Float& width, int most = 4, float lacunarity = 2, float gain = 0.5f) {
   return octaves(p, width, most, lacunarity, gain, [](const Float& x) { return x; });
 }
-/// The same sum of the octaves' magnitudes.
+/// Returns the same sum of the octaves' magnitudes.
 inline Float turbulence(const Point& p, const Float& width, int most = 4, float lacunarity = 2, float gain = 0.5f) {
   return octaves(p, width, most, lacunarity, gain, [](const Float& x) { return abs(x); });
 }

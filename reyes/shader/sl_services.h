@@ -55,7 +55,7 @@ inline Triple random3() {
 inline Float filterstep(const Float& edge, const Float& x, const char*, double width) {
   return filterstep(edge, x, width * (abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv))));
 }
-/// The area of a micropolygon whose points were at p.
+/// Returns the area of a micropolygon whose points were at p.
 inline Float area(const Triple& p) { return length(cross(Du(p) * Float(grid()->du), Dv(p) * Float(grid()->dv))); }
 /// "shading" and "dicing" are the same here: one point is shaded for each micropolygon.
 inline Float area(const Triple& p, const char*) { return area(p); }
