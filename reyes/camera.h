@@ -14,7 +14,7 @@ class Camera {
 
   int xResolution() const { return xResolution_; }
   int yResolution() const { return yResolution_; }
-  /// The pixels of CropWindow (RISpec: abutting windows tile exactly).
+  /// Returns the pixels of CropWindow (RISpec: abutting windows tile exactly).
   PixelRect crop() const { return crop_; }
   bool perspective() const { return perspective_; }
   float nearClip() const { return near_; }
@@ -30,7 +30,7 @@ class Camera {
     const float nearest = perspective_ ? eyePlane() : -FLT_MAX;
     return (std::abs(p.x) <= FLT_MAX) & (std::abs(p.y) <= FLT_MAX) & (p.z >= nearest) & (p.z <= FLT_MAX);
   }
-  /// Raster x, y. Pre: p.z > 0 under perspective.
+  /// Returns raster x, y. Pre: p.z > 0 under perspective.
   vec2 raster(const vec3& p) const {
     const float w = perspective_ ? 1.0f / p.z : 1.0f;
     return {offset_.x + scale_.x * p.x * w, offset_.y + scale_.y * p.y * w};
@@ -40,9 +40,9 @@ class Camera {
   /// Tests the same of the point that a sample at raster position `at` meets at a depth key. `lens` is the raster shift
   /// of its lens point at a key of focusKey() + 1.
   bool clips(const vec2& at, const vec2& lens, float key) const;
-  /// A depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
+  /// Returns a depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
-  /// The least depth key of points that are no nearer than z and not clipped; z may lie behind the eye.
+  /// Returns the least depth key of points that are no nearer than z and not clipped; z may lie behind the eye.
   float leastDepthKey(float z) const { return perspective_ ? -1.0f / std::max(z, near_) : z; }
   float zFromDepthKey(float key) const { return perspective_ ? -1.0f / key : key; }
 

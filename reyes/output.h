@@ -33,7 +33,7 @@ struct Variable {
 constexpr std::string_view kLightGroup = "lightgroup:";
 
 inline bool isMatte(ChannelKind kind) { return kind == ChannelKind::Objects || kind == ChannelKind::Materials; }
-/// Names of Cryptomatte layers.
+/// Returns the name of a Cryptomatte layer.
 inline const char* matteLayer(ChannelKind kind) {
   return kind == ChannelKind::Objects ? "CryptoObject" : "CryptoMaterial";
 }
@@ -72,7 +72,7 @@ struct FrameOutput {
   int floatsPerPoint = 0;           ///< Floats of all variables.
   int floatsPerPixel = 5;           ///< Floats of all channels.
   bool shades = true;               ///< False if only depth is wanted, so that opaque surfaces need no shader.
-  /// Names of the floats of a pixel of the frame's picture, in order.
+  /// Returns the names of the floats of a pixel of the frame's picture, in order.
   std::vector<std::string> names() const;
 };
 

@@ -118,7 +118,7 @@ class Prim {
   /// Tells whether trim curves keep this point.
   virtual bool keeps(uint32_t /*patch*/, float /*u*/, float /*v*/) const { return true; }
 
-  /// True for particles and ribbons, which no other surface continues: their open edges end at their vertices.
+  /// Returns true for particles and ribbons, which no other surface continues: their open edges end at their vertices.
   virtual bool isLone() const { return false; }
   /// Returns the ends, in the direction of u or v, of the straight line that an edge of a patch is on, in object space.
   /// The line may go on beyond the patch: its ends are points that another surface is likely to have as well. Returns
@@ -256,7 +256,7 @@ PrimPtr makeTubes(bool cubic, const Basis& basis, const std::vector<int>& vertex
 /// Newell's teapot, 3.15 high, on z = 0 with its spout towards x. Primvars run over every patch in the same way.
 PrimPtr makeTeapot(const ParamList&, Problems&);
 
-/// The box of a density, whose normals point outwards.
+/// Returns the box of a density, whose normals point outwards.
 PrimPtr makeVolume(std::shared_ptr<const DensityGrid> density, Problems&);
 
 /// A depth picture, seen by its camera. Its surfaces repel a Blobby.
@@ -269,8 +269,8 @@ struct GroundPicture {
 /// Reads the picture named by a string of the request. It reports one that cannot be read and returns nothing.
 using GroundReader = std::function<std::optional<GroundPicture>(int string)>;
 
-/// The surface where a field, made of leaves and operations on them, is 27/64. `code` and `floats` are as in RIB
-/// (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
+/// Returns the surface where a field, made of leaves and operations on them, is 27/64. `code` and `floats` are as in
+/// RIB (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
 PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const GroundReader&,
                    const ParamList&, Problems&);
 /// Makes a later key of a moving blobby: the mesh of `first` follows its leaves, and is then projected onto the new

@@ -95,7 +95,8 @@ struct ShadeContext {
 inline int shareOfBranch(int count, int least, const ShadeContext& context) {
   return std::max(std::min(count, least), count / context.branches);
 }
-/// The same of rays that a shader asks for. A point that gather rays meet is one of the hundreds that one record has.
+/// Returns the same for rays that a shader asks for. A point that gather rays meet is one of the hundreds that one
+/// record has.
 inline int raysOfBranch(int count, int least, const ShadeContext& context) {
   return context.depth > 0 ? std::min(count, least) : shareOfBranch(count, least, context);
 }

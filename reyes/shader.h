@@ -105,7 +105,7 @@ class Batch {
   Vec3Array diffuse(TmLightChoice which, TmConstVec3 N) const {
     return filled([&](TmVec3 out) { g->call->diffuse(g->host, g, which, N, out); });
   }
-  /// The next sample of a light: `for (TmIlluminance light = tmIlluminanceDefaults(); b.illuminance(light);)`.
+  /// Gets the next sample of a light: `for (TmIlluminance light = tmIlluminanceDefaults(); b.illuminance(light);)`.
   bool illuminance(TmIlluminance& light) const { return g->call->illuminance(g->host, g, &light) != 0; }
   Vec3Array specular(TmConstVec3 N, TmConstVec3 V, const FloatParam& roughness) const {
     Array r(g);

@@ -12,7 +12,7 @@ struct Parts {
   mat3 stretch;
 };
 
-/// The nearest orthogonal matrix, by Newton's iteration (Higham 1986).
+/// Returns the nearest orthogonal matrix, by Newton's iteration (Higham 1986).
 mat3 nearestRotation(const mat3& m) {
   constexpr int kMostSteps = 32;
   mat3 r = m;

@@ -225,7 +225,7 @@ struct Attributes {
 
   bool operator==(const Attributes&) const = default;  ///< Shaders are compared by pointer.
 
-  /// Standard texture coordinates at surface parameters (u, v), where no primitive variable gives them.
+  /// Returns standard texture coordinates at surface parameters (u, v), where no primitive variable gives them.
   vec2 textureAt(float u, float v) const {
     const auto& c = textureCoordinates;
     return glm::mix(glm::mix(c[0], c[1], u), glm::mix(c[2], c[3], u), v);

@@ -64,7 +64,7 @@ bool namesDriver(const DisplayCall& display) {
   return !writesPass(display) && display.type != "file" && display.type != "null" && !formatOfType(display.type);
 }
 
-/// The format that the type of a Display asks for; null if it leaves that to the file's name.
+/// Returns the format that the type of a Display asks for; null if it leaves that to the file's name.
 const PictureFormat* formatOfItsType(const DisplayCall& display) {
   return writesPass(display) ? pictureFormats().front() : formatOfType(display.type);
 }

@@ -47,7 +47,7 @@ struct PictureTile {
   PixelRect window;
 };
 
-/// The bytes of all attributes but those of the tile alone.
+/// Returns the bytes of all attributes but those of the tile alone.
 std::map<std::string, std::string> attributesOf(const Imf::Header& header) {
   std::map<std::string, std::string> out;
   for (auto a = header.begin(); a != header.end(); ++a) {

@@ -154,7 +154,7 @@ struct FrameFilter::Impl {
     return sums;
   }
 
-  /// The sums of weights of all samples around each pixel of a block, by rows.
+  /// Returns the sums of weights of all samples around each pixel of a block, by rows.
   std::vector<float> totalsOf(const WeightTable& w, const PixelRect& block, const Around& around) const {
     const auto columns = static_cast<size_t>(block.width());
     std::vector<float> totals(columns * static_cast<size_t>(block.height()));

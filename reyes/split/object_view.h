@@ -20,8 +20,8 @@ class ObjectView {
   bool isOfOneScale(const Bound3& bare) const;
   /// Raster bound of the part beyond the near plane.
   Bound2 rasterOf(Bound3 bound, float reach_px) const;
-  /// Factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter of the
-  /// circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.
+  /// Returns the factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter
+  /// of the circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.
   float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const;
   /// Tells whether the patch is a whole disk that one cell without corners or neighbours represents.
   bool canBeRound(uint32_t patch) const {

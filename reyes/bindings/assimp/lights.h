@@ -23,7 +23,7 @@ struct Lights {
 /// middle of the world without shadows. Otherwise it is the scale with which they bring 1.
 Lights lightsOf(const aiScene& scene, const Nodes& nodes, const LightSettings& settings);
 
-/// A sun from the upper left behind the camera, and a sky.
+/// Returns a sun from the upper left behind the camera, and a sky.
 Requests studioLights(const mat4& worldFromCamera);
 
 }  // namespace tomales::model

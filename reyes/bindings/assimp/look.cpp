@@ -99,7 +99,7 @@ class Painter {
     if (mapped.channel) look_.parameters.push_back(param(mapped.channel, mapped.number));
     multiplyOne(mapped);
   }
-  /// Names of the parameters whose pictures are looked up at the second set of texture coordinates.
+  /// Returns the names of the parameters whose pictures are looked up at the second set of texture coordinates.
   const std::string& ofSecondSet() const { return ofSecondSet_; }
   void leaveOut(const std::string& what) { look_.leftOut += (look_.leftOut.empty() ? "" : ", ") + what; }
 
