@@ -28,7 +28,7 @@ struct GatherSettings {
 /// A point to gather at.
 struct GatherPoint {
   int group;              ///< The shade group that the rays leave.
-  vec3 position, normal;  ///< normal: unit, on the side to gather from
+  vec3 position, normal;  ///< normal: unit vector on the side to gather from.
   uint32_t key;           ///< Names the point for random numbers.
   float pixelSize;        ///< Root of the projected pixel area.
   float edgeLength;       ///< Edge of its micropolygon, for the origin offset.
@@ -64,8 +64,8 @@ inline float slantedOffset(float offset, float cosine) { return offset / std::ma
 struct HemisphereCells {
   int rings, sectors;
 };
-HemisphereCells hemisphereCells(int samples);  ///< rings * sectors close to `samples`, sectors ~ pi * rings
+HemisphereCells hemisphereCells(int samples);  ///< rings * sectors is close to `samples`, and sectors about pi * rings.
 vec3 hemisphereDirection(const HemisphereCells& cells, int ring, int sector, vec2 xi);
-int cellOf(const HemisphereCells& cells, const vec3& direction);  ///< ring * sectors + sector
+int cellOf(const HemisphereCells& cells, const vec3& direction);  ///< Returns ring * sectors + sector.
 
 }  // namespace tomales

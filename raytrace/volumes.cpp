@@ -44,7 +44,7 @@ void Volumes::cross(const std::vector<Ray>& rays, const std::vector<float>& ends
                     uint32_t mask, const ShadingSystem& shading, const ShadeContext& context,
                     HitAnswers& answers) const {
   std::vector<Crossing> all, ofTurn;
-  std::vector<size_t> first;  // of each ray
+  std::vector<size_t> first;  // index of each ray's first crossing
   for (size_t r = 0; r < rays.size(); ++r) {
     first.push_back(all.size());
     const Ray& ray = rays[r];

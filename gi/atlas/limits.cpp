@@ -5,9 +5,9 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kFewEstimates = 32;  // a map with fewer estimates is not judged
+constexpr int64_t kFewEstimates = 32;  // A map with fewer estimates is not judged.
 constexpr double kLeastOfPhotons = 0.01;
-constexpr double kMost = 0.5;  // share of estimates that may be unreliable
+constexpr double kMost = 0.5;  // Share of estimates that may be unreliable.
 constexpr double kClumped = 1.1;
 
 /// Returns the first object whose light a map holds; null if there is none.

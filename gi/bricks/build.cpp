@@ -31,7 +31,7 @@ struct Shares {
     const float lo = center - half, hi = center + half;
     first = voxelOf(lo);
     last = voxelOf(hi);
-    const bool hasLength = half > 1e-5f;  // else it lies in one voxel as a whole
+    const bool hasLength = half > 1e-5f;  // otherwise the part lies in one voxel as a whole
     for (size_t i = first; i <= last; ++i) {
       const auto at = static_cast<float>(i);
       share[i] = hasLength ? std::max(0.0f, std::min(hi, at + 1) - std::max(lo, at)) / (2 * half) : 1.0f;
@@ -151,7 +151,7 @@ class Builder {
       const Bound3 box = tiles.box(level, place);
       const PointCloud cloud = tiles.around(box, 0, settings_.radiusScale);
       Members members = use(cloud);
-      std::erase_if(members, [&](uint32_t i) {  // as partition() does
+      std::erase_if(members, [&](uint32_t i) {  // this divides as partition() does
         const Spot& s = spots_[i];
         return glm::any(glm::greaterThanEqual(s.center - s.half, box.hi)) ||
                glm::any(glm::lessThan(s.center + s.half, box.lo));

@@ -13,8 +13,8 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kRun = 64;  // greatest number of lookups that share their candidates
-// greatest diagonal of the places of a run: incoherent points would share too many candidates
+constexpr size_t kRun = 64;  // Greatest number of lookups that share their candidates.
+// Greatest diagonal of the places of a run: incoherent points would share too many candidates.
 constexpr float kRunPixels = 24;
 
 // Relative margin of the values that choose candidates. It exceeds their rounding error.

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kMostIor = 3;  // the rational approximation of inner reflection holds for smaller values
+constexpr float kMostIor = 3;  // The rational approximation of inner reflection holds for smaller values.
 
 vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 
@@ -48,7 +48,8 @@ PointCloud sorted(const PointCloud& cloud) {
   std::vector<uint32_t> order(cloud.count());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return comesBefore(cloud, a, b); });
-  const auto same = [&](uint32_t a, uint32_t b) { return !comesBefore(cloud, a, b); };  // as a does not follow b
+  // the points are sorted, so that a does not follow b
+  const auto same = [&](uint32_t a, uint32_t b) { return !comesBefore(cloud, a, b); };
   order.erase(std::unique(order.begin(), order.end(), same), order.end());
   PointCloud out;
   out.channels = cloud.channels;

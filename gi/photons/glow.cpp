@@ -124,7 +124,7 @@ GlowPhotons::Start GlowPhotons::startIn(const Surface& surface, size_t cell, vec
   const CoarseGroup& mesh = *surface.mesh;
   const auto quad = static_cast<uint32_t>(cell / (n * n));
   const std::array<vec3, 4> p = mesh.corners(quad);
-  const bool first = uv.x + uv.y <= 1;  // of the two triangles that rays meet, cut from corner 1 to 3
+  const bool first = uv.x + uv.y <= 1;  // tells which of the two triangles that rays meet, cut from corner 1 to 3
   const vec3 spanned = first ? cross(p[1] - p[0], p[3] - p[0]) : cross(p[3] - p[2], p[1] - p[2]),
              geometric = normalizeOr(mesh.flipsNormal ? -spanned : spanned, vec3(0, 0, -1));
   const Lattice& lattice = mesh.latticeOf(quad);
@@ -171,7 +171,7 @@ void GlowPhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>
   cosineHemispheres(xi.b, directions);
   std::vector<Start> starts;
   std::vector<SampleName> names;
-  std::vector<double> density;  // over the numbers that choose the place in a cell
+  std::vector<double> density;  // density over the numbers that choose the place in a cell
   for (size_t i = 0; i < out.size(); ++i) {
     double x{xi.a[i].x};
     const Surface& surface = surfaces_[choice_.pick(x)];

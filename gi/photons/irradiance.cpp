@@ -65,7 +65,7 @@ bool isAcrossWalls(const PhotonTree& tree, int power, uint32_t at, std::span<con
                    const SightAlongSurface& sight) {
   const vec3 P = tree.position(at), N = tree.normal(at);
   const SightLines lines = sight(P, N, radius);
-  SightLines ends;  // of the sectors between two lines: the shorter of both
+  SightLines ends;  // each sector ends with the shorter of its two lines
   float seen = 0;
   for (size_t k = 0; k < kSightLines; ++k) {
     ends[k] = std::min(lines[k], lines[(k + 1) % kSightLines]);

@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kLeastSlant = 0.05f;  // the least slant, for faces seen edge on
+constexpr float kLeastSlant = 0.05f;  // Least slant, for faces seen edge on.
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
 // An open border reaches its own curve where that bulges; where it does not, a neighbour's bulges, and reaches it.

@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-constexpr double kRelativeFloor = 0.01;  // keeps relative figures finite in the dark
+constexpr double kRelativeFloor = 0.01;  // It keeps relative figures finite in the dark.
 
 /// Indices of R, G and B, or of all channels except alpha and depth where there is no colour.
 std::vector<int> colorChannels(const Image& image) {
@@ -132,7 +132,7 @@ struct SmoothFigures {
 /// Returns what shows on a smooth wall, in blocks of so many pixels along an edge. Both figures come from ratios of
 /// test and reference, so that a picture which is brighter as a whole has neither smudges nor specks.
 SmoothFigures smoothFigures(const Image& test, const Image& reference, int block) {
-  constexpr double kSpeck = 0.2;  // of a pixel, over its block
+  constexpr double kSpeck = 0.2;  // A pixel that is off its block by more than this share is a speck.
   const auto light = [](const Image& image) {
     const std::vector<int> channels = colorChannels(image);
     return planeOf(image, [&](const float* p) { return luminance(colorAt(p, channels)); });

@@ -46,8 +46,9 @@ class EdgeFaces {
   ptrdiff_t firstOf(int a) const { return a > 0 ? static_cast<ptrdiff_t>(end_[static_cast<size_t>(a) - 1]) : 0; }
   ptrdiff_t lastOf(int a) const { return static_cast<ptrdiff_t>(end_[static_cast<size_t>(a)]); }
 
-  std::vector<int> others_;  // by vertex: the greater ends of its sides, sorted, each as often as faces have the edge
-  std::vector<size_t> end_;  // by vertex: end of its list
+  // Indexed by vertex: the greater ends of its sides, sorted, each as often as faces have the edge.
+  std::vector<int> others_;
+  std::vector<size_t> end_;  // Indexed by vertex: end of its list.
 };
 
 }  // namespace tomales

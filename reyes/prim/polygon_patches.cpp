@@ -243,15 +243,15 @@ class Decomposer {
   const EdgeFaces edges_;
   Decomposition out_;
   size_t holesIgnored_ = 0, overlapping_ = 0;
-  std::vector<uint32_t> corner_;     // corners of the current face
-  Points points_;                    // positions of its corners at some key
-  std::vector<glm::dvec3> normals_;  // indexed by key
+  std::vector<uint32_t> corner_;     // Corners of the current face.
+  Points points_;                    // Positions of its corners at some key.
+  std::vector<glm::dvec3> normals_;  // Indexed by key.
   glm::dvec3 normal_{0};
   Outlines outlines_;
   bool disjoint_ = true;
-  std::vector<char> open_;             // indexed by corner: its edge to the next one
-  std::vector<int> loopStart_;         // index of the first corner of every loop, and the end
-  std::vector<uint32_t> at_, middle_;  // vertices of the current piece
+  std::vector<char> open_;             // Indexed by corner: true if its edge to the next one is open.
+  std::vector<int> loopStart_;         // Index of the first corner of every loop, and the end.
+  std::vector<uint32_t> at_, middle_;  // Vertices of the current piece.
 };
 
 }  // namespace

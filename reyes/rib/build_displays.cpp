@@ -9,7 +9,7 @@
 namespace tomales::rib {
 namespace {
 
-constexpr float kMostTracedSamples = 64;  // samples of a pixel: a path tracer asks for more than a Reyes hider needs
+constexpr float kMostTracedSamples = 64;  // Samples of a pixel: a path tracer asks for more than a Reyes hider needs.
 
 Param floats(const char* name, std::vector<float> values) {
   Param p;

@@ -12,8 +12,8 @@
 namespace tomales::rib {
 namespace {
 
-constexpr float kLargestImage = 32768;  // pixels of a side; readers of OpenEXR and TIFF stop about there
-constexpr float kMostSamples = 256;     // samples along a side of a pixel's lattice
+constexpr float kLargestImage = 32768;  // Pixels of a side; readers of OpenEXR and TIFF stop about there.
+constexpr float kMostSamples = 256;     // Samples along a side of a pixel's lattice.
 
 void rejectOption(GraphicsState& s, const Request& r, const std::string& why) {
   s.warn(r, "rib-option", why + "; the option is left as it was");

@@ -47,11 +47,12 @@ class Disputes {
   static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
 
  private:
-  static constexpr float kDisagreement = 0.1f;  // relative difference at kappa 1; 5 % makes more records, no less error
-  static constexpr float kDiscontinuous = 0.5f;  // the same between points that see different surfaces
-  static constexpr float kNoiseMargin = 3;       // in standard errors
-  static constexpr float kDark = 0.1f;           // share of the mean E: darker values are compared with this
-  static constexpr float kFinestPixels = 1;      // at kappa 1
+  // Relative difference at kappa 1; 5 % makes more records, no less error.
+  static constexpr float kDisagreement = 0.1f;
+  static constexpr float kDiscontinuous = 0.5f;  // The same between points that see different surfaces.
+  static constexpr float kNoiseMargin = 3;       // Number of standard errors.
+  static constexpr float kDark = 0.1f;           // Share of the mean E; darker values are compared with this.
+  static constexpr float kFinestPixels = 1;      // Number of pixels at kappa 1.
 
   const bool on_;
   const float tolerance_, kappa_;

@@ -49,7 +49,7 @@ class PlanMaker {
  private:
   /// Frames that make maps, and Make requests, as they follow each other. Returns the tasks that all other frames need.
   std::vector<std::string> addMaps() {
-    std::vector<std::string> needs, since;  // the last Make requests; the frames after them
+    std::vector<std::string> needs, since;  // needs: the last Make requests; since: the frames after them
     int make = 0, makes = 0;
     const auto addMakes = [&](int first, int end) {
       if (first == end) return;

@@ -79,10 +79,10 @@ int runTexts(const std::vector<std::string>& arguments) {
 
 int run(int argc, char** argv) {
   openStandardFiles();
-  if (argc > 1 && std::string(argv[1]) == "batch") openNursery(runTexts);  // before there are threads
+  if (argc > 1 && std::string(argv[1]) == "batch") openNursery(runTexts);  // this comes before there are threads
   endWithMessages();
   reportCrashes();
-  watchSignals();  // before other threads start, which must not get the signals
+  watchSignals();  // this comes before other threads start, which must not get the signals
   int code = kDone;
   runOnDeepStack([&] { code = runGuarded(argc, argv); });
   return code;

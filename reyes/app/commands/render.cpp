@@ -210,9 +210,9 @@ class RenderRun {
   const Job job_;
   const bool seen_;
   const ThreadLimit threads_;
-  std::optional<StageTimer> parse_;  // while the scene is read
+  std::optional<StageTimer> parse_;  // Runs while the scene is read.
   std::chrono::steady_clock::time_point readingSince_;
-  std::optional<ProgressMeter> meter_;  // likewise
+  std::optional<ProgressMeter> meter_;  // Runs while the scene is read.
   std::set<std::string> written_;
   std::optional<HeldQuality> held_;
   int pictureFrame_ = 0;  // Frame of the last picture.

@@ -79,7 +79,7 @@ const RayTools* RayWorld::tools() {
 
 bool RayWorld::find() {
   if (kept_.geometry && kept_.geometry->dressAs(shot_, *kept_.shaders, services_, stats_, log_)) return true;
-  kept_.geometry.reset();  // before another one takes its memory
+  kept_.geometry.reset();  // the memory is freed before another one takes its place
   kept_.geometry = build();
   return kept_.geometry != nullptr;
 }

@@ -197,11 +197,11 @@ class SceneWriter {
   Log& log_;
   const SourceLoc where_;
   const Nodes nodes_;
-  std::vector<int> uses_;  // of each mesh
+  std::vector<int> uses_;  // Number of uses of each mesh.
   std::vector<Look> looks_;
   Parts parts_;
   Requests objects_;
-  std::map<unsigned, Requests> drawn_;  // by mesh
+  std::map<unsigned, Requests> drawn_;  // Indexed by mesh.
   Bound3 world_;
 };
 
