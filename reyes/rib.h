@@ -1,7 +1,8 @@
 // Verb: text -> Scene. A streaming reader of RIB (ASCII and binary; gzip is detected) in three steps that meet in the
 // Request:
-//   lexer  bytes -> tokens       parser  tokens -> Request, checked against the request table       RiSink  takes
-//   Requests
+//   lexer   bytes -> tokens
+//   parser  tokens -> Request, checked against the request table
+//   RiSink  takes Requests
 // Bad input is reported with file:line and the reader goes on at the next request.
 #pragma once
 #include <functional>

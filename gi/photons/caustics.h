@@ -14,8 +14,8 @@ class CausticPhotons {
   /// photons: as for estimateIrradiance(), on surfaces.
   CausticPhotons(PointCloud photons, const PhotonIrradianceSettings& settings);
 
-  /// W/m2 around P on the side of N (unit), in the mean over a square of edges 2 `radius` or so. surface: that of P, as
-  /// in PhotonTree::nearest().
+  /// Returns W/m2 around P on the side of N (unit), in the mean over a square of edges 2 `radius` or so. surface: that
+  /// of P, as in PhotonTree::nearest().
   vec3 irradiance(const vec3& P, const vec3& N, int surface, float radius) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// The same as cosineHemisphere(), for many.
+/// Does the same as cosineHemisphere(), for many directions.
 void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out);
 
 /// Distance from the middle of the scene at which photons from outside begin, in radii of the scene.

@@ -41,7 +41,7 @@ inline float luminance(const vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0
 inline float maxComponent(const vec3& c) { return std::max(c.x, std::max(c.y, c.z)); }
 inline float lerp(float a, float b, float t) { return a + (b - a) * t; }
 
-/// Two unit vectors that complete unit vector n to a right-handed frame (Duff et al. 2017).
+/// Writes two unit vectors that complete unit vector n to a right-handed frame (Duff et al. 2017).
 inline void orthonormalBasis(const vec3& n, vec3& tangent, vec3& bitangent) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z);

@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Memory in bytes: the present amount, and the greatest that there ever was.
+/// Return memory in bytes: the present amount, and the greatest that there ever was.
 int64_t residentBytes();
 int64_t peakResidentBytes();
 /// Lets the peak begin again at the present amount, where the system can.

@@ -32,8 +32,8 @@ std::string lastPartOf(const std::string& name);
 std::vector<std::string> candidateFiles(const std::string& name, const std::string& searchPath,
                                         const std::vector<std::string>& endings = {});
 
-/// `name` in the user's folder of configuration, which is XDG_CONFIG_HOME/tomales or else ~/.config/tomales. Empty if
-/// neither variable is set.
+/// Returns the path of `name` in the user's folder of configuration, which is XDG_CONFIG_HOME/tomales or else
+/// ~/.config/tomales. Empty if neither variable is set.
 std::string userFolder(const std::string& name);
 
 /// A kind of files that a user may keep for all scenes: folders in an environment variable, and one of the

@@ -37,7 +37,7 @@ class UnfinishedFile {
   /// Returns the path for libraries that open files by name: the file exists already, and must be written over, not
   /// replaced.
   const std::string& path() const { return path_; }
-  /// It is open for reading and writing.
+  /// Returns the descriptor, which is open for reading and writing.
   int descriptor() const { return descriptor_; }
   /// Returns the same file for stdio. Pre: descriptor() is not used as well.
   std::FILE* stream();

@@ -27,7 +27,7 @@ struct BlurredQuad {
   static constexpr int kKeys = B::kMoves ? 2 : 1;
   using Values = float[size_t{kKeys}][4];
   Values x, y, d;
-  bool swapped[5];  ///< Is the second end of the edges ab, bc, ca, bd, dc the canonical one?
+  bool swapped[5];  ///< True if the second end of the edge is the canonical one, in the order ab, bc, ca, bd, dc.
   float dMin = kInfinity, dMax = -kInfinity;
 
   BlurredQuad(const RasterGrid& r, int key, int a) {
@@ -75,19 +75,21 @@ HWY_INLINE SeenVertex seen(const BlurredQuad<B>& q, int c, const SampleVector& s
   return v;
 }
 
-/// Twice the area of (p, q, sample), computed from the canonical end; positive if the sample is on the left of pq.
+/// Returns twice the area of (p, q, sample), computed from the canonical end; positive if the sample is on the left of
+/// pq.
 HWY_INLINE Floats edge(const SeenVertex& p, const SeenVertex& q, bool swapped, const SampleVector& s) {
   const SeenVertex& origin = swapped ? q : p;
   return hn::Sub(hn::Mul(hn::Sub(q.x, p.x), hn::Sub(s.y, origin.y)),
                  hn::Mul(hn::Sub(q.y, p.y), hn::Sub(s.x, origin.x)));
 }
 
-/// Negative where a sample is on the left of an edge. Zero belongs to the right seen from the canonical end.
+/// Returns a negative number where a sample is on the left of an edge. Zero belongs to the right seen from the
+/// canonical end.
 HWY_INLINE Ints leftOf(Floats value, bool swapped) {
   return hn::BitCast(kI, hn::Sub(all(swapped ? -kTiny : 0.0f), value));
 }
 
-/// -1 where the inside of a triangle is on the right of its edges.
+/// Returns -1 where the inside of a triangle is on the right of its edges.
 HWY_INLINE Ints turnsRight(const SeenVertex& p, const SeenVertex& q, const SeenVertex& r) {
   const Floats area =
       hn::Sub(hn::Mul(hn::Sub(q.x, p.x), hn::Sub(r.y, p.y)), hn::Mul(hn::Sub(q.y, p.y), hn::Sub(r.x, p.x)));

@@ -148,7 +148,7 @@ struct alignas(64) Triangles {
     return hn::Add(hn::Add(hn::Div(slope, all(kLattice)), hn::Mul(all(4e-7f), hn::Abs(depth))), all(kTiny));
   }
 
-  /// Twice the signed area of a triangle, from two of its sides.
+  /// Returns twice the signed area of a triangle, from two of its sides.
   static HWY_INLINE Floats area(Floats ux, Floats uy, Floats vx, Floats vy) {
     return hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx));
   }

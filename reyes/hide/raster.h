@@ -51,8 +51,8 @@ uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64
 /// Gives samples of a mask with equal depths to the cell whose name comes first.
 void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t cell);
 
-/// Error bound of a depth key, which is above 0, because vertices lie on the lattice and numbers are floats. `slope` is
-/// the change of the depth key in a pixel.
+/// Returns the error bound of a depth key. It is above 0, because vertices lie on the lattice and numbers are floats.
+/// `slope` is the change of the depth key in a pixel.
 inline float depthErrorBound(float slope, float depth) { return slope / kLattice + 4e-7f * std::abs(depth) + kTiny; }
 /// Notes a depth conflict where the cell comes so close to the earlier depth of samples of a mask that depth errors
 /// decide, if that is of another object.

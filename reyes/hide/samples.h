@@ -93,9 +93,9 @@ struct SampleBuffer {
   }
   /// Returns the layers that get the samples of a transparent grid or a solid.
   TransparentLayers& layersOf(const RasterGrid& raster) { return raster.inSolid ? crossings : layers; }
-  /// Samples of a pixel.
+  /// Returns the number of samples of a pixel.
   int sampleCount() const { return pattern_.count(); }
-  /// TransparentLayer::word of a sample of a pixel.
+  /// Returns TransparentLayer::word of a sample of a pixel.
   uint32_t wordOf(uint32_t pixel, uint32_t sample) const {
     return pixel * static_cast<uint32_t>(layers.wordsOfPixel()) + sample / 64;
   }
@@ -105,7 +105,7 @@ struct SampleBuffer {
   size_t pixelIndex(int column, int row) const {
     return static_cast<size_t>((row - rect.y0) * (rect.x1 - rect.x0) + (column - rect.x0));
   }
-  /// Pixels of the bucket that a raster bound touches.
+  /// Returns the pixels of the bucket that a raster bound touches.
   PixelRect touched(const vec2& lo, const vec2& hi) const {
     // The value is clamped as a float: a vertex near the eye plane may lie farther out than an int can hold.
     const auto floorWithin = [](float v, int first, int end) {

@@ -50,7 +50,7 @@ class WeightTable {
   /// Returns the sums of all cells of a pattern, by rows, padded: places(), then zeros.
   int places() const { return stride_; }
   const float* sums(int pattern) const { return sums_.data() + static_cast<ptrdiff_t>(pattern) * stride_; }
-  /// The sums of the samples of a mask for all cells, as sum() gives them.
+  /// Writes the sums of the samples of a mask for all cells, as sum() gives them.
   void sums(int pattern, uint64_t mask, uint16_t word, float* out) const;
 
  private:

@@ -15,8 +15,8 @@ namespace tomales::rib {
 struct DetailState {
   float ruler_px2 = kInfinity;                ///< Size of the Detail box in the picture.
   std::optional<std::array<float, 4>> range;  ///< DetailRange since the innermost block began.
-  DetailShare divided;  ///< The share that ranges divide among them, from the beginning of the ruler's block,
-  DetailShare left;     ///< and what was left of it at the beginning of the innermost block.
+  DetailShare divided;  ///< Share that ranges divide among them, from the beginning of the ruler's block.
+  DetailShare left;     ///< Share that was left of it at the beginning of the innermost block.
 };
 
 /// The state that AttributeBegin saves.

@@ -38,11 +38,12 @@ class Lexer {
   }
 
   const Token& peek() const { return token_; }
-  /// The place of the token: in the stream, or in the program that wrote it, if that said so by a comment of the form
-  /// #line 12 "scene.py". The line after such a comment has the number that it gives, as in C.
+  /// Returns the file or program that the token stands in: the stream's, or the one that wrote it, if that said so by a
+  /// comment of the form #line 12 "scene.py". The line after such a comment has the number that it gives, as in C.
   const std::shared_ptr<const std::string>& file() const { return file_; }
   void advance();
-  /// The same, past all numbers and brackets that are written before the next other token. It does not look at them.
+  /// Does the same as advance(), past all numbers and brackets that are written before the next other token. It does
+  /// not look at them.
   void advancePastNumbers();
 
   bool atNumbers() const { return token_.kind == Token::Kind::Number || token_.kind == Token::Kind::Floats; }

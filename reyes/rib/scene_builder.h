@@ -92,8 +92,8 @@ class SceneBuilder : public RiSink {
   GraphicsState state_;
   std::optional<MotionBlock> motion_;
   std::optional<Recording> recording_;
-  Master* master_ = nullptr;  ///< Master of the instance that is being replayed,
-  size_t masterRequest_ = 0;  ///< and the index of its current request.
+  Master* master_ = nullptr;  ///< Master of the instance that is being replayed.
+  size_t masterRequest_ = 0;  ///< Index of its current request.
   int instanceDepth_ = 0;
   const bool inProcedural_ = false;
   int openEdits_ = 0;

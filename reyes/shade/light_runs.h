@@ -24,8 +24,8 @@ void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& p
 /// Makes light that is not finite dark: the fault is the light's, not that of the surface that asks.
 void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g);
 
-/// Sample `sample` of `samples` of a light at a point: random numbers by the point's name, never by its place in the
-/// batch.
+/// Returns the random numbers of sample `sample` of `samples` of a light at a point. They follow from the point's name,
+/// never from its place in the batch.
 vec2 sampleAt(const Batch& batch, const BoundLight& light, int i, int sample, int samples);
 int samplesOf(const BoundLight& light, const Batch& batch);
 

@@ -25,7 +25,7 @@ struct LightSet {
 };
 
 struct LightSets {
-  std::vector<const BoundLight*> alone;  ///< Those that run at every point.
+  std::vector<const BoundLight*> alone;  ///< Lights that run at every point.
   std::vector<LightSet> sets;
 };
 

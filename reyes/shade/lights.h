@@ -70,7 +70,7 @@ class Lights {
   const std::string* group() const { return group_; }
   /// Sets the request, before the first question. `request` must outlive this.
   void ask(const LightRequest& request) { request_ = &request; }
-  /// The sum of the ambient lights at the active points of `asking`.
+  /// Writes the sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
   /// Returns all samples of all lights that have a direction, in the order of Attributes::lights. They are unshadowed
   /// until shadow() has been called. Without `indirect`, indirect lights, which may cost many rays, do not run unless
@@ -78,9 +78,9 @@ class Lights {
   std::vector<LightSample>& samples(Batch& batch, bool indirect = true);
   /// Tells whether the shader has asked for the light that arrives.
   bool asked() const { return evaluated_ || ambientAsked_; }
-  /// The lights that run at every point of the batch: all, or those that no set holds.
+  /// Returns the lights that run at every point of the batch: all, or those that no set holds.
   const std::vector<const BoundLight*>& alone(const Batch& batch) const;
-  /// Those that have been asked for so far, of all groups.
+  /// Returns the samples that have been asked for so far, of all groups.
   const std::vector<LightSample>& evaluated() const { return samples_; }
   /// Traces the pending shadow rays at the points of `want`, except those where the tally of a light with a shadow
   /// variance is already exact enough.

@@ -18,7 +18,7 @@ class ObjectView {
   /// Tells whether all of the bound is seen at about the same scale. If not, the cost of its near end says nothing
   /// about most of it.
   bool isOfOneScale(const Bound3& bare) const;
-  /// Raster bound of the part beyond the near plane.
+  /// Returns the raster bound of the part beyond the near plane.
   Bound2 rasterOf(Bound3 bound, float reach_px) const;
   /// Returns the factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter
   /// of the circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.

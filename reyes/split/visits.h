@@ -24,7 +24,7 @@ class Visits {
   bool isLargelySeen(const Bound2& raster) const;
 
  private:
-  /// Width and height of the part of a bound inside the window.
+  /// Returns the width and height of the part of a bound inside the window.
   glm::dvec2 sizeInWindow(const Bound2& raster) const;
   double windowArea() const { return static_cast<double>(window_.width()) * window_.height(); }
 

@@ -59,9 +59,9 @@ struct TaskState {
 /// Returns the name of a frame's task.
 std::string taskName(int frame, const std::string& stage);
 uint64_t taskSum(const BatchTask& task);
-/// Waiting if there is none, or if the task has been edited since.
+/// Returns the state of a task. It is Waiting if there is no file of state, or if the task has been edited since.
 TaskState readState(const BatchPlan& plan, const BatchTask& task);
-/// Bytes of the files that a task makes; nothing if one of them is not there.
+/// Returns the bytes of the files that a task makes, or nothing if one of them is not there.
 std::optional<std::vector<int64_t>> sizesOf(const BatchPlan& plan, const BatchTask& task);
 /// Returns the states of all tasks. A task is done only if what it made is still there, or if all tasks that need it
 /// are done. Files that other tasks need must have the size that they were made with.

@@ -16,7 +16,7 @@ namespace tomales {
 
 struct AuditPlan {
   size_t pixels = 300;
-  uint32_t seed = 0;     ///< Decides which, and the rays there.
+  uint32_t seed = 0;     ///< Decides which pixels are audited, and the rays there.
   bool indirect = true;  ///< The frame has indirect light.
   int lightSamples = 0;  ///< The most that an audited picture has of each light; 0: as many as the lights ask.
   size_t smudgeSizes = kSmudgeSizes.size();  ///< SmudgePlan::sizes.
@@ -29,8 +29,9 @@ struct AuditReport {
   ErrorEstimate picture;  ///< Error of all light together. All errors are shares of the picture's colour.
   /// Errors of one kind of light. They too are shares of the picture's colour.
   std::optional<ErrorEstimate> indirect, direct;
-  /// The mean error that too few samples in pixels add to those, about: what independent samples would bring. They are
-  /// stratified, and filters are wider than a pixel, so it is mostly less; what no sample sees can make it more.
+  /// Mean error, about, that too few samples in pixels add to those errors, as if samples were independent. They are
+  /// stratified, and filters are wider than a pixel, so it is mostly less. Details that no sample sees can make it
+  /// more.
   double pixelSamples = 0;
   std::vector<SmudgeEstimate> smudges;  ///< One for each size of blocks of which there are enough smooth ones.
 
@@ -85,7 +86,7 @@ class Audit {
 
 /// Writes the report to the statistics.
 void recordAudit(const AuditReport& report, Stats& stats);
-/// One sentence.
+/// Returns the report in one sentence.
 std::string sentenceOf(const AuditReport& report);
 
 }  // namespace tomales
