@@ -15,7 +15,6 @@
 namespace rsl {
 
 // --- A batch of points
-// --------------------------------------------------------------------------------------------
 
 inline TmConstVec3 view(TmVec3 v) { return {v.x, v.y, v.z}; }
 inline Vec3 get(TmConstVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }

@@ -66,8 +66,8 @@ class Lowering {
 
   // --- lower_expressions.cpp
   int32_t value(const Expr& e);
-  /// The same, as a type that may be another. A number stays a number where a triple is wanted, since it counts for all
-  /// components; where a matrix is wanted, it becomes one.
+  /// Returns the register of the expression's value as the type `wanted`. A number stays a number where a triple is
+  /// wanted, since it counts for all components; where a matrix is wanted, it becomes one.
   int32_t value(const Expr& e, const Type& wanted);
   /// Returns a number that stands for a triple, as a triple: for what reads each component by itself.
   int32_t widened(int32_t reg, const Type& type);

@@ -40,7 +40,7 @@ class Sources {
   std::string_view line(int32_t file, int32_t line) const;
   /// Returns the place where the outermost macro around is used, or the place itself if there is no macro.
   Place outermost(Place place) const;
-  /// "file:line:column"
+  /// Returns "file:line:column".
   std::string text(Place place) const;
 
  private:

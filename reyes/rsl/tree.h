@@ -26,7 +26,7 @@ struct Type {
   bool is(Base b) const { return length == 0 && base == b; }
 };
 constexpr int32_t kOpenArray = -1;
-/// "float", "color[3]", ...
+/// Returns the name of a type in RSL: "float", "color[3]", ...
 std::string name(const Type& type);
 
 struct Expr;

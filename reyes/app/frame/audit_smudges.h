@@ -46,8 +46,8 @@ class SmudgeAudit {
   const ShadingSystem& shading_;
   const SmudgePlan plan_;
   const std::atomic<bool>& cancelled_;
-  const int across_;              ///< Cells of 8 x 8 pixels in a row,
-  std::vector<uint8_t> covered_;  ///< and how many pixels see something in each of them.
+  const int across_;              ///< Cells of 8 x 8 pixels in a row.
+  std::vector<uint8_t> covered_;  ///< Number of pixels in each cell that see something.
   std::vector<Blocks> sizes_;
 };
 

@@ -33,7 +33,7 @@ class ShotJob {
   void choose(const std::string* lights, bool indirect);
   /// Shades tiles that are no picture as show() would.
   void shadeApart(std::span<DeepTile> tiles);
-  /// The names of lights and objects whose bounced light is as it was gathered, before an edit of them.
+  /// Returns the names of lights and objects whose bounced light is as it was gathered, before an edit of them.
   std::vector<std::string> staleLight() const;
   void show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
             const std::atomic<bool>& cancelled);
@@ -56,8 +56,8 @@ class ShotJob {
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
   /// Brings given records to the strength of edited lights, so that they can stand beside new ones.
   void takeEdits(std::vector<PreparedCache>& caches) const;
-  /// The lights that records will be known to be made by: where an edit changes more than the strength of a light, the
-  /// one by which those given were made, so that they stay known to be stale.
+  /// Returns the lights that records will be known to be made by. Where an edit changes more than the strength of a
+  /// light, it is the light by which the given records were made, so that they stay known to be stale.
   std::vector<std::shared_ptr<LightCall>> lightsOfRecords() const;
   /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);

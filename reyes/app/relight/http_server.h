@@ -33,7 +33,7 @@ class HttpServer {
   explicit HttpServer(int port);
   ~HttpServer();  ///< Ends as stop() does.
 
-  /// The handler of a path behind the token, as "scene". Set them before start().
+  /// Set the handler of a path behind the token, such as "scene". Call them before start().
   void get(const std::string& path, HttpHandler handler, const HttpRate& rate = {});
   void post(const std::string& path, HttpHandler handler, const HttpRate& rate = {});
   /// Answers from a thread of its own until stop().

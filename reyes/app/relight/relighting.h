@@ -78,8 +78,8 @@ class Relighting {
     bool indirect = true;
     std::vector<std::string> handles{};  ///< Names of the group's lights.
     LayerParts parts{};
-    uint32_t coarse = 0;          ///< The edit of its coarse picture.
-    Clock::time_point changed{};  ///< When another edit was wanted.
+    uint32_t coarse = 0;          ///< Number of the edit that its coarse picture shows.
+    Clock::time_point changed{};  ///< Time when another edit was wanted.
   };
   /// One step of the work.
   struct Step {

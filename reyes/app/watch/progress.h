@@ -43,8 +43,8 @@ class ProgressMeter {
   std::mutex mutex_;  ///< It guards what follows.
   const char* pass_;
   Clock::time_point passStart_;
-  int passPercent_ = -1;  ///< The one that was shown last, or -1 if nothing is known of the pass.
-  int percent_ = -1;      ///< The same of the frame.
+  int passPercent_ = -1;  ///< Percentage of the pass that was shown last, or -1 if nothing is known of the pass.
+  int percent_ = -1;      ///< Percentage of the frame that was shown last.
   bool done_ = false;
   std::condition_variable wake_;
   std::thread mover_;  ///< It runs on a terminal only.

@@ -14,7 +14,7 @@ namespace tomales {
 /// The figures that --stats writes.
 struct RunFigures {
   std::optional<int> frame;        ///< Empty before the first frame.
-  double wall_s = 0, cpu_s = 0;    ///< Those of the whole process.
+  double wall_s = 0, cpu_s = 0;    ///< Times of the whole process.
   int64_t peak_bytes = 0;          ///< Most resident memory.
   std::vector<LogEntry> messages;  ///< Reported meanwhile.
 };

@@ -138,14 +138,14 @@ RSL_INLINE float acosOf(float x) {
   return static_cast<float>(x < 0 ? 2 * kHalfPi - rest : rest);
 }
 
-/// erf of a number in [-1, 1], and erfc of one in [1/2, infinity).
+/// Returns erf of a number in [-1, 1].
 RSL_INLINE double smallErfOf(double x) {
   return x * polynomial(x * x, 1.128379167094586, -0.37612638888502679, 0.1128379128534676, -0.026866131407463085,
                         0.0052237764007241372, -0.00085424888359581399, 0.00011954817490883131, -1.3898693347413725e-5,
                         1.0562961533863376e-6);
 }
-/// exp(-x^2) times a polynomial (as Shepherd and Laframboise 1981, "Chebyshev approximation of (1+2x) exp(x^2)
-/// erfc(x)"), as far as a float can hold erfc.
+/// Returns erfc of a number in [1/2, infinity), as far as a float can hold it: exp(-x^2) times a polynomial (as
+/// Shepherd and Laframboise 1981, "Chebyshev approximation of (1+2x) exp(x^2) erfc(x)").
 RSL_INLINE double largeErfcOf(double value) {
   const double x = value > 10.25 ? 10.25 : value, t = (x - 2) / (x + 2);
   return exp2Of(-kLog2OfE * x * x) / (1 + 2 * x) *

@@ -55,7 +55,7 @@ class Lexer {
   Lexeme nextInLine();
   /// Returns the rest of the line as #error prints it.
   std::string_view restOfLine();
-  /// <NAME> if the line goes on so, else empty. `*place` becomes where it begins.
+  /// Returns <NAME> if the line goes on so, else an empty text. `*place` becomes where it begins.
   std::string_view angledName(Place* place);
   /// Returns the comments directly before the last word of next(); empty if there are none.
   std::string_view commentBefore() const { return comment_; }
