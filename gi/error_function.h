@@ -43,8 +43,8 @@ struct ErrorFunctionInfo {
   /// The CacheSettings of records for `maxerror` 1, which means the same for all functions: the Hessian, which knows
   /// where light is even, has about as many records as the others.
   float kappa = 1, maxPixels = 10, minPixels = 1.5f, enough = 0.05f;
-  /// Where more error is allowed, records lie less close to edges, so that some are left for other places and fewer
-  /// overlap: their error is then no noise (docs/decisions/0106).
+  /// True if minPixels grows with the allowed error, and `enough` falls. Records then lie less close to edges, so that
+  /// some are left for other places, and fewer overlap, because their error is no noise (docs/decisions/0106).
   bool limitsFollowError = false;
 
   bool needsCurvature() const { return equations == PublishedEquations::Hessian; }

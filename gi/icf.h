@@ -13,12 +13,12 @@ struct IrradianceShot {
   uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers and `learnt` belong to; 0: they do to none.
   GiSettings settings;
   mat4 cameraFromWorld{1.0f};
-  std::vector<PreparedCache> caches;  ///< In camera space.
+  std::vector<PreparedCache> caches;  ///< Caches in camera space.
   /// Empty if an emitter is curved or cut by trim curves: sampling it needs its geometry.
   std::optional<EmitterTable> emitters;
   std::vector<std::shared_ptr<LightCall>> lights;  ///< Scene::lights as they were when the records were gathered.
   std::vector<std::string> groups;  ///< The groups of lights whose shares the records hold (GiServices::keepShares).
-  std::shared_ptr<LearntLight> learnt;  ///< In camera space, for this shot alone.
+  std::shared_ptr<LearntLight> learnt;  ///< Light that was learnt in camera space, for this shot alone.
 };
 
 class IcfWriter {

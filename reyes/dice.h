@@ -31,7 +31,7 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
 /// A point of the true surface at shutter open, in current space, with the derivatives by the patch's own u and v.
 struct TrueSurface {
   vec3 P, dPdu, dPdv;
-  vec3 normal;  ///< On the side that RISpec defines, not normalised; 0 where it is not defined.
+  vec3 normal;  ///< Normal on the side that RISpec defines, not normalised; 0 where it is not defined.
 };
 TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, float v);
 

@@ -22,7 +22,7 @@ struct FrameControl {
   /// Set from a signal handler: running buckets are given up, and the pass returns.
   const std::atomic<bool>* cancelled = nullptr;
   uint32_t seed = 0;
-  PluginTrust trust{};  ///< Where display drivers may be loaded from.
+  PluginTrust trust{};  ///< Decides where display drivers may be loaded from.
 };
 
 /// Receives hidden tiles, from any thread.

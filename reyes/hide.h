@@ -21,14 +21,16 @@ class SamplePattern {
   int padded() const { return padded_; }
   int patternCount() const { return patterns_; }  ///< There are so many that no repetition is seen.
   int patternOf(int x, int y) const;
-  const float* x(int pattern) const { return of(x_, pattern); }  ///< In [0,1) inside the pixel; padded() floats.
+  /// Returns numbers in [0,1) inside the pixel; padded() floats.
+  const float* x(int pattern) const { return of(x_, pattern); }
   const float* y(int pattern) const { return of(y_, pattern); }
-  const float* time(int pattern) const { return of(time_, pattern); }    ///< In [0,1) of the shutter.
-  const float* lensX(int pattern) const { return of(lensX_, pattern); }  ///< In the unit disk, over the aperture.
+  const float* time(int pattern) const { return of(time_, pattern); }  ///< Returns numbers in [0,1) of the shutter.
+  /// Returns positions in the unit disk, over the aperture.
+  const float* lensX(int pattern) const { return of(lensX_, pattern); }
   const float* lensY(int pattern) const { return of(lensY_, pattern); }
   const float* detail(int pattern) const {
     return of(detail_, pattern);
-  }  ///< In [0,1), compared with DetailShare; those of a pixel are stratified.
+  }  ///< Returns numbers in [0,1), compared with DetailShare; those of a pixel are stratified.
 
  private:
   const float* of(const AlignedVector<float>& values, int pattern) const {

@@ -13,7 +13,8 @@
 
 namespace tomales {
 
-/// How far the hider may push the border of a grid out in raster space, over its neighbour (docs/decisions/0003).
+/// Returns how far the hider may push the border of a grid out in raster space, over its neighbour
+/// (docs/decisions/0003).
 constexpr float borderReach_px(float displacementBound) { return displacementBound > 0 ? 4.0f : 0.5f; }
 
 /// One primitive request placed in the world. Deforming geometry has a Prim for each of `shapeTimes`, alike in
@@ -33,7 +34,7 @@ struct Object {
   Motion currentFromObject;  ///< The same with the camera held at its place of shutter open: the motion that rays see.
   std::vector<float>
       keyTimes;  ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
-  float displacementBound = 0;  ///< In camera space.
+  float displacementBound = 0;  ///< Radius in camera space.
   bool flipsNormal = false;     ///< True if either cameraFromObject mirrors or Orientation is inside, but not both.
   bool subtracted = false;      ///< Its solid lies on the side of its normals, which are turned for shading.
   int group = -1;               ///< Index of its ShadeGroup.
@@ -60,7 +61,7 @@ struct Expansion;
 
 /// Geometry that is described when it is needed (RISpec 3.2 section 5.10).
 struct Procedural {
-  Bound3 bound;  ///< In object space.
+  Bound3 bound;  ///< Bound in object space.
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;

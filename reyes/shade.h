@@ -24,13 +24,13 @@ struct Portal {
 /// Runs a light shader alone, at points that nothing shades, so that photons learn what light goes where. Current
 /// space.
 struct LightProbe {
-  std::vector<vec3> P, N;  ///< In: points to be lit, with their normals.
-  /// In: points on the emitter for LightKind::Area; for Sky directions towards it, and unit directions there.
+  std::vector<vec3> P, N;  ///< Input: points to be lit, with their normals.
+  /// Input: points on the emitter for LightKind::Area; for Sky directions towards it, and unit directions there.
   std::vector<vec3> Pl, Nl;
   std::vector<vec2> xi;  ///< Input for sampled lights: the place of the one sample; empty for the middle.
-  std::vector<vec3> L;   ///< Out: vectors from P to the light.
-  std::vector<vec3> Cl;  ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
-  bool finite = true;    ///< Out: false if a value was not finite and was made dark.
+  std::vector<vec3> L;   ///< Output: vectors from P to the light.
+  std::vector<vec3> Cl;  ///< Output: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
+  bool finite = true;    ///< Output: false if a value was not finite and was made dark.
 };
 
 /// Consecutive pixels of one row after filtering and exposure, for the imager. Arrays are padded.

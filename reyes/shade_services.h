@@ -65,7 +65,8 @@ struct ShadeContext {
   const std::vector<uint8_t>* focusing = nullptr;
   bool highlights = false;  ///< Diffuse rays bring highlights too, as those of the reference path tracer do.
   RayAnswers* answers =
-      nullptr;             ///< For this batch, asked before shadow and gather rays are traced. Null: all are traced.
+      /// Answers of this batch, asked before shadow and gather rays are traced. Null: all rays are traced.
+      nullptr;
   bool sketch = false;     ///< Shaders run for no picture that is kept: nothing is baked, printed or counted.
   bool rehearsal = false;  ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
   float importance = 1;    ///< The weight of what is seen here in the eye's picture.

@@ -30,7 +30,7 @@ struct SubPatch {
 /// A bound over the shutter that includes displacement and defocus.
 struct Placement {
   Bound2 raster;
-  float zMin;  ///< In camera space.
+  float zMin;  ///< Depth in camera space.
 };
 
 /// Places a box in the space of `cameraFromObject`, at `keyTimes`. Displacement may leave the box by `margin` (camera

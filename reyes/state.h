@@ -125,7 +125,7 @@ struct Options {
   std::string hider = "hidden";
   bool jitter = true;
   float relativeDetail = 1;          ///< Factor on every measured level of detail.
-  std::vector<vec4> clippingPlanes;  ///< In camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
+  std::vector<vec4> clippingPlanes;  ///< Planes in camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
   bool wantsIndirect = false;        ///< --gi: a scene without an indirect light gets one, for all objects.
   int indirectSamples = 0;           ///< --draft: rays of an irradiance record; 0: as indirect lights ask.
   int frame = 0;

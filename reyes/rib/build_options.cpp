@@ -19,7 +19,7 @@ void rejectOption(GraphicsState& s, const Request& r, const std::string& why) {
   s.warn(r, "rib-option", why + "; the option is left as it was");
 }
 
-// By RISpec a resolution or aspect ratio of zero or less keeps the default.
+// Sets the resolution. By RISpec a resolution or aspect ratio of zero or less keeps the default.
 void format(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
   Options& o = s.globals.options;

@@ -27,7 +27,7 @@ struct TrialPlan {
 struct TrialsResult {
   ErrorModel model;
   std::vector<size_t> seen;   ///< Buckets that see something.
-  std::vector<size_t> tried;  ///< Those of them that were tried, the one of most points first.
+  std::vector<size_t> tried;  ///< Buckets among them that were tried, the one with the most points first.
   double audit_s = 0;         ///< Time that an audit of the frame may take.
   double raysPerSecond = 0;   ///< Rays per second on this machine now, for messages alone.
 
