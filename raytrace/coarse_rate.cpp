@@ -22,7 +22,8 @@ constexpr float kLeastChord = 1e-4f;
 /// Limits for one patch; levels are diced only where rays come.
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
 /// Number of polygons that a patch may have in any picture, and its greatest number in multiples of the polygons that
-/// would cover the picture evenly. A plane that reaches from the eye to the horizon needs many more than these.
+/// would cover the picture evenly. The multiple is large because a plane that reaches from the eye to the horizon needs
+/// many more.
 constexpr double kAlwaysQuads = 1 << 16, kMostOfPicture = 256;
 constexpr double kMostSharing = 16;  ///< Patches of an object that share these limits.
 

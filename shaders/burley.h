@@ -86,7 +86,7 @@ struct Lobes {
     const Vec3 H = rsl::normalize(L + V);
     return nl * material.glossy(nl, nv, rsl::dot(N, H), rsl::dot(L, H));
   }
-  /// Probability density of draw() over solid angle.
+  /// Returns the probability density of draw() over solid angle.
   float density(Vec3 L) const {
     const Vec3 H = rsl::normalize(L + V);
     const float nh = rsl::dot(N, H), vh = rsl::dot(V, H);

@@ -20,7 +20,7 @@ bool mayVary(const TmParamDecl& decl) {
   return !isOutput(decl) && !isUniform(decl) && decl.arrayLength == 1 && (floats == 1 || floats == 3);
 }
 
-/// The bound of a lamp; empty if its place is not known.
+/// Returns the bound of a lamp; empty if its place is not known.
 Bound3 boundOf(const BoundLight& light, const ShadeServices* services) {
   if (light.can(TM_LIGHT_AREA)) return services ? services->emitterBound(light.index) : Bound3();
   const BoundShader& b = *light.bound;

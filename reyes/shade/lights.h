@@ -92,7 +92,7 @@ class Lights {
   /// Adds the radiance of skies to rays that have left the scene along unit directions, less what the opacity of the
   /// things on the way blocks.
   void addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const;
-  /// The largest number of samples of the lights that along() may find; 0 if there are none.
+  /// Returns the largest number of samples of the lights that along() may find; 0 if there are none.
   int mostSamples(Batch& batch) const;
 
  private:

@@ -61,8 +61,8 @@ inline Color caustic(const Point& p, const Normal& n) {
   const std::string file = askText(TM_OF_ATTRIBUTES, "photon:causticmap");
   return file.empty() ? Color() : photonmap(file.c_str(), p, n);
 }
-/// Light that was baked as "_radiance_t" with "_area", where it leaves after diffusion, as E/pi. The list names the
-/// material, marble by default. The approximation does not look at the normal.
+/// Returns the light that was baked as "_radiance_t" with "_area", where it leaves after diffusion, as E/pi. The list
+/// names the material, marble by default. The approximation does not look at the normal.
 template <class... List>
 Color subsurface(const Point& p, const Normal&, const char* file, const List&... list) {
   const TmSubsurfaceOptions material = listed(tmSubsurfaceDefaults(), list...);

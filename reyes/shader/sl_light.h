@@ -107,7 +107,7 @@ struct Gathered {
   Gathered(const char* name, Float* f) : output{name, {f->data(), nullptr, nullptr}} {}
   TmChannel output;
 };
-/// The list of gather(). Rays are even over the cone's solid angle unless "distribution" is "cosine".
+/// Makes the list of gather(). Rays are even over the cone's solid angle unless "distribution" is "cosine".
 template <class... List>
 TmRayOptions rays(const List&... list) {
   TmRayOptions even = tmRayDefaults();

@@ -119,7 +119,8 @@ class PlanMaker {
       }
   }
 
-  /// The settings of light that are found for all frames, if they are. Returns the tasks that frames need then.
+  /// Adds the task that finds settings of light for all frames, if they need one. Returns the tasks that frames then
+  /// need.
   std::vector<std::string> addSettings(const std::vector<std::string>& needs) {
     target_ = options_.targetArguments;
     const RenderSettings& render = options_.render;

@@ -112,13 +112,13 @@ class Relighting {
   size_t partOfBucket(size_t bucket) const;
   PixelRect insideOfWindow(const PixelRect& pixels) const;
 
-  // The edit that each layer shows.
+  // These find the edit that each layer shows.
   bool isMixed(const Layer& layer, const std::string& handle) const;
   EditState editFor(const Layer& layer) const;
   std::string textFor(const Layer& layer) const;
   void wantPresent();
 
-  // The thread.
+  // These belong to the thread that shades.
   std::optional<Step> next() const;
   std::optional<Step> nextPart(size_t from, size_t to) const;
   Step stepFor(Step::Kind kind, size_t layer, size_t part = 0) const;

@@ -79,7 +79,7 @@ class Rule {
     return each(Op::Select, {compute(Op::Less, {c_.zero, number}, Shape::Number), value, c_.zero});
   }
 
-  /// The registers of the change; empty if there is no short rule.
+  /// Returns the registers of the change; empty if there is no short rule.
   std::vector<int32_t> change() {
     switch (c_.i.op) {
       case Op::Copy:
