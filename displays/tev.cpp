@@ -102,8 +102,8 @@ int32_t rows(void* opened, const TmDisplayRows* rows, char* problem) {
   update << char{0} << picture.title << static_cast<int32_t>(count);
   for (const std::string& channel : picture.channels) update << channel;
   update << rows->x - picture.x << rows->y - picture.y << rows->width << rows->height;
-  for (int64_t c = 0; c < count; ++c) update << c;      // the offset where each channel begins
-  for (int64_t c = 0; c < count; ++c) update << count;  // the step from pixel to pixel
+  for (int64_t c = 0; c < count; ++c) update << c;      // Offset where each channel begins.
+  for (int64_t c = 0; c < count; ++c) update << count;  // Step from pixel to pixel.
   const int64_t floats = count * rows->width * rows->height;
   for (int64_t i = 0; i < floats; ++i) update << rows->pixels[i];
   if (update.send(picture.socket)) return 0;

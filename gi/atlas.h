@@ -23,7 +23,7 @@ namespace tomales {
 struct AtlasSettings {
   PhotonSettings photons;
   PhotonIrradianceSettings irradiance;
-  PhotonIrradianceSettings caustics{50, 1};  ///< Sharp: every photon gets an estimate.
+  PhotonIrradianceSettings caustics{50, 1};  ///< Caustics are sharp, so every photon gets an estimate.
   /// maxError is a share of the map's mean irradiance (the paper's is absolute). An estimate is a mean over 50 photons,
   /// and every fourth has one: voxels as wide as the disks hold all of their detail, in a quarter of the bricks.
   BrickSettings bricks{.maxError = 0.03f, .coarseness = 2};
@@ -31,7 +31,7 @@ struct AtlasSettings {
   uint64_t world = 0;                  ///< worldSum() of the scene.
 };
 
-/// The names of the maps of each of Scene::groups, and the number of its surface there: surfaces that touch do not
+/// The names of the maps of each of Scene::groups, and the number of its surface there. Surfaces that touch do not
 /// share light.
 struct MapNames {
   std::vector<std::string> global;
@@ -47,7 +47,7 @@ struct MapNames {
 };
 MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasSettings& settings);
 
-/// The file of a map in a folder.
+/// Returns the file of a map in a folder.
 std::filesystem::path atlasFile(const std::filesystem::path& folder, const std::string& map, const char* extension);
 void makeAtlasFolder(const std::filesystem::path& folder);  ///< Throws WriteError.
 
@@ -64,25 +64,25 @@ PhotonFigures writePhotonPart(const std::filesystem::path& file, WorkPart part, 
 /// Makes the files of writePhotons() of all its parts. Throws FileError, also where a part is of another scene.
 void joinPhotonParts(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                      const MapNames& names, const AtlasSettings& settings, Stats& stats, Log& log);
-/// One photon map -> irradiance points, in cubes of about `most` photons where there are more. `sight`: as in
+/// Makes irradiance points from a photon map, in cubes of about `most` photons where there are more. `sight`: as in
 /// estimateIrradiance(), in world space. Throws FileError.
 void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out,
                      const PhotonIrradianceSettings& settings, uint64_t most = kPointsInMemory,
                      EstimateFigures* figures = nullptr, const SightAlongSurface& sight = {});
-/// Irradiance points -> brick map; its maxError is relative to their mean. Throws FileError.
+/// Makes a brick map from irradiance points; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                                   BrickSettings settings);
 
-/// Returns false if they were made of these points and settings already, and are kept. Throws FileError.
+/// Makes the map again if its points or settings have changed. Returns false if it is kept. Throws FileError.
 bool renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                            const BrickSettings& settings, Stats& stats);
 /// Reads the MadeFrom of a point cloud; zeros for a file that is missing or damaged.
 MadeFrom pointsMadeFrom(const std::filesystem::path& path);
 
-/// Are the photons of this scene and these settings in FOLDER/photons?
+/// Tells whether FOLDER/photons holds the photons of this scene and these settings.
 bool hasPhotons(const std::filesystem::path& folder, const MapNames& names, const AtlasSettings& settings);
-/// Makes irradiance and brick maps of the photons in FOLDER/photons, as far as they are not there yet, of the maps of
-/// one part. Throws FileError.
+/// Makes irradiance and brick maps from the photons in FOLDER/photons, for the maps of one part, unless they are there
+/// already. Throws FileError.
 void writeMaps(const std::filesystem::path& folder, WorkPart part, const Scene& scene, const RayScene& rays,
                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
                Log& log);
@@ -110,15 +110,15 @@ class IrradianceAtlas {
   /// theirs, match any.
   std::optional<std::string> strange(uint64_t world) const;
 
-  /// E/pi at P (current space) on the side of N, averaged over a radius; 0 where there is no data. `acrossWalls`: as in
-  /// BrickMap::lookup().
+  /// Returns E/pi at P (current space) on the side of N, averaged over a radius; 0 where there is no data.
+  /// `acrossWalls`: as in BrickMap::lookup().
   vec3 irradianceOverPi(int group, const vec3& P, const vec3& N, float radius, bool& acrossWalls) const {
     acrossWalls = false;
     return look(mapOfGroup_, group, P, N, radius, &acrossWalls).value_or(vec3(0.0f));
   }
-  /// The same for light that came by mirrors and glass alone.
+  /// Returns the same for light that came by mirrors and glass alone.
   vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const;
-  /// The same as irradianceOverPi(), but empty where there is no data.
+  /// Returns the same as irradianceOverPi(), but empty where there is no data.
   std::optional<vec3> bakedOverPi(int group, const vec3& P, const vec3& N, float radius) const {
     return look(mapOfGroup_, group, P, N, radius);
   }
@@ -131,7 +131,7 @@ class IrradianceAtlas {
   const BrickMap* open(const std::filesystem::path& file);
   void openCaustics(const std::filesystem::path& folder, const MapNames& names);
   vec3 worldNormal(const vec3& N) const { return normalizeOr(transformVector(worldFromCurrent_, N), N); }
-  /// Number of a group's surface in a map; 0: not known, as maps of another scene have other numbers.
+  /// Returns the number of a group's surface in a map; 0: not known, as maps of another scene have other numbers.
   int surfaceIn(const MadeFrom& from, int group) const {
     return world_ != 0 && from.world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
   }
@@ -139,7 +139,7 @@ class IrradianceAtlas {
   mutable BrickCache cache_;
   mat4 worldFromCurrent_;
   float worldFromCurrentScale_;
-  std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< In the order of their names.
+  std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< Sorted by name.
   struct Photons {
     MadeFrom from;
     CausticPhotons photons;

@@ -42,8 +42,9 @@ class BrickFileWriter {
   ChunkWriter file_;
 };
 
-/// The voxels of one level, and of coarser bricks where that level has none; level < 0: the finest. They are disks as
-/// wide as the voxel is across its corners, so that neighbours meet whichever way their surface goes. Throws FileError.
+/// Returns the voxels of one level, and of coarser bricks where that level has none; level < 0: the finest. They are
+/// disks as wide as the voxel is across its corners, so that neighbours meet whichever way their surface goes. Throws
+/// FileError.
 PointCloud voxelsOf(const BrickFile& file, int level);
 
 }  // namespace tomales

@@ -25,7 +25,7 @@ class CloudFiles final : public CloudServices {
   bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) override;
   bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) override;
 
-  /// Has anything been baked yet?
+  /// Tells whether anything has been baked yet.
   bool hasBaked() const;
   /// Writes all baked points as FILE.ptc. The points of a file are sorted by their contents, so that no bit depends on
   /// threads or buckets.

@@ -20,7 +20,8 @@ enum class ErrorFunction {
 /// The published equations that a function has; gi/cache/published.h has a type for each.
 enum class PublishedEquations { Screen, SplitSphere, Hessian };
 
-/// What this renderer adds to the published equations; gi/cache/amendments/switches.h says where each is.
+/// The amendments that this renderer adds to the published equations; gi/cache/amendments/switches.h says where each
+/// is.
 enum class Amendment { SecondOrder, Disputes, Reach, Behind, Occluders, Slopes };
 
 constexpr uint32_t bitOf(Amendment amendment) { return uint32_t{1} << static_cast<uint32_t>(amendment); }
@@ -29,8 +30,8 @@ constexpr uint32_t bitOf(Amendment amendment) { return uint32_t{1} << static_cas
 /// (docs/measured/irradiance_cache.md).
 inline constexpr float kSplitSphereKappa = 4;
 inline constexpr float kNoLimit = std::numeric_limits<float>::infinity();
-/// For comparison with what was published: records do not check each other, each is extrapolated by its own gradients
-/// alone, and none serves farther in shading than where records are placed.
+/// The amendments that are left out for comparison with what was published: records do not check each other, each is
+/// extrapolated by its own gradients alone, and none serves farther in shading than where records are placed.
 inline constexpr uint32_t kAsPublished =
     bitOf(Amendment::SecondOrder) | bitOf(Amendment::Disputes) | bitOf(Amendment::Reach);
 
@@ -42,8 +43,8 @@ struct ErrorFunctionInfo {
   /// The CacheSettings of records for `maxerror` 1, which means the same for all functions: the Hessian, which knows
   /// where light is even, has about as many records as the others.
   float kappa = 1, maxPixels = 10, minPixels = 1.5f, enough = 0.05f;
-  /// Where more error is allowed, records lie less close to edges, so that some are left for other places and fewer
-  /// overlap: their error is then no noise (docs/decisions/0106).
+  /// True if minPixels grows with the allowed error, and `enough` falls. Records then lie less close to edges, so that
+  /// some are left for other places, and fewer overlap, because their error is no noise (docs/decisions/0106).
   bool limitsFollowError = false;
 
   bool needsCurvature() const { return equations == PublishedEquations::Hessian; }
@@ -58,7 +59,7 @@ inline constexpr ErrorFunctionInfo kErrorFunctions[] = {
     {.function = ErrorFunction::Hessian,
      .name = "hessian",
      .equations = PublishedEquations::Hessian,
-     .without = bitOf(Amendment::Reach),  // its records overlap enough
+     .without = bitOf(Amendment::Reach),  // its records overlap enough without it
      .kappa = 0.87f,
      .maxPixels = 40,
      .minPixels = 1,
@@ -84,7 +85,7 @@ constexpr std::optional<ErrorFunction> errorFunctionNamed(std::string_view name)
   return std::nullopt;
 }
 
-/// The names for help texts: "screen|ward".
+/// Returns the names for help texts: "screen|ward".
 inline std::string errorFunctionNames() {
   std::string out;
   for (const ErrorFunctionInfo& info : kErrorFunctions) out += (out.empty() ? "" : "|") + std::string(info.name);

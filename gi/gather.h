@@ -28,7 +28,7 @@ struct GatherSettings {
 /// A point to gather at.
 struct GatherPoint {
   int group;              ///< The shade group that the rays leave.
-  vec3 position, normal;  ///< normal: unit, on the side to gather from
+  vec3 position, normal;  ///< normal: unit vector on the side to gather from.
   uint32_t key;           ///< Names the point for random numbers.
   float pixelSize;        ///< Root of the projected pixel area.
   float edgeLength;       ///< Edge of its micropolygon, for the origin offset.
@@ -49,9 +49,9 @@ IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, cons
                         const GatherSettings& settings, const KnownLight& known, Stats& stats,
                         BrightFind* find = nullptr, std::span<const std::string> groups = {});
 
-/// The shade groups that rays from a group may hit; null if it is all.
+/// Returns the shade groups that rays from a group may hit; null if it is all.
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings);
-/// Radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
+/// Returns the radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
 inline float spreadOfRays(int samples) { return 1 / std::sqrt(static_cast<float>(samples)); }
 
 /// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the
@@ -64,8 +64,8 @@ inline float slantedOffset(float offset, float cosine) { return offset / std::ma
 struct HemisphereCells {
   int rings, sectors;
 };
-HemisphereCells hemisphereCells(int samples);  ///< rings * sectors close to `samples`, sectors ~ pi * rings
+HemisphereCells hemisphereCells(int samples);  ///< rings * sectors is close to `samples`, and sectors about pi * rings.
 vec3 hemisphereDirection(const HemisphereCells& cells, int ring, int sector, vec2 xi);
-int cellOf(const HemisphereCells& cells, const vec3& direction);  ///< ring * sectors + sector
+int cellOf(const HemisphereCells& cells, const vec3& direction);  ///< Returns ring * sectors + sector.
 
 }  // namespace tomales

@@ -13,12 +13,12 @@ struct IrradianceShot {
   uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers and `learnt` belong to; 0: they do to none.
   GiSettings settings;
   mat4 cameraFromWorld{1.0f};
-  std::vector<PreparedCache> caches;  ///< In camera space.
+  std::vector<PreparedCache> caches;  ///< Caches in camera space.
   /// Empty if an emitter is curved or cut by trim curves: sampling it needs its geometry.
   std::optional<EmitterTable> emitters;
-  std::vector<std::shared_ptr<LightCall>> lights;  ///< As they were when the records were gathered; as Scene::lights.
+  std::vector<std::shared_ptr<LightCall>> lights;  ///< Scene::lights as they were when the records were gathered.
   std::vector<std::string> groups;  ///< The groups of lights whose shares the records hold (GiServices::keepShares).
-  std::shared_ptr<LearntLight> learnt;  ///< In camera space, for this shot alone.
+  std::shared_ptr<LearntLight> learnt;  ///< Light that was learnt in camera space, for this shot alone.
 };
 
 class IcfWriter {
@@ -38,8 +38,8 @@ class IcfFile {
   static std::unique_ptr<IcfFile> open(const std::string& path, std::string& error);
   IrradianceShot takeShot() { return std::move(shot_); }
   const IrradianceShot& shot() const { return shot_; }
-  /// The answers of one bucket, one for each batch; empty: the file has none. Null: they are damaged, which `error`
-  /// explains.
+  /// Returns the answers of one bucket, one for each batch; empty: the file has none. Null: they are damaged, which
+  /// `error` explains.
   std::optional<std::vector<RayAnswers>> answers(size_t tile, std::string& error) const;
   /// Checks that the answers of every bucket are as they were written.
   bool intact(std::string& error) const;
@@ -53,8 +53,9 @@ class IcfFile {
   IrradianceShot shot_;
 };
 
-/// The records of all caches as points in world space, without extent. Channels: "record", which is 1; "irradiance"
-/// (E/pi), "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of E/pi).
+/// Returns the records of all caches as points in world space, without extent. Channels: "record", which is 1;
+/// "irradiance" (E/pi), "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of
+/// E/pi).
 PointCloud recordsOf(const IrradianceShot& shot);
 
 /// Moves records to the camera of another frame, which has not been learnt of; the same bits if it is the same.

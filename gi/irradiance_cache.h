@@ -59,9 +59,8 @@ class IrradianceCache {
   void insert(const IrradianceRecord& record);
   /// Adds one of records() of an earlier cache with these settings, unchanged.
   void restore(const IrradianceRecord& record);
-  /// Weighted mean of the extrapolated records (eq. 5, 7): those that serve `normal`, turned to `shadingNormal`.
-  /// pixelSize: root of the projected pixel area at x.
-  /// light: see below.
+  /// Returns the weighted mean of the extrapolated records (eq. 5, 7): those that serve `normal`, turned to
+  /// `shadingNormal`. pixelSize: root of the projected pixel area at x. light: as in the lookup of many places below.
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize,
                             std::span<const LightShare> light = {}) const;
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const {
@@ -69,15 +68,15 @@ class IrradianceCache {
   }
   /// Looks up many places and writes to out[0] and on. It is several times as fast as single lookups where successive
   /// places lie close together. Validity radii are multiplied by `wider`, but by less where light is steep, and never
-  /// beyond a disagreement (Amendment::Reach). `light`, if not empty, has an element for each record and stands in for
-  /// its light: E comes from that, while all that says where records are used is still the record's own, and the
-  /// dominant directions stay. E is linear in `light` then.
+  /// beyond a disagreement (Amendment::Reach). `light`, if not empty, has an element for each record and replaces its E
+  /// and derivatives. The records still decide where they are used, and the dominant directions stay. E is linear in
+  /// `light` then.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider = 1,
               std::span<const LightShare> light = {}) const;
-  /// The light of each record where each share is multiplied by its gain. Pre: every record has as many shares.
+  /// Returns the light of each record where each share is multiplied by its gain. Pre: every record has as many shares.
   std::vector<LightShare> mixed(std::span<const vec3> gains) const;
-  /// The same, which the cache keeps until it is asked for other gains or has more records: a frame that is shaded
-  /// again and again asks for the same. Threads: one at a time.
+  /// Returns the same, which the cache keeps until it is asked for other gains or has more records: a frame that is
+  /// shaded again and again asks for the same. Threads: one at a time.
   std::span<const LightShare> keptMix(std::span<const vec3> gains) const;
   const IrradianceRecords& records() const;
   const Bound3& bound() const;

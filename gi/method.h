@@ -19,17 +19,18 @@ enum class GiMode {
 
 struct GiMethod {
   const char* name;                ///< The name for --gi.
-  GiMode mode;                     ///< How it is carried out.
+  GiMode mode;                     ///< The mode that carries it out.
   const char* radiance = nullptr;  ///< The "radiance" of an indirect light that asks for it; null: no light can.
   bool caches = false;             ///< Light is gathered in irradiance records before the frame is shaded.
   bool hitsHoldAll = false;        ///< The surfaces that gather rays meet hold the light of all bounces.
-  bool makesMaps = false;          ///< It makes maps of all objects first, which takes memory,
-  bool byPointClouds = false;      ///< from the point clouds of --atlas.
+  bool makesMaps = false;          ///< It makes maps of all objects first, which takes memory.
+  bool byPointClouds = false;      ///< The maps come from the point clouds of --atlas.
   bool usesBaked = false;          ///< Light comes from the maps of --baked.
   bool fullGeometry = false;       ///< Rays see micropolygons unless --ray-geometry says otherwise.
   bool isReference = false;        ///< Direct light has as many samples as there are paths.
-  bool countsPhotons = false;      ///< Photons are counted at visible points before the frame is shaded,
-  bool causticsAlone = false;      ///< those alone that come by mirrors and glass, and only if there are any.
+  bool countsPhotons = false;      ///< Photons are counted at visible points before the frame is shaded.
+  /// It counts only photons that come by mirrors and glass, and none where no surface is one.
+  bool causticsAlone = false;
 };
 
 inline constexpr GiMethod kGiMethods[] = {
@@ -74,14 +75,14 @@ constexpr const GiMethod* giMethodOfRadiance(std::string_view radiance) {
     if (m.radiance && radiance == m.radiance) return &m;
   return nullptr;
 }
-/// The first method of this mode.
+/// Returns the first method of this mode.
 constexpr const GiMethod& giMethodOf(GiMode mode) {
   const GiMethod* m = kGiMethods;
   while (m->mode != mode) ++m;
   return *m;
 }
 
-/// The names for help texts: "none, gather".
+/// Returns the names for help texts: "none, gather".
 inline std::string giMethodNames(const char* between = ", ") {
   std::string out;
   for (const GiMethod& m : kGiMethods) out += (out.empty() ? "" : between) + std::string(m.name);

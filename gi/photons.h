@@ -12,8 +12,8 @@
 
 namespace tomales {
 
-/// Surfaces at which a photon may arrive where nobody says a number. Roulette ends its path before that, as the albedo
-/// of what it meets has it: at a mean albedo of 0.93 there is 1 % of the light left then.
+/// Surfaces at which a photon may arrive if nobody sets a number. Roulette by the albedo of the surfaces ends most
+/// paths before that: at a mean albedo of 0.93, 1 % of the light is left then.
 constexpr int kEnoughBounces = 64;
 
 struct PhotonSettings {
@@ -24,8 +24,8 @@ struct PhotonSettings {
   /// Store photons that come straight from a light, too. Without them, whoever looks the irradiance up has to sample
   /// the lights.
   bool direct = true;
-  /// Only the paths whose first surface, beside transparent ones, is mirror or glass: all others end at their first
-  /// diffuse surface.
+  /// Trace only the paths whose first surface, beside transparent ones, is mirror or glass. All others end at their
+  /// first diffuse surface.
   bool focusedOnly = false;
   int mostBounces = 1 << 20;  ///< Photons that have bounced more often (StoredPhoton::bounces) are not traced.
 };
@@ -33,7 +33,7 @@ struct PhotonSettings {
 struct StoredPhoton {
   /// Unit normal of the polygon that P lies on, towards the side that the photon came from; zero in a medium.
   vec3 P, N;
-  vec3 power;  ///< In a medium it is multiplied by the free path in lengths of the world: W m.
+  vec3 power;  ///< Power in W; in a medium it is multiplied by the free path in lengths of the world: W m.
   int group;   ///< Index into Scene::groups; -1: in a medium.
   int depth;   ///< 0: straight from a light.
   /// The diffuse surfaces and collisions on its path, and one more if mirrors or glass come before the first of them. A
@@ -74,7 +74,7 @@ enum class PhotonModel {
   Water,        ///< Reflects and refracts by Fresnel's law (index 1.5, 1.33).
   Transparent,  ///< Passes straight on, tinted.
 };
-/// Empty if there is no model of this name.
+/// Returns nothing if there is no model of this name.
 std::optional<PhotonModel> photonModel(const std::string& name);
 /// Tells whether photons are mirrored or refracted by surfaces of this model.
 constexpr bool isMirrorOrGlass(PhotonModel m) {

@@ -82,7 +82,8 @@ struct PointCloud {
   Bound3 bound() const;  ///< Bound of the positions.
 };
 
-/// Offset of a channel's first float among those of a point; -1: there is none of this width (0: any width).
+/// Returns the offset of a channel's first float among those of a point; -1: there is none of this width (0: any
+/// width).
 int offsetOf(const std::vector<CloudChannel>& channels, const std::string& name, int width = 0);
 
 /// Tells whether a file may hold this point: all values have to be finite, and the radius not negative.

@@ -46,7 +46,7 @@ struct PhotonPasses {
   int64_t photons = 1'000'000;  ///< The most that are sent.
   double noise = 0;             ///< The noise at which no more are sent (PhotonMeasurement::noise).
   uint32_t seed = 0;
-  bool focusedOnly = false;  ///< Only the light that comes from lamps by mirrors or glass first.
+  bool focusedOnly = false;  ///< Count only the light that comes from lamps by mirrors or glass first.
   bool shrinks = false;      ///< Disks on which photons count shrink from pass to pass; else they are micropolygons.
   Log* log = nullptr;
   /// Gets the number of photons sent, that of the points, and their noise.
@@ -90,7 +90,7 @@ class GiServices final : public ShadeServices {
   void setAtlas(std::unique_ptr<const IrradianceAtlas> atlas);
   /// Sets a function that brings the atlas when the first point has to be gathered. Any thread may call it.
   void setAtlasSource(AtlasSource source);
-  /// The same for what gather rays meet in GiMode::Radiosity.
+  /// Sets the function that brings the radiance of what gather rays meet in GiMode::Radiosity.
   void setHitRadianceSource(HitRadianceSource source);
   /// Lets gatherPass() count photons, in GiMode::Reference and Progressive.
   void setPhotonPasses(PhotonPasses passes);
@@ -108,22 +108,22 @@ class GiServices final : public ShadeServices {
   /// must be the same, and records are not kept for a later run.
   void startAgain(const GiSettings& settings);
 
-  /// What the last gatherPass() has taken for records of further bounces, which are about as many for a small part of
-  /// the frame as for all of it.
+  /// The cost of the records of further bounces in the last gatherPass(). There are about as many of them for a small
+  /// part of the frame as for all of it.
   struct BounceCost {
     double rays = 0, time_s = 0;
   };
   BounceCost bounceCost() const;
 
-  /// The caches of gatherPass(); frozen while shading.
+  /// Returns the caches of gatherPass(); frozen while shading.
   const std::vector<PreparedCache>& caches() const;
   std::vector<PreparedCache> takeCaches();  ///< Moves the caches out; none remain.
   /// Sets caches instead of a gather pass or before one. The gather pass then adds records where these leave points
-  /// uncovered or, in a frame that they were not made for, where they disagree. anew: the pixels whose records have
-  /// been taken out.
+  /// uncovered or, in a frame that they were not made for, where they disagree. anew: pixels whose records were
+  /// removed.
   void useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew = {});
-  /// What gatherPass() has learnt besides the caches. With both, points that the caches do not serve get the bits that
-  /// they would get in the run which has gathered.
+  /// Returns the facts that gatherPass() has learnt besides the caches. With both, points that the caches do not serve
+  /// get the bits that they would get in the run which has gathered.
   std::shared_ptr<LearntLight> learnt() const;
   void useLearnt(std::shared_ptr<LearntLight> learnt);
   /// Has records keep the share of each of these groups of lights (ShadingSystem::lightGroup), so that they can be

@@ -29,7 +29,8 @@ struct Chunk {
 
 /// Lattices of the tiles of a chunk, with rows along u, one after the other.
 struct ChunkMesh {
-  std::vector<vec3> P;                ///< At least 4 readable bytes follow the last. A tile that is not finite is NaN.
+  /// At least 4 readable bytes follow the last element. A tile that is not finite is NaN.
+  std::vector<vec3> P;
   std::vector<uint32_t> N;            ///< Normals on the RISpec side, packed as in reyes/base/packed_normal.h.
   std::vector<uint32_t> firstVertex;  ///< Indexed by tile.
 
@@ -50,16 +51,16 @@ class Chunks {
 
   const std::vector<Chunk>& all() const { return chunks_; }
   ChunkMesh dice(size_t chunk) const;
-  /// The level at which a ray of this level sees a group; Coarse: its polygons are not here.
+  /// Returns the level at which a ray of this level sees a group. Coarse means that its polygons are not here.
   Level levelOf(uint32_t group, Level ray) const { return full_[group] ? Level::Fine : ray; }
   bool has(uint32_t group) const { return present_[group]; }
-  /// Largest distance between the polygons that a ray of this level sees here and the surface that they stand for, as
-  /// far as samples show; 0 if it sees none.
+  /// Returns the largest distance between the polygons that a ray of this level sees here and the surface that they
+  /// stand for, as far as samples show; 0 if it sees none.
   float deviation(size_t group, Level ray) const {
     const Level level = levelOf(static_cast<uint32_t>(group), ray);
     return level == Level::Coarse ? 0 : deviations_[group][static_cast<size_t>(level)];
   }
-  /// Unit normal on the RISpec side at tile parameters u, v.
+  /// Returns the unit normal on the RISpec side at tile parameters u, v.
   vec3 normal(const ChunkMesh& mesh, size_t chunk, uint32_t tile, float u, float v) const;
   int64_t finePolygons() const { return finePolygons_; }
 

@@ -21,8 +21,9 @@ constexpr double kRateRounding = 1e-3;  ///< Half a circle is twelve polygons, w
 constexpr float kLeastChord = 1e-4f;
 /// Limits for one patch; levels are diced only where rays come.
 constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
-/// What a patch may have in any picture, and how many times the polygons that would cover the picture evenly: a plane
-/// that reaches from the eye to the horizon needs many more.
+/// Number of polygons that a patch may have in any picture, and its greatest number in multiples of the polygons that
+/// would cover the picture evenly. The multiple is large because a plane that reaches from the eye to the horizon needs
+/// many more.
 constexpr double kAlwaysQuads = 1 << 16, kMostOfPicture = 256;
 constexpr double kMostSharing = 16;  ///< Patches of an object that share these limits.
 
@@ -66,8 +67,8 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
          !camera.outside(bound.grown(o.displacementBound), {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
-/// The greatest number of polygons that a patch may have when their edges are so long. A small picture shows few
-/// polygons, however many a patch of enormous coordinates asks for.
+/// Returns the greatest number of polygons that a patch may have when their edges are so long. A small picture shows
+/// few polygons, however many a patch of enormous coordinates asks for.
 double mostQuads(const Object& o, const Camera& camera, float edge_px) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
   const double pixels = 1.0 * camera.xResolution() * camera.yResolution();
@@ -93,7 +94,7 @@ CoarseRate limited(const Object& o, double nu, double nv, double most, const cha
 /// The fineness that polygons should have.
 struct Fineness {
   float edge_px, turn;  ///< Upper limits of an edge's length and of the normal's turn along it in radians.
-  float least_px;       ///< On shorter edges the normal may turn farther.
+  float least_px;       ///< Least edge length for which `turn` counts. On shorter edges the normal may turn farther.
   const char* remedy;   ///< Advice that makes the polygons coarser, for the warning.
 };
 

@@ -11,10 +11,11 @@ namespace tomales {
 struct CoarseRate {
   int nu, nv;
 };
-/// The rate of the coarse polygons, whose edges and turns are `longer` times what is asked. A patch that asks for
-/// millions is reported and gets fewer. log: null reports nothing.
+/// Returns the rate of the coarse polygons, whose edges and turns are `longer` times what is asked. A patch that asks
+/// for millions is reported and gets fewer. log: null reports nothing.
 CoarseRate coarseRate(const Scene& scene, const Camera& camera, int object, uint32_t patch, float longer, Log* log);
-/// The rates of the levels in chunks. The first is no coarser than the next, and that no coarser than coarseRate().
+/// Returns the rates of the levels in chunks. Each is no coarser than the next, and the last no coarser than
+/// coarseRate().
 std::array<CoarseRate, kLevelsInChunks> levelRates(const Scene& scene, const Camera& camera, int object, uint32_t patch,
                                                    Log& log);
 

@@ -24,13 +24,14 @@ class EmbreeChunks {
               const std::vector<CoarseGroup>& groups, const std::vector<uint32_t>& masks,
               const std::vector<bool>& opaque);
 
-  /// Embree's mask of the geometry with this number, counted from the first.
+  /// Returns Embree's mask of the geometry with this number, counted from the first.
   uint32_t maskOf(size_t geometry) const { return members_[geometry].mask; }
   const Geometry& geometryOf(uint32_t chunk) const { return described_[chunks_.all()[chunk].group]; }
-  /// Unit normal at a hit, on the RISpec side.
+  /// Returns the unit normal at a hit, on the RISpec side.
   vec3 normal(const PolygonHit& hit) const;
   ResidentFigures figures() const { return cache_.figures(); }
-  /// True once a ray has passed through a chunk for which there was no memory: Embree lets no exception through.
+  /// Returns true once a ray has passed through a chunk for which there was no memory, because Embree lets no exception
+  /// through.
   bool failed() const { return failed_.load(std::memory_order_relaxed); }
 
  private:
@@ -59,7 +60,7 @@ class EmbreeChunks {
     std::atomic<bool> known{false};
   };
 
-  /// Null if the ray passes by.
+  /// Returns null if the ray passes by.
   std::shared_ptr<const Resident> met(uint32_t chunk, const RTCRay& r) const;
   std::shared_ptr<const Resident> resident(uint32_t chunk) const;
   std::shared_ptr<const Resident> build(uint32_t chunk) const;

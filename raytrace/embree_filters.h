@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// Embree's mask for rays with these bits of RayMask at a level. Geometries that they see have the same mask.
+/// Returns Embree's mask for rays with these bits of RayMask at a level. Geometries that they see have the same mask.
 inline uint32_t maskAt(uint32_t mask, Level level) { return mask << 4 * static_cast<int>(level); }
 inline uint32_t maskAtAllLevels(uint32_t mask) {
   return maskAt(mask, Level::Fine) | maskAt(mask, Level::Medium) | maskAt(mask, Level::Coarse);

@@ -114,7 +114,7 @@ EmbreeScene::EmbreeScene(const RayGroups& groups, const SharedShapes& shapes, co
 
 EmbreeScene::EmbreeScene(const RayGroups& groups, Log& log) : impl_(std::make_unique<Impl>(groups.meshes, kNoShapes)) {
   impl_->attachGroups(groups, true);
-  const ThreadLimit one(1);  // as above
+  const ThreadLimit one(1);  // the reason is that of the other constructor
   impl_->attachInstances(groups);
   impl_->commit(log);
 }

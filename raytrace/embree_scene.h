@@ -29,7 +29,7 @@ class EmbreeScene {
   EmbreeScene(const RayGroups& groups, Log& log);
   ~EmbreeScene();
 
-  /// Nearest hit with ray.bias < t < ray.tMax; ray.offset is not used.
+  /// Finds the nearest hit with ray.bias < t < ray.tMax; ray.offset is not used.
   bool nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const;
 
   /// Collects all polygons that rays of this mask and level may meet within `reach` of P at shutter open. It gives up
@@ -47,7 +47,7 @@ class EmbreeScene {
   /// Fills `list` with all hits at t >= -window, however far, unsorted.
   void all(const Ray& ray, float window, HitList& list) const;
 
-  /// Unit normal at a hit of a chunk, on the RISpec side.
+  /// Returns the unit normal at a hit of a chunk, on the RISpec side.
   vec3 normal(const PolygonHit& hit) const;
 
   size_t bytes() const;  ///< Bytes that Embree allocated.

@@ -3,7 +3,8 @@
 namespace tomales {
 namespace {
 
-/// Distance of P to the left of the edge that leaves corner k, times the edge's length, seen against the normal.
+/// Returns the distance of P to the left of the edge that leaves corner k, times the edge's length, seen against the
+/// normal.
 float beside(const EmitterFacet& f, size_t k, const vec3& P) {
   return dot(f.normal, cross(f.corners[(k + 1) % 4] - f.corners[k], P - f.corners[k]));
 }

@@ -12,10 +12,10 @@ struct EmitterFacet {
   vec3 normal;  ///< Unit normal of the shining side.
 };
 
-/// Empty if the polygon is not flat or not convex. Two corners may coincide.
+/// Returns nothing if the polygon is not flat or not convex. Two corners may coincide.
 std::optional<EmitterFacet> facetOf(const std::array<vec3, 4>& corners, const vec3& normal);
 
-/// Distance to the facet's shining side along the unit `direction`; infinite if it is not met.
+/// Returns the distance to the facet's shining side along the unit `direction`; infinite if it is not met.
 float distanceTo(const EmitterFacet& facet, const vec3& from, const vec3& direction);
 
 }  // namespace tomales

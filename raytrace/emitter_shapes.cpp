@@ -77,7 +77,7 @@ class EllipticalCone {
     const dvec3 n = disk.normal, d = dvec3(disk.center) - dvec3(from);
     const double height = -dot(d, n), r = glm::length(dvec3(disk.u));
     if (!(height > 0)) return;
-    const dvec3 across = d + height * n;  // from below the eye to the centre, in the plane
+    const dvec3 across = d + height * n;  // vector from below the eye to the centre, in the plane
     const double off = glm::length(across);
     const dvec3 y = off > 1e-12 * (height + r) ? across / off : glm::normalize(dvec3(disk.u));
     // The nearest and the farthest point of the rim, and the ray that halves the angle between them.
@@ -86,7 +86,7 @@ class EllipticalCone {
     z_ = std::sin(middle) * y - std::cos(middle) * n;
     y_ = std::cos(middle) * y + std::sin(middle) * n;
     x_ = cross(y_, z_);
-    const double at = height * std::tan(middle) - off;  // where it meets the plane, from the centre
+    const double at = height * std::tan(middle) - off;  // place where the chord meets the plane, from the centre
     const double halfChord = std::sqrt(std::max(0.0, r * r - at * at));
     a_ = halfChord * std::cos(middle) / height;
     b_ = std::tan(0.5 * (farAngle - nearAngle));

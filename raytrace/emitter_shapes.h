@@ -28,16 +28,16 @@ struct SeenPoint {
 };
 
 SeenPoint sampleSolidAngle(const EmitterShape& shape, const vec3& from, const vec2& xi);
-/// The point that a ray along the unit `direction` meets, with the density of a sample there.
+/// Returns the point that a ray along the unit `direction` meets, with the density of a sample there.
 SeenPoint meet(const EmitterShape& shape, const vec3& from, const vec3& direction);
 
-/// Converts a density over area to one over solid angle; 0: the back is seen.
+/// Converts a density over area to one over solid angle. It becomes 0 where the back is seen.
 double solidAngleDensity(const vec3& from, const vec3& P, const vec3& N, double areaDensity);
 
-/// A direction, uniform over the sphere.
+/// Returns a direction, uniform over the sphere.
 vec3 directionOnSphere(const vec2& xi);
 
-/// A point, uniform over the area; the density is over area.
+/// Returns a point, uniform over the area; the density is over area.
 SeenPoint sampleArea(const EmitterShape& shape, const vec2& xi);
 
 }  // namespace tomales

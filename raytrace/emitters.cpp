@@ -39,7 +39,7 @@ EmitterLattice latticeOf(const Scene& scene, const CoarseGroup& g, const Lattice
 
 bool near(float a, float b) { return std::abs(a - b) <= 1e-5f * std::max(std::abs(a), std::abs(b)); }
 
-/// A sphere or disk that its object's transformation leaves round.
+/// Returns a sphere or disk that its object's transformation leaves round.
 std::optional<EmitterShape> roundShape(const Scene& scene, int object) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
   const std::optional<RoundShape> round = o.shape().round();

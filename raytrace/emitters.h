@@ -69,8 +69,8 @@ class Emitters {
     Distribution areas;           ///< Areas of the shapes and then of the sources.
     std::vector<Source> sources;  ///< Lattices with area.
     std::vector<EmitterFacet> facets;
-    /// Density that weighs samples of the light and directions that meet it against each other: as if all polygons were
-    /// sampled uniformly by area.
+    /// Returns the density over solid angle by which samples of the light and directions that meet it are weighed
+    /// against each other, as if all polygons were sampled uniformly by area.
     double facetDensity(const vec3& from, const vec3& P, const vec3& N) const {
       return solidAngleDensity(from, P, N, 1 / areas.total());
     }
@@ -84,9 +84,9 @@ class Emitters {
   const EmitterLight& given(int light) const { return table_[static_cast<size_t>(light)]; }
   const Light& sources(int light) const { return lights_[static_cast<size_t>(light)]; }
   static void findFacets(const EmitterLight& given, Light& light);
-  /// A point on lattice `source`, as if it were the whole light.
+  /// Returns a point on lattice `source`, as if it were the whole light.
   AreaPoint onLattice(const EmitterLight& light, const Source& source, double u, double v) const;
-  /// Position and d/du x d/dv at the quad's own parameters.
+  /// Returns position and d/du x d/dv at the quad's own parameters.
   void place(const EmitterLattice& lattice, size_t quad, float u, float v, vec3& P, vec3& normal) const;
 
   const Scene* scene_ = nullptr;

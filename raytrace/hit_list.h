@@ -34,12 +34,12 @@ inline float recordingWindow(float offset) { return (1 + kMergeShare) * offset; 
 /// Sorts by t. The rest of the order makes results independent of the traversal.
 void sortAlongRay(HitList& list);
 
-/// A ray that meets an edge of two polygons, or the diagonal of one, reports one surface twice. Surfaces of a
-/// closed shape alternate between entering and leaving, so two close hits in the same sense are one surface.
-/// The objects may differ: at the crease of two walls a ray leaves both, and neither shadows it.
+/// Tells whether two hits are one surface. A ray that meets an edge of two polygons, or the diagonal of one, reports
+/// one surface twice. Surfaces of a closed shape alternate between entering and leaving, so two close hits in the same
+/// sense are one surface. The objects may differ: at the crease of two walls a ray leaves both, and neither shadows it.
 bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance);
 
-/// Rounding error of positions: a few units in the last place of their distance from the eye.
+/// Returns the rounding error of positions: a few units in the last place of their distance from the eye.
 inline float roundingAt(const vec3& P) { return 4e-7f * glm::length(P); }
 
 /// The known facts about the start of a ray.
@@ -53,12 +53,12 @@ struct RayStart {
 /// same group and turned away, because blades and leaves side by side are no walls.
 bool isCrowded(const HitList& sorted, int origin, const RayStart& start);
 
-/// The hit that becomes the effective origin: the one closest to t = 0 within the offset; -1: the origin stays. On the
-/// line where two walls meet there are hits on both, and the ray may go from one to the other: among equally close hits
-/// the one of the ray's own group is its origin, or else one that it leaves.
+/// Returns the hit that becomes the effective origin: the one closest to t = 0 within the offset, or -1 if the origin
+/// stays. On the line where two walls meet there are hits on both, and the ray may go from one to the other. The hit of
+/// the ray's own group is then preferred among equally close hits, and after that one that it leaves.
 int effectiveOrigin(const HitList& sorted, const RayStart& start);
 
-/// The first hit on another surface that is not before `origin` (-1: after t = 0), or -1.
+/// Returns the first hit on another surface that is not before `origin` (-1: after t = 0), or -1.
 int nextHit(const HitList& sorted, int origin, const RayStart& start);
 
 }  // namespace tomales

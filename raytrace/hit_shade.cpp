@@ -20,7 +20,7 @@ int widthOf(const std::vector<Primvar>& primvars, std::string_view name) {
   return std::find_if(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name; })->width;
 }
 
-/// The radiance of a hit, changed by Attribute "indirect" of its object (bleeding).
+/// Returns the radiance of a hit, changed by Attribute "indirect" of its object (bleeding).
 vec3 bled(const vec3& color, const Attributes& a) {
   return glm::mix(vec3(luminance(color)), color, a.indirect.bleeding) * a.indirect.bleedingColor;
 }

@@ -1,4 +1,4 @@
-// How finely a ray sees surfaces that have several levels of detail (docs/decisions/0036-geometry-cache.md).
+// The fineness at which a ray sees surfaces that have several levels of detail (docs/decisions/0036-geometry-cache.md).
 #pragma once
 #include <cstdint>
 

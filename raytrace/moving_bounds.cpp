@@ -3,7 +3,8 @@
 namespace tomales {
 namespace {
 
-/// Each ray is tested against all boxes. That costs less than the rays that it saves while they are few.
+/// Greatest number of boxes. Each ray is tested against all of them, which costs less than the rays that it saves while
+/// boxes are few.
 constexpr size_t kMostBoxes = 64;
 constexpr float kBoxRounding = 1e-5f;  ///< Share of a box's distance and size.
 

@@ -10,7 +10,7 @@ class MovingBounds {
  public:
   void add(const CoarseGroup& group);  ///< Pre: the group has polygons at later keys.
   bool any() const { return !boxes_.empty(); }
-  /// May the part of the ray up to tMax meet something that moves? True if in doubt.
+  /// Tells whether the part of the ray up to tMax may meet something that moves. True if in doubt.
   bool mayMeet(const Ray& ray) const;
 
  private:

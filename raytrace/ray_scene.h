@@ -31,15 +31,16 @@ struct RayScene::Impl {
   vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
   Level levelOf(const Ray& ray, const vec3& P) const;
-  /// Least radius of rays that leave a point which a ray has met at this level: they must see no finer polygons,
-  /// because the point lies on polygons of that level. 0 for groups without levels.
+  /// Returns the least radius of rays that leave a point which a ray has met at this level: they must see no finer
+  /// polygons, because the point lies on polygons of that level. 0 for groups without levels.
   float leastRadius(uint32_t group, Level met, const vec3& P) const;
 
   const Scene& scene;
   const Camera& camera;
   const bool hitList;
   const SharedShapes shapes;
-  const std::vector<CoarseGroup> groups;  ///< Without the polygons of `shapes`, but with their deviation and size.
+  /// The groups without the polygons of `shapes`, but with the deviation and size of those.
+  const std::vector<CoarseGroup> groups;
   const Chunks chunks;
   const std::vector<bool> opacityIsConstant;
   const std::vector<uint32_t> masks;

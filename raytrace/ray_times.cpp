@@ -7,7 +7,7 @@ namespace {
 constexpr int kMostSteps = 32;
 constexpr float kSameTime = 1.0f / 512;  ///< Share of the shutter.
 
-/// The motion keys inside the shutter, as shares of it. Empty if the object stands still.
+/// Returns the motion keys inside the shutter, as shares of it. Empty if the object stands still.
 std::vector<float> keysOf(const Object& o, const Options& options) {
   std::vector<float> keys;
   const auto add = [&](const std::vector<float>& times) {

@@ -7,9 +7,9 @@ namespace tomales {
 /// Tells whether rays with a time exist: only then is motion worth its memory.
 bool raysHaveTimes(const Scene& scene);
 
-/// The times of the motion keys of each of scene.groups, shutter open first: equally spaced, and as few as meet every
-/// key of its objects. There is one for objects that stand still, for area lights, and for all where no rays have
-/// times.
+/// Returns the times of the motion keys of each of scene.groups, shutter open first. They are equally spaced, and as
+/// few as meet every key of its objects. There is one for objects that stand still, for area lights, and for all where
+/// no rays have times.
 std::vector<std::vector<float>> rayTimes(const Scene& scene);
 
 }  // namespace tomales

@@ -17,7 +17,7 @@ bool mayShare(const Object& o) {
          isAffine(o.cameraFromObject.keys.front());
 }
 
-/// Upper bound of the factor by which lengths grow: the Frobenius norm, exact within sqrt(3).
+/// Returns an upper bound of the factor by which lengths grow: the Frobenius norm, exact within sqrt(3).
 float growth(const mat3& m) {
   const float columns = dot(m[0], m[0]) + dot(m[1], m[1]) + dot(m[2], m[2]);
   const float even = std::sqrt(columns / 3);  // exact for rotations with uniform scale

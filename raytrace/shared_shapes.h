@@ -15,7 +15,7 @@ struct CoarseInstance {
 };
 
 struct SharedShapes {
-  std::vector<CoarseGroup> masters;  ///< In object space.
+  std::vector<CoarseGroup> masters;  ///< Meshes in object space.
   std::vector<CoarseInstance> instances;
   std::vector<bool> shared;  ///< Indexed by object: true if it is one of `instances`.
 };

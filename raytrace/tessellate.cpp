@@ -147,7 +147,7 @@ void addWork(const Scene& scene, size_t object, std::vector<Work>& work) {
     work.push_back({static_cast<int>(object), p, std::min(p + kPatchesAtOnce, patches)});
 }
 
-/// The patches of all objects that rays need and that are not elsewhere.
+/// Returns the patches of all objects that rays need and that are not elsewhere.
 std::vector<Work> workOf(const Scene& scene, const std::vector<bool>& elsewhere) {
   std::vector<Work> work;
   for (size_t i = 0; i < scene.objects.size(); ++i) {

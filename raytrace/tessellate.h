@@ -65,13 +65,14 @@ struct CoarseGroup {
   size_t bytes() const;
 };
 
-/// Area of the two triangles that rays meet of a polygon, cut from corner 1 to 3.
+/// Returns the area of the two triangles that rays meet of a polygon, cut from corner 1 to 3.
 inline float areaOf(const std::array<vec3, 4>& corners) {
   const auto& [a, b, c, d] = corners;
   return 0.5f * (glm::length(cross(b - a, d - a)) + glm::length(cross(d - c, b - c)));
 }
 
-/// Rays keep away from a coarse surface by its deviation times this: docs/decisions/0006
+/// Factor on the deviation of a coarse surface that gives the distance by which rays keep away from it
+/// (docs/decisions/0006).
 constexpr float kOffsetFactor = 1.5f;
 
 /// Returns one element for each of scene.groups. It is empty for objects that no ray may meet and no light is made of,
@@ -80,7 +81,7 @@ constexpr float kOffsetFactor = 1.5f;
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log,
                                     const std::vector<bool>& elsewhere = {}, float longer = 1);
 
-/// How many times longer than asked edges must be for all that to fit into so much memory, Embree's tree included; at
+/// Returns the factor on the length of edges with which tessellate() and Embree's tree fit into so much memory; at
 /// least 1. Warns if it is more. `elsewhere` as above.
 float edgesThatFit(const Scene& scene, const Camera& camera, const std::vector<bool>& elsewhere, size_t bytes,
                    Log& log);

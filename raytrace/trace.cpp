@@ -159,8 +159,8 @@ Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
           ray.origin + hit.t * ray.direction};
 }
 
-/// The level whose polygons are as wide as the ray, seen from the eye. The hit is assumed to be as far from P as P is
-/// from the eye.
+/// Returns the level whose polygons are as wide as the ray, seen from the eye. The hit is assumed to be as far from P
+/// as P is from the eye.
 Level RayScene::Impl::levelOf(const Ray& ray, const vec3& P) const {
   if (chunks.all().empty()) return Level::Fine;
   const float width_px = 2 * std::max(ray.spread * glm::length(P), ray.radius) / std::max(camera.pixelSize(P), 1e-20f);

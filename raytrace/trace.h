@@ -32,7 +32,7 @@ struct Ray {
   vec3 origin, direction;  ///< direction: unit length
   float tMax = kInfinity;  ///< Hits at t >= tMax do not count.
   float offset = 0;        ///< Hit-list distance; 0 switches the hit list off, and `bias` is used alone.
-  float bias = 0;          ///< Without a hit list: hits at t <= bias do not count.
+  float bias = 0;          ///< Hits at t <= bias do not count for a ray without a hit list.
   float spread = 0;        ///< Radius of the ray's footprint for each unit of t (half the width of its differential).
   float radius = 0;        ///< The same radius at its origin.
   /// Shade group that the ray leaves; -1: unknown. It decides which of two walls that meet the ray leaves.
@@ -108,8 +108,9 @@ class RayScene {
   std::vector<vec3> transmission(const std::vector<Ray>& rays, const std::vector<SampleName>& names,
                                  const ShadingSystem& shading, const ShadeContext& context, int64_t& adjusted) const;
 
-  /// Indexed by group: 1 if it has a member in one of the sets of `subset` (all, if empty) and none in those of
-  /// `exclude`. Sets are separated by commas or spaces. Null: all groups. The result stays valid.
+  /// Returns a list indexed by group: 1 if the group has a member in one of the sets of `subset` (all, if empty) and
+  /// none in those of `exclude`. Sets are separated by commas or spaces. Returns null for all groups. The result stays
+  /// valid.
   const std::vector<uint8_t>* groupsIn(const std::string& subset, const std::string& exclude) const;
 
   /// Sets group, level, offset and bias of a ray of known spread and radius that leaves P on a micropolygon of this
@@ -118,7 +119,7 @@ class RayScene {
   /// (displacement bound included) and the micropolygon.
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;
 
-  /// Rays that left a group: how many there were, and how many had Hit::crowded.
+  /// The rays that left a group: how many there were, and how many had Hit::crowded.
   struct Starts {
     int64_t rays = 0, crowded = 0;
   };
@@ -134,8 +135,8 @@ class RayScene {
   bool samplesTime(int group) const;
   /// Tells the same of one ray.
   bool mayMeetMotion(const Ray& ray) const;
-  /// Position of a point of this group at a time of the shutter, from its position at shutter open and its drift
-  /// (kDriftX).
+  /// Returns the position of a point of this group at a time of the shutter, from its position at shutter open and its
+  /// drift (kDriftX).
   vec3 placeAt(int group, const vec3& atOpen, const vec3& drift, float time) const;
 
   /// Computes the radiance at hits towards the ray origins. All hits of one call are shaded together, a batch for each
@@ -158,10 +159,10 @@ class RayScene {
                       RayMask mask, const ShadingSystem& shading, const ShadeContext& context,
                       HitAnswers& answers) const;
   bool hasVolumes() const;
-  /// The share of light that passes through the Volumes along a ray up to tMax.
+  /// Returns the share of light that passes through the Volumes along a ray up to tMax.
   vec3 passedByVolumes(const Ray& ray, float tMax, RayMask mask) const;
 
-  /// The surfaces of area lights.
+  /// Returns the surfaces of area lights.
   const Emitters& emitters() const;
 
   const Scene& scene() const;

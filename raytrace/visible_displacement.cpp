@@ -65,11 +65,11 @@ NearPart nearestPart(const Object& o, const Camera& camera, uint32_t patch) {
   }
 }
 
-/// What the displacement does to a part of a patch.
+/// The effect of the displacement on a part of a patch.
 struct Probe {
   PatchOfObject at;
   UvRect part;
-  float amplitude_px = 0;    ///< The longest way of a point.
+  float amplitude_px = 0;    ///< The longest distance that it moves a point.
   float u_px = 0, v_px = 0;  ///< The longest lines along u and v of the smooth surface.
 };
 
@@ -100,7 +100,7 @@ Probe probed(const Scene& scene, const Camera& camera, const ShadingSystem& shad
   return out;
 }
 
-/// What the displacement does to the objects of a group.
+/// The effect of the displacement on the objects of a group.
 struct Relief {
   float amplitude_px = 0;
   std::vector<Probe> nearest;  ///< The near part of each patch that was probed.

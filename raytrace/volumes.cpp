@@ -38,13 +38,13 @@ vec3 Volumes::passed(const Ray& ray, float tMax, uint32_t mask) const {
   return depth == vec3(0) ? vec3(1) : glm::exp(-unitAlong(ray.direction) * depth);
 }
 
-// What is farthest away changes the light first. Volumes that overlap count as if the farther began where it leaves the
+// The farthest volume changes the light first. Volumes that overlap count as if the farther began where it leaves the
 // nearer.
 void Volumes::cross(const std::vector<Ray>& rays, const std::vector<float>& ends, const std::vector<SampleName>& names,
                     uint32_t mask, const ShadingSystem& shading, const ShadeContext& context,
                     HitAnswers& answers) const {
   std::vector<Crossing> all, ofTurn;
-  std::vector<size_t> first;  // of each ray
+  std::vector<size_t> first;  // index of each ray's first crossing
   for (size_t r = 0; r < rays.size(); ++r) {
     first.push_back(all.size());
     const Ray& ray = rays[r];

@@ -1,5 +1,5 @@
-// Private to raytrace: the Volumes of a scene, which rays cross (reyes/density.h). What they let through is exact; what
-// they scatter is for the volume shader to say.
+// Private to raytrace: the Volumes of a scene, which rays cross (reyes/density.h). Their transmission is computed
+// exactly; the volume shader decides the light that they scatter.
 #pragma once
 #include "raytrace/trace.h"
 #include "reyes/density.h"
@@ -11,7 +11,7 @@ class Volumes {
   Volumes(const Scene& scene, const ShadingSystem& shading);
 
   bool none() const { return list_.empty(); }
-  /// The share of light that passes along a ray up to tMax.
+  /// Returns the share of light that passes along a ray up to tMax.
   vec3 passed(const Ray& ray, float tMax, uint32_t mask) const;
   /// Implements RayScene::throughVolumes().
   void cross(const std::vector<Ray>& rays, const std::vector<float>& ends, const std::vector<SampleName>& names,
@@ -23,7 +23,7 @@ class Volumes {
     int group;
     uint32_t mask;
     mat4 objectFromCurrent;
-    vec3 extinction;  ///< For each unit of density and of the world's length.
+    vec3 extinction;  ///< Extinction for each unit of density and of length in the world.
   };
   /// A ray in one Volume.
   struct Crossing {

@@ -14,7 +14,7 @@ class Camera {
 
   int xResolution() const { return xResolution_; }
   int yResolution() const { return yResolution_; }
-  /// The pixels of CropWindow (RISpec: abutting windows tile exactly).
+  /// Returns the pixels of CropWindow (RISpec: abutting windows tile exactly).
   PixelRect crop() const { return crop_; }
   bool perspective() const { return perspective_; }
   float nearClip() const { return near_; }
@@ -23,25 +23,26 @@ class Camera {
   /// Geometry nearer than this cannot be diced. It is half as far as the near plane, so that surfaces that the near
   /// plane cuts can be.
   float eyePlane() const { return 0.5f * near_; }
-  /// Is the point finite, and not nearer than the eye plane? Then `raster` is defined, and so is the depth key.
+  /// Tells whether the point is finite, and not nearer than the eye plane. Then `raster` is defined, and so is the
+  /// depth key.
   bool seeable(const vec3& p) const {
     // A branch would keep it from being vectorised.
     const float nearest = perspective_ ? eyePlane() : -FLT_MAX;
     return (std::abs(p.x) <= FLT_MAX) & (std::abs(p.y) <= FLT_MAX) & (p.z >= nearest) & (p.z <= FLT_MAX);
   }
-  /// Raster x, y. Pre: p.z > 0 under perspective.
+  /// Returns raster x, y. Pre: p.z > 0 under perspective.
   vec2 raster(const vec3& p) const {
     const float w = perspective_ ? 1.0f / p.z : 1.0f;
     return {offset_.x + scale_.x * p.x * w, offset_.y + scale_.y * p.y * w};
   }
-  /// Is a point cut off by near or far clipping or a clipping plane? It is not tested against the window.
+  /// Tells whether near or far clipping or a clipping plane cuts off a point. It is not tested against the window.
   bool clips(const vec3& p) const;
   /// Tests the same of the point that a sample at raster position `at` meets at a depth key. `lens` is the raster shift
   /// of its lens point at a key of focusKey() + 1.
   bool clips(const vec2& at, const vec2& lens, float key) const;
-  /// A depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
+  /// Returns a depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
-  /// The least depth key of points that are no nearer than z and not clipped; z may lie behind the eye.
+  /// Returns the least depth key of points that are no nearer than z and not clipped; z may lie behind the eye.
   float leastDepthKey(float z) const { return perspective_ ? -1.0f / std::max(z, near_) : z; }
   float zFromDepthKey(float key) const { return perspective_ ? -1.0f / key : key; }
 
@@ -61,15 +62,16 @@ class Camera {
   /// nearer than `nearClip`, beyond `farClip` or a clipping plane; defocus included. It works for boxes that cross the
   /// eye plane.
   bool outside(const Bound3& b, const PixelRect& window) const;
-  /// Tests the same without `farClip` and clipping planes: does no line of sight through the window meet the box?
+  /// Does the same without `farClip` and clipping planes: it tells whether no line of sight through the window meets
+  /// the box.
   bool outsideWindow(const Bound3& b, const PixelRect& window) const;
 
-  /// Width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle along
-  /// the slope gives the projected area of approximate-gi section 4.5.
+  /// Returns the width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle
+  /// along the slope gives the projected area of approximate-gi section 4.5.
   float pixelSize(const vec3& p) const { return perspective_ ? glm::length(p) * pixelSizeAtUnit_ : pixelSizeAtUnit_; }
-  /// Unit direction from the eye to p (orthographic: +z). RSL's I is not normalised; see `incident`.
+  /// Returns the unit direction from the eye to p (orthographic: +z). RSL's I is not normalised; see `incident`.
   vec3 incident(const vec3& p) const { return perspective_ ? p : vec3(0, 0, 1); }
-  /// Ray through raster position r: origin and unit direction in camera space.
+  /// Returns the ray through raster position r: origin and unit direction in camera space.
   void ray(const vec2& r, vec3& origin, vec3& direction) const;
 
  private:

@@ -4,7 +4,8 @@
 
 namespace tomales {
 
-/// The space that the object may fill during its motion, in camera space. Empty if it has no shapes (hasGeometry()).
+/// Returns the space that the object may fill during its motion, in camera space. Empty if it has no shapes
+/// (hasGeometry()).
 Bound3 cameraBound(const Object& object);
 
 }  // namespace tomales

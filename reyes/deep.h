@@ -19,8 +19,9 @@ namespace tomales {
 struct Facet {
   int batch;  ///< Index in DeepTile::batches.
   int point[4];
-  bool matte = false;  ///< As Attributes::matte: the facet hides what is behind it and leaves no colour and no alpha.
-  float edge = 0;      ///< Edge length kept by DeepTile::forgetPoints(); read it by edgeOf().
+  /// True if Attributes::matte is set: the facet hides what is behind it and leaves no colour and no alpha.
+  bool matte = false;
+  float edge = 0;  ///< Edge length kept by DeepTile::forgetPoints(); read it by edgeOf().
 };
 
 /// The samples of one pixel that see one facet.
@@ -37,8 +38,8 @@ struct Fragment {
     u = static_cast<uint8_t>(part.x);
     v = static_cast<uint8_t>(part.y);
   }
-  /// The weights of a facet's four points in the middle of that part. They are exact in floats and sum to 1 exactly, so
-  /// that what is opaque at all corners is opaque between them.
+  /// Returns the weights of a facet's four points in the middle of that part. They are exact in floats and sum to 1
+  /// exactly, so that a facet that is opaque at all corners is opaque between them.
   std::array<float, 4> cornerWeights() const {
     const vec2 at = (vec2(u, v) + 0.5f) / 256.0f, rest = 1.0f - at;
     return {rest.x * rest.y, at.x * rest.y, rest.x * at.y, at.x * at.y};
@@ -61,7 +62,7 @@ struct DeepTile {
   const DeepPixel& pixel(int x, int y) const {
     return pixels[static_cast<size_t>((y - rect.y0) * rect.width() + (x - rect.x0))];
   }
-  /// Length of the facet's longer edge, in current space.
+  /// Returns the length of the facet's longer edge, in current space.
   float edgeOf(const Facet& facet) const {
     const ShadePoints& batch = batches[static_cast<size_t>(facet.batch)];
     return batch.count() > 0 ? batch.edgeLength(facet.point[0]) : facet.edge;
@@ -73,7 +74,7 @@ struct DeepTile {
   void forgetPoints();
 };
 
-/// A copy of a shaded tile as forgetPoints() leaves it.
+/// Returns a copy of a shaded tile as forgetPoints() leaves it.
 DeepTile withoutPoints(const DeepTile& tile);
 
 /// The most tiles that a frame may have, which 32768 x 32768 pixels in buckets of 8 x 8 reach.

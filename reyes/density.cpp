@@ -15,7 +15,7 @@ size_t within(const ivec3& point) {
   return static_cast<size_t>((((point.x & kMask) << kShift | (point.y & kMask)) << kShift) | (point.z & kMask));
 }
 
-/// The piece that ends at `next`, up to a share of it.
+/// Returns the piece that ends at `next`, up to a share of it.
 DensityWay::Place inPiece(const DensityWay::Knot* next, float distance, float amount) {
   const float length = next->distance - (next - 1)->distance, holds = next->amount - (next - 1)->amount;
   return {distance, amount, length > 0 ? holds / length : 0};

@@ -1,6 +1,6 @@
-// Noun: how dense a Volume is, over its object space: a lattice of numbers, linear between its points, of which only
-// bricks that hold something are kept. The same bits for any machine and thread.
-// Threads: built by one thread; const members may be called concurrently.
+// Noun: the density of a Volume over its object space. It is a lattice of numbers, linear between its points, of which
+// only bricks that hold something are kept. It gives the same bits for any machine and thread. Threads: built by one
+// thread; const members may be called concurrently.
 #pragma once
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace tomales {
 
-/// What lies along a ray, piece by piece: within each piece the density is even.
+/// The density along a ray, piece by piece: within each piece it is constant.
 struct DensityWay {
   struct Knot {
     float distance, amount;
@@ -35,19 +35,19 @@ class DensityGrid {
 
   /// Tells how many bytes the table of bricks takes for such a lattice.
   static double tableBytes(const ivec3& first, const ivec3& last);
-  /// The values of the brick that holds a point, z fastest. It is made if there is none.
+  /// Returns the values of the brick that holds a point, z fastest. It is made if there is none.
   float* brickAt(const ivec3& point);
   void set(const ivec3& point, float value);
-  /// To be called when all bricks are filled. Negative values, infinities and NaN become 0; returns how many.
+  /// Call this when all bricks are filled. Negative values, infinities and NaN become 0; returns how many.
   size_t finish();
 
   const Bound3& bound() const { return bound_; }
   float at(const ivec3& point) const;
 
-  /// Adds what lies along a ray of object space: origin + t direction, from t0 to t1. The amount is the integral of the
-  /// density over t times `unit`, and distances are t times `unit` from t0 on.
+  /// Adds the density along a ray of object space: origin + t direction, from t0 to t1. The amount is the integral of
+  /// the density over t times `unit`, and distances are t times `unit` from t0 on.
   void cross(const vec3& origin, const vec3& direction, float t0, float t1, float unit, DensityWay& out) const;
-  /// The amount alone, as cross() finds it.
+  /// Returns the amount alone, as cross() finds it.
   float amount(const vec3& origin, const vec3& direction, float t0, float t1) const;
 
   size_t bytes() const { return values_.capacity() * sizeof(float) + brickOf_.capacity() * sizeof(int32_t); }
@@ -61,8 +61,9 @@ class DensityGrid {
   ivec3 first_, bricks_;  ///< first_: the first brick, in bricks.
   mat4 indexFromObject_;
   Bound3 bound_;
-  std::vector<int32_t> brickOf_;   ///< Indexed by brick, z fastest: its number among those in `values_`; -1: none.
-  std::vector<uint8_t> occupied_;  ///< The same for the cells that begin in each brick: some corner of them is dense.
+  std::vector<int32_t> brickOf_;  ///< Indexed by brick, z fastest: its number among those in `values_`; -1: none.
+  /// Indexed by brick: 1 if some corner of the cells that begin in the brick is dense.
+  std::vector<uint8_t> occupied_;
   std::vector<float> values_;
 };
 

@@ -52,7 +52,7 @@ class DfbFile {
   static std::unique_ptr<DfbFile> open(const std::string& path, std::string& error);
 
   const Shot& shot() const { return shot_; }
-  /// Checksum of the shot, which files made for it carry.
+  /// Returns the checksum of the shot, which files made for it carry.
   uint64_t shotSum() const { return shotSum_; }
   /// Returns nothing if the tile cannot be read, and `error` says what is wrong.
   std::optional<DeepTile> tile(size_t index, std::string& error) const;

@@ -4,12 +4,12 @@
 
 namespace tomales {
 
-/// Has the scene options that only BMRT has ("radiosity", "render" "max_raylevel", "minshadowbias", "use_hierarchy") or
-/// its attributes ("render", "radiosity"), and none of those that only PRMan has ("limits" "bucketsize", "gridsize",
-/// "eyesplits")? A scene for both says nothing.
+/// Tells whether the scene has options that only BMRT has ("radiosity", "render" "max_raylevel", "minshadowbias",
+/// "use_hierarchy") or its attributes ("render", "radiosity"), and none of those that only PRMan has ("limits"
+/// "bucketsize", "gridsize", "eyesplits"). It is false for a scene for both.
 bool isMadeForBmrt(const Scene& scene);
 
-/// The word that an option of that name has. Empty if neither the scene nor the command line gives one.
+/// Returns the word that an option of that name has. Empty if neither the scene nor the command line gives one.
 std::string wordOf(const Options& options, const std::string& key);
 
 }  // namespace tomales

@@ -28,10 +28,10 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
 /// keys: how many of the object's keyTimes to evaluate, with the camera's motion (all, or 1 for shutter open).
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys);
 
-/// A point of the true surface at shutter open, in current space, with derivatives by the patch's own u and v.
+/// A point of the true surface at shutter open, in current space, with the derivatives by the patch's own u and v.
 struct TrueSurface {
   vec3 P, dPdu, dPdv;
-  vec3 normal;  ///< On the side that RISpec defines, not normalised; 0 where it is not defined.
+  vec3 normal;  ///< Normal on the side that RISpec defines, not normalised; 0 where it is not defined.
 };
 TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, float v);
 

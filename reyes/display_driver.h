@@ -11,10 +11,11 @@ namespace tomales {
 /// Returns the path of a driver that comes with the program, or an empty string if there is none of this type.
 std::string suppliedDriver(const std::string& type);
 
-/// What a driver is told when it opens a picture.
+/// The facts that a driver is told when it opens a picture.
 struct DriverPicture {
-  std::string name, mode;                                                  ///< As the Display gives them.
-  int width = 0, height = 0, x = 0, y = 0, fullWidth = 0, fullHeight = 0;  ///< As in TmDisplayPicture.
+  /// The name and mode that the Display gives.
+  std::string name, mode;
+  int width = 0, height = 0, x = 0, y = 0, fullWidth = 0, fullHeight = 0;  ///< The fields of TmDisplayPicture.
   float pixelAspect = 1;
   std::vector<std::string> channels;
   ParamList params;
@@ -38,7 +39,7 @@ class DisplayDriver {
 
   bool failed() const;
   const std::string& error() const;
-  /// Names of parameters that the driver has not read.
+  /// Returns the names of parameters that the driver has not read.
   const std::vector<std::string>& unread() const;
 
  private:

@@ -22,12 +22,12 @@ struct FrameControl {
   /// Set from a signal handler: running buckets are given up, and the pass returns.
   const std::atomic<bool>* cancelled = nullptr;
   uint32_t seed = 0;
-  PluginTrust trust{};  ///< Where display drivers may be loaded from.
+  PluginTrust trust{};  ///< Decides where display drivers may be loaded from.
 };
 
 /// Receives hidden tiles, from any thread.
 struct TileSink {
-  /// Is the tile there already, so that it need not be hidden? If this function is empty, no tile is.
+  /// Tells whether the tile is there already, so that it need not be hidden. If this function is empty, no tile is.
   std::function<bool(size_t tile)> has;
   std::function<void(size_t tile, DeepTile&&)> take;
   /// Returns the tile if an interrupted run has left it. May be empty.
@@ -41,7 +41,7 @@ struct ShadeSteps {
   std::function<void(size_t index, DeepTile&& tile)> take;  ///< The tile is shaded, and its points are still there.
 };
 
-/// The layout of a frame's buckets, without tiles.
+/// Returns the layout of a frame's buckets, without tiles.
 DeepFrame layOutFrame(const Scene& scene);
 
 /// Hides the buckets of a frame, some at a time.
@@ -66,7 +66,7 @@ bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, co
                Log& log, const TileSink& sink);
 DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
 
-/// The tiles that the picture of frame.crop needs, in bucket order.
+/// Returns the tiles that the picture of frame.crop needs, in bucket order.
 std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options);
 /// Runs surface shaders, lights and atmosphere over the points of a tile.
 void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context);
@@ -83,12 +83,12 @@ using TilePlace = std::function<void(size_t index, DeepTile&& tile)>;
 using TileFill = std::function<void(std::span<const uint32_t> tiles, const TilePlace& place)>;
 /// Receives the rows that go to the Displays. May be empty.
 using RowViewer = std::function<void(const Image& rows)>;
-/// Asks for the tiles that the next rows of the picture need, each once, in bands of rows from the top and there column
-/// by column, and drops tiles that no row needs any more. A Display that cannot be written is reported; the other
-/// Displays are written all the same.
+/// Writes the picture. It asks for the tiles that the next rows need, each once, in bands of rows from the top and
+/// there column by column, and drops tiles that no row needs any more. A Display that cannot be written is reported;
+/// the other Displays are written all the same.
 void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene,
                 const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
-/// The same rows for the viewer alone, before exposure and imager, and no files.
+/// Makes the same rows for the viewer alone, before exposure and imager, and writes no files.
 void showFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Options& options,
                const FrameControl& control);
 

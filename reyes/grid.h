@@ -36,13 +36,13 @@ struct Grid {
   int pieceCount() const { return static_cast<int>(pieces.size()); }
   int verticesOfPiece() const { return (nu + 1) * (nv + 1); }
   int vertexCount() const { return pieceCount() * verticesOfPiece(); }
-  /// Number of micropolygons.
+  /// Returns the number of micropolygons.
   int cellCount() const { return pieceCount() * nu * nv; }
-  /// Upper limit of cell numbers.
+  /// Returns the upper limit of cell numbers.
   int cellNumbers() const { return (pieceCount() * (nv + 1) - 1) * nu; }
   bool isCell(int number) const { return number / nu % (nv + 1) != nv; }
   int pieceOfCell(int number) const { return number / (nu * (nv + 1)); }
-  /// The cell's number if its piece were alone.
+  /// Returns the number that the cell would have if its piece were alone.
   int cellInPiece(int number) const { return number % (nu * (nv + 1)); }
   int stride() const { return padded(vertexCount()); }
 

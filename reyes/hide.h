@@ -21,14 +21,16 @@ class SamplePattern {
   int padded() const { return padded_; }
   int patternCount() const { return patterns_; }  ///< There are so many that no repetition is seen.
   int patternOf(int x, int y) const;
-  const float* x(int pattern) const { return of(x_, pattern); }  ///< In [0,1) inside the pixel; padded() floats.
+  /// Returns numbers in [0,1) inside the pixel; padded() floats.
+  const float* x(int pattern) const { return of(x_, pattern); }
   const float* y(int pattern) const { return of(y_, pattern); }
-  const float* time(int pattern) const { return of(time_, pattern); }    ///< In [0,1) of the shutter.
-  const float* lensX(int pattern) const { return of(lensX_, pattern); }  ///< In the unit disk, over the aperture.
+  const float* time(int pattern) const { return of(time_, pattern); }  ///< Returns numbers in [0,1) of the shutter.
+  /// Returns positions in the unit disk, over the aperture.
+  const float* lensX(int pattern) const { return of(lensX_, pattern); }
   const float* lensY(int pattern) const { return of(lensY_, pattern); }
   const float* detail(int pattern) const {
     return of(detail_, pattern);
-  }  ///< In [0,1), compared with DetailShare; those of a pixel are stratified.
+  }  ///< Returns numbers in [0,1), compared with DetailShare; those of a pixel are stratified.
 
  private:
   const float* of(const AlignedVector<float>& values, int pattern) const {
@@ -82,8 +84,8 @@ struct RasterGrid : RasterExtent {
   /// PatchEdge bits of each piece: borders that were pushed out, as neighbours may have other vertices there; empty:
   /// none.
   std::vector<uint8_t> reaching;
-  /// Four of each piece, in the order of PatchEdge: they end its cells there instead of the cells' own edges; empty:
-  /// none does.
+  /// Four lines of each piece, in the order of PatchEdge. They end its cells there instead of the cells' own edges.
+  /// Empty: there are none.
   std::vector<BorderLine> lines;
   const Prim* trim = nullptr;  ///< The shape whose trim curves cut Kept::Part cells (Grid::kept); null: nothing is cut.
   float trimReach_px = 0;      ///< Trimmed surfaces reach this much farther, to meet their neighbours.
@@ -91,7 +93,7 @@ struct RasterGrid : RasterExtent {
 /// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; a grid of several pieces is still, in focus
 /// and not part of a solid. zMin: the z before which nothing hides the grid, if its object is visited whole: that
 /// of its solid, or -infinity. pool: provides the memory.
-/// opaque: whether its shaders make it so; with the midpoint filter it hides nothing all the same.
+/// opaque: true if its shaders make it so; with the midpoint filter it hides nothing all the same.
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera,
                                           bool opaque, float zMin = kInfinity,
                                           const std::shared_ptr<Pool>& pool = nullptr);
@@ -114,9 +116,9 @@ class Hider {
   /// All arguments but `rect` must outlive the Hider.
   Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect);
   ~Hider();
-  /// Is every sample in the bound already hidden by something opaque nearer than zMin (camera space)?
+  /// Tells whether something opaque nearer than zMin (camera space) hides every sample in the bound already.
   bool hidden(const Bound2& raster, float zMin) const;
-  /// Asks the same of a projected grid. If it is hidden, insert() would find nothing to do.
+  /// Tells the same of a projected grid. If it is hidden, insert() would find nothing to do.
   bool hidden(const RasterExtent& extent) const;
   void insert(const std::shared_ptr<const RasterGrid>& grid);
   /// Collects visible micropolygons into points to shade. The Hider cannot be used after it.

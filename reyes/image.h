@@ -110,7 +110,7 @@ class FrameFilter {
 };
 Image filterFrame(const DeepFrame& frame, const Options& options, const SampleOffsets& samples);
 
-/// Number of pixels beyond the crop window that some channel's filter reaches.
+/// Returns the number of pixels beyond the crop window that some channel's filter reaches.
 vec2 filterReach(const Options& options);
 /// Reports displays, channels and filters that are not understood. Returns false if some filter is unknown.
 bool checkDisplays(const Options& options, Log& log);
@@ -123,13 +123,14 @@ void expose(Image& image, const Options& options);
 /// along Option "searchpath" "display".
 std::string driverOf(const DisplayCall& display, const Options& options, const PluginTrust& trust);
 
-/// The path of a Display's file: its name, with an extension where type and name leave the format open (RISpec's
-/// "ri.pic" does). Pre: no driver takes the Display.
+/// Returns the path of a Display's file: its name, with an extension where type and name leave the format open
+/// (RISpec's "ri.pic" does). Pre: no driver takes the Display.
 std::string fileOf(const DisplayCall& display);
-/// The name, without its folder, of a file that stands in for a picture that is not whole: a.partial.exr for a.exr.
+/// Returns the name, without its folder, of a file that stands in for a picture that is not whole: a.partial.exr for
+/// a.exr.
 std::string partialName(const std::string& path);
-/// Names of texts in headers that say which picture it is: what all of it depends on, the shot that it was shaded from,
-/// and the crop window that light was gathered for (docs/formats.md).
+/// Names of texts in headers that identify a picture: the sum of all that it depends on, the shot that it was shaded
+/// from, and the crop window that light was gathered for (docs/formats.md).
 inline constexpr const char *kContents = "tomales:contents", *kShot = "tomales:shot", *kGathered = "tomales:gathered";
 /// The header's text that tells which share of its buckets a picture holds: kAllFinished, or less where the frame was
 /// interrupted. DisplayFile::close() writes the share over it.
@@ -157,7 +158,7 @@ class DisplayFile {
   /// Gives the file its name. `finished`: the share of the buckets that it holds. A picture with less than 1 leaves
   /// what has that name alone: it becomes NAME.partial.exr, which is reported.
   bool close(float finished = 1);
-  /// The name that close() has given to the file, or that a driver has got.
+  /// Returns the name that close() has given to the file, or that a driver has got.
   const std::string& written() const;
 
  private:
@@ -182,9 +183,9 @@ void replaceChannels(const std::string& picture, const std::string& output, cons
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
 /// Colours are encoded as sRGB if `srgb` is set and the format holds integers.
 bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log);
-/// Does the name's extension say a format that can be written?
+/// Tells whether the name's extension stands for a format that can be written.
 bool namesPicture(const std::string& path);
-/// Does the extension say a format whose readers expect colours that are encoded for a screen?
+/// Tells whether the extension stands for a format whose readers expect colours that are encoded for a screen.
 bool isForScreens(const std::string& path);
 /// A format of pictures: what a Display and the name of its file may say of it.
 struct DisplayFormat {
@@ -196,9 +197,9 @@ std::string pictureExtensions();  ///< The extensions of all formats, for messag
 std::string pictureNames();       ///< The form of names of pictures, for help: "FILE.exr|.tif|.png".
 std::optional<Image> readImage(const std::string& path, std::string& error);
 
-/// Smudges are looked for in blocks of so many pixels along an edge.
+/// Length of an edge, in pixels, of the blocks in which smudges are looked for.
 inline constexpr std::array kSmudgeSizes{8, 16, 32, 64};
-/// Is a block of pixels that should have this mean luminance and variance even enough to show smudges?
+/// Tells whether a block of pixels that should have this mean luminance and variance is even enough to show smudges.
 inline bool isSmooth(double mean, double variance) {
   constexpr double kMostDeviation = 0.1;  // root mean square over the mean
   return mean > 0 && variance <= kMostDeviation * kMostDeviation * mean * mean;

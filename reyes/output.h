@@ -9,8 +9,8 @@
 
 namespace tomales {
 
-/// How the samples around a pixel become its value. Filter: the weighted mean. The others use the samples that see a
-/// surface: the value of the nearest or the farthest one, the least or the greatest value, the plain mean.
+/// The way in which the samples around a pixel become its value. Filter: the weighted mean. The others use the samples
+/// that see a surface: the value of the nearest or the farthest one, the least or the greatest value, the plain mean.
 enum class Reduce : uint8_t { Filter, ZMin, ZMax, Min, Max, Average };
 
 struct Sampling {
@@ -29,11 +29,11 @@ struct Variable {
   SourceLoc where;  ///< Location of the request that asks for it.
 };
 
-/// Names what a group of lights brings.
+/// Prefix of the variables that hold the light of a group of lights.
 constexpr std::string_view kLightGroup = "lightgroup:";
 
 inline bool isMatte(ChannelKind kind) { return kind == ChannelKind::Objects || kind == ChannelKind::Materials; }
-/// Names of Cryptomatte layers.
+/// Returns the name of a Cryptomatte layer.
 inline const char* matteLayer(ChannelKind kind) {
   return kind == ChannelKind::Objects ? "CryptoObject" : "CryptoMaterial";
 }
@@ -68,11 +68,11 @@ using Selection = std::vector<SelectedFloat>;
 struct FrameOutput {
   std::vector<Variable> variables;
   std::vector<Channel> channels;
-  std::vector<Selection> displays;  ///< In the order of Options::displays.
+  std::vector<Selection> displays;  ///< Indexed as Options::displays.
   int floatsPerPoint = 0;           ///< Floats of all variables.
   int floatsPerPixel = 5;           ///< Floats of all channels.
   bool shades = true;               ///< False if only depth is wanted, so that opaque surfaces need no shader.
-  /// Names of the floats of a pixel of the frame's picture, in order.
+  /// Returns the names of the floats of a pixel of the frame's picture, in order.
   std::vector<std::string> names() const;
 };
 
@@ -82,11 +82,12 @@ bool shades(const Options& options);
 /// Reports channels that are not declared, and parameters that are not understood, if `log` is given.
 FrameOutput outputOf(const Options& options, Log* log = nullptr);
 
-/// Does the Display write a map for later frames and show nothing, as types "shadow", "zfile" and "deepshad" do?
+/// Tells whether the Display writes a map for later frames and shows nothing, as types "shadow", "zfile" and "deepshad"
+/// do.
 bool writesMap(const DisplayCall& display);
-/// Does it write such a map of one depth for each pixel, as types "shadow" and "zfile" do?
+/// Tells whether it writes such a map of one depth for each pixel, as types "shadow" and "zfile" do.
 bool writesShadowMap(const DisplayCall& display);
-/// Does it write a list of depths for every pixel, as types "deepshad" and "deepexr" do?
+/// Tells whether it writes a list of depths for every pixel, as types "deepshad" and "deepexr" do.
 bool writesDeep(const DisplayCall& display);
 
 }  // namespace tomales

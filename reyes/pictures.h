@@ -98,7 +98,7 @@ class TextureCache {
   /// type and textureformat into `text`. False: there is no such picture or no such fact.
   virtual bool info(const std::string& name, const std::string& what, std::vector<float>& numbers,
                     std::string& text) = 0;
-  /// Returns what any cache has counted since the last call: all caches of the process share their tiles.
+  /// Returns the figures that all caches have counted since the last call. All caches of the process share their tiles.
   virtual TextureFigures takeFigures() = 0;
 };
 

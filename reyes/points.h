@@ -22,35 +22,35 @@ inline void set(TmVec3 a, int i, const vec3& v) {
 enum PointChannel : int {
   kPx,
   kPy,
-  kPz,  ///< position
+  kPz,  ///< Position.
   kNx,
   kNy,
-  kNz,  ///< shading normal on RISpec's side, not flipped towards the viewer, unit length
+  kNz,  ///< Shading normal on RISpec's side, not flipped towards the viewer, unit length.
   kNgx,
   kNgy,
-  kNgz,  ///< geometric normal, unit length
+  kNgz,  ///< Geometric normal, unit length.
   kIx,
   kIy,
-  kIz,  ///< incident direction: from the eye or ray origin to P (orthographic: +z), not normalised
+  kIz,  ///< Incident direction: from the eye or ray origin to P (orthographic: +z), not normalised.
   kDpduX,
   kDpduY,
   kDpduZ,
   kDpdvX,
   kDpdvY,
-  kDpdvZ,  ///< derivatives of P by the shader's u and v
+  kDpdvZ,  ///< Derivatives of P by the shader's u and v.
   kU,
   kV,
   kS,
   kT,
   kDu,
   kDv,
-  kArea,  ///< area of the micropolygon, or of the ray's footprint
-  /// share of the shutter, 0..1, at which the point is seen (its P is that at shutter open); negative: it is seen over
-  /// the whole shutter
+  kArea,  ///< Area of the micropolygon, or of the ray's footprint.
+  /// Share of the shutter, 0..1, at which the point is seen (its P is that at shutter open); negative: it is seen over
+  /// the whole shutter.
   kTime,
   kDriftX,
   kDriftY,
-  kDriftZ,  ///< motion by deformation over the shutter; ShadeGroup::currentFromOpen adds that of the transformation
+  kDriftZ,  ///< Motion by deformation over the shutter; ShadeGroup::currentFromOpen adds that of the transformation.
   kFixedChannels
 };
 
@@ -112,12 +112,12 @@ class ShadePoints {
   TmConstVec3 vec(int c) const { return {channel(c), channel(c + 1), channel(c + 2)}; }
 
   vec3 position(int i) const { return get3(kPx, i); }
-  /// The shading normal turned to the side that the viewer sees (RSL faceforward(N, I)).
+  /// Returns the shading normal turned to the side that the viewer sees (RSL faceforward(N, I)).
   vec3 facingNormal(int i) const {
     const vec3 n = get3(kNx, i);
     return dot(get3(kIx, i), get3(kNgx, i)) > 0 ? -n : n;
   }
-  /// Length of the longer edge of the micropolygon that the point stands for; 0 at ray hits.
+  /// Returns the length of the longer edge of the micropolygon that the point stands for; 0 at ray hits.
   float edgeLength(int i) const {
     return std::max(glm::length(get3(kDpduX, i)) * std::abs(channel(kDu)[i]),
                     glm::length(get3(kDpdvX, i)) * std::abs(channel(kDv)[i]));

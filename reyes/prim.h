@@ -30,8 +30,8 @@ struct UvRect {
 /// Bits for the four edges of a patch, in the order of PatchInfo::openEdges.
 enum PatchEdge : uint8_t { kEdgeU0 = 1, kEdgeU1 = 2, kEdgeV0 = 4, kEdgeV1 = 8, kAllEdges = 15 };
 
-/// The two of what belongs to the corners (RISpec's order) that belong to the ends of an edge, in the direction of u or
-/// v.
+/// Returns those two of the values at four corners (in RISpec's order) that lie at the ends of an edge, in the
+/// direction of u or v.
 template <class T>
 std::array<T, 2> endsOf(const std::array<T, 4>& corners, PatchEdge edge) {
   const size_t from = edge == kEdgeU1 ? 1 : edge == kEdgeV1 ? 2 : 0, to = edge == kEdgeU0 ? 2 : edge == kEdgeV0 ? 1 : 3;
@@ -66,8 +66,8 @@ struct Primvar {
   std::vector<float> values;
 };
 
-/// Offset of a variable among the floats of a point, which has those of all variables in their order; -1 if none has
-/// that name.
+/// Returns the offset of a variable among the floats of a point, which has those of all variables in their order; -1 if
+/// none has that name.
 int offsetOf(const std::vector<Primvar>& primvars, std::string_view name);
 
 /// A whole sphere, or a whole flat disk.
@@ -84,13 +84,14 @@ class Prim {
   virtual uint32_t patchCount() const = 0;
   virtual PatchInfo info(uint32_t patch) const = 0;
 
-  /// Contains every point of the rectangle (conservative), and the vertices of any lattice over a whole patch.
+  /// Returns a box that contains every point of the rectangle, and the vertices of any lattice over a whole patch. It
+  /// is conservative.
   virtual Bound3 bound(uint32_t patch, const UvRect& rect) const = 0;
 
   virtual void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const = 0;
 
-  /// The vertices of a lattice of nu x nv over a whole patch, rows along u. It is like evaluate(), except that a small
-  /// round shape pushes them outward, so that its few polygons have the area of the true shape.
+  /// Writes the vertices of a lattice of nu x nv over a whole patch, rows along u. It is like evaluate(), except that a
+  /// small round shape pushes them outward, so that its few polygons have the area of the true shape.
   virtual void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v,
                                SurfacePoints out) const {
     evaluate(patch, (nu + 1) * (nv + 1), u, v, out);
@@ -103,7 +104,7 @@ class Prim {
   virtual void interpolate(uint32_t patch, int index, int n, const float* u, const float* v, float* out,
                            int stride) const = 0;
 
-  /// The shape as a whole, if it is a sphere or a disk.
+  /// Returns the shape as a whole, if it is a sphere or a disk.
   virtual std::optional<RoundShape> round() const { return std::nullopt; }
 
   /// Turns points and curves towards an eye that they face: `eye` is a position if `perspective`, else only the
@@ -112,32 +113,32 @@ class Prim {
     return nullptr;
   }
 
-  /// The part of a rectangle that trim curves keep; it may reach beyond the patch. Returns `Part` if in doubt.
+  /// Returns the part of a rectangle that trim curves keep; it may reach beyond the patch. Returns `Part` if in doubt.
   virtual Kept kept(uint32_t /*patch*/, const UvRect& /*rect*/) const { return Kept::All; }
-  /// Is this point kept by trim curves?
+  /// Tells whether trim curves keep this point.
   virtual bool keeps(uint32_t /*patch*/, float /*u*/, float /*v*/) const { return true; }
 
-  /// True for particles and ribbons, which no other surface continues: their open edges end at their vertices.
+  /// Returns true for particles and ribbons, which no other surface continues: their open edges end at their vertices.
   virtual bool isLone() const { return false; }
-  /// The ends, in the direction of u or v, of the straight line that an edge of a patch is on, in object space. The
-  /// line may go on beyond the patch: its ends are points that another surface is likely to have as well. Returns
+  /// Returns the ends, in the direction of u or v, of the straight line that an edge of a patch is on, in object space.
+  /// The line may go on beyond the patch: its ends are points that another surface is likely to have as well. Returns
   /// nothing if the edge is not known to be straight.
   virtual std::optional<std::array<vec3, 2>> straightEdge(uint32_t /*patch*/, PatchEdge /*edge*/) const {
     return std::nullopt;
   }
 
-  /// What fills the box, if the shape is a Volume.
+  /// Returns the density that fills the box, if the shape is a Volume.
   virtual const DensityGrid* density() const { return nullptr; }
 
-  /// Approximate memory of the primitive.
+  /// Returns the approximate memory of the primitive.
   size_t bytes() const;
 
-  /// All variables except P, in a fixed order. "st" is split into "s" and "t".
+  /// Returns all variables except P, in a fixed order. "st" is split into "s" and "t".
   const std::vector<Primvar>& primvars() const { return primvars_; }
 
  protected:
   explicit Prim(std::vector<Primvar> primvars) : primvars_(std::move(primvars)) {}
-  /// Memory besides the primvars.
+  /// Returns the memory besides the primvars.
   virtual size_t shapeBytes() const { return 0; }
   template <class T>
   static size_t bytesOf(const std::vector<T>& v) {
@@ -171,9 +172,9 @@ PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const Param
 PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees, float thetaMax_degrees,
                   const ParamList&, Problems&);
 
-/// What RIB must know of a quadric: its request, the numbers before its parameter list, and the numbers that leave
-/// nothing of it (which is no error while they move). One entry of quadrics() in reyes/prim/quadrics.cpp is all that
-/// RIB needs for a new one; plugins call it by reyes/ri.h.
+/// The facts that RIB must know of a quadric: its request, the numbers before its parameter list, and the numbers that
+/// leave nothing of it (which is no error while they move). A new one needs one entry of quadrics() in
+/// reyes/prim/quadrics.cpp and nothing else in RIB; plugins call it by reyes/ri.h.
 struct Quadric {
   std::string_view name;
   int numberCount;
@@ -255,10 +256,10 @@ PrimPtr makeTubes(bool cubic, const Basis& basis, const std::vector<int>& vertex
 /// Newell's teapot, 3.15 high, on z = 0 with its spout towards x. Primvars run over every patch in the same way.
 PrimPtr makeTeapot(const ParamList&, Problems&);
 
-/// The box of a density, whose normals point outwards.
+/// Returns the box of a density, whose normals point outwards.
 PrimPtr makeVolume(std::shared_ptr<const DensityGrid> density, Problems&);
 
-/// A depth picture, seen by its camera, whose surfaces repel a Blobby.
+/// A depth picture, seen by its camera. Its surfaces repel a Blobby.
 struct GroundPicture {
   int width = 0, height = 0;
   std::vector<float> depth;  ///< Row by row; infinite where there is no surface.
@@ -268,12 +269,12 @@ struct GroundPicture {
 /// Reads the picture named by a string of the request. It reports one that cannot be read and returns nothing.
 using GroundReader = std::function<std::optional<GroundPicture>(int string)>;
 
-/// The surface where a field, made of leaves and operations on them, is 27/64. `code` and `floats` are as in RIB
-/// (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
+/// Returns the surface where a field, made of leaves and operations on them, is 27/64. `code` and `floats` are as in
+/// RIB (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
 PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const GroundReader&,
                    const ParamList&, Problems&);
-/// A later key of a moving blobby: the mesh of `first` follows its leaves, and is then projected onto the new surface.
-/// If `first` is no Blobby of as many leaves, it is makeBlobby().
+/// Makes a later key of a moving blobby: the mesh of `first` follows its leaves, and is then projected onto the new
+/// surface. If `first` is no Blobby of as many leaves, it does the same as makeBlobby().
 PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
                       const GroundReader&, const ParamList&, Problems&);
 

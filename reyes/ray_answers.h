@@ -33,7 +33,7 @@ struct IndirectAnswer {
   std::vector<vec3> shares;  ///< The part of E that each group of lights brings; empty: not known.
 };
 
-/// The answer as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
+/// Returns the answer as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
 inline IndirectAnswer withGains(IndirectAnswer answer, std::span<const vec3> gains) {
   answer.E = vec3(0.0f);
   for (size_t g = 0; g < gains.size(); ++g) {
@@ -45,12 +45,13 @@ inline IndirectAnswer withGains(IndirectAnswer answer, std::span<const vec3> gai
 
 struct RayAnswers {
   bool recording = false;
-  /// No record of the irradiance cache comes or goes while these answers are kept, so that what it says is kept too.
+  /// True if no record of the irradiance cache comes or goes while these answers are kept, so that its answers are kept
+  /// too.
   bool recordsStay = false;
   std::map<ShadowQuestion, ShadowAnswer> shadows;
   std::map<uint64_t, IndirectAnswer> indirect;  ///< Answers at points that the irradiance cache does not serve.
   std::map<uint64_t, std::optional<IndirectAnswer>>
-      interpolated;  ///< What it says elsewhere; empty: it serves nothing.
+      interpolated;  ///< Answers of the irradiance cache elsewhere; empty: it serves nothing.
 };
 
 }  // namespace tomales

@@ -1,7 +1,8 @@
 // Verb: text -> Scene. A streaming reader of RIB (ASCII and binary; gzip is detected) in three steps that meet in the
 // Request:
-//   lexer  bytes -> tokens       parser  tokens -> Request, checked against the request table       RiSink  takes
-//   Requests
+//   lexer   bytes -> tokens
+//   parser  tokens -> Request, checked against the request table
+//   RiSink  takes Requests
 // Bad input is reported with file:line and the reader goes on at the next request.
 #pragma once
 #include <functional>
@@ -83,13 +84,13 @@ bool readRibText(const std::string& text, const std::string& name, const RibSett
 bool parseRib(const std::vector<std::string>& files, RiSink& sink, Log& log);
 bool parseRibText(const std::string& text, const std::string& name, RiSink& sink, Log& log);
 
-/// The pictures that Make requests of the files read, as they name them, but "./". Of standard input, pipes and what
-/// cannot be read, there are none.
+/// Returns the pictures that Make requests of the files read, as they name them, but without "./". Standard input,
+/// pipes and files that cannot be read give none.
 std::set<std::string> makeSources(const std::vector<std::string>& files);
 
-/// The request table, a line for each request: its name, the letters of its arguments (reyes/rib/request_table.h) or -,
-/// "parameters" or -, and what becomes of it: "works", "draws" (works, and the picture needs it), "ignored", or
-/// "missing" (ignored, though the picture needs it).
+/// Returns the request table, a line for each request: its name, the letters of its arguments
+/// (reyes/rib/request_table.h) or -, "parameters" or -, and its treatment: "works", "draws" (works, and the picture
+/// needs it), "ignored", or "missing" (ignored, though the picture needs it).
 std::string ribRequests();
 
 /// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that

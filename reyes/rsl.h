@@ -16,11 +16,11 @@ namespace tomales {
 class RslFunctions {
  public:
   virtual ~RslFunctions() = default;
-  /// The functions of that name, which live as long as the process.
+  /// Returns the functions of that name, which live as long as the process.
   virtual std::vector<const TmFunction*> named(const std::string& name) const = 0;
 };
 
-/// The name by which a shader calls the function. It is empty if the prototype is not one that
+/// Returns the name by which a shader calls the function. It is empty if the prototype is not one that
 /// reyes/shader/functions.h describes, or if there is no code.
 std::string rslNameOf(const TmFunction& function);
 
@@ -30,7 +30,7 @@ struct RslSettings {
   const RslFunctions* functions = nullptr;  ///< Null if there are none.
 };
 
-/// What RSL says of a parameter beyond its TmParamDecl.
+/// The facts that RSL gives about a parameter beyond its TmParamDecl.
 struct RslParameter {
   std::string detail;     ///< "uniform", "varying", or empty if the file does not say.
   bool computed = false;  ///< True if the default is not constant, so that the shader computes it.
@@ -43,22 +43,22 @@ class RslFile {
   static std::shared_ptr<const RslFile> compile(const std::string& path, const RslSettings& settings);
   ~RslFile();
 
-  /// Null if there are errors. A transformation shader is checked and left out: nothing runs it.
+  /// Returns null if there are errors. A transformation shader is checked and left out: nothing runs it.
   const TmShaderLibrary* library() const;
-  /// For a surface that assigns P: the displacement that moves its points, with the same name and parameters, which
-  /// library() leaves out. Null if the surface does not move them.
+  /// Returns the displacement that moves the points of a surface that assigns P, with the same name and parameters.
+  /// library() leaves it out. Returns null if the surface does not move them.
   const TmShader* displacementOf(const std::string& surface) const;
   /// Returns the parameters in the order of TmShader::params.
   std::vector<RslParameter> parameters(const TmShader& shader) const;
-  /// The errors and warnings as compilers print them, with lines and carets. Empty if all is well.
+  /// Returns the errors and warnings as compilers print them, with lines and carets. Empty if all is well.
   const std::string& messages() const;
   int errors() const;
   int warnings() const;
-  /// The number of functions that a shader calls and nobody has. It runs nevertheless, with substitutes.
+  /// Returns the number of functions that a shader calls and nobody has. It runs nevertheless, with substitutes.
   int missing() const;
-  /// The first error, in one line: "file:line:column: text". Empty if there is none.
+  /// Returns the first error, in one line: "file:line:column: text". Empty if there is none.
   std::string firstError() const;
-  /// The file itself, and all that it includes.
+  /// Returns the file itself, and all that it includes.
   std::vector<std::string> files() const;
 
   /// Prints what a stage makes of the file: tokens, tree, types, lowered or code.

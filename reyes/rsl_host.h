@@ -11,11 +11,11 @@ namespace tomales {
 /// TmValue::step is 1 then, and element e of component k of point i is c[k][e * components * padded + i].
 constexpr int32_t kArrayVaries = 0x10000;
 
-/// The form of a light that AreaLightSource runs: its P lies on the geometry. Null if the light is not written in RSL,
-/// or does not read P.
+/// Returns the form of a light that AreaLightSource runs: its P lies on the geometry. Returns null if the light is not
+/// written in RSL, or does not read P.
 const TmShader* rslAreaLight(const TmShader& light);
-/// Tells whether the shader is such a form. Its Cl is not the radiance of the geometry, but what a lamp at that point
-/// alone would bring, and the light is the mean of that over the area.
+/// Tells whether the shader is such a form. Its Cl is not the radiance of the geometry, but the light that a lamp at
+/// that point alone would bring. The light of the area is the mean of that.
 bool isMean(const TmShader& light);
 
 }  // namespace tomales

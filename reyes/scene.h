@@ -13,7 +13,8 @@
 
 namespace tomales {
 
-/// How far the hider may push the border of a grid out in raster space, over its neighbour (docs/decisions/0003).
+/// Returns how far the hider may push the border of a grid out in raster space, over its neighbour
+/// (docs/decisions/0003).
 constexpr float borderReach_px(float displacementBound) { return displacementBound > 0 ? 4.0f : 0.5f; }
 
 /// One primitive request placed in the world. Deforming geometry has a Prim for each of `shapeTimes`, alike in
@@ -33,8 +34,8 @@ struct Object {
   Motion currentFromObject;  ///< The same with the camera held at its place of shutter open: the motion that rays see.
   std::vector<float>
       keyTimes;  ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
-  float displacementBound = 0;  ///< In camera space.
-  bool flipsNormal = false;     ///< cameraFromObject mirrors, or Orientation is inside (not both).
+  float displacementBound = 0;  ///< Radius in camera space.
+  bool flipsNormal = false;     ///< True if either cameraFromObject mirrors or Orientation is inside, but not both.
   bool subtracted = false;      ///< Its solid lies on the side of its normals, which are turned for shading.
   int group = -1;               ///< Index of its ShadeGroup.
   uint32_t name = 0;            ///< Name for random numbers: the same for any order in which procedurals are opened.
@@ -60,7 +61,7 @@ struct Expansion;
 
 /// Geometry that is described when it is needed (RISpec 3.2 section 5.10).
 struct Procedural {
-  Bound3 bound;  ///< In object space.
+  Bound3 bound;  ///< Bound in object space.
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
@@ -96,7 +97,7 @@ struct Scene {
   /// attributes.
   void freeze();
 
-  /// Is the shutter open for some time, and motion wanted? Otherwise nothing is blurred.
+  /// Tells whether the shutter is open for some time, and motion wanted. Otherwise nothing is blurred.
   bool shutterIsOpen() const { return options.sampleMotion && options.shutterClose > options.shutterOpen; }
   /// Opens a procedural. The result has its derived fields except for its groups. The scene does not change.
   Expansion opened(const Procedural& procedural) const;
@@ -108,7 +109,7 @@ struct Scene {
   /// Opens all procedurals that are `wanted`, nested ones included. Call it before any object is used.
   void open(const std::function<bool(const Attributes&)>& wanted);
 
-  /// Its options, spaces, lights and place alone.
+  /// Returns a scene with its options, spaces, lights and place alone.
   Scene withoutObjects() const;
 
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
@@ -129,7 +130,7 @@ struct Scene {
   std::vector<int> dropped_;  ///< Indices that may be used again.
 };
 
-/// False if the scene was read from a .dfb, which leaves shapes out.
+/// Returns false if the scene was read from a .dfb, which leaves shapes out.
 inline bool hasGeometry(const Scene& scene) { return scene.objects.empty() || !scene.objects.front().shapes.empty(); }
 
 std::string objectName(const Object& object);  ///< Its identifier name, or "object at FILE:LINE".

@@ -13,9 +13,9 @@ void changeAttributes(Scene& scene, const std::function<void(Attributes&)>& chan
 
 /// Tells whether the object is displaced, and nobody has said if rays see that (Attribute "trace" "displacements").
 bool leavesDisplacementOpen(const Attributes& attributes);
-/// A copy of such attributes with which rays see the displacement, by polygons that are so many times finer.
+/// Returns a copy of such attributes with which rays see the displacement, by polygons that are so many times finer.
 std::shared_ptr<const Attributes> withDisplacementForRays(const Attributes& attributes, float finer);
-/// Undoes that, so that a world has one name however large a picture shows it.
+/// Undoes the choice that rays see displacements, so that a world has one name however large a picture shows it.
 std::shared_ptr<const Attributes> asTheSceneSays(const std::shared_ptr<const Attributes>& attributes);
 
 }  // namespace tomales

@@ -21,15 +21,16 @@ struct Portal {
   vec3 normal;        ///< Its length is the portal's area.
 };
 
-/// Runs a light shader alone, at points that nothing shades: photons learn so what a light sends where. Current space.
+/// Runs a light shader alone, at points that nothing shades, so that photons learn what light goes where. Current
+/// space.
 struct LightProbe {
-  std::vector<vec3> P, N;  ///< In: points to be lit, with their normals.
-  /// In: points on the emitter for LightKind::Area; for Sky directions towards it, and unit directions there.
+  std::vector<vec3> P, N;  ///< Input: points to be lit, with their normals.
+  /// Input: points on the emitter for LightKind::Area; for Sky directions towards it, and unit directions there.
   std::vector<vec3> Pl, Nl;
-  std::vector<vec2> xi;  ///< In, for sampled lights: where the one sample lies; empty for the middle.
-  std::vector<vec3> L;   ///< Out: vectors from P to the light.
-  std::vector<vec3> Cl;  ///< Out: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
-  bool finite = true;    ///< Out: false if a value was not finite and was made dark.
+  std::vector<vec2> xi;  ///< Input for sampled lights: the place of the one sample; empty for the middle.
+  std::vector<vec3> L;   ///< Output: vectors from P to the light.
+  std::vector<vec3> Cl;  ///< Output: E/pi at normal incidence; for LightKind::Area and Sky the radiance of the emitter.
+  bool finite = true;    ///< Output: false if a value was not finite and was made dark.
 };
 
 /// Consecutive pixels of one row after filtering and exposure, for the imager. Arrays are padded.
@@ -59,7 +60,7 @@ class ShadingSystem {
   bool opaque(int group) const;
   /// Tells whether a shader of the group asks how values change over the surface (ShadePoints::hasSteps).
   bool wantsSteps(int group) const;
-  /// Tells whether its shader leaves Oi = Os.
+  /// Tells whether the group's shader leaves Oi = Os.
   bool keepsOpacity(int group) const;
   /// Runs the displacement shader of the grid's object, if it has one, in place, and recomputes N. The grid must then
   /// be a single piece.
@@ -75,9 +76,9 @@ class ShadingSystem {
   void atmosphere(const ShadePoints& points, ShadedPoints& out, const ShadeContext& context = {}) const;
   /// Tells whether a volume shader stands inside (Interior) or outside (Exterior) of the group's surfaces.
   bool hasVolume(int group, bool inside) const;
-  /// Runs it over what rays bring through the volume to the surface that they leave, in place. The points are those of
-  /// the surface, but for kP, which is where each ray ends, and kI, the way there. Returns false and leaves `out` alone
-  /// if there is no volume shader or it has failed.
+  /// Runs the volume shader over what rays bring through the volume to the surface that they leave, in place. The
+  /// points are those of the surface, but for kP, which is where each ray ends, and kI, the way there. Returns false
+  /// and leaves `out` alone if there is no volume shader or it has failed.
   bool crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const;
   bool hasImager() const;
   /// Runs the imager shader, if there is one, in place.
@@ -86,11 +87,11 @@ class ShadingSystem {
   /// Gives the radiance that each point of a batch adds for camera and specular rays if its object is an emitter: what
   /// the area light's shader sends from there to where kI begins, on the front. Empty if nothing shines.
   void emission(const ShadePoints& points, std::vector<vec3>& radiance, const ShadeContext& context = {}) const;
-  /// The indirect light switched on for a group, if any: what the gather pass must prepare.
+  /// Returns the indirect light switched on for a group, if any: the gather pass must prepare it.
   const IndirectQuery* indirectQuery(int group) const;
-  /// The first request among those of all indirect lights but filters; empty if there are no such lights.
+  /// Returns the first request among those of all indirect lights but filters; empty if there are no such lights.
   std::optional<IndirectRequest> indirectRequest() const;
-  /// The largest number of samples that an area light asks for; 0 if there is none.
+  /// Returns the largest number of samples that an area light asks for; 0 if there is none.
   int mostAreaSamples() const;
   bool needsRays() const;  ///< True if a light or shader will trace rays.
   /// Tells whether its surface shader asks for rays, for more than occlusion() or highlights.
@@ -98,18 +99,19 @@ class ShadingSystem {
   /// Tells whether a shader of the group may call occlusion() so that answers may be interpolated.
   bool asksOcclusion(int group) const;
 
-  /// LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.
+  /// Returns LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.
   LightKind lightKind(int light) const;
   void probe(int light, LightProbe& probe) const;
-  /// Null if it is missing.
+  /// Returns null if it is missing.
   const TmShader* lightShader(int light) const;
-  /// The product of those parameters of a light that are factors (isFactor()), where its request gives `params`.
+  /// Returns the product of those parameters of a light that are factors (isFactor()), where its request gives
+  /// `params`.
   vec3 lightFactor(int light, const std::vector<Param>& params) const;
-  /// The LightGroup of a light; empty if its shader is missing or it is an indirect light.
+  /// Returns the LightGroup of a light; empty if its shader is missing or it is an indirect light.
   std::string lightGroup(int light) const;
-  /// The portals that a light of LightKind::Sky names and that have a place and an area.
+  /// Returns the portals that a light of LightKind::Sky names and that have a place and an area.
   std::span<const Portal> portals(int light) const;
-  /// The medium that photons meet inside or outside of a group's surfaces, as its Interior or Exterior says.
+  /// Returns the medium that photons meet inside or outside of a group's surfaces, as its Interior or Exterior says.
   MediumColors medium(int group, bool inside) const;
   /// Tells whether the surface of a group adds radiance of its own.
   bool emits(int group) const;

@@ -28,7 +28,7 @@ enum class Illumination : uint8_t {
   Stored,           ///< ShadeServices::storedIrradiance alone, as one light along the normal.
   Unit,             ///< E/pi = 1 everywhere, as one light along the normal: the result is the diffuse reflectance.
   None,             ///< No light: the result is what the surface emits.
-  LightsAndStored,  ///< Both of the first two. What is stored must then leave out light straight from lights.
+  LightsAndStored,  ///< The sum of Lights and Stored. The stored light must then leave out light straight from lights.
 };
 enum class HitSides : uint8_t { Both, Front, Back };
 
@@ -39,7 +39,7 @@ struct RayOutput {
   float* c[3] = {nullptr, nullptr, nullptr};
 };
 
-/// Why and how a batch is being shaded.
+/// The purpose of shading a batch, and its settings.
 struct ShadeContext {
   RayKind kind = RayKind::Camera;
   int depth = 0;  ///< Diffuse bounces between the eye and these points.
@@ -47,7 +47,8 @@ struct ShadeContext {
   int lightSamples = 0;  ///< Samples of each area light and of the sky; 0 for the number that the light asks for.
   bool indirect = true;  ///< Indirect lights run.
   bool direct = true;    ///< The other lights run where the eye looks.
-  /// If not null, of the other lights those of this LightGroup alone shine, everywhere; empty for none of them.
+  /// If not null, of all lights but indirect ones only those of this LightGroup shine, everywhere; empty for none of
+  /// them.
   const std::string* lights = nullptr;
   bool variables = false;  ///< The variables that outputOf(options) lists are stored.
   /// Store these instead: for "surface:NAME" the outputs of the shader, or NaN if it has none of this name.
@@ -57,27 +58,28 @@ struct ShadeContext {
   int diffuseLimit = 1 << 20,
       specularLimit = 1 << 20;  ///< Depths beyond which no ray follows, set by the objects on the way.
   std::string label{};          ///< The label of the ray that came here.
-  bool lampsGlow = true;        ///< That ray sees area lights.
+  bool lampsGlow = true;        ///< True if that ray sees area lights.
   /// Specular rays bring lamps and skies. False where photons have brought that light by mirrors.
   bool mirrored = true;
-  /// Indexed by group: 1 if the same holds for specular rays from it, and for its highlights. Null: for none.
+  /// Indexed by group: 1 if `mirrored` is false for specular rays from it, and for its highlights. Null: for none.
   const std::vector<uint8_t>* focusing = nullptr;
   bool highlights = false;  ///< Diffuse rays bring highlights too, as those of the reference path tracer do.
   RayAnswers* answers =
-      nullptr;             ///< For this batch, asked before shadow and gather rays are traced. Null: all are traced.
+      /// Answers of this batch, asked before shadow and gather rays are traced. Null: all rays are traced.
+      nullptr;
   bool sketch = false;     ///< Shaders run for no picture that is kept: nothing is baked, printed or counted.
   bool rehearsal = false;  ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
   float importance = 1;    ///< The weight of what is seen here in the eye's picture.
-  /// Paths that find indirect light at each point, past all records and maps: to know how wrong those are. 0: light
-  /// comes as the frame's method has it.
+  /// Number of paths that find indirect light at each point without records or maps, to measure the error of those. 0:
+  /// light comes as the frame's method has it.
   int auditPaths = 0;
   /// Records of light have another draw of their noise (GiServices::redrawRecords): with another seed beside it, the
   /// picture is one that could have been made as well.
   bool redrawn = false;
-  /// The number of specular rays that one point of the eye has sent. What each of them meets is a share of that point.
+  /// The number of specular rays that one point of the eye has sent. The points that they meet share the weight of that
+  /// point.
   int branches = 1;
-  /// Of each point: the Volume that its ray crosses (ShadingSystem::crossVolume). Empty: the air is the same
-  /// everywhere.
+  /// The Volume that each point's ray crosses (ShadingSystem::crossVolume). Empty: the air is the same everywhere.
   std::span<const DensityWay> ways{};
   int chunk = 0;  ///< The part of the batch that is being shaded, set by ShadingSystem.
 
@@ -89,31 +91,32 @@ struct ShadeContext {
   bool mirrorsLamps(int group) const { return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]); }
 };
 
-/// The number of samples or rays that bring light to a point, of which one of the eye has `count`: what all branches
-/// have together is as noisy then as one point. At least `least`.
+/// Returns the number of samples or rays that bring light to a point, of which one that the eye sees has `count`. All
+/// points on the branches of one path together then have as much noise as one point. At least `least`.
 inline int shareOfBranch(int count, int least, const ShadeContext& context) {
   return std::max(std::min(count, least), count / context.branches);
 }
-/// The same of rays that a shader asks for. A point that gather rays meet is one of the hundreds that one record has.
+/// Returns the same for rays that a shader asks for. A point that gather rays meet is one of the hundreds that one
+/// record has.
 inline int raysOfBranch(int count, int least, const ShadeContext& context) {
   return context.depth > 0 ? std::min(count, least) : shareOfBranch(count, least, context);
 }
 
-/// Rays of a hemisphere at the least: shaders may do with the result what is not linear.
+/// Least number of rays of a hemisphere. A shader may use the result in a way that is not linear.
 constexpr int kLeastOfHemisphere = 16;
 
 /// The options of one set of rays of a shader's call.
 struct RayQuery {
   RayKind kind = RayKind::Specular;
   float maxDistance = 1e30f;
-  float bias = -1;  ///< Negative if the object's attributes say it.
+  float bias = -1;  ///< Bias of the rays; negative if the object's attributes give it.
   std::string label, subset, excludeSubset;
   HitSides sides = HitSides::Both;
   std::optional<HitMode> mode;  ///< Empty if the attributes of the object that is met say it.
   float opacityThreshold = 1;   ///< A ray goes on behind transparent things until this much is covered.
   int number = 0, count = 1;    ///< These are rays `number` of `count` from each point.
   bool lampsGlow = true;        ///< The rays see area lights.
-  float importance = 1;         ///< The weight of what these rays bring.
+  float importance = 1;         ///< The weight of the light that these rays bring.
   /// The radius of each ray's footprint at its start, and its growth for each unit of length. Null if rays have no
   /// width.
   const float *radius = nullptr, *spread = nullptr;
@@ -122,10 +125,10 @@ struct RayQuery {
 /// Arrays for count() points; null pointers for what is not wanted.
 struct RayResult {
   float* distance = nullptr;       ///< kInfinity if nothing was met; no output is set then.
-  TmVec3 color{}, opacity{};       ///< The sum of all that the ray went through,
-  float* effective = nullptr;      ///< and the mean distance of what covers it; kInfinity if nothing does.
+  TmVec3 color{}, opacity{};       ///< The sum over all surfaces that the ray went through.
+  float* effective = nullptr;      ///< The mean distance of the surfaces that cover it; kInfinity if nothing does.
   uint8_t* leaves = nullptr;       ///< 1 if the ray was traced and leaves the scene, even through transparent things.
-  std::vector<RayOutput> outputs;  ///< Of the first hit.
+  std::vector<RayOutput> outputs;  ///< The outputs of the first hit.
 };
 
 /// The parameters of an indirect light where it lights (docs/gi.md).
@@ -144,7 +147,7 @@ struct IndirectRequest {
   std::optional<int> bounces;  ///< The diffuse bounces of photons, if the scene gives them.
 };
 
-/// The air of a volume shader as photons meet it: for each unit of length of the world, by colour.
+/// The air of a volume shader as photons meet it. Values are for each unit of length of the world, by colour.
 struct MediumColors {
   vec3 scattering{0.0f}, absorption{0.0f};
 };
@@ -155,12 +158,12 @@ struct OcclusionQuery {
   float maxDistance = 1e30f, bias = -1;
   float falloff = 0;
   int falloffMode = 0;
-  float maxVariation = 0;  ///< How far the answers may be off.
+  float maxVariation = 0;  ///< Greatest error of the answers.
   std::string subset, excludeSubset;
   HitSides sides = HitSides::Both;
   bool operator==(const OcclusionQuery&) const = default;
 
-  /// How much of a ray is covered by a hit at that distance.
+  /// Returns how much of a ray is covered by a hit at that distance.
   float coveredAt(float distance) const {
     if (!(distance < 1e30f)) return 0;
     if (falloff <= 0) return 1;
@@ -220,16 +223,16 @@ class ShadeServices {
   /// Gives the E/pi that an earlier pass stored around each point, or zero where there is none. kArea of the points is
   /// the area to average over.
   virtual void storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const;
-  /// How far in front of an area light's samples the polygons may lie that rays meet in its place: shadow rays end
-  /// before that.
+  /// Returns how far in front of an area light's samples the polygons may lie that rays meet in its place. Shadow rays
+  /// end before that.
   virtual float emitterReach(int light) const = 0;
-  /// The area of all geometry of an area light; 0 if it has none.
+  /// Returns the area of all geometry of an area light; 0 if it has none.
   virtual float emitterArea(int light) const = 0;
-  /// The box around all geometry of an area light; empty if it has none.
+  /// Returns the box around all geometry of an area light; empty if it has none.
   virtual Bound3 emitterBound(int) const { return {}; }
 
-  /// Gives what Volumes scatter and hide between the eye and points that it sees, from P - I to P. Returns false if
-  /// there is no Volume.
+  /// Writes the light that Volumes scatter, and the share that they hide, between the eye and points that it sees, from
+  /// P - I to P. Returns false if there is no Volume.
   virtual bool volumesBefore(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
 
   /// Gives the indirect diffuse light on the side of N.

@@ -15,7 +15,6 @@
 namespace rsl {
 
 // --- A batch of points
-// --------------------------------------------------------------------------------------------
 
 inline TmConstVec3 view(TmVec3 v) { return {v.x, v.y, v.z}; }
 inline Vec3 get(TmConstVec3 a, int i) { return {a.x[i], a.y[i], a.z[i]}; }
@@ -86,12 +85,12 @@ class Batch {
   Vec3 I(int i) const { return get(g->I, i); }
   Color Cs(int i) const { return get(g->Cs, i); }
   Color Os(int i) const { return get(g->Os, i); }
-  /// What RSL's faceforward(normalize(N), I) gives.
+  /// Returns what RSL's faceforward(normalize(N), I) returns.
   Vec3 facingNormal(int i) const { return faceforward(normalize(N(i)), I(i), Ng(i)); }
   Vec3Array facingNormals() const {
     return forAll([this](int i) { return facingNormal(i); });
   }
-  /// Unit vectors to the viewer.
+  /// Returns unit vectors to the viewer.
   Vec3Array towardsViewer() const {
     return forAll([this](int i) { return -normalize(I(i)); });
   }
@@ -100,22 +99,24 @@ class Batch {
     return filled([&](TmVec3 out) { g->call->ambient(g->host, g, out); });
   }
   Vec3Array diffuse(TmConstVec3 N) const { return diffuse(TM_ALL_LIGHT, N); }
-  /// The part of diffuse(N) that TM_DIRECT_LIGHT or TM_INDIRECT_LIGHT brings; lights are evaluated once for all.
+  /// Returns the part of diffuse(N) that TM_DIRECT_LIGHT or TM_INDIRECT_LIGHT brings; lights are evaluated once for
+  /// all.
   Vec3Array diffuse(TmLightChoice which, TmConstVec3 N) const {
     return filled([&](TmVec3 out) { g->call->diffuse(g->host, g, which, N, out); });
   }
-  /// The next sample of a light: `for (TmIlluminance light = tmIlluminanceDefaults(); b.illuminance(light);)`.
+  /// Gets the next sample of a light: `for (TmIlluminance light = tmIlluminanceDefaults(); b.illuminance(light);)`.
   bool illuminance(TmIlluminance& light) const { return g->call->illuminance(g->host, g, &light) != 0; }
   Vec3Array specular(TmConstVec3 N, TmConstVec3 V, const FloatParam& roughness) const {
     Array r(g);
     for (int i : *this) r[i] = roughness(g, i);
     return filled([&](TmVec3 out) { g->call->specular(g->host, g, N, V, r.data(), out); });
   }
-  /// Three channels of a texture at s, t. False if it is missing: that is reported, and `out` is a loud substitute.
+  /// Looks up three channels of a texture at s, t. Returns false if it is missing: that is reported, and `out` is a
+  /// loud substitute.
   bool texture(const char* name, Vec3Array& out, const TmTextureOptions& options = tmTextureDefaults()) const {
     return g->call->texture(g->host, g, name, &options, g->s, g->t, out) != 0;
   }
-  /// Radiance of a latitude-longitude picture of the surroundings, in world space. Returns as texture().
+  /// Looks up the radiance of a latitude-longitude picture of the surroundings, in world space. Returns as texture().
   bool environment(const char* name, TmConstVec3 direction, Vec3Array& out,
                    const TmTextureOptions& options = tmTextureDefaults()) const {
     return g->call->environment(g->host, g, name, &options, direction, out) != 0;
@@ -155,7 +156,7 @@ class Batch {
     return g->call->gather(g->host, g, &options, view(g->P), axis, ray, hit.data(), outputs.begin(),
                            static_cast<int32_t>(outputs.size())) != 0;
   }
-  /// What rayInfo() says of the ray that came to these points: one number for all of them.
+  /// Returns the number that rayInfo() has for the ray that came to these points; it is one number for all of them.
   int rayNumber(const char* name) const {
     Vec3Array value(g);
     g->call->rayInfo(g->host, g, name, value);
@@ -167,7 +168,7 @@ class Batch {
   int rayDepth() const { return rayNumber("depth"); }
   bool wantsHighlights() const { return rayNumber("highlights") != 0; }
 
-  /// P in a named space, or in current space where the name is unknown.
+  /// Returns P in a named space, or in current space where the name is unknown.
   Vec3Array positionsIn(const char* space) const {
     return filled([&](TmVec3 out) { g->call->transform(g->host, g, TM_AS_POINT, "current", space, view(g->P), out); });
   }
@@ -182,7 +183,7 @@ class Batch {
     set(g->L, i, L);
     set(g->Cl, i, Cl);
   }
-  /// Moves every point along its unit normal, then renews the normals: what most displacement shaders do.
+  /// Moves every point along its unit normal, then renews the normals, as most displacement shaders do.
   void displace(const Array& amount) const {
     for (int i : *this) set(g->P, i, P(i) + amount[i] * normalize(N(i)));
     g->call->calculateNormal(g->host, g, view(g->P), g->N);

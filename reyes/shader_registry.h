@@ -12,13 +12,13 @@ namespace tomales {
 
 /// Returns "surface" ... "imager".
 const char* kindName(TmKind kind);
-/// The name of a TmRole; null if no role has this number.
+/// Returns the name of a TmRole; null if no role has this number.
 const char* roleName(int32_t role);
-/// The role that a shader's parameter declares, or that of the standard parameter of its name and type.
+/// Returns the role that a shader's parameter declares, or that of the standard parameter of its name and type.
 TmRole roleOf(const TmShader& shader, const TmParamDecl& decl);
 /// Tells whether all that a light sends is in proportion to a parameter with this role.
 constexpr bool isFactor(TmRole role) { return role == TM_ROLE_SCALE || role == TM_ROLE_TINT; }
-/// Parameters that every shader of a kind understands, whether or not it declares them.
+/// Returns the parameters that every shader of a kind understands, whether or not it declares them.
 std::span<const TmParamDecl> standardParams(TmKind kind);
 
 /// The name of a shader that a scene asks for.
@@ -43,30 +43,32 @@ class ShaderRegistry {
   bool loadPlugin(const std::string& path);
   /// Adds the shaders of a compiled .sl file, which then come before others of their names.
   bool addText(const std::shared_ptr<const RslFile>& file, const std::string& path);
-  /// By name and kind. Shaders that have been loaded come first, and built-in ones whose look RISpec fixes (but with
-  /// standardFromFiles); then NAME.so in the trusted folders; then NAME.sl along `searchPath` (the scene's;
-  /// folders separated by colons, empty: the working folder), in the trusted folders and in `beside`, the folder of the
-  /// file that names it; then other built-in ones; then NAME.so along `searchPath`. A plugin in a folder that is not
-  /// trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".." or an
-  /// absolute name leads to. A .sl that has errors is reported with all of them, and of a name of RISpec's that a .sl
-  /// has, too, it is said whose shader is used.
+  /// Finds a shader by name and kind. Shaders that have been loaded come first, and built-in ones whose look RISpec
+  /// fixes (but with standardFromFiles); then NAME.so in the trusted folders; then NAME.sl along `searchPath` (the
+  /// scene's; folders separated by colons, empty: the working folder), in the trusted folders and in `beside`, the
+  /// folder of the file that names it; then other built-in ones; then NAME.so along `searchPath`. A plugin in a folder
+  /// that is not trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".."
+  /// or an absolute name leads to. A .sl that has errors is reported with all of them. If a .sl has a name of RISpec's,
+  /// a message says whose shader is used.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
   /// Compiles the texts of these shaders at once, on all threads, so that find() only has to look. It reports nothing:
   /// find() reports what is wrong, as it would without this call.
   void prepare(const std::vector<ShaderName>& names, const std::string& searchPath);
-  /// The folders where find() looks for the text of a shader.
+  /// Returns the folders where find() looks for the text of a shader.
   std::vector<std::string> textFolders(const std::string& searchPath, const std::string& beside) const;
-  /// The functions of plugins that shaders in RSL may call: those of the trusted folders and, as far as folders of the
-  /// scene are trusted, those along `searchPath`. It must not outlive the registry.
+  /// Returns the functions of plugins that shaders in RSL may call: those of the trusted folders and, as far as folders
+  /// of the scene are trusted, those along `searchPath`. They must not outlive the registry.
   std::unique_ptr<const RslFunctions> functions(const std::string& searchPath) const;
-  /// For a shader that find() has not found: the end of a message that tells what else has that name or a similar one.
+  /// Returns the end of a message about a shader that find() has not found. It tells what else has that name or a
+  /// similar one.
   std::string hintOfMissing(const std::string& name, TmKind kind, const std::string& searchPath,
                             const std::string& beside) const;
   std::vector<const TmShader*> all() const;
-  /// The origin that addLibrary() was given for a shader, or the file that it is from.
+  /// Returns the origin that addLibrary() was given for a shader, or the file that it is from.
   std::string originOf(const TmShader& shader) const;
-  /// All files that a shader is made of: its text with those that it includes, or its plugin; none of a built-in one.
+  /// Returns all files that a shader is made of: its text with those that it includes, or its plugin; none of a
+  /// built-in one.
   std::vector<std::string> filesOf(const TmShader& shader) const;
 
  private:

@@ -1,8 +1,10 @@
 // Shaders that read like RSL: values of a whole batch at once, with masks (reyes/shader/sl_values.h), operators
-// (sl_operators.h), shadeops (sl_shadeops.h) and services (sl_services.h, sl_pictures.h, sl_light.h, sl_clouds.h). What
-// a compiler from RSL would emit.
-//   struct matte : sl::Surface { void main() { Normal Nf = faceforward(normalize(N), I);  Oi = Os;  Ci = Os * Cs *
-//   diffuse(Nf); } }; const rsl::Shader shader(TM_SURFACE, "matte", "doc", TM_KEEPS_OPACITY, sl::shade<matte>, {});
+// (sl_operators.h), shadeops (sl_shadeops.h) and services (sl_services.h, sl_pictures.h, sl_light.h, sl_clouds.h). A
+// compiler from RSL would write such code.
+//   struct matte : sl::Surface {
+//     void main() { Normal Nf = faceforward(normalize(N), I);  Oi = Os;  Ci = Os * Cs * diffuse(Nf); }
+//   };
+//   const rsl::Shader shader(TM_SURFACE, "matte", "doc", TM_KEEPS_OPACITY, sl::shade<matte>, {});
 // Declarations take all points; assignments (=, +=) only those of the conditionals and loops around them, and so do
 // services. Threads: a value belongs to the thread and the run of a shader that made it.
 #pragma once
@@ -184,7 +186,7 @@ struct Light : Globals {
     L = Ps - from;
     body();
   }
-  /// For shaders with TM_LIGHT_SOLAR.
+  /// RSL solar(): runs `body` with light along one axis, for shaders with TM_LIGHT_SOLAR.
   template <class Body>
   void solar(const Vector& axis, const Body& body) {
     L = axis;

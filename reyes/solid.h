@@ -24,8 +24,8 @@ class Solid {
   int depth(int block) const {
     return block < 0 ? 0 : 1 + depth(at(block).parent);
   }  ///< Number of blocks around this one, and itself.
-  /// Does the solid lie on the other side of this primitive's surface: is it subtracted by an odd number of
-  /// differences?
+  /// Tells whether the solid lies on the other side of this primitive's surface, because an odd number of differences
+  /// subtracts it.
   bool subtracted(int block) const;
 
  private:
@@ -56,8 +56,8 @@ struct SolidBoundary {
   bool entering;
 };
 
-/// Walks along lines that end outside of everything, as all lines do that are followed far enough. So the number of a
-/// primitive's crossings tells whether a line begins inside of it, and the eye may be inside of one.
+/// Walks along lines that end outside of everything, as all lines do that are followed far enough. The number of a
+/// primitive's crossings tells whether a line begins inside of it, so the eye may be inside of one.
 class SolidWalk {
  public:
   explicit SolidWalk(const Solid& solid);

@@ -27,10 +27,10 @@ struct SubPatch {
   bool round = false;       ///< A small disk, to be shown as one round cell (Grid::round).
 };
 
-/// A bound over the shutter, displacement and defocus included.
+/// A bound over the shutter that includes displacement and defocus.
 struct Placement {
   Bound2 raster;
-  float zMin;  ///< In camera space.
+  float zMin;  ///< Depth in camera space.
 };
 
 /// Places a box in the space of `cameraFromObject`, at `keyTimes`. Displacement may leave the box by `margin` (camera
@@ -39,16 +39,16 @@ struct Placement {
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
-/// Does a piece depend on its own vertices alone? That is so without motion, defocus, displacement and other parts of a
-/// solid.
+/// Tells whether a piece depends on its own vertices alone. That is so without motion, defocus, displacement and other
+/// parts of a solid.
 inline bool standsStillInFocus(const Object& o, const Camera& camera) {
   return o.keyTimes.size() == 1 && !camera.defocuses() && o.solid < 0 && !o.attributes->displacement;
 }
 
-/// Is a patch of very many pieces split at once, or left in coarse pieces where that is safe? All of a frame's pieces
-/// at once would take memory in proportion to its area.
+/// Tells whether a patch of very many pieces is split at once, or left in coarse pieces where that is safe. All of a
+/// frame's pieces at once would take memory in proportion to its area.
 enum class Splitting : uint8_t { Wholly, Lazily };
-/// When another thread sets it, the work may end at once, with any result. It may be null.
+/// Another thread sets it to end the work at once, with any result. It may be null.
 using StopFlag = const std::atomic<bool>*;
 
 /// Splits some patches of an object; pieces wholly outside the window are culled. The order is: first dots, which need
@@ -72,13 +72,13 @@ class PatchTree {
   uint32_t top() const { return static_cast<uint32_t>(levels_.size()) - 1; }
   uint32_t count(uint32_t level) const { return static_cast<uint32_t>(levels_[level].size()); }
   const Bound3& box(uint32_t level, uint32_t index) const { return levels_[level][index]; }
-  /// Number of patches in a box of a level; the last box of a level may have fewer.
+  /// Returns the number of patches in a box of a level; the last box of a level may have fewer.
   static size_t patchesOfBox(uint32_t level) {
     size_t patches = kLeaf;
     while (level-- > 0) patches *= kFan;
     return patches;
   }
-  /// The patches in a box.
+  /// Returns the patches in a box.
   std::span<const uint32_t> patches(uint32_t level, uint32_t index) const {
     const size_t most = patchesOfBox(level), first = index * most;
     return std::span(order_).subspan(first, std::min(most, order_.size() - first));

@@ -12,7 +12,7 @@ struct Parts {
   mat3 stretch;
 };
 
-/// The nearest orthogonal matrix, by Newton's iteration (Higham 1986).
+/// Returns the nearest orthogonal matrix, by Newton's iteration (Higham 1986).
 mat3 nearestRotation(const mat3& m) {
   constexpr int kMostSteps = 32;
   mat3 r = m;
@@ -32,7 +32,8 @@ bool affineAndRegular(const mat4& m) {
          std::abs(glm::determinant(mat3(m))) > 1e-6f * size;
 }
 
-/// Can the motion from a to b be a rotation? It cannot if only the position differs, nor through a mirror.
+/// Tells whether the motion from a to b can be a rotation. It cannot if only the position differs, nor through a
+/// mirror.
 bool mayTurn(const mat4& a, const mat4& b) {
   return mat3(a) != mat3(b) && affineAndRegular(a) && affineAndRegular(b) &&
          (glm::determinant(mat3(a)) > 0) == (glm::determinant(mat3(b)) > 0);

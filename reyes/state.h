@@ -73,9 +73,9 @@ struct ChannelCall {
   SourceLoc where;
 };
 
-/// How a pixel's depth is made from its samples that see something opaque: the least, the greatest, the mean; or the
-/// least mean of a sample's two nearest surfaces (Woo 1992), where the far clipping plane replaces a missing second
-/// one.
+/// The way in which a pixel's depth is made from its samples that see something opaque: the least, the greatest, the
+/// mean; or the least mean of a sample's two nearest surfaces (Woo 1992), where the far clipping plane replaces a
+/// missing second one.
 enum class DepthFilter { Min, Max, Average, Midpoint };
 
 enum class ProjectionKind { Orthographic, Perspective, Null };
@@ -125,7 +125,7 @@ struct Options {
   std::string hider = "hidden";
   bool jitter = true;
   float relativeDetail = 1;          ///< Factor on every measured level of detail.
-  std::vector<vec4> clippingPlanes;  ///< In camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
+  std::vector<vec4> clippingPlanes;  ///< Planes in camera space: a point p with dot(plane, (p, 1)) > 0 is not seen.
   bool wantsIndirect = false;        ///< --gi: a scene without an indirect light gets one, for all objects.
   int indirectSamples = 0;           ///< --draft: rays of an irradiance record; 0: as indirect lights ask.
   int frame = 0;
@@ -184,8 +184,9 @@ struct Attributes {
     std::optional<float> bias, offset;
     bool displacements = false;       ///< Rays see its displacement.
     bool displacementsGiven = false;  ///< The scene says so or not; else raytrace/visible_displacement.h chooses.
-    float chosenFiner = 0;            ///< What it has multiplied the tessellation by; 0: it has not chosen.
-    bool sampleMotion = true;         ///< Rays from this object see motion.
+    /// The factor by which raytrace/visible_displacement.h has multiplied the tessellation; 0: it has not chosen.
+    float chosenFiner = 0;
+    bool sampleMotion = true;  ///< Rays from this object see motion.
     int maxDiffuseDepth = 1,
         maxSpecularDepth = 2;  ///< Bounces that may follow one at this object; an earlier object's limit still applies.
     std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; if empty, they see all
@@ -213,8 +214,8 @@ struct Attributes {
   } radiosity;
   std::optional<float> irradianceMaxError, irradianceMaxPixelDist;
   bool rasterOrient = true;  ///< Attribute "dice" "rasterorient"
-  /// Attribute "cull": are micropolygons left out that the camera does not see, because something hides them or because
-  /// they are one-sided and face away? Else shaders run there too, for what they bake.
+  /// Attribute "cull": true if micropolygons are left out that the camera does not see, because something hides them or
+  /// because they are one-sided and face away. Else shaders run there too, for what they bake.
   struct Cull {
     bool hidden = true, backfacing = true;
     bool operator==(const Cull&) const = default;
@@ -224,7 +225,7 @@ struct Attributes {
 
   bool operator==(const Attributes&) const = default;  ///< Shaders are compared by pointer.
 
-  /// Standard texture coordinates at surface parameters (u, v), where no primitive variable gives them.
+  /// Returns standard texture coordinates at surface parameters (u, v), where no primitive variable gives them.
   vec2 textureAt(float u, float v) const {
     const auto& c = textureCoordinates;
     return glm::mix(glm::mix(c[0], c[1], u), glm::mix(c[2], c[3], u), v);

@@ -1,5 +1,6 @@
-// Noun: the variables of surfaces that every picture may show by name (RISpec 3.2 table 12.1), and two for denoisers:
-// where each comes from, and how a picture takes it. Outputs of shaders and primitive variables are not listed here.
+// Noun: the variables of surfaces that every picture may show by name (RISpec 3.2 table 12.1), and two for denoisers.
+// It lists where each comes from, and how a picture takes it. Outputs of shaders and primitive variables are not listed
+// here.
 #pragma once
 #include <string_view>
 
@@ -11,7 +12,7 @@ namespace tomales {
 /// Objects and Materials are Cryptomatte layers: six ranks of id and coverage.
 enum class ChannelKind : uint8_t { Color, Alpha, Depth, Variable, Objects, Materials };
 
-/// Where shading finds a variable of a point.
+/// The place where shading finds a variable of a point.
 enum class VariableSource : uint8_t {
   Nothing,     ///< Nobody writes it, or (kinds other than Variable) the hider knows it.
   Channel,     ///< A channel of ShadePoints, of which `channel` is the first.

@@ -11,8 +11,8 @@ namespace tomales {
 
 /// Reads the grid of that name, which holds floats and stands still; its values count within `bound`, a box of object
 /// space. Level sets become 1 inside and 0 outside, linear over their band. ":fogvolume" or ":levelset" behind the name
-/// says what the grid is. Returns null on failure, and `error` says why, without the file's name. `notes`: what else
-/// the user should know.
+/// gives the kind of the grid. Returns null on failure, and `error` says why, without the file's name. `notes` gets
+/// other messages for the user.
 std::unique_ptr<DensityGrid> readVdb(const std::string& path, const std::string& grid, const Bound3& bound,
                                      std::vector<std::string>& notes, std::string& error);
 

@@ -17,7 +17,7 @@ rsl::FloatParam beamdistribution("beamdistribution", 0, "exponent of the falloff
 rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: camera and specular rays do not see it glow", TM_ROLE_VISIBLE);
 
-/// The share of the light that leaves towards the point; 1 without a cone.
+/// Returns the share of the light that leaves towards the point; 1 without a cone.
 float share(const TmGrid* g, int i) {
   if (coneangle(g, i) >= rsl::kPi) return 1;
   const float cosine = -rsl::dot(rsl::normalize(rsl::get(g->L, i)), rsl::normalize(axis(g, i)));

@@ -13,7 +13,7 @@ inline float fresnelWeight(float cosine) {
   const float m = rsl::clamp(1 - cosine, 0, 1);
   return m * m * m * m * m;
 }
-/// The generalised Trowbridge-Reitz distribution with gamma 1, of the coat; that with gamma 2 is GGX.
+/// Returns the generalised Trowbridge-Reitz distribution with gamma 1, of the coat; that with gamma 2 is GGX.
 inline float gtr1(float nh, float alpha) {
   if (alpha >= 1) return 1 / rsl::kPi;
   const float a2 = alpha * alpha, t = 1 + (a2 - 1) * nh * nh;
@@ -86,7 +86,7 @@ struct Lobes {
     const Vec3 H = rsl::normalize(L + V);
     return nl * material.glossy(nl, nv, rsl::dot(N, H), rsl::dot(L, H));
   }
-  /// Probability density of draw() over solid angle.
+  /// Returns the probability density of draw() over solid angle.
   float density(Vec3 L) const {
     const Vec3 H = rsl::normalize(L + V);
     const float nh = rsl::dot(N, H), vh = rsl::dot(V, H);

@@ -66,7 +66,7 @@ struct SkyColor {
     for (int k = 0; k < 3; ++k) zenith[k] /= perez[k](1, t);
   }
 
-  /// Linear Rec. 709 in kcd/m2 (eq. 4).
+  /// Returns linear Rec. 709 in kcd/m2 (eq. 4).
   rsl::Color operator()(float cosTheta, float gamma) const {
     const float Y = zenith[0] * perez[0](cosTheta, gamma), x = zenith[1] * perez[1](cosTheta, gamma),
                 y = zenith[2] * perez[2](cosTheta, gamma);
@@ -90,7 +90,8 @@ void shadeSky(const TmGrid* g) {
   }
 }
 
-/// The share of the sun's light that passes the atmosphere (appendix 1: air mass, Rayleigh scattering, aerosols).
+/// Returns the share of the sun's light that passes the atmosphere (appendix 1: air mass, Rayleigh scattering,
+/// aerosols).
 rsl::Color passing(const Heaven& h) {
   const float mass = 1 / (std::cos(h.sunAngle) + 0.15f * std::pow(93.885f - h.sunAngle * kDegrees, -1.253f));
   const float beta = 0.04608f * h.T - 0.04586f;

@@ -202,7 +202,7 @@ void shadeCutout(const TmGrid* g) {
   });
 }
 
-/// The parameters of both shaders, which are at the same places in the two lists.
+/// Returns the parameters of both shaders, which are at the same places in the two lists.
 std::vector<rsl::Param*> parameters() {
   return {&metallic.value,
           &specular.value,

@@ -29,7 +29,7 @@ class Coordinates {
       : first_{b.g->s, b.g->t}, second_{of.s.values(b.g), of.t.values(b.g)}, maps_(of.maps(b.g)) {
     if (!second_.s || !second_.t) second_ = first_;
   }
-  /// The coordinates that the picture of the parameter `map` is looked up at.
+  /// Returns the coordinates that the picture of the parameter `map` is looked up at.
   Pair of(std::string_view map) const {
     for (size_t at = maps_.find(map); at != maps_.npos; at = maps_.find(map, at + 1))
       if ((at == 0 || maps_[at - 1] == ' ') && (at + map.size() == maps_.size() || maps_[at + map.size()] == ' '))
@@ -76,7 +76,7 @@ class MappedValues {
   std::optional<rsl::Array> picture_;
 };
 
-/// A colour of sRGB in linear light (IEC 61966-2-1).
+/// Returns a colour of sRGB in linear light (IEC 61966-2-1).
 inline rsl::Color linearOfSrgb(rsl::Color c) {
   const auto linear = [](float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); };
   return {linear(c.x), linear(c.y), linear(c.z)};
@@ -108,7 +108,7 @@ struct NormalMap {
   rsl::StringParam map{"normalmap", "", "picture of normals in tangent space, its green upwards"};
   rsl::FloatParam scale{"normalscale", 1, "how far they turn; negative: against what the picture says"};
 
-  /// Normals of unit length, towards the viewer, as rsl::Batch::facingNormals() gives them.
+  /// Returns normals of unit length, towards the viewer, as rsl::Batch::facingNormals() gives them.
   rsl::Vec3Array facingNormals(const rsl::Batch& b, Coordinates::Pair at) const {
     rsl::Vec3Array N = b.facingNormals(), texel(b.g);
     const TmTextureOptions options = tmTextureDefaults();

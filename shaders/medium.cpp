@@ -25,7 +25,7 @@ rsl::Color passing(rsl::Color extinction, float way) {
   return {std::exp(-extinction.x * way), std::exp(-extinction.y * way), std::exp(-extinction.z * way)};
 }
 
-/// The phase function times pi, as the Cl of a lamp is E/pi.
+/// Returns the phase function times pi, as the Cl of a lamp is E/pi.
 float phase(float g, float cosine) {
   const float bend = std::max(1 + g * g - 2 * g * cosine, 1e-6f);
   return (1 - g * g) / (4 * bend * std::sqrt(bend));
@@ -148,7 +148,7 @@ class Places {
         out.distance[i] = std::min(std::max(lamp(kind, i).at(share[i]), 0.0f), way(i));
     out.find(b_, kind == 0);
   }
-  /// The sum of the densities of all kinds over the distance, for each unit of the medium's density there.
+  /// Returns the sum of the densities of all kinds over the distance, for each unit of the medium's density there.
   float density(int i, const Place& at) const {
     float sum = 0;
     for (int kind = 1; kind < kinds(); ++kind) sum += lamp(kind, i).density(at.distance[i]);
@@ -184,7 +184,7 @@ int stepsFor(const rsl::Batch& b) {
   return diffuse ? 1 : static_cast<int>(steps(b.g));
 }
 
-/// The light that each whole ray scatters to the eye.
+/// Returns the light that each whole ray scatters to the eye.
 rsl::Vec3Array scattered(const rsl::Batch& b, const rsl::Array& units, const Place& whole) {
   const LightAround light(b, units);
   const Places places(b, units, whole);

@@ -1,7 +1,7 @@
-// What a glossy surface mirrors. It is cheap to follow a direction of its lobes, and dear to shade what is met there.
-// So a point shades all of that where half of the light comes back, and a hundredth where a twentieth does
-// (dielectrics). The others are left out by chance and weighted for, so that the sum stays unbiased: systematic
-// sampling with probabilities by weight (Madow 1949, "On the Theory of Systematic Sampling, II").
+// The light that a glossy surface mirrors. It is cheap to follow a direction of its lobes, and expensive to shade what
+// is met there. So a point shades all that it meets where half of the light comes back, and a hundredth where a
+// twentieth does (dielectrics). The others are left out by chance and weighted for, so that the sum stays unbiased:
+// systematic sampling with probabilities by weight (Madow 1949, "On the Theory of Systematic Sampling, II").
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,8 @@
 #include "reyes/shader.h"
 #include "reyes/shader/noise.h"
 
-/// Reflections of the points of one batch. Only the points' own numbers decide what is shaded, never their company.
+/// Reflections of the points of one batch. Only the points' own numbers decide what is shaded, so a point's light does
+/// not depend on the batch.
 class Reflections {
  public:
   /// Directions are followed in sets of so many, which bounds the memory. It is a power of two, so that each set of
@@ -69,8 +70,8 @@ class Reflections {
   };
   struct Point {
     std::vector<Direction> drawn;
-    size_t shaded = 0;  ///< How many of them are shaded at most.
-    float start = 0;    ///< In [0,1), by chance.
+    size_t shaded = 0;  ///< Greatest number of directions that are shaded.
+    float start = 0;    ///< Random number in [0,1).
   };
 
   /// Morton's curve through the unit square: what is near on it is near in the lobe.

@@ -25,7 +25,7 @@ constexpr double kStoredBytes = 2.5 * 36;
 constexpr double kLeastOfMap =
     1e-3;  ///< Share of its map's area that a surface needs to have a number: leaves share their photons.
 
-/// Area of the boxes of each group's objects in world space, so that every camera finds the same maps.
+/// Returns the area of the boxes of each group's objects in world space, so that every camera finds the same maps.
 std::vector<double> boxAreas(const Scene& scene) {
   std::vector<double> areas(scene.groups.size(), 0.0);
   for (const Object& o : scene.objects) {
@@ -59,7 +59,7 @@ std::vector<int> numbered(const std::vector<std::string>& maps, const std::vecto
   for (size_t g = 0; g < maps.size(); ++g) {
     Map& map = byName[maps[g]];
     const int number =
-        // small surfaces are counted too, so that the numbers do not depend on which are small
+        // Small surfaces are counted too, so that the numbers do not depend on which surfaces are small.
         1 + map.groups++ % kMostSurfaces;
     out.push_back(areas[g] >= kLeastOfMap * map.area ? number : 0);
   }
@@ -97,7 +97,7 @@ MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasS
                                                  (kStoredBytes * static_cast<double>(settings.photons.emit)));
   MapNames names;
   names.world = settings.world;
-  double before = 0;  // groups follow the order of objects in the scene, so neighbours in its hierarchy stay together
+  double before = 0;  // Groups follow the order of objects in the scene, so neighbours in its hierarchy stay together.
   for (size_t g = 0; g < areas.size(); ++g) {
     const std::string& given = scene.groups[g].attributes->photon.globalMap;
     const std::string& caustic = scene.groups[g].attributes->photon.causticMap;
@@ -143,7 +143,7 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, file.bound());
   const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
-  // chunks of photons spread over the whole scene, so they are sorted first
+  // Chunks of photons spread over the whole scene, so they are sorted first.
   const fs::path compact = temporary.path() / "photons.ptc";
   PointTiles(file).writeCompact(compact.string());
   const PointFile sorted(compact.string());
@@ -185,7 +185,7 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
                const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeAtlasFolder(irradiance);
-  // Where direct light is stored too, hits have no other way to their light: they look up what there is.
+  // If photons hold direct light too, hits have no other source of it: they take whatever is stored near them.
   const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(rays);
   size_t finished = 0;
   std::vector<MapFigures> made;
@@ -221,7 +221,7 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
 void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                 const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
                 Log& log) {
-  constexpr float kShareOfPhotons = 0.6f;  // of the time, about
+  constexpr float kShareOfPhotons = 0.6f;  // about this share of the time
   const auto within = [&](float from, float to) -> AtlasProgress {
     if (!progress) return {};
     return [&progress, from, to](float share) { progress(from + (to - from) * share); };

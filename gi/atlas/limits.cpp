@@ -5,12 +5,12 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kFewEstimates = 32;  // a map with fewer estimates is not judged
+constexpr int64_t kFewEstimates = 32;  // A map with fewer estimates is not judged.
 constexpr double kLeastOfPhotons = 0.01;
-constexpr double kMost = 0.5;  // share of estimates that may be unreliable
+constexpr double kMost = 0.5;  // Share of estimates that may be unreliable.
 constexpr double kClumped = 1.1;
 
-/// The first object whose light a map holds; null if there is none.
+/// Returns the first object whose light a map holds; null if there is none.
 const Object* objectOf(const Scene& scene, const MapNames& names, const std::string& map) {
   for (size_t g = 0; g < scene.groups.size(); ++g)
     if (const int example = scene.groups[g].exampleObject;

@@ -16,7 +16,7 @@ bool holdsDirect(const fs::path& folder) {
       if (entry.path().extension() == ".bkm" &&
           offsetOf(BrickFile(entry.path().string()).channels(), kIndirectIrradiance) >= 0)
         return false;
-    } catch (const FileError&) {  // reported when it is used
+    } catch (const FileError&) {  // the problem is reported when the file is used
     }
   return true;
 }

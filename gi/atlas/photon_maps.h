@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// Has to be increased when the same inputs begin to make other files.
+/// Increase this when the same inputs begin to make other files.
 constexpr uint32_t kAtlasMethod = 13;
 
 /// A photon as a map holds it.

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kPlaces = 2048;  ///< In all maps together.
+constexpr size_t kPlaces = 2048;  ///< Number of places in all maps together.
 constexpr int kDirections = 8;
 /// The distance of the farthest photons of an estimate, in radii of the disk that it stands for. An estimate is made of
 /// fifty photons and stands for the place of four, with disks that overlap.
@@ -59,7 +59,7 @@ class WallTest {
   WallTest(const RayScene& rays, const BrickMap& map, const std::vector<int>& surfaces)
       : rays_(rays), map_(map), surfaces_(surfaces), world_(rays.scene()), current_(glm::inverse(world_.points)) {}
 
-  /// The object through which light comes to the place; -1: none.
+  /// Returns the object through which light comes to the place; -1: none.
   int leakAt(const Place& place) const {
     const vec3 P = transformPoint(current_, place.P), N = normalizeOr(transformVector(current_, place.N), vec3(0));
     const float reach = kReach * place.radius / world_.scale;

@@ -46,7 +46,7 @@ struct BrickLayer {
         incoherent(isIncoherent),
         surface(static_cast<uint8_t>(of & kSurfaceBits)) {}
   vec3 normal() const { return normalizeOr(vec3(x, y, z), vec3(0.0f)); }
-  /// Does the layer match a lookup? N: unit; zero matches any direction. of: a surface; 0 matches any.
+  /// Tells whether the layer matches a lookup. N: unit; zero matches any direction. of: a surface; 0 matches any.
   bool answers(const vec3& N, int of = 0) const { return (of == 0 || surface == 0 || of == surface) && faces(N); }
   bool faces(const vec3& N) const {
     const vec3 n(x, y, z);
@@ -55,7 +55,7 @@ struct BrickLayer {
   }
 
  private:
-  /// The same as std::lround(), without a call. It is in double, because floats would round t + 0.5.
+  /// Does the same as std::lround(), without a call. It is in double, because floats would round t + 0.5.
   static int8_t part(float v) {
     const double t = 127 * v;
     return static_cast<int8_t>(t + std::copysign(0.5, t));
@@ -120,7 +120,7 @@ class Brick {
   static_assert(sizeof(Head) == 88);
 
   Brick(std::vector<std::byte> bytes, size_t width) : bytes_(std::move(bytes)), width_(width) {}
-  /// The same as std::popcount(), without a call on processors that may lack the instruction.
+  /// Does the same as std::popcount(), without a call on processors that may lack the instruction.
   static size_t countOnes(uint64_t bits) {
     bits -= bits >> 1 & 0x5555555555555555u;
     bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);

@@ -31,7 +31,7 @@ struct Shares {
     const float lo = center - half, hi = center + half;
     first = voxelOf(lo);
     last = voxelOf(hi);
-    const bool hasLength = half > 1e-5f;  // else it lies in one voxel as a whole
+    const bool hasLength = half > 1e-5f;  // otherwise the part lies in one voxel as a whole
     for (size_t i = first; i <= last; ++i) {
       const auto at = static_cast<float>(i);
       share[i] = hasLength ? std::max(0.0f, std::min(hi, at + 1) - std::max(lo, at)) / (2 * half) : 1.0f;
@@ -66,7 +66,7 @@ class Builder {
   }
 
  private:
-  /// The data of one level. Only these and the points are in memory.
+  /// The data of one level. Memory holds no more than this and the points.
   struct Level {
     explicit Level(size_t width) : sums(width) {}
     BrickAccumulator sums;
@@ -145,13 +145,13 @@ class Builder {
     }
   }
 
-  /// The same for points on disk. Returns false if there are none.
+  /// Does the same for points on disk. Returns false if there are none.
   bool accumulate(const PointTiles& tiles, uint64_t most, int level, const glm::ivec3& place, BrickNode& node) {
     if (tiles.count(level, place) <= most || level == PointTiles::kDeepest || level >= settings_.maxDepth) {
       const Bound3 box = tiles.box(level, place);
       const PointCloud cloud = tiles.around(box, 0, settings_.radiusScale);
       Members members = use(cloud);
-      std::erase_if(members, [&](uint32_t i) {  // as partition() does
+      std::erase_if(members, [&](uint32_t i) {  // this divides as partition() does
         const Spot& s = spots_[i];
         return glm::any(glm::greaterThanEqual(s.center - s.half, box.hi)) ||
                glm::any(glm::lessThan(s.center + s.half, box.lo));

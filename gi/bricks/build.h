@@ -33,7 +33,7 @@ struct BuiltBricks {
 BuiltBricks buildBricks(const PointCloud& cloud, const BrickSettings& settings,
                         const std::function<void(const Brick&)>& store);
 
-/// The same from disk, with about `most` points in memory at a time. It is fastest if the file is sorted
+/// Does the same from disk, with about `most` points in memory at a time. It is fastest if the file is sorted
 /// (writePointFile). Throws FileError.
 BuiltBricks buildBricks(const PointTiles& tiles, const BrickSettings& settings,
                         const std::function<void(const Brick&)>& store, uint64_t most = kPointsInMemory);

@@ -9,8 +9,8 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kShards = 16;         // each with its own lock and share of the budget
-constexpr size_t kBytesOfEntry = 192;  // for the index, the queue and the allocator, roughly
+constexpr size_t kShards = 16;         // Each part has its own lock and share of the budget.
+constexpr size_t kBytesOfEntry = 192;  // Bytes for the index, the queue and the allocator, roughly.
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// The cube around a cloud, which brick maps divide.
+/// Returns the cube around a cloud, which brick maps divide.
 BrickCube cubeAround(const Bound3& bound);
 
 class PointTiles {
@@ -18,16 +18,17 @@ class PointTiles {
 
   const PointFile& file() const { return file_; }
   const BrickCube& cube() const { return cube_; }
-  /// The bound of the cube of some level at `place`, counted in cubes of that level from the low corner. Neighbours
-  /// share their border to the bit.
+  /// Returns the bound of the cube of some level at `place`, counted in cubes of that level from the low corner.
+  /// Neighbours share their border to the bit.
   Bound3 box(int level, const glm::ivec3& place) const;
   uint64_t count(int level, const glm::ivec3& place) const;
-  /// Does count() count this point? Every point lies in one cube of each level.
+  /// Tells whether count() counts this point. Every point lies in one cube of each level.
   bool contains(int level, const glm::ivec3& place, const vec3& P) const {
     return cellOf(P) >> (kDeepest - level) == place;
   }
   double meanOfData() const { return mean_; }
-  /// The points that lie within `margin` of the box, or whose scaled radius reaches it, in the order of the file.
+  /// Returns the points that lie within `margin` of the box, or whose scaled radius reaches it, in the order of the
+  /// file.
   PointCloud around(const Bound3& box, float margin, float radiusScale = 1) const;
 
   /// Writes the same points in chunks that are compact in space, whatever the order of the file, so that around() reads

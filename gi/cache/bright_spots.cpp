@@ -9,9 +9,11 @@ namespace {
 constexpr size_t kMostSpots = 64, kMostHits = 1 << 15;
 constexpr size_t kLeastHits = 4;  ///< A spot needs so many hits: a single one may be a mirror's, or chance.
 constexpr size_t kHitsToSplit = 16;
-constexpr float kNearest = 3;  ///< In radii of the spot. The rays of the hemisphere find nearer spots.
+/// Least distance to a spot, in its radii. The rays of the hemisphere find nearer spots.
+constexpr float kNearest = 3;
 constexpr float kRounding = 1e-3f;
-/// In radii, and as one less the length of the mean normal: a flatter cluster becomes a rectangle.
+/// A cluster becomes a rectangle if its hits lie this close to a plane, in radii, and its mean normal is this close to
+/// unit length.
 constexpr float kFlat = 0.02f;
 /// The hits may end so many mean distances between hits before the border. A smaller value leaves noise, a larger one
 /// wastes rays.

@@ -30,13 +30,13 @@ class BrightSpots {
     vec3 halfU{0}, halfV{0};  ///< Perpendicular vectors from the rectangle's centre to the middles of two edges.
   };
   BrightSpots() = default;
-  /// Those that another has learnt.
+  /// Takes over spots that another object has learnt.
   BrightSpots(std::vector<Spot> spots, float irradiance)
       : spots_(std::move(spots)), irradiance_(irradiance), records_(1) {}
   /// Computes the spots anew. The same finds in the same order give the same spots.
   void learn(const std::vector<BrightFind>& finds);
   const std::vector<Spot>& spots() const { return spots_; }
-  /// Mean E/pi of all finds.
+  /// Returns the mean E/pi of all finds.
   float irradiance() const {
     return records_ > 0 ? static_cast<float>(irradiance_ / static_cast<double>(records_)) : 0.0f;
   }
@@ -61,13 +61,13 @@ class SpotAim {
   void dim(const std::vector<float>& shares);
   float radiance(size_t target) const { return targets_[target].share / targets_[target].covered; }
 
-  /// E/pi of all spots; 0 if there is none to aim at.
+  /// Returns E/pi of all spots; 0 if there is none to aim at.
   float irradiance() const { return irradiance_; }
-  /// Upper bound of the share of the cosine-weighted hemisphere that the spots cover: they may overlap.
+  /// Returns an upper bound of the share of the cosine-weighted hemisphere that the spots cover: they may overlap.
   float coverage() const { return coverage_; }
   /// Returns a unit direction to a spot. choice, xi: uniform in [0,1).
   vec3 direction(float choice, const vec2& xi) const;
-  /// Probability density of direction() over solid angle.
+  /// Returns the probability density of direction() over solid angle.
   float density(const vec3& direction) const;
 
  private:

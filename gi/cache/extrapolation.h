@@ -4,8 +4,8 @@
 
 namespace tomales {
 
-/// The change of E/pi that the gradients of a record or a share predict, for a step from the record's position and a
-/// turn, the cross product of the record's normal and the other one.
+/// Returns the change of E/pi that the gradients of a record or a share predict, for a step from the record's position
+/// and a turn, the cross product of the record's normal and the other one.
 template <class Light>
 vec3 changeBy(const Light& r, const vec3& step, const vec3& turn) {
   vec3 change;

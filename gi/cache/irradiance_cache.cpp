@@ -13,11 +13,11 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kRun = 64;  // greatest number of lookups that share their candidates
-// greatest diagonal of the places of a run: incoherent points would share too many candidates
+constexpr size_t kRun = 64;  // Greatest number of lookups that share their candidates.
+// Greatest diagonal of the places of a run: incoherent points would share too many candidates.
 constexpr float kRunPixels = 24;
 
-// What is compared to choose candidates is rounded by less, relatively.
+// Relative margin of the values that choose candidates. It exceeds their rounding error.
 constexpr float kSlack = 1e-4f;
 
 struct Candidate {
@@ -117,7 +117,7 @@ struct IrradianceCache::Impl {
         published);
   }
 
-  /// The same for one place alone.
+  /// Does the same for one place alone.
   const std::vector<Candidate>& candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
     Search& search = searchOfThread();
     const Range range = rangeAt(pixelSize, 1);

@@ -28,25 +28,27 @@ struct LightShare {
 };
 
 struct IrradianceRecord {
-  vec3 position, normal;        ///< normal is a unit vector without bumps (approximate-gi section 4.5)
-  vec3 E;                       ///< E/pi per channel
-  vec3 rotationGradient[3];     ///< per channel; E(n) ~ E + dot(cross(ni, n), gradient) (Ward and Heckbert 1992)
-  vec3 translationGradient[3];  ///< per channel; E(x) ~ E + dot(x - xi, gradient)
-  vec3 tangent;                 ///< unit; with cross(normal, tangent) it spans the axes of hessian
-  vec3 hessian[3];              ///< second derivatives of E along those axes: xx, xy, yy (ErrorFunction::Hessian alone)
-  vec3 dominant[3];             ///< unit directions of the dominant light of red, green and blue (eq. 7)
-  float harmonicMean;           ///< harmonic mean of the distances to the hits; Ward's R
-  float closest;                ///< least distance to a hit; the paper's R_i
-  float smoothRadius;           ///< E is nearly linear within it (ErrorFunction::Hessian alone)
-  float noise;                  ///< upper bound of the standard error of the luminance of E
-  /// greatest validity radius: neighbours disagree beyond it, or an occluder over the record ends there
+  vec3 position, normal;  ///< normal is a unit vector without bumps (approximate-gi section 4.5).
+  vec3 E;                 ///< E/pi per channel
+  /// One for each channel; E(n) ~ E + dot(cross(ni, n), gradient) (Ward and Heckbert 1992).
+  vec3 rotationGradient[3];
+  vec3 translationGradient[3];  ///< One for each channel; E(x) ~ E + dot(x - xi, gradient).
+  vec3 tangent;                 ///< Unit vector; with cross(normal, tangent) it spans the axes of hessian.
+  /// Second derivatives of E along those axes: xx, xy, yy (ErrorFunction::Hessian alone).
+  vec3 hessian[3];
+  vec3 dominant[3];    ///< Unit directions of the dominant light of red, green and blue (eq. 7).
+  float harmonicMean;  ///< Harmonic mean of the distances to the hits; Ward's R.
+  float closest;       ///< Least distance to a hit; the paper's R_i.
+  float smoothRadius;  ///< E is nearly linear within it (ErrorFunction::Hessian alone)
+  float noise;         ///< Upper bound of the standard error of the luminance of E.
+  /// Greatest validity radius: neighbours disagree beyond it, or an occluder over the record ends there.
   float limit = kInfinity;
-  float pixelSize;                 ///< root of the projected pixel area at the record, for R+ and R- (eq. 3)
+  float pixelSize;                 ///< Root of the projected pixel area at the record, for R+ and R- (eq. 3).
   float unseenDisplacement = 0;    ///< Greatest distance from the surface that its rays see to the displaced one.
   std::vector<LightShare> shares;  ///< One for each group of lights that was asked for; empty: not known.
 };
 
-/// The record as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
+/// Returns the record as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
 inline IrradianceRecord withGains(IrradianceRecord record, std::span<const vec3> gains) {
   LightShare sum;
   float most = 1;
@@ -58,7 +60,7 @@ inline IrradianceRecord withGains(IrradianceRecord record, std::span<const vec3>
     most = std::max({most, gains[g].x, gains[g].y, gains[g].z});
   }
   record.E = sum.E;
-  record.noise *= most;  // which is an upper bound
+  record.noise *= most;  // the noise is an upper bound
   std::ranges::copy(sum.rotationGradient, record.rotationGradient);
   std::ranges::copy(sum.translationGradient, record.translationGradient);
   std::ranges::copy(sum.hessian, record.hessian);

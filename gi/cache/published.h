@@ -1,5 +1,5 @@
-// Private to gi/irradiance_cache: how far a record may be used, as it was published, and nothing else. What this
-// renderer adds is in gi/cache/amendments. Each type has the size of a record, from which its radius follows; the
+// Private to gi/irradiance_cache: the published rules of how far a record may be used, and nothing else. The amendments
+// of this renderer are in gi/cache/amendments. Each type has the size of a record, from which its radius follows; the
 // weight of a record at a point; and the least cosine between normals that has a weight. `position`: the distance to
 // the record over its radius; `angle`: sqrt(1 - n.ni).
 #pragma once

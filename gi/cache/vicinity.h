@@ -10,16 +10,16 @@
 
 namespace tomales {
 
-/// How far records of a given size serve, for places of one pixel size.
+/// The limits of how far records serve, for places of one pixel size.
 struct Range {
   float least, most;  ///< The clamps R- and R+ of approximate-gi eq. 3.
   float kappa;        ///< The divisor of radii in eq. 2.
   float pixel;        ///< Root of the projected pixel area at kappa 1.
   float wider;        ///< Greatest factor on a radius (Amendment::Reach).
-  float leastCosine;  ///< Between the normal of a place and that of a record that serves it.
-  bool fadesBehind;   ///< Amendment::Behind
+  float leastCosine;  ///< Least cosine between the normals of a place and of a record that serves it.
+  bool fadesBehind;   ///< True if Amendment::Behind is on.
 
-  /// The distance at which the error reaches 1: the denominator of eq. 3 over kappa. The split sphere as it was
+  /// Returns the distance at which the error reaches 1: the denominator of eq. 3 over kappa. The split sphere as it was
   /// published has no limits in pixels.
   float radiusOf(float size) const { return std::max(std::min(size, most), least) / kappa; }
 };
@@ -49,7 +49,8 @@ class Vicinity {
 
   std::vector<uint32_t> records_;
   AlignedVector<float> x_, y_, z_, nx_, ny_, nz_, size_, limit_, steepness_, unseen_;
-  AlignedVector<float> position_, angle_, fades_;  ///< As in Serving; fades_ is 0 where the record does not serve.
+  /// The values of Serving; fades_ is 0 where the record does not serve.
+  AlignedVector<float> position_, angle_, fades_;
 };
 
 }  // namespace tomales

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kMostIor = 3;  // the rational approximation of inner reflection holds for smaller values
+constexpr float kMostIor = 3;  // The rational approximation of inner reflection holds for smaller values.
 
 vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 
@@ -43,12 +43,13 @@ bool comesBefore(const PointCloud& cloud, uint32_t a, uint32_t b) {
   return std::lexicographical_compare(cloud.at(a), cloud.at(a) + width, cloud.at(b), cloud.at(b) + width);
 }
 
-/// Without copies: buckets on whose border a micropolygon lies shade it each for itself.
+/// Returns the sorted points without copies. Buckets on whose border a micropolygon lies shade it each for itself.
 PointCloud sorted(const PointCloud& cloud) {
   std::vector<uint32_t> order(cloud.count());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return comesBefore(cloud, a, b); });
-  const auto same = [&](uint32_t a, uint32_t b) { return !comesBefore(cloud, a, b); };  // as a does not follow b
+  // the points are sorted, so that a does not follow b
+  const auto same = [&](uint32_t a, uint32_t b) { return !comesBefore(cloud, a, b); };
   order.erase(std::unique(order.begin(), order.end(), same), order.end());
   PointCloud out;
   out.channels = cloud.channels;
@@ -57,7 +58,7 @@ PointCloud sorted(const PointCloud& cloud) {
   return out;
 }
 
-/// Empty if there is no material of this name.
+/// Returns nothing if there is no material of this name.
 std::optional<Translucency> materialOf(const TmSubsurfaceOptions& s) {
   const auto triple = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
   if (s.material) return translucencyOf(s.material);

@@ -12,8 +12,8 @@ class Diffusion {
   /// Reads the channels "_area" and "_radiance_t" (E/pi). Throws FileError.
   explicit Diffusion(const PointCloud& entries);
 
-  /// E/pi that leaves at P. `millimetres`: length of one unit of the cloud. A group of points that is seen under less
-  /// than `maxSolidAngle` steradians, from outside of its bound, counts as one point.
+  /// Returns E/pi that leaves at P. `millimetres`: length of one unit of the cloud. A group of points that is seen
+  /// under less than `maxSolidAngle` steradians, from outside of its bound, counts as one point.
   vec3 at(const vec3& P, const Dipole& dipole, float millimetres, float maxSolidAngle) const;
 
  private:

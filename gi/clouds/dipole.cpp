@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// The inner reflection at the medium's border: A of the paper, with its rational approximation of Fdr.
+/// Returns the inner reflection at the medium's border: A of the paper, with its rational approximation of Fdr.
 float innerReflection(float ior) {
   const float Fdr = -1.440f / (ior * ior) + 0.710f / ior + 0.668f + 0.0636f * ior;
   return (1 + Fdr) / (1 - Fdr);
@@ -17,7 +17,7 @@ float reflectanceOf(float albedo, float A) {
   return 0.5f * albedo * (1 + std::exp(-4.0f / 3.0f * A * s)) * std::exp(-s);
 }
 
-/// The inverse of reflectanceOf(), by bisection: reflectance grows with the albedo.
+/// Returns the inverse of reflectanceOf(), by bisection: reflectance grows with the albedo.
 float albedoOf(float reflectance, float A) {
   float low = 0, high = 1;
   for (int step = 0; step < 24; ++step) {

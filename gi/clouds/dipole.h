@@ -15,17 +15,17 @@ struct Translucency {
   float ior;
 };
 
-/// Measured coefficients by name (Jensen et al. 2001, figure 5); empty if there is no such material.
+/// Returns measured coefficients by name (Jensen et al. 2001, figure 5); empty if there is no such material.
 std::optional<Translucency> translucencyOf(std::string_view material);
-/// The material that reflects `albedo` of diffuse light, with a mean free path of `meanFreePath` mm.
+/// Returns the material that reflects `albedo` of diffuse light, with a mean free path of `meanFreePath` mm.
 Translucency translucencyOf(const vec3& albedo, const vec3& meanFreePath, float ior);
 
 class Dipole {
  public:
   explicit Dipole(const Translucency& material);
-  /// Radiant exitance per incident flux at a squared distance in mm2, in 1/mm2: Rd of equation 4.
+  /// Returns radiant exitance per incident flux at a squared distance in mm2, in 1/mm2: Rd of equation 4.
   vec3 exitance(float distance2) const;
-  /// The integral of exitance() over a plane: the share of light that comes back.
+  /// Returns the integral of exitance() over a plane: the share of light that comes back.
   vec3 reflectance() const;
 
  private:

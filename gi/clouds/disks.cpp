@@ -6,10 +6,10 @@ namespace tomales {
 namespace {
 
 constexpr int kDirections = 1024;
-// turn between successive directions of a spiral, whose points are evenly spread
+// Turn between successive directions of a spiral, whose points are evenly spread.
 constexpr float kGoldenAngle = 2.399963f;
 constexpr float kReach = 0.625f;
-// share of its radius; a disk that is nearer belongs to the point itself or to its neighbours
+// Share of its radius; a disk that is nearer belongs to the point itself or to its neighbours.
 constexpr float kOwnPlane = 0.3f;
 
 }  // namespace
@@ -64,7 +64,7 @@ uint32_t Disks::build(uint32_t begin, uint32_t end) {
   }
   group.sum.P /= group.sum.area;
   const vec3 size = group.bound.size();
-  group.seen = std::max(group.sum.area, 0.5f * dot(size, size));  // however sparse it is
+  group.seen = std::max(group.sum.area, 0.5f * dot(size, size));  // this holds however sparse the group is
   groups_.push_back(group);
   const auto middle = halve(disks_, begin, end, size);
   if (!middle) return node;

@@ -36,8 +36,8 @@ class Disks {
   struct Sum {
     vec3 P{0.0f};  ///< Mean position.
     float area = 0;
-    mat3 facing{/// Sum of N N^T: sqrt(area d.facing.d) is the area covered along d, exactly where all disks face alike.
-                0.0f};
+    /// Sum of N N^T: sqrt(area d.facing.d) is the area covered along d, exactly where all disks face alike.
+    mat3 facing{0.0f};
     vec3 front{0.0f};       ///< Sum of N.
     vec3 light{0.0f};       ///< Sum of the light.
     mat3 lightFront{0.0f};  ///< Sum of the light times N, a column for each axis.

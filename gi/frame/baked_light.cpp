@@ -18,7 +18,7 @@ constexpr BrickSettings kBricks{
     0.01f};  ///< maxError is a share of the mean: a third of that of photon maps, over which gather rays average.
 
 struct LitPoint {
-  vec3 P, N;  ///< In world space.
+  vec3 P, N;  ///< World space.
   float radius;
   vec3 E;  ///< W/m2
   int surface;

@@ -78,7 +78,7 @@ void BounceCaches::restore(const Levels& levels) {
   }
 }
 
-// What shines by itself, the share of the first group, is seen whatever lights are on.
+// The share of the first group is the light of what shines by itself. It is seen whatever lights are on.
 void BounceCaches::mixLevel() {
   std::vector<std::vector<LightShare>>& of = alone_.emplace_back();
   for (size_t g = 0; g < groups_.size(); ++g) {

@@ -24,17 +24,17 @@ class BounceCaches {
   /// nothing.
   void fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
             const GatherSettings& gather, int bounces, const Run& run);
-  /// All that lookup() knows, for files.
+  /// The members that lookup() needs, for files.
   struct Levels {
     Bound3 bound;
-    std::vector<std::vector<IrradianceRecord>> records;  ///< Of each level.
+    std::vector<std::vector<IrradianceRecord>> records;  ///< Indexed by level.
     std::vector<std::string> groups;                     ///< Each record has the share of each of these.
     float leastDistance = 0;
   };
   Levels levels() const;
   void restore(const Levels& levels);
-  /// E/pi after so many bounces. A weight of 0 means that it is not known. lights: null, or one of Run::groups, whose
-  /// lights alone shine.
+  /// Returns E/pi after so many bounces. A weight of 0 means that it is not known. lights: null, or one of Run::groups,
+  /// whose lights alone shine.
   IrradianceEstimate lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
                             const vec3& shadingNormal, const std::string* lights) const;
 

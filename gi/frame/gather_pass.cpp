@@ -18,11 +18,11 @@
 namespace tomales {
 namespace {
 
-constexpr int kPilotPhases = 3;  // bright spots are learnt from the records of these phases
-// With so many rays or more, all records have the same directions: what those miss changes little between records, and
-// is no more than other directions miss (docs/decisions/0095).
+constexpr int kPilotPhases = 3;  // Bright spots are learnt from the records of these phases.
+// Number of rays from which on all records have the same directions. The light that those miss changes little between
+// records, and is no more than other directions miss (docs/decisions/0095).
 constexpr int kManyRays = 512;
-// the first records that look for bright spots have so many times fewer rays, of their own
+// The first records that look for bright spots have so many times fewer rays, of their own.
 constexpr int kRaysPerPilotRay = 4;
 
 /// Returns the stride of the lattice that this phase completes; 0: it completes none.
@@ -270,7 +270,7 @@ class GatherPass {
     RecordSlice made;
     const size_t done = slices_.make(points, making, made);
     for (size_t k = 0; k < asked.size(); ++k) records[asked[k]] = made.records[k];
-    if (!finds.empty()) finds = std::move(made.finds);  // then all were asked
+    if (!finds.empty()) finds = std::move(made.finds);  // all sites were asked if there are finds
     return done < asked.size() ? asked[done] : sites.size();
   }
 

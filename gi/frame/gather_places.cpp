@@ -10,7 +10,7 @@ uint32_t nameOf(const vec3& v) {
   return hashCombine(std::bit_cast<uint32_t>(v.x), std::bit_cast<uint32_t>(v.y), std::bit_cast<uint32_t>(v.z));
 }
 
-/// The same as offsetOf(), but -1 where the width is not 3.
+/// Returns the same as offsetOf(), but -1 where the width is not 3.
 int tripleOf(const std::vector<Primvar>& primvars, std::string_view name) {
   const bool known =
       std::any_of(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name && p.width == 3; });

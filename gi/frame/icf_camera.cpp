@@ -12,7 +12,7 @@ class RecordMove {
       : to_(to),
         scale_(std::cbrt(std::abs(glm::determinant(mat3(to))))),
         hand_(glm::determinant(mat3(to)) < 0 ? -1.0f : 1.0f) {
-    if (std::abs(scale_ - 1) < 1e-5f) scale_ = 1;  // rigid, except for rounding
+    if (std::abs(scale_ - 1) < 1e-5f) scale_ = 1;  // the transformation is rigid, except for rounding
   }
 
   void apply(IrradianceRecord& r) const {

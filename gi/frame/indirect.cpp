@@ -22,10 +22,11 @@ CacheSettings settingsOf(ErrorFunction function, float maxError) {
 // Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
-/// For photons that nobody limits. What is left after so many surfaces of reflectance 0.75 is a hundredth.
+/// Surfaces on a photon's path, if nobody limits them. A hundredth of the light is left after so many of reflectance
+/// 0.75.
 constexpr int kAuditBounces = 16;
 
-/// E/pi of light that came by mirrors and glass, which gather rays do not find.
+/// Returns E/pi of light that came by mirrors and glass, which gather rays do not find.
 vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, float pixelSize) {
   if (state.settings.mode != GiMode::Atlas ||
       state.scene.groups[static_cast<size_t>(group)].attributes->photon.causticMap.empty())
@@ -43,14 +44,14 @@ std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, con
                       [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
 }
 
-/// The light of the records under the gains, or drawn anew; empty if that is their own.
+/// Returns the light of the records under the gains, or drawn anew; empty if that is their own.
 std::span<const LightShare> lightOf(const GiState& state, const PreparedCache& prepared, const ShadeContext& context) {
   const auto index = static_cast<size_t>(&prepared - state.caches.data());
   if (context.redrawn && !state.redrawn.empty()) return state.redrawn[index];
   return mixedLight(state, index);
 }
 
-/// A draw from the normal distribution (Box and Muller 1958) that belongs to a place.
+/// Returns a draw from the normal distribution (Box and Muller 1958) that belongs to a place.
 float normalDraw(const vec3& place) {
   const uint32_t name = hashCombine(std::bit_cast<uint32_t>(place.x), std::bit_cast<uint32_t>(place.y),
                                     std::bit_cast<uint32_t>(place.z), randomStream("reca"));

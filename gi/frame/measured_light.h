@@ -12,7 +12,7 @@ namespace tomales {
 
 class MeasuredLight {
  public:
-  /// True until measure(). Threads: note() may be called concurrently.
+  /// Returns true until measure(). Threads: note() may be called concurrently.
   bool isNoting() const { return !measurement_; }
   void note(const MeasurementPoint& point);
 
@@ -25,7 +25,7 @@ class MeasuredLight {
   void measure(const RayTools& tools, const PhotonPasses& passes, const std::function<void(float)>& progress,
                Stats& stats);
 
-  /// E/pi at a point that is equal to a noted one, and 0 at any other. Threads: may be called concurrently.
+  /// Returns E/pi at a point that is equal to a noted one, and 0 at any other. Threads: may be called concurrently.
   vec3 overPi(const MeasurementPoint& point) const;
 
  private:

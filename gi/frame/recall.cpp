@@ -1,4 +1,4 @@
-// What an earlier pass has recorded of indirect light, found by the question.
+// Looks up the answers about indirect light that an earlier pass has recorded, by what was asked.
 #include <algorithm>
 #include <bit>
 

@@ -1,4 +1,4 @@
-// Private to gi: what files keep of a record, of the light that its rays found, and of the point that it is made at.
+// Private to gi: the fields that files keep of a record, of the light that its rays found, and of its point.
 #pragma once
 #include "gi/gather.h"
 #include "reyes/base/pack.h"

@@ -10,7 +10,7 @@
 namespace tomales {
 namespace {
 
-/// What a thread makes between two looks at the file: little enough to be lost.
+/// Points whose records are stored together. An interruption loses no more of a thread's work than these.
 constexpr size_t kPointsPerSlice = 16;
 
 struct StoredSlice {

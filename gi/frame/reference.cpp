@@ -10,7 +10,7 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kRaysPerBatch = 4096;  // shaded together
+constexpr size_t kRaysPerBatch = 4096;  // Paths that are shaded together.
 // The share of paths that go on from places that no map knows: those that never come to another place end.
 constexpr float kGoesOn = 2.0f / 3;
 
@@ -121,7 +121,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   const int depth = context.depth + 1;
   ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   hitContext.diffuseLimit =
-      bounces;  // also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
+      bounces;  // the depth also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
   hitContext.highlights = true;
   hitContext.lights = context.lights;
   if (!state.focusing.empty()) hitContext.focusing = &state.focusing;

@@ -34,7 +34,7 @@ struct GiState {
   HitRadianceSource hitRadianceSource{};                     ///< May be empty.
   mutable std::unique_ptr<const HitRadiance> hitRadiance{};  ///< Set in GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
-  GiServices::BounceCost bounceCost{};        ///< Of the last gather pass.
+  GiServices::BounceCost bounceCost{};        ///< The cost of the last gather pass.
   std::optional<PhotonPasses> passes{};       ///< Empty: no photons are counted.
   std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.
   /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.
@@ -42,17 +42,17 @@ struct GiState {
   std::vector<std::string> groups{};    ///< The groups of lights whose shares records hold; empty: none.
   std::vector<vec3> gains{};            ///< One for each of these groups; empty if all are 1.
   std::vector<vec3> gainsOfNew{};       ///< The same for light that is gathered while shading.
-  std::unique_ptr<MixedLight> mixed{};  ///< With these gains; null if they are empty.
-  /// To be called when the gains or the records have changed.
+  std::unique_ptr<MixedLight> mixed{};  ///< Light mixed with these gains; null if they are empty.
+  /// Call this when the gains or the records have changed.
   void mixAnew() { mixed = gains.empty() ? nullptr : std::make_unique<MixedLight>(); }
-  /// Indexed as `caches`: that light, with another draw of each record's noise; empty before redrawRecords().
+  /// Light of the records, indexed as `caches`, with another draw of each record's noise; empty before redrawRecords().
   std::vector<std::vector<LightShare>> redrawn{};
 };
 
 /// Returns what gathering needs, atlas and radiosity maps included; null in the case that RaySource describes.
 const RayTools* gatherTools(const GiState&);
 
-/// The settings of an indirect light as this group sees them: the command line wins over the group's
+/// Returns the settings of an indirect light as this group sees them: the command line wins over the group's
 /// attributes, and those over the light.
 GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
 
@@ -64,9 +64,9 @@ bool interpolatesIndirect(const GiState&);
 /// Runs the shaders of each group that asksOcclusion() at one of its visible points, to learn what they ask.
 void learnOcclusionQueries(GiState&, const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
 
-/// The number of diffuse bounces of a light.
+/// Returns the number of diffuse bounces of a light.
 int bouncesFor(const GiState&, const IndirectQuery&);
-/// The same for paths that stand for all light that the method brings, by maps or otherwise.
+/// Returns the same for paths that stand for all light that the method brings, by maps or otherwise.
 int auditBouncesFor(const GiState&, const IndirectQuery&);
 
 /// Root of the area that a pixel projects onto the plane through P with unit normal n (approximate-gi
@@ -80,9 +80,9 @@ class GatherPlaces {
  public:
   GatherPlaces(const GiState&, const ShadePoints&);
   GatherPoint at(int i) const;
-  /// The place at(i), without what only rays need. `normal`: the shading normal.
+  /// Returns the place at(i), without what only rays need. `normal`: the shading normal.
   IrradiancePlace lookupAt(int i, const vec3& normal) const;
-  /// The normal that records are extrapolated to: the shading normal, unless "gatherN" names another.
+  /// Returns the normal that records are extrapolated to: the shading normal, unless "gatherN" names another.
   vec3 shading(int i, const vec3& normal) const { return normals_ < 0 ? normal : this->normal(i); }
   /// Sets the start of a ray along its direction from place i, at a time of the shutter.
   void aim(const RayScene&, int i, float time, Ray&) const;
@@ -108,17 +108,18 @@ struct BatchLookup {
 BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPlaces&, const ShadePoints&,
                    const uint8_t* active, TmConstVec3 N, const ShadeContext&);
 
-/// The places where the active points look, with no answer yet.
+/// Returns the places where the active points look, with no answer yet.
 BatchLookup placesOf(const GatherPlaces&, const ShadePoints&, const uint8_t* active, TmConstVec3 N);
-/// As lookUp(), but without the cache if context.answers, which must not be null, holds an answer for each place.
+/// Does the same as lookUp(), but without the cache if context.answers, which must not be null, holds an answer for
+/// each place.
 BatchLookup recallOrLookUp(const GiState&, const PreparedCache&, const GatherPlaces&, const ShadePoints&,
                            const uint8_t* active, TmConstVec3 N, const ShadeContext&);
 
-/// The light of a cache's records under the gains; empty if that is their own.
+/// Returns the light of a cache's records under the gains; empty if that is their own.
 std::span<const LightShare> mixedLight(const GiState&, size_t cache);
 
-/// The light of a cache's records as it would be with other random numbers: each is brighter or darker by a draw of its
-/// noise, times the root of 2, by which two independent pictures differ. mixed: mixedLight() of the cache.
+/// Returns the light of a cache's records as it would be with other random numbers: each is brighter or darker by a
+/// draw of its noise, times the root of 2, by which two independent pictures differ. mixed: mixedLight() of the cache.
 std::vector<LightShare> redrawn(const IrradianceCache&, std::span<const LightShare> mixed);
 
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,
@@ -127,7 +128,7 @@ std::vector<LightShare> redrawn(const IrradianceCache&, std::span<const LightSha
 constexpr int kLatticePhases = 9;
 int latticePhase(int x, int y);
 
-/// E/pi that the gather pass has left at a place; empty where no record serves.
+/// Returns E/pi that the gather pass has left at a place; empty where no record serves.
 std::optional<vec3> gatheredOverPi(const GiState&, const GatherPoint& at);
 
 /// Implements GiServices::bake().
@@ -149,15 +150,15 @@ bool noteMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmC
 void addMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, int bounces,
                  const ShadeContext&, const IndirectResult& out);
 
-/// Time of ray `number` of the `count` that leave a point: the point's own time, or a stratified one if the point is
-/// seen over the whole shutter and its object samples motion. Successive points of one SampleName continue each other's
-/// sequence.
+/// Returns the time of ray `number` of the `count` that leave a point: the point's own time, or a stratified one if the
+/// point is seen over the whole shutter and its object samples motion. Successive points of one SampleName continue
+/// each other's sequence.
 float rayTime(const RayScene&, const ShadePoints&, int i, int number, int count, uint32_t seed);
 
 /// Moves the start of a ray to where the point is at that time, keeping its end if it has one, and prepares it.
 void aim(const RayScene&, const ShadePoints&, int i, float time, Ray&);
 
-/// The filter for rays that a shader of an object with these attributes traces.
+/// Returns the filter for rays that a shader of an object with these attributes traces.
 RayFilter filterOf(const RayScene&, const RayQuery&, const Attributes&);
 /// Replaces the hit list by the bias, if the shader gives one.
 void setBias(const RayQuery&, Ray&);
@@ -169,7 +170,7 @@ void traceForShader(const GiState&, const ShadePoints&, const uint8_t* active, T
 /// Gathers at a point that no record serves, or takes the recorded answer if `answers` has one.
 IndirectAnswer gatherOrRecall(const GiState&, const GatherPoint&, const GatherSettings&, RayAnswers* answers);
 
-/// The unit normal that a shader asks with; the one facing the eye if it has none.
+/// Returns the unit normal that a shader asks with; the one facing the eye if it has none.
 vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i);
 /// Writes E/pi and dominant directions to element i of a result.
 void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[3]);

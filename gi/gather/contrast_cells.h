@@ -4,7 +4,7 @@
 
 namespace tomales {
 
-/// In means of the hemisphere. Light that differs by more is a small bright source.
+/// Least contrast of a small bright source, in means of the hemisphere.
 inline constexpr float kContrast = 4;
 
 /// Returns the cells where light changes fast: those whose neighbours differ by more than kContrast times the mean. The

@@ -10,8 +10,8 @@
 namespace tomales {
 namespace {
 
-/// In squared pixels, at `maxerror` 1: about as many records as with the paper's function
-/// (docs/measured/irradiance_cache.md).
+/// Tolerance of hessianRadius() at `maxerror` 1, in squared pixels. It makes about as many records as the paper's
+/// function (docs/measured/irradiance_cache.md).
 constexpr float kHessianTolerance = 4;
 constexpr int kMostSplit = 8;
 constexpr float kMostAimed = 0.5f;  ///< Greatest number of rays at bright spots, for each ray of the hemisphere.
@@ -77,7 +77,7 @@ class Hemisphere {
             scratch_.firstHits.distances,
             scratch_.spread};
   }
-  /// The radiance of each cell that each group of lights brings; after trace().
+  /// Returns the radiance of each cell that each group of lights brings; after trace().
   const std::vector<std::vector<vec3>>& shares() const { return scratch_.seen.shares; }
 
   std::vector<float>& upright() { return scratch_.upright; }

@@ -17,11 +17,11 @@ struct IrradianceCurvature {
 
 IrradianceCurvature curvatureOf(const HemisphereSamples& samples);
 
-/// Radius of the disk over which a record may be extrapolated linearly: the error, summed over the disk in units of
-/// squared pixels, is `tolerance` times the luminance of E.
+/// Returns the radius of the disk over which a record may be extrapolated linearly: the error, summed over the disk in
+/// units of squared pixels, is `tolerance` times the luminance of E.
 float hessianRadius(const IrradianceCurvature& curvature, float luminanceOfE, float pixelSize, float tolerance);
 
-/// Radius within which linear extrapolation is off by no more than `variation`.
+/// Returns the radius within which linear extrapolation is off by no more than `variation`.
 float variationRadius(const IrradianceCurvature& curvature, float variation);
 
 }  // namespace tomales

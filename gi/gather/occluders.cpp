@@ -6,14 +6,14 @@
 namespace tomales {
 namespace {
 
-constexpr float kOccluderPixels = 2;  // length of the rays; occluders farther away have been met by records
-constexpr float kUnmet = 0.9f;        // share of a record's closest distance below which it has met nothing
+constexpr float kOccluderPixels = 2;  // Length of the rays in pixels; records have met occluders that are farther away.
+constexpr float kUnmet = 0.9f;        // Share of a record's closest distance below which it has met nothing.
 constexpr float kSlant = 0.70710678f;
 
 }  // namespace
 
 float radiusUnderOccluder(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright) {
-  constexpr float kUpright = 0.8f;  // cosine
+  constexpr float kUpright = 0.8f;  // Cosine of the angle.
   constexpr size_t kTenth = 10;
   constexpr float kFinestPixels = 0.25f;
   upright.clear();

@@ -12,7 +12,7 @@ PolygonStart polygonStart(const RayScene& scene, const Ray& first, RayMask mask)
   across.tMax = 2 * reach;
   across.offset = across.bias = 0;
   across.surroundings = nullptr;
-  // What comes first may be the other side of a wall, a convex surface, or another object: then nothing is changed.
+  // Nothing is changed if the first hit is the other side of a wall, a convex surface or another object.
   const Hit hit = scene.closest(across, mask);
   if (hit.object < 0 || scene.groupOf(hit) != first.group) return {};
   const float height = hit.t - reach;

@@ -1,13 +1,13 @@
-// Where rays of a hemisphere start. A concave surface lies behind its coarse polygons: flat rays that leave it would
-// pass behind all of them and miss what is there, as inside a sphere. Such rays start on the polygon in front, and
-// those that would dive into it leave it at the mirrored angle. Space: current. Threads: pure.
+// The points where rays of a hemisphere start. A concave surface lies behind its coarse polygons: flat rays that leave
+// it would pass behind all of them and miss what is there, as inside a sphere. Such rays start on the polygon in front,
+// and those that would dive into it leave it at the mirrored angle. Space: current. Threads: pure.
 #pragma once
 #include "raytrace/trace.h"
 
 namespace tomales {
 
 struct PolygonStart {
-  vec3 lift{0.0f};    ///< From the point to the start.
+  vec3 lift{0.0f};    ///< Vector from the point to the start.
   vec3 normal{0.0f};  ///< Unit normal of the polygon, on the side of the hemisphere; zero: the start is no polygon.
 
   vec3 above(const vec3& direction) const { return direction - 2 * std::min(0.0f, dot(direction, normal)) * normal; }

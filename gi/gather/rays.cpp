@@ -13,7 +13,7 @@ struct GatherRays::Scratch {
   std::vector<std::pair<size_t, vec3>> mapped;
   HitAnswers answers, share;
   std::vector<vec3> glow;  ///< The colours of hits that no light lights.
-  std::vector<vec3> left;  ///< What the groups so far have not brought.
+  std::vector<vec3> left;  ///< The radiance that the groups so far have not brought.
 };
 
 GatherRays::Scratch& GatherRays::emptyScratch() {
@@ -114,8 +114,8 @@ void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   }
 }
 
-// Shades the same hits under each group of lights alone, but for the last group, whose share is what is left of the
-// whole. What shines by itself is there each time, and is taken off.
+// Shades the same hits under each group of lights alone. The last group is not shaded: its share is the rest of the
+// whole. Each shading includes what shines by itself, which is subtracted.
 void GatherRays::shadeShares(const ShadeContext& context, SeenLight& seen) {
   if (groups_.empty()) return;
   ShadeContext alone = context;

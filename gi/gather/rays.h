@@ -18,7 +18,7 @@ struct FirstHits {
 /// The radiance that rays bring.
 struct SeenLight {
   std::vector<vec3> all;
-  std::vector<std::vector<vec3>> shares;  ///< Of each group of lights that is asked for.
+  std::vector<std::vector<vec3>> shares;  ///< Indexed by the group of lights that is asked for.
 };
 
 class GatherRays {

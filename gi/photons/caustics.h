@@ -14,8 +14,8 @@ class CausticPhotons {
   /// photons: as for estimateIrradiance(), on surfaces.
   CausticPhotons(PointCloud photons, const PhotonIrradianceSettings& settings);
 
-  /// W/m2 around P on the side of N (unit), in the mean over a square of edges 2 `radius` or so. surface: that of P, as
-  /// in PhotonTree::nearest().
+  /// Returns W/m2 around P on the side of N (unit), in the mean over a square of edges 2 `radius` or so. surface: that
+  /// of P, as in PhotonTree::nearest().
   vec3 irradiance(const vec3& P, const vec3& N, int surface, float radius) const;
 
  private:
@@ -24,9 +24,9 @@ class CausticPhotons {
 
   PhotonTree tree_;
   int power_;                  ///< Offset of the channel.
-  std::vector<float> radius_;  ///< Of each photon's disk, in the order of the tree.
-  /// Boxes around the disks: of so many photons that follow each other in the tree, of so many of these boxes, and so
-  /// on up to one.
+  std::vector<float> radius_;  ///< Radius of each photon's disk, in the order of the tree.
+  /// Levels of boxes around the disks: a box of the lowest level holds a number of photons that follow each other in
+  /// the tree, a box of the next as many boxes, and so on up to one.
   std::vector<std::vector<Bound3>> boxes_;
 };
 

@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// From outside a sphere around the scene only the cone to it counts, however far away the light is. From within, all
-/// directions do.
+/// Directions from a light. From outside a sphere around the scene only the cone to it counts, however far away the
+/// light is. From within, all directions do.
 class PhotonCone {
  public:
   static constexpr int kRows = 64, kColumns = 128;
@@ -22,8 +22,8 @@ class PhotonCone {
   vec3 place(const vec3& local, float distance) const;  ///< Place at this distance from the light.
   double cellSolidAngle() const;
   float start() const { return start_; }  ///< Distance from the light at which its photons begin.
-  /// Distance at which the light shader is evaluated: at the scene if the light is outside, because its shader decides
-  /// how light falls off.
+  /// Returns the distance at which the light shader is evaluated: at the scene if the light is outside, because its
+  /// shader decides how light falls off.
   float askingDistance() const { return distance_ > 0 ? distance_ : 1.0f; }
 
  private:

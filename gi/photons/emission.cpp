@@ -11,8 +11,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kProbes = 4;  ///< In each cell of a cone
-constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square
+constexpr int kProbes = 4;  ///< Number of probes in each cell of a cone.
+constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square.
 /// Cells where no probe saw light get this share of the brightest cell, so that a beam between the probes is not lost.
 constexpr double kFloor = 1e-3;
 /// Bias of photons from a point light, relative to the size of the scene and the distance of its origin: such lights
@@ -24,7 +24,7 @@ constexpr float kLeastCosine = 1.0f / 16;
 constexpr uint32_t kFewSamples = 64;    ///< Number of samples of a distant light by which its angular width is known.
 constexpr float kSampledMargin = 1.2f;  ///< Factor on that width: none of the samples is the outermost direction.
 
-/// Places in a cell: the corners of a smaller square.
+/// Returns the place of a probe in its cell. The four places are the corners of a smaller square.
 vec2 probePlace(int probe) { return {probe & 1 ? 0.75f : 0.25f, probe & 2 ? 0.75f : 0.25f}; }
 
 Distribution withFloor(const std::vector<double>& weights) {

@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// The same as cosineHemisphere(), for many.
+/// Does the same as cosineHemisphere(), for many directions.
 void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out);
 
 /// Distance from the middle of the scene at which photons from outside begin, in radii of the scene.
@@ -44,7 +44,7 @@ StartNumbers startNumbers(uint32_t first, uint32_t stream, size_t count);
 class PhotonSource {
  public:
   virtual ~PhotonSource() = default;
-  /// Index of the light; -1: surfaces that glow by their shaders.
+  /// Returns the index of the light; -1: surfaces that glow by their shaders.
   virtual int light() const = 0;
   /// Estimated emitted power in W, by which photons are shared out; 0: none is emitted.
   virtual double power() const = 0;

@@ -83,7 +83,7 @@ void GlowPhotons::survey(Surface& out, size_t mostProbes) const {
   const size_t polygons = out.mesh->quads.size();
   if (polygons == 0) return;
   out.columns = std::clamp(static_cast<int>(std::sqrt(mostProbes / polygons)), 1, kMostColumns);
-  // Where there are more cells than probes, neighbours share one.
+  // Neighbouring cells share a probe if there are more cells than probes.
   const size_t perPolygon = static_cast<size_t>(out.columns * out.columns), cells = polygons * perPolygon,
                run = (cells + mostProbes - 1) / mostProbes, asked = (cells + run - 1) / run;
   std::vector<double> brightness(asked, 0.0), areas(cells, 0.0);
@@ -124,7 +124,7 @@ GlowPhotons::Start GlowPhotons::startIn(const Surface& surface, size_t cell, vec
   const CoarseGroup& mesh = *surface.mesh;
   const auto quad = static_cast<uint32_t>(cell / (n * n));
   const std::array<vec3, 4> p = mesh.corners(quad);
-  const bool first = uv.x + uv.y <= 1;  // of the two triangles that rays meet, cut from corner 1 to 3
+  const bool first = uv.x + uv.y <= 1;  // tells which of the two triangles that rays meet, cut from corner 1 to 3
   const vec3 spanned = first ? cross(p[1] - p[0], p[3] - p[0]) : cross(p[3] - p[2], p[1] - p[2]),
              geometric = normalizeOr(mesh.flipsNormal ? -spanned : spanned, vec3(0, 0, -1));
   const Lattice& lattice = mesh.latticeOf(quad);
@@ -151,7 +151,7 @@ std::vector<vec3> GlowPhotons::radianceAlong(const std::vector<Start>& starts, c
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   for (size_t i = 0; i < starts.size(); ++i) {
-    // What is seen from here is filtered over the cell.
+    // The ray's radius filters what is seen from here over the cell.
     const vec3& P = starts[i].P;
     const float radius = std::max(0.5f * std::sqrt(starts[i].area), roundingAt(P) + 1e-20f);
     Ray ray{P + radius * directions[i], -directions[i]};
@@ -171,7 +171,7 @@ void GlowPhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>
   cosineHemispheres(xi.b, directions);
   std::vector<Start> starts;
   std::vector<SampleName> names;
-  std::vector<double> density;  // over the numbers that choose the place in a cell
+  std::vector<double> density;  // density over the numbers that choose the place in a cell
   for (size_t i = 0; i < out.size(); ++i) {
     double x{xi.a[i].x};
     const Surface& surface = surfaces_[choice_.pick(x)];

@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// What surfaces send back along rays where there is no light.
+/// Returns the radiance that surfaces send back along rays where no lights shine.
 std::vector<vec3> emittedRadiance(const RayScene& rays, const ShadingSystem& shading, const std::vector<Ray>& from,
                                   const std::vector<Hit>& hits, const std::vector<SampleName>& names, uint32_t seed);
 
@@ -31,7 +31,7 @@ class GlowPhotons : public PhotonSource {
   };
   struct Start {
     vec3 P;
-    Hit hit;      ///< As a ray would meet it.
+    Hit hit;      ///< The hit of a ray that meets P.
     vec3 normal;  ///< Unit normal of the polygon on the side that glows.
     float area;   ///< Area for each unit of the pair of numbers that chose the place in its cell; 0: trimmed away.
   };

@@ -22,7 +22,7 @@ constexpr size_t kFew = 8;  ///< Fewer photons do not show how far apart they ar
 constexpr float kMuchCloser = 0.5f;
 constexpr float kMostOfMap = 0.05f;
 
-/// A circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
+/// Returns a circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
 vec2 segment(float theta) {
   const float area = theta - std::sin(theta) * std::cos(theta), s = std::sin(theta);
   return {area / kPi, area > 0 ? 2 * s * s * s / (3 * area) : 1.0f};
@@ -34,26 +34,26 @@ constexpr float kMuchBent = 0.95f;  ///< Length of the mean normal: a hemisphere
 struct Estimate {
   vec3 irradiance{0.0f};
   float radius = 0;                ///< 0 if no estimate was made.
-  bool few = false, bent = false;  ///< As in EstimateFigures.
+  bool few = false, bent = false;  ///< The same facts as in EstimateFigures.
   float clump = 1;
   bool acrossWalls = false;
 };
 
-/// Radius of the disk that stands for `every` of `count` photons on an area.
+/// Returns the radius of the disk that stands for `every` of `count` photons on an area.
 float diskRadius(float area, size_t count, int every) {
   return kOverlap *
          std::sqrt(area * static_cast<float>(every) / (kPi * static_cast<float>(std::max<size_t>(count, 1))));
 }
 
-/// Radius by the nearest few alone: where photons are rare, the farther ones lie on other surfaces, and the disk must
-/// not reach there. Pre: sorted.
+/// Returns the radius by the nearest few alone: where photons are rare, the farther ones lie on other surfaces, and the
+/// disk must not reach there. Pre: sorted.
 float nearRadius(const std::vector<NearPhoton>& photons, int every) {
   const size_t few = std::min(photons.size(), std::max(kFew, 2 * static_cast<size_t>(every)));
   return diskRadius(kPi * photons[few - 1].distance2, few, every);
 }
 
-/// The clumping of one estimate, EstimateFigures::clumps. The farthest of the few, the farthest of all (`inside`
-/// excludes it) and the photon at the middle do not count. Pre: sorted.
+/// Returns the clumping of one estimate, EstimateFigures::clumps. The farthest of the few, the farthest of all
+/// (`inside` excludes it) and the photon at the middle do not count. Pre: sorted.
 float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside) {
   if (photons.size() <= kFew || !(photons[kFew - 1].distance2 > 0)) return 1;
   return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
@@ -65,7 +65,7 @@ bool isAcrossWalls(const PhotonTree& tree, int power, uint32_t at, std::span<con
                    const SightAlongSurface& sight) {
   const vec3 P = tree.position(at), N = tree.normal(at);
   const SightLines lines = sight(P, N, radius);
-  SightLines ends;  // of the sectors between two lines: the shorter of both
+  SightLines ends;  // each sector ends with the shorter of its two lines
   float seen = 0;
   for (size_t k = 0; k < kSightLines; ++k) {
     ends[k] = std::min(lines[k], lines[(k + 1) % kSightLines]);

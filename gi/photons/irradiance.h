@@ -43,8 +43,9 @@ struct EstimateFigures {
   }
 };
 
-/// How far it is from P along a surface with normal N to walls behind which the surface goes on, at most `reach`, in
-/// even directions from the tangent of orthonormalBasis() on. Threads: calls are concurrent.
+/// Distances from P, along a surface with normal N, to walls behind which the surface goes on; they are at most
+/// `reach`. The directions are evenly spaced and start with the tangent of orthonormalBasis(). Threads: calls are
+/// concurrent.
 constexpr size_t kSightLines = 8;
 using SightLines = std::array<float, kSightLines>;
 using SightAlongSurface = std::function<SightLines(const vec3& P, const vec3& N, float reach)>;
@@ -58,16 +59,17 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
                               const std::function<bool(const vec3& P)>& wanted = {}, EstimateFigures* figures = nullptr,
                               const SightAlongSurface& sight = {});
 
-/// The channels of the result: `irradiance`, `indirect` or `fluence`, and the surface number where the photons have it.
+/// Returns the channels of the result: `irradiance`, `indirect` or `fluence`, and the surface number where the photons
+/// have it.
 std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& photons);
 
-/// The radius beyond which photons do not count, on a map of this bound.
+/// Returns the radius beyond which photons do not count, on a map of this bound.
 float reachOf(const PhotonIrradianceSettings& settings, const Bound3& map);
 
-/// Share of a disk that remains on one side of a straight border, by the distance of the remainder's centroid from the
-/// centre, in radii: 1 at 0, 1/2 at 4/(3 pi). It corrects estimates near the border of a surface.
+/// Returns the share of a disk that remains on one side of a straight border, by the distance of the remainder's
+/// centroid from the centre, in radii: 1 at 0, 1/2 at 4/(3 pi). It corrects estimates near the border of a surface.
 float coveredShare(float centroidDistance);
-/// The same for a ball and a plane: 1/2 at 3/8.
+/// Returns the same for a ball and a plane: 1/2 at 3/8.
 float coveredShareOfBall(float centroidDistance);
 
 }  // namespace tomales

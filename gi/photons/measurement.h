@@ -14,7 +14,7 @@ namespace tomales {
 struct MeasurementPoint {
   vec3 P, N;     ///< N: unit length, on the side whose light is measured.
   float radius;  ///< Radius of the disk on which photons count, at scale 1.
-  float beside;  ///< How far the polygons that photons meet may lie before or behind the surface.
+  float beside;  ///< Greatest distance from the surface to the polygons that photons meet, on either side.
   int bounces;   ///< Photons that have bounced more often (StoredPhoton::bounces) do not count.
 };
 
@@ -28,8 +28,8 @@ class PhotonMeasurement {
   void count(std::span<const StoredPhoton> photons);
 
   vec3 overPi(size_t point) const;  ///< Mean E/pi of the passes.
-  /// The expected absolute error of overPi() by noise, all points together, over the mean of overPi(): half the mean
-  /// difference of even and odd passes. Negative before there are two passes, or if no photon counted.
+  /// Returns the expected absolute error of overPi() by noise, all points together, over the mean of overPi(): half the
+  /// mean difference of even and odd passes. Negative before there are two passes, or if no photon counted.
   double noise() const;
   size_t size() const { return points_.size(); }
 
@@ -52,7 +52,7 @@ class PhotonMeasurement {
   vec3 half(size_t point, size_t parity) const;
 
   std::vector<MeasurementPoint> points_;
-  const double unit_;  ///< In W.
+  const double unit_;  ///< Unit of the counted power, in W.
   float scale_ = 0;
   int64_t passes_ = 0;
   std::vector<int> levels_;      ///< The levels that have points.

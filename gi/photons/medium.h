@@ -10,8 +10,8 @@ struct Medium {
   vec3 scattering{0.0f}, extinction{0.0f};
 
   bool empty() const { return !(maxComponent(extinction) > 0); }
-  /// Collisions per unit of length. They are sampled for the densest colour that a photon of this power still has; at
-  /// some of them the other colours do not collide, which is a null collision (Woodcock 1965).
+  /// Returns the collisions per unit of length. They are sampled for the densest colour that a photon of this power
+  /// still has; at some of them the other colours do not collide, which is a null collision (Woodcock 1965).
   float majorant(const vec3& power) const {
     return maxComponent(glm::mix(vec3(0.0f), extinction, glm::greaterThan(power, vec3(0.0f))));
   }

@@ -21,13 +21,13 @@ class Series {
       if (const auto n = static_cast<size_t>(p.bounces); n < power_.size()) power_[n] += double{luminance(p.power)};
   }
 
-  /// What each arrival is of the one before, at the end. `emitted`: all power, in place of first arrivals.
+  /// Returns the ratio of successive arrivals at the end. `emitted`: all power, in place of first arrivals.
   double ratio(double emitted) const {
     const size_t n = power_.size();
     if (n < 2 || !(power_[n - 1] > 0)) return 0;
     return std::min(power_[n - 1] / (n == 2 ? emitted : power_[n - 2]), kLargestRatio);
   }
-  /// The share of reflected light that would arrive later if it went on as a geometric series.
+  /// Returns the share of reflected light that would arrive later if it went on as a geometric series.
   double left(double emitted) const {
     const double r = ratio(emitted), rest = power_.back() * r / (1 - r),
                  reflected = std::accumulate(power_.begin() + 1, power_.end(), 0.0);

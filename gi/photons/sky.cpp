@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kCorners = SkyCells::kRows + 1;  ///< From pole to pole
+constexpr int kCorners = SkyCells::kRows + 1;  ///< Rows of corners from pole to pole.
 constexpr float kEven =
     1.0f / 64;  ///< Share of photons that fall anywhere: light that no corner of a cell has seen is not lost.
 constexpr float kThroughPortals = 0.75f;  ///< Share of photons through portals, where there are portals.
@@ -32,7 +32,7 @@ void ask(int light, const ShadingSystem& shading, LightProbe& probe) {
   shading.probe(light, probe);
 }
 
-/// The light's radiance at the corners of all cells, row by row.
+/// Returns the light's radiance at the corners of all cells, row by row.
 std::vector<float> survey(int light, const ShadingSystem& shading) {
   std::vector<float> radiance;
   for (int row = 0; row < kCorners; ++row) {
@@ -45,7 +45,7 @@ std::vector<float> survey(int light, const ShadingSystem& shading) {
   return radiance;
 }
 
-/// Share of the sky on the side of `normal` of a portal that nothing hides.
+/// Returns the share of the sky on the side of `normal` of a portal that nothing hides.
 float freeSky(const RayScene& rays, const Portal& portal, const vec3& normal) {
   const vec3 axis = normalizeOr(normal, normal);
   vec3 tangent, bitangent;
@@ -126,7 +126,7 @@ vec3 SkyPhotons::onPortal(const vec3& toSky, vec2 xi) const {
   return p.corner + static_cast<float>(x) * p.u + xi.y * p.v;
 }
 
-/// Density of onPortal() over area across the direction, summed over all portals on the line through P.
+/// Returns the density of onPortal() over area across the direction, summed over all portals on the line through P.
 float SkyPhotons::portalDensity(const vec3& P, const vec3& toSky) const {
   float met = 0, sum = 0;
   for (const Opening& p : portals_) {

@@ -19,7 +19,7 @@ class SkyCells {
   SkyCells(const std::vector<float>& radiance, const Share& share);
   SkyCells() = default;
 
-  /// Integral of radiance times share over all directions.
+  /// Returns the integral of radiance times share over all directions.
   double integral() const { return integral_; }
   vec3 sample(vec2 xi, Cell& cell) const;
   float density(const Cell& cell) const;  ///< Density of sample() over solid angle.

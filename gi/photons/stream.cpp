@@ -26,7 +26,7 @@ std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays,
     }
     add(std::make_unique<LightPhotons>(light->index, shading, rays, target));
   }
-  // What glows is the first surface of its photons, and a diffuse one.
+  // A glowing surface is the first surface of its photons, and a diffuse one.
   const bool glows = settings.maxDepth > 1 && settings.mostBounces > 0 && !settings.focusedOnly;
   if (!glows && !sources.empty()) return sources;
   auto glow = std::make_unique<GlowPhotons>(rays, shading, settings.seed, log);

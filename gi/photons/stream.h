@@ -22,7 +22,8 @@ class PhotonStream {
     const Sent* from;
     size_t first, end;
   };
-  /// The photons of one part. Parts end where tasks do, so that tasks trace the same photons together as in the whole.
+  /// Returns the photons of one part. Parts end where tasks do, so that tasks trace the same photons together as in the
+  /// whole.
   std::vector<Span> spansOf(WorkPart part) const;
   const PhotonSettings& settings() const { return settings_; }
 

@@ -21,7 +21,7 @@ class PhotonSurfaces {
 
   PhotonModel model(int group) const { return models_[static_cast<size_t>(group)]; }
   bool isDiffuse(int group) const { return !isMirrorOrGlass(model(group)) && model(group) != PhotonModel::Transparent; }
-  /// The answer of a group that is the same everywhere, or never needed; null: call ask().
+  /// Returns the answer of a group that is the same everywhere, or never needed; null: call ask().
   const Answer* even(int group) const {
     const auto& answer = even_[static_cast<size_t>(group)];
     return answer ? &*answer : nullptr;

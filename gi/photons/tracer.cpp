@@ -94,8 +94,8 @@ void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
   s.hits.resize(kept);
 }
 
-/// Photons leave polygons, not the surfaces that those stand for. From just before its polygon most of them meet
-/// nothing near, and the hit list would not change the hit.
+/// Returns the first hit of a photon. Photons leave polygons, not the surfaces that those stand for. If a ray that
+/// starts just before the polygon meets nothing near, the hit list would not change its hit.
 Hit PhotonTracer::firstHit(Path& path) const {
   Ray free = path.ray;
   const bool hasList = free.offset > 0;

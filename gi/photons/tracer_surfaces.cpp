@@ -1,4 +1,4 @@
-// What happens to a photon at a surface.
+// The part of PhotonTracer that decides what happens to a photon at a surface.
 #include "gi/gather.h"
 #include "gi/photons/tracer.h"
 #include "reyes/base/rng.h"

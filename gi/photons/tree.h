@@ -18,15 +18,16 @@ class PhotonTree {
 
   explicit PhotonTree(PointCloud photons);
 
-  /// The photons in the order of the tree, in which neighbours are neighbours in space.
+  /// Returns the photons in the order of the tree, in which neighbours are neighbours in space.
   const PointCloud& photons() const { return photons_; }
   const vec3& position(uint32_t i) const { return photons_.position[i]; }
   const vec3& normal(uint32_t i) const { return photons_.normal[i]; }
 
   int surface(uint32_t i) const { return surface_[i]; }  ///< 0: not known.
 
-  /// Squared distance; along the normal it counts four times, and more to another surface, so that a search covers a
-  /// disk and not a sphere. Infinite for photons that do not face as N does; N and surface are as in nearest().
+  /// Returns the squared distance; along the normal it counts four times, and more to another surface, so that a search
+  /// covers a disk and not a sphere. Infinite for photons that do not face as N does; N and surface are as in
+  /// nearest().
   float distance2(uint32_t photon, const vec3& P, const vec3& N, int surface) const;
   /// Finds the `most` nearest photons within `radius` that face as `N` does (zero: all, in a ball), as a heap with the
   /// farthest in front. Photons of another surface than `surface` (0: all are of this one) count only if they continue

@@ -42,9 +42,9 @@ class PlyReader {
   explicit PlyReader(const std::string& path);
 
   const std::vector<PlyElement>& elements() const { return elements_; }
-  /// The lines of the header, without that of the sum.
+  /// Returns the lines of the header, without that of the sum.
   const std::string& header() const { return header_; }
-  /// The sum, which only our own files have.
+  /// Returns the sum, which only our own files have.
   const std::optional<std::string>& sum() const { return sum_; }
 
   double number(const PlyScalar& type);

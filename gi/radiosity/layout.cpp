@@ -9,7 +9,7 @@ namespace tomales {
 namespace {
 
 constexpr int kLayoutProbes = 4;  ///< Number of edges across a patch by which its size is measured.
-/// In an object of more patches each is small, and measured by its corners alone.
+/// Number of patches of an object above which each patch counts as small, and is measured by its corners alone.
 constexpr uint32_t kManyPatches = 4096;
 constexpr int kMostTexels = 2048;                                        ///< Limit along an edge of a chart.
 constexpr int64_t kAlwaysTexels = int64_t{1} << 18, kMostOfPixel = 256;  ///< Limits for all charts, and for a pixel.
@@ -65,7 +65,7 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
   return chart;
 }
 
-/// The limit for all maps together. A small picture gets fewer, since it shows little of them.
+/// Returns the limit for all maps together. A small picture gets fewer, since it shows little of them.
 int64_t mostTexels(const Camera& camera, const RadiositySettings& settings) {
   const int64_t ofPicture = kMostOfPixel * camera.xResolution() * camera.yResolution();
   return std::min(settings.mostTexels, std::max(kAlwaysTexels, ofPicture));

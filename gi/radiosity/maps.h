@@ -32,7 +32,7 @@ struct RadiosityChart {
   /// Share of each texel of the finest level that is known, until makeLevels(); empty: all of each.
   std::vector<float> coverage;
 
-  /// Texels of the finest level.
+  /// Returns the number of texels of the finest level.
   size_t texelCount() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
   int levels() const;
   /// Pre: no texels yet.

@@ -1,16 +1,16 @@
-// What the program was built from.
+// The sources and compiler that the program was built from.
 #pragma once
 #include <string>
 
 namespace tomales {
 
-extern const char* const kVersion;  ///< As CMakeLists.txt has it: "1.0.0".
+extern const char* const kVersion;  ///< The version in CMakeLists.txt: "1.0.0".
 
-/// The commit of the sources, as git names it, with " with changes" behind it if they had been changed since; "unknown"
-/// if they were in no repository.
+/// Returns the commit of the sources, as git names it, with " with changes" behind it if they had been changed since;
+/// "unknown" if they were in no repository.
 const char* sourceCommit();
 
-/// The text of --version: version, commit, compiler, and a line for each library with its version and licence.
+/// Returns the text of --version: version, commit, compiler, and a line for each library with its version and licence.
 std::string describeBuild();
 
 }  // namespace tomales

@@ -11,17 +11,17 @@ namespace tomales {
 enum ExitCode { kDone = 0, kUsage = 1, kUnreadable = 2, kIncomplete = 3, kUnwritable = 4 };
 
 ExitCode exitCodeOf(Severity severity);
-/// The code for the worst that was reported. With `strict` a warning counts as something missing.
+/// Returns the code for the worst that was reported. With `strict` a warning counts as something missing.
 ExitCode exitCodeOf(const Log& log, bool strict = false);
-/// All exit codes and their meanings, for --help.
+/// Returns all exit codes and their meanings, for --help.
 std::string exitCodeHelp();
 
-/// The severity of an exception that ends a command: Error if a file cannot be read; else Output, as where something
-/// cannot be written, or where memory or threads do not suffice to make it.
+/// Returns the severity of an exception that ends a command: Error if a file cannot be read; else Output, as where
+/// something cannot be written, or where memory or threads do not suffice to make it.
 Severity severityOf(const std::exception& e);
-/// The same where a substitute is rendered instead: Missing takes the place of Error.
+/// Returns the severity where a substitute is rendered instead: Missing takes the place of Error.
 Severity severityOfLoss(const std::exception& e);
-/// The message of an exception for the user.
+/// Returns the message of an exception for the user.
 std::string messageOf(const std::exception& e);
 
 /// From now on an exception that a thread lets out ends the program with its message and the exit code for it. (oneTBB

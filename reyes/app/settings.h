@@ -28,14 +28,15 @@ struct RenderSettings {
   std::optional<float> shadingRate;
   bool draft = false;                      ///< Coarse and fast, to place lights by.
   std::optional<std::vector<int>> frames;  ///< Sorted. If not given, all are rendered.
-  bool framesApart = false;                ///< What --frames leaves out need not be read.
+  bool framesApart = false;                ///< Frames that --frames leaves out need not be read.
   std::optional<std::vector<int>> makes;   ///< Sorted places of the Make requests to perform. If not given, all are.
-  const GiMethod* gi = nullptr;            ///< Null for what the scene's indirect light asks.
-  int samples = 0, bounces = 0;            ///< 0 for what the scene's indirect light asks.
-  float maxError = -1;                     ///< Negative for the same.
-  std::optional<ErrorFunction> errorFunction;  ///< If not given, the same.
-  int lightSamples = 0;  ///< For each area light and the sky, where the eye looks; 0 for as many as the light asks.
-  bool direct = true;    ///< If false, the picture shows what indirect lights bring, and nothing else.
+  const GiMethod* gi = nullptr;            ///< Null for the method of the scene's indirect light.
+  int samples = 0, bounces = 0;            ///< 0 for the numbers of the scene's indirect light.
+  float maxError = -1;                     ///< Negative for the value of the scene's indirect light.
+  std::optional<ErrorFunction> errorFunction;  ///< If not given, that of the scene's indirect light.
+  /// Samples of each area light and the sky, where the eye looks; 0 for as many as the light asks.
+  int lightSamples = 0;
+  bool direct = true;  ///< If false, the picture shows what indirect lights bring, and nothing else.
   uint32_t seed = 0;
   std::optional<uint32_t> lightSeed;  ///< Seed of the random numbers of light alone; if not given, `seed`.
   int64_t photons = 1'000'000;        ///< Number to emit for --gi atlas and the caustics of the reference; the most for
@@ -56,45 +57,47 @@ struct RenderSettings {
   bool keepsAnswers = true;        ///< An .icf gets the answers of rays too.
   bool byLight = false;            ///< Irradiance records keep the share of each group of lights.
   bool appendIrradiance = false;   ///< True to gather too, where that has no records.
-  int audit = 0;  ///< Pixels at which the error of the picture is measured; 0: it is not, unless that is to be reached.
+  int audit = 0;  ///< Pixels at which the error of the picture is measured; 0: none, unless an error is to be reached.
   double targetError = 0;    ///< The mean relative error of light to reach; 0: settings are as they are given.
   double targetSmudges = 0;  ///< Deviation of smudges to reach with it; 0: as targetError.
   double timeBudget_s = 0;   ///< Time that a frame may take; 0: as long as its settings ask.
-  double reading_s = 0;      ///< Of which reading it took so much.
+  double reading_s = 0;      ///< Time that reading the frame has taken; it counts in timeBudget_s.
   std::optional<std::vector<int>> pilotFrames;  ///< Frames on which settings of light are found for all. Sorted.
-  std::string shotSettings;                     ///< A file that keeps them for other runs; empty: none.
-  int auditEvery = 10;  ///< Of the frames that they hold for, those whose number this divides are audited; 0: none.
-  bool holdsQuality = false;                           ///< This frame has settings that were found on others.
-  bool auditsHeld = false;                             ///< It is audited nevertheless.
-  bool isPilot = false;                                ///< Only settings are wanted of this frame, and no picture.
+  std::string shotSettings;                     ///< A file that keeps these settings for other runs; empty: none.
+  int auditEvery = 10;        ///< Frames with settings of pilots whose number this divides are audited; 0: none.
+  bool holdsQuality = false;  ///< This frame has settings that were found on others.
+  bool auditsHeld = false;    ///< It is audited nevertheless.
+  /// True if only settings are wanted of this frame, and no picture.
+  bool isPilot = false;
   std::function<void(const LightQuality&)> onQuality;  ///< Gets the settings that a frame has chosen; may be empty.
   bool resume = false;
   bool skipFinished = false;             ///< Frames whose pictures hold what would be rendered are left as they are.
-  std::optional<int64_t> memoryLimit;    ///< In bytes.
+  std::optional<int64_t> memoryLimit;    ///< Limit in bytes.
   bool memoryIsGranted = false;          ///< The limit is what a cluster has granted, so it may not change pictures.
-  std::optional<int64_t> textureMemory;  ///< In bytes.
+  std::optional<int64_t> textureMemory;  ///< Limit in bytes.
   std::string textureCache;
   bool hitList = true;
-  std::optional<int64_t> geometryCache;  ///< In bytes.
+  std::optional<int64_t> geometryCache;  ///< Limit in bytes.
   std::optional<bool> fullGeometry;      ///< Rays see displaced micropolygons; if not given, for the reference alone.
-  std::string statsFile;        ///< '#' in its name: one a frame. Of the ending .jsonl: a line is appended for each.
+  /// A name with '#' makes one file for each frame. A name ending in .jsonl gets a line for each.
+  std::string statsFile;
   std::string logFile;          ///< Messages are appended there too; empty: none.
   bool profileShaders = false;  ///< True to say at the end what each shader has cost.
   bool progress = false;
-  std::function<void(const char* pass, float share)> watcher;  ///< As ProgressWatcher.
+  std::function<void(const char* pass, float share)> watcher;  ///< See ProgressWatcher.
   std::string preview;                                         ///< host:port of a viewer; empty: none.
-  std::vector<std::array<int, 2>> pixels;                      ///< To explain.
-  Trust trust;                                                 ///< Of the code that the RIB names.
-  std::string outputRoot;          ///< What the RIB names is written below it; empty: anywhere.
+  std::vector<std::array<int, 2>> pixels;                      ///< Pixels to explain.
+  Trust trust;                                                 ///< Trust in the code that the RIB names.
+  std::string outputRoot;          ///< Files that the RIB names are written below it; empty: anywhere.
   bool strict = false;             ///< A warning ends with the exit code of what is missing.
-  std::string specular;            ///< Option "shade" "specular"; empty: as the scene says. Likewise,
-  std::string arealight;           ///< Option "shade" "arealight".
+  std::string specular;            ///< Option "shade" "specular"; empty: as the scene says.
+  std::string arealight;           ///< Option "shade" "arealight"; empty: as the scene says.
   bool standardFromFiles = false;  ///< A file that is called as a shader of RISpec's comes before that.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };
 
-/// Does the program choose the settings of light, by trials that need the whole frame?
+/// Tells whether the program chooses the settings of light, by trials that need the whole frame.
 inline bool choosesQuality(const RenderSettings& s) {
   return (s.targetError > 0 || s.timeBudget_s > 0) && !s.holdsQuality;
 }
@@ -115,7 +118,7 @@ std::optional<std::array<int, 2>> parsePixel(const std::string& text);          
 std::optional<std::array<float, 4>> parseCrop(const std::string& text);                     ///< "0,0.5,0.25,1"
 std::optional<std::vector<int>> parseFrames(const std::string& text);                       ///< "1-10x2,15", "none"
 std::optional<int64_t> parseBytes(const std::string& text);                                 ///< "600M", "2G", "1000000"
-/// Null for "scene", which leaves it to the scene.
+/// Returns null for "scene", which leaves it to the scene.
 std::optional<const GiMethod*> parseGi(const std::string& text);
 /// "2%" or "0.02"; more than 0 and less than 1.
 std::optional<double> parseShare(const std::string& text);

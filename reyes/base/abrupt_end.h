@@ -1,4 +1,4 @@
-// What a process that ends without a return from main() must still undo: files that nobody will finish,
+// The steps that a process must still undo when it ends without a return from main(): files that nobody will finish,
 // programs that nobody will wait for. Threads: any.
 #pragma once
 #include <functional>
@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// As long as it lives, endAbruptly() calls `undo`, which must not wait for other threads.
+/// While this object lives, endAbruptly() calls `undo`, which must not wait for other threads.
 class AtAbruptEnd {
  public:
   explicit AtAbruptEnd(std::function<void()> undo);

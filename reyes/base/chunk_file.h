@@ -3,9 +3,8 @@
 //   8 bytes    what is in it ("TMPOINTS"), 4 bytes version, 4 bytes 0x01020304 in the writer's byte order
 //   chunks     one after the other, each a zstd frame with its checksum
 //   header     one more chunk: what a reader needs to know first
-//   directory  8 bytes offset, 4 bytes stored size, 4 bytes size of every chunk, the header last; itself a
-//   zstd frame footer     8 bytes offset of the directory, 4 bytes its stored size, 4 bytes its size,
-//   "TOMALESX"
+//   directory  8 bytes offset, 4 bytes stored size, 4 bytes size of every chunk, the header last; itself a zstd frame
+//   footer     8 bytes offset of the directory, 4 bytes its stored size, 4 bytes its size, "TOMALESX"
 // Numbers are little-endian. The writer works on an UnfinishedFile.
 #pragma once
 #include <cstddef>

@@ -37,8 +37,8 @@ void markNotes();
 /// error as code that does not return. Call both from one thread.
 bool tellLastingNote();
 
-/// From now on, SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, if it has one, to standard
-/// error before they end the program as they always do.
+/// Sets handlers: from now on SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, if it has
+/// one, to standard error before they end the program as they always do.
 void reportCrashes();
 
 }  // namespace tomales

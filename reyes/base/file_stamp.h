@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// A checksum of the file's size and the time of its last change; 0 if there is no such file.
+/// Returns a checksum of the file's size and the time of its last change; 0 if there is no such file.
 uint64_t fileStamp(const std::filesystem::path& path);
 
 }  // namespace tomales

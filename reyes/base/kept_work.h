@@ -1,6 +1,6 @@
-// What a run has finished of its dear work, in a file beside the picture, so that a later run takes it over (--resume).
-// Results are kept by name, as soon as they are there, and survive whatever ends the program.
-// Threads: take() and keep() may be called concurrently.
+// The expensive work that a run has finished, in a file beside the picture, so that a later run takes it over
+// (--resume). Results are kept by name, as soon as they are there, and survive whatever ends the program. Threads:
+// take() and keep() may be called concurrently.
 #pragma once
 #include <atomic>
 #include <filesystem>

@@ -26,7 +26,7 @@ void addPlace(LogEntry& entry, const SourceLoc& where) {
     places.push_back(where);
 }
 
-/// The beginning of a message, for a line that refers to one that was printed in full before.
+/// Returns the beginning of a message, for a line that refers to one that was printed in full before.
 std::string beginning(const std::string& message) {
   constexpr size_t kLongest = 60;
   const size_t end = std::min(message.find_first_of(";\n"), message.size());
@@ -92,7 +92,7 @@ void Log::report(Severity severity, std::string_view code, const SourceLoc& wher
   static constexpr const char* kNames[] = {"info", "note", "warning", "missing", "error", "output error"};
   const std::string text =
       where.text() + ": " + kNames[static_cast<int>(severity)] + ": " + message + " [" + entries_.back().code + "]\n";
-  // What is for information only is asked for, and a frame brings little of it.
+  // Messages of severity Info are not limited: the user asked for them, and a frame brings few.
   const int line = isWanted(severity) && severity > Severity::Info ? ++lines_[entries_.back().code] : 0;
   if (isWanted(severity) && line <= kMostLinesOfCode) std::fputs(text.c_str(), stderr);
   if (line == kMostLinesOfCode + 1)

@@ -20,7 +20,7 @@ struct SourceLoc {
   std::shared_ptr<const std::string> file;
   int line = 0;
   std::string text() const;
-  /// The folder of the file as it was named; empty if there is none, or if the file lies in the working folder.
+  /// Returns the folder of the file as it was named; empty if there is none, or if the file lies in the working folder.
   std::filesystem::path folder() const { return file ? std::filesystem::path(*file).parent_path() : ""; }
 };
 
@@ -36,9 +36,9 @@ enum class Severity {
 struct LogEntry {
   Severity severity;
   std::string code;     ///< Stable short name, e.g. "rib-unknown-request".
-  std::string message;  ///< What was wrong, with the object's name, and what was done instead.
+  std::string message;  ///< Says what was wrong, with the object's name, and what was done instead.
   SourceLoc where;
-  int count = 1;                    ///< How often the message was reported.
+  int count = 1;                    ///< Number of times that the message was reported.
   std::vector<SourceLoc> places{};  ///< The first places of it, `where` among them; at most Log::kMostPlaces.
 };
 
@@ -65,7 +65,7 @@ class Log {
   void report(Severity severity, std::string_view code, const SourceLoc& where, const std::string& message,
               std::string_view subject = {});
 
-  std::vector<LogEntry> entries() const;  ///< In order of first report.
+  std::vector<LogEntry> entries() const;  ///< Sorted by the time of the first report.
   Severity worst() const;                 ///< Info if nothing was reported.
   int count(std::string_view code) const;
 

@@ -31,7 +31,7 @@ inline vec3 transformPoint(const mat4& m, const vec3& p) {
 }
 inline vec3 transformVector(const mat4& m, const vec3& v) { return mat3(m) * v; }
 
-/// Unit vector, or `fallback` where v has no direction (zero, NaN or infinite).
+/// Returns the unit vector, or `fallback` where v has no direction (zero, NaN or infinite).
 inline vec3 normalizeOr(const vec3& v, const vec3& fallback) {
   const float length2 = dot(v, v);
   return length2 > 0.0f && length2 < kInfinity ? v / std::sqrt(length2) : fallback;
@@ -41,7 +41,7 @@ inline float luminance(const vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0
 inline float maxComponent(const vec3& c) { return std::max(c.x, std::max(c.y, c.z)); }
 inline float lerp(float a, float b, float t) { return a + (b - a) * t; }
 
-/// Two unit vectors that complete unit vector n to a right-handed frame (Duff et al. 2017).
+/// Writes two unit vectors that complete unit vector n to a right-handed frame (Duff et al. 2017).
 inline void orthonormalBasis(const vec3& n, vec3& tangent, vec3& bitangent) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z);
@@ -69,7 +69,7 @@ struct Bound3 {
   vec3 corner(int i) const { return {i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z}; }
 };
 
-/// The box around the eight transformed corners.
+/// Returns the box around the eight transformed corners.
 inline Bound3 transformBound(const mat4& m, const Bound3& b) {
   Bound3 out;
   for (int i = 0; i < 8; ++i) out.extend(transformPoint(m, b.corner(i)));

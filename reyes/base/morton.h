@@ -16,12 +16,13 @@ inline uint64_t spreadBits(uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/// The place of a cell, which has 21 bits for each axis.
+/// Returns the place of a cell, which has 21 bits for each axis.
 inline uint64_t mortonPlace(const glm::uvec3& cell) {
   return spreadBits(cell.x) | spreadBits(cell.y) << 1 | spreadBits(cell.z) << 2;
 }
 
-/// The place of a point in a box that is cut into 1024 along each axis; a coordinate that is no number counts as 0.
+/// Returns the place of a point in a box that is cut into 1024 along each axis; a coordinate that is no number counts
+/// as 0.
 inline uint32_t mortonPlace(const vec3& p, const Bound3& box) {
   const auto axis = [&](int k) {
     const float size = box.hi[k] - box.lo[k], at = size > 0 ? (p[k] - box.lo[k]) / size : 0;

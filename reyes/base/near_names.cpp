@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t kMostNameLength = 64;  ///< A longer word is not taken for a misspelling.
 
-/// The number of letters to insert, remove, change, or exchange with their neighbour.
+/// Returns the number of letters to insert, remove, change, or exchange with their neighbour.
 size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1), above, twoAbove;
   for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -36,7 +36,7 @@ std::string lowered(std::string_view text) {
 
 std::vector<std::string> nearNames(std::string_view wanted, const std::vector<std::string>& known, size_t most) {
   if (wanted.size() > kMostNameLength) return {};
-  // In a short word one letter may be wrong, in a longer one a third of them.
+  // One letter may be wrong in a short word, and a third of the letters in a longer one.
   const size_t farthest = std::max<size_t>(1, wanted.size() / 3);
   std::vector<std::pair<size_t, const std::string*>> near;
   for (const std::string& name : known) {

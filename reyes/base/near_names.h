@@ -6,11 +6,11 @@
 
 namespace tomales {
 
-/// The names of `known` that `wanted` may be a misspelling of, the nearest first, at most `most`. Names that differ in
-/// capitals alone are the nearest.
+/// Returns the names of `known` that `wanted` may be a misspelling of, the nearest first, at most `most`. Names that
+/// differ in capitals alone are the nearest.
 std::vector<std::string> nearNames(std::string_view wanted, const std::vector<std::string>& known, size_t most = 1);
 
-/// The end of a message about a name that nobody knows: "; did you mean \"plastic\"?", or nothing.
+/// Returns the end of a message about a name that nobody knows: "; did you mean \"plastic\"?", or nothing.
 std::string didYouMean(std::string_view wanted, const std::vector<std::string>& known);
 
 }  // namespace tomales

@@ -208,7 +208,7 @@ bool unpack(BytesView bytes, T& out) {
   return !unpacker.damaged && unpacker.bytes.empty();
 }
 
-/// The ContentSum of all values, in their order.
+/// Returns the ContentSum of all values, in their order.
 template <class... T>
 uint64_t contentSum(const T&... x) {
   ContentSum sum;

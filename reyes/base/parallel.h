@@ -26,7 +26,7 @@ class ThreadLimit {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The number of threads that parallelFor uses now.
+/// Returns the number of threads that parallelFor uses now.
 int threadCount();
 
 }  // namespace tomales

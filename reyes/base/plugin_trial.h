@@ -20,7 +20,7 @@ class PluginTrial {
 
   /// Says what becomes of a process that loads this plugin; empty if it lives, or if there is no such child.
   std::string fateOf(const std::string& path);
-  /// False if the child could not be started, so that the last plugin is untried.
+  /// Returns false if the child could not be started, so that the last plugin is untried.
   bool works() const { return works_; }
 
  private:

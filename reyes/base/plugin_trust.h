@@ -7,8 +7,9 @@
 namespace tomales {
 
 struct PluginTrust {
-  std::string folders{};      ///< Folders that the user named, separated by colons: searched before those of the scene.
-  std::string chosen{};       ///< Those among them that are meant for this run; texts beside the scene come after them.
+  std::string folders{};  ///< Folders that the user named, separated by colons: searched before those of the scene.
+  /// Folders among them that are meant for this run; texts beside the scene come after them.
+  std::string chosen{};
   bool sceneFolders = false;  ///< If true, folders that the scene names, and the working folder, are trusted too.
 };
 
@@ -17,13 +18,13 @@ struct PluginFiles {
   std::vector<std::string> refused;  ///< Plugins in folders that are not trusted, if a trusted one has none.
 };
 
-/// The paths of NAME.so in the folders of a search path.
+/// Returns the paths of NAME.so in the folders of a search path.
 std::vector<std::string> pluginFiles(const std::string& name, const std::string& searchPath);
 /// Finds NAME.so in the trusted folders, then along the scene's search path (if empty, in the working folder). A name
 /// with ".." or an absolute one leads out of the trusted folders, so they are not searched for it.
 PluginFiles findPlugins(const std::string& name, const std::string& searchPath, const PluginTrust& trust);
 
-/// Does the name of a plugin lead out of the folders that are searched for it?
+/// Tells whether the name of a plugin leads out of the folders that are searched for it.
 bool leavesFolders(const std::string& name);
 
 }  // namespace tomales

@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Memory in bytes: the present amount, and the greatest that there ever was.
+/// Return memory in bytes: the present amount, and the greatest that there ever was.
 int64_t residentBytes();
 int64_t peakResidentBytes();
 /// Lets the peak begin again at the present amount, where the system can.
@@ -16,9 +16,9 @@ void restartPeak();
 /// Gives freed memory back to the system; else the allocator keeps most of it. It takes milliseconds.
 void returnFreeMemory();
 
-/// The machine's name; empty if it has none.
+/// Returns the machine's name; empty if it has none.
 std::string hostName();
-/// The time in UTC, as ISO 8601 writes it, to the second.
+/// Returns the time in UTC, as ISO 8601 writes it, to the second.
 std::string timeNow();
 
 /// Returns the paths where a file of this name that belongs to the program exists: beside the program, as it is built,

@@ -72,7 +72,7 @@ consteval bool randomStreamsDiffer() {
 }
 static_assert(randomStreamsDiffer());
 
-/// The bits of a name of the table; other names do not compile.
+/// Returns the bits of a name of the table; other names do not compile.
 consteval uint32_t randomStream(std::string_view name) {
   for (const RandomStream& s : kRandomStreams)
     if (s.name == name) return s.bits;

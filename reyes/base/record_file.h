@@ -31,11 +31,11 @@ struct RecordName {
   auto operator<=>(const RecordName&) const = default;
 };
 
-/// What to do with records whose file is not finished.
+/// The treatment of records whose file is not finished.
 enum class Unfinished {
   Removed,
   Kept,     ///< They stay in NAME.part, for a later run to resume.
-  Resumed,  ///< As Kept, and whole records of an earlier NAME.part are taken over, if it is of this kind.
+  Resumed,  ///< Does the same as Kept, and takes over whole records of an earlier NAME.part, if it is of this kind.
 };
 
 class RecordWriter {

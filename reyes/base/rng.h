@@ -9,7 +9,7 @@
 
 namespace tomales {
 
-/// A good 32-bit mix ("lowbias32", C. Wellons).
+/// Mixes 32 bits well ("lowbias32", C. Wellons).
 inline uint32_t hash32(uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352dU;
@@ -40,11 +40,11 @@ inline uint32_t reverseBits(uint32_t x) {
 /// Burley 2020, "Practical hash-based Owen scrambling").
 uint32_t owenScramble(uint32_t x, uint32_t seed);
 
-/// Point `index` of the Owen-scrambled, shuffled (0,2)-sequence named by `seed`, in [0,1)^2. Any first
-/// 2^k points are stratified over all elementary intervals; different seeds are independent.
+/// Returns point `index` of the Owen-scrambled, shuffled (0,2)-sequence named by `seed`, in [0,1)^2. Any first 2^k
+/// points are stratified over all elementary intervals; different seeds are independent.
 vec2 sobol2(uint32_t index, uint32_t seed);
 
-/// The one-dimensional companion: van der Corput, Owen-scrambled and shuffled.
+/// Returns a number of the one-dimensional companion: van der Corput, Owen-scrambled and shuffled.
 float sobol1(uint32_t index, uint32_t seed);
 
 /// Computes the same numbers, many at once: those of index[i] and seed[i].
@@ -54,7 +54,7 @@ void sobol1(std::span<const uint32_t> index, std::span<const uint32_t> seed, std
 /// Returns a random order of 0 .. count-1.
 std::vector<int> permutation(int count, uint32_t seed);
 
-/// Direction of the hemisphere around +z with density cos(theta)/pi (Malley's method, concentric disk).
+/// Returns a direction of the hemisphere around +z with density cos(theta)/pi (Malley's method, concentric disk).
 vec3 cosineHemisphere(vec2 xi);
 
 }  // namespace tomales

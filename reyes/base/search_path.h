@@ -23,17 +23,17 @@ std::vector<std::string> filesWithin(const std::string& searchPath, const std::s
 /// names are not searched for.
 std::string findFile(const std::string& name, const std::string& searchPath);
 
-/// The last part of a name that has folders of Unix or Windows before it. Empty if it has none.
+/// Returns the last part of a name that has folders of Unix or Windows before it. Empty if it has none.
 std::string lastPartOf(const std::string& name);
 
-/// The files that a name may mean, best first: that of findFile(); those of its name but for the ending, which is one
-/// of `endings` (the picture that a texture was made of lies beside it); then the same for the last part of the name,
-/// since scenes of other machines name files where they lay there.
+/// Returns the files that a name may mean, best first: that of findFile(); those of its name but for the ending, which
+/// is one of `endings` (the picture that a texture was made of lies beside it); then the same for the last part of the
+/// name, since scenes of other machines name files where they lay there.
 std::vector<std::string> candidateFiles(const std::string& name, const std::string& searchPath,
                                         const std::vector<std::string>& endings = {});
 
-/// `name` in the user's folder of configuration, which is XDG_CONFIG_HOME/tomales or else ~/.config/tomales. Empty if
-/// neither variable is set.
+/// Returns the path of `name` in the user's folder of configuration, which is XDG_CONFIG_HOME/tomales or else
+/// ~/.config/tomales. Empty if neither variable is set.
 std::string userFolder(const std::string& name);
 
 /// A kind of files that a user may keep for all scenes: folders in an environment variable, and one of the
@@ -42,8 +42,8 @@ struct StandardPlace {
   const char *kind, *variable, *folder;
 };
 std::span<const StandardPlace> standardPlaces();
-/// Where files of a kind are looked for after the folders that the scene names. Empty: nowhere, or there is no such
-/// kind.
+/// Returns the folders where files of a kind are looked for after the folders that the scene names. Empty: nowhere, or
+/// there is no such kind.
 std::string standardPath(const std::string& kind);
 /// Puts folders before those that standardPath() has. Threads: none may run. Pre: the kind is one of standardPlaces().
 void addToStandardPath(const std::string& kind, const std::string& folders);

@@ -41,7 +41,8 @@ struct CacheAligned {
 template <class T>
 using AlignedVector = std::vector<T, CacheAligned<T>>;
 
-/// Like CacheAligned, but elements without a value are not set to zero: for memory that is written before it is read.
+/// Does the same as CacheAligned, but elements without a value are not set to zero. It suits memory that is written
+/// before it is read.
 template <class T>
 struct Unset : CacheAligned<T> {
   using value_type = T;

@@ -49,7 +49,7 @@ struct Stats {
     Counter grids{0}, geometry{0}, deepFrame{0};
   } memoryBytes;
 
-  /// Rays that light has taken so far, but those of photons.
+  /// Returns the number of rays that light has taken so far, without those of photons.
   double lightRays() const;
 
   /// Adds to the figures of one named shader ("shade.by_shader").
@@ -86,7 +86,7 @@ struct Stats {
   std::vector<std::string> outputs_;
 };
 
-/// CPU seconds that all threads of this process have used, and those of the calling thread.
+/// Return the CPU seconds that all threads of this process have used, and those of the calling thread.
 double processCpuSeconds();
 double threadCpuSeconds();
 

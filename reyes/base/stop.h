@@ -7,7 +7,7 @@ namespace tomales {
 
 const std::atomic<bool>& stopFlag();
 inline bool stopRequested() { return stopFlag().load(std::memory_order_relaxed); }
-/// With `wanted` false it takes the wish back, as tests do.
+/// Asks for a stop. With `wanted` false it takes the wish back, as tests do.
 void requestStop(bool wanted = true);
 
 /// Thrown by work that leaves nothing of use when it is not finished. It is no std::exception, so that no handler

@@ -12,8 +12,8 @@ struct Trust {
   std::string shaderFolders{};  ///< --shaders: folders for shaders and displays, searched before those.
   std::string program{};        ///< --allow-program: RunProgram may start this very command in any case.
 
-  /// Folders of plugins: pluginPath, then TOMALES_PLUGIN_PATH, then tomales/plugins in the user's configuration
-  /// (XDG_CONFIG_HOME, else ~/.config) and in the library folder of the installation.
+  /// Returns the folders of plugins: pluginPath, then TOMALES_PLUGIN_PATH, then tomales/plugins in the user's
+  /// configuration (XDG_CONFIG_HOME, else ~/.config) and in the library folder of the installation.
   std::string pluginFolders() const;
 
   bool allowsPluginsOfScene() const { return scenePlugins || programs; }

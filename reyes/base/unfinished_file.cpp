@@ -38,7 +38,7 @@ bool isStream(const fs::path& target) {
 /// EINVAL is no failure: pipes and devices have nothing to write back.
 bool writtenBack(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
-/// Is this still the file of that name?
+/// Tells whether this is still the file of that name.
 bool isNamed(int descriptor, const std::string& path) {
   struct stat open {
   }, named{};

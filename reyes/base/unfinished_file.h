@@ -21,7 +21,7 @@ namespace tomales {
 enum class UnfinishedKind {
   Scratch,    ///< Its name is a ScratchPath, and it is removed unless it is finished. The target must be a regular file
               ///< or not exist.
-  Stream,     ///< As Scratch; but devices, pipes and what /dev/stdout and /dev/fd lead to are written directly.
+  Stream,     ///< It is as Scratch, but devices, pipes and the targets of /dev/stdout and /dev/fd are written directly.
   Resumable,  ///< It is called NAME.part, is locked, and stays until it is finished or discarded. It begins with the
               ///< contents of an earlier one.
 };
@@ -34,11 +34,12 @@ class UnfinishedFile {
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
-  /// The path for libraries that open files by name: the file exists already, and must be written over, not replaced.
+  /// Returns the path for libraries that open files by name: the file exists already, and must be written over, not
+  /// replaced.
   const std::string& path() const { return path_; }
-  /// It is open for reading and writing.
+  /// Returns the descriptor, which is open for reading and writing.
   int descriptor() const { return descriptor_; }
-  /// The same file for stdio. Pre: descriptor() is not used as well.
+  /// Returns the same file for stdio. Pre: descriptor() is not used as well.
   std::FILE* stream();
   /// Gives the file its name. Returns false on failure: `error` says why, and the file is removed unless resumable.
   bool finish(std::string& error);
@@ -71,8 +72,8 @@ bool moveFinished(const std::filesystem::path& from, const std::filesystem::path
 /// A TemporaryFolder for moveFinished() belongs beside it.
 std::filesystem::path throughLinks(const std::filesystem::path& target);
 
-/// Is `target`, by whatever name, one of these? A command
-/// that would replace one of its own inputs says so before.
+/// Tells whether `target`, by whatever name, is one of these. A command that would replace one of its own inputs says
+/// so before.
 bool isAmong(const std::filesystem::path& target, const std::vector<std::string>& files);
 
 }  // namespace tomales

@@ -10,7 +10,7 @@ namespace tomales {
 enum class Storage : uint8_t { Constant, Uniform, Varying, Vertex, FaceVarying };
 enum class ValueType : uint8_t { Float, Integer, String, Color, Point, Vector, Normal, HPoint, Matrix };
 
-/// Number of floats in one value of a type; a string counts as 1.
+/// Returns the number of floats in one value of a type; a string counts as 1.
 inline int floatsPerValue(ValueType type) {
   switch (type) {
     case ValueType::Color:

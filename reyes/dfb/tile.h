@@ -9,7 +9,7 @@ namespace tomales {
 Bytes packTile(const DeepTile& tile);
 /// Returns nothing if the bytes are not those of a tile whose indices stay inside it.
 std::optional<DeepTile> unpackTile(BytesView bytes);
-/// A number that changes with the layout of a tile.
+/// Returns a number that changes with the layout of a tile.
 uint64_t tileSchema();
 
 }  // namespace tomales

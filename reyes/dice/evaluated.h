@@ -24,7 +24,7 @@ class Evaluated {
     if (many_.size() > spare().size()) many_.swap(spare());
   }
   Evaluated(const Evaluated&) = delete;
-  /// The results from point `first` on.
+  /// Returns the results from point `first` on.
   SurfacePoints view(int first = 0) {
     const auto a = [this, first](size_t i) { return data_ + i * stride_ + first; };
     return {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)};
@@ -42,7 +42,7 @@ class Evaluated {
   }
 
  private:
-  /// The memory that a thread keeps from grid to grid.
+  /// Returns the memory that a thread keeps from grid to grid.
   static AlignedVector<float>& spare() {
     static thread_local AlignedVector<float> memory;
     return memory;

@@ -48,8 +48,8 @@ uint8_t openEdgesOf(const PatchInfo& info, const UvRect& r) {
   return static_cast<uint8_t>(touched & info.openEdges);
 }
 
-/// The part of each cell, grown a little, that trim curves keep: the hider tests points slightly outside of a cell
-/// (hide/trim.cpp).
+/// Returns the part of each cell, grown a little, that trim curves keep: the hider tests points slightly outside of a
+/// cell (hide/trim.cpp).
 std::vector<Kept> keptOfCells(const Prim& prim, const Grid& g) {
   const auto whole = [&](const PatchPiece& p) { return prim.kept(p.patch, p.rect) == Kept::All; };
   if (std::all_of(g.pieces.begin(), g.pieces.end(), whole)) return {};

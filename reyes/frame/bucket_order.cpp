@@ -10,7 +10,8 @@
 namespace tomales {
 namespace {
 
-/// Distance along the Hilbert curve that fills a square of 2^k cells (Warren, Hacker's Delight, section 16-2).
+/// Returns the distance along the Hilbert curve that fills a square of 2^k cells (Warren, Hacker's Delight, section
+/// 16-2).
 uint64_t alongHilbertCurve(uint32_t x, uint32_t y, uint32_t side) {
   uint64_t distance = 0;
   for (uint32_t s = side / 2; s > 0; s /= 2) {
@@ -26,7 +27,7 @@ uint64_t alongHilbertCurve(uint32_t x, uint32_t y, uint32_t side) {
   return distance;
 }
 
-/// A key of the ring around the middle, and of the place on it, clockwise from its top left corner.
+/// Returns a key of the ring around the middle, and of the place on it, clockwise from its top left corner.
 uint64_t alongSpiral(int column, int row, int columns, int rows) {
   const int x = 2 * column - (columns - 1), y = 2 * row - (rows - 1);  // coordinates from the middle, in half buckets
   const int ring = (std::max(std::abs(x), std::abs(y)) + 1) / 2;

@@ -20,12 +20,13 @@ constexpr float kDense = 4, kSmall_px = 32;
 constexpr uint32_t kLevelOfParticles = 2;
 constexpr float kFewParticles = 1.0f / 64, kManyParticles = 1;
 
-/// How a node is opened. Shared: once, by the first bucket that needs its contents. Transient: by each bucket for
-/// itself. AtOnce: by each bucket too, but its contents do not go through the queue, in which the pieces of many small
-/// things side by side would wait for each other.
+/// The way in which a node is opened. Shared: once, by the first bucket that needs its contents. Transient: by each
+/// bucket for itself. AtOnce: by each bucket too, but its contents do not go through the queue, in which the pieces of
+/// many small things side by side would wait for each other.
 enum class Opening : uint8_t { Shared, Transient, AtOnce };
 
-/// Is all of an object visited, whatever hides it? The visible surface of a solid depends on all its pieces.
+/// Tells whether all of an object is visited, whatever hides it. The visible surface of a solid depends on all its
+/// pieces.
 bool isVisitedWhole(const Object& o) { return o.solid >= 0 || !o.attributes->cull.hidden; }
 
 class OpeningNode : public HideNode {

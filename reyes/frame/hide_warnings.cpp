@@ -7,9 +7,9 @@
 namespace tomales {
 namespace {
 
-constexpr int kFew_px = 12;          // a crease covers fewer pixels by chance
-constexpr int64_t kFewFacets = 12;   // fewer facets are not judged
-constexpr double kMostTurned = 0.5;  // share of the visible facets
+constexpr int kFew_px = 12;          // A crease covers fewer pixels by chance.
+constexpr int64_t kFewFacets = 12;   // Fewer facets are not judged.
+constexpr double kMostTurned = 0.5;  // Share of the visible facets.
 
 }  // namespace
 

@@ -23,7 +23,7 @@ TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
   return unseeable == 0;
 }
 
-/// May the piece share a grid? It may not if a decision for a whole grid would differ for it.
+/// Tells whether the piece may share a grid. It may not if a decision for a whole grid would differ for it.
 bool canStack(const HideContext& context, const SubPatch& piece) {
   const Object& o = context.scene.objects[static_cast<size_t>(piece.object)];
   return standsStillInFocus(o, context.camera) && !piece.crossesEye &&

@@ -1,4 +1,4 @@
-// How a frame's Options become sample positions; the hider and the filter must agree on them.
+// Makes sample positions from a frame's Options; the hider and the filter must agree on them.
 #pragma once
 #include "reyes/hide.h"
 #include "reyes/image.h"

@@ -37,7 +37,7 @@ class MovingBand {
     frame.hold(0, 0);
   }
 
-  /// The share of the tiles of the whole picture that have been filled.
+  /// Returns the share of the tiles of the whole picture that have been filled.
   float finished() const {
     return needed_.empty() ? 1.0f : static_cast<float>(finished_) / static_cast<float>(needed_.size());
   }

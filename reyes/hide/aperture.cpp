@@ -28,14 +28,14 @@ ApertureShape::ApertureShape(const Aperture& a)
   for (float& area : areas_) area /= areas_.back();
 }
 
-/// Distance of the rim at the share `along` of a side, from one corner to the next.
+/// Returns the distance of the rim at the share `along` of a side, from one corner to the next.
 float ApertureShape::rim(float along) const {
   const float half = kPi / sides_, chord = std::cos(half) / std::cos((2 * along - 1) * half);
   return chord + (1 - chord) * roundness_;
 }
 
-/// Share of the way to the rim with density r (1 + density (2 r - 1)): xi is the integral of that density up to the
-/// result.
+/// Returns the share of the way to the rim with density r (1 + density (2 r - 1)): xi is the integral of that density
+/// up to the result.
 float ApertureShape::radius(float xi) const {
   float r = std::sqrt(xi);
   if (density_ == 0) return r;

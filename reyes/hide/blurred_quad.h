@@ -27,7 +27,7 @@ struct BlurredQuad {
   static constexpr int kKeys = B::kMoves ? 2 : 1;
   using Values = float[size_t{kKeys}][4];
   Values x, y, d;
-  bool swapped[5];  ///< Is the second end of the edges ab, bc, ca, bd, dc the canonical one?
+  bool swapped[5];  ///< True if the second end of the edge is the canonical one, in the order ab, bc, ca, bd, dc.
   float dMin = kInfinity, dMax = -kInfinity;
 
   BlurredQuad(const RasterGrid& r, int key, int a) {
@@ -58,7 +58,7 @@ struct SeenVertex {
   Floats x, y, d;
 };
 
-/// Position of a vertex at the time of a sample, seen through its point of the lens.
+/// Returns the position of a vertex at the time of a sample, seen through its point of the lens.
 template <class B>
 HWY_INLINE SeenVertex seen(const BlurredQuad<B>& q, int c, const SampleVector& s, Floats focus) {
   SeenVertex v{all(q.x[0][c]), all(q.y[0][c]), all(q.d[0][c])};
@@ -75,34 +75,36 @@ HWY_INLINE SeenVertex seen(const BlurredQuad<B>& q, int c, const SampleVector& s
   return v;
 }
 
-/// Twice the area of (p, q, sample), computed from the canonical end; positive if the sample is on the left of pq.
+/// Returns twice the area of (p, q, sample), computed from the canonical end; positive if the sample is on the left of
+/// pq.
 HWY_INLINE Floats edge(const SeenVertex& p, const SeenVertex& q, bool swapped, const SampleVector& s) {
   const SeenVertex& origin = swapped ? q : p;
   return hn::Sub(hn::Mul(hn::Sub(q.x, p.x), hn::Sub(s.y, origin.y)),
                  hn::Mul(hn::Sub(q.y, p.y), hn::Sub(s.x, origin.x)));
 }
 
-/// Negative where a sample is on the left of an edge. Zero belongs to the right seen from the canonical end.
+/// Returns a negative number where a sample is on the left of an edge. Zero belongs to the right seen from the
+/// canonical end.
 HWY_INLINE Ints leftOf(Floats value, bool swapped) {
   return hn::BitCast(kI, hn::Sub(all(swapped ? -kTiny : 0.0f), value));
 }
 
-/// -1 where the inside of a triangle is on the right of its edges.
+/// Returns -1 where the inside of a triangle is on the right of its edges.
 HWY_INLINE Ints turnsRight(const SeenVertex& p, const SeenVertex& q, const SeenVertex& r) {
   const Floats area =
       hn::Sub(hn::Mul(hn::Sub(q.x, p.x), hn::Sub(r.y, p.y)), hn::Mul(hn::Sub(q.y, p.y), hn::Sub(r.x, p.x)));
   return hn::BitCast(kI, hn::VecFromMask(kF, hn::Lt(area, hn::Zero(kF))));
 }
 
-/// Is a sample on the same side of all three edges of a triangle that may be seen?
+/// Tells whether a sample is on the same side of all three edges of a triangle that may be seen.
 HWY_INLINE Mask inside(Ints left0, Ints left1, Ints left2, Ints right, float facing) {
   Ints in = hn::And(hn::And(hn::Xor(left0, right), hn::Xor(left1, right)), hn::Xor(left2, right));
   if (facing != 0) in = facing > 0 ? hn::AndNot(right, in) : hn::And(right, in);
   return hn::RebindMask(kF, hn::Lt(in, hn::Zero(kI)));
 }
 
-/// The samples that the quad covers, and their depth keys. facing: RasterGrid::facing, at the time and lens point of
-/// each sample.
+/// Returns the samples that the quad covers, and their depth keys. facing: RasterGrid::facing, at the time and lens
+/// point of each sample.
 template <class B>
 HWY_INLINE Mask covers(const BlurredQuad<B>& q, const SampleVector& s, Floats focus, float facing, Floats& depth) {
   const SeenVertex a = seen(q, 0, s, focus), b = seen(q, 1, s, focus), c = seen(q, 2, s, focus),

@@ -31,9 +31,9 @@ class BorderCell {
     joined_ = raster_.reaching.empty() ? 0 : at & raster_.reaching[static_cast<size_t>(grid_.pieceOfCell(cell))];
   }
 
-  /// Does it lie at a border that joins a neighbour?
+  /// Tells whether the cell lies at a border that joins a neighbour.
   bool joins() const { return joined_ != 0; }
-  /// Does it reach, at a point of the raster, beyond such a border as it was before it was pushed out?
+  /// Tells whether the cell reaches, at a point of the raster, beyond such a border as it was before it was pushed out.
   bool reachesTo(const vec2& at) const {
     const int b = a_ + 1, c = a_ + grid_.nu + 1, d = c + 1;
     return beyond(kEdgeU0, a_, c, b, at) || beyond(kEdgeU1, b, d, a_, at) || beyond(kEdgeV0, a_, b, c, at) ||
@@ -82,7 +82,7 @@ BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids,
     if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kDepthRounding * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
     const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);
-    // Where both reach over, the nearer sample stays.
+    // The nearer sample stays where both reach over.
     const bool nearer = d < otherD || (d == otherD && grids.precedes(cells[s], otherCells[s]));
     const uint64_t sample = left & (~left + 1);
     if (reaches && !(otherReaches && nearer)) out.first |= sample;

@@ -5,7 +5,7 @@
 
 namespace tomales {
 
-/// Difference between the depth keys of one of a layer's cells.
+/// Returns the difference between the depth keys of one of a layer's cells.
 float depthRangeOfCell(const TransparentLayers& layers, const GridTable& grids, size_t layer);
 /// Samples of two layers that their cells cover only by reaching beyond a border, where the other layer covers them as
 /// well.

@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kLeastSlant = 0.05f;  // the least slant, for faces seen edge on
+constexpr float kLeastSlant = 0.05f;  // Least slant, for faces seen edge on.
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
 // An open border reaches its own curve where that bulges; where it does not, a neighbour's bulges, and reaches it.
@@ -34,8 +34,8 @@ std::array<Border, 4> bordersOf(const Grid& g, int first) {
            {kEdgeV1, first + g.nv * row, 1, -row, g.nu}}};
 }
 
-/// How far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h apart on
-/// a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
+/// Returns how far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h
+/// apart on a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
@@ -84,7 +84,7 @@ float areaSign(const float* x, const float* y, const Border& b, int k) {
   return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
 }
 
-/// Does the surface end at a curve that bulges out at vertex k? It is not known of a single chord.
+/// Tells whether the surface ends at a curve that bulges out at vertex k. It is not known of a single chord.
 bool mayBulge(const float* x, const float* y, const Border& b, int k) {
   if (b.count < 2) return true;
   const int v = b.first + std::clamp(k, 1, b.count - 1) * b.step, before = v - b.step, after = v + b.step;
@@ -92,11 +92,12 @@ bool mayBulge(const float* x, const float* y, const Border& b, int k) {
   return dot(bend, vec2{x[v + b.inward] - x[v], y[v + b.inward] - y[v]}) > 0;
 }
 
-/// How far a border reaches out.
+/// The facts that decide how far a border reaches out.
 struct Reach {
-  bool open;       ///< It ends the surface, and
-  bool cut;        ///< a line cuts off what is beyond.
-  float least_px;  ///< Where it looks straight; it is more than kLeastReach_px if the border is displaced.
+  bool open;  ///< True if it ends the surface.
+  bool cut;   ///< True if a line cuts off what is beyond.
+  /// Least reach, where the border looks straight; it is more than kLeastReach_px if the border is displaced.
+  float least_px;
 };
 
 float reachAt(const Grid& g, const Border& b, const float* x, const float* y, int k, const Reach& reach,
@@ -128,7 +129,7 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
 
 vec2 onLattice(const vec2& at) { return {snapToLattice(at.x), snapToLattice(at.y)}; }
 
-/// The line at which a straight edge ends. Null: an end is too far away to be seen exactly.
+/// Returns the line at which a straight edge ends. Null: an end is too far away to be seen exactly.
 std::optional<BorderLine> lineOf(const std::array<vec3, 2>& ends, const mat4& cameraFromObject, const Camera& camera) {
   vec2 at[2];
   for (int k = 0; k < 2; ++k) {
@@ -140,7 +141,7 @@ std::optional<BorderLine> lineOf(const std::array<vec3, 2>& ends, const mat4& ca
   return BorderLine{onLattice(at[0]), onLattice(at[1])};
 }
 
-/// What closes the borders of one piece.
+/// The measures that close the borders of one piece.
 struct Plan {
   uint8_t reaching = 0;  ///< PatchEdge bits.
   std::array<BorderLine, 4> lines{};
@@ -162,8 +163,8 @@ Plan planOf(const Grid::Piece& piece, const Object& o, const Camera& camera, boo
   return plan;
 }
 
-/// The borders that end at lines. They are pushed out too: the lattice may leave nothing of a narrow cell at the line
-/// itself.
+/// Returns the borders that end at lines. They are pushed out too: the lattice may leave nothing of a narrow cell at
+/// the line itself.
 int edgesAtLines(const RasterGrid& r, size_t piece) {
   int edges = 0;
   for (size_t e = 0; e < 4 && !r.lines.empty(); ++e)

@@ -5,7 +5,7 @@
 
 namespace tomales {
 
-constexpr float kLeastReach_px = 2 / kLattice;  ///< How far a border reaches out at least.
+constexpr float kLeastReach_px = 2 / kLattice;  ///< Least distance by which a border reaches out.
 
 /// Decides for each border of a still grid's pieces whether it ends at a line, reaches out, or neither, and sets
 /// RasterGrid::lines and RasterGrid::reaching. Pre: `grid` and `inSolid` are set.
@@ -16,8 +16,8 @@ void planBorders(RasterGrid& raster, const Object& object, const Camera& camera)
 /// facing: RasterGrid::facing of a one-sided surface.
 void pushBorders(const RasterGrid& raster, float mostOfDisplaced_px, float facing, float* x, float* y);
 
-/// How far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a twisted
-/// cell.
+/// Returns how far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a
+/// twisted cell.
 float deviation_px(const Grid& grid, const float* x, const float* y);
 
 }  // namespace tomales

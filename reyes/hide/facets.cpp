@@ -43,7 +43,8 @@ void stepsOf(const Scene& scene, const Grid& g, const Steps& steps, ShadePoints&
   }
 }
 
-/// The motion from the first key of a grid to its last that remains when the motion of the transformation is undone.
+/// Returns the motion from the first key of a grid to its last that remains when the motion of the transformation is
+/// undone.
 template <class Mean>
 vec3 driftOf(const Scene& scene, const Grid& g, const Mean& mean) {
   const Object& o = scene.objects[static_cast<size_t>(g.object)];

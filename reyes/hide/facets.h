@@ -30,15 +30,15 @@ class FacetTable {
     std::vector<PointRequest> list;
   };
   void makeFacets(const GridTable::Entry& entry);
-  /// The side on which a fragment sees its cell.
+  /// Returns the side on which a fragment sees its cell.
   Side sideOf(uint32_t fragment) const;
-  /// The facet of a side of a cell that may be seen from both.
+  /// Returns the facet of a side of a cell that may be seen from both.
   uint32_t facetOfFolded(uint32_t cell, Side side);
   void countTurns(const GridTable::Entry& entry, HideDiagnostics& diagnostics);
   int batchOf(int group);
   void fill(const PointRequests& requests, ShadePoints& points) const;
   void addSteps(std::span<const PointRequest> requests, ShadePoints& points, int first) const;
-  /// The number of requests from the first on for cells that follow each other in a row of a grid.
+  /// Returns the number of requests from the first on for cells that follow each other in a row of a grid.
   static int runLength(const Grid& g, std::span<const PointRequest> requests);
 
   static constexpr uint32_t kNotMade = ~0U, kFolded = ~0U - 1;

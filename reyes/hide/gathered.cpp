@@ -20,11 +20,11 @@ TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& o
   for (int i = 0; i < kLanes; ++i) {
     const float ux = g.uEdge[0][i], uy = g.uEdge[1][i], uz = g.uEdge[2][i];
     const float vx = g.vEdge[0][i], vy = g.vEdge[1][i], vz = g.vEdge[2][i];
-    // In a cell this is half the cross product of the diagonals: its area, exactly so where it is flat.
+    // For a cell this is half the cross product of the diagonals: its area, exactly so if it is flat.
     const float spanX = uy * vz - uz * vy, spanY = uz * vx - ux * vz, spanZ = ux * vy - uy * vx;
     const float area2 = spanX * spanX + spanY * spanY + spanZ * spanZ;
-    // Where the normal has turned away from the eye though its side is seen, that of the outline is taken, slightly
-    // turned to the eye.
+    // A normal that has turned away from the eye though its side is seen becomes that of the outline, slightly turned
+    // to the eye.
     const float ix = fromEye * g.P[0][i], iy = fromEye * g.P[1][i], iz = fromEye * g.P[2][i] + parallel;
     const float along = spanX * ix + spanY * iy + spanZ * iz, i2 = ix * ix + iy * iy + iz * iz;
     const float back = (g.side[i] * kOutline * std::sqrt(area2 * i2) - along) / i2;

@@ -4,10 +4,11 @@
 namespace tomales {
 
 constexpr float kLattice = 1024;  ///< Lattice points along the edge of a pixel, for vertices and samples.
-/// How far a straight border may lie outside of vertices that are snapped to the lattice.
+/// Greatest distance by which a straight border may lie outside of vertices that are snapped to the lattice.
 constexpr float kLineReach_px = 1 / kLattice;
 
-/// Nearest lattice point, by the spacing of floats between 2^13 and 2^14; the lattice is coarser beyond 4096 px.
+/// Returns the nearest lattice point, by the spacing of floats between 2^13 and 2^14. The lattice is coarser beyond
+/// 4096 px.
 inline float snapToLattice(float x) { return (x + 12288.0f) - 12288.0f; }
 
 }  // namespace tomales

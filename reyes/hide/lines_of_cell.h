@@ -4,7 +4,7 @@
 
 namespace tomales {
 
-/// In the order of PatchEdge. Pre: the grid has lines.
+/// The lines at which a cell ends, in the order of PatchEdge. Pre: the grid has lines.
 class LinesOfCell {
  public:
   LinesOfCell(const RasterGrid& r, int cell) {

@@ -10,8 +10,8 @@
 namespace tomales {
 namespace {
 
-/// The number of patterns, of which no repetition is seen. With very many samples a pixel has little error that could
-/// repeat, and many patterns would fill the memory.
+/// Numbers of patterns. 256 are so many that no repetition is seen. With very many samples a pixel has little error
+/// that could repeat, and many patterns would fill the memory.
 constexpr int kMostPatterns = 256, kLeastPatterns = 16, kSamplesOfPatterns = 1 << 20;
 
 /// Returns the position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.

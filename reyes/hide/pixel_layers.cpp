@@ -90,7 +90,7 @@ std::span<const CellCoverage> PixelLayers::nextRun(std::span<const CellCoverage>
   return coverages.first(n);
 }
 
-/// Does a sample see two of them?
+/// Tells whether a sample sees two of the cells.
 bool PixelLayers::overlap(std::span<const CellCoverage> coverages) {
   std::fill(covered_.begin(), covered_.end(), 0);
   bool twice = false;
@@ -102,7 +102,7 @@ bool PixelLayers::overlap(std::span<const CellCoverage> coverages) {
   return twice;
 }
 
-/// Is the list nearest first for every sample? Also counts the layers of each sample.
+/// Tells whether the list is nearest first for every sample. It also counts the layers of each sample.
 bool PixelLayers::inOrder(std::span<const CellCoverage> coverages) {
   size_t words = 0;
   for (const CellCoverage& s : coverages) words = std::max(words, size_t{s.word} + 1);

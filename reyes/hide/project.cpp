@@ -16,7 +16,8 @@ struct Vertices {
   vec3 at(int v) const { return {x[v], y[v], z[v]}; }
 };
 
-/// Are all vertices seeable? Those that are not belong to cells that nobody sees, and are put where they do no harm.
+/// Tells whether all vertices are seeable. Vertices that are not belong to cells that nobody sees, and are put where
+/// they do no harm.
 TOMALES_HOT bool toRaster(const Vertices& from, const Camera& camera, float* __restrict x, float* __restrict y,
                           float* __restrict d) {
   const vec3 harmless(0, 0, camera.nearClip());

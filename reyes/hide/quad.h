@@ -35,7 +35,7 @@ struct alignas(64) Corners {
   int32_t x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];  ///< Pixels of the bucket that they touch.
 };
 
-/// Is the inside of a triangle on the left of its edges?
+/// Tells whether the inside of a triangle is on the left of its edges.
 inline bool turnsLeft(const Corners& q, int i, int a, int b, int c) {
   return (q.x[b][i] - q.x[a][i]) * (q.y[c][i] - q.y[a][i]) - (q.y[b][i] - q.y[a][i]) * (q.x[c][i] - q.x[a][i]) > 0;
 }
@@ -148,7 +148,7 @@ struct alignas(64) Triangles {
     return hn::Add(hn::Add(hn::Div(slope, all(kLattice)), hn::Mul(all(4e-7f), hn::Abs(depth))), all(kTiny));
   }
 
-  /// Twice the signed area of a triangle, from two of its sides.
+  /// Returns twice the signed area of a triangle, from two of its sides.
   static HWY_INLINE Floats area(Floats ux, Floats uy, Floats vx, Floats vy) {
     return hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx));
   }

@@ -27,23 +27,23 @@ struct RasterJob {
 
 /// Rasterises a grid with one motion key, in focus.
 void rasterizeStill(const RasterJob& job);
-/// The same for a grid of round cells: Grid::round.
+/// Does the same for a grid of round cells: Grid::round.
 void rasterizeRound(const RasterJob& job);
 /// Rasterises a grid that moves or is out of focus: a sample meets the vertices where they are at its time, seen
 /// through its point of the lens.
 void rasterizeBlurred(const RasterJob& job);
 
-/// Do trim curves, clipping and levels of detail keep all of the job's grid?
+/// Tells whether trim curves, clipping and levels of detail keep all of the job's grid.
 inline bool keepsAll(const RasterJob& job) {
   return job.raster.grid->kept.empty() && !job.raster.clipped && job.raster.detail.whole();
 }
-/// The part of a cell that trim curves, clipping and levels of detail keep.
+/// Returns the part of a cell that trim curves, clipping and levels of detail keep.
 inline Kept keptOf(const RasterJob& job, int cell) {
   const std::vector<Kept>& given = job.raster.grid->kept;
   const Kept kept = given.empty() ? Kept::All : given[static_cast<size_t>(cell)];
   return kept == Kept::All && (job.raster.clipped || !job.raster.detail.whole()) ? Kept::Part : kept;
 }
-/// Do these keep the point of a cell that a sample meets? Pre: the cell covers it.
+/// Tells whether these keep the point of a cell that a sample meets. Pre: the cell covers it.
 bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane);
 /// Tests the same for the lanes of a mask that counts from `firstLane`.
 uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64_t lanes);
@@ -51,8 +51,8 @@ uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64
 /// Gives samples of a mask with equal depths to the cell whose name comes first.
 void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t cell);
 
-/// Error bound of a depth key, which is above 0, because vertices lie on the lattice and numbers are floats. `slope` is
-/// the change of the depth key in a pixel.
+/// Returns the error bound of a depth key. It is above 0, because vertices lie on the lattice and numbers are floats.
+/// `slope` is the change of the depth key in a pixel.
 inline float depthErrorBound(float slope, float depth) { return slope / kLattice + 4e-7f * std::abs(depth) + kTiny; }
 /// Notes a depth conflict where the cell comes so close to the earlier depth of samples of a mask that depth errors
 /// decide, if that is of another object.

@@ -38,7 +38,7 @@ void setLines(const RasterGrid& r, const Corners& q, uint64_t cells, Triangles<F
   }
 }
 
-/// Are edges of some cells short enough for the lattice?
+/// Tells whether edges of some cells are short enough for the lattice.
 HWY_INLINE bool fitLattice(const RasterGrid& r, const Corners& q, uint64_t cells, const SampleBuffer& samples) {
   uint64_t large = 0;
   for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {

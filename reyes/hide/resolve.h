@@ -26,10 +26,10 @@ struct SeenCell {
   vec3 a, b, c, d;
 };
 SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
-/// Depth key of a cell where a sample meets it.
+/// Returns the depth key of a cell where a sample meets it.
 float depthOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
-/// The place on a cell (its own (u,v), 0..1) where a sample meets it, or beyond it where the sample meets the plane of
-/// one of its triangles.
+/// Returns the place on a cell (its own (u,v), 0..1) where a sample meets it, or beyond it where the sample meets the
+/// plane of one of its triangles.
 vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
 }  // namespace tomales

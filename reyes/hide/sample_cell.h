@@ -14,7 +14,7 @@ struct VisibleSamples {
   Floats depth, before;  ///< Depth keys of the cell, and of the nearest opaque surface so far.
 };
 
-/// The samples that trim curves and clipping keep.
+/// Returns the samples that trim curves and clipping keep.
 inline Mask keptOfMask(const RasterJob& job, uint32_t cell, size_t lane, Mask samples) {
   const uint64_t left = keptLanes(job, cell, lane, bitsOf(samples));
   return hn::LoadMaskBits(kF, reinterpret_cast<const uint8_t*>(&left));

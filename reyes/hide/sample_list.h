@@ -25,8 +25,8 @@ struct SampleList {
 
 class SampleListStack {
  public:
-  /// The thread's stack, whose memory is kept from grid to grid. It has room for `depth` lists of at most `most`
-  /// samples.
+  /// Returns the thread's stack, whose memory is kept from grid to grid. It has room for `depth` lists of at most
+  /// `most` samples.
   static SampleListStack& ofThread(size_t depth, size_t most) {
     static thread_local SampleListStack stack;
     const size_t size = depth * SampleList::kArrays * strideOf(most);

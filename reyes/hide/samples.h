@@ -30,7 +30,7 @@ class GridTable {
   /// Frees every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }          ///< Number of grids that are not freed.
-  bool anySmooth() const { return anySmooth_; }  ///< Is any grid RasterGrid::smooth?
+  bool anySmooth() const { return anySmooth_; }  ///< True if any grid is RasterGrid::smooth.
   /// Decides between equal depths: by name, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
 
@@ -80,22 +80,22 @@ struct SampleBuffer {
   std::vector<DepthConflict>
       depthConflicts;  ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
 
-  /// Do 16 bits hold the positions on the lattice?
+  /// Tells whether 16 bits hold the positions on the lattice.
   bool fitsLattice() const {
     return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px && std::max(rect.x1, rect.y1) <= kMostExact_px;
   }
   /// Makes times and lens positions, for the first grid that moves or is out of focus.
   void showBlur();
-  /// The number of a lane that DetailShare compares.
+  /// Returns the number of a lane that DetailShare compares.
   float detail(size_t lane) const {
     const size_t width = static_cast<size_t>(lanes);
     return pattern_.detail(patternAt_[lane / width])[lane % width];
   }
-  /// The layers that get the samples of a transparent grid or a solid.
+  /// Returns the layers that get the samples of a transparent grid or a solid.
   TransparentLayers& layersOf(const RasterGrid& raster) { return raster.inSolid ? crossings : layers; }
-  /// Samples of a pixel.
+  /// Returns the number of samples of a pixel.
   int sampleCount() const { return pattern_.count(); }
-  /// TransparentLayer::word of a sample of a pixel.
+  /// Returns TransparentLayer::word of a sample of a pixel.
   uint32_t wordOf(uint32_t pixel, uint32_t sample) const {
     return pixel * static_cast<uint32_t>(layers.wordsOfPixel()) + sample / 64;
   }
@@ -105,7 +105,7 @@ struct SampleBuffer {
   size_t pixelIndex(int column, int row) const {
     return static_cast<size_t>((row - rect.y0) * (rect.x1 - rect.x0) + (column - rect.x0));
   }
-  /// Pixels of the bucket that a raster bound touches.
+  /// Returns the pixels of the bucket that a raster bound touches.
   PixelRect touched(const vec2& lo, const vec2& hi) const {
     // The value is clamped as a float: a vertex near the eye plane may lie farther out than an int can hold.
     const auto floorWithin = [](float v, int first, int end) {
@@ -117,17 +117,17 @@ struct SampleBuffer {
             std::min(floorWithin(hi.x, rect.x0, rect.x1) + 1, rect.x1),
             std::min(floorWithin(hi.y, rect.y0, rect.y1) + 1, rect.y1)};
   }
-  /// All cells that some sample sees or, for solids, may see, sorted.
+  /// Returns all cells that some sample sees or, for solids, may see, sorted.
   std::vector<uint32_t> seen() const;
-  /// Is every sample of the pixels nearer than depth key d?
+  /// Tells whether every sample of the pixels is nearer than depth key d.
   bool hides(const PixelRect& pixels, float d) const {
     for (int row = pixels.y0; row < pixels.y1; ++row)
       for (int column = pixels.x0; column < pixels.x1; ++column)
         if (!(far[pixelIndex(column, row)] < d)) return false;
     return true;
   }
-  /// Is every sample within a raster bound nearer? In a few pixels samples are tested one by one, because a small bound
-  /// mostly lies between them.
+  /// Tells whether every sample within a raster bound is nearer. In a few pixels samples are tested one by one, because
+  /// a small bound mostly lies between them.
   bool hides(const Bound2& bound, float d) const;
 
  private:

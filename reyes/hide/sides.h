@@ -5,9 +5,9 @@
 
 namespace tomales {
 
-/// Sign of the raster area, u before v, of a micropolygon whose dP/du x dP/dv faces the eye. The side depends on the
-/// shape alone, which is closed where a body is: shading normals of a micropolygon at a fold may point either way, and
-/// leave a hole (docs/decisions/0003).
+/// Returns the sign of the raster area, u before v, of a micropolygon whose dP/du x dP/dv faces the eye. The side
+/// depends on the shape alone, which is closed where a body is: shading normals of a micropolygon at a fold may point
+/// either way, and leave a hole (docs/decisions/0003).
 float facingSign(const Camera& camera);
 
 enum class Side : uint8_t {
@@ -17,7 +17,7 @@ enum class Side : uint8_t {
 /// Finds the sides of cells that may be seen, by the cells' first vertices: bits of Side. Both are set where the side
 /// depends on the sample. Moving cells are judged at shutter open, where they are shaded.
 void findSides(const RasterGrid& raster, float facingSign, std::vector<int32_t>& sides);
-/// The side that a sample sees of a cell that covers it.
+/// Returns the side that a sample sees of a cell that covers it.
 Side sideAt(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
 }  // namespace tomales

@@ -44,7 +44,7 @@ class TransparentLayers {
   const TransparentLayer& layer(size_t i) const { return list_[i]; }
   size_t width() const { return width_; }  ///< Number of lanes of each layer, a multiple of kLanes.
   size_t wordsOfPixel() const { return words_; }
-  /// A depth key and a cell for each lane of a layer; kUncovered_d and kNoCell where it covers none.
+  /// Return a depth key and a cell for each lane of a layer; kUncovered_d and kNoCell where it covers none.
   float* depths(size_t layer) { return depths_.data() + layer * width_; }
   const float* depths(size_t layer) const { return depths_.data() + layer * width_; }
   uint32_t* cells(size_t layer) { return cells_.data() + layer * width_; }

@@ -8,7 +8,8 @@ namespace tomales {
 
 constexpr int kCryptoFloats = 12;  ///< Six ranks of id and coverage.
 
-/// The MurmurHash3_x86_32 of a name, as the float with these bits; exponents of zero, infinity and NaN are avoided.
+/// Returns the MurmurHash3_x86_32 of a name, as the float with these bits; exponents of zero, infinity and NaN are
+/// avoided.
 float cryptoId(const std::string& name);
 
 /// Fills kCryptoFloats from float `first` of every pixel of `band`. `names` are indexed as Scene::groups.

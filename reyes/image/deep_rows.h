@@ -30,7 +30,7 @@ struct LayeredRows {
 /// Layers of rows [y0, y1), as far as the frame has samples.
 LayeredRows layersOf(const DeepFrame& frame, const Options& options, int y0, int y1);
 
-/// The PixelFilter of the options; a box of one pixel replaces one with negative lobes.
+/// Returns the PixelFilter of the options; a box of one pixel replaces one with negative lobes.
 PixelFilter positiveFilter(const Options& options);
 
 /// Samples of R G B A Z ZBack (AR AG AB Z ZBack) of every pixel of rows of the crop window. Flattened by "over" they

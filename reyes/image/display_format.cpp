@@ -19,7 +19,7 @@ bool everyFormatTakes(const std::string& name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// Does its type say which data are written, and not only in which format?
+/// Tells whether the Display's type says which data are written, and not only in which format.
 bool writesPass(const DisplayCall& display) { return writesMap(display) || writesDeep(display); }
 
 std::string compressionOf(const DisplayCall& display) {
@@ -59,12 +59,12 @@ void setExr(const DisplayCall& display, FileFormat& format) {
   format.metadata = metadataOf(display);
 }
 
-/// Is the type of this Display left to drivers?
+/// Tells whether the type of this Display is left to drivers.
 bool namesDriver(const DisplayCall& display) {
   return !writesPass(display) && display.type != "file" && display.type != "null" && !formatOfType(display.type);
 }
 
-/// The format that the type of a Display asks for; null if it leaves that to the file's name.
+/// Returns the format that the type of a Display asks for; null if it leaves that to the file's name.
 const PictureFormat* formatOfItsType(const DisplayCall& display) {
   return writesPass(display) ? pictureFormats().front() : formatOfType(display.type);
 }

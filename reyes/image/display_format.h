@@ -4,7 +4,7 @@
 
 namespace tomales {
 
-/// A string parameter of a Display, in lower case; empty if it is not there.
+/// Returns a string parameter of a Display, in lower case; empty if it is not there.
 std::string displayText(const DisplayCall& display, const char* name);
 /// Reports the parameters that are unknown and ignored.
 void warnAboutParams(const DisplayCall& display, Log& log);

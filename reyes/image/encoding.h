@@ -8,7 +8,7 @@ namespace tomales {
 
 float exposed(float value, float gain, float gamma);
 void divideByAlpha(Image& image);
-/// sRGB, of all channels but alpha.
+/// Encodes all channels but alpha as sRGB.
 void encodeForScreen(Image& image);
 /// Makes integers from 0 to `limit` of each channel as its quantizer says.
 void quantise(Image& image, const std::vector<Quantize>& quantizers, float limit);

@@ -23,7 +23,7 @@ namespace {
 /// Attributes that say which part of the frame a tile is, and so differ between tiles of one frame.
 constexpr const char* kOfTile[] = {"dataWindow", "chunkCount"};
 
-/// What it means when the tiles' attributes differ; others are only named.
+/// Messages for attributes that differ between tiles; other attributes are only named.
 constexpr std::pair<const char*, const char*> kMeanings[] = {
     {"displayWindow", "the frames are of different sizes"},
     {"channels", "their channels differ"},
@@ -47,7 +47,7 @@ struct PictureTile {
   PixelRect window;
 };
 
-/// The bytes of all attributes but those of the tile alone.
+/// Returns the bytes of all attributes but those of the tile alone.
 std::map<std::string, std::string> attributesOf(const Imf::Header& header) {
   std::map<std::string, std::string> out;
   for (auto a = header.begin(); a != header.end(); ++a) {
@@ -79,7 +79,8 @@ void refuseStranger(const PictureTile& first, const PictureTile& tile) {
     throw FileError(fmt::format("\"{}\" is no tile of the frame of \"{}\": {}", tile.path, first.path, why));
 }
 
-/// Does a tile cover each pixel? The edges of the tiles divide the window into cells that are covered wholly or not.
+/// Refuses tiles that leave a pixel out. The edges of the tiles divide the window into cells that are covered wholly or
+/// not.
 void refuseGaps(const std::vector<PictureTile>& tiles, const PixelRect& whole) {
   std::set<int> columns{whole.x0}, rows{whole.y0};
   for (const PictureTile& t : tiles)

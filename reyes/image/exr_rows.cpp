@@ -37,7 +37,7 @@ std::vector<FileChannel> channelsOf(const Image& shape, const Imf::Header& heade
   return out;
 }
 
-/// The bytes of rows, channel after channel in each row. The machine is little-endian, as the format is.
+/// Returns the bytes of rows, channel after channel in each row. The machine is little-endian, as the format is.
 Bytes rawRows(const Image& rows, int first, int count, const std::vector<FileChannel>& channels) {
   Bytes out;
   const size_t width = static_cast<size_t>(rows.width), all = rows.channels.size();

@@ -27,7 +27,7 @@ struct Pass {
   bool anyFill() const {
     return std::any_of(floats.begin(), floats.end(), [](const Float& f) { return f.fill != 0; });
   }
-  /// Are the floats adjacent in contributions, so that they can be used in place?
+  /// Tells whether the floats are adjacent in contributions, so that they can be used in place.
   bool together() const {
     for (size_t k = 1; k < floats.size(); ++k)
       if (floats[k].from != floats[0].from + k) return false;
@@ -154,7 +154,7 @@ struct FrameFilter::Impl {
     return sums;
   }
 
-  /// The sums of weights of all samples around each pixel of a block, by rows.
+  /// Returns the sums of weights of all samples around each pixel of a block, by rows.
   std::vector<float> totalsOf(const WeightTable& w, const PixelRect& block, const Around& around) const {
     const auto columns = static_cast<size_t>(block.width());
     std::vector<float> totals(columns * static_cast<size_t>(block.height()));

@@ -15,7 +15,7 @@ class FormatWriter {
   virtual void write(const Image& rows) = 0;
   virtual void write(const DeepRows& rows);
   virtual void close() = 0;
-  virtual std::vector<std::string> unread() const { return {}; }  ///< The same as of PictureFile.
+  virtual std::vector<std::string> unread() const { return {}; }  ///< Serves PictureFile::unread().
 };
 
 /// Returns the pixels of `rows` as bytes of `type`, from the first row to the last.

@@ -15,7 +15,7 @@ bool has(const Words& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// The extensions of all formats as "exr, tif, png" or "exr|.tif|.png": the first of each.
+/// Returns the extensions of all formats as "exr, tif, png" or "exr|.tif|.png": the first of each.
 std::string extensions(const std::string& between) {
   std::string out;
   for (const PictureFormat* f : pictureFormats())

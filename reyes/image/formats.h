@@ -34,14 +34,14 @@ struct PictureFormat {
 
 /// The first format is used for names without an extension, and for data that only a format that carries names holds.
 std::span<const PictureFormat* const> pictureFormats();
-/// The format of pictures for display drivers, which is not in the table.
+/// Returns the format of pictures for display drivers, which is not in the table.
 const PictureFormat& driverFormat();
 /// Returns null if there is none.
 const PictureFormat* formatOfType(std::string_view displayType);
 const PictureFormat* formatOfExtension(const std::string& path);
-/// Does some format take this parameter of a Display?
+/// Tells whether some format takes this parameter of a Display.
 bool anyFormatTakes(std::string_view param);
-/// The titles of formats that hold floating point numbers: "OpenEXR or TIFF".
+/// Returns the titles of formats that hold floating point numbers: "OpenEXR or TIFF".
 std::string floatFormats();
 
 }  // namespace tomales

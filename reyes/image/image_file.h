@@ -53,7 +53,7 @@ class PictureFile {
   /// whole one removes the file of that name.
   bool close(float finished = 1);
   const std::string& error() const;
-  /// Parameters of a Display that its driver has not read.
+  /// Returns the parameters of a Display that its driver has not read.
   std::vector<std::string> unread() const;
 
  private:
@@ -64,7 +64,7 @@ class PictureFile {
 /// Copies a shadow map. Unless the result is Done, `error` says why.
 Making copyShadowMap(const std::string& from, const std::string& to, std::string& error);
 
-/// IEC 61966-2-1 transfer of one linear value, clamped to [0,1].
+/// Returns the IEC 61966-2-1 transfer of one linear value, clamped to [0,1].
 float encodeSrgb(float linear);
 
 }  // namespace tomales

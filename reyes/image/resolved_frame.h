@@ -22,9 +22,10 @@ class ResolvedFrame {
   void resolveRows(int y0, int y1);
   /// Drops the tiles above a row.
   void forgetAbove(int y);
-  /// Are all tiles from that of row y on still in memory?
+  /// Tells whether all tiles from that of row y on are still in memory.
   bool reaches(int y) const { return firstTileOf(y) >= forgotten_; }
-  /// Noise of all tiles that have been resolved. It is zero where so few pixels have light that most are edges.
+  /// Returns the noise of all tiles that have been resolved. It is zero where so few pixels have light that most are
+  /// edges.
   PixelNoise noise() const;
 
   /// The contributions of a pixel.

@@ -9,7 +9,7 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The samples of a vector, from `first` on, that a layer covers. Returns false if there are none.
+/// Writes the samples of a vector, from `first` on, that a layer covers. Returns false if there are none.
 HWY_INLINE bool coveredFrom(const ShadedLayer& l, size_t first, Mask& covered) {
   if (l.word != first / 64) return false;
   const uint64_t samples = l.samples >> first % 64 & ((uint64_t{1} << hn::Lanes(kF)) - 1);

@@ -47,10 +47,10 @@ class WeightTable {
     return sum;
   }
 
-  /// The sums of all cells of a pattern, by rows, padded: places(), then zeros.
+  /// Returns the sums of all cells of a pattern, by rows, padded: places(), then zeros.
   int places() const { return stride_; }
   const float* sums(int pattern) const { return sums_.data() + static_cast<ptrdiff_t>(pattern) * stride_; }
-  /// The sums of the samples of a mask for all cells, as sum() gives them.
+  /// Writes the sums of the samples of a mask for all cells, as sum() gives them.
   void sums(int pattern, uint64_t mask, uint16_t word, float* out) const;
 
  private:
@@ -99,7 +99,7 @@ void forNeighbours(const PixelRect& rect, const WeightTable& weights, const Samp
       body(weights.cell(samples.patternOf(sx, sy), sx - x, sy - y), ivec2(sx, sy));
 }
 
-/// The tile of a pixel, or null where an interrupted frame has none.
+/// Returns the tile of a pixel, or null where an interrupted frame has none.
 inline const DeepTile* finishedTile(const DeepFrame& frame, int x, int y) {
   const DeepTile& tile = frame.tileAt(x, y);
   return tile.pixels.empty() || tile.shaded.size() < tile.batches.size() ? nullptr : &tile;

@@ -112,7 +112,7 @@ bool copyWithBlackEdges(const std::string& from, const std::string& to, std::str
           const size_t kept = r < spec.height - y ? columns * pixel : 0;
           std::fill(begin + static_cast<std::ptrdiff_t>(kept), begin + static_cast<std::ptrdiff_t>(row), 0);
         }
-        // With a type that is not named, OpenImageIO would take all rows of the tile from the same place.
+        // The type must be named: otherwise OpenImageIO would take all rows of the tile from the same place.
         if (!out->write_tile(spec.x + x, spec.y + y, 0, spec.format, tile.data())) return failed(out->geterror());
       }
   }

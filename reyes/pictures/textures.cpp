@@ -51,8 +51,8 @@ struct OpenFile {
 struct Picture {
   std::map<int, OpenFile> tiles;  ///< Indexed by UDIM number; 0 if there is only one.
   bool tiled = false;
-  std::string error;   ///< Why there is none.
-  std::string remark;  ///< What was taken in place of a file, and why.
+  std::string error;   ///< Says why there is none.
+  std::string remark;  ///< Says what was taken in place of a file, and why.
 };
 
 /// OpenImageIO's texture system, one for the process and never destroyed. Threads keep tiles of a system for longer
@@ -185,7 +185,7 @@ class Cache : public TextureCache {
     if (!named.empty()) picture.error = problem;  // else it is not found, whatever else lies there
   }
 
-  /// Where there is no handle, `error` says why.
+  /// Opens a file. If there is no handle, `error` says why.
   OpenFile openFile(const std::string& path, std::string& error) {
     std::string note;
     const std::string file = tiledFile(path, cacheFolder, error, note);

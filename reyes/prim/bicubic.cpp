@@ -58,7 +58,7 @@ glm::dvec3 weighted(const BezierPatch& patch, const Weights& u, const Weights& v
   return sum;
 }
 
-/// Do all control points lie on a line, so that there is no normal anywhere?
+/// Tells whether all control points lie on a line, so that there is no normal anywhere.
 bool isLine(const BezierPatch& patch) {
   const auto control = [&](size_t k) { return controlOf(patch, k); };
   glm::dvec3 along(0);
@@ -69,8 +69,8 @@ bool isLine(const BezierPatch& patch) {
   return true;
 }
 
-/// The normal at a point slightly nearer to the middle of the patch, where the derivatives are independent again.
-/// Double precision keeps the direction of the small derivative there.
+/// Returns the normal at a point slightly nearer to the middle of the patch, where the derivatives are independent
+/// again. Double precision keeps the direction of the small derivative there.
 vec3 normalNearby(const BezierPatch& patch, double u, double v) {
   for (double step : {1e-3, 1e-2, 1e-1}) {
     const double a = u + (0.5 - u) * step, b = v + (0.5 - v) * step;

@@ -23,7 +23,7 @@ void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, fl
 /// Computes positions, derivatives and normals; the latter are limits where an edge is a point.
 void evaluateBicubic(const BezierPatch& patch, int n, const float* u, const float* v, SurfacePoints out);
 
-/// The bound of the control points of the piece over the rectangle, which contains the piece.
+/// Returns the bound of the control points of the piece over the rectangle, which contains the piece.
 Bound3 boundBicubic(const BezierPatch& patch, const UvRect& rect);
 
 }  // namespace tomales

@@ -22,7 +22,7 @@ struct SurfacePoint {
   dvec3 p, du, dv, normal;
 };
 
-/// What becomes of a point whose way does not meet the surface.
+/// The fate of a point whose way does not meet the surface.
 enum class Lost {
   Stays,  ///< It is on the mesh of this surface, and so near to it.
   /// It goes as far as its way reaches: the mesh is of another key time, and its reach ends where vertices are lost, so
@@ -121,7 +121,7 @@ class Blobby : public Prim {
     return {blend(position), byU(position), byV(position), blend(outward), byU(outward), byV(outward), blend(reach)};
   }
 
-  /// Bound of the points that pointOn() may give for a rectangle.
+  /// Returns the bound of the points that pointOn() may give for a rectangle.
   Bound3 hullOf(uint32_t patch, const UvRect& rect) const {
     std::array<vec3, 4> corners;
     float reach = 0;

@@ -122,7 +122,7 @@ class CodeReader {
     return leaf;
   }
 
-  /// A plugin leaf: its name, then a count and a first number for its floats, and the same for its strings.
+  /// Reads a plugin leaf: its name, then a count and a first number for its floats, and the same for its strings.
   std::optional<BlobLeaf> plugin() {
     problems_.push_back(
         fmt::format("leaf {} is code from a plugin, for which there is no interface; it counts as 0", leaves_.size()));

@@ -159,7 +159,7 @@ std::vector<uint32_t> BlobField::neededOperands(const Instruction& i, const std:
   return needed;
 }
 
-// From the last instruction to the first, as chains of operations may be longer than a stack is deep.
+// Goes from the last instruction to the first, as chains of operations may be longer than a stack is deep.
 BlobField BlobField::within(const Box& box) const {
   const std::vector<FieldRange> ranges = rangesOver(box);
   const auto isConstant = [&](size_t index) { return ranges[index].lo == ranges[index].hi; };

@@ -57,23 +57,23 @@ class BlobField {
   void addLeaf(uint32_t leaf) { code_.push_back({BlobOp::Leaf, leaf, 0, 0}); }
   void addOperation(BlobOp op, std::span<const uint32_t> operands);
 
-  /// Number of leaves that it still has after within().
+  /// Returns the number of leaves that it still has after within().
   size_t leavesUsed() const;
   size_t leafCount() const { return leaves_->size(); }
   FieldPoint at(const dvec3& p) const;
   FieldRange over(const Box& box) const { return rangesOver(box).back(); }
 
-  /// The same function inside of the box, without instructions that are not needed there.
+  /// Returns the same function inside of the box, without instructions that are not needed there.
   BlobField within(const Box& box) const;
 
-  /// The value of each leaf at p, or 0 if the field does not depend on the leaf there.
+  /// Returns the value of each leaf at p, or 0 if the field does not depend on the leaf there.
   std::vector<double> leafWeights(const dvec3& p) const;
 
-  /// The position of p if the leaves change to those of `other`, which has as many: p moves by the mean of their
-  /// motions, weighted by leafWeights().
+  /// Returns the position of p if the leaves change to those of `other`, which has as many: p moves by the mean of
+  /// their motions, weighted by leafWeights().
   dvec3 carried(const dvec3& p, const BlobField& other) const;
 
-  /// Least feature() of the leaves that it uses; infinite if it uses none.
+  /// Returns the least feature() of the leaves that it uses; infinite if it uses none.
   double feature() const;
 
  private:

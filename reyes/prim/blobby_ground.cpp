@@ -5,7 +5,8 @@ namespace {
 
 constexpr double kLeastHeight = 1e-6;
 
-/// A bump and its derivative: the polynomial of least degree that is 0 with two derivatives at 0 and at 2, and 1 at 1.
+/// Returns a bump and its derivative: the polynomial of least degree that is 0 with two derivatives at 0 and at 2, and
+/// 1 at 1.
 glm::dvec2 bump(double r) {
   if (r <= 0 || r >= 2) return {0, 0};
   return {(((6 - r) * r - 12) * r + 8) * r * r * r, (((-6 * r + 30) * r - 48) * r + 24) * r * r};

@@ -20,7 +20,7 @@ class BlobGround {
   BlobGround(GroundPicture picture, const Repulsion& repulsion);
   FieldPoint at(const dvec3& p) const;
   FieldRange over(const Box& box) const;
-  /// Least distance over which the bulge rises or the field falls off.
+  /// Returns the least distance over which the bulge rises or the field falls off.
   double feature() const;
 
  private:

@@ -25,7 +25,7 @@ struct Cell {
   int32_t vertex = -1;
 };
 
-/// Are the corners in the set connected along the cell's edges?
+/// Tells whether the corners in the set are connected along the cell's edges.
 bool connected(uint8_t corners) {
   if (corners == 0) return true;
   uint8_t reached = static_cast<uint8_t>(corners & -corners);
@@ -46,7 +46,7 @@ dvec3 outwardAt(const BlobField& field, const dvec3& p) {
   return length > 0 ? falls / length : dvec3(0, 0, 1);
 }
 
-/// Does the surface turn by less than about two right angles in the cell? Then lines towards it meet it once.
+/// Tells whether the surface turns by less than about two right angles in the cell. Then lines towards it meet it once.
 bool isFlatEnough(const std::vector<dvec3>& crossings, const BlobField& field) {
   dvec3 mean(0);
   for (const dvec3& p : crossings) mean += outwardAt(field, p);
@@ -71,8 +71,8 @@ class Contourer {
     refine(0, field);
   }
 
-  /// Least factor on the cells for the surface to fit, estimated from the share of the box that was done when there
-  /// were too many: a surface has a quarter of the cells when they are twice as large.
+  /// Returns the least factor on the cells for the surface to fit, estimated from the share of the box that was done
+  /// when there were too many: a surface has a quarter of the cells when they are twice as large.
   double wantedCoarsening() const {
     return std::clamp(std::sqrt(std::pow(unit_ * cells_[0].size, 3) / std::max(done_, 1e-300)), kLeastCoarsening,
                       kMostCoarsening);
@@ -132,8 +132,8 @@ class Contourer {
     for (uint32_t k = 0; k < 8; ++k) refine(first + k, field);
   }
 
-  /// Does an edge leave the inside and come back, or the reverse? Then leaves nearly touch. Both cells at an edge get
-  /// the same answer.
+  /// Tells whether an edge leaves the inside and comes back, or the reverse. Then leaves nearly touch. Both cells at an
+  /// edge get the same answer.
   bool hidesGap(const Cell& cell, const BlobField& field) const {
     constexpr int kStretches = 4;
     if (field.leavesUsed() < 2) return false;
@@ -180,7 +180,7 @@ class Contourer {
     out_.vertices.push_back({vec3(p), vec3(outwardAt(field, p)), static_cast<float>(reach)});
   }
 
-  /// The smallest cell around a point, given in halves of finest cells so that no point lies on a face.
+  /// Returns the smallest cell around a point, given in halves of finest cells so that no point lies on a face.
   uint32_t cellAround(const Lattice& halves) const {
     uint32_t index = 0;
     while (cells_[index].firstChild != 0) {

@@ -32,10 +32,10 @@ struct BlobMesh {
 /// missed.
 BlobMesh contour(const BlobField& field, const Box& box);
 
-/// The same quadrilaterals around `moved`, whose leaves are those of `field` moved.
+/// Returns the same quadrilaterals around `moved`, whose leaves are those of `field` moved.
 BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobField& moved);
 
-/// The t nearest to 0 in [-reach, reach] where p + t * outward meets the surface; empty if there is none.
+/// Returns the t nearest to 0 in [-reach, reach] where p + t * outward meets the surface; empty if there is none.
 std::optional<double> meetSurface(const BlobField& field, const dvec3& p, const dvec3& outward, double reach);
 
 }  // namespace tomales

@@ -24,7 +24,7 @@ template <class T>
 T curvatureAt(const Cubic<T>& c, float t) {
   return 6.0f * ((1 - t) * (c[2] - 2.0f * c[1] + c[0]) + t * (c[3] - 2.0f * c[2] + c[1]));
 }
-/// The piece of the curve over [t0, t1].
+/// Returns the piece of the curve over [t0, t1].
 Cubic<vec4> piece(const Cubic<vec4>& c, float t0, float t1);
 
 struct CurveSegment {
@@ -44,22 +44,22 @@ class CurveSegments {
   uint32_t count() const { return static_cast<uint32_t>(segments_.size()); }
   const CurveSegment& operator[](size_t k) const { return segments_[k]; }
 
-  /// Position and width.
+  /// Returns position and width.
   const Cubic<vec4>& line(size_t k) const { return lines_[k]; }
   /// Direction along a segment, not normalised, and its derivative by v; never zero for a segment with a length. At a
   /// vertex of a polyline it is the mean of two directions, so that neighbours meet.
   void direction(size_t k, float v, vec3& along, vec3& slope) const;
   bool cubic() const { return cubic_; }
-  /// The segment before or after it in its curve. Pre: there is one.
+  /// Returns the segment before or after it in its curve. Pre: there is one.
   size_t neighbour(size_t k, bool after) const {
     const CurveSegment& s = segments_[k];
     return k - s.number + (s.number + (after ? 1 : s.of - 1)) % s.of;
   }
-  /// Unit direction of a polyline's segment (0 if it has no length). mitres() are the means with the directions of its
-  /// neighbours, at its two ends.
+  /// Returns the unit direction of a polyline's segment (0 if it has no length). mitres() are the means with the
+  /// directions of its neighbours, at its two ends.
   vec3 chord(size_t k) const;
   const std::array<vec3, 2>& mitres(size_t k) const { return mitres_[k]; }
-  /// A primvar's first three components along each segment.
+  /// Returns a primvar's first three components along each segment.
   std::vector<Cubic<vec3>> along(const Primvar& var) const;
 
   /// Interpolates a primvar as Prim::interpolate() does; u does not matter.

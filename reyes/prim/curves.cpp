@@ -164,7 +164,7 @@ class Ribbons : public Prim {
     spread(n, u, section.data(), sections, out);
   }
 
-  /// By RISpec, v runs along the whole curve.
+  /// RISpec has v run along the whole curve.
   void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const override {
     const CurveSegment& s = segments_[patch];
     std::copy_n(u, n, su);

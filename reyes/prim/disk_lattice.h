@@ -9,7 +9,7 @@ struct Disk {
   float radius;
 };
 
-/// Area of the polygon that a lattice of nu x nv makes of the unit disk.
+/// Returns the area of the polygon that a lattice of nu x nv makes of the unit disk.
 double latticeDiskArea(int nu, int nv);
 
 /// Evaluates the disk over the unit square, without a seam; derivatives are parallel only at the four corners.

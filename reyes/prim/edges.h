@@ -21,7 +21,7 @@ class EdgeFaces {
     for (int a = 0; a <= most; ++a) std::sort(others_.begin() + firstOf(a), others_.begin() + lastOf(a));
   }
 
-  /// Number of faces at the edge between vertices a and b; 0 if there is no such edge.
+  /// Returns the number of faces at the edge between vertices a and b; 0 if there is no such edge.
   int count(int a, int b) const {
     if (a > b) std::swap(a, b);
     if (a < 0 || static_cast<size_t>(a) + 1 >= end_.size()) return 0;
@@ -46,8 +46,9 @@ class EdgeFaces {
   ptrdiff_t firstOf(int a) const { return a > 0 ? static_cast<ptrdiff_t>(end_[static_cast<size_t>(a) - 1]) : 0; }
   ptrdiff_t lastOf(int a) const { return static_cast<ptrdiff_t>(end_[static_cast<size_t>(a)]); }
 
-  std::vector<int> others_;  // by vertex: the greater ends of its sides, sorted, each as often as faces have the edge
-  std::vector<size_t> end_;  // by vertex: end of its list
+  // Indexed by vertex: the greater ends of its sides, sorted, each as often as faces have the edge.
+  std::vector<int> others_;
+  std::vector<size_t> end_;  // Indexed by vertex: end of its list.
 };
 
 }  // namespace tomales

@@ -20,7 +20,8 @@ bool allTurnsAtLeast(const std::vector<Point2>& p, double least) {
   return true;
 }
 
-/// Does the polygon go around once? A polygon that turns one way only may go around several times, like a pentagram.
+/// Tells whether the polygon goes around once. A polygon that turns one way only may go around several times, like a
+/// pentagram.
 bool goesAroundOnce(const std::vector<Point2>& p) {
   double angle = 0;
   for (size_t i = 0; i < p.size(); ++i) {
@@ -48,7 +49,7 @@ class PointGrid {
 
   void remove(int i) { std::erase(cellOf(p_[static_cast<size_t>(i)]), i); }
 
-  /// Does any point, given by its number, satisfy a condition that only points in the box can satisfy?
+  /// Tells whether any point, given by its number, satisfies a condition that only points in the box can satisfy.
   template <class Condition>
   bool any(const Point2& lo, const Point2& hi, const Condition& condition) const {
     for (int row = index(lo, 1); row <= index(hi, 1); ++row)
@@ -111,7 +112,7 @@ class EarClipper {
     return false;
   }
 
-  /// Is the corner a spike? Its edges lie on each other and enclose nothing.
+  /// Tells whether the corner is a spike. Its edges lie on each other and enclose nothing.
   bool isSpike(int i) const {
     for (size_t key = 0; key < p_.size(); ++key)
       if (area(key, i) != 0 || glm::dot(at(key, before(i)) - at(key, i), at(key, after(i)) - at(key, i)) < 0)
@@ -119,8 +120,8 @@ class EarClipper {
     return true;
   }
 
-  /// Is vertex i in the triangle abc? Where the outline touches itself, a vertex at a corner of the triangle counts if
-  /// one of its edges goes inside.
+  /// Tells whether vertex i is in the triangle abc. Where the outline touches itself, a vertex at a corner of the
+  /// triangle counts if one of its edges goes inside.
   bool isWithin(size_t key, int i, const std::array<Point2, 3>& abc) const {
     const Point2& p = at(key, i);
     for (size_t k = 0; k < 3; ++k) {
@@ -139,7 +140,7 @@ class EarClipper {
     });
   }
 
-  /// Is the corner an ear at all keys? At a key where it has no area it takes nothing away.
+  /// Tells whether the corner is an ear at all keys. At a key where it has no area it takes nothing away.
   bool isEar(int i) const {
     for (size_t key = 0; key < p_.size(); ++key)
       if (area(key, i) != 0 && !isEar(key, i)) return false;
@@ -154,8 +155,8 @@ class EarClipper {
     return {};
   }
 
-  /// The first true ear after the last one that was cut; failing that a corner without area; failing that the largest
-  /// corner.
+  /// Returns the first true ear after the last one that was cut; failing that a corner without area; failing that the
+  /// largest corner.
   int findEar() {
     if (out_.disjoint)
       if (const auto ear = firstCorner([&](int i) { return isEar(i); })) return *ear;

@@ -11,8 +11,8 @@ namespace tomales {
 /// space (M. Newell).
 glm::dvec3 newellNormal(const std::vector<vec3>& points);
 
-/// The same for the triangle of the first point, the point farthest from it and the point farthest from the line
-/// through these: a bow tie, whose halves cancel each other in newellNormal(), has a plane too.
+/// Returns the same for the triangle of the first point, the point farthest from it and the point farthest from the
+/// line through these: a bow tie, whose halves cancel each other in newellNormal(), has a plane too.
 glm::dvec3 normalOfWidestTriangle(const std::vector<vec3>& points);
 
 /// A convex part of a polygon, as positions in its list of points; edges that are not the polygon's own are diagonals.
@@ -28,7 +28,7 @@ struct Pieces {
 /// and also at later keys of a polygon that cannot be cut alike at all keys.
 Pieces convexPieces(const Outlines& keys);
 
-/// Does every corner turn, and turn the same way, at all keys?
+/// Tells whether every corner turns, and turns the same way, at all keys.
 bool isStrictlyConvex(const Outlines& keys);
 
 }  // namespace tomales

@@ -14,7 +14,7 @@ struct Eye {
 /// "width" or else "constantwidth" of the primvars, or a constant 1. Throws PrimError if one is negative or not finite.
 Primvar widthOf(const std::vector<Primvar>& primvars);
 
-/// The primvar "N" if it has one normal for each element; null if there is none.
+/// Returns the primvar "N" if it has one normal for each element; null if there is none.
 const Primvar* normalsOf(const std::vector<Primvar>& primvars);
 
 }  // namespace tomales

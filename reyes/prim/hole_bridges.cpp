@@ -14,7 +14,7 @@ using Walk = std::vector<uint32_t>;
 // clear.
 constexpr size_t kMostPairs = 10'000;
 
-/// Does p lie between a and b, but on neither?
+/// Tells whether p lies between a and b, but on neither.
 bool liesBetween(const Point2& a, const Point2& b, const Point2& p) {
   return p != a && p != b && turn(a, b, p) == 0 && glm::dot(p - a, p - b) < 0;
 }
@@ -45,7 +45,7 @@ class Bridger {
 
  private:
   int size() const { return static_cast<int>(walk_.size()); }
-  /// The number of the corner at a position in the walk, which goes round.
+  /// Returns the number of the corner at a position in the walk, which goes round.
   uint32_t number(int i) const { return walk_[static_cast<size_t>((i + size()) % size())]; }
   const Point2& corner(int i) const { return p_[number(i)]; }
 
@@ -75,7 +75,7 @@ class Bridger {
     return -1;
   }
 
-  /// Position in the walk of a corner to which m can be joined; -1 if there is none.
+  /// Returns the position in the walk of a corner to which m can be joined; -1 if there is none.
   int findCorner(const Point2& m) const {
     double hit = kInfinity;
     int edge = -1;
@@ -106,14 +106,15 @@ class Bridger {
     return best;
   }
 
-  /// Is a nearer in angle to the ray from m to the right than b, or at the same angle nearer?
+  /// Tells whether a is nearer in angle to the ray from m to the right than b, or at the same angle nearer.
   static bool before(const Point2& m, const Point2& a, const Point2& b) {
     const Point2 x = glm::abs(a - m), y = glm::abs(b - m);
     const double slopes = x.y * y.x - y.y * x.x;
     return slopes != 0 ? slopes < 0 : x.x < y.x;
   }
 
-  /// Does m lie towards the inside from corner i? This tells the copies of a corner apart that bridges have made.
+  /// Tells whether m lies towards the inside from corner i. This tells the copies of a corner apart that bridges have
+  /// made.
   bool sees(int i, const Point2& m) const { return sees(p_, i, m); }
   bool sees(const std::vector<Point2>& p, int i, const Point2& m) const {
     const auto at = [&](int k) { return p[number(k)]; };
@@ -126,7 +127,7 @@ class Bridger {
     return turn(a, b, c) >= 0 ? leftOfIn && leftOfOut : leftOfIn || leftOfOut;
   }
 
-  /// Does the edge ab of a key touch a loop anywhere but at its own ends?
+  /// Tells whether the edge ab of a key touches a loop anywhere but at its own ends.
   static bool touches(const std::vector<Point2>& p, const Point2& a, const Point2& b, const Walk& loop) {
     for (size_t i = 0; i < loop.size(); ++i) {
       const Point2 &c = p[loop[i]], &d = p[loop[(i + 1) % loop.size()]];
@@ -135,7 +136,8 @@ class Bridger {
     return false;
   }
 
-  /// Is the bridge from the hole's first vertex to a position in the walk inside and clear of everything, at every key?
+  /// Tells whether the bridge from the hole's first vertex to a position in the walk is inside and clear of everything,
+  /// at every key.
   bool isClear(const Walk& hole, int at, std::span<const Walk> later) const {
     for (const std::vector<Point2>& p : keys_) {
       const Point2 &a = p[hole[0]], &b = p[number(at)];

@@ -24,7 +24,7 @@ bool repeatIfEven(const Primvar& var, size_t uniform, int n, float* out, int str
 /// Fills positions and derivatives, and normals as their cross product.
 void evaluateBilinear(const std::array<vec3, 4>& corners, int n, const float* u, const float* v, SurfacePoints out);
 
-/// Bound over the rectangle: four corners are the hull of a piece of a bilinear patch.
+/// Returns the bound over the rectangle: four corners are the hull of a piece of a bilinear patch.
 Bound3 boundBilinear(const std::array<vec3, 4>& corners, const UvRect& rect);
 
 /// Sets the normals to dPdu x dPdv.

@@ -98,7 +98,7 @@ class NuPatch : public Prim {
  private:
   int column(uint32_t patch) const { return static_cast<int>(patch) % u_.patches(); }
   int row(uint32_t patch) const { return static_cast<int>(patch) / u_.patches(); }
-  /// The number of a patch's segment in rows of `width`, segments or controls.
+  /// Returns the number of a patch's segment in rows of `width`, segments or controls.
   size_t numberInRows(uint32_t patch, int width) const {
     const int u = u_.spans[static_cast<size_t>(column(patch))].segment,
               v = v_.spans[static_cast<size_t>(row(patch))].segment;

@@ -58,7 +58,7 @@ void interpolateRational(const Primvar& var, const std::vector<vec4>& controls, 
   }
 }
 
-/// The bound of the controls of the piece over the rectangle, which contains it. Pre: weights are positive.
+/// Returns the bound of the controls of the piece over the rectangle, which contains it. Pre: weights are positive.
 Bound3 boundRational(const RationalNet& net, const UvRect& rect);
 
 }  // namespace tomales

@@ -27,13 +27,13 @@ struct Layout {
     };
     return {number(0, 0), number(1, 0), number(0, 1), number(1, 1)};
   }
-  /// Number of control (k, l) of a patch.
+  /// Returns the number of control (k, l) of a patch.
   size_t controlOf(uint32_t patch, int k, int l) const {
     const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
     const int row = (j * v.step + l) % v.controls, column = (i * u.step + k) % u.controls;
     return static_cast<size_t>(row) * static_cast<size_t>(u.controls) + static_cast<size_t>(column);
   }
-  /// The neighbour across an edge, around the mesh whether or not it is periodic.
+  /// Returns the neighbour across an edge, around the mesh whether or not it is periodic.
   uint32_t neighbour(uint32_t patch, int du, int dv) const {
     const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
     return static_cast<uint32_t>((j + dv + v.patches) % v.patches * u.patches + (i + du + u.patches) % u.patches);
@@ -99,7 +99,7 @@ class PatchMesh : public Prim {
 /// weights are positive.
 PrimPtr makeRationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params,
                          Problems& problems);
-/// Do the parameters ask for a rational mesh?
+/// Tells whether the parameters ask for a rational mesh.
 bool isRational(const ParamList& params);
 
 }  // namespace tomales

@@ -12,7 +12,7 @@
 namespace tomales {
 namespace {
 
-/// Area of the trapezoids that a lattice of nu meridians and nv zones makes of the unit sphere.
+/// Returns the area of the trapezoids that a lattice of nu meridians and nv zones makes of the unit sphere.
 double latticeSphereArea(int nu, int nv) {
   double area = 0;
   for (int k = 0; k < nv; ++k) {
@@ -54,7 +54,7 @@ class PointCloud : public Prim, public Scattered {
  protected:
   static constexpr float kMostInflation = 1.5f;
 
-  /// Factor on the radius with which the lattice's polygons have the shape's area.
+  /// Returns the factor on the radius with which the lattice's polygons have the shape's area.
   virtual double inflation(int nu, int nv) const = 0;
 
   /// Grows the bound of a whole patch to contain every lattice over it.

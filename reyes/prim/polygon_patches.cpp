@@ -17,7 +17,7 @@ Bound3 boundOf(const std::vector<vec3>& points) {
   return box;
 }
 
-/// A vector whose length grows with the area, or 0 where points enclose none.
+/// Returns a vector whose length grows with the area, or 0 where points enclose none.
 glm::dvec3 areaNormal(const std::vector<vec3>& points, const Bound3& box) {
   if (points.size() < 3) return glm::dvec3(0);
   const double leastArea = 1e-9 * glm::dot(box.size(), box.size());
@@ -243,15 +243,15 @@ class Decomposer {
   const EdgeFaces edges_;
   Decomposition out_;
   size_t holesIgnored_ = 0, overlapping_ = 0;
-  std::vector<uint32_t> corner_;     // corners of the current face
-  Points points_;                    // positions of its corners at some key
-  std::vector<glm::dvec3> normals_;  // indexed by key
+  std::vector<uint32_t> corner_;     // Corners of the current face.
+  Points points_;                    // Positions of its corners at some key.
+  std::vector<glm::dvec3> normals_;  // Indexed by key.
   glm::dvec3 normal_{0};
   Outlines outlines_;
   bool disjoint_ = true;
-  std::vector<char> open_;             // indexed by corner: its edge to the next one
-  std::vector<int> loopStart_;         // index of the first corner of every loop, and the end
-  std::vector<uint32_t> at_, middle_;  // vertices of the current piece
+  std::vector<char> open_;             // Indexed by corner: true if its edge to the next one is open.
+  std::vector<int> loopStart_;         // Index of the first corner of every loop, and the end.
+  std::vector<uint32_t> at_, middle_;  // Vertices of the current piece.
 };
 
 }  // namespace

@@ -70,7 +70,7 @@ class Polygons : public Prim {
     bool operator<(const Middle& other) const { return corner < other.corner; }
     bool operator==(const Middle& other) const { return corner == other.corner; }
   };
-  /// The corner itself or, if it is a middle, the end of its edge that is not `other`.
+  /// Returns the corner itself or, if it is a middle, the end of its edge that is not `other`.
   uint32_t endOf(uint32_t corner, uint32_t other) const {
     const auto at = std::lower_bound(middles_.begin(), middles_.end(), Middle{corner, {}});
     if (at == middles_.end() || at->corner != corner) return corner;
@@ -133,7 +133,7 @@ class Polygons : public Prim {
   Decomposition parts_;
   std::vector<vec3> positions_;
   std::vector<int> vertices_;
-  std::vector<Middle> middles_;  ///< By corner.
+  std::vector<Middle> middles_;  ///< Indexed by corner.
 };
 
 void requireLoops(const std::vector<int>& loopCounts, size_t loops) {

@@ -115,7 +115,7 @@ class LineRevolution : public Revolution {
   }
 
  private:
-  /// Unit direction from the axis to the meridian; where they meet, its limit from inside the surface.
+  /// Returns the unit direction from the axis to the meridian; where they meet, its limit from inside the surface.
   vec2 awayFromAxis(float v) const {
     const vec2 a(a_.x, a_.y), b(b_.x, b_.y);
     vec2 r = a * (1 - v) + b * v;
@@ -168,7 +168,7 @@ class Paraboloid : public Revolution {
   float rmax_, zmin_, zmax_;
 };
 
-/// The latitude where a sphere is cut: RISpec clips zmin and zmax to the poles.
+/// Returns the latitude where a sphere is cut: RISpec clips zmin and zmax to the poles.
 double latitude_turns(float z, float radius) {
   return std::asin(std::clamp(static_cast<double>(z) / radius, -1.0, 1.0)) / kTurn;
 }

@@ -11,8 +11,9 @@ namespace tomales {
 struct Meridian {
   static constexpr int kChunk = 128;
   float x[kChunk], y[kChunk], z[kChunk];
-  float dx[kChunk], dy[kChunk], dz[kChunk];  ///< derivatives by v
-  float nx[kChunk], ny[kChunk], nz[kChunk];  ///< in the direction of dPdu x dPdv for a positive sweep; never zero
+  float dx[kChunk], dy[kChunk], dz[kChunk];  ///< Derivatives by v.
+  /// Normals in the direction of dPdu x dPdv for a positive sweep; never zero.
+  float nx[kChunk], ny[kChunk], nz[kChunk];
 };
 
 /// sin and cos of whole turns * 2 pi, turn = offset + frac(scale * t): a closed sweep ends on the very bits

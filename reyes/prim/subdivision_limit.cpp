@@ -19,7 +19,8 @@ Frame frameAt(const FaceAt& face, const FaceMap& map, float u, float v) {
   return {p, byU.x * ds + byU.y * dt, byV.x * ds + byV.y * dt};
 }
 
-/// The cross product of the derivatives; where they are dependent, that of a point slightly nearer to the middle.
+/// Returns the cross product of the derivatives; where they are dependent, that of a point slightly nearer to the
+/// middle.
 vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Frame& frame) {
   const auto normal = [](const Frame& f) { return cross(f.du, f.dv); };
   const auto independent = [&](const Frame& f) {

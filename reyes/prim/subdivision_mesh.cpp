@@ -129,9 +129,9 @@ class SubdivisionMesh : public Prim {
   const LimitFactory& factory_;
   const CrowdedFaces crowded_;
   const CrowdedFaces::Values crowdedPositions_;
-  std::vector<CrowdedFaces::Values> crowdedValues_;  // by primvar
-  Bound3 hull_;                                      // of all positions
-  std::vector<int> channelOf_;                       // by primvar: its face-varying channel or -1
+  std::vector<CrowdedFaces::Values> crowdedValues_;  // Indexed by primvar.
+  Bound3 hull_;                                      // Bound of all positions.
+  std::vector<int> channelOf_;                       // Indexed by primvar: its face-varying channel or -1.
   std::vector<Patch> patches_;
 };
 

@@ -37,7 +37,7 @@ std::string keyOf(const Coarse& mesh) {
 struct Known {
   std::mutex mutex;
   std::map<std::string, std::weak_ptr<const SharedFaces>> byKey;
-  size_t most = 64;  ///< At this size, entries of deleted meshes are removed.
+  size_t most = 64;  ///< Size at which entries of deleted meshes are removed.
 };
 
 }  // namespace

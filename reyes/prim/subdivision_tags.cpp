@@ -42,7 +42,7 @@ class TagReader {
   MeshTags out;
 
  private:
-  /// Does the tag have one sharpness for all, or one for each of `count`?
+  /// Tells whether the tag has one sharpness for all, or one for each of `count`.
   bool sharpnessFits(const Tag& tag, size_t count) {
     const bool fits = tag.floats.size() == 1 || (count > 0 && tag.floats.size() == count);
     if (!fits)
@@ -90,7 +90,7 @@ class TagReader {
     return false;
   }
 
-  /// The argument of a tag that has one: 1 if it is missing, -1 (with a sentence) if it is out of range.
+  /// Returns the argument of a tag that has one: 1 if it is missing, -1 (with a sentence) if it is out of range.
   int choice(const Tag& tag, int highest) {
     const int given = tag.ints.empty() ? 1 : tag.ints[0];
     if (given >= 0 && given <= highest) return given;

@@ -9,7 +9,8 @@ struct MeshTags {
   enum class Boundary { None, EdgeAndCorner, EdgeOnly };
   enum class FaceVaryingBoundary { Linear, EdgeAndCorner, EdgeOnly, AlwaysSharp };
 
-  Boundary boundary = Boundary::None;  ///< Without the tag, faces at the boundary are not drawn (RISpec section 5.3).
+  /// None if the tag is missing: faces at the boundary are not drawn (RISpec section 5.3).
+  Boundary boundary = Boundary::None;
   FaceVaryingBoundary faceVarying = FaceVaryingBoundary::Linear;
   bool propagateCorners = false;
   bool smoothTriangles = false;  ///< Catmull-Clark only: other weights for triangles (Stam and Loop 2003's problem).

@@ -148,9 +148,9 @@ constexpr int kPatches[][16] = {
     {68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83},              // spout
     {80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95},              // spout
 };
-constexpr int kRoundPatch = 6;  ///< So many patches are quarters.
+constexpr int kRoundPatch = 6;  ///< Number of the first patches, which are quarters.
 
-/// A patch reflected at x = 0, at y = 0 or both, with the outside out.
+/// Returns a patch reflected at x = 0, at y = 0 or both, with the outside out.
 BezierPatch reflected(const int (&controls)[16], bool atX, bool atY) {
   BezierPatch patch;
   for (int row = 0; row < 4; ++row)
@@ -166,7 +166,7 @@ BezierPatch reflected(const int (&controls)[16], bool atX, bool atY) {
 
 using Edge = std::array<vec3, 4>;
 
-/// The edges in the order of the bits of PatchEdge.
+/// Returns the edges in the order of the bits of PatchEdge.
 std::array<Edge, 4> edgesOf(const BezierPatch& patch) {
   static constexpr int kFirst[] = {0, 3, 0, 12}, kStep[] = {4, 4, 1, 1};
   std::array<Edge, 4> edges;

@@ -15,7 +15,7 @@ constexpr size_t kMostSlabs = 256;
 
 glm::dvec2 projected(const glm::dvec3& h) { return glm::dvec2(h) / h.z; }
 
-/// Does the control polygon stay near its chord? The curve lies in its hull.
+/// Tells whether the control polygon stays near its chord. The curve lies in its hull.
 bool isFlat(const std::vector<glm::dvec3>& c) {
   const glm::dvec2 a = projected(c.front()), chord = projected(c.back()) - a;
   const double length2 = glm::dot(chord, chord);

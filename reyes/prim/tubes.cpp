@@ -9,8 +9,8 @@
 namespace tomales {
 namespace {
 
-/// A unit vector across `along`, continuous over all directions but one, so that moving tubes keep their seams: the
-/// rotation of z onto the direction is applied to x (J. R. Frisvad 2012). That one direction is rare among curves.
+/// Returns a unit vector across `along`, continuous over all directions but one, so that moving tubes keep their seams:
+/// the rotation of z onto the direction is applied to x (J. R. Frisvad 2012). That one direction is rare among curves.
 vec3 acrossOf(const vec3& along) {
   static const mat3 kTurn = [] {
     const vec3 z = glm::normalize(vec3(0.31f, 0.57f, 0.76f));

@@ -13,14 +13,14 @@ namespace {
 
 constexpr int kAdd = 0, kConstant = 1000, kEllipsoid = 1001;
 
-constexpr int kStretches = 4;  ///< Of the time between two keys of a Blobby.
+constexpr int kStretches = 4;  ///< Number of parts into which the time between two keys of a Blobby is divided.
 
 bool isOfBlobs(const Request& points) {
   const Param* type = points.name == "Points" ? findParam(points.params, "type") : nullptr;
   return type && !type->strings.empty() && type->strings[0] == "blobby";
 }
 
-/// Do they differ in numbers alone?
+/// Tells whether the requests differ in numbers alone.
 bool differInNumbers(const Request& a, const Request& b) {
   const auto sameArg = [](const RibArg& x, const RibArg& y) {
     return x.integers == y.integers && x.numbers.size() == y.numbers.size();

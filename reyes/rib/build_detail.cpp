@@ -8,8 +8,8 @@ namespace {
 
 constexpr float kNoLimit = 1e30f;  // RI_INFINITY
 
-/// Area of the rectangle around the box in the picture, not cut off by its frame; infinite where the box reaches the
-/// eye.
+/// Returns the area of the rectangle around the box in the picture, not cut off by its frame; infinite where the box
+/// reaches the eye.
 float size_px2(const GraphicsState& s, const std::vector<float>& b) {
   const Camera camera(s.globals.options);
   const mat4 m = s.cameraFromObject().at(s.globals.options.shutterOpen);

@@ -9,7 +9,7 @@
 namespace tomales::rib {
 namespace {
 
-constexpr float kMostTracedSamples = 64;  // samples of a pixel: a path tracer asks for more than a Reyes hider needs
+constexpr float kMostTracedSamples = 64;  // Samples of a pixel: a path tracer asks for more than a Reyes hider needs.
 
 Param floats(const char* name, std::vector<float> values) {
   Param p;
@@ -45,7 +45,7 @@ std::optional<ValueType> channelType(const Declaration& d) {
   return fits ? std::optional(type) : std::nullopt;
 }
 
-// In BMRT and Aqsis, a mode "float name" declares the variable that it shows.
+// Declares the variable that a mode "float name" shows, as BMRT and Aqsis do.
 void declareChannel(GraphicsState& s, DisplayCall& call) {
   std::string name;
   const auto declaration = standardNames().find(call.mode, "", name);
@@ -55,7 +55,7 @@ void declareChannel(GraphicsState& s, DisplayCall& call) {
   call.mode = name;
 }
 
-// By RISpec 3.2 a leading '+' adds a display, and any other replaces them all.
+// Adds a display. By RISpec 3.2 a name with a leading '+' adds one, and any other replaces them all.
 void display(GraphicsState& s, const Request& r) {
   DisplayCall call{r.args[0].strings[0], r.args[1].strings[0], r.args[2].strings[0], r.params, r.where};
   const bool adds = !call.name.empty() && call.name[0] == '+';

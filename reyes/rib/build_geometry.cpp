@@ -112,7 +112,7 @@ PrimPtr subdivisionMesh(const Request& r, const Scope&, Problems& problems) {
   return makeSubdivisionMesh(r.args[0].strings[0], r.args[1].integers, r.args[2].integers, tags, r.params, problems);
 }
 
-// The shapes of PxrStdAreaLight of PRMan 19 and 20, with side or diameter one.
+// Returns the shapes of PxrStdAreaLight of PRMan 19 and 20, with side or diameter one.
 PrimPtr lightShape(const std::string& name, const Request& r, Problems& problems) {
   if (name == "spherelight") return makeSphere(.5f, -.5f, .5f, 360, r.params, problems);
   if (name == "disklight") return makeDisk(0, .5f, 360, r.params, problems);

@@ -43,7 +43,7 @@ bool sameTopology(const Prim& a, const Prim& b) {
          std::equal(a.primvars().begin(), a.primvars().end(), b.primvars().begin(), b.primvars().end(), alike);
 }
 
-/// Is it collapsed to a point or a line all the time, so that none of it has an area?
+/// Tells whether it is collapsed to a point or a line all the time, so that none of it has an area.
 bool vanishes(const Motion& m) {
   return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
     const glm::dmat3 a(k);

@@ -12,14 +12,14 @@
 namespace tomales::rib {
 namespace {
 
-constexpr float kLargestImage = 32768;  // pixels of a side; readers of OpenEXR and TIFF stop about there
-constexpr float kMostSamples = 256;     // samples along a side of a pixel's lattice
+constexpr float kLargestImage = 32768;  // Pixels of a side; readers of OpenEXR and TIFF stop about there.
+constexpr float kMostSamples = 256;     // Samples along a side of a pixel's lattice.
 
 void rejectOption(GraphicsState& s, const Request& r, const std::string& why) {
   s.warn(r, "rib-option", why + "; the option is left as it was");
 }
 
-// By RISpec a resolution or aspect ratio of zero or less keeps the default.
+// Sets the resolution. By RISpec a resolution or aspect ratio of zero or less keeps the default.
 void format(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
   Options& o = s.globals.options;

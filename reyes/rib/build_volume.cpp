@@ -20,7 +20,7 @@ Bound3 boundOf(const Request& r) {
   return out;
 }
 
-/// The numbers of a box: one for all of it, or one for each point of a lattice that spans it, x fastest.
+/// Returns the numbers of a box: one for all of it, or one for each point of a lattice that spans it, x fastest.
 std::unique_ptr<DensityGrid> densityOfBox(const Request& r, Problems& problems) {
   const Bound3 bound = boundOf(r);
   ivec3 counts(2);

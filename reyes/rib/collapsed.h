@@ -4,10 +4,10 @@
 
 namespace tomales::rib {
 
-/// Returns what the request has none of ("faces"), or null if it is not empty. Writers leave such requests where an
-/// object has vanished: nothing is missing from the picture.
+/// Returns the name of the parts that the request lacks ("faces"), or null if it is not empty. Writers leave such
+/// requests where an object has vanished: nothing is missing from the picture.
 const char* emptyOf(const Request& r);
-/// Is it a quadric whose radius, height or sweep is 0?
+/// Tells whether the request is a quadric whose radius, height or sweep is 0.
 bool hasNoArea(const Request& r);
 
 /// Interpolates the arguments of a request at two keys. Pre: they have as many numbers.

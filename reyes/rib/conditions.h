@@ -15,7 +15,7 @@ class Conditions {
   /// Call it at the end of the file.
   void finish();
 
-  /// False in a branch that is not read.
+  /// Returns false in a branch that is not read.
   bool reads() const { return levels_.empty() || levels_.back().reads; }
 
  private:

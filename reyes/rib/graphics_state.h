@@ -15,8 +15,8 @@ namespace tomales::rib {
 struct DetailState {
   float ruler_px2 = kInfinity;                ///< Size of the Detail box in the picture.
   std::optional<std::array<float, 4>> range;  ///< DetailRange since the innermost block began.
-  DetailShare divided;  ///< The share that ranges divide among them, from the beginning of the ruler's block,
-  DetailShare left;     ///< and what was left of it at the beginning of the innermost block.
+  DetailShare divided;  ///< Share that ranges divide among them, from the beginning of the ruler's block.
+  DetailShare left;     ///< Share that was left of it at the beginning of the innermost block.
 };
 
 /// The state that AttributeBegin saves.
@@ -47,12 +47,12 @@ struct Master {
     Basis uBasis, vBasis;
     bool roundCurves;
     std::shared_ptr<const TrimLoops>
-        trim;           ///< As the fields above, what it was built with; the rest follows from the request.
+        trim;           ///< It was built with this and the fields above; the rest follows from the request.
     float reach;        ///< The result of reachOf() for the requests.
     uint64_t contents;  ///< The result of contentsOf() for them.
   };
   std::vector<Request> requests;
-  std::map<size_t, Shapes> shapes;  ///< By index of the request.
+  std::map<size_t, Shapes> shapes;  ///< Indexed by the request's number.
   std::mutex mutex;                 ///< Protects the shapes: procedurals are opened by several threads.
 };
 

@@ -38,11 +38,12 @@ class Lexer {
   }
 
   const Token& peek() const { return token_; }
-  /// The place of the token: in the stream, or in the program that wrote it, if that said so by a comment of the form
-  /// #line 12 "scene.py". The line after such a comment has the number that it gives, as in C.
+  /// Returns the file or program that the token stands in: the stream's, or the one that wrote it, if that said so by a
+  /// comment of the form #line 12 "scene.py". The line after such a comment has the number that it gives, as in C.
   const std::shared_ptr<const std::string>& file() const { return file_; }
   void advance();
-  /// The same, past all numbers and brackets that are written before the next other token. It does not look at them.
+  /// Does the same as advance(), past all numbers and brackets that are written before the next other token. It does
+  /// not look at them.
   void advancePastNumbers();
 
   bool atNumbers() const { return token_.kind == Token::Kind::Number || token_.kind == Token::Kind::Floats; }
@@ -86,7 +87,7 @@ class Lexer {
   std::unordered_map<uint64_t, std::string> strings_;
 };
 
-/// Is it a byte that begins an encoded token? The rest above 0177 is reserved.
+/// Tells whether the byte begins an encoded token. The rest above 0177 is reserved.
 inline bool isBinary(int c) { return (c >= 0200 && c <= 0246) || (c >= 0310 && c <= 0320); }
 
 }  // namespace tomales::rib

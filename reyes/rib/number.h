@@ -14,7 +14,7 @@ struct ScannedNumber {
 /// of the number, or `first` if there is none.
 const char* scanNumber(const char* first, const char* last, ScannedNumber& out);
 
-/// The quick part of scanNumber. It returns null if there is no number, or one that is not of the everyday kind.
+/// Does the quick part of scanNumber(). It returns null if there is no number, or one that is not of the everyday kind.
 const char* scanEverydayNumber(const char* first, const char* last, ScannedNumber& out);
 
 }  // namespace tomales::rib

@@ -4,9 +4,9 @@
 
 namespace tomales::rib {
 
-/// Returns those of the primitive that a request draws now. With Surface "null" nobody sees it, but it may emit; in
-/// passes for depth alone that means, by custom, that no shader need run. Strings of the primitive take the place of
-/// those of its shaders.
+/// Returns the attributes of the primitive that a request draws now. With Surface "null" nobody sees it, but it may
+/// emit. In passes for depth alone "null" means, by custom, that no shader need run. Strings of the primitive take the
+/// place of those of its shaders.
 std::shared_ptr<Attributes> attributesOf(const Request& r, GraphicsState& s);
 
 }  // namespace tomales::rib

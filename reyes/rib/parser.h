@@ -45,7 +45,7 @@ class Parser {
   bool readArray(RibArg::Kind kind);
   bool readParameters(const std::string& category);
   bool readParameter(const std::string& category);
-  /// Is the token a name whose type the values show, if it is declared nowhere?
+  /// Tells whether the values show the type of the token, if its name is declared nowhere.
   bool valuesTellTypeOf(const std::string& token) const;
   static Param typedByValues(const std::string& name, Param values);
   /// Reads numbers into `ints` or `floats`, by the parameter's type.

@@ -12,7 +12,7 @@ namespace {
 
 SourceLoc wholeFile(const std::string& name) { return {std::make_shared<const std::string>(name), 0}; }
 
-/// Does the request change more than the state that AttributeBegin saves?
+/// Tells whether the request changes more than the state that AttributeBegin saves.
 bool changesSurroundings(std::string_view name) {
   static constexpr std::string_view kNames[] = {"Declare",       "ObjectEnd",       "Option",     "CoordinateSystem",
                                                 "LightSource",   "AreaLightSource", "Light",      "Resource",

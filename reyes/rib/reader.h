@@ -49,7 +49,7 @@ class Reader {
     std::optional<Recording> recording;
   };
 
-  /// What a procedural must know of the stream around it, shared by neighbours.
+  /// The state of the stream around a procedural, which it must know. Neighbours share it.
   struct Surroundings {
     RibSettings settings;
     Log& log;

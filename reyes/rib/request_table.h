@@ -9,7 +9,7 @@ namespace tomales::rib {
 
 enum class Support {
   Works,
-  Draws,   ///< As Works; without it something would be missing from the picture.
+  Draws,   ///< The request works, and without it something would be missing from the picture.
   NotYet,  ///< It is reported once, then ignored.
 };
 

@@ -6,7 +6,7 @@
 namespace tomales::rib {
 namespace {
 
-// The standard outputs that correspond to some of RenderMan's own presets. The part of a preset before its last
+// Returns the standard outputs that correspond to some of RenderMan's own presets. The part of a preset before its last
 // semicolon says how to sample, not what.
 std::string_view outputOfPaths(std::string_view expression) {
   static const std::unordered_map<std::string_view, std::string_view> table = {

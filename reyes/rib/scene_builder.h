@@ -28,7 +28,7 @@ class SceneBuilder : public RiSink {
   /// Tells that the stream is over: it renders a world whose WorldEnd is missing.
   void finish(const SourceLoc& where);
 
-  /// True where geometry may be left for later.
+  /// Returns true where geometry may be left for later.
   bool takesProcedurals() const;
   /// Pre: takesProcedurals(), and the bound is a box.
   void addProcedural(const std::vector<float>& bound, std::function<Expansion()> open, const SourceLoc& where);
@@ -92,8 +92,8 @@ class SceneBuilder : public RiSink {
   GraphicsState state_;
   std::optional<MotionBlock> motion_;
   std::optional<Recording> recording_;
-  Master* master_ = nullptr;  ///< Master of the instance that is being replayed,
-  size_t masterRequest_ = 0;  ///< and the index of its current request.
+  Master* master_ = nullptr;  ///< Master of the instance that is being replayed.
+  size_t masterRequest_ = 0;  ///< Index of its current request.
   int instanceDepth_ = 0;
   const bool inProcedural_ = false;
   int openEdits_ = 0;

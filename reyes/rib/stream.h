@@ -17,7 +17,8 @@ class ByteStream {
   /// its own size.
   static constexpr size_t kHarmless_bytes = size_t{64} << 20, kLargestRatio = 200;
 
-  /// Null if `path` cannot be opened or is a folder. "-" is standard input, "a.zip!b.rib" a member of a zip file.
+  /// Returns null if `path` cannot be opened or is a folder. "-" is standard input, "a.zip!b.rib" a member of a zip
+  /// file.
   static std::unique_ptr<ByteStream> open(const std::string& path);
   /// `text` must outlive the stream.
   static std::unique_ptr<ByteStream> fromMemory(const std::string& text);
@@ -28,7 +29,7 @@ class ByteStream {
   /// Returns the next byte, or kEnd.
   int get() { return next_ < end_ || fill() ? static_cast<unsigned char>(*next_++) : kEnd; }
   int peek() { return next_ < end_ || fill() ? static_cast<unsigned char>(*next_) : kEnd; }
-  /// The buffered bytes: at least one, if peek() gave one.
+  /// Returns the buffered bytes: at least one, if peek() gave one.
   const char* begin() const { return next_; }
   const char* end() const { return end_; }
   /// Pre: begin() <= position <= end().
@@ -40,7 +41,7 @@ class ByteStream {
     closed_ = true;
   }
   bool closed() const { return closed_; }
-  /// True if the compressed data broke off, made no sense or was a bomb; the bytes before that have been read.
+  /// Returns true if the compressed data broke off, made no sense or was a bomb; the bytes before that have been read.
   bool damaged() const { return damaged_; }
   /// Says which of these it was. Pre: damaged().
   std::string damage() const;

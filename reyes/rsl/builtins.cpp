@@ -10,8 +10,9 @@ namespace tomales::compiler {
 namespace {
 
 struct Row {
-  /// As RSL declares it: "result name(types)". T stands for each of float, color, point, vector and normal in turn, V
-  /// for each of the four triples, `any` for every type; `out` is assigned; ... stands for Builtin::more.
+  /// The declaration as RSL writes it: "result name(types)". T stands for each of float, color, point, vector and
+  /// normal in turn, V for each of the four triples, `any` for every type; `out` is assigned; ... stands for
+  /// Builtin::more.
   const char* signature;
   Op op = Op::Copy;
   Emit emit = Emit::Instruction;

@@ -12,7 +12,7 @@
 
 namespace tomales::compiler {
 
-/// How a call becomes code. Instruction is `op` on the arguments in order; calls.cpp does the others.
+/// The way in which a call becomes code. Instruction is `op` on the arguments in order; calls.cpp does the others.
 enum class Emit : uint8_t {
   Instruction,
   Fold,          ///< `op` applied repeatedly: min(a, b, c).
@@ -59,9 +59,9 @@ struct Builtin {
 /// of plugins cannot have.
 std::optional<Builtin> builtinOf(const TmFunction& function);
 
-/// All rows. Those of one name are together.
+/// Returns all rows. Those of one name are together.
 std::span<const Builtin> builtins();
-/// The rows of a name: [first, first + count) of builtins(). The count is 0 if there is none.
+/// Returns the rows of a name: [first, first + count) of builtins(). The count is 0 if there is none.
 std::pair<int32_t, int32_t> rowsOf(std::string_view name);
 
 }  // namespace tomales::compiler

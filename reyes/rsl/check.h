@@ -12,7 +12,7 @@ namespace tomales::compiler {
 /// A checked file. Trees point into `globals`, and into the prelude.
 struct Checked {
   File file;
-  std::deque<Variable> globals;     ///< In the order of the table (globals.h).
+  std::deque<Variable> globals;     ///< Globals in the order of the table (globals.h).
   std::deque<Builtin> ofPlugins{};  ///< The functions of plugins that the file calls.
 };
 

@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// How far an argument's type is from the slot of a built-in function. Negative if it does not suit the slot.
+/// Returns how far an argument's type is from the slot of a built-in function. Negative if it does not suit the slot.
 int suits(const Slot& slot, const Expr& e, int far) {
   if (e.type == kUnknown) return 0;
   if (slot.any) return !slot.array || e.type.isArray() ? 0 : -1;
@@ -36,7 +36,7 @@ std::string signature(const Function& f) {
   return out + ")";
 }
 
-/// The value of an expression of written numbers alone.
+/// Returns the value of an expression of written numbers alone.
 std::optional<float> written(const Expr& e) {
   if (e.kind == ExprKind::Number) return e.number;
   if (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary) return std::nullopt;

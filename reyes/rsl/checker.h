@@ -34,10 +34,10 @@ class Checker {
   void refuseRecursion();
 
   // --- check_expressions.cpp
-  /// The type that the expression has on its own.
+  /// Returns the type that the expression has on its own.
   Type type(Expr& e);
-  /// The same where a value of the type `wanted` is needed: picks the overload with that result, and reports what does
-  /// not convert.
+  /// Does the same where a value of the type `wanted` is needed: picks the overload with that result, and reports what
+  /// does not convert.
   void expect(Expr& e, const Type& wanted, const char* where);
   /// Gives the expression the type `wanted`, as far as it can be of another type.
   void retarget(Expr& e, const Type& wanted);

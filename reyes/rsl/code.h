@@ -35,9 +35,9 @@ struct Register {
   std::vector<std::string> texts{};
   int32_t depth = 0;  ///< The number of control structures around its declaration.
   Detail declared = Detail::Unstated;
-  Place place{};  ///< Where it is declared.
+  Place place{};  ///< Place of its declaration.
   int32_t slot =
-      -1;  ///< Where the machine keeps it, in floats for each point (varying) or value (uniform): passes/allocate.h.
+      -1;  ///< Place in the machine, in floats for each point (varying) or value (uniform): passes/allocate.h.
 };
 
 /// An entry of an optional list: trace(P, R, "samples", 16).

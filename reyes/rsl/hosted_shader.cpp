@@ -37,7 +37,7 @@ int32_t typeOf(const Parameter& p) {
   return type;
 }
 
-/// The parameters that a light's shadow() reads as shadow maps: the host wants to know them.
+/// Returns the parameters that a light's shadow() reads as shadow maps: the host wants to know them.
 std::vector<bool> shadowMaps(const Code& code) {
   std::vector<bool> out(code.parameters.size(), false);
   if (code.kind != ShaderKind::Light) return out;

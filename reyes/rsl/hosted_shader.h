@@ -18,18 +18,18 @@ class HostedShader {
   HostedShader(Code lowered, Messages& messages);
   HostedShader(const HostedShader&) = delete;
 
-  /// Null if the host has no shaders of this kind.
+  /// Returns null if the host has no shaders of this kind.
   const TmShader* host() const { return code().kind == ShaderKind::Transformation ? nullptr : &host_.shader; }
   /// Tells whether a light asks where it stands, so that it can be lowered onto the geometry of AreaLightSource.
   bool canBeOnGeometry() const;
   void setAreaForm(std::unique_ptr<const HostedShader> form) { area_ = std::move(form); }
-  /// The form of a light that AreaLightSource runs, or null.
+  /// Returns the form of a light that AreaLightSource runs, or null.
   const HostedShader* areaForm() const { return area_.get(); }
-  /// Null if the shader is not a HostedShader's.
+  /// Returns null if the shader is not a HostedShader's.
   static const HostedShader* of(const TmShader& shader);
   const Code& code() const { return uniform_->code(); }
   const Code& lowered() const { return lowered_; }
-  /// For a surface that assigns P: what moves its points (passes/moving.cpp). Null if nothing does.
+  /// Returns the part that moves the points of a surface that assigns P (passes/moving.cpp). Null if nothing does.
   const HostedShader* displacement() const { return displacement_.get(); }
 
  private:
@@ -43,7 +43,8 @@ class HostedShader {
   std::unique_ptr<const HostedShader> displacement_;
   std::unique_ptr<const Program> uniform_;
   mutable std::mutex mutex_;
-  mutable std::map<std::vector<bool>, std::unique_ptr<const Program>> others_;  ///< By the parameters that vary.
+  /// Indexed by the parameters that vary.
+  mutable std::map<std::vector<bool>, std::unique_ptr<const Program>> others_;
   std::vector<TmParamDecl> params_;
   std::vector<std::vector<const char*>> strings_;
   struct Hosted {

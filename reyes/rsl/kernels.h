@@ -25,7 +25,7 @@ struct Lanes {
 /// reyes/shader's functions of one point; transcendental functions are within 0.54 ulp (kernels/transcendental.h).
 using Kernel = void (*)(int blocks, const Lanes& out, const Lanes* in);
 
-/// Null where the table (ops.h) leaves the instruction to the machine.
+/// Returns null where the table (ops.h) leaves the instruction to the machine.
 Kernel kernelOf(Op op);
 
 }  // namespace tomales::compiler

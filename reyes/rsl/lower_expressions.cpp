@@ -120,8 +120,8 @@ int32_t Lowering::name(const Expr& e) {
   return it != registers_.end() ? it->second : variable(v);
 }
 
-// In a light shader P is where the light is and N where it looks: a point of the geometry of AreaLightSource, or the
-// origin and the z axis of its space (RISpec 3.2, table 12.2).
+// Returns P or N of a light shader: the place of the light and the direction in which it looks. They are a point of the
+// geometry of AreaLightSource, or the origin and the z axis of its space (RISpec 3.2, table 12.2).
 int32_t Lowering::ofLamp(Global g) {
   if (g != Global::P && g != Global::N && g != Global::Ng) return global(g);
   code_.asksPlace |= g == Global::P;

@@ -9,14 +9,14 @@
 namespace tomales::compiler {
 namespace {
 
-/// The default without a cast to shader space, which is meant anyway.
+/// Returns the default without a cast to shader space, which is meant anyway.
 const Expr& inShaderSpace(const Expr& e) {
   const bool spatial = e.written.isTriple() && e.written.base != Base::Color;
   return e.kind == ExprKind::Cast && e.text == "shader" && spatial ? *e.args[0] : e;
 }
 
-/// Is a part of it given in a space by name? What is constant of that ("current") is so in current space, and the host
-/// takes what it knows of a default to be in the shader's.
+/// Tells whether a part of the default is given in a space by name. A constant part in such a space ("current") is in
+/// current space, but the host takes constant defaults to be in the shader's space.
 bool namesSpace(const Expr& e) {
   const bool spatial = (e.written.isTriple() && e.written.base != Base::Color) || e.written.is(Base::Matrix);
   if (e.kind == ExprKind::Cast && !e.text.empty() && spatial) return true;

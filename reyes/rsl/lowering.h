@@ -32,8 +32,8 @@ class Lowering {
   Instruction& emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in);
   /// Emits an instruction with one result, of its signature's shape (of `shape` if that is `*`).
   int32_t compute(Op op, std::vector<int32_t> in, Shape shape = Shape::Number);
-  void copy(int32_t to, int32_t from);        ///< At the active points.
-  void initialise(int32_t to, int32_t from);  ///< At all points: no other value is there yet.
+  void copy(int32_t to, int32_t from);        ///< Writes the active points.
+  void initialise(int32_t to, int32_t from);  ///< Writes all points: no other value is there yet.
   /// Emits into a block of its own what `body` emits.
   template <class Body>
   Block block(const Body& body);
@@ -66,10 +66,10 @@ class Lowering {
 
   // --- lower_expressions.cpp
   int32_t value(const Expr& e);
-  /// The same, as a type that may be another. A number stays a number where a triple is wanted, since it counts for all
-  /// components; where a matrix is wanted, it becomes one.
+  /// Returns the register of the expression's value as the type `wanted`. A number stays a number where a triple is
+  /// wanted, since it counts for all components; where a matrix is wanted, it becomes one.
   int32_t value(const Expr& e, const Type& wanted);
-  /// A number that stands for a triple, as a triple: for what reads each component by itself.
+  /// Returns a number that stands for a triple, as a triple: for what reads each component by itself.
   int32_t widened(int32_t reg, const Type& type);
   /// Evaluates the list in order. Values that a later expression may change are copied.
   std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
@@ -82,7 +82,8 @@ class Lowering {
   int32_t assign(const Expr& e);
   int32_t cast(const Expr& e);
   void store(const Expr& to, int32_t from);
-  /// The register that a call may write for `to`. `after` lists what must be stored if `to` is not a plain variable.
+  /// Returns the register that a call may write for `to`. `after` lists what must be stored if `to` is not a plain
+  /// variable.
   int32_t target(const Expr& to, std::vector<std::pair<const Expr*, int32_t>>& after);
 
   // --- lower_calls.cpp

@@ -24,7 +24,8 @@ const char* name(Severity severity) {
 
 bool continuesCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
-/// The line and, below it, a caret with a tail. Tabs are repeated before the caret, so that it fits in any terminal.
+/// Returns the line and, below it, a caret with a tail. Tabs are repeated before the caret, so that it fits in any
+/// terminal.
 std::string pointedAt(std::string_view line, size_t column, size_t length) {
   size_t at = std::min(column - 1, line.size());
   if (line.size() > kMostShown) {

@@ -51,7 +51,7 @@ constexpr size_t kMostFileBytes = 16u << 20;  ///< The greatest size of one file
 /// tokens go on after them as well as they can; there are none if a bound is exceeded.
 std::vector<Token> preprocess(const std::string& path, const PreprocessOptions& options, Sources& sources,
                               Messages& messages);
-/// The same for a text, which messages call `name`. It includes files from the folders of `options` alone.
+/// Returns the same for a text, which messages call `name`. It includes files from the folders of `options` alone.
 std::vector<Token> preprocessText(const std::string& name, const std::string& text, const PreprocessOptions& options,
                                   Sources& sources, Messages& messages);
 

@@ -5,7 +5,7 @@
 
 namespace tomales::compiler {
 
-/// 'text', shortened and without bytes that a terminal would obey.
+/// Returns 'text', shortened and without bytes that a terminal would obey.
 std::string inQuotes(std::string_view text);
 
 }  // namespace tomales::compiler

@@ -36,16 +36,16 @@ class Sources {
   const SourceFile& file(int32_t index) const { return files_[static_cast<size_t>(index)]; }
   const Expansion& expansion(int32_t index) const { return expansions_[static_cast<size_t>(index)]; }
   size_t fileCount() const { return files_.size(); }
-  /// The text of a line, without its end. Empty if there is no such line.
+  /// Returns the text of a line, without its end. Empty if there is no such line.
   std::string_view line(int32_t file, int32_t line) const;
-  /// The place where the outermost macro around is used, or the place itself if there is no macro.
+  /// Returns the place where the outermost macro around is used, or the place itself if there is no macro.
   Place outermost(Place place) const;
-  /// "file:line:column"
+  /// Returns "file:line:column".
   std::string text(Place place) const;
 
  private:
   std::deque<SourceFile> files_;
-  std::deque<std::vector<size_t>> lineStarts_;  ///< For each file, the offsets of its lines in its text.
+  std::deque<std::vector<size_t>> lineStarts_;  ///< The offsets of the lines of each file in its text.
   std::deque<Expansion> expansions_;
 };
 
@@ -73,8 +73,8 @@ class Messages {
   /// More errors than this are counted but not kept; the same holds for warnings, and for the notes of one message.
   static constexpr int kMostErrors = 20;
 
-  /// The messages as good compilers print them: "file:line:column: error: text", the line, a caret below it, and one
-  /// line for each macro and each #include that the place comes from.
+  /// Returns the messages as good compilers print them: "file:line:column: error: text", the line, a caret below it,
+  /// and one line for each macro and each #include that the place comes from.
   std::string rendered(const Sources& sources) const;
 
  private:
@@ -84,7 +84,7 @@ class Messages {
   bool keeps_ = true;  ///< True if the error or warning that notes now belong to is kept.
 };
 
-/// The names that `wanted` may be a misspelling of, at most `most`, nearest first. Capitals count least.
+/// Returns the names that `wanted` may be a misspelling of, at most `most`, nearest first. Capitals count least.
 std::vector<std::string> nearNames(std::string_view wanted, const std::vector<std::string>& known, size_t most = 1);
 
 }  // namespace tomales::compiler

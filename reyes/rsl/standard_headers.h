@@ -6,7 +6,7 @@
 
 namespace tomales::compiler {
 
-/// The header's text; empty if there is none of this name.
+/// Returns the header's text; empty if there is none of this name.
 std::string_view standardHeader(std::string_view name);
 std::vector<std::string_view> standardHeaderNames();
 

@@ -26,7 +26,7 @@ struct Type {
   bool is(Base b) const { return length == 0 && base == b; }
 };
 constexpr int32_t kOpenArray = -1;
-/// "float", "color[3]", ...
+/// Returns the name of a type in RSL: "float", "color[3]", ...
 std::string name(const Type& type);
 
 struct Expr;
@@ -83,9 +83,9 @@ struct Expr {
   /// The checker sets these.
   bool checked = false;
   Type type{};
-  Variable* variable = nullptr;        ///< For a Name.
-  const Function* function = nullptr;  ///< For a Call to a function of the file.
-  const Builtin* builtin = nullptr;    ///< For a Call to a built-in function, or to one of a plugin.
+  Variable* variable = nullptr;        ///< The variable of a Name.
+  const Function* function = nullptr;  ///< The function of a Call to one of the file.
+  const Builtin* builtin = nullptr;    ///< The function of a Call to a built-in one, or to one of a plugin.
   bool missing = false;                ///< True for a Call to a function that nobody has.
 };
 

@@ -13,8 +13,9 @@ constexpr Type kUnknown{Base::Void, -2};
 inline bool isSpatial(const Type& t) { return t.isTriple() && t.base != Base::Color; }
 inline bool isNumeric(const Type& t) { return t.is(Base::Float) || t.isTriple(); }
 
-/// How far apart two types are: 0 if they are the same, empty if one does not convert to the other. More than kDoubtful
-/// gives a warning: a color where a point belongs, which RISpec does not have and public shaders do.
+/// Returns how far apart two types are: 0 if they are the same, empty if one does not convert to the other. More than
+/// kDoubtful gives a warning. For example, a color stands where a point belongs, which public shaders do against
+/// RISpec.
 constexpr int kDoubtful = 5;
 std::optional<int> conversion(const Type& from, const Type& to);
 
@@ -24,7 +25,7 @@ struct Operation {
   Type operand = kUnknown;  ///< The type that both sides are converted to; unknown if they are left as they are.
   bool negated = false;     ///< True if the result is the opposite of the instruction's.
 };
-/// The operation of a binary operator; empty if there is none for these types.
+/// Returns the operation of a binary operator; empty if there is none for these types.
 std::optional<Operation> binaryOperation(std::string_view text, const Type& left, const Type& right);
 
 }  // namespace tomales::compiler

@@ -47,7 +47,7 @@ double areaOf(const Scene& scene, int light) {
   return sum;
 }
 
-/// Null if the light's shader takes no area, or the scene gives it.
+/// Returns null if the light's shader takes no area, or the scene gives it.
 const TmParamDecl* parameterOfArea(const ShaderCall& call, const std::string& path, ShaderRegistry& registry) {
   const ShaderName name = nameOf(call, TM_LIGHT);
   const TmShader* shader = registry.find(name.name, name.kind, path, name.beside);

@@ -24,9 +24,9 @@ class Batch {
   /// Adds neighbours where the shader wants them and the points have steps.
   void setPoints(ShadePoints& points, const BoundShader& shader, const std::vector<Override>& overrides,
                  ShadedPoints& out, int begin);
-  /// Lets the shader's outputs be stored in `out` from `begin` on. To be called after setPoints().
+  /// Lets the shader's outputs be stored in `out` from `begin` on. Call it after setPoints().
   void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin);
-  /// Copies the outputs for the points, without neighbours, to `out`. To be called when the shader has run.
+  /// Copies the outputs for the points, without neighbours, to `out`. Call it when the shader has run.
   void closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin);
   /// Sets the inputs and outputs of a displacement shader to motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
@@ -66,7 +66,7 @@ class Batch {
   const BoundShader* own = nullptr;
   Lights lights;
   std::vector<std::unique_ptr<Elsewhere>> elsewhere;  ///< The latest first (elsewhere.h).
-  int placesAsked = 0;                                ///< How many such places there were so far.
+  int placesAsked = 0;                                ///< Number of such places so far.
 
   /// The last indirect gather. An indirect light runs once for each colour channel, and asks for the same gather three
   /// times.
@@ -104,8 +104,8 @@ class Batch {
   std::deque<std::string> answers_;
 };
 
-/// The default options, with the fields that a caller gives. The caller's struct begins with structBytes, which tells
-/// how many fields its release has. It may be null.
+/// Returns the default options, with the fields that a caller gives. The caller's struct begins with structBytes, which
+/// tells how many fields its release has. It may be null.
 template <class Options>
 Options givenOptions(const Batch& batch, Options options, const Options* given) {
   if (given && given->structBytes < sizeof given->structBytes)

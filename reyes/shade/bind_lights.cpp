@@ -18,7 +18,7 @@ constexpr int kLightSamples = 16;   ///< The number for a light that gives none.
 constexpr int kColours = 3;         ///< An indirect light has a sample for each.
 constexpr int kMostRays = 1 << 16;  ///< The limit for one irradiance sample.
 
-/// The value of a light's parameter that is a count.
+/// Returns the value of a light's parameter that is a count.
 int countOf(const BoundShader& light, TmRole role, int fallback, int least, int most, Log& log) {
   const float asked = light.number(role, static_cast<float>(fallback));
   const auto used = static_cast<int>(std::clamp(asked, static_cast<float>(least), static_cast<float>(most)));
@@ -95,7 +95,7 @@ void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
   }
 }
 
-/// True if the role is set for all points. (A shader with an output of that role sets it point by point.)
+/// Returns true if the role is set for all points. (A shader with an output of that role sets it point by point.)
 bool isSaid(const BoundShader& light, TmRole role) { return light.output(role) < 0 && light.number(role, 0) != 0; }
 
 bool hasGeometry(const LightCall& call, const Scene& scene) {

@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// The name of a request, with the folder of the file where it stands: the shader may lie beside that file.
+/// Returns the name of a request, with the folder of the file where it stands: the shader may lie beside that file.
 ShaderName nameOf(const ShaderCall& call, TmKind kind);
 
 /// Binds requests. Groups that share a request share its shader, so that each problem is reported once.
@@ -64,7 +64,7 @@ class Binder {
   }
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind,
                       bool area = false);
-  /// The sky of a light with TM_LIGHT_SKY.
+  /// Returns the sky of a light with TM_LIGHT_SKY.
   std::shared_ptr<const Sky> sky(const BoundShader& light);
 
   const Scene& scene_;

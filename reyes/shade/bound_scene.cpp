@@ -87,7 +87,7 @@ int64_t textureMemoryOf(const Options& options) {
   return limit ? static_cast<int64_t>(std::max(1.0f, limit->number(0))) << 10 : TextureSettings{}.memory_bytes;
 }
 
-/// A light whose shader never runs.
+/// Returns a light whose shader never runs.
 BoundShaderPtr storedLight() {
   static const rsl::Shader shader(TM_LIGHT, "stored irradiance", "", 0, nullptr, {});
   auto bound = std::make_shared<BoundShader>();

@@ -25,14 +25,14 @@ struct BoundLight {
   bool indirect = true;      ///< It lights what gather rays see.
   float shadowVariance = 0;  ///< The variance of the share of light that shadow rays may leave; 0: all rays are traced.
   bool visible = true;       ///< Area lights glow for the camera, and all for specular rays.
-  bool nondiffuse = false, nonspecular = false;  ///< diffuse() leaves it out; specular() does.
-  IndirectQuery query;                           ///< For TM_LIGHT_INDIRECT alone.
+  bool nondiffuse = false, nonspecular = false;  ///< True if diffuse() or specular() leaves it out.
+  IndirectQuery query;                           ///< Set for TM_LIGHT_INDIRECT alone.
   IndirectRequest request;                       ///< The light's request to the whole frame.
   bool filters = false;                          ///< It brings the light of another indirect light.
-  float maxVariation = 0;                        ///< For TM_OCCLUDED alone: TmOcclusion::maxVariation.
+  float maxVariation = 0;                        ///< TmOcclusion::maxVariation, for TM_OCCLUDED alone.
   std::string group;                             ///< The name of its group, or its handle if it names none.
   std::string category;                          ///< Names that commas separate; "indirect" if it is.
-  std::shared_ptr<const Sky> sky;                ///< For TM_LIGHT_SKY alone.
+  std::shared_ptr<const Sky> sky;                ///< Set for TM_LIGHT_SKY alone.
   vec3 sourceTint{1.0f};                         ///< The tint of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
 };
@@ -56,10 +56,11 @@ struct BoundGroup {
   BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< Each may be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<const BoundLight*> lights;
-  std::shared_ptr<const LightChoice> choice;  ///< Of these lights; groups that have the same ones share it.
+  /// The choice among these lights; groups that have the same lights share it.
+  std::shared_ptr<const LightChoice> choice;
   std::optional<IndirectQuery> indirect;
-  std::vector<BoundVariable> variables;  ///< In the order of FrameOutput::variables.
-  /// The surface for rays that gather diffuse light.
+  std::vector<BoundVariable> variables;  ///< Indexed as FrameOutput::variables.
+  /// Returns the surface for rays that gather diffuse light.
   const BoundShader& forDiffuseRays() const { return indirectSurface ? *indirectSurface : *surface; }
   int CsOffset = -1, OsOffset = -1, sOffset = -1, tOffset = -1, primvarFloats = 0;
 };
@@ -84,10 +85,10 @@ struct BoundScene {
   Textures textures;
   ShadowMaps shadowMaps;
   Skies skies;
-  std::vector<std::unique_ptr<const BoundLight>> lights;  ///< As Scene::lights; null for an unknown shader.
+  std::vector<std::unique_ptr<const BoundLight>> lights;  ///< Indexed as Scene::lights; null for an unknown shader.
   const BoundLight* added = nullptr;  ///< The light that Options::wantsIndirect has added for all objects; else null.
   BoundLight stored;                  ///< Stands for all lights where Illumination is not Lights.
-  StableVector<BoundGroup> groups;    ///< In the order of Scene::groups.
+  StableVector<BoundGroup> groups;    ///< Indexed as Scene::groups.
   std::atomic<bool> hasVolumes = false;  ///< Some group is a Volume.
   BoundShaderPtr imager;                 ///< May be null.
   ShadeGroup picture{std::make_shared<const Attributes>(), mat4(1.0f), {}, -1};
@@ -98,7 +99,8 @@ struct BoundScene {
   void addIndirectLight();
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
-  std::map<uint64_t, std::shared_ptr<const LightChoice>> choices_;  ///< By the checksum of their lists of lights.
+  /// Indexed by the checksum of their lists of lights.
+  std::map<uint64_t, std::shared_ptr<const LightChoice>> choices_;
   bool grows_ = false;  ///< True if procedurals may add groups while the frame is rendered.
 };
 

@@ -27,9 +27,9 @@ struct BoundShader {
   std::vector<TmValue> values;
 
   bool can(TmCapability capability) const { return (shader->capabilities & static_cast<uint32_t>(capability)) != 0; }
-  /// The index in TmShader::params of the output parameter of that name, or -1.
+  /// Returns the index in TmShader::params of the output parameter of that name, or -1.
   int output(std::string_view name, ValueType type) const;
-  /// The index of the output parameter with that role, or -1.
+  /// Returns the index of the output parameter with that role, or -1.
   int output(TmRole role) const;
 
   // The host reads a shader's parameters by roles, never by names.
@@ -37,7 +37,7 @@ struct BoundShader {
   const RoleValue* find(TmRole role) const;
   float number(TmRole role, float fallback) const;
   vec3 color(TmRole role, const vec3& fallback) const;
-  /// The first text that is not empty; else `fallback`.
+  /// Returns the first text that is not empty; else `fallback`.
   std::string text(TmRole role, const std::string& fallback) const;
 
   std::vector<std::vector<float>> floats;

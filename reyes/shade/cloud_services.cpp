@@ -25,7 +25,7 @@ bool refuse(const Batch& batch, const char* file, const std::string& problem) {
   return false;
 }
 
-/// The mean factor by which it scales lengths.
+/// Returns the mean factor by which it scales lengths.
 float scaleOf(const mat4& m) { return std::cbrt(std::abs(glm::determinant(mat3(m)))); }
 
 /// Converts points and their radii to the space of the file. Returns false, after a report, if the space is unknown.

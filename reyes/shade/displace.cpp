@@ -40,7 +40,7 @@ TOMALES_HOT void textureCoordinates(int n, const std::array<vec2, 4>& corners, c
   }
 }
 
-/// The longest distance that a vertex has moved.
+/// Returns the longest distance that a vertex has moved.
 TOMALES_HOT float longestWay(int n, TmConstVec3 from, TmConstVec3 to) {
   float longest2[kLanes] = {};
   for (int first = 0; first < n; first += kLanes)  // arrays are padded

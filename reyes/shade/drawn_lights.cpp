@@ -20,7 +20,7 @@ constexpr int kLeastInBranch = 4;
 struct LampOfPoint {
   uint32_t lamp = kNoLamp;
   int sample = 0, samples = 1;
-  float expected = 1;  ///< How many samples the point draws of this lamp, on the average.
+  float expected = 1;  ///< Mean number of samples that the point draws of this lamp.
 };
 
 int mostDrawn(const Batch& batch, const BoundLight& light) {
@@ -83,7 +83,7 @@ class Drawing {
   int runs_ = 0;
 };
 
-/// The parameters of the light, with the numbers of each point's lamp where lamps differ.
+/// Returns the parameters of the light, with the numbers of each point's lamp where lamps differ.
 std::vector<TmValue> paramsOf(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps) {
   std::vector<TmValue> out = drawn.lights[0]->bound->values;
   for (const int p : drawn.varying) {
@@ -101,7 +101,7 @@ std::vector<TmValue> paramsOf(Batch& batch, const LightSet& drawn, const std::ve
   return out;
 }
 
-/// The vectors to just before the points on the emitters.
+/// Returns the vectors to just before the points on the emitters.
 TmVec3 beforeEmitters(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps, const TmGrid& g) {
   const TmVec3 toward = batch.arena.vec3(g.count);
   for (int i = 0; i < g.count; ++i) {

@@ -44,7 +44,7 @@ void moveTo(TmConstVec3 P, const uint8_t* active, bool inAir, ShadePoints& point
   }
 }
 
-/// The number of arrays of a message, and their length.
+/// Returns the number of arrays of a message, and their length.
 int arraysOf(const TmMessage& m) { return m.type == TM_STRING ? 0 : m.type == TM_MATRIX ? 1 : floatsOf(m.type); }
 int lengthOf(const TmMessage& m, const TmGrid* g) {
   return m.type == TM_MATRIX ? floatsOf(TM_MATRIX) : m.value.step ? g->count : 1;

@@ -23,12 +23,12 @@ struct Elsewhere {
   Batch batch;
 };
 
-/// The batch whose lights answer a query: `batch` itself, or one of the latest that it has asked elsewhere.
+/// Returns the batch whose lights answer a query: `batch` itself, or one of the latest that it has asked elsewhere.
 Batch& placeOf(Batch& batch, const TmGrid* g, TmIlluminance query);
 
-/// The number that TmIlluminance::light gives to a sample.
+/// Returns the number that TmIlluminance::light gives to a sample.
 int32_t lightNumber(const Batch& batch, const Batch& place, size_t sample);
-/// The sample of that number; null if there is none, or none any more.
+/// Returns the sample of that number; null if there is none, or none any more.
 LightSample* lightNumbered(Batch& batch, int32_t number);
 
 }  // namespace tomales

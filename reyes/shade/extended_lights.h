@@ -30,15 +30,15 @@ bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirec
 
 /// Runs the light. A sky lights along the directions that it was given, whatever its shader makes of L.
 bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g);
-/// For a light of which isMean() is true, after its run: makes of Cl, the light that a lamp at one point of the
-/// geometry would bring, the radiance of the geometry there, so that the mean of Cl over the area arrives. The integral
-/// of radiance times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
+/// Changes Cl after the run of a light for which isMean() is true. Cl is the light that a lamp at one point of the
+/// geometry would bring; it becomes the radiance of the geometry there, so that the mean of Cl over the area arrives.
+/// The integral of radiance times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
 void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light);
 /// Converts radiance to what one of its samples adds to E/pi at normal incidence. `density` is that of all samples
 /// together, over solid angle.
 void radianceToSample(const TmGrid& g, const float* density);
 
-/// The vectors to just before the points on the emitter, so that its own geometry is not in the way.
+/// Returns the vectors to just before the points on the emitter, so that its own geometry is not in the way.
 TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach);
 
 }  // namespace tomales

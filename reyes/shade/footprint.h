@@ -5,10 +5,10 @@
 
 namespace tomales {
 
-/// Half a diagonal of it, so that neighbouring disks overlap; at ray hits the radius of the ray's footprint.
+/// Returns half a diagonal of it, so that neighbouring disks overlap; at ray hits the radius of the ray's footprint.
 float micropolygonRadius(const ShadePoints&, const TmGrid*, int i);
-/// The angle by which a direction turns over the micropolygon of each active point, up to pi: by its derivatives where
-/// they are known, else as a mirror would turn it.
+/// Writes the angle by which a direction turns over the micropolygon of each active point, up to pi: by its derivatives
+/// where they are known, else as a mirror would turn it.
 void turnOf(Batch&, const TmGrid*, TmConstVec3 direction, float* angle);
 
 }  // namespace tomales

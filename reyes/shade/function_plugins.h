@@ -15,12 +15,12 @@ class FunctionPlugins {
   explicit FunctionPlugins(Log& log) : log_(log) {}
   FunctionPlugins(const FunctionPlugins&) = delete;
 
-  /// The functions of that name in these folders, ordered by folder, then by the plugin's file name, then as the plugin
-  /// lists them.
+  /// Returns the functions of that name in these folders, ordered by folder, then by the plugin's file name, then as
+  /// the plugin lists them.
   std::vector<const TmFunction*> named(const std::string& name, const std::vector<std::string>& folders);
 
  private:
-  using Functions = std::map<std::string, std::vector<const TmFunction*>>;  ///< By the name that shaders call.
+  using Functions = std::map<std::string, std::vector<const TmFunction*>>;  ///< Indexed by the name that shaders call.
   void open(const std::string& folder, Functions& out);
   void load(const std::string& path, Functions& out);
   void refuse(const std::string& path, const std::string& problem);

@@ -1,5 +1,6 @@
-// What shading services do at every point of a batch for every light, vectorised. Arrays have `n` elements. `share` is
-// how much of the light counts at a point; where it is 0 nothing is added, whatever else a point holds. Threads: pure.
+// The computations of shading services at every point of a batch for every light, vectorised. Arrays have `n` elements.
+// `share` is how much of the light counts at a point; where it is 0 nothing is added, whatever else a point holds.
+// Threads: pure.
 #pragma once
 #include "reyes/base/math.h"
 #include "reyes/shader_api.h"

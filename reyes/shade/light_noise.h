@@ -23,7 +23,7 @@ class LightNoise {
 
  private:
   std::atomic<int64_t> lit_{0};                 ///< The number of points that some light reaches.
-  std::deque<std::atomic<int64_t>> uncertain_;  ///< How many of them each light leaves uncertain.
+  std::deque<std::atomic<int64_t>> uncertain_;  ///< Number of those points that each light leaves uncertain.
 };
 
 }  // namespace tomales

@@ -1,4 +1,5 @@
-// Which lights run at a batch of points, and the grid that a light shader gets there. Shared by the files of Lights.
+// Decides which lights run at a batch of points, and makes the grid that a light shader gets there. The files of Lights
+// share it.
 #pragma once
 #include "reyes/shade/batch.h"
 
@@ -13,18 +14,18 @@ inline bool bringsStored(Illumination light) {
 
 /// Tells whether the light counts for rays of the batch's kind.
 bool isOn(const BoundLight& light, const Batch& batch);
-/// The same, where lights light the batch.
+/// Tells the same where lights light the batch.
 bool applies(const BoundLight& light, const Batch& batch);
 
-/// The grid of the points for a light shader, without neighbours; its results have room for those.
+/// Returns the grid of the points for a light shader, without neighbours; its results have room for those.
 TmGrid lightGrid(Batch& batch, const BoundLight& light);
 /// Makes room for the outputs of a light, so that lightsource() can read them.
 void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params);
 /// Makes light that is not finite dark: the fault is the light's, not that of the surface that asks.
 void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g);
 
-/// Sample `sample` of `samples` of a light at a point: random numbers by the point's name, never by its place in the
-/// batch.
+/// Returns the random numbers of sample `sample` of `samples` of a light at a point. They follow from the point's name,
+/// never from its place in the batch.
 vec2 sampleAt(const Batch& batch, const BoundLight& light, int i, int sample, int samples);
 int samplesOf(const BoundLight& light, const Batch& batch);
 

@@ -16,8 +16,8 @@ void fill(const TmGrid* g, TmVec3 out, const vec3& v) {
   forActive(g, [&](int i) { set(out, i, v); });
 }
 
-/// The bias of a lookup that gives none: Option "shadow" "bias", or a random one between "bias0" and "bias1". Negative
-/// if the map is to choose it.
+/// Returns the bias of a lookup that gives none: Option "shadow" "bias", or a random one between "bias0" and "bias1".
+/// Negative if the map is to choose it.
 float shadowBias(const Options& options, uint32_t name) {
   const auto number = [&](const char* key) -> const Param* {
     const auto it = options.user.find(key);
@@ -28,7 +28,7 @@ float shadowBias(const Options& options, uint32_t name) {
   return low && high ? lerp(low->number(0), high->number(0), unitFloat(name)) : -1.0f;
 }
 
-/// Null if no light is running, or none of this group.
+/// Returns null if no light is running, or none of this group.
 const BoundLight* runningLight(const Batch& batch) {
   for (const BoundLight* light : batch.group.lights)
     if (light->bound.get() == batch.running) return light;
@@ -79,7 +79,7 @@ bool matchesTerm(std::string_view categories, std::string_view term) {
   return has != excludes;
 }
 
-/// The points that see a sample within the cone of an illuminance statement.
+/// Returns the points that see a sample within the cone of an illuminance statement.
 const uint8_t* litPoints(Batch& place, const TmGrid* g, const TmIlluminance& cone, const LightSample& sample) {
   uint8_t* lit = place.arena.bytes(place.tm.count);
   const float least = std::cos(cone.angle);

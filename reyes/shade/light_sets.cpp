@@ -11,16 +11,16 @@
 namespace tomales {
 namespace {
 
-/// What a lamp that sends nothing counts for, as a share of the brightest: surfaces see that it is there.
+/// Weight of a lamp that sends nothing, as a share of the brightest: surfaces see that it is there.
 constexpr float kDark = 1e-6f;
 
-/// A number that may differ from light to light of a set.
+/// Tells whether a number may differ from light to light of a set.
 bool mayVary(const TmParamDecl& decl) {
   const int floats = floatsOf(typeOf(decl));
   return !isOutput(decl) && !isUniform(decl) && decl.arrayLength == 1 && (floats == 1 || floats == 3);
 }
 
-/// The bound of a lamp; empty if its place is not known.
+/// Returns the bound of a lamp; empty if its place is not known.
 Bound3 boundOf(const BoundLight& light, const ShadeServices* services) {
   if (light.can(TM_LIGHT_AREA)) return services ? services->emitterBound(light.index) : Bound3();
   const BoundShader& b = *light.bound;
@@ -67,7 +67,7 @@ std::string keyOf(const BoundLight& light) {
   return key;
 }
 
-/// The parameters of whose values the lights have not all the same.
+/// Returns the parameters of whose values the lights have not all the same.
 std::vector<int> varyingOf(const std::vector<const BoundLight*>& lights) {
   std::vector<int> out;
   const BoundShader& first = *lights[0]->bound;

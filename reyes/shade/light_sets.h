@@ -19,13 +19,13 @@ struct BoundScene;
 constexpr size_t kFewLights = 4, kFewWithoutShadows = 32;
 
 struct LightSet {
-  std::vector<const BoundLight*> lights;  ///< In the order of the tree's lamps.
+  std::vector<const BoundLight*> lights;  ///< Indexed as the tree's lamps.
   std::vector<int> varying;               ///< The parameters whose values differ.
   LightTree tree;
 };
 
 struct LightSets {
-  std::vector<const BoundLight*> alone;  ///< Those that run at every point.
+  std::vector<const BoundLight*> alone;  ///< Lights that run at every point.
   std::vector<LightSet> sets;
 };
 
@@ -33,7 +33,7 @@ struct LightSets {
 /// lamps with geometry are known by then.
 class LightChoice {
  public:
-  /// Null if all lights run. `lights` are the same each time.
+  /// Returns null if all lights run. `lights` are the same each time.
   const LightSets* sets(const BoundScene& scene, const std::vector<const BoundLight*>& lights) const;
 
  private:

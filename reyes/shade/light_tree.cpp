@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-/// What lies behind a surface may shine through it, so it keeps some importance.
+/// Least cosine that counts. Lamps behind a surface may shine through it, so they keep some importance.
 constexpr float kBehind = 0.1f;
 /// A side of a division holds at least so many of its lamps; else the median divides, and the tree stays flat.
 constexpr size_t kLeastSide = 16;

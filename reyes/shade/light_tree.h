@@ -38,7 +38,7 @@ class LightTree {
   void cut(const LampReceiver& at, int most, int perLamp, std::vector<LampCluster>& out) const;
   /// Draws a lamp of a cluster by a number in [0, 1).
   uint32_t draw(const LampReceiver& at, uint32_t node, double xi, float& probability) const;
-  /// The expected number of samples that a cut gives to a lamp.
+  /// Returns the expected number of samples that a cut gives to a lamp.
   float expected(const LampReceiver& at, std::span<const LampCluster> cut, uint32_t lamp) const;
   /// Adds the lamps whose bounds a ray from P along the unit direction meets, in the order of the tree.
   void meet(const vec3& P, const vec3& direction, std::vector<uint32_t>& lamps) const;
@@ -49,14 +49,14 @@ class LightTree {
  private:
   struct Node {
     vec3 center;
-    float radius;    ///< Of the sphere around its bound.
-    float power;     ///< Of its lamps together.
+    float radius;    ///< Radius of the sphere around its bound.
+    float power;     ///< Power of its lamps together.
     uint32_t right;  ///< The second child; the first one follows its parent. A leaf's is 0.
     uint32_t end;    ///< The number behind the last node below it.
-    uint32_t lamp;   ///< Of a leaf.
+    uint32_t lamp;   ///< The lamp of a leaf.
   };
   uint32_t build(std::span<uint32_t> order);
-  /// The light that is expected of the lamps below a node.
+  /// Returns the light that is expected of the lamps below a node.
   float estimate(const LampReceiver& at, const Node& node) const;
   float shareOfFirst(const LampReceiver& at, uint32_t node) const;
 

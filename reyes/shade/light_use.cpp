@@ -32,7 +32,7 @@ std::string named(const std::set<std::string>& names) {
   return n > kMostNamed ? fmt::format("{} and {} more", out, n - kMostNamed) : out;
 }
 
-/// The name of the smallest object around a point. Empty if there is none, or shapes are not at hand.
+/// Returns the name of the smallest object around a point. Empty if there is none, or shapes are not at hand.
 std::string around(const Scene& scene, const vec3& place) {
   const Object* smallest = nullptr;
   float least = kInfinity;
@@ -75,7 +75,8 @@ void LightUse::add(const Batch& batch) {
   countStops(batch);
 }
 
-// Where a shadow ray has been traced there was light, and a surface that wanted to know of it.
+// Notes the points of a batch to which a lamp sends light. Where a shadow ray has been traced there was light, and a
+// surface that wanted to know of it.
 void LightUse::follow(const Batch& batch, const LightSample& sample, Lamp& lamp) {
   for (int i = 0; i < batch.points->count(); ++i) {
     const bool sent = get(sample.Cl, i) != vec3(0.0f), traced = sample.pending && !sample.pending[i];

@@ -33,9 +33,9 @@ class LightUse {
   static constexpr int kStops = 32;
   struct Lamp {
     std::atomic<bool> asked{false};   ///< Some surface has asked for its light.
-    std::atomic<bool> bright{false};  ///< Its shader sends light to some point,
-    std::atomic<bool> faces{false};   ///< which faces it,
-    std::atomic<bool> comes{false};   ///< and which no shadow covers.
+    std::atomic<bool> bright{false};  ///< Its shader sends light to some point.
+    std::atomic<bool> faces{false};   ///< Some such point faces it.
+    std::atomic<bool> comes{false};   ///< No shadow covers some point that faces it.
     std::array<std::atomic<int64_t>, kStops>
         stops{};  ///< Numbers of points that it makes 2^k to 2^(k+1) times as bright as white.
   };

@@ -31,7 +31,7 @@ struct LightRequest {
 
 /// The sums of the shadow rays of one light so far, at each point.
 struct ShadowTally {
-  float* traced;  ///< How many rays were traced.
+  float* traced;  ///< Number of rays that were traced.
   TmVec3 passed;  ///< The sum of the light that they let pass.
 };
 
@@ -70,17 +70,17 @@ class Lights {
   const std::string* group() const { return group_; }
   /// Sets the request, before the first question. `request` must outlive this.
   void ask(const LightRequest& request) { request_ = &request; }
-  /// The sum of the ambient lights at the active points of `asking`.
+  /// Writes the sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
-  /// All samples of all lights that have a direction, in the order of Attributes::lights. They are unshadowed until
-  /// shadow() has been called. Without `indirect`, indirect lights do not run, which may cost many rays, unless they
-  /// have run already; if they do later, their samples come last.
+  /// Returns all samples of all lights that have a direction, in the order of Attributes::lights. They are unshadowed
+  /// until shadow() has been called. Without `indirect`, indirect lights, which may cost many rays, do not run unless
+  /// they have run already. If they do later, their samples come last.
   std::vector<LightSample>& samples(Batch& batch, bool indirect = true);
-  /// Has the shader asked what lights it?
+  /// Tells whether the shader has asked for the light that arrives.
   bool asked() const { return evaluated_ || ambientAsked_; }
-  /// The lights that run at every point of the batch: all, or those that no set holds.
+  /// Returns the lights that run at every point of the batch: all, or those that no set holds.
   const std::vector<const BoundLight*>& alone(const Batch& batch) const;
-  /// Those that have been asked for so far, of all groups.
+  /// Returns the samples that have been asked for so far, of all groups.
   const std::vector<LightSample>& evaluated() const { return samples_; }
   /// Traces the pending shadow rays at the points of `want`, except those where the tally of a light with a shadow
   /// variance is already exact enough.
@@ -92,7 +92,7 @@ class Lights {
   /// Adds the radiance of skies to rays that have left the scene along unit directions, less what the opacity of the
   /// things on the way blocks.
   void addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const;
-  /// The largest number of samples of the lights that along() may find; 0 if there are none.
+  /// Returns the largest number of samples of the lights that along() may find; 0 if there are none.
   int mostSamples(Batch& batch) const;
 
  private:
@@ -116,7 +116,7 @@ class Lights {
   void forEachSetWithExtent(Batch& batch, const Body& body) const;
   bool evaluated_ = false, indirectEvaluated_ = false, ambientAsked_ = false;
   std::deque<std::vector<TmValue>> params_;
-  int lobes_ = 0;  ///< How many lobes along() has been given.
+  int lobes_ = 0;  ///< Number of lobes that along() has been given.
   std::deque<ShadowTally> tallies_;
   std::map<const LightSet*, LightCuts> cuts_;
   std::vector<LightSample> samples_, chosen_;  ///< All samples; the samples of group_.

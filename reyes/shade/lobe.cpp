@@ -13,8 +13,8 @@ namespace {
 
 constexpr uint32_t kLobeStream = randomStream("lobe");
 
-/// The name of a point's samples. Displaced points are named by their place on the object, so that grids which meet
-/// there agree; light probes and pixels have one name for all.
+/// Returns the name of a point's samples. Displaced points are named by their place on the object, so that grids which
+/// meet there agree; light probes and pixels have one name for all.
 SampleName nameOf(const Batch& batch, const TmGrid* g, int i) {
   if (batch.points) return batch.points->name(i % batch.points->count());
   if (!batch.grid) return {};
@@ -41,8 +41,8 @@ void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, fl
   });
 }
 
-// Half as many as the light's samples: twice as many win little where the lobe is narrow, and cost time where it is
-// wide (docs/measured/rays.md).
+// Returns half as many as the light's samples: twice as many win little where the lobe is narrow, and cost time where
+// it is wide (docs/measured/rays.md).
 int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
 
 /// The lobe of RISpec 15.6, (N.H)^e, with the exponent of docs/decisions/0004. Directions are drawn by H with density
@@ -58,7 +58,7 @@ struct BlinnLobe {
     const vec3 H = sine * std::cos(2 * kPi * xi.y) * tangent + sine * std::sin(2 * kPi * xi.y) * bitangent + cosine * N;
     return 2 * dot(V, H) * H - V;
   }
-  /// The density over solid angle; 0 if the direction is never drawn.
+  /// Returns the density over solid angle; 0 if the direction is never drawn.
   float density(const vec3& L) const {
     const vec3 H = normalizeOr(L + V, vec3(0.0f));
     const float cosine = dot(N, H), along = dot(V, H);

@@ -30,7 +30,7 @@ class MovingSurfaces {
                   a.surface->name);
   }
 
-  /// Null if the surface leaves points where they are.
+  /// Returns null if the surface leaves points where they are.
   std::shared_ptr<const ShaderCall> displacementOf(const std::shared_ptr<const ShaderCall>& surface) {
     const std::lock_guard lock(mutex_);
     const auto [it, isNew] = known_.try_emplace(surface);

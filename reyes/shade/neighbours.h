@@ -11,11 +11,12 @@ struct Grid;
 /// arrays are null for a batch without neighbours.
 struct Stencil {
   const int32_t *lo[2] = {nullptr, nullptr}, *hi[2] = {nullptr, nullptr};
-  /// The elements from one micropolygon to the next, or 0 if lo and hi are one micropolygon apart.
+  /// Number of elements from one micropolygon to the next, or 0 if lo and hi are one micropolygon apart.
   int32_t next[2] = {0, 0};
   explicit operator bool() const { return lo[0] != nullptr; }
   float difference(int d, const float* x, int i) const { return x[hi[d][i]] - x[lo[d][i]]; }
-  /// The change over one micropolygon. It is not divided by u's or v's, which may be 0 along d: polygons have x and y.
+  /// Returns the change over one micropolygon. It is not divided by u's or v's, which may be 0 along d: polygons have x
+  /// and y.
   float step(int d, const float* x, int i) const {
     return next[d] == 0 ? difference(d, x, i)
                         : difference(d, x, i) * static_cast<float>(next[d]) / static_cast<float>(hi[d][i] - lo[d][i]);

@@ -14,7 +14,7 @@ namespace {
 constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Slightly less than pi/2, which shaders give with few digits.
 constexpr float kVariationOfError = 0.05f;      ///< The variation for a maxerror of 1.
 
-/// The question of a call of occlusion().
+/// Returns the question of a call of occlusion().
 OcclusionQuery occlusionOf(const TmRayOptions& o, const TmOcclusion& asked, const RayQuery& rays, const Attributes& a) {
   OcclusionQuery q{.samples = o.samples,
                    .maxDistance = o.maxDistance,
@@ -49,7 +49,7 @@ const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConst
 struct OpenSky {
   const char* picture;
   mat3 toMap;
-  float* angle;  ///< In radians.
+  float* angle;  ///< Angle in radians.
   TmVec3 direction, color;
 
   OpenSky(Batch& batch, const TmGrid* g, const TmRayOptions& o)

@@ -12,16 +12,16 @@ namespace tomales {
 struct ParameterValue {
   std::vector<float> floats;         ///< arrayLength values; empty for strings.
   std::vector<std::string> strings;  ///< arrayLength strings; empty for numbers.
-  std::string remark;                ///< How the given value had to be changed; empty if it was not.
+  std::string remark;                ///< Says how the given value had to be changed; empty if it was not.
 };
 
-/// The value for a parameter, or its default if `given` is null. Conversions are those of RISpec 3.2 section 11 (a
-/// float becomes any other number: the same in each component, or the diagonal of a matrix) and between triples, whose
-/// numbers are taken as they stand; an hpoint is divided by its w, an integer is a float. A value that is too long is
-/// cut; one that is too short is filled up from the default.
+/// Returns the value for a parameter, or its default if `given` is null. Conversions are those of RISpec 3.2 section 11
+/// (a float becomes any other number: the same in each component, or the diagonal of a matrix) and between triples,
+/// whose numbers are taken as they stand; an hpoint is divided by its w, an integer is a float. A value that is too
+/// long is cut; one that is too short is filled up from the default.
 ParameterValue parameterValue(const TmParamDecl& declared, const Param* given);
 
-/// The floats in one value of a TmType; 0 for strings.
+/// Returns the floats in one value of a TmType; 0 for strings.
 int floatsOf(int32_t type);
 /// Tells whether `given` is this type, without conversion. Integers are floats; points, vectors and normals differ by
 /// the declaration.

@@ -12,7 +12,8 @@
 namespace tomales {
 namespace {
 
-/// The lookup of a picture. Option "texture" "width" scales all filters; "filter" is that of lookups that name none.
+/// Returns the lookup of a picture. Option "texture" "width" scales all filters; "filter" is that of lookups that name
+/// none.
 TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, const TmTextureOptions& o, TmVec3 out) {
   const auto& options = batch.scene.scene.options.user;
   const auto width = options.find("texture:width"), filter = options.find("texture:filter");

@@ -6,7 +6,7 @@ namespace {
 /// The rest of the samples go by the sky: just so many that none of them brings more than four times its share.
 constexpr float kShare = 0.75f;
 
-/// The portal's solid angle, taken at its middle, and at most half of all directions. 0 behind the horizon.
+/// Returns the portal's solid angle, taken at its middle, and at most half of all directions. 0 behind the horizon.
 float weightOf(const Portal& portal, const vec3& P, const vec3& N) {
   const auto& [corner, u, v, normal] = portal;
   const vec3 corners[] = {corner, corner + u, corner + v, corner + u + v};
@@ -18,7 +18,7 @@ float weightOf(const Portal& portal, const vec3& P, const vec3& N) {
   return seen < 2 * kPi * distance * distance * distance ? seen / (distance * distance * distance) : 2 * kPi;
 }
 
-/// The density over solid angle of positions that are even on the portal.
+/// Returns the density over solid angle of positions that are even on the portal.
 float densityOf(const Portal& portal, const vec3& P, const vec3& L) {
   const auto& [corner, u, v, normal] = portal;
   const vec3 to = corner - P;

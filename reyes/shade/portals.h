@@ -14,12 +14,12 @@ class Portals {
   bool add(const mat4& currentFromSpace);
   const std::vector<Portal>& all() const { return portals_; }
 
-  /// The share of the samples of a point P with normal N that go to portals; 0 if P lies behind all of them. N is 0 in
-  /// the air.
+  /// Returns the share of the samples of a point P with normal N that go to portals; 0 if P lies behind all of them. N
+  /// is 0 in the air.
   float share(const vec3& P, const vec3& N) const;
-  /// A unit direction to a position on one of them. share(P, N) must be greater than 0.
+  /// Returns a unit direction to a position on one of them. share(P, N) must be greater than 0.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi) const;
-  /// The density of sample() over solid angle; 0 for directions past every portal.
+  /// Returns the density of sample() over solid angle; 0 for directions past every portal.
   float density(const vec3& P, const vec3& N, const vec3& L) const;
 
  private:

@@ -6,7 +6,7 @@ namespace tomales {
 
 constexpr float kFarAway = 1e30f;  ///< RI_INFINITY: the distance to nothing.
 
-/// The options of trace(), whose directions the caller may draw itself, and of the other services.
+/// Returns the options of trace(), whose directions the caller may draw itself, and of the other services.
 TmRayOptions drawnRayOptions(const Batch& batch, const TmRayOptions* given);
 TmRayOptions rayOptions(const Batch& batch, const TmRayOptions* given);
 

@@ -1,5 +1,5 @@
-// What the registry of shaders keeps. Its ways to shaders are in registry.cpp, the loading of plugins and the checks of
-// what they bring in registry_plugins.cpp. Private to the registry. Threads: only with `mutex` held.
+// The members of the registry of shaders. The search for shaders is in registry.cpp; the loading of plugins and the
+// checks of what they bring are in registry_plugins.cpp. Private to the registry. Threads: only with `mutex` held.
 #pragma once
 #include <map>
 #include <mutex>

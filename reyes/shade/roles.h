@@ -1,4 +1,4 @@
-// What the host knows of each role of a parameter (TmRole).
+// The facts that the host knows of each role of a parameter (TmRole).
 #pragma once
 #include "reyes/shade.h"
 
@@ -11,9 +11,9 @@ struct RoleInfo {
   TmKind kind;  ///< The kind of shaders that may declare it.
 };
 
-/// The product of those parameters of a light that are factors (isFactor()), where a request gives `params`.
+/// Returns the product of those parameters of a light that are factors (isFactor()), where a request gives `params`.
 vec3 factorOf(const TmShader& light, const std::vector<Param>& params);
-/// Null if there is no such role.
+/// Returns null if there is no such role.
 const RoleInfo* roleInfo(int32_t role);
 
 }  // namespace tomales

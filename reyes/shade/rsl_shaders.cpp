@@ -154,7 +154,7 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
   return out;
 }
 
-/// The form in which files have a request's name.
+/// Returns the form in which files have a request's name.
 std::string nameInFolders(const std::string& written) {
   const std::string name = withoutShaderEnding(written);
   const fs::path path(name);
@@ -162,7 +162,7 @@ std::string nameInFolders(const std::string& written) {
   return path.is_absolute() || name.find("..") != std::string::npos ? path.filename().string() : name;
 }
 
-/// The file of a shader that another renderer has compiled, where there is no .sl.
+/// Returns the file of a shader that another renderer has compiled, where there is no .sl.
 std::string compiledElsewhere(const std::string& name, const std::vector<std::string>& folders) {
   std::error_code none;
   for (const std::string& folder : folders)

@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// The name without an ending of texts (.sl) or of shaders that other renderers have compiled (.slo).
+/// Returns the name without an ending of texts (.sl) or of shaders that other renderers have compiled (.slo).
 std::string withoutShaderEnding(const std::string& name);
 
 /// The result of looking for a name.
@@ -29,7 +29,7 @@ struct RslFound {
 RslFound findRslShader(const std::string& name, TmKind kind, const std::vector<std::string>& folders,
                        const FunctionsOfFolders& functions);
 
-/// The file itself and all that it includes, if findRslShader() has compiled it as it is now; else none.
+/// Returns the file itself and all that it includes, if findRslShader() has compiled it as it is now; else none.
 std::vector<std::string> filesOfRslFile(const std::string& file);
 
 /// A name, and the folders where it is looked for.

@@ -98,13 +98,14 @@ vec3 ShadowMap::blocked(int x, int y, float z) const {
 
 /// A receiver as the map's camera sees it.
 struct ShadowMap::View {
-  vec3 P, N;           ///< In camera space.
-  vec2 at, u, v;       ///< In texels: its position, its edges.
+  vec3 P, N;           ///< Camera space.
+  vec2 at, u, v;       ///< Position and edges, in texels.
   float texel;         ///< The size of a texel at its depth.
   vec2 center, scale;  ///< texel = center + scale (x, y) [/ z]
   bool perspective;
 
-  /// The depth of the receiver's plane where the ray of a texel position meets it, or that of P if this leaves `reach`.
+  /// Returns the depth of the receiver's plane where the ray of a texel position meets it, or that of P if this leaves
+  /// `reach`.
   float depth(const vec2& texelAt, float reach) const {
     const vec2 xy = (texelAt - center) / scale;
     float z = P.z;
@@ -140,7 +141,7 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
   view.scale = texelOfCamera({1, 1, 1}) - view.center;
   view.texel = (perspective_ ? view.P.z : 1) / std::min(std::abs(view.scale.x), std::abs(view.scale.y));
 
-  // At least a texel, so that texels do not show.
+  // The square is at least a texel wide, so that texels do not show.
   const vec2 square = vec2(1.0f) + lookup.blur * vec2(width_, height_);
   const float steepest = 8;  // beyond that slope the plane says nothing about its surroundings
   const float extent = 1 + 0.5f * (glm::length(view.u) + glm::length(view.v) + glm::length(square));

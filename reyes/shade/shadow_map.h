@@ -19,7 +19,8 @@ struct ShadowReceiver {
 };
 
 struct ShadowLookup {
-  float bias = -1;  ///< How much nearer to the light a surface must be; negative: by slope and texel size.
+  /// Distance by which a surface must be nearer to the light to cast a shadow; negative: by slope and texel size.
+  float bias = -1;
   float blur = 0;   ///< Added to the covered region, as a fraction of the map.
   float width = 1;  ///< Scales the micropolygon.
   int samples = 16;
@@ -31,9 +32,9 @@ class ShadowMap {
   /// Returns null if it cannot be read; `error` then says why.
   static std::unique_ptr<const ShadowMap> read(const std::string& path, std::string& error);
 
-  /// The share of light that is blocked: 1 for all, 0 outside the map. It is percentage-closer filtering (Reeves,
-  /// Salesin and Cook 1987); in deep maps each sample is one less what the opacity before it lets through (Lokovic and
-  /// Veach 2000). The receiver's depth is followed along its plane, so that a large region needs no bias.
+  /// Returns the share of light that is blocked: 1 for all, 0 outside the map. It is percentage-closer filtering
+  /// (Reeves, Salesin and Cook 1987); in deep maps each sample is one less what the opacity before it lets through
+  /// (Lokovic and Veach 2000). The receiver's depth is followed along its plane, so that a large region needs no bias.
   vec3 shadow(const ShadowReceiver& receiver, const ShadowLookup& lookup) const;
 
  private:
@@ -58,7 +59,7 @@ class ShadowMap {
 class ShadowMaps {
  public:
   ShadowMaps(std::string searchPath, Log& log) : searchPath_(std::move(searchPath)), log_(log) {}
-  /// Null if it cannot be read, which has been reported as missing.
+  /// Returns null if it cannot be read, which has been reported as missing.
   const ShadowMap* find(const std::string& name, const SourceLoc& where, const std::string& user) const;
 
  private:

@@ -10,7 +10,7 @@ constexpr float kPictureShare = 0.5f;
 constexpr float kLeastCosine = 1e-3f;  ///< Limits what one sample brings.
 
 float center(int i, int count) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(count); }
-/// The solid angle of a unit of (s, t).
+/// Returns the solid angle of a unit of (s, t).
 float solidAngleAt(float t) { return 2 * kPi * kPi * std::sin(kPi * t); }
 
 bool inAir(const vec3& N) { return N == vec3(0.0f); }

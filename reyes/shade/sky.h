@@ -16,8 +16,8 @@
 
 namespace tomales {
 
-/// The picture coordinates of a direction in a latitude-longitude picture (RISpec 3.2, MakeLatLongEnvironment): +z of
-/// the world at the top, +x at the left edge, +y a quarter to the right. s and t in 0..1, t downwards.
+/// Returns the picture coordinates of a direction in a latitude-longitude picture (RISpec 3.2, MakeLatLongEnvironment):
+/// +z of the world at the top, +x at the left edge, +y a quarter to the right. s and t in 0..1, t downwards.
 vec2 latLong(const vec3& worldDirection);
 vec3 latLongDirection(const vec2& st);
 
@@ -25,7 +25,7 @@ constexpr float kSkyCell = 2 * kPi / 1024;  ///< The size in radians of the cell
 
 class Sky {
  public:
-  /// A sky that is equally bright everywhere.
+  /// Makes a sky that is equally bright everywhere.
   Sky() = default;
   /// `picture` stands in world space. One that cannot be read is reported, and the sky is even.
   Sky(const Textures& textures, const std::string& picture, const SourceLoc& where, const std::string& user,
@@ -34,8 +34,8 @@ class Sky {
   void setPortals(Portals portals) { portals_ = std::move(portals); }
   const Portals& portals() const { return portals_; }
 
-  /// A unit direction from which to light a point P with unit normal N, and its density over solid angle. For an N of
-  /// 0, in the air, directions are even.
+  /// Returns a unit direction from which to light a point P with unit normal N, and its density over solid angle. For
+  /// an N of 0, in the air, directions are even.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& density) const;
   float density(const vec3& P, const vec3& N, const vec3& L) const;
 
@@ -50,7 +50,7 @@ class Sky {
   Portals portals_;
 };
 
-/// The orientation of a sky that stands in a space, without the scale of that space.
+/// Returns the orientation of a sky that stands in a space, without the scale of that space.
 mat3 skyFromCurrent(const mat4& currentFromSpace);
 
 /// The skies of pictures that shaders name, which stand in the world. Threads: concurrent calls are safe.

@@ -15,14 +15,14 @@ struct Space {
   mat4 currentFromSpace{1.0f};
 };
 
-/// Empty if there is no such space.
+/// Returns nothing if there is no such space.
 std::optional<Space> findSpace(const Batch& batch, const std::string& name);
 
 /// Transforms from current space to the directions by which environment() looks up a picture that stands in the named
 /// space (null: "world"). An unknown name is reported, and the world is used.
 mat3 environmentDirections(const Batch& batch, const char* space);
 
-/// For spaces that are projected; it transforms points only.
+/// Transforms points, and nothing else, to spaces that are projected.
 vec3 projectedFromCurrent(const Batch& batch, Space::Kind kind, const vec3& p);
 /// A depth of 0 means the near clipping plane, as in RISpec: transform("NDC", "screen", point (x, y, 0)) is a common
 /// way to ask for the corners of the picture, and no position in the picture has the depth of the eye.

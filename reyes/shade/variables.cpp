@@ -34,7 +34,7 @@ void find(const Variable& wanted, const BoundGroup& group, BoundVariable& out) {
   }
 }
 
-/// Where the triple goes; the variable must be three floats wide.
+/// Returns the arrays for the triple; the variable must be three floats wide.
 TmVec3 destination(const BoundVariable& v, ShadedPoints& out, int begin) {
   const auto array = [&](int k) { return out.variables[static_cast<size_t>(v.first + k)].data() + begin; };
   return {array(0), array(1), array(2)};

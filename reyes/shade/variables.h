@@ -1,4 +1,5 @@
-// What Displays want of a surface beside its colour and opacity: outputs of the shader, geometry, light groups.
+// The variables that Displays want of a surface beside its colour and opacity: outputs of the shader, geometry, light
+// groups.
 #pragma once
 #include "reyes/output.h"
 #include "reyes/points.h"
@@ -10,7 +11,7 @@ namespace tomales {
 class Batch;
 struct BoundGroup;
 
-/// Where a group finds one of FrameOutput::variables.
+/// The place where a group finds one of FrameOutput::variables.
 struct BoundVariable {
   VariableSource from = VariableSource::Nothing;
   int index = 0;             ///< The number of a channel in ShadePoints, or of an output in TmShader::params.
@@ -20,11 +21,11 @@ struct BoundVariable {
   float fill = 0;
 };
 
-/// An output of the surface shader comes before everything else of that name.
+/// Finds the source of each variable. An output of the surface shader comes before everything else of that name.
 std::vector<BoundVariable> bindVariables(const FrameOutput& output, const BoundGroup& group);
 
-/// The same for "surface:NAME" of what a ray's caller asks:
-/// outputs of the shader that runs at its hit, in this order.
+/// Does the same for "surface:NAME" of a ray's caller: it finds outputs of the shader that runs at the hit, in this
+/// order.
 std::vector<BoundVariable> bindOutputs(const std::vector<RayOutput>& told, const BoundShader& shader);
 
 /// Makes room, filled with the values of variables that nothing writes.

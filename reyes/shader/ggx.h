@@ -27,28 +27,29 @@ class Ggx {
 
   float alpha() const { return alpha_; }
 
-  /// Area of facets towards H, per area of the surface and solid angle (Walter et al., eq. 33).
+  /// Returns the area of facets towards H, per area of the surface and solid angle (Walter et al., eq. 33).
   float distribution(float NH) const {
     const float t = 1 + (alpha2_ - 1) * NH * NH;
     return alpha2_ / (kPi * t * t);
   }
-  /// Share of the facets towards a viewer that others do not hide from it, 0..1 (Walter et al., eq. 34). NV >= 0.
+  /// Returns the share of the facets towards a viewer that others do not hide from it, 0..1 (Walter et al., eq. 34). NV
+  /// >= 0.
   float masking(float NV) const { return 2 * NV * maskingOverTwiceCosine(NV); }
-  /// masking(NV) / (2 NV), which is finite where NV is 0.
+  /// Returns masking(NV) / (2 NV), which is finite where NV is 0.
   float maskingOverTwiceCosine(float NV) const { return 1 / (NV + std::sqrt(alpha2_ + (1 - alpha2_) * NV * NV)); }
-  /// D G / (4 NL NV), 1/sr, with masking from both sides independent of each other. NL, NV >= 0. The same if they are
-  /// exchanged.
+  /// Returns D G / (4 NL NV), 1/sr, with masking from both sides independent of each other. NL, NV >= 0. NL and NV may
+  /// be exchanged.
   float reflection(float NL, float NV, float NH) const {
     return distribution(NH) * (maskingOverTwiceCosine(NL) * maskingOverTwiceCosine(NV));
   }
 
-  /// Density over solid angle of the facets' normals that a viewer sees: G1(V) VH D(H) / NV (Heitz 2018, eq. 3).
-  /// NV > 0.
+  /// Returns the density over solid angle of the facets' normals that a viewer sees: G1(V) VH D(H) / NV (Heitz 2018,
+  /// eq. 3). NV > 0.
   float visibleDensity(float NV, float NH, float VH) const {
     return NH > 0 && VH > 0 ? 2 * maskingOverTwiceCosine(NV) * VH * distribution(NH) : 0;
   }
-  /// Density over solid angle of L = reflect(-V, H), where H is drawn by visibleNormal() (Walter et al., eq. 14).
-  /// NV > 0.
+  /// Returns the density over solid angle of L = reflect(-V, H), where H is drawn by visibleNormal() (Walter et al.,
+  /// eq. 14). NV > 0.
   float reflectedDensity(float NV, float NH) const {
     return NH > 0 ? 0.5f * maskingOverTwiceCosine(NV) * distribution(NH) : 0;
   }

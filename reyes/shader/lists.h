@@ -47,7 +47,7 @@ class Setting {
   bool isNumber() const { return type == TM_FLOAT; }
   bool isText() const { return type == TM_STRING; }
   bool isFilled() const { return fills.x || target >= 0; }
-  /// The values of the points; null if they all have the same.
+  /// Returns the values of the points; null if they all have the same.
   const float* each() const { return varying[0]; }
 
   TmType type = TM_FLOAT;
@@ -67,7 +67,7 @@ class Setting {
   Color color_{};
 };
 
-/// What set() found out about an entry of a list.
+/// The result of set() for an entry of a list.
 struct Entry {
   bool known = true;
   const char* idle = nullptr;  ///< Why the entry, which other renderers know, changes nothing here. Null otherwise.

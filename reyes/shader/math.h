@@ -43,7 +43,7 @@ RSL_INLINE Vec3 operator/(Vec3 a, float s) { return a * (1 / s); }
 RSL_INLINE float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 RSL_INLINE Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 RSL_INLINE float length(Vec3 a) { return std::sqrt(dot(a, a)); }
-/// Leaves a zero vector zero, as RSL does.
+/// Returns a zero vector for a zero vector, as RSL does.
 RSL_INLINE Vec3 normalize(Vec3 a) {
   const float l = length(a);
   return l > 0 ? a / l : Vec3{};
@@ -58,13 +58,13 @@ RSL_INLINE void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
 /// RISpec faceforward with Nref = Ng: returns N on the side of the surface from which I arrives.
 RSL_INLINE Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
 RSL_INLINE Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
-/// I and N have unit length, and N points against I. eta is the index of refraction before the surface over that behind
-/// it. Returns zero for total reflection (RISpec 15.3).
+/// Returns the refracted direction, or zero for total reflection (RISpec 15.3). I and N have unit length, and N points
+/// against I. eta is the index of refraction before the surface over that behind it.
 RSL_INLINE Vec3 refract(Vec3 I, Vec3 N, float eta) {
   const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);
   return k < 0 ? Vec3{} : eta * I + (eta * c - std::sqrt(k)) * N;
 }
-/// The share of unpolarised light that is reflected where refract() would refract.
+/// Returns the share of unpolarised light that is reflected where refract() would refract.
 RSL_INLINE float fresnel(Vec3 I, Vec3 N, float eta) {
   const float c = std::min(1.0f, std::abs(dot(I, N))), k = 1 - eta * eta * (1 - c * c);
   if (k <= 0) return 1;

@@ -27,7 +27,8 @@ RSL_INLINE uint32_t latticeHash(int32_t x, int32_t y, int32_t z) {
 RSL_INLINE float withSign(float x, uint32_t bits) {
   return __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, x) ^ (bits << 31));
 }
-/// Dot product of p with one of the twelve gradients to the edges of a cube (Perlin 2002, "Improving noise").
+/// Returns the dot product of p with one of the twelve gradients to the edges of a cube (Perlin 2002, "Improving
+/// noise").
 RSL_INLINE float gradient(uint32_t hash, Vec3 p) {
   const uint32_t h = hash & 15;
   const float a = h < 8 ? p.x : p.y, b = h < 4 ? p.y : (h & 13) == 12 ? p.x : p.z;
@@ -51,7 +52,8 @@ RSL_INLINE LatticePlace latticePlace(Vec3 p) {
   const Vec3 cell{wholeBelow(p.x), wholeBelow(p.y), wholeBelow(p.z)};
   return {latticeCoordinate(cell.x), latticeCoordinate(cell.y), latticeCoordinate(cell.z), p - cell};
 }
-/// Within kNearLattice of the origin, this is latticePlace() for a quarter of the work, but for the sign of a zero.
+/// Does the same as latticePlace() within kNearLattice of the origin for a quarter of the work, but for the sign of a
+/// zero.
 constexpr float kNearLattice = 0x1p19f;
 RSL_INLINE bool isNearLattice(Vec3 p) {
   return (std::abs(p.x) < kNearLattice) & (std::abs(p.y) < kNearLattice) & (std::abs(p.z) < kNearLattice);
@@ -106,7 +108,8 @@ struct Axis {
   RSL_INLINE float from(int end) const { return f - static_cast<float>(end); }
 };
 
-/// Dot product with one of 32 gradients, to the edges of a hypercube (Perlin): three coordinates of p, with signs.
+/// Returns the dot product with one of 32 gradients, to the edges of a hypercube (Perlin): three coordinates of p, with
+/// signs.
 RSL_INLINE float gradient4(uint32_t hash, float x, float y, float z, float w) {
   const uint32_t skipped = hash >> 3 & 3;
   const auto add = [&](float sum, uint32_t k, float p) RSL_INLINED {
@@ -199,7 +202,7 @@ inline Vec3 cellnoise3(Vec3 p, float t = 0) {
 // --- Splines
 
 enum class Basis { CatmullRom, Bezier, BSpline, Hermite, Linear };
-/// The basis of that name in RSL; Catmull-Rom if the name is unknown.
+/// Returns the basis of that name in RSL; Catmull-Rom if the name is unknown.
 inline Basis basisOf(const std::string& name) {
   return name == "bezier"     ? Basis::Bezier
          : name == "b-spline" ? Basis::BSpline
@@ -207,7 +210,7 @@ inline Basis basisOf(const std::string& name) {
          : name == "linear"   ? Basis::Linear
                               : Basis::CatmullRom;
 }
-/// The weights of four knots at t in [0, 1].
+/// Returns the weights of four knots at t in [0, 1].
 inline void splineWeights(Basis basis, float t, float* w) {
   const float t2 = t * t, t3 = t2 * t, s = 1 - t;
   switch (basis) {
@@ -242,7 +245,8 @@ inline void splineWeights(Basis basis, float t, float* w) {
       w[3] = 0.5f * (t3 - t2);
   }
 }
-/// The value at x, clamped to [0, 1], of a curve through n >= 4 knots. Hermite knots are points and tangents by turns.
+/// Returns the value at x, clamped to [0, 1], of a curve through n >= 4 knots. Hermite knots are points and tangents by
+/// turns.
 template <class T>
 T spline(Basis basis, float x, const T* knots, int n) {
   const int stride = basis == Basis::Bezier    ? 3
@@ -260,7 +264,7 @@ template <class T>
 T spline(float x, std::initializer_list<T> knots) {
   return spline(Basis::CatmullRom, x, knots.begin(), static_cast<int>(knots.size()));
 }
-/// RSL's "solve" bases: where a monotonic curve takes a value; 0 or 1 for a value beyond its ends.
+/// Implements RSL's "solve" bases: returns where a monotonic curve takes a value; 0 or 1 for a value beyond its ends.
 inline float solveSpline(Basis basis, float value, const float* knots, int n) {
   const float sign = spline(basis, 1, knots, n) >= spline(basis, 0, knots, n) ? 1.0f : -1.0f;
   float lo = 0, hi = 1;

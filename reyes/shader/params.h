@@ -152,7 +152,7 @@ class Output : public Param {
   Output(const char* name, const char* doc, TmRole role = TM_ROLE_NONE)
       : Param(name, type | TM_OUTPUT, {0, 0, 0}, {}, doc, role) {}
   bool wanted(const TmGrid* g) const { return value(g).step == 1; }
-  /// To be called only if wanted().
+  /// Call it only if wanted().
   void set(const TmGrid* g, int i, const T& v) const {
     const float* from = reinterpret_cast<const float*>(&v);
     for (size_t k = 0; k < (type == TM_FLOAT ? 1 : 3); ++k) const_cast<float*>(value(g).c[k])[i] = from[k];

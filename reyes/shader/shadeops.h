@@ -14,19 +14,20 @@ inline float radians(float degrees) { return degrees * (kPi / 180); }
 inline float degrees(float radians) { return radians * (180 / kPi); }
 // Where mathematics has no value, these functions give the value that Open Shading Language gives, so that a number
 // just outside of its range does not bring a NaN into the picture.
-/// Is a - b floor(a / b), which has the sign of b, and 0 for b = 0.
+/// Returns a - b floor(a / b), which has the sign of b, and 0 for b = 0.
 RSL_INLINE float mod(float a, float b) { return b == 0 ? 0 : a - b * wholeBelow(a / b); }
-/// Is 0 for negative numbers.
+/// Returns 0 for negative numbers.
 RSL_INLINE float sqrt(float x) { return x < 0 ? 0 : std::sqrt(x); }
-/// Is 0 for 0 and negative numbers.
+/// Returns 0 for 0 and negative numbers.
 RSL_INLINE float inversesqrt(float x) { return x <= 0 ? 0 : 1 / std::sqrt(x); }
-/// Is the arcsine of the nearest number in [-1, 1].
+/// Returns the arcsine of the nearest number in [-1, 1].
 RSL_INLINE float asin(float x) { return std::asin(clamp(x, -1, 1)); }
 RSL_INLINE float acos(float x) { return std::acos(clamp(x, -1, 1)); }
-/// Is the least float for 0 and negative numbers.
+/// Returns the least float for 0 and negative numbers.
 inline float log(float x) { return x <= 0 ? -std::numeric_limits<float>::max() : std::log(x); }
 inline float log(float x, float base) { return log(x) / log(base); }
-/// Is 0 for a negative number to a power that is not whole, and for 0 to a negative one; else what std::pow gives.
+/// Returns 0 for a negative number to a power that is not whole, and for 0 to a negative one; else what std::pow
+/// returns.
 inline float pow(float x, float y) {
   const bool none =
       (x == 0 && y < 0) || (x < 0 && std::abs(x) <= std::numeric_limits<float>::max() && y != std::floor(y));
@@ -34,7 +35,7 @@ inline float pow(float x, float y) {
 }
 RSL_INLINE float sign(float x) { return x < 0 ? -1.0f : x > 0 ? 1.0f : 0.0f; }
 RSL_INLINE float step(float edge, float x) { return x < edge ? 0.0f : 1.0f; }
-/// step() averaged over a box of `width` around x.
+/// Returns step() averaged over a box of `width` around x.
 RSL_INLINE float filterstep(float edge, float x, float width) {
   return width > 0 ? clamp((x + 0.5f * width - edge) / width, 0, 1) : step(edge, x);
 }
@@ -50,13 +51,13 @@ RSL_INLINE Vec3 mix(Vec3 a, Vec3 b, Vec3 t) { return a + (b - a) * t; }
 // --- Geometry
 
 RSL_INLINE float distance(Vec3 a, Vec3 b) { return length(a - b); }
-/// The distance from Q to the segment P0 P1.
+/// Returns the distance from Q to the segment P0 P1.
 RSL_INLINE float ptlined(Vec3 P0, Vec3 P1, Vec3 Q) {
   const Vec3 d = P1 - P0;
   const float l2 = dot(d, d);
   return distance(Q, P0 + d * (l2 > 0 ? clamp(dot(Q - P0, d) / l2, 0, 1) : 0));
 }
-/// Q, rotated around the axis P0 P1 by an angle of this cosine and sine, by the right-hand rule in right-handed
+/// Returns Q, rotated around the axis P0 P1 by an angle of this cosine and sine, by the right-hand rule in right-handed
 /// coordinates (Rodrigues).
 RSL_INLINE Vec3 rotated(Vec3 Q, float cosine, float sine, Vec3 P0, Vec3 P1) {
   const Vec3 k = normalize(P1 - P0), v = Q - P0;

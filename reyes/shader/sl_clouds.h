@@ -56,13 +56,13 @@ Color photonmap(const char* file, const Point& p, const Normal& n, const char* f
   return found;
 }
 
-/// E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
+/// Returns E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
 inline Color caustic(const Point& p, const Normal& n) {
   const std::string file = askText(TM_OF_ATTRIBUTES, "photon:causticmap");
   return file.empty() ? Color() : photonmap(file.c_str(), p, n);
 }
-/// Light that was baked as "_radiance_t" with "_area", where it leaves after diffusion, as E/pi. The list names the
-/// material, marble by default. The approximation does not look at the normal.
+/// Returns the light that was baked as "_radiance_t" with "_area", where it leaves after diffusion, as E/pi. The list
+/// names the material, marble by default. The approximation does not look at the normal.
 template <class... List>
 Color subsurface(const Point& p, const Normal&, const char* file, const List&... list) {
   const TmSubsurfaceOptions material = listed(tmSubsurfaceDefaults(), list...);

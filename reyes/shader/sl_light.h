@@ -28,18 +28,19 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   }
   return sum;
 }
-/// What specular() divides by the roughness to get its exponent, as Option "shade" "specular" says
+/// Returns the number that specular() divides by the roughness to get its exponent, as Option "shade" "specular" says
 /// (docs/decisions/0004).
 inline float specularScale() {
   float& scale = Run::now().specularScale;
   if (scale == 0) scale = askText(TM_OF_OPTIONS, "shade:specular") == "rispec" ? 1 : 8;
   return scale;
 }
-/// The lobe of specular(). L and V may have any length.
+/// Returns the lobe of specular(). L and V may have any length.
 inline Float specularbrdf(const Vector& L, const Normal& N, const Vector& V, const Float& roughness) {
   return pow(max(0, dot(normalize(N), normalize(normalize(L) + normalize(V)))), specularScale() / roughness);
 }
-/// A random number that all points of a call share if their surfaces have one name (Attribute "identifier" "name").
+/// Returns a random number that all points of a call share if their surfaces have one name (Attribute "identifier"
+/// "name").
 inline Float randomGrid() {
   uint32_t hash = 0;
   for (const char c : askText(TM_OF_ATTRIBUTES, "identifier:name")) hash = rsl::latticeHash(int32_t(hash), c, 0);
@@ -53,7 +54,7 @@ template <class... List>
 Color trace(const Point& p, const Vector& r, const char* first, const List&... list) {
   return trace(p, r, listed(tmRayDefaults(), first, list...));
 }
-/// RSL's float trace(): how far the ray goes, or 1e30 where it meets nothing.
+/// Implements RSL's float trace(): returns how far the ray goes, or 1e30 where it meets nothing.
 inline Float traceDistance(const Point& p, const Vector& r, const TmRayOptions& options = tmRayDefaults()) {
   Float out;
   grid()->call->trace(grid()->host, grid(), &options, p, r, TmVec3{}, out.data());
@@ -84,7 +85,8 @@ Float occlusion(const Point& p, const Normal& n, int samples, const List&... lis
   occlusion(p, n, samples, all);
   return covered;
 }
-/// The mean radiance that arrives from the hemisphere around n (or the cone of the list), not multiplied by Cs or pi.
+/// Returns the mean radiance that arrives from the hemisphere around n (or the cone of the list), not multiplied by Cs
+/// or pi.
 template <class... List>
 Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&... list) {
   HemisphereList all = listed(HemisphereList(), list...);
@@ -93,7 +95,7 @@ Color indirectdiffuse(const Point& p, const Normal& n, int samples, const List&.
   occlusion(p, n, samples, all);
   return radiance;
 }
-/// The old name of indirectdiffuse().
+/// Does the same as indirectdiffuse(), under its old name.
 template <class... List>
 Color indirect(const Point& p, const Normal& n, int samples, const List&... list) {
   return indirectdiffuse(p, n, samples, list...);
@@ -105,7 +107,7 @@ struct Gathered {
   Gathered(const char* name, Float* f) : output{name, {f->data(), nullptr, nullptr}} {}
   TmChannel output;
 };
-/// The list of gather(). Rays are even over the cone's solid angle unless "distribution" is "cosine".
+/// Makes the list of gather(). Rays are even over the cone's solid angle unless "distribution" is "cosine".
 template <class... List>
 TmRayOptions rays(const List&... list) {
   TmRayOptions even = tmRayDefaults();

@@ -10,37 +10,37 @@ namespace sl {
 
 constexpr float kLeastWidth = 1e-6f;
 
-/// How far a value changes over a micropolygon.
+/// Returns how far a value changes over a micropolygon.
 inline Float filterwidth(const Float& x) {
   return max(kLeastWidth, abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv)));
 }
-/// The side of a square as large as the micropolygon that the points span.
+/// Returns the side of a square as large as the micropolygon that the points span.
 inline Float filterwidthp(const Point& p) { return max(kLeastWidth, sqrt(area(p))); }
 
-/// The part of a sample from x - dx/2 to x + dx/2 that lies between the two edges.
+/// Returns the part of a sample from x - dx/2 to x + dx/2 that lies between the two edges.
 inline Float filteredpulse(const Float& edge0, const Float& edge1, const Float& x, const Float& dx) {
   const Float width = max(dx, kLeastWidth), from = x - width / 2;
   return max(0, (min(from + width, edge1) - max(from, edge0)) / width);
 }
-/// Integral from 0 to x of a train of pulses, each 1 in the first `edge` of its period.
+/// Returns the integral from 0 to x of a train of pulses, each 1 in the first `edge` of its period.
 inline Float pulsetrainintegral(const Float& edge, const Float& period, const Float& x) {
   const Float periods = floor(x / period);
   return periods * edge + min(edge, x - periods * period);
 }
-/// The part of a sample that lies within such pulses.
+/// Returns the part of a sample that lies within such pulses.
 inline Float filteredpulsetrain(const Float& edge, const Float& period, const Float& x, const Float& dx) {
   const Float width = max(dx, kLeastWidth);
   return (pulsetrainintegral(edge, period, x + width / 2) - pulsetrainintegral(edge, period, x - width / 2)) / width;
 }
 
-/// Noise from -1 to 1.
+/// Returns noise from -1 to 1.
 inline Float snoise(const Triple& p) { return 2 * noise(p) - 1; }
-/// snoise() that fades where its waves, one unit long, are narrower than the sample.
+/// Returns snoise() that fades where its waves, one unit long, are narrower than the sample.
 inline Float filteredsnoise(const Triple& p, const Float& width) {
   return snoise(p) * (1 - smoothstep(0.2f, 0.75f, width));
 }
-/// A sum of octaves, each `lacunarity` times as fine and `gain` times as strong as the one before; `each` makes of an
-/// octave what is added.
+/// Returns a sum of octaves, each `lacunarity` times as fine and `gain` times as strong as the one before; `each` makes
+/// of an octave what is added.
 template <class Each>
 Float octaves(const Point& p, const Float& width, int most, float lacunarity, float gain, const Each& each) {
   Float sum = 0;
@@ -53,7 +53,7 @@ Float octaves(const Point& p, const Float& width, int most, float lacunarity, fl
 inline Float fBm(const Point& p, const Float& width, int most = 4, float lacunarity = 2, float gain = 0.5f) {
   return octaves(p, width, most, lacunarity, gain, [](const Float& x) { return x; });
 }
-/// The same sum of the octaves' magnitudes.
+/// Returns the same sum of the octaves' magnitudes.
 inline Float turbulence(const Point& p, const Float& width, int most = 4, float lacunarity = 2, float gain = 0.5f) {
   return octaves(p, width, most, lacunarity, gain, [](const Float& x) { return abs(x); });
 }

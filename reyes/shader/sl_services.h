@@ -1,5 +1,5 @@
-// What shaders ask of the renderer, on values of a batch: spaces, derivatives, random numbers, the ray that came,
-// messages (rispec-table 9.1 to 9.4). Part of reyes/sl.h.
+// Questions that shaders ask of the renderer, on values of a batch: spaces, derivatives, random numbers, the ray that
+// came, messages (rispec-table 9.1 to 9.4). Part of reyes/sl.h.
 #pragma once
 #include "reyes/shader/sl_lists.h"
 #include "reyes/shader/sl_shadeops.h"
@@ -55,14 +55,14 @@ inline Triple random3() {
 inline Float filterstep(const Float& edge, const Float& x, const char*, double width) {
   return filterstep(edge, x, width * (abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv))));
 }
-/// The area of a micropolygon whose points were at p.
+/// Returns the area of a micropolygon whose points were at p.
 inline Float area(const Triple& p) { return length(cross(Du(p) * Float(grid()->du), Dv(p) * Float(grid()->dv))); }
 /// "shading" and "dicing" are the same here: one point is shaded for each micropolygon.
 inline Float area(const Triple& p, const char*) { return area(p); }
 inline Normal calculatenormal(const Triple& p) {
   return tripleFrom([&](TmVec3 out) { grid()->call->calculateNormal(grid()->host, grid(), p, out); });
 }
-/// 0 at the near clipping plane, 1 at the far one.
+/// Returns 0 at the near clipping plane, and 1 at the far one.
 inline Float depth(const Triple& p) {
   return (zcomp(p) - double(grid()->clip[0])) / double(grid()->clip[1] - grid()->clip[0]);
 }
@@ -141,12 +141,12 @@ inline std::string askText(TmWhom whom, const char* name) {
   return text;
 }
 
-/// Inside illuminance(): asks the light whose sample this is.
+/// Asks the light whose sample this is, inside illuminance().
 template <class T>
 bool lightsource(int light, const char* name, T&& out) {
   return ask(TM_OF_LIGHT, name, out, light);
 }
-// These give what print() prints of a value at one point.
+// These return what print() prints of a value at one point.
 inline float at(const Float& x, int i) { return x[i]; }
 inline rsl::Vec3 at(const Triple& v, int i) { return v[i]; }
 inline rsl::Matrix at(const Matrix& m, int i) { return m[i]; }

@@ -18,7 +18,7 @@ class Run {
 
   TmGrid grid;
   int randoms = 0;          ///< The number of calls of random() so far.
-  float specularScale = 0;  ///< What sl::specularScale() returns; 0 until it has been called.
+  float specularScale = 0;  ///< Value that sl::specularScale() returns; 0 until it has been called.
 
  private:
   TM_OF_THIS_PLUGIN static Run*& current() {

@@ -67,7 +67,7 @@ class WaveletTile {
     for (float& c : coefficients_) c = static_cast<float>(c / deviation);
   }
 
-  /// A sum of four uniform numbers, which is near enough to a Gaussian.
+  /// Returns a sum of four uniform numbers, which is near enough to a Gaussian.
   static float random(int x, int y, int z) {
     float sum = -2;
     for (int k = 0; k < 4; ++k) sum += static_cast<float>(latticeHash(x, y, z * 4 + k) >> 8) * 0x1p-24f;

@@ -48,8 +48,8 @@ float turnOf(const LineSize& line) {
   return 16 * bend * (1 + 2.3f * bend * bend);
 }
 
-/// Least number of cells at any rate, so that the shape does not collapse where blur lets edges grow, and chords are
-/// flat.
+/// Returns the least number of cells at any rate, so that the shape does not collapse where blur lets edges grow, and
+/// chords are flat.
 int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   constexpr float kLeastOfCoarse = 4;
   // The hider knows how far a line bulges if it has two chords or more, and closes cracks by that

@@ -12,17 +12,18 @@ class ObjectView {
       : object_(object), camera_(camera), window_(window) {}
 
   bool cannotBeSeen(const Bound3& bare) const;
-  /// Does the undisplaced bound cross the eye plane? A displacement bound does not shrink with halving, so it does not
-  /// count.
+  /// Tells whether the undisplaced bound crosses the eye plane. A displacement bound does not shrink with halving, so
+  /// it does not count.
   bool crossesEye(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
-  /// Is all of it seen at about the same scale? If not, the cost of its near end says nothing about most of it.
+  /// Tells whether all of the bound is seen at about the same scale. If not, the cost of its near end says nothing
+  /// about most of it.
   bool isOfOneScale(const Bound3& bare) const;
-  /// Raster bound of the part beyond the near plane.
+  /// Returns the raster bound of the part beyond the near plane.
   Bound2 rasterOf(Bound3 bound, float reach_px) const;
-  /// Factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter of the
-  /// circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.
+  /// Returns the factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter
+  /// of the circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.
   float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const;
-  /// Is it a whole disk that one cell without corners or neighbours represents?
+  /// Tells whether the patch is a whole disk that one cell without corners or neighbours represents.
   bool canBeRound(uint32_t patch) const {
     return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk;
   }

@@ -4,13 +4,13 @@
 
 namespace tomales {
 
-/// Box in camera space around a rectangle, over the shutter, before displacement.
+/// Returns the box in camera space around a rectangle, over the shutter, before displacement.
 Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect);
-/// Raster length of the path of a rectangle's middle over the shutter. Pre: it stays in front of the eye.
+/// Returns the raster length of the path of a rectangle's middle over the shutter. Pre: it stays in front of the eye.
 float pathLength_px(const Object& o, const Camera& camera, uint32_t patch, const UvRect& rect);
-/// The least diameter of the circle of confusion in a range of depths; 0 if the focal plane is among them.
+/// Returns the least diameter of the circle of confusion in a range of depths; 0 if the focal plane is among them.
 float leastBlur_px(const Camera& camera, float zMin, float zMax);
-/// Raster bound, grown by what the hider may add to it: at a corner both borders are pushed.
+/// Returns the raster bound, grown by what the hider may add to it: at a corner both borders are pushed.
 Bound2 rasterOf(const Bound3& bound, float reach_px, const Camera& camera, const Bound2& throughTheEye = {});
 
 }  // namespace tomales

@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// The part of a second difference across the line; the part along it is a change of speed only.
+/// Returns the part of a second difference across the line; the part along it is a change of speed only.
 inline float bend(float x0, float y0, float x1, float y1, float x2, float y2) {
   const float alongX = x2 - x0, alongY = y2 - y0, secondX = x2 - 2.0f * x1 + x0, secondY = y2 - 2.0f * y1 + y0;
   const float length = std::sqrt(alongX * alongX + alongY * alongY),
@@ -15,8 +15,8 @@ inline float bend(float x0, float y0, float x1, float y1, float x2, float y2) {
   return length > 1e-3f * second ? finite : second;  // else the line goes there and back
 }
 
-/// Least number of chords of a line, however short, that enclose an area: it bends round (a meridian), or closes on
-/// itself (a parallel).
+/// Returns the least number of chords of a line, however short, that enclose an area: it bends round (a meridian), or
+/// closes on itself (a parallel).
 inline int leastCells(float length, float endToEnd) {
   return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1;
 }

@@ -15,7 +15,8 @@ struct LineSize {
 };
 struct PatchSize {
   LineSize u, v;
-  /// At most u.px * v.px, less if lines cross at a slant: computed for the largest part and applied to all.
+  /// Greatest area, at most u.px * v.px, and less if lines cross at a slant. It is computed for the largest part and
+  /// applied to all.
   float area_px2 = 0;
   Bound3 probes;  ///< Bound of the points that were measured, in camera space.
   /// Keeps the larger of both in every member.

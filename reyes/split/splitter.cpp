@@ -16,8 +16,8 @@ constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
 constexpr float kLeastReach_px = 0.05f;  ///< Vertices are snapped by this, and it closes T-vertices.
 constexpr int kRound_cells = 6;  ///< A disk of at most so many cells is shaded as one cell: only P varies over it.
-/// In edges of a micropolygon. A disk whose bound, 1.5 times as wide as the disk, is no wider than this takes few cells
-/// however it is measured.
+/// Greatest width of the bound of a dot, in edges of a micropolygon. The bound is 1.5 times as wide as the disk. A disk
+/// within it takes few cells however it is measured.
 constexpr float kDot = 4;
 /// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
 constexpr int kHalvingsAtOnce = 6;
@@ -34,22 +34,22 @@ std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
   return {a, b};
 }
 
-/// May an interval be halved? If not, there is no float between its ends.
+/// Tells whether an interval may be halved. If not, there is no float between its ends.
 bool hasMiddle(float from, float to) {
   const float middle = 0.5f * (from + to);
   return from < middle && middle < to;
 }
 
-/// Is a patch flat, also in its shading? As a single cell it then reaches out only to close T-vertices, and most small
-/// ones are missed by all samples.
+/// Tells whether a patch is flat, also in its shading. As a single cell it then reaches out only to close T-vertices,
+/// and most small ones are missed by all samples.
 bool isFlat(const Object& o, uint32_t patch) {
   const std::vector<Primvar>& primvars = o.shape().primvars();
   return o.displacementBound <= 0 && o.shape().info(patch).planar &&
          std::none_of(primvars.begin(), primvars.end(), [](const Primvar& p) { return p.name == "N"; });
 }
 
-/// Does a whole patch, for instance a particle, join no neighbour, or only along straight lines? Next to nothing is
-/// added to its borders then.
+/// Tells whether a whole patch, for instance a particle, joins no neighbour, or only along straight lines. Next to
+/// nothing is added to its borders then.
 bool isAlone(const Object& o, uint32_t patch) {
   const PatchInfo info = o.shape().info(patch);
   if (o.displacementBound > 0 || (info.openEdges & kAllEdges) != kAllEdges) return false;

@@ -18,7 +18,7 @@ class Splitter {
   Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats,
            Splitting splitting, StopFlag stop);
 
-  /// May patches like this one be dots? A shape has either disks only or none.
+  /// Tells whether patches like this one may be dots. A shape has either disks only or none.
   bool hasDots(uint32_t patch) const {
     return view_.canBeRound(patch) && object_.displacementBound <= 0 && object_.attributes->rasterOrient;
   }

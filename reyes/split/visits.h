@@ -11,20 +11,20 @@ class Visits {
   Visits(const PixelRect& window, int gridSize, float edge_px)
       : window_(window), gridSize_(gridSize), edge_px_(edge_px) {}
 
-  /// The budget of one of an object's `patches`.
+  /// Returns the budget of one of an object's `patches`.
   int64_t ofPatch(uint32_t patches) const;
-  /// The cost of a blurred piece beyond its visit, of an object with so many key times.
+  /// Returns the cost of a blurred piece beyond its visit, of an object with so many key times.
   int64_t ofBlur(const Bound2& raster, size_t keyTimes) const;
-  /// The visits that a coarse piece is expected to take.
+  /// Returns the visits that a coarse piece is expected to take.
   double expected(const SubPatch& coarse) const;
 
   int64_t grids(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
-  /// Is much of its bound in the window? If not, halving soon culls most of it, and the visits that it takes until then
-  /// have little to do with its grids: a strip that runs past the eye is thousands of windows wide.
+  /// Tells whether much of the bound is in the window. If not, halving soon culls most of it, and the visits that it
+  /// takes until then have little to do with its grids: a strip that runs past the eye is thousands of windows wide.
   bool isLargelySeen(const Bound2& raster) const;
 
  private:
-  /// Width and height of the part of a bound inside the window.
+  /// Returns the width and height of the part of a bound inside the window.
   glm::dvec2 sizeInWindow(const Bound2& raster) const;
   double windowArea() const { return static_cast<double>(window_.width()) * window_.height(); }
 

@@ -23,7 +23,7 @@ struct VdbProblem : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The name without what says of which class the grid is.
+/// Returns the name without the ending that gives the class of the grid.
 std::string withoutClass(const std::string& name, vdb::GridClass& given) {
   const auto ends = [&](const char* with) { return name.ends_with(with); };
   if (ends(":fogvolume")) given = vdb::GRID_FOG_VOLUME;

@@ -1,4 +1,5 @@
-// What an irradiance atlas holds, where the eye looks: a brick map's E/pi, or what a matte surface makes of it.
+// Shows the light that an irradiance atlas holds where the eye looks: a brick map's E/pi, or the light of a matte
+// surface.
 //     c++ -std=c++20 -O2 -fPIC -shared -I ../.. atlasview.cpp -o FOLDER/atlasview.so
 #include <reyes/sl.h>
 

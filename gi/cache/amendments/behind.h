@@ -7,8 +7,8 @@
 
 namespace tomales {
 
-/// Returns 1 behind a record, 0 in front, and what lies between at its plane. height: of the place over the record's
-/// plane, along the mean of both normals. pixel: at kappa 1.
+/// Returns 1 behind a record, 0 in front, and a value between just behind its plane. height: height of the place over
+/// the record's plane, along the mean of both normals. pixel: root of the projected pixel area at kappa 1.
 inline float behindness(float height, float radius, float pixel, float unseenDisplacement) {
   constexpr float kOfRadius = 0.1f;
   constexpr float kOfPixel = 0.45f;  // thin surfaces have two sides, however far their records are valid

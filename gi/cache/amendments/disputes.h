@@ -33,28 +33,30 @@ class Disputes {
     return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
   }
 
-  /// How far a record may reach that disagrees at this distance. Where light is steep, no record is needed nearer than
-  /// a pixel: it would be the noise of single pixels, each paid with a hemisphere. Where points see different surfaces,
-  /// something thinner than that lies between them.
+  /// Returns how far a record may reach that disagrees at this distance. Where light is steep, no record is needed
+  /// nearer than a pixel: such records would follow the noise of single pixels, each at the cost of a hemisphere. Where
+  /// points see different surfaces, something thinner than a pixel may lie between them.
   float limit(Disagreement disagreement, float distance, float pixelSize) const {
     if (disagreement == Disagreement::None) return kInfinity;
     return disagreement == Disagreement::Discontinuous ? distance
                                                        : std::max(distance, kFinestPixels * pixelSize / kappa_);
   }
 
-  /// Standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the hits.
+  /// Returns the standard error of an extrapolated value: gradients are as noisy as E over the mean distance of the
+  /// hits.
   static float noiseAt(const IrradianceRecord& r, float distance) { return r.noise * (1 + distance / r.harmonicMean); }
 
  private:
-  static constexpr float kDisagreement = 0.1f;  // relative difference at kappa 1; 5 % makes more records, no less error
-  static constexpr float kDiscontinuous = 0.5f;  // the same between points that see different surfaces
-  static constexpr float kNoiseMargin = 3;       // in standard errors
-  static constexpr float kDark = 0.1f;           // share of the mean E: darker values are compared with this
-  static constexpr float kFinestPixels = 1;      // at kappa 1
+  // Relative difference at kappa 1; 5 % makes more records, no less error.
+  static constexpr float kDisagreement = 0.1f;
+  static constexpr float kDiscontinuous = 0.5f;  // The same between points that see different surfaces.
+  static constexpr float kNoiseMargin = 3;       // Number of standard errors.
+  static constexpr float kDark = 0.1f;           // Share of the mean E; darker values are compared with this.
+  static constexpr float kFinestPixels = 1;      // Number of pixels at kappa 1.
 
   const bool on_;
   const float tolerance_, kappa_;
-  double luminanceSum_ = 0;  ///< Over the records' E.
+  double luminanceSum_ = 0;  ///< Sum of the luminances of the records' E.
   size_t records_ = 0;
 };
 

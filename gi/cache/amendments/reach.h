@@ -7,8 +7,8 @@
 
 namespace tomales {
 
-/// The inverse of the distance over which the gradients change a record's light by kSteep of itself; infinite where
-/// there is no light.
+/// Returns the inverse of the distance over which the gradients change a record's light by kSteep of itself; infinite
+/// where there is no light.
 inline float steepnessOf(const IrradianceRecord& r) {
   constexpr float kSteep = 0.3f;  // more lets the dark side of edges get light
   const vec3 slope = r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2];
@@ -16,8 +16,8 @@ inline float steepnessOf(const IrradianceRecord& r) {
   return most > 0 ? glm::length(slope) / most : kInfinity;
 }
 
-/// Factor on a record's radius: `wider` where light does not change over the radius, and 1 where it changes by kSteep
-/// of itself.
+/// Returns the factor on a record's radius: `wider` where light does not change over the radius, and 1 where it changes
+/// by kSteep of itself.
 inline float reachFactor(float steepness, float radius, float wider) {
   const float change = radius * steepness;
   return 1 + (wider - 1) * std::max(0.0f, 1 - change * change);

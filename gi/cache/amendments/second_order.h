@@ -33,8 +33,8 @@ class MeanExtrapolation {
     square_ += weight * E * E;
     return E;
   }
-  /// The same for a share of the record's light. A channel counts where that of the whole does (`whole`, which is what
-  /// another mean's add() returned), so that shares add up to it. agreement() is not to be asked.
+  /// Does the same for a share of the record's light. A channel counts where that of the whole does (`whole`, which is
+  /// what another mean's add() returned), so that shares add up to it. Do not ask for agreement() then.
   vec3 addShare(const IrradianceRecord& r, const LightShare& share, float weight, const vec3& whole) {
     const vec3 E = share.E + addLight(r, share, weight);
     return vec3(glm::greaterThan(whole, vec3(0.0f))) * E;

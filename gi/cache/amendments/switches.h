@@ -19,10 +19,10 @@ inline constexpr std::array kAmendments = {
     "slopes",        // gi/cache/amendments/slopes.h
 };
 
-/// False where the bench has switched it off.
+/// Returns false where the bench has switched it off.
 bool isOn(Amendment amendment);
 
-/// Tells whether records of this error function are amended so.
+/// Tells whether records of this error function have this amendment.
 inline bool isOn(Amendment amendment, const ErrorFunctionInfo& info) {
   return isOn(amendment) && !(info.without & bitOf(amendment));
 }

@@ -131,7 +131,7 @@ class BatchRun {
     return show(plan, states);
   }
 
-  /// The most tasks at a time here.
+  /// Returns the most tasks at a time here.
   int processes() const { return command_.processes > 0 ? command_.processes : threadCount(); }
 
   /// Returns the exit code: that of missing output if tasks have failed.

@@ -13,11 +13,11 @@ struct BatchCommand {
   std::vector<std::string> what;
   PlanOptions plan;
   SlurmOptions slurm;
-  std::string folder;  ///< For plan.json, states and logs; if empty, the scene's name with .batch.
+  std::string folder;  ///< Folder of plan.json, states and logs; if empty, the scene's name with .batch.
   std::string page;    ///< The HTML page to write; empty for none.
   bool onSlurm = false, json = false;
   bool planOnly = false;  ///< The plan is made, and nothing of it is run.
-  int processes = 0;      ///< At a time; 0 for one on each processor.
+  int processes = 0;      ///< Processes at a time; 0 for one on each processor.
 };
 int batchCommand(BatchCommand command);
 

@@ -77,7 +77,7 @@ class FrameReader {
     return out;
   }
 
-  // What follows would be found only when frames have been rendered.
+  // The checks that follow find problems that would otherwise be found only after frames have been rendered.
 
   bool writesApart() const {
     std::map<std::string, int> writers;

@@ -9,7 +9,7 @@
 
 namespace tomales {
 
-/// What a frame of the scene writes.
+/// The files and maps that a frame of the scene writes.
 struct FrameFiles {
   int worlds = 0;
   bool maps = false;                            ///< It writes maps for later frames, and nothing else.
@@ -21,7 +21,7 @@ struct FrameFiles {
 
 struct BatchFrames {
   static constexpr int kMake = std::numeric_limits<int>::min();
-  std::map<int, FrameFiles> frames;  ///< By their numbers.
+  std::map<int, FrameFiles> frames;  ///< The frames by their numbers.
   std::vector<int> events;           ///< Numbers of frames, and kMake for Make requests, in the order of the stream.
   bool hasMakes = false;             ///< Some of them are kMake.
   bool apart = true;                 ///< Frames do not depend on each other.

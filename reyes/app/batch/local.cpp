@@ -64,7 +64,8 @@ class LocalRun {
   const std::vector<TaskState>& states() const { return states_; }
 
  private:
-  /// What tasks have left running comes to this process when they end (openNursery()).
+  /// Ends the zombies of processes that tasks have left running. These become children of this process when their task
+  /// ends (openNursery()).
   void reapOrphans() const {
     const auto isTask = [&](pid_t child) {
       return std::ranges::any_of(running_, [&](const auto& r) { return r.second->child() == child; });

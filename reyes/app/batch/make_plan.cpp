@@ -49,7 +49,7 @@ class PlanMaker {
  private:
   /// Frames that make maps, and Make requests, as they follow each other. Returns the tasks that all other frames need.
   std::vector<std::string> addMaps() {
-    std::vector<std::string> needs, since;  // the last Make requests; the frames after them
+    std::vector<std::string> needs, since;  // needs: the last Make requests; since: the frames after them
     int make = 0, makes = 0;
     const auto addMakes = [&](int first, int end) {
       if (first == end) return;
@@ -119,7 +119,8 @@ class PlanMaker {
       }
   }
 
-  /// The settings of light that are found for all frames, if they are. Returns the tasks that frames need then.
+  /// Adds the task that finds settings of light for all frames, if they need one. Returns the tasks that frames then
+  /// need.
   std::vector<std::string> addSettings(const std::vector<std::string>& needs) {
     target_ = options_.targetArguments;
     const RenderSettings& render = options_.render;
@@ -259,7 +260,8 @@ class PlanMaker {
   Log& log_;
   BatchPlan plan_;
   BatchFrames scene_;
-  std::vector<std::string> target_;  ///< For frames that are not maps: what their light has to reach.
+  /// Arguments for frames other than maps: the target that their light has to reach.
+  std::vector<std::string> target_;
   std::map<int, LightOfFrame> light_;
 };
 

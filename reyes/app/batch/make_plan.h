@@ -6,18 +6,21 @@
 namespace tomales {
 
 struct PlanOptions {
-  RenderSettings render;           ///< As `render` takes them; `frames` are those of the batch.
+  RenderSettings render;           ///< Settings of `render`; `frames` are those of the batch.
   std::array<int, 2> tiles{1, 1};  ///< Columns and rows of tiles of each frame.
   int sharedRecords =
-      1;                ///< Frames in a row that share irradiance records, each beginning with those of the one before.
-  int photonParts = 0;  ///< Tasks that trace the photons of one world; 0: as their number asks.
-  std::vector<std::string> pictureArguments;  ///< What the user gave of these options: they go to the passes that
-  std::vector<std::string> lightArguments;    ///< take them.
-  std::vector<std::string> targetArguments;   ///< Those that choose settings of light for frames.
-  std::filesystem::path file;                 ///< The plan.
+      1;  ///< Frames in a row that share irradiance records, each beginning with those of the one before.
+  /// Tasks that trace the photons of one world; 0: their number follows from that of the photons.
+  int photonParts = 0;
+  /// Words of the user for options of pictures, for the passes that take them.
+  std::vector<std::string> pictureArguments;
+  /// Words of the user for options of light, for the passes that take them.
+  std::vector<std::string> lightArguments;
+  std::vector<std::string> targetArguments;  ///< Words of the user that choose settings of light for frames.
+  std::filesystem::path file;                ///< The plan.
 
   int tileCount() const { return tiles[0] * tiles[1]; }
-  /// Are frames hidden, gathered and shaded in tasks of their own?
+  /// Tells whether frames are hidden, gathered and shaded in tasks of their own.
   bool inPasses() const { return tileCount() > 1 || sharedRecords > 1; }
 };
 

@@ -22,12 +22,12 @@ struct BatchTask {
 struct BatchPlan {
   std::filesystem::path file;         ///< The plan itself; its folder has states and logs.
   std::string workingFolder;          ///< Relative names start there.
-  std::vector<std::string> pictures;  ///< For people: the first picture of each frame.
+  std::vector<std::string> pictures;  ///< The first picture of each frame, for people.
   std::vector<BatchTask> tasks;       ///< A task stands after those that it needs.
 
   std::filesystem::path folder() const { return file.parent_path(); }
   std::filesystem::path logOf(const BatchTask& task) const { return folder() / "log" / (task.name + ".log"); }
-  /// A file between tasks of a frame.
+  /// Returns a file between tasks of a frame.
   std::filesystem::path workOf(int frame, const std::string& end) const;
   std::filesystem::path stateOf(const BatchTask& task) const { return folder() / "state" / (task.name + ".json"); }
   /// Returns null if there is none.
@@ -45,7 +45,7 @@ void makeFolders(const BatchPlan& plan);
 /// Throws WriteError.
 void writePlan(const BatchPlan& plan);
 
-/// What is known of a task: the contents of its file of state.
+/// The known facts about a task: the contents of its file of state.
 struct TaskState {
   enum Kind { Waiting, Running, Done, Failed } kind = Waiting;
   int attempts = 0;  ///< Number of runs since the task was last started anew.
@@ -56,19 +56,19 @@ struct TaskState {
   uint64_t sum = 0;            ///< taskSum() of the task that ran.
   std::vector<int64_t> sizes;  ///< Bytes of the files that it has made.
 };
-/// The name of a frame's task.
+/// Returns the name of a frame's task.
 std::string taskName(int frame, const std::string& stage);
 uint64_t taskSum(const BatchTask& task);
-/// Waiting if there is none, or if the task has been edited since.
+/// Returns the state of a task. It is Waiting if there is no file of state, or if the task has been edited since.
 TaskState readState(const BatchPlan& plan, const BatchTask& task);
-/// Bytes of the files that a task makes; nothing if one of them is not there.
+/// Returns the bytes of the files that a task makes, or nothing if one of them is not there.
 std::optional<std::vector<int64_t>> sizesOf(const BatchPlan& plan, const BatchTask& task);
-/// The states of all tasks. A task is done only if what it made is still there, or if all tasks that need it are done.
-/// Files that other tasks need must have the size that they were made with.
+/// Returns the states of all tasks. A task is done only if what it made is still there, or if all tasks that need it
+/// are done. Files that other tasks need must have the size that they were made with.
 std::vector<TaskState> statesOf(const BatchPlan& plan);
 /// Throws WriteError.
 void writeState(const BatchPlan& plan, const BatchTask& task, const TaskState& state);
-/// The last lines of a task's log.
+/// Returns the last lines of a task's log.
 std::string lastLines(const std::filesystem::path& log, size_t lines);
 
 }  // namespace tomales

@@ -102,7 +102,7 @@ class MapTasks {
   std::vector<BatchTask> tasks_;
 };
 
-/// The number of tasks that trace the photons of one world.
+/// Returns the number of tasks that trace the photons of one world.
 int partsOf(const SharedLight& light, const PlanOptions& options) {
   if (!light.photons) return 1;
   if (options.photonParts > 0) return options.photonParts;

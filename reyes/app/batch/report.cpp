@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr size_t kLogLines = 6;
 constexpr int kThumbnail = 160;  ///< Pixels of the longer edge.
 
-/// What a frame may be, and the frames of a report that are.
+/// A state that a frame may have, and the list of the frames that are in it.
 struct FrameState {
   const char* name;
   std::vector<int> BatchReport::*frames;
@@ -45,7 +45,7 @@ struct FrameFigures {
   }
 };
 
-/// For each task the failed one that it waits for, directly or by way of others; null if there is none.
+/// Returns for each task the failed one that it waits for, directly or by way of others; null if there is none.
 std::vector<const BatchTask*> blockersOf(const BatchPlan& plan, const std::vector<TaskState>& states) {
   std::map<std::string, const BatchTask*> blockerOfThose;  // of tasks that need the one of this name
   std::vector<const BatchTask*> out;

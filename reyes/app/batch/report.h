@@ -1,4 +1,4 @@
-// What is known of a batch, for people and for farms. Threads: plain functions.
+// The state of a batch, for people and for farms. Threads: plain functions.
 #pragma once
 #include "reyes/app/batch/plan.h"
 
@@ -24,10 +24,10 @@ struct BatchReport {
 };
 
 BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states);
-/// A line for each state, and the last lines of what failed.
+/// Returns a line for each state, and the last lines of what failed.
 std::string textOf(const BatchPlan& plan, const BatchReport& report);
 std::string jsonOf(const BatchPlan& plan, const std::vector<TaskState>& states);
-/// A page that needs no other files: figures of each frame and small pictures of the finished ones.
+/// Returns a page that needs no other files: figures of each frame and small pictures of the finished ones.
 std::string pageOf(const BatchPlan& plan, const std::vector<TaskState>& states);
 
 }  // namespace tomales

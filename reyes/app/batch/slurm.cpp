@@ -91,7 +91,7 @@ std::vector<std::string> commonNeeds(const std::vector<const BatchTask*>& tasks)
   return out;
 }
 
-/// The arrays whose tasks these need one by one, besides what all of them need; none if it is not so.
+/// Returns the arrays whose tasks these need one by one, besides what all of them need; none if it is not so.
 std::optional<std::vector<const JobArray*>> leadersOf(const std::vector<const BatchTask*>& tasks,
                                                       const Arrays& arrays) {
   const std::vector<std::string> common = commonNeeds(tasks);
@@ -118,7 +118,7 @@ std::optional<std::vector<const JobArray*>> leadersOf(const std::vector<const Ba
   return out;
 }
 
-/// As many tasks together as an array may have.
+/// Divides tasks into parts of as many as an array may have.
 std::vector<std::vector<const BatchTask*>> inParts(const std::vector<const BatchTask*>& tasks) {
   std::vector<std::vector<const BatchTask*>> out;
   for (size_t i = 0; i < tasks.size(); ++i) {
@@ -158,7 +158,7 @@ Arrays arraysOf(const std::vector<BatchTask>& wanted) {
   return out;
 }
 
-/// A plan of these tasks alone: that of a long shot has many megabytes, which each task would read.
+/// Returns a plan of these tasks alone: that of a long shot has many megabytes, which each task would read.
 BatchPlan partOfPlan(const BatchPlan& plan, const JobArray& array) {
   BatchPlan out{plan.folder() / (array.name + ".json"), plan.workingFolder, {}, {}};
   for (const BatchTask* t : array.tasks) {
@@ -194,7 +194,7 @@ exit $code
                            quoted(partOfPlan(plan, array).file.string()), kMostAttempts, kRequeue);
 }
 
-/// What sbatch shall wait for; empty for nothing.
+/// Returns the jobs that sbatch shall wait for, as --dependency takes them; empty for none.
 std::string dependencyOf(const JobArray& array, const Arrays& all) {
   std::string out;
   for (const auto& other : all) {

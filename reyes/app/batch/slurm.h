@@ -8,7 +8,7 @@
 namespace tomales {
 
 struct SlurmOptions {
-  std::string partition, time, memory;  ///< As sbatch takes them; empty for the cluster's default.
+  std::string partition, time, memory;  ///< Values for options of sbatch; empty for the cluster's default.
   int cpus = 1;                         ///< Processors of each task.
   int atOnce = 0;                       ///< Most tasks of one array at a time; 0 for no limit.
 };
@@ -20,7 +20,7 @@ void refuseIfOnCluster(const BatchPlan& plan);
 /// Writes the scripts of tasks that are not done, and submits them. Returns the number of jobs. What was submitted is
 /// taken back if one of them is refused, which throws FileError.
 size_t submitToSlurm(const BatchPlan& plan, const SlurmOptions& options);
-/// Was the plan given to Slurm?
+/// Tells whether the plan was given to Slurm.
 bool hasJobs(const BatchPlan& plan);
 void cancelJobs(const BatchPlan& plan);
 

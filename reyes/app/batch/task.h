@@ -18,7 +18,7 @@ class RunningTask {
  public:
   /// Starts the program on it; messages go to the end of its log. Throws WriteError.
   RunningTask(const BatchPlan& plan, const BatchTask& task, int attempt);
-  /// True when it has ended; its state has been written then, and files that nobody needs any more are gone.
+  /// Returns true when it has ended; its state has been written then, and files that nobody needs any more are gone.
   bool ended();
   /// Asks it to end, as a farm does.
   void stop();

@@ -84,7 +84,7 @@ class Chart {
   }
 
   /// Measures the reference for its share of the budget, then all points, then more batches while the budget lasts.
-  /// What a noisy reference hides is seen when the chart is made again, which goes on.
+  /// When the chart is made again it goes on, and shows differences that a noisy reference hides now.
   int run() {
     if (const std::string problem = placesProblem(settings_.output, labSettings_.folder); !problem.empty())
       return fail(Severity::Output, problem);

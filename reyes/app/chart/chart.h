@@ -23,13 +23,13 @@ struct ChartSettings {
   Trust trust;       ///< Says which code that the RIB names may run.
 };
 
-/// The arguments that every rendering has beside the scene: --format, --bounces, -t, and those of trust.
+/// Returns the arguments that every rendering has beside the scene: --format, --bounces, -t, and those of trust.
 std::vector<std::string> sharedArguments(const ChartSettings& settings);
 
 /// Joins arguments to a command as a shell would take it.
 std::string joined(const std::vector<std::string>& arguments);
 
-/// The user's folder for measurements.
+/// Returns the user's folder for measurements.
 std::string chartCacheFolder();
 
 int chartCommand(const ChartSettings& settings);

@@ -82,12 +82,13 @@ MeanErrors meanErrors(const Image& test, const Image& reference, const Image& li
   return {sum.relative / n, sum.square / n};
 }
 
-/// What is left of a square with all `batches`, if each counts as one of so many in its noise.
+/// Returns what is left of a square without the noise. `all` is the square with all `batches`; `meanOfOthers` is the
+/// mean of the squares with one batch left out.
 double withoutNoise(double all, double meanOfOthers, double batches) {
   return std::max(0.0, batches * all - (batches - 1) * meanOfOthers);
 }
 
-/// Half the 95 % interval of a figure, from what it would be without each batch.
+/// Returns half the 95 % interval of a figure, from its values without each batch.
 double jackknife(const std::vector<double>& without, double all) {
   double spread = 0;
   for (const double v : without) spread += (v - all) * (v - all);

@@ -11,7 +11,8 @@ namespace tomales {
 
 /// Figures of |test - reference| / (reference + 0.01) over the colours of all pixels where the reference is not black.
 struct ErrorFigures {
-  double mean = 0;      ///< Without the noise of the reference (ChartReference::errorOf); 0 if that hides it all.
+  /// The mean without the noise of the reference (ChartReference::errorOf); 0 if that hides it all.
+  double mean = 0;
   double measured = 0;  ///< The mean with that noise.
   double p99 = 0;       ///< The 99th percentile, with that noise.
   double bias = 0;      ///< The sums of all pixels: test / reference - 1.
@@ -20,10 +21,10 @@ struct ErrorFigures {
       0;  ///< Pixels that are infinite or no numbers: in the test they count as black, in the reference not at all.
   double confidence =
       0;  ///< Half the 95 % interval of `mean` that the noise of the reference leaves (jackknife over its batches).
-  std::vector<double> without{};  ///< What `measured` would be without each batch of the reference.
+  std::vector<double> without{};  ///< Indexed by batch of the reference: the value of `measured` without that batch.
 };
 
-/// How much more one picture is off than another, and half the 95 % interval. Both were held against the same
+/// The difference of the errors of two pictures, and half of its 95 % interval. Both were compared with the same
 /// reference, whose noise mostly cancels in the difference.
 struct ErrorDifference {
   double mean = 0, confidence = 0;
@@ -39,7 +40,7 @@ class ChartReference {
   int batches() const { return static_cast<int>(batches_.size()); }
   const Image& mean() const { return mean_; }
   bool isBlack() const;  ///< True if no pixel has light that is a number.
-  /// The mean error of the reference itself, from the spread of its batches; infinite with fewer than two.
+  /// Returns the mean error of the reference itself, from the spread of its batches; infinite with fewer than two.
   double noiseFloor() const;
   /// Takes the reference's own noise out of the error by the jackknife (Efron and Stein 1981): the square of an error
   /// is taken to grow by the variance of the reference, which is that of one batch over their number. For differences
@@ -60,7 +61,7 @@ class ChartReference {
 /// Returns ", 3 pixels not finite", or nothing if all are.
 std::string notFiniteNote(const ErrorFigures& error);
 
-/// The brightest that counts in a picture: all but a few pixels are darker, and it is not far above the median.
+/// Returns the brightest that counts in a picture: all but a few pixels are darker, and it is not far above the median.
 float brightness(const Image& image);
 /// Returns the largest reduction of at most `size` pixels, times a gain: squares of a whole number of pixels are
 /// averaged to one.

@@ -28,7 +28,7 @@ class Markup {
 /// linear light, and two that are chosen take turns in one place. `white` is the value that is white in the files.
 std::string pictureTools(float white);
 
-/// A file of reyes/app/chart/page, or Chart.js.
+/// Returns a file of reyes/app/chart/page, or Chart.js.
 std::string_view chartFile(std::string_view name);
 
 /// Returns a PNG file as the address of an <img>.

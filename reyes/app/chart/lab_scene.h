@@ -1,15 +1,13 @@
 // A scene with a knob that drives a method from harmless to fatal. It is RIB, with `$knob` where the knob's value
-// belongs (there or in the arguments of a method), and says in comments what is to be measured:
+// belongs (there or in the arguments of a method). Comments say what is measured:
 //
 //   ##lab title Walls thinner than a record's reach
-//   ##lab knob thickness of the wall, m: 0.4 0.2 0.1 0.05 0.02        (harmless first)
-//   ##lab truth --gi reference --bounces 1 --samples 256 --light-seed @ (rendered several times; @ is the number of the
-//   time)
-//   ##lab method gather, screen: --gi gather --samples 200             (once a method)
-//   ##lab common --indirect-only                                       (of every run)
+//   ##lab knob thickness of the wall, m: 0.4 0.2 0.1 0.05 0.02             (harmless first)
+//   ##lab truth --gi reference --bounces 1 --samples 256 --light-seed @    (several times, whose number is @)
+//   ##lab method gather, screen: --gi gather --samples 200                 (once a method)
+//   ##lab common --indirect-only                                           (of every run)
 //   ##lab note Walls under 2 cm leak with records farther apart than that. (optional; repeated lines are joined)
-//   ##lab limit pixel-noise: 0.05                                      (optional: from this value on the renderer
-//   itself warns, under this code)
+//   ##lab limit pixel-noise: 0.05      (optional: from this value on the renderer itself warns, under this code)
 //
 // `$truth` is 1 while the truth is rendered and 0 else: by IfBegin "$truth == 1" the truth can have things that methods
 // do not.
@@ -37,7 +35,7 @@ struct LabScene {
   std::vector<std::string> common, truth;
   std::vector<LabMethod> methods;
   std::optional<LabLimit> limit;
-  std::string note;  ///< What the manual says about the scene.
+  std::string note;  ///< Words of the manual about the scene.
   std::string text;  ///< The text of the whole file.
 };
 

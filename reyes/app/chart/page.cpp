@@ -108,8 +108,8 @@ class Page : Markup {
     return seconds.has_value();
   }
 
-  /// Whether a method is worse is told by the interval of the difference: the noise of the reference, which all share,
-  /// makes the interval of each wider than that.
+  /// Shows the differences of methods. The interval of the difference tells whether a method is worse: the noise of the
+  /// reference, which all share, makes the interval of each method wider than that.
   void differences() {
     const ChartPoint* best = mostAccurate(r_, r_.curves.size());
     if (!best || r_.curves.size() < 2) return;

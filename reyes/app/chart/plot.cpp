@@ -20,7 +20,7 @@ Json of(const PlotPoint& p) {
           {"best", p.best}, {"warned", p.warned}, {"name", p.name}, {"interval", p.interval}};
 }
 
-/// A canvas and its figures. Within a script no text may end it.
+/// Returns a canvas and its figures. Within a script no text may end it.
 std::string drawing(const Json& figures, int height) {
   std::string text = figures.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");

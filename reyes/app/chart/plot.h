@@ -8,11 +8,11 @@ namespace tomales {
 struct PlotPoint {
   double x, y;
   std::string tip;      ///< Shown when pointed at.
-  std::string link;     ///< Where a click goes.
+  std::string link;     ///< Target of a click.
   bool best = false;    ///< Nothing else is both cheaper and more accurate.
   bool warned = false;  ///< Drawn with a red ring.
   std::string name{};   ///< Written beside it.
-  double interval = 0;  ///< Half of that of y.
+  double interval = 0;  ///< Half the interval of y.
 };
 
 struct PlotCurve {
@@ -32,16 +32,16 @@ struct Plot {
 /// A figure that may have either sign, with its interval.
 struct PlotDifference {
   std::string name;
-  size_t curve;  ///< Whose colour it has.
+  size_t curve;  ///< The curve whose colour it has.
   double mean, interval;
 };
 
-/// What a page needs once, if it has any drawing.
+/// Returns the scripts that a page needs once, if it has any drawing.
 std::string plotScripts();
 std::string drawPlot(const Plot& plot);
 /// Draws shares below each other on a linear axis, with a line at 0.
 std::string drawDifferences(const std::string& title, const std::vector<PlotDifference>& rows);
-/// The colour of a curve, by its index.
+/// Returns the colour of a curve, by its index.
 const char* plotColor(size_t curve);
 
 }  // namespace tomales

@@ -13,7 +13,8 @@ struct ChartCurve {
 
 struct ChartSweep {
   std::string name, title;
-  std::string needs;                             ///< What the scene must have, or all pictures would be black.
+  /// The thing that the scene must have; else all pictures would be black.
+  std::string needs;
   std::vector<std::string> common;               ///< Arguments of every run, those of the reference too.
   std::vector<std::string> reference;            ///< Arguments of a batch; batches differ in `seed`.
   std::string seed;                              ///< The option that makes batches independent.

@@ -24,7 +24,7 @@ bool copyTo(std::FILE* out, const CatribSettings& settings, std::string& error, 
 }
 
 bool toStandardOutput(const CatribSettings& settings, std::string& error, Log& log) {
-  ::signal(SIGPIPE, SIG_DFL);  // ends this program quietly when nobody reads the rest
+  ::signal(SIGPIPE, SIG_DFL);  // this ends the program quietly when nobody reads the rest
   const bool written = copyTo(stdout, settings, error, log);
   std::clearerr(stdout);  // the failure is reported with its reason
   return written;

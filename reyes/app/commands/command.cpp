@@ -15,7 +15,7 @@
 namespace tomales {
 namespace {
 
-/// Does the text name a command? If not, the arguments are those of render.
+/// Tells whether the text names a command. If not, the arguments are those of render.
 bool namesCommand(const CLI::App& app, const std::string& text) {
   for (const char* name : {"-h", "--help", "--help-all", "--version"})
     if (text == name) return true;
@@ -79,10 +79,10 @@ int runTexts(const std::vector<std::string>& arguments) {
 
 int run(int argc, char** argv) {
   openStandardFiles();
-  if (argc > 1 && std::string(argv[1]) == "batch") openNursery(runTexts);  // before there are threads
+  if (argc > 1 && std::string(argv[1]) == "batch") openNursery(runTexts);  // this comes before there are threads
   endWithMessages();
   reportCrashes();
-  watchSignals();  // before other threads start, which must not get the signals
+  watchSignals();  // this comes before other threads start, which must not get the signals
   int code = kDone;
   runOnDeepStack([&] { code = runGuarded(argc, argv); });
   return code;

@@ -12,7 +12,7 @@ namespace tomales {
 /// on a batch with guarded arrays and some inactive points, where faults are noted, and then as it is asked for.
 const TmShaderLibrary* guardedLibrary(const TmShader& shader);
 
-/// The faults of the shader of the last guardedLibrary(), each in words that follow its name.
+/// Returns the faults of the shader of the last guardedLibrary(), each in words that follow its name.
 const std::set<std::string>& guardedFaults();
 void noteFault(const std::string& fault);
 

@@ -5,7 +5,7 @@
 
 namespace tomales {
 
-/// The kinds of things that can be listed.
+/// Returns the kinds of things that can be listed.
 std::vector<std::string> listedKinds();
 /// Pre: `kind` is one of listedKinds(). Prints to standard output, as JSON or as text; returns the exit code.
 int listCommand(const std::string& kind, bool json);

@@ -47,7 +47,7 @@ void addShaderFolders(CLI::App& app, std::string& folders);  ///< --shaders, whi
 void addRunOptions(CLI::App& app, RenderSettings& s);        ///< Threads, statistics, memory of textures, verbosity.
 /// --target-error, --time-budget. Pre: the options of the command that it excludes have been added.
 void addTarget(CLI::App& app, RenderSettings& s);
-/// The same of a run that renders several frames.
+/// Adds the same options for a run that renders several frames.
 void addShotTarget(CLI::App& app, RenderSettings& s);
 void addWatching(CLI::App& app, RenderSettings& s);  ///< --preview, --pixel
 

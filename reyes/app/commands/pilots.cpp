@@ -63,7 +63,7 @@ class PilotRun {
       performMake(request, settings_.outputRoot, log_);
   }
 
-  /// The numbers of the frames to be rendered.
+  /// Returns the numbers of the frames to be rendered.
   std::vector<int> frames() {
     if (settings_.frames) return *settings_.frames;
     std::vector<int> out;

@@ -8,8 +8,8 @@
 
 namespace tomales {
 
-/// Must settings of light hold for the frames of this run? True if the program chooses them, and there may be several
-/// frames, or other runs have some.
+/// Tells whether settings of light must hold for all frames of this run: the program chooses them, and there may be
+/// several frames, or other runs have some.
 bool holdsForShot(const RenderSettings& settings);
 
 /// Reads --shot-settings if that file is there. Else finds settings on the pilot frames, which needs all of the stream

@@ -32,7 +32,8 @@
 namespace tomales {
 namespace {
 
-/// What Make requests read matters only where the command line may rename it or change its size.
+/// Finds the pictures that Make requests read. They matter only where the command line may rename them or change their
+/// size.
 RenderSettings withSources(RenderSettings settings) {
   if (namesPicture(settings.output) || settings.format || settings.crop) settings.sources = makeSources(settings.files);
   return settings;
@@ -136,7 +137,7 @@ class RenderRun {
     beginReading();
   }
 
-  /// The settings of a frame, with those of light that hold for the shot.
+  /// Returns the settings of a frame, with those of light that hold for the shot.
   RenderSettings held(Scene& scene) {
     RenderSettings out = settings_;
     out.reading_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - readingSince_).count();
@@ -209,13 +210,13 @@ class RenderRun {
   const Job job_;
   const bool seen_;
   const ThreadLimit threads_;
-  std::optional<StageTimer> parse_;  // while the scene is read
+  std::optional<StageTimer> parse_;  // Runs while the scene is read.
   std::chrono::steady_clock::time_point readingSince_;
-  std::optional<ProgressMeter> meter_;  // likewise
+  std::optional<ProgressMeter> meter_;  // Runs while the scene is read.
   std::set<std::string> written_;
   std::optional<HeldQuality> held_;
-  int pictureFrame_ = 0;  // Of the last picture,
-  size_t picture_ = 0;    // and the next one's number in that frame.
+  int pictureFrame_ = 0;  // Frame of the last picture.
+  size_t picture_ = 0;    // Number of the next picture in that frame.
   int scenes_ = 0, rendered_ = 0, makes_ = 0;
   bool made_ = false;  // True if a Make request was performed.
   bool outputUsed_ = false;

@@ -16,7 +16,7 @@ std::string endingOf(const std::string& name) {
   return out;
 }
 
-/// Does a text seem to name a picture?
+/// Tells whether a text seems to name a picture.
 bool namesMap(const std::string& text) {
   const std::vector<std::string>& endings = pictureEndings();
   return std::find(endings.begin(), endings.end(), endingOf(text)) != endings.end();

@@ -13,7 +13,7 @@
 namespace tomales {
 namespace {
 
-/// In the digits that tell it from other floats: 0.8, not 0.800000011920929.
+/// Returns the number with the digits that tell it from other floats: 0.8, not 0.800000011920929.
 double shortOf(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
 
 Json defaultOf(const TmParamDecl& p) {

@@ -17,7 +17,7 @@ Json pluginInfo(const std::string& path, Log& log);
 /// Describes a shader in NAME.sl, NAME.so or built in. Returns null if there is none, which is reported.
 Json namedShaderInfo(const std::string& name, const PluginTrust& trust, Log& log);
 
-/// Is it an array of values that fit on a line?
+/// Tells whether it is an array of values that fit on a line.
 bool isScalarList(const Json& value);
 /// Returns a value as `tomales info` prints it on a line.
 std::string lineOf(const Json& value);

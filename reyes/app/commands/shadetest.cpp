@@ -62,7 +62,7 @@ Tried findShaders(const ShadetestCommand& command, ShaderRegistry& registry, Log
   return {};
 }
 
-/// How many numbers the text holds, separated by blanks; -1 if it holds anything else.
+/// Returns how many numbers the text holds, separated by blanks; -1 if it holds anything else.
 int numbersIn(const std::string& text) {
   int out = 0;
   std::istringstream in(text);

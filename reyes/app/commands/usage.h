@@ -1,4 +1,4 @@
-// What the command line takes: its commands, their options, and where these are kept.
+// The commands of the command line, their options, and the places where these are kept.
 #pragma once
 #include "reyes/app/batch/batch.h"
 #include "reyes/app/chart/chart.h"
@@ -41,7 +41,9 @@ struct Invocation {
 
 /// Each adds its commands to `app`. Parsing runs the command that is named, which sets `code` to its exit code.
 void addFrameCommands(CLI::App& app, Invocation& in, int& code);  ///< render, hide, gather, shade, batch, chart
-void addFileCommands(CLI::App& app, Invocation& in, int& code);  ///< For scenes, shaders, models and pictures as files.
-void addAtlasCommands(CLI::App& app, Invocation& in, int& code);  ///< For photons, point clouds and brick maps.
+/// Adds commands for scenes, shaders, models and pictures as files.
+void addFileCommands(CLI::App& app, Invocation& in, int& code);
+/// Adds commands for photons, point clouds and brick maps.
+void addAtlasCommands(CLI::App& app, Invocation& in, int& code);
 
 }  // namespace tomales

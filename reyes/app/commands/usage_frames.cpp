@@ -155,7 +155,7 @@ void buildRelight(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = relightFirst(in.relight); });
 }
 
-/// What the user gave of some options, as it would be written again.
+/// Returns the words that the user gave for some options, as they would be written again.
 std::vector<std::string> givenOf(const std::vector<CLI::Option*>& options) {
   std::vector<std::string> out;
   for (const CLI::Option* o : options) {
@@ -169,7 +169,7 @@ std::vector<std::string> givenOf(const std::vector<CLI::Option*>& options) {
   return out;
 }
 
-/// The options that `add` gives to the command.
+/// Returns the options that `add` gives to the command.
 template <class Add>
 std::vector<CLI::Option*> added(CLI::App& app, const Add& add) {
   const auto before = app.get_options();

@@ -21,7 +21,7 @@ constexpr std::array<const char*, 3> kColor{"R", "G", "B"};
 
 /// A guide by the names of its channels, of which the first set that is there counts.
 struct Guide {
-  const char* display;  ///< What to write in a Display to get it.
+  const char* display;  ///< The name for a Display that makes it.
   std::vector<std::vector<std::string>> names;
 };
 const std::array kGuides{Guide{"albedo", {{"albedo.R", "albedo.G", "albedo.B"}, {"albedo.r", "albedo.g", "albedo.b"}}},
@@ -45,7 +45,7 @@ std::vector<int> channelsOf(const Guide& guide, const Image& picture, const std:
                   file, guide.display));
 }
 
-/// Reads one channel. What is infinite, as depth where nothing is seen, becomes as far as the farthest.
+/// Reads one channel. Infinite values, as depth has where nothing is seen, become the largest finite one.
 Plane planeOf(const Image& picture, int channel, bool isDepth, const std::string& file) {
   Plane out;
   float farthest = 0;

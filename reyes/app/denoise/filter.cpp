@@ -39,7 +39,7 @@ Plane smoothed(const Plane& in, const Size& size, int reach) {
   return out;
 }
 
-/// The variance of one half, from the differences of both, which have the same.
+/// Returns the variance of one half, from the differences of both, which have the same.
 Color varianceOf(const HalfBuffers& in, const Size& size) {
   Color out;
   for (size_t c = 0; c < 3; ++c) {
@@ -88,8 +88,8 @@ Candidate judged(Color a, Color b, const HalfBuffers& in, const Color& variance,
   return {std::move(a), std::move(b), std::move(near), std::move(around)};
 }
 
-/// The number of the candidate for a pixel; 0 does not filter. The pixels around choose, so that the error at the pixel
-/// says of the chosen one what it would say of any.
+/// Returns the number of the candidate for a pixel; 0 does not filter. The pixels around choose, so that the error at
+/// the pixel says of the chosen one what it would say of any.
 size_t bestAt(size_t pixel, const std::vector<Candidate>& candidates) {
   const Candidate& none = candidates[0];
   size_t best = 0;
@@ -144,8 +144,8 @@ Denoised denoise(const HalfBuffers& in) {
       const double da = a - in.b[c][i], db = b - in.a[c][i], apart = a - b, noise = in.a[c][i] - in.b[c][i];
       sum += 0.5 * (double{in.a[c][i]} + in.b[c][i]);
       before += 0.25 * noise * noise;
-      // The variance of one half's answer is half of their squared difference, and the mean has half of that. What else
-      // an answer differs from the other half by, beside that half's noise, is its bias: the two are independent.
+      // The variance of one half's answer is half of their squared difference, and the mean has half of that. An answer
+      // differs from the other half by that half's noise and by its own bias, which are independent.
       left += 0.25 * apart * apart;
       bias += 0.5 * (da * da + db * db) - 0.5 * noise * noise - 0.5 * apart * apart;
     }

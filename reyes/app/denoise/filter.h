@@ -19,7 +19,7 @@ using Plane = std::vector<float>;
 struct HalfBuffers {
   int width = 0, height = 0;
   std::array<Plane, 3> a, b;  ///< Colours of the halves: linear, finite.
-  std::vector<Plane> guides;  ///< Albedo, normal, depth, in any scale; finite. At most kMostGuides.
+  std::vector<Plane> guides;  ///< Planes of albedo, normal and depth, in any scale; finite. At most kMostGuides.
 };
 constexpr size_t kMostGuides = 7;
 

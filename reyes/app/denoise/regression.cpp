@@ -26,7 +26,7 @@ struct Equations {
     }
   }
 
-  /// The colour where all guides are those of the pixel, by Cholesky's decomposition.
+  /// Returns the colour where all guides are those of the pixel, by Cholesky's decomposition.
   std::array<float, 3> solve(size_t n) const {
     std::array<std::array<double, kMost>, kMost> L{};
     size_t k = 0;
@@ -122,7 +122,8 @@ class Regression {
       }
   }
 
-  /// The mean distance of the patch around a pixel, but of what compares the pixel itself, or what is kNear to it.
+  /// Returns the mean distance of the patch around a pixel, but of what compares the pixel itself, or what is kNear to
+  /// it.
   static float patch(const Plane& distance, const Plane& across, const Size& size, int x, int y, int dx, int dy) {
     const int x0 = std::max(0, x - kPatch), x1 = std::min(size.width, x + kPatch + 1), y0 = std::max(0, y - kPatch),
               y1 = std::min(size.height, y + kPatch + 1);

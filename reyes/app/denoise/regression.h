@@ -17,11 +17,11 @@ constexpr int kBand = 16;  ///< Rows that one thread takes at a time.
 /// filter mixes them.
 constexpr int kNear = 1;
 
-/// What a regression reads.
+/// The planes that a regression reads.
 struct RegressionInput {
   const Color &filtered, &weighing;
-  const Color& variance;             ///< Of either half.
-  const std::vector<Plane>& guides;  ///< Of about the same scale.
+  const Color& variance;             ///< Variance of either half.
+  const std::vector<Plane>& guides;  ///< Planes of about the same scale.
 };
 
 /// Filters one half with weights of the other. No pixel's answer depends on the weighing half there, or kNear to it,

@@ -10,7 +10,7 @@ namespace tomales {
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading);
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading);
-/// Do the maps of GiMode::Atlas hold direct light? Those made by hand say so themselves.
+/// Tells whether the maps of GiMode::Atlas hold direct light. Maps that were made by hand say so themselves.
 bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading);
 
 /// Prepares the atlas in the atlasFolder(), where maps that are still true are used and the rest made, or else in a
@@ -21,17 +21,17 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
                                                     const AtlasProgress& progress, KeptWork* kept, Stats& stats,
                                                     Log& log);
 
-/// What one of several processes does of the atlas that they make together.
+/// The pass that one of several processes does for the atlas that they make together.
 enum class AtlasPass {
-  Photons,  ///< Traces a part of the photons to a file of its own,
-  Join,     ///< makes photon maps of all parts,
-  Maps,     ///< and irradiance and brick maps of some of these.
+  Photons,  ///< Traces a part of the photons to a file of its own.
+  Join,     ///< Makes photon maps of all parts.
+  Maps,     ///< Makes irradiance and brick maps of some of the photon maps.
 };
-/// Does it in atlasFolder(), which must not be empty; nothing where its maps were made by hand. In the end there is
-/// what prepareAtlas() would make. part.count of Join is that of the parts. Throws FileError.
+/// Does a pass in atlasFolder(), which must not be empty. It does nothing if the maps there were made by hand. All
+/// passes together make what prepareAtlas() would make. part.count of Join is the number of parts. Throws FileError.
 void makeAtlasPass(AtlasPass pass, WorkPart part, const RayTools& tools, const RenderSettings& settings,
                    const AtlasProgress& progress, Stats& stats, Log& log);
-/// The file of a part of the photons.
+/// Returns the file of a part of the photons.
 std::filesystem::path photonPart(const std::filesystem::path& atlas, WorkPart part);
 
 /// Opens the light of settings.bakedFolder, for GiMode::Baked. Returns null after an error, which has been reported.

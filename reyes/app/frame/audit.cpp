@@ -16,7 +16,7 @@ constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 1.0 / 3;
 constexpr int kTimesLightSamples = 16, kTimesLightSamplesOfBlocks = 4;
 constexpr size_t kPixelsPerBlock = 8;
-constexpr float kMeanOfNormal = 0.7979f;  ///< Of the absolute value of a draw from the normal distribution.
+constexpr float kMeanOfNormal = 0.7979f;  ///< Mean absolute value of draws from the normal distribution.
 
 std::string percentOf(const ErrorEstimate& e) {
   if (!e.tells()) return fmt::format("at most {:.2g} %, as smaller ones are hidden by the audit's noise", 100 * e.high);
@@ -117,7 +117,7 @@ void Audit::addSets(FoundLight& light, ShadeContext context, int rays) const {
   light.rays += rays;
 }
 
-/// The errors that these kinds of light make together, at the pixels that are lit.
+/// Returns the errors that these kinds of light make together, at the pixels that are lit.
 std::vector<AuditedError> Audit::errorsOf(std::initializer_list<const FoundLight*> kinds) const {
   std::vector<AuditedError> out;
   for (size_t p = 0; p < pixels_.size(); ++p) {

@@ -16,50 +16,52 @@ namespace tomales {
 
 struct AuditPlan {
   size_t pixels = 300;
-  uint32_t seed = 0;     ///< Decides which, and the rays there.
+  uint32_t seed = 0;     ///< Decides which pixels are audited, and the rays there.
   bool indirect = true;  ///< The frame has indirect light.
   int lightSamples = 0;  ///< The most that an audited picture has of each light; 0: as many as the lights ask.
   size_t smudgeSizes = kSmudgeSizes.size();  ///< SmudgePlan::sizes.
 };
 
 struct AuditReport {
-  size_t pixels = 0;      ///< Those that the errors are of: they see something that is lit.
-  int paths = 0;          ///< At each point that they see, for indirect light; 0 if that was not audited.
-  int lightSamples = 0;   ///< At each of them, of each light; 0 if direct light was not audited.
-  ErrorEstimate picture;  ///< Of all light together. All errors are shares of the picture's colour,
-  std::optional<ErrorEstimate> indirect, direct;  ///< those of one kind of light too.
-  /// The mean error that too few samples in pixels add to those, about: what independent samples would bring. They are
-  /// stratified, and filters are wider than a pixel, so it is mostly less; what no sample sees can make it more.
+  size_t pixels = 0;      ///< Number of pixels that the errors are taken from: they see something that is lit.
+  int paths = 0;          ///< Paths for indirect light at each point that these pixels see; 0 if that was not audited.
+  int lightSamples = 0;   ///< Samples of each light at each of these points; 0 if direct light was not audited.
+  ErrorEstimate picture;  ///< Error of all light together. All errors are shares of the picture's colour.
+  /// Errors of one kind of light. They too are shares of the picture's colour.
+  std::optional<ErrorEstimate> indirect, direct;
+  /// Mean error, about, that too few samples in pixels add to those errors, as if samples were independent. They are
+  /// stratified, and filters are wider than a pixel, so it is mostly less. Details that no sample sees can make it
+  /// more.
   double pixelSamples = 0;
-  std::vector<SmudgeEstimate> smudges;  ///< For each size of blocks that enough smooth ones were found of.
+  std::vector<SmudgeEstimate> smudges;  ///< One for each size of blocks of which there are enough smooth ones.
 
-  /// The smallest size, whose blocks show what those of larger sizes do; null if no region is smooth.
+  /// Returns the smallest size, whose blocks show what those of larger sizes do; null if no region is smooth.
   const SmudgeEstimate* finestSmudges() const { return smudges.empty() ? nullptr : &smudges.front(); }
 };
 
-/// What a kind of light brings to each pixel: in the picture, and by two independent sets of many rays.
+/// The light of one kind at each pixel: in the picture, and by two independent sets of many rays.
 struct FoundLight {
   std::vector<vec3> picture, sets[2];
-  int rays = 0;  ///< Number in each set.
+  int rays = 0;  ///< Number of rays in each set.
 
-  /// What is missing in the picture.
+  /// Returns the light that is missing in the picture.
   vec3 missing(size_t p) const { return 0.5f * (sets[0][p] + sets[1][p]) - picture[p]; }
   vec3 noise(size_t p) const { return 0.5f * (sets[0][p] - sets[1][p]); }
 };
 
-/// Some pixels of a frame, and the light that is right there. Several pictures of them can be compared with the same
-/// light, whose rays are traced when the first one wants them. The same bits for any number of threads; nothing of the
-/// frame changes. The references outlive it. Not for several threads at once.
+/// Some pixels of a frame, and their true light. Several pictures can be compared with the same light, whose rays are
+/// traced when the first one wants them. The bits are the same for any number of threads; nothing of the frame changes.
+/// The references outlive it. Threads: one at a time.
 class Audit {
  public:
   Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
         const AuditPlan& plan, const std::atomic<bool>& cancelled);
 
-  /// The errors of the picture that is shaded in this context. Pre: gathering is done, so that shading gives the
-  /// picture's colours.
+  /// Returns the errors of the picture that is shaded in this context. Pre: gathering is done, so that shading gives
+  /// the picture's colours.
   AuditReport of(const ShadeContext& context);
 
-  /// The colours of the pixels in that picture.
+  /// Returns the colours of the pixels in that picture.
   std::vector<SampledColor> shade(ShadeContext context) const;
   double pointCount() const;  ///< Points that these pixels see.
 
@@ -84,7 +86,7 @@ class Audit {
 
 /// Writes the report to the statistics.
 void recordAudit(const AuditReport& report, Stats& stats);
-/// One sentence.
+/// Returns the report in one sentence.
 std::string sentenceOf(const AuditReport& report);
 
 }  // namespace tomales

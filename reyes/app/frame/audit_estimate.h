@@ -1,4 +1,4 @@
-// What a sample of errors says about the error of the whole picture, and how certain that is.
+// Estimates the error of the whole picture, and the certainty of that, from a sample of errors.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -7,8 +7,8 @@ namespace tomales {
 
 /// One place of the picture. Both are shares of the colour that is right there, means over its channels.
 struct AuditedError {
-  float error = 0;  ///< How far the picture is from the mean of two independent estimates of what is right.
-  float noise = 0;  ///< Half of the difference of those two, which is as large as the noise of their mean.
+  float error = 0;  ///< Distance of the picture from the mean of two independent estimates of the truth.
+  float noise = 0;  ///< Half of the difference of those two estimates, which is as large as the noise of their mean.
 };
 
 struct ErrorEstimate {
@@ -17,7 +17,7 @@ struct ErrorEstimate {
   double noise = 0;          ///< Mean of AuditedError::noise.
   double p99 = 0;  ///< 99 % of the places err by less. A few places decide this, so nothing says how certain it is.
 
-  /// False if the audit is noisier than the picture errs, so that it has only found a bound of the error.
+  /// Returns false if the audit is noisier than the picture errs, so that it has only found a bound of the error.
   bool tells() const { return mean >= noise; }
 };
 
@@ -31,15 +31,15 @@ struct SmoothBlock {
   double off[2];
 };
 
-/// What `tomales compare` calls smudges, from some of the blocks.
+/// The smudges that `tomales compare` reports, estimated from some of the blocks.
 struct SmudgeEstimate {
   static constexpr size_t kFewestBlocks = 8;
 
   int size = 0;              ///< Pixels along an edge of a block.
-  size_t blocks = 0;         ///< Smooth ones.
+  size_t blocks = 0;         ///< Number of smooth blocks.
   double deviation = 0;      ///< Standard deviation of picture / truth over the blocks, over its mean.
   double low = 0, high = 0;  ///< It lies between these with 90 % confidence.
-  double noise = 0;          ///< What the audit's own noise would show as.
+  double noise = 0;          ///< Deviation that the audit's own noise would show.
 
   bool isKnown() const { return blocks >= kFewestBlocks; }
   bool tells() const { return deviation >= noise; }

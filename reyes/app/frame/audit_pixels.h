@@ -31,9 +31,9 @@ std::vector<SampledColor> shadeAuditPixels(const std::vector<AuditPixel>& pixels
 
 /// Copies what these pixels of a tile need. The copy's rectangle is `rect`, whose other pixels see nothing.
 DeepTile copyPixels(const DeepTile& from, const PixelRect& rect, std::span<const ivec2> pixels);
-/// The number of points that shading the tile runs over.
+/// Returns the number of points that shading the tile runs over.
 double pointsOf(const DeepTile& tile);
-/// The colour of a pixel of a tile that is shaded.
+/// Returns the colour of a pixel of a tile that is shaded.
 SampledColor colorOf(const DeepTile& tile, const ivec2& pixel, int samplesPerPixel);
 
 }  // namespace tomales

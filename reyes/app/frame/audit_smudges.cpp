@@ -17,11 +17,11 @@ constexpr int kCellsAcross = 8;  ///< Pixels that are looked at along each edge 
 constexpr int kPixelsOfBlock = kCellsAcross * kCellsAcross;
 /// Paths at each point in each of the two sets: so many at first, then as many again until they are quiet.
 constexpr int kFewestPathsOfBlocks = 4, kMostPathsOfBlocks = 64;
-constexpr double kQuietBlocks = 0.5;  ///< Noise of the audit over what it finds.
+constexpr double kQuietBlocks = 0.5;  ///< Share of the noise of the audit in what it finds.
 constexpr int kBothHalves = 2;
 
-/// In blocks of which some pixels are left out, each set of rays has pixels of its own, so that two sets differ by what
-/// the choice of pixels brings too.
+/// Returns the set of rays that has this pixel, in blocks of which some pixels are left out. Each set has pixels of its
+/// own, so that the difference of the two sets includes the effect of the choice of pixels.
 int halfOfCell(int cell) { return (cell % kCellsAcross + cell / kCellsAcross) % 2; }
 
 struct BlockMeans {
@@ -36,15 +36,15 @@ struct SmudgeAudit::Part {
   int half;  ///< The set of rays that looks at them, or kBothHalves.
   DeepTile tile;
   std::vector<ivec2> pixels;
-  std::vector<int> cells;  ///< Of each pixel.
+  std::vector<int> cells;  ///< Cell of each pixel.
 };
 
 struct SmudgeAudit::Blocks {
   int size = 0;
   std::vector<ivec2> corners;
   std::vector<Part> parts;
-  std::vector<float> sets[2];  ///< Luminance that is right at each cell of each block.
-  int rays = 0;                ///< In each set.
+  std::vector<float> sets[2];  ///< True luminance at each cell of each block.
+  int rays = 0;                ///< Number of rays in each set.
 
   bool isWhole() const { return size == kCellsAcross; }
   ivec2 pixelOf(size_t block, int cell, uint32_t seed) const {
@@ -146,7 +146,7 @@ void SmudgeAudit::copyPixelsOf(Blocks& blocks) {
       if (!part.tile.pixels.empty()) blocks.parts.push_back(std::move(part));
 }
 
-/// The luminance at each cell of each block; 0 at the cells of the other half.
+/// Returns the luminance at each cell of each block; 0 at the cells of the other half.
 std::vector<float> SmudgeAudit::shade(const Blocks& blocks, const ShadeContext& context, int half) const {
   std::vector<float> out(blocks.corners.size() * kPixelsOfBlock);
   parallelFor(blocks.parts.size(), 1, [&](size_t p, size_t) {

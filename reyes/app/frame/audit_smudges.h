@@ -11,14 +11,14 @@
 namespace tomales {
 
 struct SmudgePlan {
-  size_t blocks = 37;    ///< Of each size.
-  size_t sizes = 4;      ///< The first so many of kSmudgeSizes.
-  uint32_t seed = 0;     ///< Decides which, and the rays there.
-  int lightSamples = 0;  ///< Of each light, to find what is right.
+  size_t blocks = 37;    ///< Number of blocks of each size.
+  size_t sizes = 4;      ///< Number of sizes, the first ones of kSmudgeSizes.
+  uint32_t seed = 0;     ///< Decides which blocks, and the rays there.
+  int lightSamples = 0;  ///< Samples of each light that find the truth.
 };
 
-/// Some blocks of pixels of each size, and the light that is right there, whose rays are traced when the first picture
-/// wants them. The same bits for any number of threads. The references outlive it. Not for several threads at once.
+/// Some blocks of pixels of each size, and their true light, whose rays are traced when the first picture wants them.
+/// The bits are the same for any number of threads. The references outlive it. Threads: one at a time.
 class SmudgeAudit {
  public:
   SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
@@ -26,8 +26,8 @@ class SmudgeAudit {
 
   ~SmudgeAudit();
 
-  /// The smudges of the picture that is shaded in this context, for each size that has enough blocks, which all see
-  /// something. Pre: as for Audit::of().
+  /// Returns the smudges of the picture that is shaded in this context, for each size that has enough blocks, which all
+  /// see something. Pre: as for Audit::of().
   std::vector<SmudgeEstimate> of(const ShadeContext& context);
 
  private:
@@ -46,8 +46,8 @@ class SmudgeAudit {
   const ShadingSystem& shading_;
   const SmudgePlan plan_;
   const std::atomic<bool>& cancelled_;
-  const int across_;              ///< Cells of 8 x 8 pixels in a row,
-  std::vector<uint8_t> covered_;  ///< and how many pixels see something in each of them.
+  const int across_;              ///< Cells of 8 x 8 pixels in a row.
+  std::vector<uint8_t> covered_;  ///< Number of pixels in each cell that see something.
   std::vector<Blocks> sizes_;
 };
 

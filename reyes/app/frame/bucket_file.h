@@ -1,5 +1,5 @@
-// Hidden buckets in a file beside the picture. With --resume it has all of them, with those of an interrupted run; else
-// those that do not fit in memory, in a file that is removed when the program ends. Threads: any.
+// Hidden buckets in a file beside the picture. With --resume it has all of them, with those of an interrupted run. Else
+// it has those that do not fit in memory, and is removed when the program ends. Threads: any.
 #pragma once
 #include <atomic>
 #include <mutex>

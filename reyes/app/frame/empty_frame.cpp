@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-/// Which plane of the view has all of `bound` on its wrong side.
+/// Returns in words which plane of the view has all of `bound` on its wrong side.
 std::string sideOf(const Bound3& bound, const Camera& camera) {
   if (bound.hi.z < camera.nearClip())
     return bound.hi.z < 0 ? "behind the camera, which looks along +z" : "nearer than the near clipping plane";

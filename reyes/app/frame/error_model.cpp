@@ -10,25 +10,26 @@ namespace {
 
 /// Noise and bias each have at least this share of an error's square: a trial may show none of it by chance.
 constexpr double kLeastShare = 0.03;
-/// How far the search goes from the base, up and down, in steps of half an octave.
+/// Limits of the search from the base, in steps of half an octave up or down.
 constexpr int kFewerRays = 6, kNarrower = 8, kWider = 4, kFewerLightSamples = 4;
-/// How far it goes at most, whatever trials had.
+/// Absolute limits of the search, whatever trials had.
 constexpr int kMostRaysOfRecord = 9600, kMostPathsOfPoint = 1024, kMostLightSamples = 1024;
 constexpr double kLeastRaysPower = 0.2, kMostRaysPower = 1.2;
-/// Of costs that were seen in the same buckets, where other powers are chance.
+/// Limits of the power of costs that were measured in the same buckets. Other powers are chance.
 constexpr double kLeastKnownPower = 0.6, kMostKnownPower = 1;
 /// The most of a cost that two trials may find to be fixed: the first also pays for what is read once.
 constexpr double kMostFixed = 0.95;
-constexpr double kFarFromKnown = 4;  ///< What is seen at so many times a setting says how the cost changes.
-constexpr int kFineSteps = 16;       ///< Steps of an octave where a time is to be used up.
+/// A cost that was measured at so many times a known setting tells how the cost changes.
+constexpr double kFarFromKnown = 4;
+constexpr int kFineSteps = 16;  ///< Steps of an octave where a time is to be used up.
 
-/// The power of x by which y changes between two trials, within limits.
+/// Returns the power of x by which y changes between two trials, within limits.
 double power(double x0, double y0, double x1, double y1, double least, double most) {
   if (!(y0 > 0) || !(y1 > 0) || x0 == x1) return std::clamp(0.0, least, most);
   return std::clamp(std::log(y1 / y0) / std::log(x1 / x0), least, most);
 }
 
-/// To two digits, so that options can be given as they are told.
+/// Rounds to two digits, so that messages show the options exactly.
 double rounded(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
   return std::round(x / unit) * unit;
@@ -36,7 +37,7 @@ double rounded(double x) {
 
 double halfOctaves(int steps) { return std::pow(2.0, 0.5 * steps); }
 
-/// Half octaves from x to `most`.
+/// Returns the number of half octaves from x to `most`.
 int stepsTo(double most, double x) { return x > 0 ? static_cast<int>(std::floor(2 * std::log2(most / x) + 1e-6)) : 0; }
 
 double ratio(double x, double base) { return x > 0 && base > 0 ? x / base : 1; }

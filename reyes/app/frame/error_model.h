@@ -1,5 +1,5 @@
-// How the error of light in a picture, and what it costs, depend on the settings. A few trials on the scene
-// itself decide the model's constants. It knows neither scene nor renderer.
+// Models how the error and the cost of light in a picture depend on the settings. A few trials on the scene itself
+// decide the model's constants. It knows neither scene nor renderer.
 #pragma once
 #include <functional>
 #include <optional>
@@ -7,43 +7,42 @@
 
 namespace tomales {
 
-/// The settings that decide how right gathered light and the light of lamps are.
+/// The settings that decide the error of gathered light and of the light of lamps.
 struct LightQuality {
   int samples = 0;       ///< Rays of a record, or paths at a point of the reference; 0: as the scene asks.
-  float maxError = -1;   ///< How far records reach; negative: as the scene asks, or there are no records.
+  float maxError = -1;   ///< Reach of records; negative: as the scene asks, or there are no records.
   int lightSamples = 0;  ///< Samples of each area light, where the eye looks; 0: as the light asks.
   bool operator==(const LightQuality&) const = default;
 };
 
-/// As options of the command line.
+/// Returns them as options of the command line.
 std::string optionsOf(const LightQuality&);
 
-/// What was seen of a frame that had this quality. Errors are mean relative ones, as audits state them.
+/// The errors and costs of a frame that had this quality. Errors are mean relative ones, as audits state them.
 struct QualityTrial {
   LightQuality quality;
   double indirect = 0, direct = 0;
   double smudges = 0;  ///< SmudgeEstimate::deviation; 0 if nothing was smooth, or only noise was found.
   // Costs of the whole frame, in rays or in seconds.
-  double gatherCost = 0;  ///< Of the records of its points.
-  double bounceCost = 0;  ///< Of those of further bounces (GiServices::BounceCost).
+  double gatherCost = 0;  ///< Cost of the records of its points.
+  double bounceCost = 0;  ///< Cost of the records of further bounces (GiServices::BounceCost).
   double shadeCost = 0;
 };
 
-/// What a picture may err.
+/// The greatest error that a picture may have.
 struct ErrorTarget {
-  double error = 0;    ///< The mean.
-  double smudges = 0;  ///< Their deviation; 0: any.
+  double error = 0;    ///< Mean error.
+  double smudges = 0;  ///< Deviation of smudges; 0: any.
   ErrorTarget operator*(double x) const { return {x * error, x * smudges}; }
 };
 
-/// An error of gathered light. Its square is the noise of rays, which falls with their number, plus the square of what
-/// interpolation errs, a power of maxError. It is taken from trials and kept within what is known of such errors, so
+/// An error of gathered light. Its square is the noise of rays, which falls with their number, plus the square of the
+/// error of interpolation, a power of maxError. It is taken from trials and kept within known limits of such errors, so
 /// that the chance of a trial does not run away with the model.
 class RecordError {
  public:
   RecordError() = default;
-  /// What was seen at each of these qualities, of which `finer` has more rays and `wider` a larger maxError than
-  /// `base`.
+  /// The error at one quality. `finer` has more rays and `wider` a larger maxError than `base`.
   struct Seen {
     LightQuality quality;
     double error;
@@ -54,7 +53,7 @@ class RecordError {
   /// Scales it to what a picture of this quality has had.
   void correct(const Seen& picture);
   double at(const LightQuality&) const;
-  /// True if a picture may err in this way at all.
+  /// Returns true if a picture may err in this way at all.
   bool any() const { return noise_ + bias_ > 0; }
 
  private:
@@ -92,7 +91,7 @@ class ErrorModel {
   double error(const LightQuality&) const;  ///< Both together, which are independent.
   double smudges(const LightQuality& q) const { return smudges_.at(q); }
   double gatherCost(const LightQuality&) const;
-  /// The same for a share of the frame, which needs all records of further bounces.
+  /// Returns the same for a share of the frame, which needs all records of further bounces.
   double gatherCostOf(double share, const LightQuality&) const;
   double shadeCost(const LightQuality&) const;
   double cost(const LightQuality& q) const { return gatherCost(q) + shadeCost(q); }
@@ -105,22 +104,22 @@ class ErrorModel {
   /// Scales the errors to those that a picture has had.
   void correct(const QualityTrial& picture);
 
-  /// The quality that reaches the target at the least cost. If none does within the range in which the model may be
-  /// believed, the one that comes nearest.
+  /// Returns the quality that reaches the target at the least cost. If none does within the range in which the model
+  /// may be believed, the one that comes nearest.
   LightQuality cheapest(const ErrorTarget& target) const;
-  /// The quality that costs no more and of which the worse of mean error and smudges is least, with as many rays as
-  /// that leaves room for. If none does, the cheapest one.
+  /// Returns the quality that costs no more and of which the worse of mean error and smudges is least, with as many
+  /// rays as that leaves room for. If none does, the cheapest one.
   LightQuality best(double most) const;
-  /// The same with records as wide as those of `given`.
+  /// Returns the same with records as wide as those of `given`.
   LightQuality bestAsWide(const LightQuality& given, double most) const;
-  /// The most light samples, with the rays and records of `given`, that cost no more in shading.
+  /// Returns the most light samples, with the rays and records of `given`, that cost no more in shading.
   LightQuality bestLamps(const LightQuality& given, double most) const;
 
  private:
   template <class Better>
   LightQuality search(const Better& better, const std::function<bool(const LightQuality&)>& isAllowed = {}) const;
   LightQuality bestOf(double most, const std::function<bool(const LightQuality&)>& isAllowed) const;
-  /// How many times the target it errs.
+  /// Returns the error as a multiple of the target.
   double timesTarget(const LightQuality&, const ErrorTarget&) const;
 
   double bounceCost(const LightQuality&) const;

@@ -116,7 +116,7 @@ GiSettings FrameJob::giSettings() const {
 
 void FrameJob::light(const DeepFrame& layout, const TileReader& tiles, bool gathers) {
   const bool steers = choosesQuality(settings_) && !interrupted() && steersLight();
-  if (settings_.isPilot && !steers) return;  // nothing is chosen
+  if (settings_.isPilot && !steers) return;  // this pilot has nothing to choose
   if (steers && settings_.targetError > 0) return reachTargetError(*this, layout, tiles, settings_, stats_, log_);
   if (steers)
     useTimeBudget(*this, layout, tiles, settings_, stats_, log_);

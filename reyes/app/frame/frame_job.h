@@ -17,7 +17,7 @@ namespace tomales {
 
 class Preview;
 
-/// What FrameJob::show() makes.
+/// The part of the frame that FrameJob::show() makes.
 struct ShownPart {
   PixelRect window;                     ///< Inside of the frame's crop window.
   const std::string* lights = nullptr;  ///< ShadeContext::lights.
@@ -26,7 +26,7 @@ struct ShownPart {
 
 /// The tiles of FrameJob::show(), from any thread.
 struct ShownTiles {
-  std::function<bool(size_t index, DeepTile& tile)> load;  ///< As ShadeSteps::load.
+  std::function<bool(size_t index, DeepTile& tile)> load;  ///< See ShadeSteps::load.
   std::function<void(size_t index, const DeepTile& tile)> shaded;
 };
 
@@ -75,7 +75,7 @@ class FrameJob {
   void endGather(const DeepFrame& layout, const TileReader& tiles);
   void gatherRecords(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress = {},
                      const std::function<void(int)>& covered = {});
-  /// What `--audit` asks for, at pixels that this seed decides.
+  /// Returns the plan that `--audit` asks for, at pixels that this seed decides.
   AuditPlan auditPlan(uint32_t seed) const;
   /// Measures the error of the picture that write() will make. The tiles are read once.
   AuditReport audit(const DeepFrame& layout, const TileReader& tiles, uint32_t seed);
@@ -110,7 +110,7 @@ class FrameJob {
   ShadeContext shadeContext() const;
   GiServices* services() const { return services_.get(); }
   ShadingSystem& shading() const { return *shading_; }
-  /// Null if nothing traces rays. Pre: prepareRays().
+  /// Returns null if nothing traces rays. Pre: prepareRays().
   const RayTools* rayTools() const { return raySource_ ? raySource_() : nullptr; }
   FrameControl control(const char* pass, float begin, float end);
   /// Returns a callback for the progress of the maps that indirect light needs before anything is gathered.
@@ -126,8 +126,8 @@ class FrameJob {
   void open(const std::function<bool(const Attributes&)>& wanted);
   int referenceLightSamples() const;
   bool steersLight() const;
-  /// Keeps the colours of a tile that is shaded as the finished picture has it. What shaders bake is lost with its
-  /// tile, so a tile stays to be shaded again once anything has been baked.
+  /// Keeps the colours of a tile that is shaded as the finished picture has it. A tile that is not shaded again bakes
+  /// nothing, so no tile is kept once anything has been baked.
   void keepShaded(size_t index, const DeepTile& tile) const {
     if (!clouds_.hasBaked()) tomales::keepShaded(kept_, index, tile);
   }

@@ -50,8 +50,8 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
   ShadeContext context = shadeContext();
   const bool cut = interrupted(), resumes = cut && kept_;
   if (cut) {
-    // Without --resume the buckets that are hidden are worth lighting; a second signal ends this too. With it such
-    // light would be made for nothing.
+    // Without --resume the hidden buckets are shaded with direct light, which a second signal ends too. With --resume
+    // such light would be thrown away.
     log_.report(Severity::Warning, "interrupted", {},
                 resumes ? "interrupted: shaded buckets are written; the same command goes on from here"
                         : "interrupted: finished buckets are shaded with direct light and written");

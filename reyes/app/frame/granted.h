@@ -1,5 +1,5 @@
-// What a cluster has granted to this process, by the environment that Slurm gives to jobs (sbatch(1), OUTPUT
-// ENVIRONMENT VARIABLES). Threads: plain function.
+// The resources that a cluster has granted to this process, by the environment that Slurm gives to jobs (sbatch(1),
+// OUTPUT ENVIRONMENT VARIABLES). Threads: plain function.
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/base/log.h"

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the settings were found for.
+/// Returns the targets that the settings were found for.
 Json purposeOf(const RenderSettings& s) {
   return {{"target_error", s.targetError}, {"target_smudges", s.targetSmudges}, {"time_budget_s", s.timeBudget_s}};
 }

@@ -12,10 +12,10 @@ namespace tomales {
 
 struct HeldQuality {
   std::vector<int> pilots;           ///< The frames that they were found on.
-  std::vector<LightQuality> worlds;  ///< For each world of a frame that makes a picture.
+  std::vector<LightQuality> worlds;  ///< One for each world of a frame that makes a picture.
 };
 
-/// A few of these frames: the first, the middle and the last.
+/// Returns a few of these frames: the first, the middle and the last.
 std::vector<int> pilotsOf(const std::vector<int>& frames);
 
 /// Sets what the quality names; the frame is lit by it, and no trials are made.

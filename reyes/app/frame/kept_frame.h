@@ -1,5 +1,5 @@
-// What a frame keeps besides its hidden buckets (bucket_file.h) while it is rendered with --resume: gathered records,
-// maps of light, and the colours of shaded buckets.
+// The data that a frame keeps besides its hidden buckets (bucket_file.h) while it is rendered with --resume: gathered
+// records, maps of light, and the colours of shaded buckets.
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/base/kept_work.h"

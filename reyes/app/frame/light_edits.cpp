@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// The parameters of a light but those that only multiply what it sends.
+/// Returns the parameters of a light but those that only multiply what it sends.
 std::map<std::string, Param> otherParams(const ShaderCall& light, const TmShader& shader) {
   std::map<std::string, Param> out;
   for (const Param& p : light.params) out.emplace(p.name, p);
@@ -18,8 +18,8 @@ std::map<std::string, Param> otherParams(const ShaderCall& light, const TmShader
 }
 
 struct LightChange {
-  vec3 gain{1};        ///< What its factors multiply the light by.
-  bool isGain = true;  ///< Nothing else has changed.
+  vec3 gain{1};        ///< Factor on the light by the changes of its factors.
+  bool isGain = true;  ///< True if nothing else has changed.
 };
 
 LightChange changeOf(const LightCall& then, const LightCall& now, const ShadingSystem& shading) {

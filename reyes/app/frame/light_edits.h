@@ -1,4 +1,4 @@
-// What has become of the lights of a frame since irradiance records were gathered under them.
+// The changes of the lights of a frame since irradiance records were gathered under them.
 #pragma once
 #include "gi/icf.h"
 
@@ -17,7 +17,7 @@ struct LightEdits {
 /// another scene: then nothing is known of edits.
 LightEdits editsSince(const IrradianceShot& gathered, const Scene& now, const ShadingSystem& shading);
 
-/// The groups of lights that bounce, for GiServices::keepShares: empty first, then by name.
+/// Returns the groups of lights that bounce, for GiServices::keepShares: empty first, then by name.
 std::vector<std::string> groupsOfLights(const Scene& scene, const ShadingSystem& shading);
 
 }  // namespace tomales

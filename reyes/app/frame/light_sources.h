@@ -1,4 +1,5 @@
-// What methods of indirect light need beside rays: maps that exist, or that are made. The table has a row for each.
+// The maps that methods of indirect light need beside rays: they exist, or are made. The table has a row for each
+// method.
 #pragma once
 #include "gi/services.h"
 #include "reyes/app/settings.h"

@@ -17,8 +17,8 @@ constexpr float kUncertain = 0.1f, kDark = 0.1f;
 constexpr float kShareOfRecords = 0.5f;
 constexpr double kUncertainLight = 0.25;
 constexpr double kShareOfStarts = 0.42;
-constexpr int64_t kFewStarts = 10'000;  // rays of a few points, and
-constexpr size_t kFewRecords = 32;      // a few records, say nothing about the whole
+constexpr int64_t kFewStarts = 10'000;  // Rays that start fewer times say nothing about the whole.
+constexpr size_t kFewRecords = 32;      // Fewer records say nothing about the whole.
 
 }  // namespace
 

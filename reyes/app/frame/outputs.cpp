@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Does it write what later frames read, by the Display's type or by a Make request?
+/// Tells whether a Display writes what later frames read, by its type or by a Make request.
 bool feedsFrames(const DisplayCall& d, const RenderSettings& settings) {
   return writesMap(d) || settings.sources.contains(fs::path(d.name).lexically_normal().string());
 }
@@ -33,7 +33,7 @@ void writeForScreens(DisplayCall& display, const Options& options) {
   display.params.push_back(std::move(transfer));
 }
 
-/// The name of another Display's file beside `output`, which takes the place of `first`.
+/// Returns the name of another Display's file beside `output`, which takes the place of `first`.
 std::string beside(const std::string& output, const std::string& first, const std::string& other) {
   const fs::path to(output), from(other);
   const std::string replaced = fs::path(first).stem().string(), stem = from.stem().string();
@@ -102,7 +102,7 @@ void dropDisplays(Options& options, const std::set<std::string>& named, const Pl
   });
 }
 
-/// Does a file hold more pixels than the rectangle? It counts as if it did where it cannot be read.
+/// Tells whether a file holds more pixels than the rectangle. A file that cannot be read counts as if it did.
 bool holdsMore(const std::string& file, const PixelRect& crop) {
   std::error_code failed;
   if (!fs::is_regular_file(file, failed)) return false;

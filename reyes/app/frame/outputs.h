@@ -1,4 +1,4 @@
-// Which files a frame writes: the scene's Displays, as the command line changes them.
+// Decides which files a frame writes: the scene's Displays, as the command line changes them.
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/base/plugin_trust.h"
@@ -18,7 +18,8 @@ namespace tomales {
 /// Throws WriteError as placeBelow() does.
 void nameOutputs(Options& options, const RenderSettings& settings, Log& log);
 
-/// True if all that the frame writes is maps for later frames, such as shadow maps, which need all of their view.
+/// Returns true if all that the frame writes is maps for later frames, such as shadow maps, which need all of their
+/// view.
 bool writesMapsAlone(const Options& options, const RenderSettings& settings);
 
 /// Hours of rendering must not end at a folder that never existed. Returns false, and reports it, if it does not exist.

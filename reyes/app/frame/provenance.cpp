@@ -23,8 +23,8 @@ constexpr const char *kVersionOf = "tomales:version", *kCommit = "tomales:commit
                      *kFrame = "tomales:frame", *kSettings = "tomales:settings", *kAudit = "tomales:audit",
                      *kChosen = "tomales:chosen";
 
-/// The options of the command line that pictures depend on and that no option of the scene keeps, where they are not
-/// the defaults.
+/// Returns the options of the command line that pictures depend on and that no option of the scene keeps, where they
+/// are not the defaults.
 std::string settingsText(const RenderSettings& s) {
   const RenderSettings usual;
   std::string out;

@@ -1,5 +1,5 @@
-// What the headers of pictures say about where they come from, and whether a picture on the disk is that of a frame.
-// OpenEXR alone has room for it (docs/displays.md).
+// The facts in the headers of pictures about where they come from, and the test whether a picture on the disk is that
+// of a frame. OpenEXR alone has room for them (docs/displays.md).
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/dfb.h"
@@ -34,8 +34,8 @@ void describeAudit(Options& options, const std::string& sentence, const RenderSe
 /// Adds the settings of light that the program has chosen.
 void describeQuality(Options& options, const std::string& chosen, const RenderSettings& settings);
 
-/// Do all files of the frame's Displays hold these contents? Formats without such headers cannot tell, which is
-/// reported, and neither can display drivers.
+/// Tells whether all files of the frame's Displays hold these contents. Formats without such headers cannot tell, which
+/// is reported, and neither can display drivers.
 bool isFinished(const Options& options, const std::string& contents, const RenderSettings& settings, Log& log);
 
 }  // namespace tomales

@@ -50,7 +50,7 @@ bool RayGeometry::dressAs(const Shot& shot, ShaderRegistry& shaders, const Shade
   for (size_t g = 0; g < attributes_.size(); ++g)
     if (!sameForRays(*attributes_[g], *shot.scene.groups[g].attributes)) return false;
   for (size_t g = 0; g < attributes_.size(); ++g) {
-    // What chooseDisplacements() has chosen stays.
+    // The choice of chooseDisplacements() stays.
     auto attributes = std::make_shared<Attributes>(*shot.scene.groups[g].attributes);
     attributes->trace = scene_.groups[g].attributes->trace;
     scene_.groups[g].attributes = std::move(attributes);
@@ -79,7 +79,7 @@ const RayTools* RayWorld::tools() {
 
 bool RayWorld::find() {
   if (kept_.geometry && kept_.geometry->dressAs(shot_, *kept_.shaders, services_, stats_, log_)) return true;
-  kept_.geometry.reset();  // before another one takes its memory
+  kept_.geometry.reset();  // the memory is freed before another one takes its place
   kept_.geometry = build();
   return kept_.geometry != nullptr;
 }

@@ -25,15 +25,16 @@ class RayGeometry {
  private:
   Scene scene_;
   const Camera camera_;
-  std::unique_ptr<ShadingSystem> first_;  ///< The one that it was made with, which goes on displacing,
-  std::vector<std::shared_ptr<const Attributes>> attributes_;  ///< and what that is bound to.
+  std::unique_ptr<ShadingSystem> first_;  ///< The shading that the geometry was made with, which goes on displacing.
+  std::vector<std::shared_ptr<const Attributes>> attributes_;  ///< Attributes that `first_` is bound to.
   std::vector<std::shared_ptr<LightCall>> lights_;
   std::unique_ptr<RayScene> rays_;
-  std::unique_ptr<ShadingSystem> dressed_;  ///< Null: still the first.
+  std::unique_ptr<ShadingSystem> dressed_;  ///< Shading under a later edit; null: `first_` is still used.
   RayTools tools_;
 };
 
-/// What one shading of a shot leaves for the next: both use the same registry of shaders. Its geometry may be null.
+/// The parts that one shading of a shot leaves for the next: both use the same registry of shaders. Its geometry may be
+/// null.
 struct KeptGeometry {
   std::unique_ptr<ShaderRegistry> shaders;
   std::unique_ptr<RayGeometry> geometry;

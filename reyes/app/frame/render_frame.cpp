@@ -16,10 +16,11 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kBytesOfTilePixel = 64;  ///< For a pixel of a shaded tile without its points and variables,
-constexpr int64_t kBytesOfPoints = 192;    ///< and for its points, both at shading rate 1.
-constexpr int64_t kBytesOfBucket = 96;     ///< For each bucket's place in lists.
-constexpr int64_t kRowsInMemory = 128;     ///< Rows of pixels, while a picture is made row by row.
+/// Memory for a pixel of a shaded tile at shading rate 1, without its points and variables.
+constexpr int64_t kBytesOfTilePixel = 64;
+constexpr int64_t kBytesOfPoints = 192;  ///< Memory for its points at shading rate 1.
+constexpr int64_t kBytesOfBucket = 96;   ///< Memory for each bucket's place in lists.
+constexpr int64_t kRowsInMemory = 128;   ///< Rows of pixels in memory, while a picture is made row by row.
 constexpr int64_t kUsualLimit = int64_t{1} << 30;
 
 int64_t pixelsOf(const Scene& scene) {
@@ -45,8 +46,8 @@ bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
   return false;
 }
 
-/// The memory for hidden buckets: what --memory-limit leaves beside what is in memory now, not counting `held` bytes of
-/// buckets, and beside the size that caches may grow to.
+/// Returns the memory for hidden buckets: what --memory-limit leaves beside what is in memory now, not counting `held`
+/// bytes of buckets, and beside the size that caches may grow to.
 int64_t tileBudget(const RenderSettings& settings, int64_t held) {
   if (!settings.memoryLimit) return kUsualLimit;
   const int64_t caches = textureShare(*settings.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings));
@@ -67,8 +68,8 @@ void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Lo
                            MB(stats.memoryBytes.grids), MB(stats.raytrace.bytes)));
 }
 
-/// May buckets be shaded and filtered right after hiding, while they are in the cache, row by row? Not if that would
-/// take more geometry into memory, or if the scene asks for another order.
+/// Tells whether buckets may be shaded and filtered right after hiding, while they are in the cache, row by row. They
+/// may not if that would take more geometry into memory, or if the scene asks for another order.
 bool mayStream(const Scene& scene) { return scene.procedurals.empty() && scene.options.bucketOrder == "horizontal"; }
 
 /// Returns false if the file cannot be read, which is reported.

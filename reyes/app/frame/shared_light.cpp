@@ -13,7 +13,7 @@ bool makesMaps(const GiMethod& method) {
   return !method.byPointClouds && (method.mode == GiMode::Atlas || method.mode == GiMode::Radiosity);
 }
 
-/// The method of a frame as its lights alone tell it: the rest of the scene takes longer to open and to bind.
+/// Returns the method of a frame as its lights alone tell it: the rest of the scene takes longer to open and to bind.
 const GiMethod& methodOfLights(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Log& log) {
   const Scene lights = scene.withoutObjects();
   Stats stats;

@@ -9,21 +9,21 @@
 namespace tomales {
 
 /// Makes the maps of a frame's light in the folder of --atlas: all that are missing, or those of one pass of the atlas.
-/// What goes wrong is reported.
+/// Failures are reported.
 void makeSharedLight(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings,
                      std::optional<AtlasPass> pass, WorkPart part, Stats& stats, Log& log);
 
 /// The maps of light that a frame looks into.
 struct SharedLight {
-  std::string folder;  ///< That of --atlas or of the scene's lights; empty if none is named.
+  std::string folder;  ///< Folder of --atlas or of the scene's lights; empty if none is named.
   uint64_t world = 0;  ///< Frames of the same sum may share maps.
   std::set<std::string> maps;
   bool photons = false;  ///< They are made of photons, in passes.
 };
-/// Nothing if the frame makes no maps that others could use. It opens what rays may meet.
+/// Returns nothing if the frame makes no maps that others could use. It opens what rays may meet.
 std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& settings, Log& log);
 
-/// The brick map of that name, and what else it is made with.
+/// Returns the brick map of that name, and what else it is made with.
 std::vector<std::string> filesOfMap(const SharedLight& light, const std::string& folder, const std::string& map);
 std::string photonsOfMap(const std::string& folder, const std::string& map);
 

@@ -13,7 +13,7 @@ class ShotJob {
  public:
   /// Returns null if a file cannot be read, which is reported.
   static std::unique_ptr<ShotJob> open(const RenderSettings& settings, Stats& stats, Log& log);
-  /// The same with files that are open already; one job at a time may use them.
+  /// Does the same with files that are open already; one job at a time may use them.
   static std::unique_ptr<ShotJob> open(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats,
                                        Log& log);
   ~ShotJob();
@@ -33,7 +33,7 @@ class ShotJob {
   void choose(const std::string* lights, bool indirect);
   /// Shades tiles that are no picture as show() would.
   void shadeApart(std::span<DeepTile> tiles);
-  /// The names of lights and objects whose bounced light is as it was gathered, before an edit of them.
+  /// Returns the names of lights and objects whose bounced light is as it was gathered, before an edit of them.
   std::vector<std::string> staleLight() const;
   void show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
             const std::atomic<bool>& cancelled);
@@ -48,7 +48,7 @@ class ShotJob {
   bool edit();
   void prepareLight();
   void prepareShares();
-  /// What an interrupted run has gathered, with --resume; null if nothing is kept.
+  /// Returns the records that an interrupted run has gathered, with --resume; null if nothing is kept.
   std::unique_ptr<KeptWork> keptGather() const;
   /// Warns of edits that change bounced light, which records keep as it was when they were gathered.
   void warnOfStaleLight() const;
@@ -56,8 +56,8 @@ class ShotJob {
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
   /// Brings given records to the strength of edited lights, so that they can stand beside new ones.
   void takeEdits(std::vector<PreparedCache>& caches) const;
-  /// The lights that records will be known to be made by: where an edit changes more than the strength of a light, the
-  /// one by which those given were made, so that they stay known to be stale.
+  /// Returns the lights that records will be known to be made by. Where an edit changes more than the strength of a
+  /// light, it is the light by which the given records were made, so that they stay known to be stale.
   std::vector<std::shared_ptr<LightCall>> lightsOfRecords() const;
   /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);
@@ -71,7 +71,7 @@ class ShotJob {
   Shot shot_;
   std::vector<std::shared_ptr<const Attributes>> attributesOfFile_{};  ///< Before edits; indexed by shade group.
   LightEdits lightEdits_;
-  const std::string* shownLights_ = nullptr;  ///< What choose() has been given.
+  const std::string* shownLights_ = nullptr;  ///< The lights that choose() has been given.
   bool showsIndirect_ = true;
   bool gathers_ = false;      ///< True if records are made for a file.
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.

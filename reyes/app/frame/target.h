@@ -12,9 +12,9 @@ namespace tomales {
 void reachTargetError(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
                       Stats& stats, Log& log);
 
-/// Of the random numbers of trials and audits.
+/// Returns the seed of the random numbers of trials and audits.
 uint32_t seedOfTrials(const RenderSettings& settings);
-/// What was chosen, for messages.
+/// Returns the chosen quality in words, for messages.
 std::string wordsFor(const LightQuality& quality);
 
 /// Warns where a picture errs more than was asked, or where nobody can tell. `with`: the settings that it has.

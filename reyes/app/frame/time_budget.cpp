@@ -60,7 +60,7 @@ class BudgetedFrame {
     return tomales::makeTrials(job_, layout_, tiles_, plan, stats);
   }
 
-  /// What gathering and shading may take from now on; negative if there is nothing left.
+  /// Returns the time that gathering and shading may take from now on; negative if there is nothing left.
   double left_s() const {
     // An audit takes many times as many light samples as the picture.
     const double audit_s =
@@ -73,8 +73,8 @@ class BudgetedFrame {
     job_.setQuality(quality);
   }
 
-  /// How many records a frame needs, and what those of further bounces cost, is only known from the whole frame. So the
-  /// first round has few rays, and the rounds after it the time that is left.
+  /// Gathers in rounds. Only the whole frame tells how many records it needs, and what those of further bounces cost.
+  /// So the first round has few rays, and the rounds after it the time that is left.
   void gatherInRounds() {
     ErrorModel& model = trials_.model;
     LightQuality next = firstRound();

@@ -23,7 +23,8 @@ constexpr size_t kBucketsPerTrial = 16, kFewestBuckets = 8;
 constexpr int kBriefness = 4;  ///< Brief trials have so many times fewer rays.
 constexpr size_t kPixelsOfBriefTrials = 100;
 constexpr size_t kSmudgeSizesOfTrials = 1;  ///< Larger blocks than the least lie in several buckets.
-constexpr float kMuchNarrower = 1 / 1.5f;   ///< Of the maxError of the base.
+/// Records with a maxError below this share of the base's count as much narrower.
+constexpr float kMuchNarrower = 1 / 1.5f;
 
 /// Numbers, in order, of some of these buckets, chosen by a hash of their places.
 std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& layout, uint32_t seed) {
@@ -111,8 +112,8 @@ class Trials {
     return out;
   }
 
-  /// Neighbouring pixels share points, so that pixels alone cost more. What small pieces take says little of the time
-  /// of whole buckets, and pixels say more of their rays.
+  /// Returns the cost of shading. Neighbouring pixels share points, so that pixels alone cost more. The time of small
+  /// pieces says little of the time of whole buckets, and pixels say more of their rays.
   double shadeCost(const Audit& audit) {
     double all = 0, some = 0;
     for (const auto& [tile, points] : points_) all += points;
@@ -140,7 +141,7 @@ class Trials {
   const TrialPlan plan_;
   Stats& stats_;
   TileReader tiles_;                 ///< Reads the buckets that are tried.
-  std::map<size_t, double> points_;  ///< Of each tile that sees something.
+  std::map<size_t, double> points_;  ///< Number of points of each tile that sees something.
   std::vector<size_t> seen_, some_;
   double audit_s_ = 0, light_s_ = 0, lightRays_ = 0;
 };

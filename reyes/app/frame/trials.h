@@ -17,9 +17,9 @@ struct TrialPlan {
   CostUnit unit = CostUnit::Rays;
   bool isBrief = false;  ///< A quarter of the rays, and fewer pixels: the frame has little time.
   uint32_t seed = 0;     ///< Decides which buckets and pixels.
-  /// The quality that would be chosen by what the first trials say. Where it has much narrower records than those had,
-  /// a trial of such records follows, unless that is likely to cost more than mostOfNarrow(): how many there are cannot
-  /// be told from wide ones.
+  /// Returns the quality that would be chosen from the first trials. If it has much narrower records than those had, a
+  /// trial of such records follows, unless that is likely to cost more than mostOfNarrow(), because trials with wide
+  /// records do not tell how many there are.
   std::function<LightQuality(const ErrorModel&)> likely;
   std::function<double()> mostOfNarrow = [] { return std::numeric_limits<double>::infinity(); };
 };
@@ -27,11 +27,11 @@ struct TrialPlan {
 struct TrialsResult {
   ErrorModel model;
   std::vector<size_t> seen;   ///< Buckets that see something.
-  std::vector<size_t> tried;  ///< Those of them that were tried, the one of most points first.
-  double audit_s = 0;         ///< What an audit of the frame may take.
-  double raysPerSecond = 0;   ///< On this machine now, for messages alone.
+  std::vector<size_t> tried;  ///< Buckets among them that were tried, the one with the most points first.
+  double audit_s = 0;         ///< Time that an audit of the frame may take.
+  double raysPerSecond = 0;   ///< Rays per second on this machine now, for messages alone.
 
-  /// How long so many rays take, in words.
+  /// Returns in words how long so many rays take.
   std::string timeOf(double rays) const;
 };
 
@@ -41,7 +41,7 @@ QualityTrial secondsToGather(FrameJob& job, const DeepFrame& layout, const TileR
 /// Shades these tiles as the picture will be, forgets them, and returns the wall time that it took.
 double secondsToShade(FrameJob& job, const TileReader& tiles, std::span<const size_t> which);
 
-/// Lights and audits the buckets two to four times. What is gathered stays with the job until its next setQuality().
+/// Lights and audits the buckets two to four times. The gathered records stay with the job until its next setQuality().
 TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,
                         Stats& stats);
 

@@ -23,7 +23,7 @@ std::string textOf(const ParamValue& value) {
   return fmt::format("[{}]", fmt::join(texts, " "));
 }
 
-/// The request of a shader; nothing if it is as in the scene. `handle`: of a light.
+/// Returns the request of a shader; nothing if it is as in the scene. `handle`: of a light.
 std::string requestOf(const EditState& state, ShaderSlot slot, const std::string& owner, const Editable& editable,
                       const std::string& handle = "") {
   const ShaderEdit* edit = state.edit(slot, owner);

@@ -20,7 +20,7 @@ std::vector<float> numbersOf(const Json& json, size_t count, const std::string& 
   return out;
 }
 
-/// A text names files of the scene's folders at most: a page does not reach others.
+/// Tells whether a text names files of the scene's folders at most: a page does not reach others.
 bool staysInside(const std::string& text) {
   const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 32; };
   return text.size() <= kLongestText && !text.starts_with('/') && !text.starts_with('~') && !text.starts_with('|') &&

@@ -1,5 +1,5 @@
-// What a page has changed of a shot. It is checked against what may be changed before anything is made of it, and
-// becomes an edit file of `tomales shade --edit`. Threads: plain values.
+// The changes that a page has made to a shot. They are checked against what may be changed before anything is made of
+// them, and become an edit file of `tomales shade --edit`. Threads: plain values.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,18 +22,18 @@ struct Watches : std::runtime_error {
 };
 
 struct ShaderEdit {
-  std::string shader{};  ///< The one in the place of the scene's; empty if that stays.
+  std::string shader{};  ///< Name of the shader in the place of the scene's; empty if that stays.
   std::map<std::string, ParamValue> params{};
   bool operator==(const ShaderEdit&) const = default;
 };
 struct ObjectEdit {
   std::optional<std::array<float, 3>> color{};
-  std::map<std::string, bool> lights{};  ///< By handle: it shines on the object, or not.
+  std::map<std::string, bool> lights{};  ///< Indexed by handle: true if the light shines on the object.
   bool operator==(const ObjectEdit&) const = default;
 };
 
 struct EditState {
-  std::array<std::map<std::string, ShaderEdit>, kShaderSlots> shaders{};  ///< By owner.
+  std::array<std::map<std::string, ShaderEdit>, kShaderSlots> shaders{};  ///< Indexed by owner.
   std::map<std::string, ObjectEdit> objects{};
   std::optional<std::array<float, 2>> exposure{};
   bool operator==(const EditState&) const = default;
@@ -41,7 +41,7 @@ struct EditState {
   const ShaderEdit* edit(ShaderSlot slot, const std::string& owner) const;
 };
 
-/// The shader of an owner under an edit, with the values that it has without the edit's parameters.
+/// Returns the shader of an owner under an edit, with the values that it has without the edit's parameters.
 const EditableShader& shaderUnder(const EditState& state, ShaderSlot slot, const std::string& owner,
                                   const Editable& editable);
 
@@ -49,10 +49,10 @@ const EditableShader& shaderUnder(const EditState& state, ShaderSlot slot, const
 EditState stateOf(const Json& json, const Editable& editable);
 Json jsonOf(const EditState& state);
 Json jsonOf(const ParamValue& value);
-/// The edit file of a state: the same text for the same state.
+/// Returns the edit file of a state: the same text for the same state.
 std::string ribOf(const EditState& state, const Editable& editable);
-/// The state of edit files, of which the later ones change the earlier. Throws BadRequest if they change more than a
-/// page can.
+/// Returns the state of edit files, of which the later ones change the earlier. Throws BadRequest if they change more
+/// than a page can.
 EditState stateOfRib(const std::vector<std::string>& files, const Editable& editable);
 
 }  // namespace tomales

@@ -17,7 +17,7 @@ constexpr const char* kTypeNames[] = {"float", "color", "point", "vector", "norm
 constexpr size_t kFloats[] = {1, 3, 3, 3, 3, 0, 16};
 constexpr uintmax_t kMostText_bytes = 1 << 20;
 
-/// A parameter as a shader declares it; nothing if it is none that a page changes.
+/// Returns a parameter as a shader declares it; nothing if it is none that a page changes.
 std::optional<EditableParam> paramOf(const TmParamDecl& decl, TmRole role, const ParamList& given) {
   const int32_t type = TM_TYPE_OF(decl.type);
   if (type < TM_FLOAT || type > TM_MATRIX || decl.arrayLength < 1 || (decl.type & TM_OUTPUT) || role == TM_ROLE_GROUP)
@@ -36,7 +36,7 @@ std::optional<EditableParam> paramOf(const TmParamDecl& decl, TmRole role, const
   return out;
 }
 
-/// What a light's request says of its group.
+/// Returns the parameter of a light's request that names its group.
 std::string groupOf(const ShaderCall& call) {
   for (const TmParamDecl& decl : standardParams(TM_LIGHT))
     if (const Param* given = findParam(call.params, decl.name);
@@ -45,7 +45,7 @@ std::string groupOf(const ShaderCall& call) {
   return "";
 }
 
-/// The names of files of this ending in a folder.
+/// Returns the names of files of this ending in a folder.
 std::set<std::string> namesIn(const std::string& folder, const std::string& ending) {
   std::set<std::string> out;
   std::error_code none;
@@ -54,7 +54,7 @@ std::set<std::string> namesIn(const std::string& folder, const std::string& endi
   return out;
 }
 
-/// Is there a shader of this kind in a text? It need not compile.
+/// Tells whether there seems to be a shader of this kind in a text. It need not compile.
 bool seemsToHave(const fs::path& file, TmKind kind, const std::string& name) {
   std::error_code none;
   if (fs::file_size(file, none) > kMostText_bytes) return false;

@@ -1,5 +1,6 @@
-// What a page may change of a shot: the shaders of lights, objects, the air and the picture, with their parameters; the
-// colours of objects, and the lights that shine on them; and the exposure. Threads: any, after construction.
+// The parts of a shot that a page may change: the shaders of lights, objects, the air and the picture, with their
+// parameters; the colours of objects, and the lights that shine on them; and the exposure. Threads: any, after
+// construction.
 #pragma once
 #include <map>
 #include <mutex>
@@ -22,7 +23,7 @@ struct EditableParam {
   std::string name, type;  ///< The type as RIB declares it: "float", "color", "string[2]", ...
   std::string doc;
   TmRole role;
-  ParamValue value;  ///< In the scene as it was hidden, or the default of a shader that the scene does not use.
+  ParamValue value;  ///< Value in the scene as it was hidden, or the default of a shader that the scene does not use.
 };
 
 struct EditableShader {
@@ -30,7 +31,8 @@ struct EditableShader {
   std::string shader;  ///< Empty if it has none.
   mat4 worldFromShader{1.0f};  ///< Points among the parameters are given in its space, here when the shutter opens.
   std::vector<EditableParam> params{};
-  /// What names the light's group, as RIB has it: another shader in its place gets it too, for the group is a layer.
+  /// The parameter that names the light's group, as RIB writes it. Another shader in the light's place gets it too,
+  /// since each group is a layer.
   std::string group{};
 
   const EditableParam* param(const std::string& name) const;
@@ -45,10 +47,10 @@ struct EditableObject {
 /// The kinds of shaders that may be changed.
 enum ShaderSlot : size_t { kLights, kSurfaces, kAtmospheres, kImagers, kShaderSlots };
 struct ShaderSlotInfo {
-  const char* key;      ///< In JSON.
-  const char* request;  ///< In RIB.
+  const char* key;      ///< Name in JSON.
+  const char* request;  ///< Name of the request in RIB.
   TmKind kind;
-  const char* owner;  ///< What owns it, for messages.
+  const char* owner;  ///< Word for its owner in messages.
 };
 inline constexpr ShaderSlotInfo kSlots[kShaderSlots] = {{"lights", "LightSource", TM_LIGHT, "light"},
                                                         {"surfaces", "Surface", TM_SURFACE, "object"},
@@ -65,14 +67,14 @@ class Editable {
   const std::vector<EditableShader>& of(ShaderSlot slot) const { return shaders_[slot]; }
   const std::vector<EditableObject>& objects() const { return objects_; }
   const std::array<float, 2>& exposure() const { return exposure_; }  ///< Gain and gamma.
-  /// Null if nothing of that name can be changed.
+  /// Returns null if nothing of that name can be changed.
   const EditableShader* find(ShaderSlot slot, const std::string& owner) const;
   const EditableObject* object(const std::string& name) const;
 
-  /// The names of shaders that may take the place of others: built-in ones, and those of the files that the scene's
-  /// shaders are looked for in.
+  /// Returns the names of shaders that may take the place of others: built-in ones, and those of the files that the
+  /// scene's shaders are looked for in.
   std::vector<std::string> offered(ShaderSlot slot) const;
-  /// A shader of one of these names; null if it is none of this kind. It stays as long as this object.
+  /// Returns a shader of one of these names; null if it is none of this kind. It stays as long as this object.
   const EditableShader* describe(ShaderSlot slot, const std::string& name) const;
 
  private:

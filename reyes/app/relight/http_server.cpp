@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-// Connections that wait to be taken. With the library's 5, those of a page that loads its parts at once, or of a client
-// that floods the port, are refused and tried again a second later.
+// Number of connections that may wait to be taken. With the library's 5, those of a page that loads its parts at once,
+// or of a client that floods the port, are refused and tried again a second later.
 #define CPPHTTPLIB_LISTEN_BACKLOG 128
 #include <httplib.h>
 
@@ -48,7 +48,7 @@ const httplib::Headers kHeaders{{"Content-Security-Policy",
                                 {"X-Content-Type-Options", "nosniff"},
                                 {"Cache-Control", "no-store"}};
 
-/// What is left of a rate. Threads: any.
+/// The rest of a rate. Threads: any.
 class Allowance {
  public:
   explicit Allowance(const HttpRate& rate) : rate_(rate), left_(rate.burst) {}
@@ -93,7 +93,7 @@ struct HttpServer::Impl {
     return !request.has_header("Origin") || request.get_header_value("Origin") == "http://" + host;
   }
 
-  /// The path behind the token; empty if it is not there.
+  /// Returns the path behind the token; empty if it is not there.
   std::optional<std::string> pathOf(const httplib::Request& request) const {
     const std::string& path = request.path;
     const size_t end = token.size() + 1;
@@ -161,7 +161,7 @@ void HttpServer::start() {
     impl_->server.listen_after_bind();
     impl_->ended = true;
   });
-  // Until it listens, a server of httplib does not hear that it has to stop.
+  // A server of httplib cannot be stopped before it listens.
   while (!impl_->server.is_running() && !impl_->ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 

@@ -20,7 +20,7 @@ struct HttpQuestion {
   std::string body;
 };
 
-/// How often a handler may be asked; further requests get status 429.
+/// Limits of the requests to a handler; further ones get status 429.
 struct HttpRate {
   double burst = 1000, perSecond = 300;
 };
@@ -33,13 +33,13 @@ class HttpServer {
   explicit HttpServer(int port);
   ~HttpServer();  ///< Ends as stop() does.
 
-  /// The handler of a path behind the token, as "scene". Set them before start().
+  /// Set the handler of a path behind the token, such as "scene". Call them before start().
   void get(const std::string& path, HttpHandler handler, const HttpRate& rate = {});
   void post(const std::string& path, HttpHandler handler, const HttpRate& rate = {});
   /// Answers from a thread of its own until stop().
   void start();
   void stop();
-  /// The address of the page, with the token.
+  /// Returns the address of the page, with the token.
   std::string url() const;
 
  private:

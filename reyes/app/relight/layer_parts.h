@@ -20,7 +20,8 @@ class LayerParts {
     if (isNew) ++last_;
     wanted_ = known->second;
   }
-  /// The number of that edit, from 1: the same for the same text, and greater for one that was not known.
+  /// Returns the number of the wanted edit, from 1. It is the same for the same text, and greater for one that was not
+  /// known.
   uint32_t wanted() const { return wanted_; }
   bool isOld(size_t part) const { return held_[part] != wanted_; }
   bool areOld() const { return old() > 0; }

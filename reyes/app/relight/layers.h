@@ -33,15 +33,16 @@ class LayerStore {
   /// Returns all that was set after block number `after`, oldest first, and sets `after` to the last block. A part that
   /// was set again since comes once. If it is more than about `bytes`, squares of pixels become one, each their mean.
   std::string reducedAfter(uint64_t& after, size_t bytes) const;
-  /// The same at full size, but no more than about `bytes` of it, none after block `last`, and no coarse picture.
+  /// Returns the same at full size, but no more than about `bytes` of it, none after block `last`, and no coarse
+  /// picture.
   std::string blocksAfter(uint64_t& after, size_t bytes, uint64_t last) const;
   uint64_t newest() const;  ///< The number of the last block.
   /// Waits until there is a block after this one, or wake() has been called more than `told` times, but not for long.
   void wait(uint64_t after, uint64_t told) const;
-  /// To be called when there is something else to tell.
+  /// Call this when there is something else to tell.
   void wake() const;
-  uint64_t woken() const;  ///< How often it has been called.
-  /// The colour of a layer at a pixel, by its raster coordinates; black if it has not been put.
+  uint64_t woken() const;  ///< Returns how often it has been called.
+  /// Returns the colour of a layer at a pixel, by its raster coordinates; black if it has not been put.
   vec3 at(size_t layer, int x, int y) const;
   int64_t bytes() const;
 
@@ -61,7 +62,7 @@ class LayerStore {
   mutable std::condition_variable changed_;
   std::vector<std::vector<uint16_t>> layers_;  ///< Three numbers for each pixel; empty until the first put().
   std::vector<std::vector<uint16_t>> coarse_;
-  std::vector<Block> blocks_;  ///< In the order of their serial numbers.
+  std::vector<Block> blocks_;  ///< Sorted by serial number.
   uint64_t serial_ = 0;
   mutable uint64_t woken_ = 0;
 };

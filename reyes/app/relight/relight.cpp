@@ -36,7 +36,7 @@ const char* typeOf(std::string_view file) {
   return "text/javascript; charset=utf-8";
 }
 
-/// A number from 0 that the page sends.
+/// Returns a number from 0 that the page sends.
 uint64_t numberOf(const HttpQuestion& q, const std::string& name) {
   const auto found = q.parameters.find(name);
   const std::string text = found == q.parameters.end() ? "" : found->second;
@@ -202,8 +202,8 @@ class Relight {
     return out;
   }
 
-  /// The status as JSON after its length in 32 bits, and new blocks of the layers: all of them in so many bytes, or
-  /// with "last" as many at full size as there are up to that one.
+  /// Returns the status as JSON after its length in 32 bits, and new blocks of the layers: all of them in so many
+  /// bytes, or with "last" as many at full size as there are up to that one.
   HttpReply news(const HttpQuestion& q) {
     uint64_t after = numberOf(q, "after");
     const size_t bytes =
@@ -245,7 +245,7 @@ class Relight {
   }
 
   const RelightCommand& command_;
-  const TemporaryFolder folder_;  ///< For a scene that is hidden first.
+  const TemporaryFolder folder_;  ///< Holds a scene that is hidden first.
   RenderSettings shot_;
   Log& log_;
   Relighting relighting_;

@@ -13,7 +13,7 @@ struct RelightCommand {
   std::function<int(const RenderSettings&)> hide{};
 };
 
-/// Serves the page until it is ended. What has to be done before shows in the page. Returns the exit code.
+/// Serves the page until it is ended. The page shows the work that has to be done first. Returns the exit code.
 int relightCommand(const RelightCommand& command);
 
 }  // namespace tomales

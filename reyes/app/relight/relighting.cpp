@@ -168,7 +168,7 @@ void Relighting::start() {
   thread_ = std::thread([this] { work(); });
 }
 
-/// Does the page mix the layer by the factor of this light? Lights of one layer may each have another.
+/// Tells whether the page mixes the layer by the factor of this light. Lights of one layer may each have another.
 bool Relighting::isMixed(const Layer& layer, const std::string& handle) const {
   return layer.handles.size() == 1 && layer.handles.front() == handle;
 }
@@ -243,7 +243,7 @@ void Relighting::pointAt(int x, int y) {
   pointerY_ = window_.y0 + y;
 }
 
-/// The pixels by their raster coordinates.
+/// Returns the pixels by their raster coordinates.
 PixelRect Relighting::insideOfWindow(const PixelRect& p) const {
   const PixelRect out{
       window_.x0 + std::clamp(p.x0, 0, window_.width()), window_.y0 + std::clamp(p.y0, 0, window_.height()),

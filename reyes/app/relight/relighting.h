@@ -27,21 +27,21 @@ class Relighting {
   ~Relighting();
 
   /// Opens the shot, after a scene has been hidden, and, without --irradiance, gathers its light first. Returns false
-  /// if a file cannot be read, which is reported, or if it was interrupted. To be called once; before it has returned,
-  /// preparation() and tell() alone may be called, from any thread.
+  /// if a file cannot be read, which is reported, or if it was interrupted. Call it once. Until it has returned, only
+  /// preparation() and tell() may be called, from any thread.
   bool prepare();
-  /// What prepare() is doing: "doing", and "done" from 0 to 1.
+  /// Returns what prepare() is doing: "doing", and "done" from 0 to 1.
   Json preparation() const;
-  /// Sets that. Threads: any.
+  /// Sets what preparation() returns. Threads: any.
   void tell(const char* doing, float done);
   /// Begins to shade.
   void start();
-  /// The shot, what may be changed of it, and what the layers are.
+  /// Returns the shot, what may be changed of it, and what the layers are.
   Json description() const;
-  /// The shaders that may take the place of others, and one of them. Throws BadRequest if there is none.
+  /// Returns the shaders that may take the place of others, and one of them. Throws BadRequest if there is none.
   Json offered() const;
   Json offeredShader(const std::string& kind, const std::string& name) const;
-  /// What is being done, and for each layer what it shows.
+  /// Returns what is being done, and for each layer what it shows.
   Json status() const;
   const LayerStore& layers() const { return *layers_; }
 
@@ -61,11 +61,12 @@ class Relighting {
   /// Asks for the bounced light of these pixels to be gathered under the present edit.
   void askToGather(const PixelRect& pixels);
   bool isGathering() const;
-  /// The floats R G B of the finished picture, row by row; empty if the present edit has not been shaded yet.
+  /// Returns the floats R G B of the finished picture, row by row; empty if the present edit has not been shaded yet.
   std::vector<float> whole();
-  /// What the pixel shows: the nearest object, and its surface shader.
+  /// Returns what the pixel shows: the nearest object, and its surface shader.
   Json objectAt(int x, int y) const;
-  /// The records that the picture is shaded with, if some of them were gathered here; empty: those that were given.
+  /// Returns the file of the records that the picture is shaded with, if some of them were gathered here; empty: those
+  /// that were given.
   std::string gatheredFile() const;
 
  private:
@@ -77,8 +78,8 @@ class Relighting {
     bool indirect = true;
     std::vector<std::string> handles{};  ///< Names of the group's lights.
     LayerParts parts{};
-    uint32_t coarse = 0;          ///< The edit of its coarse picture.
-    Clock::time_point changed{};  ///< When another edit was wanted.
+    uint32_t coarse = 0;          ///< Number of the edit that its coarse picture shows.
+    Clock::time_point changed{};  ///< Time when another edit was wanted.
   };
   /// One step of the work.
   struct Step {
@@ -100,7 +101,7 @@ class Relighting {
   };
 
   bool openFiles();
-  /// For other threads than its own.
+  /// Returns the files for threads other than its own.
   std::shared_ptr<const ShotFiles> files() const {
     const std::lock_guard lock(mutex_);
     return files_;
@@ -111,13 +112,13 @@ class Relighting {
   size_t partOfBucket(size_t bucket) const;
   PixelRect insideOfWindow(const PixelRect& pixels) const;
 
-  // The edit that each layer shows.
+  // These find the edit that each layer shows.
   bool isMixed(const Layer& layer, const std::string& handle) const;
   EditState editFor(const Layer& layer) const;
   std::string textFor(const Layer& layer) const;
   void wantPresent();
 
-  // The thread.
+  // These belong to the thread that shades.
   std::optional<Step> next() const;
   std::optional<Step> nextPart(size_t from, size_t to) const;
   Step stepFor(Step::Kind kind, size_t layer, size_t part = 0) const;
@@ -136,7 +137,7 @@ class Relighting {
   std::shared_ptr<const DeepTile> outlineOf(size_t bucket, const DeepTile& tile);
   bool isNeededBesides(const Layer& layer, size_t bucket, size_t part) const;
   ShownTiles plainTiles();
-  size_t bucketAt(int x, int y) const;  ///< Of a raster pixel.
+  size_t bucketAt(int x, int y) const;  ///< Returns the bucket of a raster pixel.
   size_t placeOf(int x, int y) const;
 
   RenderSettings settings_;
@@ -176,7 +177,7 @@ class Relighting {
   std::string gatheredFile_;
   Image finished_;  ///< The whole picture before exposure and imager.
 
-  std::vector<SharedTiles> shared_;  ///< Of each layer; guarded, like outlines_, by a mutex of its own.
+  std::vector<SharedTiles> shared_;  ///< Indexed by layer; guarded, like outlines_, by a mutex of its own.
   std::map<size_t, std::weak_ptr<const DeepTile>> outlines_;
   std::mutex sharing_;
   std::vector<vec3> glow_;        ///< Layer 1 in full floats; the thread's own.

@@ -1,4 +1,4 @@
-// What a page asks about a shot and its shading.
+// The answers to a page that asks about a shot and its shading.
 #include <set>
 
 #include "reyes/app/relight/relighting.h"

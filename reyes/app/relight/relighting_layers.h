@@ -8,20 +8,20 @@ namespace tomales {
 
 constexpr size_t kWhole = 0, kGlow = 1, kFirstLight = 2;
 
-/// A value for a parameter that only multiplies the light, at which all of the light can be seen: that of the scene
-/// unless a component is 0.
+/// Returns a value for a parameter that only multiplies the light, at which all of the light can be seen: that of the
+/// scene unless a component is 0.
 inline std::vector<float> unitOf(const EditableParam& param) {
   std::vector<float> out = param.value.numbers;
   if (std::ranges::count(out, 0.0f) > 0) std::ranges::fill(out, 1.0f);
   return out;
 }
 
-/// The shade group of the nearest thing at a raster pixel of a bucket.
+/// Returns the shade group of the nearest thing at a raster pixel of a bucket.
 std::optional<int> groupAt(const DeepTile& tile, int x, int y);
 
-/// The variables and channels that a page may ask for.
+/// Returns the variables and channels that a page may ask for.
 std::vector<std::string> variablesOf(const Options& options);
-/// The value of the one that ShotJob::prepareToShow() has been asked for; a number is a grey.
+/// Returns the value of the one that ShotJob::prepareToShow() has been asked for; a number is a grey.
 vec3 variableAt(const Image& rows, int x, int y, const std::string& variable);
 
 }  // namespace tomales

@@ -17,8 +17,8 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
 
 }  // namespace
 
-// Of all parts that are old the nearest to the pointer, and there the earlier layer: what shines by itself is taken off
-// the others.
+// Returns the old part that is nearest to the pointer. Of several layers there it takes the earliest, because the light
+// of what shines by itself is subtracted from the other layers.
 std::optional<Relighting::Step> Relighting::nextPart(size_t from, size_t to) const {
   std::optional<std::pair<size_t, size_t>> best;
   int64_t least = std::numeric_limits<int64_t>::max();

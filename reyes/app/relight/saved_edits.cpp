@@ -16,7 +16,8 @@ constexpr const char* kRecords = ".icf";
 constexpr size_t kLongestName = 64;
 constexpr uintmax_t kMostEdit_bytes = 1 << 20;
 
-/// Only letters, digits, - and _ make a name, so that it leads nowhere else than to the folder.
+/// Returns the file of an edit. Only letters, digits, - and _ make a name, so that it leads nowhere else than to the
+/// folder.
 fs::path fileOfEdit(const std::string& folder, const std::string& name) {
   const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_'; };
   if (name.empty() || name.size() > kLongestName || !std::ranges::all_of(name, plain))

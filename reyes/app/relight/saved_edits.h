@@ -12,10 +12,10 @@ class SavedEdits {
  public:
   explicit SavedEdits(std::string folder) : folder_(std::move(folder)) {}
 
-  /// The names of all edits of this shot: scenes and other RIB files lie there too.
+  /// Returns the names of all edits of this shot: scenes and other RIB files lie there too.
   std::set<std::string> names(const Editable& editable) const;
 
-  /// What was written.
+  /// The files that were written.
   struct Written {
     std::string edit;
     std::string irradiance;  ///< Empty: nothing was gathered.

@@ -3,7 +3,8 @@
 namespace tomales {
 namespace {
 
-/// Of light that is interpolated: one for each layer, and for each normal that an edit of bumps has made.
+/// Limit of the answers of interpolated light: there is one for each layer, and for each normal that an edit of bumps
+/// has made.
 constexpr size_t kMostAnswersOfPoint = 32;
 
 }  // namespace

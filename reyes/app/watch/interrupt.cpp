@@ -21,7 +21,7 @@ bool isIgnored(int number) {
   return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-constexpr timespec kShaderPatience{10, 0};  ///< For one call of a shader to return after the first signal.
+constexpr timespec kShaderPatience{10, 0};  ///< Longest time for one call of a shader to return after the first signal.
 
 /// Signals are handled by a thread, because the steps of an abrupt end are not allowed in a handler.
 [[noreturn]] void waitForSignals(sigset_t set) {

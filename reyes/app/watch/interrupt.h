@@ -7,9 +7,8 @@
 
 namespace tomales {
 
-/// Opens standard files that are closed, in a way that their use fails as it
-/// would have. Else the next file that the program opens would take their
-/// place and get its messages. Call it once, before anything else is opened.
+/// Opens standard files that are closed, in a way that their use fails as it would have. Otherwise the next file that
+/// the program opens would take their place and get its messages. Call it once, before anything else is opened.
 void openStandardFiles();
 /// Call it once, before other threads start: they must not get the signals. A pipe that nobody reads any more (SIGPIPE)
 /// and a file that is too large (SIGXFSZ, ulimit -f) are then errors of write().

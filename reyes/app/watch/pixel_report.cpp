@@ -9,7 +9,7 @@ namespace {
 
 std::string text(const vec3& v) { return fmt::format("{:.5g} {:.5g} {:.5g}", v.x, v.y, v.z); }
 
-/// The mean of f over the points of a facet.
+/// Returns the mean of f over the points of a facet.
 template <class F>
 vec3 mean(const Facet& facet, const F& f) {
   return 0.25f * (f(facet.point[0]) + f(facet.point[1]) + f(facet.point[2]) + f(facet.point[3]));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::seconds kTick{1};
 constexpr const char* kEraseLine = "\r\033[K";  ///< ECMA-48: EL.
-constexpr int kStepOfPass = 10;                 ///< In per cent, off the terminal.
+constexpr int kStepOfPass = 10;                 ///< Step of the progress of a pass, in per cent, off the terminal.
 
 std::string minutes(double seconds) {
   const auto whole = static_cast<int>(seconds);

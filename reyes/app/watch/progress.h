@@ -24,7 +24,7 @@ class ProgressMeter {
 
   /// Begins a pass whose share nobody knows.
   void begin(const char* pass);
-  /// A callback for a pass, whose 0..1 is [begin, end] of the frame. The pass begins with the first call.
+  /// Returns a callback for a pass, whose 0..1 is [begin, end] of the frame. The pass begins with the first call.
   std::function<void(float)> pass(const char* name, float begin, float end);
   /// Tells that the frame is done, and its last pass with it.
   void finish();
@@ -43,8 +43,8 @@ class ProgressMeter {
   std::mutex mutex_;  ///< It guards what follows.
   const char* pass_;
   Clock::time_point passStart_;
-  int passPercent_ = -1;  ///< The one that was shown last, or -1 if nothing is known of the pass.
-  int percent_ = -1;      ///< The same of the frame.
+  int passPercent_ = -1;  ///< Percentage of the pass that was shown last, or -1 if nothing is known of the pass.
+  int percent_ = -1;      ///< Percentage of the frame that was shown last.
   bool done_ = false;
   std::condition_variable wake_;
   std::thread mover_;  ///< It runs on a terminal only.

@@ -1,4 +1,4 @@
-// What a run and its frames have taken, for --stats, --profile-shaders, -v and --log.
+// The time and other figures of a run and its frames, for --stats, --profile-shaders, -v and --log.
 #pragma once
 #include <chrono>
 #include <optional>
@@ -14,7 +14,7 @@ namespace tomales {
 /// The figures that --stats writes.
 struct RunFigures {
   std::optional<int> frame;        ///< Empty before the first frame.
-  double wall_s = 0, cpu_s = 0;    ///< Those of the whole process.
+  double wall_s = 0, cpu_s = 0;    ///< Times of the whole process.
   int64_t peak_bytes = 0;          ///< Most resident memory.
   std::vector<LogEntry> messages;  ///< Reported meanwhile.
 };
@@ -24,18 +24,18 @@ class RunReport {
   /// Opens --log, and says there what runs. `log` and `settings` outlive it.
   RunReport(const RenderSettings& settings, Log& log);
 
-  /// The counters of the frame that is being made, or of the run where --stats names one file for all frames. The
-  /// reference stays.
+  /// Returns the counters of the frame that is being made, or of the run where --stats names one file for all frames.
+  /// The reference stays.
   Stats& stats() { return *stats_; }
-  /// Tells the number of the frame that is being made. What was read before belongs to it.
+  /// Tells the number of the frame that is being made. The scene that was read before belongs to it.
   void begin(int frame) { frame_ = frame; }
-  /// Writes what there is so far, if --stats names one file for a frame or for all.
+  /// Writes the figures so far, if --stats names one file for a frame or for all.
   void flush();
   /// A frame is done: says what it has written and taken, and writes its figures.
   void end(const SourceLoc& where);
-  /// Leaves out what was read for a frame that is not rendered.
+  /// Leaves out the reading of a frame that is not rendered.
   void skip();
-  /// Writes what there is of the whole run.
+  /// Writes the figures of the whole run.
   void finish();
 
  private:
@@ -54,11 +54,11 @@ class RunReport {
   Log& log_;
   std::optional<Stats> stats_;
   std::optional<int> frame_;
-  Clock::time_point start_, frameStart_;  ///< Where the figures and the frame begin.
+  Clock::time_point start_, frameStart_;  ///< Beginnings of the figures and of the frame.
   double cpuStart_ = 0, frameCpuStart_ = 0;
-  int64_t peak_ = 0;  ///< In bytes, of the frames before.
+  int64_t peak_ = 0;  ///< Peak of the frames before, in bytes.
   size_t outputsSaid_ = 0;
-  std::vector<LogEntry> before_;  ///< What the figures leave out.
+  std::vector<LogEntry> before_;  ///< Messages that the figures leave out.
 };
 
 }  // namespace tomales

@@ -10,10 +10,10 @@ void append(const ShadePoints& from, int i, ShadePoints& to) {
   for (int c = 0; c < from.channelCount(); ++c) to.channel(c)[k] = from.channel(c)[i];
 }
 
-/// The first number from `value` on that is `origin` and a multiple of `stride`. Pre: value is at least origin.
+/// Returns the first number from `value` on that is `origin` and a multiple of `stride`. Pre: value is at least origin.
 int roundUp(int value, int origin, int stride) { return origin + (value - origin + stride - 1) / stride * stride; }
 
-/// The batch of a tile for points of this group.
+/// Returns the batch of a tile for points of this group.
 size_t batchFor(const ShadePoints& points, DeepTile& tile) {
   const auto found = std::ranges::find(tile.batches, points.group(), &ShadePoints::group);
   if (found != tile.batches.end()) return static_cast<size_t>(found - tile.batches.begin());

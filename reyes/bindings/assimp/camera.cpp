@@ -12,7 +12,7 @@ mat4 lookingAlong(const glm::dvec3& from, const glm::dvec3& forward, const glm::
   return mat4(vec4(vec3(x), 0), vec4(vec3(y), 0), vec4(vec3(z), 0), vec4(vec3(from), 1));
 }
 
-/// A vector that is not parallel to `forward`.
+/// Returns a vector that is not parallel to `forward`.
 vec3 usableUp(const vec3& forward, const vec3& up) {
   const vec3 side = cross(normalizeOr(forward, vec3(0, 0, -1)), normalizeOr(up, vec3(0.0f)));
   if (dot(side, side) > 1e-8f) return up;

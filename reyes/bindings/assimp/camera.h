@@ -15,8 +15,8 @@ struct Camera {
   float orthographic_halfWidth = 0;  ///< Greater than 0: a parallel projection.
 };
 
-/// What glTF means by a camera that Assimp 5.2 has read: it repeats the place of the camera's node as that of the
-/// camera within the node, and multiplies angles by the aspect, not their tangents.
+/// Returns the camera that glTF means by one that Assimp 5.2 has read. Assimp repeats the place of the camera's node as
+/// that of the camera within the node, and multiplies angles by the aspect, not their tangents.
 aiCamera gltfCamera(const aiCamera& camera);
 Camera cameraOf(const aiCamera& camera, const mat4& worldFromNode);
 /// Looks at the box from above its front right corner (+z is in front), so that it fills the picture.

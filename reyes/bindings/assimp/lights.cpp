@@ -10,11 +10,13 @@ struct Placed {
   std::string handle;
   mat4 world;
   vec3 from, direction;
-  vec3 strength;       ///< RSL's: E/pi at distance 1, or anywhere of distant lights; radiance of areas.
-  float arriving = 0;  ///< In the middle of what is lit, E/pi.
+  /// Strength in RSL's units: E/pi at distance 1, or anywhere for distant lights; radiance for areas.
+  vec3 strength;
+  float arriving = 0;  ///< E/pi in the middle of the lit world.
 };
 
-/// Attenuation is 1 / (c + l d + q d^2) in a model and 1 / d^2 here: the same in the middle of what is lit.
+/// Returns a strength for 1 / d^2 that has the same effect in the middle of the lit world as the model's attenuation, 1
+/// / (c + l d + q d^2).
 float inverseSquareOf(const aiLight& light, float distance) {
   const float at = light.mAttenuationConstant + light.mAttenuationLinear * distance +
                    light.mAttenuationQuadratic * distance * distance;

@@ -99,7 +99,7 @@ class Painter {
     if (mapped.channel) look_.parameters.push_back(param(mapped.channel, mapped.number));
     multiplyOne(mapped);
   }
-  /// Names of the parameters whose pictures are looked up at the second set of texture coordinates.
+  /// Returns the names of the parameters whose pictures are looked up at the second set of texture coordinates.
   const std::string& ofSecondSet() const { return ofSecondSet_; }
   void leaveOut(const std::string& what) { look_.leftOut += (look_.leftOut.empty() ? "" : ", ") + what; }
 
@@ -133,7 +133,8 @@ std::string alphaMode(const aiMaterial& material) {
 /// Its reader always says how alpha counts.
 bool isGltf(const aiMaterial& material) { return !alphaMode(material).empty(); }
 
-/// How alpha counts in glTF (section 3.9.4 of its specification): not at all, as it is, or as what is there or not.
+/// Applies glTF's mode of alpha (section 3.9.4 of its specification): it counts not at all, as it is, or as present or
+/// absent.
 void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
   const float cutoff = number(material, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5f);
   const bool isMask = alphaMode(material) == "MASK";
@@ -149,7 +150,7 @@ void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
   }
 }
 
-/// What is not lit glows in its colour. Its picture is the only one.
+/// Makes a material that is not lit glow in its colour. Its picture is the only one.
 void makeUnlit(Look& look) {
   if (const Param* p = find(look.parameters, "secondset"); p && p->strings[0].find("texturename") != std::string::npos)
     look.textureSet = *look.secondSet;

@@ -17,9 +17,9 @@ struct Look {
   bool usesVertexAlpha = true;
   std::string shader = "disney";
   ParamList parameters;
-  unsigned textureSet = 0;            ///< Which of a mesh's texture coordinates are st.
-  std::optional<unsigned> secondSet;  ///< Which are s1 and t1.
-  std::string leftOut;                ///< What the shader has nothing for; empty: nothing.
+  unsigned textureSet = 0;            ///< Number of the mesh's texture coordinates that are st.
+  std::optional<unsigned> secondSet;  ///< Number of those that are s1 and t1.
+  std::string leftOut;                ///< Names of properties that the shader does not have; empty: none.
 };
 
 /// `pictureReplaces`: a picture takes the place of the colour, which it multiplies elsewhere.

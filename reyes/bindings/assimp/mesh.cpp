@@ -42,7 +42,7 @@ Sorted sortedFaces(const aiMesh& mesh) {
   return out;
 }
 
-/// Is a corner of some face turned inward? PointsPolygons are convex (RISpec 5.1).
+/// Tells whether a corner of some face is turned inward. PointsPolygons are convex (RISpec 5.1).
 bool anyConcave(const Faces& faces, const std::vector<vec3>& points, const std::vector<int>& pointOf) {
   size_t first = 0;
   for (const int count : faces.counts) {

@@ -22,7 +22,7 @@ struct Geometry {
 /// Colours of vertices multiply the look's, and their alphas its opacity.
 Geometry geometryOf(const aiMesh& mesh, const Look& look, const GeometrySettings& settings);
 
-/// The bound of all finite vertices.
+/// Returns the bound of all finite vertices.
 Bound3 boundOf(const aiMesh& mesh);
 
 }  // namespace tomales::model

@@ -5,8 +5,8 @@
 
 namespace tomales::model {
 
-/// Reads settings.model, and writes the scene and its parts. What cannot be read or is left out is reported. Throws
-/// WriteError. Assimp may crash, hang or take all memory on damaged files.
+/// Reads settings.model, and writes the scene and its parts. Parts that cannot be read or are left out are reported.
+/// Throws WriteError. Assimp may crash, hang or take all memory on damaged files.
 void importModel(const Settings& settings, Log& log);
 
 }  // namespace tomales::model

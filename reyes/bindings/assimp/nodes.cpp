@@ -20,7 +20,7 @@ mat4 of(const aiMatrix4x4& m) {
   return {{m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
 }
 
-/// A stack of its own: trees of hostile files are deeper than that of the machine.
+/// Uses a stack of its own: trees of hostile files are deeper than the machine's stack.
 Nodes nodesOf(const aiScene& scene, const mat4& worldFromModel) {
   struct Open {
     const aiNode* node;

@@ -22,7 +22,7 @@ struct Instance {
 };
 
 struct Nodes {
-  std::vector<Instance> instances;  ///< As the tree has them, depth first.
+  std::vector<Instance> instances;  ///< Instances in the order of the tree, depth first.
   std::map<std::string, mat4> worldFromNode;
   int unusable = 0;  ///< Instances that are left out: their transformation is singular or no number.
 };

@@ -15,12 +15,12 @@ class Parts {
   explicit Parts(const Settings& settings) : settings_(settings) {}
 
   struct Place {
-    std::string path;  ///< To write to.
-    std::string name;  ///< What the RIB calls it.
+    std::string path;  ///< Path to write to.
+    std::string name;  ///< Name in the RIB.
   };
-  /// A new file in the folder of parts, under a name made of `stem`, which may be anything.
+  /// Returns a new file in the folder of parts, under a name made of `stem`, which may be anything.
   Place reserve(const std::string& stem, const std::string& ending);
-  /// The requests as binary RIB. Returns what the RIB calls the file.
+  /// Writes the requests as binary RIB. Returns the name of the file in the RIB.
   std::string addArchive(const std::string& stem, const Requests& requests);
 
  private:

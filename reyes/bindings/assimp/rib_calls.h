@@ -22,7 +22,7 @@ Param param(std::string name, float value);
 Param param(std::string name, int value);
 Param param(std::string name, std::string value);
 Param param(std::string name, ValueType type, const vec3& value);
-/// A primitive variable of `width` floats an element beyond its type's own, as "float[2] st" has 2.
+/// Returns a primitive variable of `width` floats an element beyond its type's own, as "float[2] st" has 2.
 Param variable(std::string name, Storage storage, ValueType type, std::vector<float> values, int arrayLength = 1);
 
 template <class... Args>

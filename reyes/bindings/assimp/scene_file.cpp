@@ -59,7 +59,7 @@ class SceneWriter {
     log_.report(severity, code, where_, message);
   }
 
-  /// In .fbx and .dae a picture stands in for a colour.
+  /// Converts the materials. In .fbx and .dae a picture replaces a colour.
   void addLooks() {
     const std::string ending = endingOf(settings_.model);
     Textures textures(scene_, settings_, parts_, log_);
@@ -91,7 +91,7 @@ class SceneWriter {
                        nodes_.unusable));
   }
 
-  /// What draws the mesh: itself, or a name for what has been written already.
+  /// Adds the requests that draw the mesh, or that name an archive or object with it.
   void addMesh(unsigned index) {
     const aiMesh& mesh = *scene_.mMeshes[index];
     const GeometrySettings how{settings_.subdivide, settings_.smooth_degrees, endingOf(settings_.model) != ".stl"};
@@ -197,11 +197,11 @@ class SceneWriter {
   Log& log_;
   const SourceLoc where_;
   const Nodes nodes_;
-  std::vector<int> uses_;  // of each mesh
+  std::vector<int> uses_;  // Number of uses of each mesh.
   std::vector<Look> looks_;
   Parts parts_;
   Requests objects_;
-  std::map<unsigned, Requests> drawn_;  // by mesh
+  std::map<unsigned, Requests> drawn_;  // Indexed by mesh.
   Bound3 world_;
 };
 

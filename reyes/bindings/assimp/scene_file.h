@@ -7,7 +7,7 @@
 
 namespace tomales::model {
 
-/// Writes the scene and its parts. What is left out is reported. Throws WriteError.
+/// Writes the scene and its parts. Parts of the model that are left out are reported. Throws WriteError.
 void writeScene(const aiScene& scene, const Settings& settings, Log& log);
 
 }  // namespace tomales::model

@@ -9,7 +9,7 @@ constexpr int kMostCompared = 64;
 
 const vec3 kNone(0.0f);
 
-/// By Newell's method, which polygons that are not quite flat allow. Zero: the face has no area.
+/// Uses Newell's method, which works for polygons that are not quite flat. Zero: the face has no area.
 vec3 faceNormal(const std::vector<vec3>& points, const int* corners, int count) {
   glm::dvec3 sum(0.0);
   const glm::dvec3 origin = points[static_cast<size_t>(corners[0])];

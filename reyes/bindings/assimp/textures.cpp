@@ -40,7 +40,8 @@ std::string withoutEscapes(const std::string& uri) {
   return out;
 }
 
-/// As it is written, by paths of Windows too; else by its last part, as models outlive the folders they were made in.
+/// Returns the file of this name beside the model, also if the name is a path of Windows. Otherwise the last part of
+/// the name counts, as models outlive the folders they were made in.
 std::string foundBeside(const std::string& model, const std::string& name) {
   std::string slashed = withoutEscapes(name);
   std::replace(slashed.begin(), slashed.end(), '\\', '/');

@@ -10,9 +10,9 @@
 namespace tomales::model {
 
 struct Welded {
-  std::vector<vec3> points;   ///< Those that the faces use.
-  std::vector<int> pointOf;   ///< By vertex of the mesh; -1: no face uses it.
-  std::vector<int> vertexOf;  ///< By point: the first vertex that lies there.
+  std::vector<vec3> points;   ///< Points that the faces use.
+  std::vector<int> pointOf;   ///< Indexed by vertex of the mesh; -1: no face uses it.
+  std::vector<int> vertexOf;  ///< Indexed by point: the first vertex that lies there.
   bool oneToOne = true;       ///< No two vertices in use share a point.
 };
 

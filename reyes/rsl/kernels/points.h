@@ -25,7 +25,7 @@ namespace tomales::compiler::kernels {
 RSL_OPS(RSL_OP)
 #undef RSL_OP
 
-/// The address of component c of the first point of block b.
+/// Returns the address of component c of the first point of block b.
 RSL_INLINE float* planeOf(const Lanes& l, int b, int c = 0) {
   return l.data + static_cast<ptrdiff_t>(b) * l.block + static_cast<ptrdiff_t>(c) * l.component;
 }
@@ -94,7 +94,7 @@ RSL_INLINE void eachByReach(int blocks, const Lanes& out, const Lanes* in, const
   eachBlockByReach(blocks, out, in, isNear, near, far, &Far::operator(), argumentsOf(&Far::operator()));
 }
 
-/// Component c of a register, as a register of numbers.
+/// Returns component c of a register, as a register of numbers.
 inline Lanes componentOf(const Lanes& l, int c) {
   return {l.data + static_cast<ptrdiff_t>(c) * l.component, l.block, l.component};
 }

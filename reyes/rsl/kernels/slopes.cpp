@@ -17,7 +17,7 @@ RSL_INLINE Changing mix(Changing a, Changing b, Changing t) {
 }
 RSL_INLINE Changing fade(float t, float slope) { return {rsl::fade(t), 30 * (t * t) * ((1 - t) * (1 - t)) * slope}; }
 
-/// The slope of rsl::noise() along d, term by term; 0 where noise() clamps to [0, 1].
+/// Returns the slope of rsl::noise() along d, term by term; 0 where noise() clamps to [0, 1].
 RSL_INLINE float slopeOf(const rsl::LatticePlace& p, Vec3 d) {
   const auto corner = [&](int i, int j, int k) RSL_INLINED {
     const Vec3 offset{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};

@@ -34,7 +34,7 @@ RSL_INLINE double exp2Of(double x) {
                     0.0096184889600560896, 0.0013399931312495374, 0.00015345811162244401) *
          doubleOf((bitsOf(sum) << 52) + (uint64_t{1023} << 52));
 }
-/// The logarithm of a number that is not negative, to base 2.
+/// Returns the logarithm of a number that is not negative, to base 2.
 RSL_INLINE double log2Of(float x) {
   const uint64_t bits = bitsOf(x);  // a double holds the subnormal floats as normal numbers
   const double exponent = doubleOf((bits >> 52) | bitsOf(0x1p52)) - (0x1p52 + 1023),
@@ -64,13 +64,14 @@ struct Angle {
   double rest;
   uint64_t quarters;
 };
-/// For numbers below kFar, where the product with the first 33 bits of half pi is exact (Cody and Waite).
+/// angleOf() takes numbers below this, for which the product with the first 33 bits of half pi is exact (Cody and
+/// Waite).
 constexpr float kFar = 0x1p20f;
 RSL_INLINE Angle angleOf(float x) {
   const double sum = x * 0x1.45f306dc9c883p-1 + kRounding, quarters = sum - kRounding;
   return {(x - quarters * 0x1.921fb544p+0) - quarters * 0x1.0b4611a626331p-34, bitsOf(sum)};
 }
-/// For all other numbers.
+/// Reduces all other numbers.
 Angle farAngleOf(float x);
 
 RSL_INLINE float sineOf(Angle a) {
@@ -94,7 +95,7 @@ RSL_INLINE float tangentOf(Angle a) {
                             doubleOf((c & ~other) | (s & other)));
 }
 
-/// The arctangent of a number in [0, 1].
+/// Returns the arctangent of a number in [0, 1].
 RSL_INLINE double unitArctangentOf(double x) {
   return x * polynomial(x * x, 0.99999999994124593, -0.33333331571170629, 0.19999912048506968, -0.14283980718689059,
                         0.11093241013609598, -0.089802383343366414, 0.072457170906466064, -0.054279101224675876,
@@ -137,14 +138,14 @@ RSL_INLINE float acosOf(float x) {
   return static_cast<float>(x < 0 ? 2 * kHalfPi - rest : rest);
 }
 
-/// erf of a number in [-1, 1], and erfc of one in [1/2, infinity).
+/// Returns erf of a number in [-1, 1].
 RSL_INLINE double smallErfOf(double x) {
   return x * polynomial(x * x, 1.128379167094586, -0.37612638888502679, 0.1128379128534676, -0.026866131407463085,
                         0.0052237764007241372, -0.00085424888359581399, 0.00011954817490883131, -1.3898693347413725e-5,
                         1.0562961533863376e-6);
 }
-/// exp(-x^2) times a polynomial (as Shepherd and Laframboise 1981, "Chebyshev approximation of (1+2x) exp(x^2)
-/// erfc(x)"), as far as a float can hold erfc.
+/// Returns erfc of a number in [1/2, infinity), as far as a float can hold it: exp(-x^2) times a polynomial (as
+/// Shepherd and Laframboise 1981, "Chebyshev approximation of (1+2x) exp(x^2) erfc(x)").
 RSL_INLINE double largeErfcOf(double value) {
   const double x = value > 10.25 ? 10.25 : value, t = (x - 2) / (x + 2);
   return exp2Of(-kLog2OfE * x * x) / (1 + 2 * x) *

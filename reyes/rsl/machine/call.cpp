@@ -90,7 +90,7 @@ void Call::set(float value, size_t k) {
 
 namespace {
 
-/// Component c of element e of a value, at point i.
+/// Returns component c of element e of a value, at point i.
 float valueAt(const TmValue& v, int32_t width, int32_t e, int32_t c, int32_t i) {
   return width == 3 ? v.c[c][e * 3 + i * v.step] : v.c[0][e * width + c + i * v.step];
 }

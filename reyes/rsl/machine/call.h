@@ -22,13 +22,13 @@ class Call {
 
   bool has(size_t k) const { return k < of.in.size() && of.in[k] >= 0; }
   TmConstVec3 triple(size_t k) { return tripleOf(of.in[k]); }
-  /// A copy of an argument, which the body of a loop cannot assign.
+  /// Returns a copy of an argument, which the body of a loop cannot assign.
   TmConstVec3 copied(size_t k);
   const float* number(size_t k) { return numberOf(of.in[k]); }
   const char* text(size_t k) const { return run.text(of.in[k]).c_str(); }
-  /// The value for all points. If points differ it is that of the first active one, and a warning is given.
+  /// Returns the value for all points. If points differ it is that of the first active one, and a warning is given.
   float one(size_t k, const char* what);
-  /// The same as a whole number, 0 if it does not fit an int.
+  /// Returns the same as a whole number, 0 if it does not fit an int.
   int32_t whole(size_t k, const char* what);
 
   /// Returns the arrays for the service to fill.

@@ -47,7 +47,7 @@ void executeCopy(Run& run, const Step& s) {
                run.lane(to).data + (e * width + c) * next, toVaries);
 }
 
-/// The element that a number asks for: rounded down and clamped to the array.
+/// Returns the element that a number asks for: rounded down and clamped to the array.
 int32_t elementAt(float index, int32_t length, bool& outside) {
   const bool fits = index >= 0 && index < static_cast<float>(length);
   outside |= !fits;
@@ -60,7 +60,7 @@ void tellOutside(Run& run, int32_t array) {
            " has not; the nearest is taken");
 }
 
-/// The elements that all points ask for; those that are not active may ask for any number.
+/// Returns the elements that all points ask for; those that are not active may ask for any number.
 const int32_t* elements(Run& run, int32_t array, int32_t index) {
   int32_t* const out = reinterpret_cast<int32_t*>(run.memory.floats(static_cast<size_t>(run.padded)));
   const float* const wanted = run.lane(index).data;

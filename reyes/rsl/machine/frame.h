@@ -39,7 +39,7 @@ struct Run {
   const Register& reg(int32_t r) const { return program.reg(r); }
   const Lanes& lane(int32_t r) const { return lanes[r]; }
   bool varies(int32_t r) const { return lanes[r].block != 0; }
-  /// The distance in floats from one component, or element of an array, to the next.
+  /// Returns the distance in floats from one component, or element of an array, to the next.
   int32_t stride(int32_t r) const {
     const Lanes& l = lanes[r];
     return l.component != 0 ? l.component : l.block != 0 ? padded : kBlock;
@@ -48,7 +48,7 @@ struct Run {
   std::string& variableText(int32_t r, int32_t element = 0) {
     return memory.text(texts + static_cast<size_t>(program.located(r).at + element));
   }
-  /// The batch with its present mask, for a call of a service.
+  /// Returns the batch with its present mask, for a call of a service.
   const TmGrid* asking() {
     grid.active = mask->on;
     return &grid;

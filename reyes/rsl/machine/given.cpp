@@ -22,7 +22,8 @@ Source same(const float* one, int32_t components) {
   return {{one, components > 1 ? one + 1 : nullptr, components > 1 ? one + 2 : nullptr}, true};
 }
 
-/// In an area light's shader P and N are those of the point on the light, and Ps and Ns those of the lit point.
+/// Tells whether the shader is that of an area light: P and N are then those of the point on the light, and Ps and Ns
+/// those of the lit point.
 bool isArea(const TmGrid& g) { return g.Pl.x != nullptr; }
 
 Source sourceOf(Global global, ShaderKind kind, const TmGrid& g) {

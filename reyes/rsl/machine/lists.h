@@ -5,7 +5,7 @@
 
 namespace tomales::compiler {
 
-/// The value of an entry of a list, with arrays if the service fills it in.
+/// Returns the value of an entry of a list, with arrays if the service fills it in.
 rsl::Setting settingOf(Call& call, const Setting& entry);
 /// Reports what is wrong with an entry; `taken` is what set() returned for it.
 void tell(Call& call, const std::string& name, const rsl::Setting& value, const rsl::Entry& taken);

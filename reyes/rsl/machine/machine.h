@@ -11,8 +11,8 @@
 
 namespace tomales::compiler {
 
-/// The default of a parameter with Parameter::computed: RIB cannot give this value, so it means that nothing was given.
-/// It is a NaN, so x != x tells it, also after a transformation to current space.
+/// Returns the default of a parameter with Parameter::computed: RIB cannot give this value, so it means that nothing
+/// was given. It is a NaN, so x != x tells it, also after a transformation to current space.
 float notGiven();
 bool isNotGiven(float value);
 

@@ -16,7 +16,7 @@ bool both(int n, const uint8_t* a, const uint8_t* b, uint8_t* out);
 void copyWhere(int n, const uint8_t* on, const float* from, float* to);
 void fillWhere(int n, const uint8_t* on, float value, float* to);
 
-/// A mask within the run's, in force while this lives. At first it has the same points.
+/// A mask within the run's mask, which counts while this object lives. At first it has the same points.
 class Narrowed {
  public:
   explicit Narrowed(Run& run, int32_t label = -1)

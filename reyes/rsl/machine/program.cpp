@@ -19,7 +19,7 @@ int32_t lastLabel(const Block& block) {
   return last;
 }
 
-/// The component that a number means, held to 0..2 as kernels/triples.cpp does.
+/// Returns the component that a number means, held to 0..2 as kernels/triples.cpp does.
 int32_t componentOf(float which) { return which >= 2 ? 2 : which >= 1 ? 1 : 0; }
 
 /// Joins ranges that touch.

@@ -26,7 +26,7 @@ struct Step {
   std::vector<Steps> blocks;
 };
 
-/// Where a register lies.
+/// The place of a register.
 enum class Where : uint8_t {
   Nowhere,   ///< Nothing uses it.
   Constant,  ///< It lies `at` floats behind the program's first constant.
@@ -56,7 +56,7 @@ class Program {
   const Located& located(int32_t r) const { return located_[static_cast<size_t>(r)]; }
   const float* constants() const { return constants_.data(); }
   const Steps& body() const { return body_; }
-  /// The globals and parameters that are used, in the order of their numbers.
+  /// Returns the globals and parameters that are used, in the order of their numbers.
   const std::vector<int32_t>& ofHost() const { return ofHost_; }
   /// Registers that may be read before they are written: floats a point (varying) or values (uniform), [from, to).
   struct Cleared {
@@ -83,7 +83,7 @@ class Program {
   int32_t varying_ = 0, uniform_ = 0, texts_ = 0;
 };
 
-/// The number of floats of one element.
+/// Returns the number of floats of one element.
 inline int32_t floatsOf(const Register& r) { return floatsOf(r.shape); }
 inline int32_t elementsOf(const Register& r) { return r.length > 0 ? r.length : 1; }
 

@@ -4,7 +4,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// The options, with a radius for all points as an array.
+/// Returns the options, with a radius for all points as an array.
 TmCloudOptions optionsOf(Call& call, const rsl::CloudList& list) {
   TmCloudOptions options = list.cloud;
   if (!list.hasRadius) return options;

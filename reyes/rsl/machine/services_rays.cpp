@@ -63,7 +63,8 @@ void runBody(Run& run, const Step& s, size_t block, uint8_t* on, bool any) {
   execute(run, s.blocks[block]);
 }
 
-/// As sl::gather(): rays are even over the cone unless "distribution" is "cosine"; entries to be filled are outputs.
+/// Implements sl::gather(): rays are even over the cone unless "distribution" is "cosine"; entries to be filled are
+/// outputs.
 void gather(Run& run, const Step& s) {
   Call call(run, s);
   const std::string category = call.has(0) ? call.text(0) : "";

@@ -15,7 +15,7 @@ void runKernel(Run& run, const Step& s) {
   s.kernel(s.uniform ? 1 : run.blocks, run.lanes[s.out], in);
 }
 
-/// The same for a kernel with more inputs than a Step holds.
+/// Does the same for a kernel with more inputs than a Step holds.
 void runLongKernel(Run& run, const Step& s) {
   constexpr size_t kMostInputs = 16;
   const std::vector<int32_t>& from = s.of->in;

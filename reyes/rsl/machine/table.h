@@ -6,9 +6,9 @@
 
 namespace tomales::compiler {
 
-/// The function for an instruction that has no kernel. Never null for those.
+/// Returns the function for an instruction that has no kernel. Never null for those.
 Execute executeOf(Op op);
-/// The function that calls the kernel of a step.
+/// Returns the function that calls the kernel of a step.
 Execute runnerOf(const Step& s);
 
 /// Runs Op::Component where the component is constant.

@@ -24,7 +24,7 @@ void concat(Run& run, const Step& s) {
   run.variableText(s.of->out[0]) = std::move(all);
 }
 
-/// A register's value at a point, as format() writes it, with spaces between the elements of arrays.
+/// Returns a register's value at a point, as format() writes it, with spaces between the elements of arrays.
 std::string written(const Run& run, int32_t r, int32_t i) {
   const Register& reg = run.reg(r);
   std::string out;

@@ -6,7 +6,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// The number of points to work on: one if the result is uniform.
+/// Returns the number of points to work on: one if the result is uniform.
 int32_t pointsOf(const Run& run, int32_t to) { return run.varies(to) ? run.padded : 1; }
 
 /// Reads component c of a register at a point. Registers of one value have room for kBlock points. A number counts for

@@ -14,7 +14,7 @@ bool isSpecifier(std::string_view word) {
   return word == "uniform" || word == "varying" || word == "extern" || word == "output";
 }
 
-/// The first sentence of a comment, without the characters that draw its frame.
+/// Returns the first sentence of a comment, without the characters that draw its frame.
 std::string firstSentence(const std::string& comment) {
   std::string out;
   for (size_t i = 0; i < comment.size(); ++i) {
@@ -173,7 +173,7 @@ std::unique_ptr<Variable> Parser::variable(const Specifiers& s) {
 
 namespace {
 
-/// The value of an expression of numbers alone; empty if it holds anything else.
+/// Returns the value of an expression of numbers alone; empty if it holds anything else.
 std::optional<float> constantOf(const Expr& e) {
   if (e.kind == ExprKind::Number) return e.number;
   if (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary) return {};

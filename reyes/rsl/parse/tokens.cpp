@@ -90,7 +90,7 @@ const Token& Parser::expectName(std::string_view what) {
   return take();
 }
 
-/// The index behind the bracket that closes the one at `index`; that of the last token if none does.
+/// Returns the index behind the bracket that closes the one at `index`; that of the last token if none does.
 size_t Parser::behindBracket(size_t index) const {
   int open = 0;
   for (; index + 1 < tokens_.size(); ++index) {

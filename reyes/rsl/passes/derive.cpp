@@ -103,7 +103,7 @@ class Derivation {
     return out;
   }
 
-  /// The register that holds the change of a register.
+  /// Returns the register that holds the change of a register.
   int32_t step(int32_t r, Op side) {
     if (!changes(r)) return zero_;
     if (static_cast<size_t>(r) < steps_.size() && isNeeded(r))
@@ -135,7 +135,7 @@ class Derivation {
     asked_.push_back({.op = side, .out = {out}, .in = {r}});
     return out;
   }
-  /// The register of P.
+  /// Returns the register of P.
   int32_t place() {
     for (size_t k = 0; k < code_.registers.size(); ++k)
       if (code_.registers[k].origin == Origin::Global && code_.registers[k].index == static_cast<int32_t>(Global::P))

@@ -114,7 +114,7 @@ class Inference {
     if (given || (inPart && around(depth))) vary(reg);
   }
 
-  /// Where some points leave, the code up to the label runs for the others alone.
+  /// Has the code up to the label run for the other points alone, where some points leave.
   void leave(const Instruction& i) {
     size_t from = structures_.size();
     while (from > 0 && !owns(*structures_[from - 1].instruction, i.extra)) --from;

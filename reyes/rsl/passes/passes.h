@@ -8,7 +8,7 @@ namespace tomales::compiler {
 
 /// Tells whether a surface assigns P.
 bool movesPoints(const Code& lowered);
-/// The part of such a surface that moves the points, as a displacement with the same parameters.
+/// Returns the part of such a surface that moves the points, as a displacement with the same parameters.
 Code displacementOf(const Code& lowered);
 /// Makes it the surface for points that displacementOf() has moved: nobody sees what it assigns to P.
 void leavePoints(Code& lowered);
@@ -30,7 +30,7 @@ void shareExpressions(Code& code);
 
 /// Turns steps of computed values into code (forward differentiation): the change of a product is computed from the
 /// changes of its factors. Steps remain for what the host knows: globals and parameters. Displacements keep theirs,
-/// since the host differences their grid. To be called after inferDetail().
+/// since the host differences their grid. Call it after inferDetail().
 void deriveSteps(Code& code);
 
 /// Removes instructions whose results nobody reads, and stores that others overwrite. A value that is computed to be

@@ -79,7 +79,7 @@ class Rule {
     return each(Op::Select, {compute(Op::Less, {c_.zero, number}, Shape::Number), value, c_.zero});
   }
 
-  /// The registers of the change; empty if there is no short rule.
+  /// Returns the registers of the change; empty if there is no short rule.
   std::vector<int32_t> change() {
     switch (c_.i.op) {
       case Op::Copy:
@@ -135,7 +135,7 @@ class Rule {
   }
 
  private:
-  /// The rules for functions of numbers, which hold for each component.
+  /// Returns the rules for functions of numbers, which hold for each component.
   std::vector<int32_t> number() {
     const auto square = [&](int32_t r) { return each(Op::Mul, {r, r}); };
     const bool isNumber = shape(y()) == Shape::Number;

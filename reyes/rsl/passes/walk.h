@@ -38,7 +38,7 @@ inline bool writesInPart(const Instruction& i) {
   return i.masked && (i.op == Op::Copy || i.op == Op::SetElement || !i.settings.empty() || !info(i.op).pure());
 }
 
-/// How many instructions write each register.
+/// Returns how many instructions write each register.
 inline std::vector<int> writeCounts(const Code& code) {
   std::vector<int> out(code.registers.size(), 0);
   forEach(code.body, [&](const Instruction& i) { forEachWrite(i, [&](int32_t r) { ++out[static_cast<size_t>(r)]; }); });

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path without symbolic links and ".."; empty if there is no such file.
+/// Returns the path without symbolic links and ".."; empty if there is no such file.
 std::string realPath(const std::string& path) {
   std::error_code error;
   const fs::path real = fs::canonical(path, error);

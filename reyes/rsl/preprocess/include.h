@@ -27,7 +27,7 @@ class IncludeSearch {
 
  private:
   bool isPermitted(const std::string& realPath) const;
-  std::vector<std::string> folders_;    ///< In the order in which they are searched.
+  std::vector<std::string> folders_;    ///< Folders in the order in which they are searched.
   bool standard_;                       ///< True if the renderer's own headers come last.
   std::vector<std::string> permitted_;  ///< Paths without symbolic links.
   /// Where collections of shaders keep their headers, as K-3D does above the folders of surfaces and displacements.
@@ -35,7 +35,7 @@ class IncludeSearch {
   std::vector<std::string> collections_;
 };
 
-/// The folder part of a path: "." for a plain name.
+/// Returns the folder part of a path: "." for a plain name.
 std::string folderOf(const std::string& path);
 
 }  // namespace tomales::compiler

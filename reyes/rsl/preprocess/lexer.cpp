@@ -217,7 +217,7 @@ void Lexer::scanPunctuator() {
   step();
 }
 
-/// The text that was read since `begin`, without the continuations in it.
+/// Returns the text that was read since `begin`, without the continuations in it.
 std::string_view Lexer::textFrom(size_t begin) {
   const std::string_view raw = text_.substr(begin, cursor_.at - begin);
   if (raw.find('\n') == std::string_view::npos) return raw;

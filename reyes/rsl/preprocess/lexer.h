@@ -11,7 +11,7 @@ namespace tomales::compiler {
 enum class LexemeKind : uint8_t {
   Name,
   Number,  ///< A pp-number of C, which may be no number in the end, such as "1x".
-  String,  ///< With its quotes, and with escapes as written.
+  String,  ///< A text with its quotes, and with escapes as written.
   Character,
   Punctuator,
   Other,    ///< A byte that begins none of these.
@@ -51,13 +51,13 @@ class Lexer {
   /// `text` must live as long as what is read from it; its lines end by '\n'.
   Lexer(int32_t file, std::string_view text, MadeTexts& made, Messages& messages);
   Lexeme next();
-  /// The next word of this line. Returns End before the line's end, which is left for next().
+  /// Returns the next word of this line. Returns End before the line's end, which is left for next().
   Lexeme nextInLine();
-  /// The rest of the line as #error prints it.
+  /// Returns the rest of the line as #error prints it.
   std::string_view restOfLine();
-  /// <NAME> if the line goes on so, else empty. `*place` becomes where it begins.
+  /// Returns <NAME> if the line goes on so, else an empty text. `*place` becomes where it begins.
   std::string_view angledName(Place* place);
-  /// The comments directly before the last word of next(); empty if there are none.
+  /// Returns the comments directly before the last word of next(); empty if there are none.
   std::string_view commentBefore() const { return comment_; }
 
  private:

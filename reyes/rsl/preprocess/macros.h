@@ -36,7 +36,7 @@ struct MacroArgument {
   std::vector<Lexeme> written, expanded;
 };
 
-/// The replacement with its arguments, '#' and '##' done. Lexemes of the macro get `expansion`.
+/// Returns the replacement with its arguments, '#' and '##' done. Lexemes of the macro get `expansion`.
 std::vector<Lexeme> substitute(const Macro& macro, const std::vector<MacroArgument>& arguments, int32_t expansion,
                                MadeTexts& made, Messages& messages);
 

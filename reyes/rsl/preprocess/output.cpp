@@ -10,7 +10,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// The character that an escape stands for; `at` moves behind it. Unknown escapes stand for their letter.
+/// Returns the character that an escape stands for; `at` moves behind it. Unknown escapes stand for their letter.
 char unescaped(std::string_view text, size_t& at) {
   const char c = text[at++];
   if (c >= '0' && c <= '7') {

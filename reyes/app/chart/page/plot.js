@@ -77,7 +77,7 @@ function curves(plot) {
         tooltip: tips,
         legend: {
           labels: {usePointStyle: true, boxHeight: 6, filter: item => item.text},
-          // A curve goes and comes with its intervals.
+          // A curve and its intervals are hidden and shown together.
           onClick: (event, item, {chart}) => {
             const group = chart.data.datasets[item.datasetIndex].group, show = !chart.isDatasetVisible(item.datasetIndex);
             chart.data.datasets.forEach((set, i) => {
@@ -120,7 +120,7 @@ addEventListener('DOMContentLoaded', () => {
   for (const canvas of document.querySelectorAll('.drawing canvas')) {
     const figures = JSON.parse(canvas.nextElementSibling.textContent);
     const chart = new Chart(canvas, figures.rows ? differences(figures) : curves(figures));
-    // What a screen reader tells, and tests read.
+    // A screen reader tells this text, and tests read it.
     const points = chart.data.datasets.flatMap((set, i) => set.data.flatMap((p, k) => p.tip ? [chart.getDatasetMeta(i).data[k]] : []));
     const seen = points.filter(({x, y}) => x >= chart.chartArea.left && x <= chart.chartArea.right && y >= chart.chartArea.top && y <= chart.chartArea.bottom);
     canvas.setAttribute('aria-label', `${figures.title}: ${seen.length} points`);

@@ -1,4 +1,4 @@
-// How numbers of light become colours of a screen. painter.js says the same in GLSL.
+// Turns numbers of light into colours of a screen. painter.js does the same in GLSL.
 
 /** Names of view transforms, in the order of their numbers. "soft" is equation 4 of Reinhard et al. 2002 for each channel,
     with white at 4. */

@@ -1,5 +1,5 @@
-// What is edited, as the program takes it: values by owner and parameter, other shaders, and what shines on objects. It is a
-// plain object, so that states can be kept.
+// The edit in the form that the program takes: values by owner and parameter, other shaders, and the lights that shine on
+// objects. It is a plain object, so that states can be kept.
 import { get } from "./server.js";
 
 export const copyOf = (state) => structuredClone(state);

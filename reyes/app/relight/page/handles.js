@@ -1,5 +1,5 @@
-// Points of lights, as a spot's "from" and "to", in the picture: dragged parallel to the image, or with Shift towards the
-// eye and away.
+// Points of lights in the picture, such as a spot's "from" and "to". They are dragged parallel to the image, or with
+// Shift towards the eye and away.
 import { set, shaderOf, valueOf } from "./edit.js";
 
 const kPixelsPerE = 200;  // a way of so many pixels brings a point 2.7 times nearer or farther

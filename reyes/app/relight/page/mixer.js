@@ -1,5 +1,5 @@
-// The picture: layers of half floats, each with a weight, mixed where the browser can do it fastest. Layer 0 is the whole
-// picture; where it is fresh, it is shown instead of the sum of the others. The last one is a variable, shown alone.
+// The picture: layers of half floats, each with a weight, mixed by what is fastest in the browser. Layer 0 is the whole
+// picture. Where it is fresh, it is shown instead of the sum of the others. The last layer is a variable, shown alone.
 import { halves } from "./color.js";
 import { Painter } from "./painter.js";
 import { PlainPainter } from "./plain_painter.js";

@@ -1,4 +1,4 @@
-// The mixer's picture by WebGL2. color.js says the same in JavaScript.
+// Paints the mixer's picture by WebGL2. color.js does the same in JavaScript.
 import { kWhite } from "./color.js";
 
 const kVertex = `#version 300 es

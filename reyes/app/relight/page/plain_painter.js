@@ -1,5 +1,5 @@
-// The mixer's picture by JavaScript, where the browser has no GPU for WebGL2. It keeps the weighted sum of the layers, and
-// sums and paints no more of the picture than has changed.
+// Paints the mixer's picture by JavaScript, for browsers without a GPU for WebGL2. It keeps the weighted sum of the layers,
+// and sums and paints no more of the picture than has changed.
 import { halves, kOpaque, lookOf, tableOf } from "./color.js";
 
 const union = (a, b) => {

@@ -1,4 +1,4 @@
-// Pictures that are kept to be compared with, each with its edit and a name.
+// Pictures that are kept for comparison, each with its edit and a name.
 import { element } from "./controls.js";
 
 export class Snapshots {

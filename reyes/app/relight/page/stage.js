@@ -1,4 +1,4 @@
-// The picture on the screen: zoom, pan, the wipe against a snapshot, regions, and what is under the pointer.
+// The picture on the screen: zoom, pan, the wipe against a snapshot, regions, and the object under the pointer.
 import { luminanceOf } from "./color.js";
 
 const kSoon_ms = 60;

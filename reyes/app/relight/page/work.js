@@ -1,4 +1,4 @@
-// What is being computed, how old is what is seen, and where bounced light does not follow.
+// Shows what is being computed, how old the picture is, and where bounced light does not follow the edit.
 import { element } from "./controls.js";
 import { link } from "./server.js";
 
