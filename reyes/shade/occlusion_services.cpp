@@ -72,6 +72,10 @@ struct OpenSky {
 bool traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options,
                      const TmOcclusion& out) {
   if (!traces(batch)) return false;
+  if (out.radiance.x && batch.scene.added && batch.context.kind == RayKind::Camera)
+    batch.report(Severity::Warning, "light-twice",
+                 "asks indirectdiffuse() itself, and --gi has added an indirect light to what diffuse() sums: bounced "
+                 "light counts twice; leave out --gi, or the call");
   const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x),
              directs = out.environmentDirection.x != nullptr;
   RayQuery query = rayQuery(options, RayKind::Diffuse);

@@ -99,4 +99,13 @@ t.expect(abs(mean - 2 / 3) < 0.01, f"  a sky as bright as it is high: 2/3, the m
 ball = 'Translate 0 0 -.5 Surface "constant" Sphere .4 -.4 .4 360 Translate 0 0 .5'
 shade = render("shaded", f'LightSource "sky" 1 {samples} AttributeBegin Attribute "visibility" "int camera" [0] {ball} AttributeEnd')
 t.expect(shade[3, 3][0] < 0.6 < 0.9 < shade[0, 0][0], f"  what stands before the sky throws a shadow ({shade[3, 3][0]:.2f} below, {shade[0, 0][0]:.2f} aside)")
+
+# Bounced light that a shader asks for itself, beside the indirect light that --gi adds.
+t.write("asks.sl", "surface asks() { normal n = normalize(N); Ci = diffuse(n) + indirectdiffuse(P, n, 4); Oi = 1; }\n")
+asks = SCENE.replace('"matte" "Kd" [1] "Ka" [0]', '"asks"') % 'LightSource "distantlight" 1 "intensity" [1]'
+t.write("asks.rib", asks)
+t.expect_run("indirectdiffuse() and --gi", ["asks.rib", "-o", "asks.exr", "--gi", "gather"], 0, "light-twice", '"asks"')
+t.expect("light-twice" not in t.expect_run("indirectdiffuse() alone", ["asks.rib", "-o", "asks.exr"], 0).stderr, "  counts once")
+t.write("asks.rib", asks.replace('LightSource', 'LightSource "indirectlight" 2 LightSource'))
+t.expect("light-twice" not in t.expect_run("an indirect light of the scene", ["asks.rib", "-o", "asks.exr"], 0).stderr, "  is the scene's choice")
 t.finish()
