@@ -20,7 +20,8 @@ const TmShader* rslAreaLight(const TmShader& light);
 /// alone would bring, and the light is the mean of that over the area.
 bool isMean(const TmShader& light);
 
-/// The texts that stand in the code of a shader, such as names of pictures. None of a shader that is not written in RSL.
+/// The texts that stand in the code of a shader, such as names of pictures. None of a shader that is not written in
+/// RSL.
 std::vector<std::string> rslTexts(const TmShader& shader);
 
 }  // namespace tomales

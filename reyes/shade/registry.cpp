@@ -192,8 +192,11 @@ std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kin
         return fmt::format("; the shader of that name is a {}", kindName(static_cast<TmKind>(key.first)));
     }
   }
-  const std::string lies = tomales::hintOfMissing(name + ".sl", {".sl"}, impl_->textFolders(searchPath, beside));
-  return lies.empty() ? didYouMean(name, ofKind) : lies;
+  for (const char* ending : {".sl", ".so"}) {
+    const std::string lies = tomales::hintOfMissing(name + ending, {ending}, impl_->textFolders(searchPath, beside));
+    if (!lies.empty()) return lies;
+  }
+  return didYouMean(name, ofKind);
 }
 
 std::string ShaderRegistry::originOf(const TmShader& shader) const {

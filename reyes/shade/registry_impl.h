@@ -34,7 +34,7 @@ struct ShaderRegistry::Impl {
   std::vector<std::shared_ptr<const RslFile>> texts{};
   std::set<const TmShader*> builtIn{};
   std::map<const TmShader*, std::string> origins{};
-  std::map<const TmShader*, const TmShader*> displacements{};  ///< by the surfaces that move their points
+  std::map<const TmShader*, const TmShader*> displacements{};               ///< by the surfaces that move their points
   using Question = std::tuple<std::string, int, std::string, std::string>;  ///< The arguments of found().
   std::map<Question, const TmShader*> answers{};
   std::map<Question, std::string> broken{};  ///< The texts with errors that were found for them.

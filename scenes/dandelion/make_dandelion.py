@@ -128,7 +128,7 @@ def foxtail(x, z, tall, lean, sway, length, bristles):
     return ['Surface "hair" "color tint" [0.62 0.62 0.25]', moving(*stalks), 'Surface "hair" "color tint" [0.95 0.72 0.42] "float bristle" [1]', moving(*brushes)]
 
 
-head("dandelion", "A dandelion clock in a gust", 20.5, "Clipping 20 4000", "Shutter 0 1", "DepthOfField 1 15 230", "Translate 0 0 230", samples=24)
+head("dandelion", "A dandelion clock in a gust", 20.5, "Clipping 20 4000", "Shutter 0 1", "DepthOfField 1 15 230", "Translate 0 0 230", samples=16)
 for k in range(KINDS):
     seed(f"seed{k}")
 print('''WorldBegin

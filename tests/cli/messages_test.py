@@ -65,6 +65,12 @@ t.write("maps.rib", 'FrameBegin 1\n' + scene("Sphere 1 -1 1 360").replace("x.exr
 told = json.loads(t.expect_run("info of a scene that makes its maps", ["info", "maps.rib", "--json"], 3).stdout)
 t.expect({n["name"]: n["found"] for n in told["needs"] if n["kind"] == "texture"} == {"made.tex": True, "other.tex": False}, f"knows which: {told['needs']}")
 
+# A plugin in a folder that nobody has named.
+(t.folder / "compiled").mkdir()
+t.write("compiled/knit.so", "no plugin")
+t.write("knit.rib", scene('Surface "knit" Sphere 1 -1 1 360'))
+t.expect_run("a plugin in another folder", ["knit.rib"], 3, '"compiled/knit.so" is there, in a folder that is not searched', "--shaders FOLDER")
+
 # What a shader's own text names, and a text that does not compile.
 t.write("worn.sl", 'surface worn() { Oi = 1; Ci = texture("wood.tif") + environment("far.tex", N) * match("x.tif$", "y"); }\n')
 t.write("worn.rib", scene('Surface "worn" Sphere 1 -1 1 360'))
