@@ -2,6 +2,8 @@
 // (reyes/shader_api.h): no plugin needs them.
 #pragma once
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "reyes/shader_api.h"
 
@@ -17,5 +19,9 @@ const TmShader* rslAreaLight(const TmShader& light);
 /// Tells whether the shader is such a form. Its Cl is not the radiance of the geometry, but the light that a lamp at
 /// that point alone would bring. The light of the area is the mean of that.
 bool isMean(const TmShader& light);
+
+/// The texts that stand in the code of a shader, such as names of pictures. None of a shader that is not written in
+/// RSL.
+std::vector<std::string> rslTexts(const TmShader& shader);
 
 }  // namespace tomales

@@ -218,7 +218,7 @@ bool isFilled(std::string_view function, std::string_view name) {
   const auto begins = [&](std::string_view with) { return name.substr(0, with.size()) == with; };
   if (function == "gather")
     return begins("surface:") || begins("primitive:") || begins("ray:") || begins("attribute:") ||
-           begins("environment:") || begins("volume:") || name == "effectivedistance";
+           begins("environment:") || name == "volume:Ci" || name == "volume:Oi" || name == "effectivedistance";
   if (function == "illuminance") return begins("light:");
   if (function == "texture3d")
     return name != "coordsystem" && name != "filterradius" && name != "filterscale" && name != "maxdepth" &&

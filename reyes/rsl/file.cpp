@@ -56,6 +56,14 @@ bool isMean(const TmShader& light) {
   return shader && shader->lowered().onGeometry;
 }
 
+std::vector<std::string> rslTexts(const TmShader& shader) {
+  std::vector<std::string> out;
+  if (const HostedShader* hosted = HostedShader::of(shader))
+    for (const Register& r : hosted->code().registers)
+      if (r.origin == Origin::Constant) out.insert(out.end(), r.texts.begin(), r.texts.end());
+  return out;
+}
+
 RslFile::RslFile() : impl_(new Impl) {}
 RslFile::~RslFile() = default;
 

@@ -77,6 +77,43 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
   primary.spread(distance);
 }
 
+/// What the rays of a call of gather() are to bring. Values of volume: are those of the surface that is met, after the
+/// ray has crossed the volumes of the surface that asks.
+struct Gathered {
+  RayResult result;
+  TmVec3 color{}, opacity{};  ///< volume:Ci and volume:Oi; null unless one is asked for.
+
+  Gathered(Batch& batch, int count, std::span<const TmChannel> outputs) {
+    result.distance = batch.arena.floats(count);
+    std::fill_n(result.distance, count, kInfinity);
+    for (const TmChannel& o : outputs) {
+      const std::string_view name = o.name;
+      if (name == "effectivedistance" && !result.effective) {
+        result.effective = batch.arena.floats(count);
+        result.color = batch.arena.vec3(count);
+      } else if ((name == "volume:Ci" || name == "volume:Oi") && !color.x) {
+        color = batch.arena.vec3(count);
+        opacity = batch.arena.vec3(count);
+        result.outputs.push_back({"surface:Ci", 3, {color.x, color.y, color.z}});
+        result.outputs.push_back({"surface:Oi", 3, {opacity.x, opacity.y, opacity.z}});
+      }
+      if (!name.starts_with("ray:") && !name.starts_with("volume:") && name != "effectivedistance")
+        result.outputs.push_back({o.name, floatsOf(o), {o.value.x, o.value.y, o.value.z}});
+    }
+  }
+
+  /// Writes volume:Ci and volume:Oi where a ray has met something.
+  void tellVolumes(const TmGrid* g, const uint8_t* hit, std::span<const TmChannel> outputs) const {
+    for (const TmChannel& o : outputs) {
+      const std::string_view name = o.name;
+      if ((name != "volume:Ci" && name != "volume:Oi") || !o.value.y) continue;
+      forActive(g, [&](int i) {
+        if (hit[i]) set(o.value, i, get(name == "volume:Ci" ? color : opacity, i));
+      });
+    }
+  }
+};
+
 int32_t gather(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3 P, TmConstVec3 axis, int32_t ray,
                uint8_t* hit, const TmChannel* outputs, int32_t outputCount) {
   Batch& batch = batchOf(host);
@@ -91,29 +128,20 @@ int32_t gather(void* host, const TmGrid* all, const TmRayOptions* given, TmConst
   RayQuery query = rayQuery(options);
   setFootprints(batch, g, axis, options, query);
   query.number = ray;
-  RayResult result;
-  result.distance = batch.arena.floats(g->count);
-  bool wantsEffective = false;
-  for (const TmChannel& o : std::span(outputs, static_cast<size_t>(outputCount))) {
-    const std::string_view name = o.name;
-    wantsEffective |= name == "effectivedistance";
-    if (!name.starts_with("ray:") && name != "effectivedistance")
-      result.outputs.push_back({o.name, floatsOf(o), {o.value.x, o.value.y, o.value.z}});
-  }
-  if (wantsEffective) {
-    result.effective = batch.arena.floats(g->count);
-    result.color = batch.arena.vec3(g->count);
-  }
-  std::fill_n(result.distance, g->count, kInfinity);
+  Gathered gathered(batch, g->count, {outputs, static_cast<size_t>(outputCount)});
+  const RayResult& result = gathered.result;
   if (options.maxDistance > 0)
     batch.scene.services->trace(*batch.points, g->active, cone.origin(), cone.direction(), query, batch.context,
                                 result);
+  if (gathered.color.x)
+    crossVolumes(batch, g, cone.origin(), cone.direction(), result.distance, gathered.color, gathered.opacity);
   float *length = batch.arena.floats(g->count), *effective = batch.arena.floats(g->count);
   forActive(g, [&](int i) {
     hit[i] = result.distance[i] < kFarAway;
     length[i] = std::min(result.distance[i], kFarAway);
-    effective[i] = wantsEffective ? std::min(result.effective[i], kFarAway) : kFarAway;
+    effective[i] = result.effective ? std::min(result.effective[i], kFarAway) : kFarAway;
   });
+  gathered.tellVolumes(g, hit, {outputs, static_cast<size_t>(outputCount)});
   primary.spread(hit);
   setRayOutputs(primary, outputs, outputCount,
                 {{"ray:origin", cone.origin()},

@@ -82,8 +82,11 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
   const auto tell = [&](const std::string& where, const std::string& what) {
     if (toldOf.insert(where + what).second) refuseText(where, what);
   };
-  if (!found.problem.empty())
-    tell(found.file, (found.problem.starts_with("has no") ? "" : "does not compile:\n") + found.problem);
+  if (!found.problem.empty()) {
+    const bool compiles = found.problem.starts_with("has no");
+    tell(found.file, (compiles ? "" : "does not compile:\n") + found.problem);
+    if (!compiles) broken[{name, kind, searchPath, beside}] = found.file;
+  }
   if (!found.remark.empty()) tell(name, found.remark);
   if (found.shader) origins[found.shader] = found.file;
   if (found.displacement) displacements[found.shader] = found.displacement;
@@ -180,6 +183,8 @@ std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kin
   std::vector<std::string> ofKind;
   {
     const std::lock_guard lock(impl_->mutex);
+    const auto text = impl_->broken.find({written, kind, searchPath, beside});
+    if (text != impl_->broken.end()) return fmt::format("; its text \"{}\" has errors", text->second);
     for (const auto& [key, shader] : impl_->shaders) {
       if (key.first == kind)
         ofKind.push_back(key.second);
@@ -187,8 +192,11 @@ std::string ShaderRegistry::hintOfMissing(const std::string& written, TmKind kin
         return fmt::format("; the shader of that name is a {}", kindName(static_cast<TmKind>(key.first)));
     }
   }
-  const std::string lies = tomales::hintOfMissing(name + ".sl", {".sl"}, impl_->textFolders(searchPath, beside));
-  return lies.empty() ? didYouMean(name, ofKind) : lies;
+  for (const char* ending : {".sl", ".so"}) {
+    const std::string lies = tomales::hintOfMissing(name + ending, {ending}, impl_->textFolders(searchPath, beside));
+    if (!lies.empty()) return lies;
+  }
+  return didYouMean(name, ofKind);
 }
 
 std::string ShaderRegistry::originOf(const TmShader& shader) const {

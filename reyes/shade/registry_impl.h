@@ -34,14 +34,16 @@ struct ShaderRegistry::Impl {
   std::vector<std::shared_ptr<const RslFile>> texts{};
   std::set<const TmShader*> builtIn{};
   std::map<const TmShader*, std::string> origins{};
-  std::map<const TmShader*, const TmShader*> displacements{};  ///< by the surfaces that move their points
-  std::map<std::tuple<std::string, int, std::string, std::string>, const TmShader*> answers{};
+  std::map<const TmShader*, const TmShader*> displacements{};               ///< by the surfaces that move their points
+  using Question = std::tuple<std::string, int, std::string, std::string>;  ///< The arguments of found().
+  std::map<Question, const TmShader*> answers{};
+  std::map<Question, std::string> broken{};  ///< The texts with errors that were found for them.
   FunctionPlugins functionPlugins{log};
 
   /// Reports that the file `origin` is not used.
   void refuse(const std::string& origin, const std::string& problem, const char* code = "shader-plugin") {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};
-    log.report(Severity::Missing, code, where, origin + ": " + problem);
+    log.report(Severity::Missing, code, where, problem, origin + ": " + problem);
   }
   void refuseText(const std::string& file, const std::string& problem) { refuse(file, problem, "shader-text"); }
   bool add(const TmShaderLibrary* library, const std::string& origin, std::vector<const TmShader*>* added = nullptr);

@@ -44,7 +44,10 @@ void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& whi
   ShadeContext context = asking.context;
   context.answers = nullptr;  // answers belong to the points that the rays leave
   if (!run(asking.scene, asking.group, volume, context, ends, out)) return;
-  for (int k = 0; k < ends.count(); ++k) set(color, which[static_cast<size_t>(k)], out.color(k));
+  for (int k = 0; k < ends.count(); ++k) {
+    set(color, which[static_cast<size_t>(k)], out.color(k));
+    if (opacity.x) set(opacity, which[static_cast<size_t>(k)], out.opacity(k));
+  }
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace tomales {
 
-/// Lets the shader of the side on which each ray leaves its surface change the colour of what the ray met at a
-/// distance. Rays that met nothing, and those whose side has no volume, keep theirs.
+/// Lets the shader of the side on which each ray leaves its surface change the colour and the opacity of what the ray
+/// met at a distance. Rays that met nothing, and those whose side has no volume, keep theirs.
 void crossVolumes(Batch& batch, const TmGrid* g, TmConstVec3 origin, TmConstVec3 direction, const float* distance,
                   TmVec3 color, TmVec3 opacity);
 

@@ -74,12 +74,12 @@ typedef struct TmServices {
    * and outputs are set where it did ("ray:" values everywhere). Returns 0 when there are no more. With
    * TmRayOptions::environment none is traced: all miss, and leave in all directions, half of them by the brightness of
    * that picture.
-   * Outputs are "surface:" Ci, Oi or an output parameter of the shader that is met, "primitive:" P, N, Ng, I, dPdu,
-   * dPdv, u, v, s, t, Cs, Os or a primitive variable, "attribute:category:name", "ray:origin", "ray:direction",
-   * "ray:length", "effectivedistance" (of all that the ray goes through until it is covered, weighted by what each
-   * covers), and of an environment "environment:color", "environment:direction", "environment:solidangle" (what the ray
-   * stands for: over all rays, color times it adds up to the light of the whole picture). Where what is met has no
-   * value of that name and type, the arrays keep theirs. */
+   * Outputs are "surface:" Ci, Oi or an output parameter of the shader that is met, "volume:" Ci, Oi (the same after
+   * the asking surface's Interior or Exterior), "primitive:" P, N, Ng, I, dPdu, dPdv, u, v, s, t, Cs, Os or a primitive
+   * variable, "attribute:category:name", "ray:origin", "ray:direction", "ray:length", "effectivedistance" (of all that
+   * the ray goes through until it is covered, weighted by what each covers), and of an environment "environment:color",
+   * "environment:direction", "environment:solidangle" (over all rays, color times it adds up to the light of the
+   * picture). Where what is met has no value of that name and type, the arrays keep theirs. */
   int32_t (*gather)(void* host, const TmGrid*, const TmRayOptions*, TmConstVec3 P, TmConstVec3 axis, int32_t ray,
                     uint8_t* hit, const TmChannel* outputs, int32_t outputCount);
   /* RISpec occlusion() and indirectdiffuse() of the cone around N (coneAngle 0: the hemisphere). Returns 0 if a point

@@ -4,6 +4,7 @@ import base64
 import json
 import os
 import pathlib
+import pty
 import re
 import shutil
 import signal
@@ -33,6 +34,10 @@ def status(plan):
 
 t.expect_run("frames", ["batch", "my shot.rib", "-o", "f.####.exr", "-j", "2"], 0, "R90000  100%", "finished 4 of 4 frames")
 t.expect(same("f"), "have the bits of one run")
+master, slave = pty.openpty()
+code = subprocess.run([t.program, "batch", "my shot.rib", "-o", "seen.####.exr", "--plan", "seen", "-j", "2"], cwd=t.folder, stdout=slave, timeout=60).returncode
+shown = os.read(master, 10000).decode()
+t.expect(code == 0 and "4 of 4 frames are finished\r\n" in shown and "R90000" not in shown, f"on a terminal their number is told ({shown!r})")
 t.expect_run("tiles", ["batch", "my shot.rib", "-o", "t.####.exr", "--tiles", "3x2", "--plan", "tiles", "-j", "2", "--html", "page.html"], 0, "[batch-tiles-cost]")
 t.expect(same("t"), "have the bits of one run, indirect light included")
 gathers = [task for task in json.loads((t.folder / "tiles/plan.json").read_text())["tasks"] if task["stage"] == "gather"]

@@ -110,7 +110,7 @@ suite.expect(code == 130, f"an interrupted chart ends as one ({code})")
 kept = measured()
 suite.expect(2 <= kept < 9, f"and keeps what was measured ({kept})")
 
-suite.expect_run("a tiny chart", chart, 0, "reference, batch 2")
+suite.expect("inf" not in suite.expect_run("a tiny chart", chart, 0, "reference, batch 2, noise").stderr, "tells no noise of a single batch")
 suite.expect(measured() == 9, "measures what is left: a trial, two batches, six settings")
 suite.expect(not (suite.folder / "beside.png").exists(), "leaves the scene's other pictures alone")
 report = json.loads((suite.folder / "report.json").read_text())

@@ -73,4 +73,9 @@ for name, (options, attributes) in KINDS.items():
 pictures = {name: (t.folder / (name + ".exr")).read_bytes() for name in KINDS}
 t.expect(len(set(pictures.values())) == len(KINDS), "each shader shows")
 t.expect_run("the installed program tries one shader alone", ["shadetest", t.folder / "plugins/dots.so", "--grid", "64x64", "-o", "ci.png"], 0, "nanoseconds a point")
+# Licences of what has no package of its own ask for their notices beside the program.
+notices = (docs.parent / "cmake/copyright").read_text()
+known = t.run("--version").stdout
+for library in ("GLM", "CLI11", "JSON for Modern C++", "Chart.js"):
+    t.expect(f"  {library} " in known and f"({library})" in notices, f"the notice of {library}, whose code is compiled in, comes with the package")
 t.finish()

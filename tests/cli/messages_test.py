@@ -64,6 +64,23 @@ t.write("maps.rib", 'FrameBegin 1\n' + scene("Sphere 1 -1 1 360").replace("x.exr
         + scene('Surface "paintedplastic" "string texturename" ["made.tex"] Sphere 1 -1 1 360 Surface "paintedplastic" "string texturename" ["other.tex"] Sphere 1 -1 1 360') + "FrameEnd\n")
 told = json.loads(t.expect_run("info of a scene that makes its maps", ["info", "maps.rib", "--json"], 3).stdout)
 t.expect({n["name"]: n["found"] for n in told["needs"] if n["kind"] == "texture"} == {"made.tex": True, "other.tex": False}, f"knows which: {told['needs']}")
+
+# A plugin in a folder that nobody has named.
+(t.folder / "compiled").mkdir()
+t.write("compiled/knit.so", "no plugin")
+t.write("knit.rib", scene('Surface "knit" Sphere 1 -1 1 360'))
+t.expect_run("a plugin in another folder", ["knit.rib"], 3, '"compiled/knit.so" is there, in a folder that is not searched', "--shaders FOLDER")
+
+# What a shader's own text names, and a text that does not compile.
+t.write("worn.sl", 'surface worn() { Oi = 1; Ci = texture("wood.tif") + environment("far.tex", N) * match("x.tif$", "y"); }\n')
+t.write("worn.rib", scene('Surface "worn" Sphere 1 -1 1 360'))
+told = json.loads(t.expect_run("info of a shader that names pictures", ["info", "worn.rib", "--json"], 3).stdout)
+t.expect({n["name"]: n["found"] for n in told["needs"] if n["kind"] == "texture"} == {"wood.tif": True, "far.tex": False}, f"knows them: {told['needs']}")
+t.write("several.sl", "surface oak() { Ci = nothing; }\n")
+t.write("oak.rib", scene('Surface "oak" Sphere 1 -1 1 360'))
+for arguments in (["oak.rib"], ["info", "oak.rib"]):
+    told = t.expect_run(f"a shader whose text has errors: {arguments[0]}", arguments, 3, "several.sl:1:", 'its text "./several.sl" has errors')
+    t.expect(told.stderr.count("several.sl: missing") <= 1 and "missing: ./several.sl" not in told.stderr, "is named once: " + told.stderr)
 t.expect_run("info of a scene that has everything", ["info", "frames.rib"], 0, "missing: 0 of 2")
 
 # What is built in.

@@ -1,6 +1,7 @@
 #include "reyes/app/batch/batch.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 
@@ -27,7 +28,8 @@ fs::path planFile(const std::string& given) {
   return fs::is_directory(given, none) ? fs::path(given) / kPlanName : fs::path(given);
 }
 
-/// Tells farms the share of finished frames, some times a second: to count them takes time.
+/// Tells how many frames are finished, some times a second: to count them takes time. Farms read the share in lines of
+/// their form; a terminal gets a sentence.
 class ProgressLines {
  public:
   explicit ProgressLines(const BatchPlan& plan) : plan_(plan) {}
@@ -37,16 +39,20 @@ class ProgressLines {
     if (!isLast && now - told_ < kPause) return;
     told_ = now;
     const BatchReport report = reportOf(plan_, states);
-    const int percent = static_cast<int>(100 * report.finished.size() / std::max<size_t>(1, report.frames()));
-    if (percent == shown_) return;
-    shown_ = percent;
-    std::puts(fmt::format("R90000 {:>4}%", percent).c_str());
+    const size_t finished = report.finished.size();
+    const std::string line = terminal_
+                                 ? fmt::format("{} of {} frames are finished", finished, report.frames())
+                                 : fmt::format("R90000 {:>4}%", 100 * finished / std::max<size_t>(1, report.frames()));
+    if (line == shown_) return;
+    shown_ = line;
+    std::puts(line.c_str());
     std::fflush(stdout);
   }
 
  private:
   const BatchPlan& plan_;
-  int shown_ = -1;
+  const bool terminal_ = isatty(STDOUT_FILENO) == 1;
+  std::string shown_;
   std::chrono::steady_clock::time_point told_{};
 };
 

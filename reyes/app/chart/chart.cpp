@@ -169,7 +169,9 @@ class Chart {
       badBatch_ = "\"" + run->picture + "\" has another size than the batches before it";
       return false;
     }
-    log("reference", fmt::format("batch {}, noise {:.3g} %", reference_.batches(), 100 * reference_.noiseFloor()));
+    const double noise = reference_.noiseFloor();  // one batch tells none
+    log("reference", fmt::format("batch {}{}", reference_.batches(),
+                                 std::isfinite(noise) ? fmt::format(", noise {:.3g} %", 100 * noise) : ""));
     return true;
   }
 

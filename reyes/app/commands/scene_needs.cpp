@@ -6,6 +6,7 @@
 #include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/pictures.h"
+#include "reyes/rsl_host.h"
 
 namespace tomales {
 namespace {
@@ -68,6 +69,9 @@ void SceneNeeds::addPictures(const ShaderCall& call, const TmShader* shader, con
     for (int32_t i = 0; i < decl.arrayLength; ++i)
       if (decl.strings[i] && namesMap(decl.strings[i])) addPicture(decl.strings[i], options, call.where);
   }
+  if (!shader) return;
+  for (const std::string& text : rslTexts(*shader))
+    if (namesMap(text)) addPicture(text, options, call.where);
 }
 
 void SceneNeeds::addShader(const ShaderCall& call, TmKind kind, const Options& options) {

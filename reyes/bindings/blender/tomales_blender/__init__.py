@@ -24,7 +24,9 @@ def _folders(named: str) -> Iterator[Path]:
         yield Path(named)
     yield Path(__file__).resolve().parents[2] / "python"  # in a tree of sources
     if program := shutil.which(os.environ.get("TOMALES", "tomales")):
-        yield from sorted(Path(program).resolve().parents[1].glob("lib/python3*/dist-packages"))
+        above = list(Path(program).resolve().parents)
+        yield from sorted(folder for prefix in above[1:2] for folder in prefix.glob("lib/python3*/dist-packages"))
+        yield from (tree / "reyes/bindings/python" for tree in above[2:3])  # build/release/tomales, in a tree of sources
 
 
 def _find_module(named: str) -> bool:
