@@ -107,7 +107,9 @@ class ShadingSystem {
   vec3 lightFactor(int light, const std::vector<Param>& params) const;
   /// The LightGroup of a light; empty if its shader is missing or it is an indirect light.
   std::string lightGroup(int light) const;
-  /// The portals that a light of LightKind::Sky names and that have a place and an area.
+  /// Tells whether the light is a sky that openings help which the program finds by itself.
+  bool takesFoundPortals(int light) const;
+  /// The portals that a light of LightKind::Sky names and that have a place and an area, or that were found for it.
   std::span<const Portal> portals(int light) const;
   /// The medium that photons meet inside or outside of a group's surfaces, as its Interior or Exterior says.
   MediumColors medium(int group, bool inside) const;
