@@ -82,6 +82,10 @@ struct Expansion {
   std::vector<Solid> solids{};  ///< Object::solid is an index in this list.
 };
 
+/// Spaces of this name and a number, from 1, are openings to the sky that the program has found
+/// (docs/decisions/0185). No list of portals can name them, as names there have no spaces.
+constexpr const char* kSkyOpening = "opening to the sky ";
+
 struct Scene {
   Options options;
   Motion cameraFromWorld;

@@ -109,7 +109,10 @@ class ShadingSystem {
   vec3 lightFactor(int light, const std::vector<Param>& params) const;
   /// Returns the LightGroup of a light; empty if its shader is missing or it is an indirect light.
   std::string lightGroup(int light) const;
-  /// Returns the portals that a light of LightKind::Sky names and that have a place and an area.
+  /// Tells whether the light is a sky that is helped by openings which the program finds by itself.
+  bool takesFoundPortals(int light) const;
+  /// Returns the portals of a light of LightKind::Sky: those that it names and that have a place and an area, or those
+  /// that were found for it.
   std::span<const Portal> portals(int light) const;
   /// Returns the medium that photons meet inside or outside of a group's surfaces, as its Interior or Exterior says.
   MediumColors medium(int group, bool inside) const;

@@ -62,6 +62,9 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"anew", "light of the other draw that shows a pixel's standard error"},
     {"reca", "the noise of a record in that draw"},
     {"alon", "rays of points without records in that draw"},
+    {"open", "directions that look for openings to the sky"},
+    {"from", "places that look through one that was found"},
+    {"pane", "where they look through it"},
 };
 
 consteval bool randomStreamsDiffer() {

@@ -220,7 +220,7 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
     return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" ||
            key == "shade:arealight" || key == "render:prmanspecular" || key == "texture:width" ||
            key == "texture:filter" || key == "limits:texturememory" || key == "limits:geocachememory" ||
-           key == "ribparse:varsubst" || key == "trace:lightcut";
+           key == "ribparse:varsubst" || key == "trace:lightcut" || key == "trace:openings";
   }
   return true;
 }

@@ -52,7 +52,7 @@ constexpr Standard kStandard[] = {
     {"int",
      "limits:gridsize limits:texturememory limits:eyesplits limits:threads limits:brickmemory "
      "limits:geocachememory render:prmanspecular limits:maxshadinggrids statistics:endofframe trace:maxdepth "
-     "trace:lightcut"},
+     "trace:lightcut trace:openings"},
     {"color", "limits:othreshold limits:zthreshold"},
     {"string",
      "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "

@@ -120,7 +120,7 @@ void warnOfArea(const BoundLight& light, const LightCall& call, const Scene& sce
 
 }  // namespace
 
-std::shared_ptr<const Sky> Binder::sky(const BoundShader& light) {
+std::shared_ptr<const Sky> Binder::sky(const BoundShader& light, bool takesFoundPortals) {
   const std::string picture = light.text(TM_ROLE_SKY_MAP, ""), space = light.text(TM_ROLE_SKY_SPACE, "world");
   if (space != "world" && space != "shader")
     log_.report(Severity::Warning, "light-mapspace", light.where,
@@ -141,6 +141,9 @@ std::shared_ptr<const Sky> Binder::sky(const BoundShader& light) {
       log_.report(Severity::Warning, "light-portal", light.where,
                   fmt::format("{}: the portal \"{}\" has no area; it is left out", light.user, name));
   }
+  mat4 currentFromOpening;
+  for (int k = 1; takesFoundPortals && scene_.cameraFromNamed(kSkyOpening + std::to_string(k), currentFromOpening); ++k)
+    portals.add(currentFromOpening);
   sky->setPortals(std::move(portals));
   return sky;
 }
@@ -162,7 +165,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);
   setShadows(*light, shadowMaps_, log_);
   warnOfArea(*light, call, scene_, log_);
-  if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound);
+  if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound, light->takesFoundPortals());
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, TM_ROLE_SAMPLES, kLightSamples, 1, kMostLightSamples, log_);
   if (light->can(TM_OCCLUDED)) light->maxVariation = bound->number(TM_ROLE_MAX_VARIATION, 1);

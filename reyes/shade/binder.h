@@ -65,7 +65,7 @@ class Binder {
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind,
                       bool area = false);
   /// Returns the sky of a light with TM_LIGHT_SKY.
-  std::shared_ptr<const Sky> sky(const BoundShader& light);
+  std::shared_ptr<const Sky> sky(const BoundShader& light, bool takesFoundPortals);
 
   const Scene& scene_;
   const Textures& textures_;

@@ -35,6 +35,11 @@ struct BoundLight {
   std::shared_ptr<const Sky> sky;                ///< Set for TM_LIGHT_SKY alone.
   vec3 sourceTint{1.0f};                         ///< The tint of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
+  /// Tells whether it is a sky that casts shadows and names no portals, though its shader knows some.
+  bool takesFoundPortals() const {
+    return can(TM_LIGHT_SKY) && shadows && bound->find(TM_ROLE_SKY_PORTALS) &&
+           bound->text(TM_ROLE_SKY_PORTALS, "").empty();
+  }
 };
 
 /// Tells whether the light, which is no indirect one, is among those that the context lets shine.

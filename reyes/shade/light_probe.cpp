@@ -96,6 +96,11 @@ void ShadingSystem::emission(const ShadePoints& points, std::vector<vec3>& radia
   for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] = seen.Cl[k];
 }
 
+bool ShadingSystem::takesFoundPortals(int light) const {
+  const BoundLight* l = impl_->lights[static_cast<size_t>(light)].get();
+  return l && l->takesFoundPortals();
+}
+
 std::span<const Portal> ShadingSystem::portals(int light) const {
   return impl_->lights[static_cast<size_t>(light)]->sky->portals().all();
 }

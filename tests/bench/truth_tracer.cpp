@@ -10,6 +10,8 @@
 //   quad A B C D ALBEDO EMITTED             a parallelogram, likewise with (d - a)
 //   lamp A B C D ALBEDO EMITTED             the same, and it is sampled
 //   sphere X Y Z RADIUS ALBEDO EMITTED V    moves by V over the shutter, and shines from both sides
+//   gloss KS EXPONENT                       what follows has a highlight of lamps too: KS (N.H)^EXPONENT, as specular()
+//   aim A B C D                             a fifth of all paths go on through such places; this changes noise alone
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,6 +38,7 @@ double at(const V& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 std::istream& operator>>(std::istream& in, V& v) { return in >> v.x >> v.y >> v.z; }
 
 constexpr double kFar = 1e30, kNear = 1e-7, kPi = 3.14159265358979323846;
+constexpr double kAimed = 0.2;  // more would make the other paths rare, and each of them count for much
 
 // PCG of 32 bits (O'Neill 2014).
 struct Random {
@@ -56,6 +59,7 @@ struct Shape {
   bool ball = false, whole = false, lamp = false;  // whole: a parallelogram, else a triangle; lamp: it is sampled
   V a, u, v;                                       // corner and edges; a ball: centre, and v is its motion
   double radius = 0, albedo = 0, emitted = 0;
+  double gloss = 0, exponent = 1;
   V normal(const V& P, double time) const { return ball ? unit(P - (a + v * time)) : unit(cross(u, v)); }
   double meet(const V& O, const V& D, double time) const {
     if (ball) {
@@ -94,10 +98,10 @@ struct Node {
 };
 
 struct Scene {
-  int width = 64, height = 64;
+  int width = 128, height = 128;
   double fov = 60, sky = 0, power = 0;
   V eye, right, up, forward, point;
-  std::vector<Shape> shapes, lamps;
+  std::vector<Shape> shapes, lamps, aims;
   std::vector<Node> nodes;
 
   int build(int begin, int end) {
@@ -160,20 +164,45 @@ struct Scene {
     return !any;
   }
 
-  // What lamps and the point light send to P, times the cosine and over pi.
-  double direct(const V& P, const V& N, double time, Random& r) const {
+  // What lamps and the point light send to P and on towards -D.
+  double direct(const Shape& s, const V& P, const V& N, const V& D, double time, Random& r) const {
     double sum = 0;
-    if (power > 0) {
-      const V d = point - P;
-      const double d2 = dot(d, d), cosine = dot(N, d) / std::sqrt(d2);
-      if (cosine > 0 && sees(P, point, time)) sum += power * cosine / d2;
-    }
+    const auto add = [&](const V& Q, double light) {  // light: over pi, as it would come to a surface that faces it
+      const V L = unit(Q - P);
+      const double cosine = dot(N, L);
+      if (!(cosine > 0 && light > 0 && sees(P, Q, time))) return;
+      sum += light * s.albedo * cosine;
+      if (s.gloss > 0) sum += light * s.gloss * std::pow(std::max(0.0, dot(N, unit(L - D))), s.exponent);
+    };
+    if (power > 0) add(point, power / dot(point - P, point - P));
     for (const Shape& lamp : lamps) {
       const V Q = lamp.a + lamp.u * r.next() + lamp.v * r.next(), d = Q - P, n = cross(lamp.u, lamp.v);
-      const double d2 = dot(d, d), here = dot(N, d), there = -dot(n, d);  // n has the length of the lamp's area
-      if (here > 0 && there > 0 && sees(P, Q, time)) sum += lamp.emitted * here * there / (d2 * d2 * kPi);
+      const double d2 = dot(d, d);
+      add(Q, -lamp.emitted * dot(n, d) / (d2 * std::sqrt(d2) * kPi));  // n has the length of the lamp's area
     }
     return sum;
+  }
+
+  // A direction to go on in, and how much light of there counts.
+  V onward(const V& P, const V& N, Random& r, double& counts) const {
+    const bool aimed = !aims.empty() && r.next() < kAimed;
+    V D;
+    if (aimed) {
+      const Shape& a =
+          aims[std::min(aims.size() - 1, static_cast<size_t>(r.next() * static_cast<double>(aims.size())))];
+      D = unit(a.a + a.u * r.next() + a.v * r.next() - P);
+    } else {
+      const double phi = 2 * kPi * r.next(), s2 = r.next(), s1 = std::sqrt(s2);
+      const V T = unit(cross(std::abs(N.x) < 0.7 ? V{1, 0, 0} : V{0, 1, 0}, N)), B = cross(N, T);
+      D = unit(T * (s1 * std::cos(phi)) + B * (s1 * std::sin(phi)) + N * std::sqrt(1 - s2));
+    }
+    const double cosine = std::max(0.0, dot(N, D)) / kPi;
+    double density = aims.empty() ? cosine : (1 - kAimed) * cosine;
+    for (const Shape& a : aims)
+      if (const double t = a.meet(P, D, 0); t < kFar)
+        density += kAimed / static_cast<double>(aims.size()) * t * t / std::abs(dot(cross(a.u, a.v), D));
+    counts = cosine > 0 ? cosine / density : 0;
+    return D;
   }
 
   double path(V O, V D, Random& r) const {
@@ -188,15 +217,15 @@ struct Scene {
       const bool front = dot(N, D) < 0;
       if ((front || s->ball) && (depth == 0 || !s->lamp)) sum += weight * s->emitted;
       if (!front) N = N * -1;
-      const double goesOn = depth < 3 ? 1 : s->albedo;
-      weight *= s->albedo;
-      if (weight == 0 || r.next() >= goesOn) return sum;
-      weight /= goesOn;
       O = P + N * 1e-6;
-      sum += weight * direct(O, N, time, r);
-      const double phi = 2 * kPi * r.next(), s2 = r.next(), s1 = std::sqrt(s2);
-      const V T = unit(cross(std::abs(N.x) < 0.7 ? V{1, 0, 0} : V{0, 1, 0}, N)), B = cross(N, T);
-      D = unit(T * (s1 * std::cos(phi)) + B * (s1 * std::sin(phi)) + N * std::sqrt(1 - s2));
+      sum += weight * direct(*s, O, N, D, time, r);
+      const double goesOn = depth < 3 ? 1 : s->albedo;
+      weight *= s->albedo / goesOn;
+      if (weight == 0 || r.next() >= goesOn) return sum;
+      double counts;
+      D = onward(O, N, r, counts);
+      weight *= counts;
+      if (weight == 0) return sum;
     }
   }
 
@@ -209,8 +238,11 @@ struct Scene {
 
 void read(Scene& scene) {
   std::string word;
+  double gloss = 0, exponent = 1;
   while (std::cin >> word) {
     Shape s;
+    s.gloss = gloss;
+    s.exponent = exponent;
     V b, c;
     if (word == "size")
       std::cin >> scene.width >> scene.height;
@@ -220,6 +252,8 @@ void read(Scene& scene) {
       std::cin >> scene.sky;
     else if (word == "point")
       std::cin >> scene.point >> scene.power;
+    else if (word == "gloss")
+      std::cin >> gloss >> exponent;
     else if (word == "sphere") {
       std::cin >> s.a >> s.radius >> s.albedo >> s.emitted >> s.v;
       s.ball = true;
@@ -230,10 +264,10 @@ void read(Scene& scene) {
       s.lamp = word == "lamp";
       V d;
       if (s.whole) std::cin >> d;
-      std::cin >> s.albedo >> s.emitted;
+      if (word != "aim") std::cin >> s.albedo >> s.emitted;
       s.u = b - s.a;
       s.v = (s.whole ? d : c) - s.a;
-      scene.shapes.push_back(s);
+      (word == "aim" ? scene.aims : scene.shapes).push_back(s);
       if (s.lamp) scene.lamps.push_back(s);
     }
   }

@@ -8,6 +8,7 @@
 #include "reyes/app/frame/limits.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
+#include "reyes/app/frame/sky_portals.h"
 #include "reyes/app/frame/target.h"
 #include "reyes/app/frame/time_budget.h"
 #include "reyes/app/watch/interrupt.h"
@@ -35,6 +36,7 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   measureAreaLights(scene, shaders, log);
   if (!settings.draft) displaceByMovingSurfaces(scene, shaders, log);
+  findSkyPortals(scene, shaders, settings, log);
   shading_ = std::make_unique<ShadingSystem>(scene, shaders, nullptr, log, stats);
   shading_->setClouds(&clouds_);
   method_ = &methodOf(settings, *shading_);

@@ -58,6 +58,7 @@ bool RayGeometry::dressAs(const Shot& shot, ShaderRegistry& shaders, const Shade
   for (size_t o = 0; o < scene_.objects.size(); ++o)
     scene_.objects[o].attributes = scene_.groups[static_cast<size_t>(scene_.objects[o].group)].attributes;
   scene_.lights = shot.scene.lights;
+  scene_.worldFromNamed = shot.scene.worldFromNamed;
   first_->setServices(services);
   dressed_ = std::make_unique<ShadingSystem>(scene_, shaders, services, log, stats);
   tools_.shading = dressed_.get();
@@ -99,6 +100,7 @@ void RayWorld::dress(Scene& scene) const {
   for (Object& object : scene.objects)
     object.attributes = shot_.scene.groups[static_cast<size_t>(object.group)].attributes;
   scene.lights = shot_.scene.lights;
+  scene.worldFromNamed = shot_.scene.worldFromNamed;  // with the openings that were found
   scene.options = shot_.scene.options;
   scene.freeze();
 }

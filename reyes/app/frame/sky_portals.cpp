@@ -1,0 +1,57 @@
+#include "reyes/app/frame/sky_portals.h"
+
+#include <fmt/format.h>
+
+#include "raytrace/sky_openings.h"
+#include "reyes/app/frame/overrides.h"
+
+namespace tomales {
+namespace {
+
+/// The first light whose sky casts shadows and has no portals, though its shader knows some; -1 if there is none.
+int skyWithoutPortals(const Scene& scene, ShaderRegistry& shaders, Log& quiet) {
+  const Scene lights = scene.withoutObjects();  // they are bound faster alone
+  Stats stats;
+  const ShadingSystem shading(lights, shaders, nullptr, quiet, stats);
+  for (int i = 0; i < static_cast<int>(lights.lights.size()); ++i)
+    if (shading.takesFoundPortals(i)) return i;
+  return -1;
+}
+
+std::string described(const SkyOpening& opening, const mat4& worldFromCurrent) {
+  const vec3 center = transformPoint(worldFromCurrent, opening.center);
+  const auto length = [&](const vec3& half) { return 2 * glm::length(transformVector(worldFromCurrent, half)); };
+  return fmt::format("{:.3g} x {:.3g} at ({:.3g}, {:.3g}, {:.3g})", length(opening.halfU), length(opening.halfV),
+                     center.x, center.y, center.z);
+}
+
+}  // namespace
+
+void findSkyPortals(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Log& log) {
+  const auto asked = scene.options.user.find("trace:openings");
+  if (!hasGeometry(scene) || (asked != scene.options.user.end() && asked->second.number(0) == 0)) return;
+  std::erase_if(scene.worldFromNamed, [](const auto& space) { return space.first.starts_with(kSkyOpening); });
+  Log quiet(Log::Verbosity::Quiet);  // what is wrong with the scene is told when it is bound for the picture
+  const int light = skyWithoutPortals(scene, shaders, quiet);
+  if (light < 0) return;
+  scene.open([](const Attributes& a) { return a.visibility.transmission; });
+  Stats stats;
+  const Camera camera(scene.options);
+  const ShadingSystem shading(scene, shaders, nullptr, quiet, stats);
+  const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, quiet);
+  const std::vector<SkyOpening> found = skyOpenings(rays, camera, shading);
+  if (found.empty()) return;
+  const mat4 worldFromCurrent = glm::inverse(scene.cameraFromWorldAtOpen());
+  for (size_t k = 0; k < found.size(); ++k)
+    scene.worldFromNamed[kSkyOpening + std::to_string(k + 1)] =
+        worldFromCurrent * mat4(vec4(2.0f * found[k].halfU, 0), vec4(2.0f * found[k].halfV, 0),
+                                vec4(found[k].normal(), 0), vec4(found[k].center, 1));
+  const std::string others = found.size() > 1 ? fmt::format(" and {} more", found.size() - 1) : "";
+  log.report(
+      Severity::Note, "light-openings", scene.lights[static_cast<size_t>(light)]->shader.where,
+      fmt::format("light \"{}\": rays have found an opening of {}{}; most of the sky's samples go there (Option "
+                  "\"trace\" \"openings\" 0 looks for none)",
+                  scene.lights[static_cast<size_t>(light)]->handle, described(found[0], worldFromCurrent), others));
+}
+
+}  // namespace tomales
