@@ -101,6 +101,7 @@ for k in range(3):
 # Stone around the water, with a rounded edge.
 UNLIT = 'Attribute "visibility" "int photon" [0]'  # no photons need to go there
 STONE = 'Surface "travertine"'
+print("  ShadingRate 0.25")  # The sun's shadows are sharp on what is dry, and steps of a micropolygon would show.
 part("near deck", UNLIT, STONE, box(-9, RIGHT, -0.3, DECK, -4.5, NEAR - 0.04))
 part("left deck", UNLIT, STONE, box(-9, LEFT - 0.04, -0.3, DECK, NEAR - 0.04, WALL))
 part("far deck", UNLIT, STONE, box(LEFT - 0.04, RIGHT, -0.3, DECK, FAR + 0.04, WALL + 0.3))
