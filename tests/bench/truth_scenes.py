@@ -58,11 +58,6 @@ class Scene:
         """An opening through which the tracer sends a fifth of its paths."""
         self.line("aim", *a, *b, *c, *d)
 
-    def gloss(self, Ks, roughness):
-        """What follows is plastic of this highlight."""
-        self.line("gloss", Ks, 8 / roughness)
-        self.rib.append(f'Surface "plastic" "Kd" [1] "Ks" [{Ks}] "roughness" [{roughness}]\n')
-
     def point(self, at, intensity):
         self.line("point", *at, intensity)
         self.lights += f'LightSource "pointlight" "bulb" "from" [{at[0]} {at[1]} {at[2]}] "intensity" [{intensity}]\n'
@@ -166,17 +161,6 @@ def displaced_ball(amplitude=0.08, waves=9, more=""):
     return s
 
 
-def plastic():
-    """A shining ball on a shining floor: the ball's lower half sees the lamp's highlight on the floor."""
-    s = Scene((0, 1.2, -3), pitch=12, fov=50)
-    s.gloss(0.5, 0.3)
-    s.quad((-8, 0, -8), (-8, 0, 8), (8, 0, 8), (8, 0, -8), 0.3, "floor")
-    s.ball((0, 0.8, 0), 0.7, 0.3, name="ball")
-    s.lamp((-1.6, 3, -1.5), (0.8, 0, 0), (0, 0, 0.8), 20)
-    s.sky(0.1)
-    return s
-
-
 def sphere(albedo, known, surface, more=()):
     """Looks about in a sphere of radius 1. What is closed and even has one radiance everywhere."""
     s = Scene((0.2, 0.1, -0.3), fov=90, known=known, more=more)
@@ -208,6 +192,6 @@ BUMPS = """displacement bumps(float amplitude = 0.1; float waves = 9) {
 SHADERS = {"bumps": BUMPS, "glow": GLOW}
 # What makes each scene, and the tracer's paths a pixel, at which the truth is better than what it judges.
 SCENES = {"thin_walls": (thin_walls, 512), "niche": (niche, 2048), "slot": (slot, 1024), "window": (window, 512), "contact": (contact, 512),
-          "moving_ball": (moving_ball, 512), "displaced_ball": (displaced_ball, 512), "plastic": (plastic, 512)}
+          "moving_ball": (moving_ball, 512), "displaced_ball": (displaced_ball, 512)}
 SCENES |= {f"glowing_{int(100 * a)}": (lambda a=a: glowing(a), 0) for a in (0.5, 0.8, 0.9)}
 SCENES |= {f"white_{int(100 * a)}": (lambda a=a: white(a), 0) for a in (0.8, 0.9)}

@@ -10,7 +10,6 @@
 //   quad A B C D ALBEDO EMITTED             a parallelogram, likewise with (d - a)
 //   lamp A B C D ALBEDO EMITTED             the same, and it is sampled
 //   sphere X Y Z RADIUS ALBEDO EMITTED V    moves by V over the shutter, and shines from both sides
-//   gloss KS EXPONENT                       what follows has a highlight of lamps too: KS (N.H)^EXPONENT, as specular()
 //   aim A B C D                             a fifth of all paths go on through such places; this changes noise alone
 #include <algorithm>
 #include <array>
@@ -59,7 +58,6 @@ struct Shape {
   bool ball = false, whole = false, lamp = false;  // whole: a parallelogram, else a triangle; lamp: it is sampled
   V a, u, v;                                       // corner and edges; a ball: centre, and v is its motion
   double radius = 0, albedo = 0, emitted = 0;
-  double gloss = 0, exponent = 1;
   V normal(const V& P, double time) const { return ball ? unit(P - (a + v * time)) : unit(cross(u, v)); }
   double meet(const V& O, const V& D, double time) const {
     if (ball) {
@@ -164,15 +162,14 @@ struct Scene {
     return !any;
   }
 
-  // What lamps and the point light send to P and on towards -D.
-  double direct(const Shape& s, const V& P, const V& N, const V& D, double time, Random& r) const {
+  // What lamps and the point light send to P, times the cosine and over pi.
+  double direct(const V& P, const V& N, double time, Random& r) const {
     double sum = 0;
     const auto add = [&](const V& Q, double light) {  // light: over pi, as it would come to a surface that faces it
       const V L = unit(Q - P);
       const double cosine = dot(N, L);
       if (!(cosine > 0 && light > 0 && sees(P, Q, time))) return;
-      sum += light * s.albedo * cosine;
-      if (s.gloss > 0) sum += light * s.gloss * std::pow(std::max(0.0, dot(N, unit(L - D))), s.exponent);
+      sum += light * cosine;
     };
     if (power > 0) add(point, power / dot(point - P, point - P));
     for (const Shape& lamp : lamps) {
@@ -218,7 +215,7 @@ struct Scene {
       if ((front || s->ball) && (depth == 0 || !s->lamp)) sum += weight * s->emitted;
       if (!front) N = N * -1;
       O = P + N * 1e-6;
-      sum += weight * direct(*s, O, N, D, time, r);
+      sum += weight * s->albedo * direct(O, N, time, r);
       const double goesOn = depth < 3 ? 1 : s->albedo;
       weight *= s->albedo / goesOn;
       if (weight == 0 || r.next() >= goesOn) return sum;
@@ -238,11 +235,8 @@ struct Scene {
 
 void read(Scene& scene) {
   std::string word;
-  double gloss = 0, exponent = 1;
   while (std::cin >> word) {
     Shape s;
-    s.gloss = gloss;
-    s.exponent = exponent;
     V b, c;
     if (word == "size")
       std::cin >> scene.width >> scene.height;
@@ -252,8 +246,6 @@ void read(Scene& scene) {
       std::cin >> scene.sky;
     else if (word == "point")
       std::cin >> scene.point >> scene.power;
-    else if (word == "gloss")
-      std::cin >> gloss >> exponent;
     else if (word == "sphere") {
       std::cin >> s.a >> s.radius >> s.albedo >> s.emitted >> s.v;
       s.ball = true;

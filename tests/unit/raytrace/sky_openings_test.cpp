@@ -86,6 +86,17 @@ TEST(SkyOpenings, AnOpenSceneHasNone) {
   EXPECT_TRUE(room.find().empty());
 }
 
+TEST(SkyOpenings, ARoomThatIsSeenFromOutsideHasNone) {
+  Room room;
+  room.addOtherWalls();
+  room.addWallAround({-1, -1}, {1, 1});
+  room.add(test::parallelogram({-90, -1.6f, -90}, {0, 0, 180}, {180, 0, 0}));
+  mat4 turned = test::translation({0, 0, 9});  // the eye is before the window
+  turned[0][0] = turned[2][2] = -1;
+  for (Object& o : room.scene.objects) o.worldFromObject = Motion::still(turned);
+  EXPECT_TRUE(room.find().empty());
+}
+
 TEST(SkyOpenings, TheCropDoesNotMatter) {
   const auto found = [](const std::array<float, 4>& crop) {
     Room room;
