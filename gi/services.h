@@ -114,6 +114,8 @@ class GiServices final : public ShadeServices {
     double rays = 0, time_s = 0;
   };
   BounceCost bounceCost() const;
+  /// Reports how much light the bounces after those of the last gatherPass() would add, if that is known.
+  void tellBouncesLeft(Log& log) const;
 
   /// Returns the caches of gatherPass(); frozen while shading.
   const std::vector<PreparedCache>& caches() const;

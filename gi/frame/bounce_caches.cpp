@@ -1,5 +1,6 @@
 #include "gi/frame/bounce_caches.h"
 
+#include <cmath>
 #include <mutex>
 
 #include "reyes/base/parallel.h"
@@ -173,6 +174,17 @@ void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& 
 bool BounceCaches::settled() const {
   const size_t n = light_.size();
   return n > 2 && light_[n - 1] - light_[n - 3] <= kSettled * light_[n - 1];
+}
+
+// The ratio is the mean over all bounces, since a late one may add less than its noise.
+BouncesLeft BounceCaches::left() const {
+  const size_t n = light_.size();
+  if (n < 2 || settled() || !(light_[0] > 0)) return {};
+  const double last = light_[n - 1] - light_[n - 2],
+               ratio = std::pow(std::max(0.0, last / light_[0]), 1.0 / static_cast<double>(n - 1));
+  if (!(ratio < 1)) return {};
+  const double next = last * ratio, rest = next * ratio / (1 - ratio);  // the frame's records have the next bounce
+  return {rest / (light_[n - 1] + next + rest), ratio};
 }
 
 void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,

@@ -6,6 +6,7 @@
 
 #include "gi/frame/record_slices.h"
 #include "gi/gather.h"
+#include "gi/gather/bounces_left.h"
 #include "gi/services.h"
 
 namespace tomales {
@@ -37,6 +38,8 @@ class BounceCaches {
   /// whose lights alone shine.
   IrradianceEstimate lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
                             const vec3& shadingNormal, const std::string* lights) const;
+  /// Returns what fill() has left out; nothing if it has ended early, or if two bounces tell no ratio.
+  BouncesLeft left() const;
 
  private:
   std::vector<GatherPoint> hitsFrom(const RayScene& rays, const Camera& camera, const std::vector<GatherPoint>& from,

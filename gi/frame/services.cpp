@@ -57,6 +57,11 @@ void GiServices::startAgain(const GiSettings& settings) {
 
 GiServices::BounceCost GiServices::bounceCost() const { return impl_->bounceCost; }
 
+void GiServices::tellBouncesLeft(Log& log) const {
+  const BouncesLeft left = impl_->learnt->bounces.left();
+  if (left.share > 0) tomales::tellBouncesLeft(left, impl_->bounces, true, "gather-bounces", impl_->scene.where, log);
+}
+
 void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }
 
 void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,

@@ -1,9 +1,8 @@
 #include "gi/photons.h"
 
-#include <fmt/format.h>
-
 #include <numeric>
 
+#include "gi/gather/bounces_left.h"
 #include "gi/photons/stream.h"
 #include "reyes/base/parallel.h"
 
@@ -38,22 +37,6 @@ class Series {
   static constexpr double kLargestRatio = 0.999;
   std::vector<double> power_;
 };
-
-/// Says how much is left after the last arrival, and how many more would leave a hundredth.
-void tellLeft(double left, double ratio, int depth, bool isAsked, const SourceLoc& where, Log& log) {
-  constexpr double kLittle = 0.01;
-  const Severity severity = left < kLittle ? Severity::Info : isAsked ? Severity::Note : Severity::Warning;
-  std::string message = fmt::format(
-      "after {} bounces {:.1f} % of the light that surfaces send each other is left, "
-      "and is missing",
-      depth, 100 * left);
-  if (left >= kLittle)
-    message += fmt::format(
-        ": each bounce has {:.0f} % of the one before, and --bounces {} or \"bounces\" of the "
-        "indirect light would leave 1 %",
-        100 * ratio, depth + static_cast<int>(std::ceil(std::log(kLittle / left) / std::log(ratio))));
-  log.report(severity, "photons-bounces", where, message);
-}
 
 }  // namespace
 
@@ -107,7 +90,8 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   }
   stats.rays.photon += figures.emitted;
   figures.left = series.left(power);
-  if (!spans.empty() && arrivals > 1) tellLeft(figures.left, series.ratio(power), arrivals, isAsked, scene.where, log);
+  if (!spans.empty() && arrivals > 1)
+    tellBouncesLeft({figures.left, series.ratio(power)}, arrivals, isAsked, "photons-bounces", scene.where, log);
   return figures;
 }
 

@@ -179,6 +179,7 @@ void FrameJob::gatherShown(const DeepFrame& layout, const TileReader& tiles) {
 void FrameJob::endGather(const DeepFrame& layout, const TileReader& tiles) {
   if (!(gathers() || counts_)) return;
   warnOfNoise(services_->caches(), log_);
+  services_->tellBouncesLeft(log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && gathers() && !interrupted())
     bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);

@@ -1,0 +1,24 @@
+#include "gi/gather/bounces_left.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tomales {
+
+void tellBouncesLeft(const BouncesLeft& left, int bounces, bool isAsked, const char* code, const SourceLoc& where,
+                     Log& log) {
+  constexpr double kLittle = 0.01;
+  const Severity severity = left.share < kLittle ? Severity::Info : isAsked ? Severity::Note : Severity::Warning;
+  std::string message =
+      fmt::format("after {} bounces {:.1f} % of the light that surfaces send each other is left, and is missing",
+                  bounces, 100 * left.share);
+  if (left.share >= kLittle)
+    message += fmt::format(
+        ": each bounce has {:.0f} % of the one before, and --bounces {} or \"bounces\" of the "
+        "indirect light would leave 1 %",
+        100 * left.ratio, bounces + static_cast<int>(std::ceil(std::log(kLittle / left.share) / std::log(left.ratio))));
+  log.report(severity, code, where, message);
+}
+
+}  // namespace tomales
