@@ -6,6 +6,7 @@
 
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -26,6 +27,7 @@ constexpr double kOpen = 0.3;     ///< Of a rectangle, at least.
 constexpr double kAdds = 0.03;    ///< Of all light that was found, a further rectangle adds at least so much.
 constexpr double kFinds = 0.6;    ///< Together they have so much of it, or are not used.
 constexpr double kBetter = 2;     ///< So many times more rays to them reach the sky than rays anywhere do.
+constexpr float kSpread = 0.1f;   ///< Of rays: an opening needs no fine geometry.
 constexpr int kMostTransparent = 8;  ///< Panes that one ray passes.
 
 struct Place {
@@ -53,7 +55,7 @@ class Search {
     if (places_.size() < kFewestPoints || !isClosed()) return {};
     lookFarther();
     const size_t sent = escape();
-    if (escapes_.size() < kFewestEscapes) return {};
+    if (escapes_.size() < kFewestEscapes || stopRequested()) return {};
     return chosen(candidates(), static_cast<double>(escapes_.size()) / static_cast<double>(sent));
   }
 
@@ -61,6 +63,7 @@ class Search {
   /// The first opaque surface in the way, if there is one.
   std::optional<Place> met(const vec3& origin, const vec3& direction, int group) const {
     Ray ray{origin, direction};
+    ray.spread = kSpread;
     if (group >= 0) rays_.prepareOrigin(group, origin, 0, ray);
     for (int pane = 0; pane < kMostTransparent; ++pane) {
       const Hit hit = rays_.closest(ray, kMaskTransmission);
@@ -70,6 +73,7 @@ class Search {
       if (shading_.opaque(of))
         return Place{P, dot(direction, hit.geometricNormal) > 0 ? -hit.geometricNormal : hit.geometricNormal, of};
       ray = Ray{P, direction};
+      ray.spread = kSpread;
       rays_.prepareOrigin(of, P, 0, ray);
     }
     return std::nullopt;
@@ -111,7 +115,7 @@ class Search {
   /// they have sent.
   size_t escape() {
     std::vector<Place> shutIn;
-    for (size_t i = 0; i < places_.size(); ++i) {
+    for (size_t i = 0; i < places_.size() && !stopRequested(); ++i) {
       const Place& from = places_[i];
       std::vector<Escape> open;
       for (uint32_t k = 0; k < kRays; ++k)

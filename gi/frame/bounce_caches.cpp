@@ -180,9 +180,10 @@ bool BounceCaches::settled() const {
 BouncesLeft BounceCaches::left() const {
   const size_t n = light_.size();
   if (n < 2 || settled() || !(light_[0] > 0)) return {};
+  constexpr double kLargestRatio = 0.999;
   const double last = light_[n - 1] - light_[n - 2],
-               ratio = std::pow(std::max(0.0, last / light_[0]), 1.0 / static_cast<double>(n - 1));
-  if (!(ratio < 1)) return {};
+               ratio =
+                   std::min(std::pow(std::max(0.0, last / light_[0]), 1.0 / static_cast<double>(n - 1)), kLargestRatio);
   const double next = last * ratio, rest = next * ratio / (1 - ratio);  // the frame's records have the next bounce
   return {rest / (light_[n - 1] + next + rest), ratio};
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "reyes/base/deep_stack.h"
+
 namespace tomales {
 
 void tellBouncesLeft(const BouncesLeft& left, int bounces, bool isAsked, const char* code, const SourceLoc& where,
@@ -13,11 +15,11 @@ void tellBouncesLeft(const BouncesLeft& left, int bounces, bool isAsked, const c
   std::string message =
       fmt::format("after {} bounces {:.1f} % of the light that surfaces send each other is left, and is missing",
                   bounces, 100 * left.share);
-  if (left.share >= kLittle)
-    message += fmt::format(
-        ": each bounce has {:.0f} % of the one before, and --bounces {} or \"bounces\" of the "
-        "indirect light would leave 1 %",
-        100 * left.ratio, bounces + static_cast<int>(std::ceil(std::log(kLittle / left.share) / std::log(left.ratio))));
+  const int more =
+      left.share < kLittle ? 0 : static_cast<int>(std::ceil(std::log(kLittle / left.share) / std::log(left.ratio)));
+  if (more > 0) message += fmt::format(": each bounce has {:.0f} % of the one before", 100 * left.ratio);
+  if (more > 0 && bounces + more <= kMostBounces)
+    message += fmt::format(", and --bounces {} or \"bounces\" of the indirect light would leave 1 %", bounces + more);
   log.report(severity, code, where, message);
 }
 

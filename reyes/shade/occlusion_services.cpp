@@ -72,10 +72,6 @@ struct OpenSky {
 bool traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options,
                      const TmOcclusion& out) {
   if (!traces(batch)) return false;
-  if (out.radiance.x && batch.scene.added && batch.context.kind == RayKind::Camera)
-    batch.report(Severity::Warning, "light-twice",
-                 "asks indirectdiffuse() itself, and --gi has added an indirect light to what diffuse() sums: bounced "
-                 "light counts twice; leave out --gi, or the call");
   const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x),
              directs = out.environmentDirection.x != nullptr;
   RayQuery query = rayQuery(options, RayKind::Diffuse);
@@ -143,6 +139,10 @@ int32_t occlusion(void* host, const TmGrid* all, const TmRayOptions* given, TmCo
     for (const TmVec3& v : {out.radiance, out.environmentColor, out.environmentDirection})
       if (v.x) set(v, i, vec3(0));
   });
+  if (out.radiance.x && batch.scene.added)
+    batch.report(Severity::Note, "light-twice",
+                 "asks indirectdiffuse() itself, and --gi has added an indirect light to what diffuse() sums: if it "
+                 "calls both, bounced light counts twice; leave out --gi, or a call");
   const auto hemisphere = out.pointCloud ? hemisphereOfDisks : traceHemisphere;
   const bool known = hemisphere(batch, primary.grid(), P, N, options, out);
   primary.spread(out.covered);

@@ -33,7 +33,7 @@ ShaderRegistry::~ShaderRegistry() = default;
 
 bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::string& origin) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->answers.clear();
+  impl_->forgetAnswers();
   std::vector<const TmShader*> added;
   const bool works = impl_->add(library, origin, &added);
   impl_->builtIn.insert(added.begin(), added.end());
@@ -42,7 +42,7 @@ bool ShaderRegistry::addLibrary(const TmShaderLibrary* library, const std::strin
 
 bool ShaderRegistry::loadPlugin(const std::string& path) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->answers.clear();
+  impl_->forgetAnswers();
   return impl_->load(path);
 }
 
@@ -53,7 +53,7 @@ bool ShaderRegistry::addText(const std::shared_ptr<const RslFile>& file, const s
     return false;
   }
   impl_->texts.push_back(file);
-  impl_->answers.clear();
+  impl_->forgetAnswers();
   return impl_->add(file->library(), path);
 }
 

@@ -40,6 +40,11 @@ struct ShaderRegistry::Impl {
   std::map<Question, std::string> broken{};  ///< The texts with errors that were found for them.
   FunctionPlugins functionPlugins{log};
 
+  void forgetAnswers() {
+    answers.clear();
+    broken.clear();
+  }
+
   /// Reports that the file `origin` is not used.
   void refuse(const std::string& origin, const std::string& problem, const char* code = "shader-plugin") {
     const SourceLoc where{std::make_shared<const std::string>(origin), 0};

@@ -12,6 +12,7 @@
 #include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/frame_shaders.h"
 #include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/sky_portals.h"
 #include "reyes/app/watch/progress.h"
 #include "reyes/app/watch/run_report.h"
 #include "reyes/area_lights.h"
@@ -90,6 +91,7 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
   measureAreaLights(scene, *shaders, log);
   displaceByMovingSurfaces(scene, *shaders, log);
+  findSkyPortals(scene, *shaders, settings, log);
   scene.open([](const Attributes& a) { return a.visibility.photon; });
   ShadingSystem shading(scene, *shaders, nullptr, log, stats);
   const Camera camera(scene.options);

@@ -36,7 +36,7 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   measureAreaLights(scene, shaders, log);
   if (!settings.draft) displaceByMovingSurfaces(scene, shaders, log);
-  findSkyPortals(scene, shaders, settings, log);
+  if (!settings.namesOnly) findSkyPortals(scene, shaders, settings, log);
   shading_ = std::make_unique<ShadingSystem>(scene, shaders, nullptr, log, stats);
   shading_->setClouds(&clouds_);
   method_ = &methodOf(settings, *shading_);
@@ -179,7 +179,7 @@ void FrameJob::gatherShown(const DeepFrame& layout, const TileReader& tiles) {
 void FrameJob::endGather(const DeepFrame& layout, const TileReader& tiles) {
   if (!(gathers() || counts_)) return;
   warnOfNoise(services_->caches(), log_);
-  services_->tellBouncesLeft(log_);
+  if (!interrupted()) services_->tellBouncesLeft(log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
   if (!settings_.bakedFolder.empty() && gathers() && !interrupted())
     bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);

@@ -48,7 +48,9 @@ std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& set
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
   if (!makesMaps(methodOfLights(scene, *shaders, settings, log))) return std::nullopt;
   Stats stats;
-  const FrameJob job(scene, *shaders, settings, stats, log);
+  RenderSettings asking = settings;
+  asking.namesOnly = true;
+  const FrameJob job(scene, *shaders, asking, stats, log);
   SharedLight out;
   out.folder = atlasFolder(settings, job.shading());
   if (!out.folder.empty() && isMadeByHand(out.folder)) return std::nullopt;

@@ -24,8 +24,14 @@ bool mayBeLinearElsewhere(const EditState& a, const EditState& b) {
       if (!edit.shader.empty()) out.emplace(owner, edit.shader);
     return out;
   };
-  return a.shaders[kSurfaces] != b.shaders[kSurfaces] || a.shaders[kAtmospheres] != b.shaders[kAtmospheres] ||
-         lights(a) != lights(b);
+  const auto lightLinks = [](const EditState& s) {
+    std::map<std::string, std::map<std::string, bool>> out;
+    for (const auto& [object, edit] : s.objects)
+      if (!edit.lights.empty()) out.emplace(object, edit.lights);
+    return out;
+  };
+  return lightLinks(a) != lightLinks(b) || a.shaders[kSurfaces] != b.shaders[kSurfaces] ||
+         a.shaders[kAtmospheres] != b.shaders[kAtmospheres] || lights(a) != lights(b);
 }
 
 }  // namespace

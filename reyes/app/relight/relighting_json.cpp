@@ -141,7 +141,8 @@ Json Relighting::status() const {
 }
 
 size_t Relighting::bucketAt(int x, int y) const {
-  const DeepFrame& frame = files()->dfb().shot().frame;
+  const auto shot = files();
+  const DeepFrame& frame = shot->dfb().shot().frame;
   return static_cast<size_t>(frame.rowOf(y) * frame.columns + (x - frame.padded.x0) / frame.bucketWidth);
 }
 

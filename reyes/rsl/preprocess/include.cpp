@@ -69,8 +69,10 @@ IncludeSearch::IncludeSearch(const PreprocessOptions& options, const std::string
   for (const std::string& folder : folders_) permitted_.push_back(realPath(folder));
   if (!ownFolder.empty()) permitted_.push_back(realPath(ownFolder));
   std::erase(permitted_, std::string());
-  if (ownFolder.empty()) return;
-  for (const char* folder : {"/include", "/..", "/../include"}) collections_.push_back(ownFolder + folder);
+  const fs::path own = realPath(ownFolder);
+  if (own.empty()) return;
+  for (const fs::path& folder : {own / "include", own.parent_path(), own.parent_path() / "include"})
+    collections_.push_back(folder.string());
 }
 
 bool IncludeSearch::isPermitted(const std::string& path) const {
@@ -92,13 +94,12 @@ ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::st
     if (isPermitted(real)) return readFile(path);
     out.failure = "it is outside of the folders from which files may be included";
   }
+  if (const std::string_view own = standard_ ? standardHeader(wanted) : std::string_view(); !own.empty())
+    return asFile(wanted, std::string(own));
   if (fs::path(wanted).extension() == ".h" && fs::path(wanted).filename() == wanted)
-    for (const std::string& folder : collections_) {
-      const std::string path = folder + "/" + wanted, real = realPath(path);
-      if (!real.empty() && folderOf(real) == realPath(folder)) return readFile(path);
-    }
-  const std::string_view own = standard_ ? standardHeader(wanted) : std::string_view();
-  return own.empty() ? out : asFile(wanted, std::string(own));
+    for (const std::string& folder : collections_)
+      if (const std::string path = fs::path(folder) / wanted; realPath(path) == path) return readFile(path);
+  return out;
 }
 
 }  // namespace tomales::compiler

@@ -110,6 +110,8 @@ TEST_F(Includes, LookForNothingElseThere) {
   fs::create_symlink(root_ / "secret/x.h", root_ / "link.h");
   for (const std::string name : {"notes", "notes.txt", "secret/x.h", "link.h"})
     EXPECT_EQ(read("#include \"" + name + "\"\n"), " !cannot include '" + name + refused);
+  fs::create_directory_symlink(root_ / "secret", root_ / "own/include");
+  EXPECT_EQ(read("#include \"x.h\"\n"), " !cannot include 'x.h" + refused) << "a link of a folder";
 }
 
 TEST_F(Includes, MayGoUpWithinAPermittedFolder) {
