@@ -194,7 +194,8 @@ TEST_F(Plugins, AShaderWhoseParametersHaveAnotherSizeOrAFaultIsSkippedAndSaysWhy
 TEST_F(Plugins, AFileThatIsNoPluginIsRefusedWithAReason) {
   EXPECT_FALSE(registry.loadPlugin("/nowhere/absent.so"));
   ASSERT_EQ(log.entries().size(), 1u);
-  EXPECT_NE(log.entries()[0].message.find("/nowhere/absent.so"), std::string::npos);
+  EXPECT_EQ(*log.entries()[0].where.file, "/nowhere/absent.so");
+  EXPECT_NE(log.entries()[0].message.find("No such file"), std::string::npos);
 }
 
 // The example of the documentation, compiled as a user would: against the installed headers and nothing else.
