@@ -8,14 +8,16 @@
 namespace tomales {
 namespace {
 
-/// The first light whose sky casts shadows and has no portals, though its shader knows some; -1 if there is none.
-int skyWithoutPortals(const Scene& scene, ShaderRegistry& shaders, Log& quiet) {
-  const Scene lights = scene.withoutObjects();  // they are bound faster alone
+/// Returns the first light whose sky casts shadows and has no portals, though its shader knows some; null if there is
+/// none. The lights are bound without the objects, which is faster, so lamps that need geometry are left out.
+std::shared_ptr<const LightCall> skyWithoutPortals(const Scene& scene, ShaderRegistry& shaders, Log& log) {
+  Scene lights = scene.withoutObjects();
+  std::erase_if(lights.lights, [](const auto& light) { return light->area; });
   Stats stats;
-  const ShadingSystem shading(lights, shaders, nullptr, quiet, stats);
-  for (int i = 0; i < static_cast<int>(lights.lights.size()); ++i)
-    if (shading.takesFoundPortals(i)) return i;
-  return -1;
+  const ShadingSystem shading(lights, shaders, nullptr, log, stats);
+  for (size_t i = 0; i < lights.lights.size(); ++i)
+    if (shading.takesFoundPortals(static_cast<int>(i))) return lights.lights[i];
+  return nullptr;
 }
 
 std::string described(const SkyOpening& opening, const mat4& worldFromCurrent) {
@@ -31,14 +33,13 @@ void findSkyPortals(Scene& scene, ShaderRegistry& shaders, const RenderSettings&
   const auto asked = scene.options.user.find("trace:openings");
   if (!hasGeometry(scene) || (asked != scene.options.user.end() && asked->second.number(0) == 0)) return;
   std::erase_if(scene.worldFromNamed, [](const auto& space) { return space.first.starts_with(kSkyOpening); });
-  Log quiet(Log::Verbosity::Quiet);  // what is wrong with the scene is told when it is bound for the picture
-  const int light = skyWithoutPortals(scene, shaders, quiet);
-  if (light < 0) return;
+  const auto light = skyWithoutPortals(scene, shaders, log);
+  if (!light) return;
   scene.open([](const Attributes& a) { return a.visibility.transmission; });
   Stats stats;
   const Camera camera(scene.options);
-  const ShadingSystem shading(scene, shaders, nullptr, quiet, stats);
-  const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, quiet);
+  const ShadingSystem shading(scene, shaders, nullptr, log, stats);
+  const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
   const std::vector<SkyOpening> found = skyOpenings(rays, camera, shading);
   if (found.empty()) return;
   const mat4 worldFromCurrent = glm::inverse(scene.cameraFromWorldAtOpen());
@@ -47,11 +48,10 @@ void findSkyPortals(Scene& scene, ShaderRegistry& shaders, const RenderSettings&
         worldFromCurrent * mat4(vec4(2.0f * found[k].halfU, 0), vec4(2.0f * found[k].halfV, 0),
                                 vec4(found[k].normal(), 0), vec4(found[k].center, 1));
   const std::string others = found.size() > 1 ? fmt::format(" and {} more", found.size() - 1) : "";
-  log.report(
-      Severity::Note, "light-openings", scene.lights[static_cast<size_t>(light)]->shader.where,
-      fmt::format("light \"{}\": rays have found an opening of {}{}; most of the sky's samples go there (Option "
-                  "\"trace\" \"openings\" 0 looks for none)",
-                  scene.lights[static_cast<size_t>(light)]->handle, described(found[0], worldFromCurrent), others));
+  log.report(Severity::Note, "light-openings", light->shader.where,
+             fmt::format("light \"{}\": rays have found an opening of {}{}; most of the sky's samples go there (Option "
+                         "\"trace\" \"openings\" 0 looks for none)",
+                         light->handle, described(found[0], worldFromCurrent), others));
 }
 
 }  // namespace tomales
