@@ -17,6 +17,7 @@ constexpr float kWider = 1.04f;
 std::shared_ptr<const LightCall> skyWithoutPortals(const Scene& scene, ShaderRegistry& shaders, Log& log) {
   Scene lights = scene.withoutObjects();
   std::erase_if(lights.lights, [](const auto& light) { return light->area; });
+  lights.options.displays.clear();  // objects write their channels
   Stats stats;
   const ShadingSystem shading(lights, shaders, nullptr, log, stats);
   for (size_t i = 0; i < lights.lights.size(); ++i)
