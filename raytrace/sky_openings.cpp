@@ -11,23 +11,24 @@
 namespace tomales {
 namespace {
 
-constexpr int kViews = 16;                      ///< Lines of sight along each edge of the picture.
-constexpr size_t kFewestPoints = 32;            ///< Fewer say nothing about a room.
-constexpr uint32_t kFewRays = 16, kRays = 64;   ///< Of a point: to know whether the room is closed; to find openings.
-constexpr float kClosed = 0.25f;                ///< A point is shut in that sees less of the sky,
-constexpr double kMostlyClosed = 0.8;           ///< and a room is closed in which so many points are.
-constexpr size_t kFewestEscapes = 8;            ///< Rays that reach the sky; fewer find no outline.
-constexpr size_t kCandidates = 96, kMost = 16;  ///< Rectangles that are tried, and that are kept.
-constexpr int kAround = 8;                      ///< Directions in which an outline is looked for.
+constexpr int kViews = 16;            ///< Lines of sight along each edge of the picture.
+constexpr size_t kFewestPoints = 32;  ///< Fewer say nothing about a room.
+constexpr uint32_t kFewRays = 16,
+                   kRays = 64;    ///< Rays of a point that test whether the room is closed, and that find openings.
+constexpr float kClosed = 0.25f;  ///< A point is shut in that sees less of the sky,
+constexpr double kMostlyClosed = 0.8;                ///< and a room is closed in which so many points are.
+constexpr size_t kFewestEscapes = 8;                 ///< Rays that reach the sky; fewer find no outline.
+constexpr size_t kCandidates = 96, kMost = 16;       ///< Rectangles that are tried, and that are kept.
+constexpr int kAround = 8;                           ///< Directions in which an outline is looked for.
 constexpr float kFirstStep = 0.01f, kWidest = 1.2f;  ///< Radians from the ray that has found the opening.
 constexpr int kHalvings = 8;
 constexpr float kMargin = 1.01f;  ///< A strip that is left out has much noise, and samples beyond the border are lost.
 constexpr uint32_t kTrials = 64;  ///< Rays that tell how much of a rectangle is open.
-constexpr double kOpen = 0.3;     ///< Of a rectangle, at least.
-constexpr double kAdds = 0.03;    ///< Of all light that was found, a further rectangle adds at least so much.
-constexpr double kFinds = 0.6;    ///< Together they have so much of it, or are not used.
-constexpr double kBetter = 2;     ///< So many times more rays to them reach the sky than rays anywhere do.
-constexpr float kSpread = 0.1f;   ///< Of rays: an opening needs no fine geometry.
+constexpr double kOpen = 0.3;     ///< Least open share of a rectangle.
+constexpr double kAdds = 0.03;    ///< Least share of all escaped rays that a further rectangle adds.
+constexpr double kFinds = 0.6;    ///< Least share of escaped rays that all rectangles have together.
+constexpr double kBetter = 2;     ///< Least factor by which rays to rectangles reach the sky more often than others.
+constexpr float kSpread = 0.1f;   ///< Spread of the rays: an opening needs no fine geometry.
 constexpr int kMostTransparent = 8;  ///< Panes that one ray passes.
 
 struct Place {
@@ -60,7 +61,7 @@ class Search {
   }
 
  private:
-  /// The first opaque surface in the way, if there is one.
+  /// Returns the first opaque surface in the way, if there is one.
   std::optional<Place> met(const vec3& origin, const vec3& direction, int group) const {
     Ray ray{origin, direction};
     ray.spread = kSpread;
@@ -129,7 +130,7 @@ class Search {
     return places_.size() * kRays;
   }
 
-  /// Where the opening ends, seen by turning the ray towards `side`.
+  /// Returns where the opening ends, seen by turning the ray towards `side`.
   std::optional<vec3> edge(const Escape& ray, const vec3& side) const {
     const auto turned = [&](float angle) { return std::cos(angle) * ray.direction + std::sin(angle) * side; };
     float open = 0, shut = kFirstStep;
@@ -191,7 +192,7 @@ class Search {
     return best;
   }
 
-  /// The share of rays from places to the rectangle that reach the sky.
+  /// Returns the share of rays from places to the rectangle that reach the sky.
   double openness(const SkyOpening& opening, uint32_t name) const {
     uint32_t sent = 0, open = 0;
     for (uint32_t k = 0; k < kTrials; ++k) {

@@ -20,8 +20,7 @@ const TmShader* rslAreaLight(const TmShader& light);
 /// that point alone would bring. The light of the area is the mean of that.
 bool isMean(const TmShader& light);
 
-/// The texts that stand in the code of a shader, such as names of pictures. None of a shader that is not written in
-/// RSL.
+/// Returns the texts that stand in the code of a shader, such as names of pictures; none if it is not written in RSL.
 std::vector<std::string> rslTexts(const TmShader& shader);
 
 }  // namespace tomales

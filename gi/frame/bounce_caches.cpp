@@ -176,16 +176,14 @@ bool BounceCaches::settled() const {
   return n > 2 && light_[n - 1] - light_[n - 3] <= kSettled * light_[n - 1];
 }
 
-// The ratio is the mean over all bounces, since a late one may add less than its noise.
+// The ratio is the mean over all bounces, since a late one may add less than its noise. The frame's records have one
+// bounce more than the last level.
 BouncesLeft BounceCaches::left() const {
   const size_t n = light_.size();
   if (n < 2 || settled() || !(light_[0] > 0)) return {};
-  constexpr double kLargestRatio = 0.999;
-  const double last = light_[n - 1] - light_[n - 2],
-               ratio =
-                   std::min(std::pow(std::max(0.0, last / light_[0]), 1.0 / static_cast<double>(n - 1)), kLargestRatio);
-  const double next = last * ratio, rest = next * ratio / (1 - ratio);  // the frame's records have the next bounce
-  return {rest / (light_[n - 1] + next + rest), ratio};
+  const double last = std::max(0.0, light_[n - 1] - light_[n - 2]),
+               ratio = std::pow(last / light_[0], 1.0 / static_cast<double>(n - 1));
+  return bouncesLeft(static_cast<int>(n) + 1, light_[n - 1] + last * ratio, last * ratio, ratio);
 }
 
 void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,

@@ -155,7 +155,6 @@ class GatherPass {
     const double raysBefore = state_.stats.lightRays();
     state_.learnt->bounces.fill(*tools_, state_.camera, points, gather, bounces,
                                 {state_.stats, cancelled_, state_.kept, state_.groups});
-    state_.bounces = bounces;
     state_.bounceCost = {state_.stats.lightRays() - raysBefore,
                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
   }

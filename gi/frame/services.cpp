@@ -59,7 +59,7 @@ GiServices::BounceCost GiServices::bounceCost() const { return impl_->bounceCost
 
 void GiServices::tellBouncesLeft(Log& log) const {
   const BouncesLeft left = impl_->learnt->bounces.left();
-  if (left.share > 0) tomales::tellBouncesLeft(left, impl_->bounces, true, "gather-bounces", impl_->scene.where, log);
+  if (left.share > 0) tomales::tellBouncesLeft(left, true, "gather-bounces", impl_->scene.where, log);
 }
 
 void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }

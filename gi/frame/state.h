@@ -34,7 +34,6 @@ struct GiState {
   HitRadianceSource hitRadianceSource{};                     ///< May be empty.
   mutable std::unique_ptr<const HitRadiance> hitRadiance{};  ///< Set in GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
-  int bounces = 1;                            ///< Of the last gather pass.
   GiServices::BounceCost bounceCost{};        ///< The cost of the last gather pass.
   std::optional<PhotonPasses> passes{};       ///< Empty: no photons are counted.
   std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.

@@ -20,21 +20,15 @@ class Series {
       if (const auto n = static_cast<size_t>(p.bounces); n < power_.size()) power_[n] += double{luminance(p.power)};
   }
 
-  /// Returns the ratio of successive arrivals at the end. `emitted`: all power, in place of first arrivals.
-  double ratio(double emitted) const {
+  /// Returns the light that would arrive later. `emitted`: all power, in place of first arrivals.
+  BouncesLeft left(double emitted) const {
     const size_t n = power_.size();
-    if (n < 2 || !(power_[n - 1] > 0)) return 0;
-    return std::min(power_[n - 1] / (n == 2 ? emitted : power_[n - 2]), kLargestRatio);
-  }
-  /// Returns the share of reflected light that would arrive later if it went on as a geometric series.
-  double left(double emitted) const {
-    const double r = ratio(emitted), rest = power_.back() * r / (1 - r),
-                 reflected = std::accumulate(power_.begin() + 1, power_.end(), 0.0);
-    return r > 0 ? rest / (reflected + rest) : 0;
+    if (n < 2 || !(power_[n - 1] > 0)) return {};
+    return bouncesLeft(static_cast<int>(n), std::accumulate(power_.begin() + 1, power_.end(), 0.0), power_[n - 1],
+                       power_[n - 1] / (n == 2 ? emitted : power_[n - 2]));
   }
 
  private:
-  static constexpr double kLargestRatio = 0.999;
   std::vector<double> power_;
 };
 
@@ -89,9 +83,9 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
     power += sent.source->power() * (static_cast<double>(last - first) / static_cast<double>(sent.count));
   }
   stats.rays.photon += figures.emitted;
-  figures.left = series.left(power);
-  if (!spans.empty() && arrivals > 1)
-    tellBouncesLeft({figures.left, series.ratio(power)}, arrivals, isAsked, "photons-bounces", scene.where, log);
+  const BouncesLeft left = series.left(power);
+  figures.left = left.share;
+  if (!spans.empty() && arrivals > 1) tellBouncesLeft(left, isAsked, "photons-bounces", scene.where, log);
   return figures;
 }
 

@@ -72,10 +72,11 @@ t.write("knit.rib", scene('Surface "knit" Sphere 1 -1 1 360'))
 t.expect_run("a plugin in another folder", ["knit.rib"], 3, '"compiled/knit.so" is there, in a folder that is not searched', "--shaders FOLDER")
 
 # What a shader's own text names, and a text that does not compile.
-t.write("worn.sl", 'surface worn() { Oi = 1; Ci = texture("wood.tif") + environment("far.tex", N) * match("x.tif$", "y"); }\n')
-t.write("worn.rib", scene('Surface "worn" Sphere 1 -1 1 360'))
+t.write("worn.sl", 'surface worn() { Oi = 1; Ci = texture("wood.tif") + environment("far.tex", N) * match("x.tif$", "y"); string n = format("page%d.tif", 1); printf("no use.tif"); }\n')
+t.write("turned.sl", 'surface turned(string map = "") { Oi = 1; Ci = texture(map); }\n')
+t.write("worn.rib", scene('Surface "worn" Sphere 1 -1 1 360 Surface "turned" "string map" ["two words.tex"] Sphere 1 -1 1 360'))
 told = json.loads(t.expect_run("info of a shader that names pictures", ["info", "worn.rib", "--json"], 3).stdout)
-t.expect({n["name"]: n["found"] for n in told["needs"] if n["kind"] == "texture"} == {"wood.tif": True, "far.tex": False}, f"knows them: {told['needs']}")
+t.expect({n["name"]: n["found"] for n in told["needs"] if n["kind"] == "texture"} == {"wood.tif": True, "far.tex": False, "two words.tex": False}, f"knows them: {told['needs']}")
 t.write("several.sl", "surface oak() { Ci = nothing; }\n")
 t.write("oak.rib", scene('Surface "oak" Sphere 1 -1 1 360'))
 for arguments in (["oak.rib"], ["info", "oak.rib"]):

@@ -1,5 +1,5 @@
 """Light shaders in RSL with an extent: over the geometry of AreaLightSource (RISpec 3.2, sections 4.6 and 12.2), and
-solar() of the whole sky."""
+solar() of the whole sky. Last, indirectdiffuse() beside the light that --gi adds."""
 import pathlib
 import sys
 

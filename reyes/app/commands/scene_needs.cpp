@@ -62,7 +62,7 @@ void SceneNeeds::addPicture(const std::string& name, const Options& options, con
 void SceneNeeds::addPictures(const ShaderCall& call, const TmShader* shader, const Options& options) {
   for (const Param& p : call.params)
     for (const std::string& text : p.strings)
-      if (namesMap(text) && text.find_first_of(" %") == std::string::npos) addPicture(text, options, call.where);
+      if (namesMap(text)) addPicture(text, options, call.where);
   for (int32_t k = 0; shader && k < shader->paramCount; ++k) {
     const TmParamDecl& decl = shader->params[k];
     if (TM_TYPE_OF(decl.type) != TM_STRING || !decl.strings || findParam(call.params, decl.name)) continue;
@@ -70,8 +70,9 @@ void SceneNeeds::addPictures(const ShaderCall& call, const TmShader* shader, con
       if (decl.strings[i] && namesMap(decl.strings[i])) addPicture(decl.strings[i], options, call.where);
   }
   if (!shader) return;
+  // A shader's texts are messages and forms of names, too.
   for (const std::string& text : rslTexts(*shader))
-    if (namesMap(text)) addPicture(text, options, call.where);
+    if (namesMap(text) && text.find_first_of(" %") == std::string::npos) addPicture(text, options, call.where);
 }
 
 void SceneNeeds::addShader(const ShaderCall& call, TmKind kind, const Options& options) {

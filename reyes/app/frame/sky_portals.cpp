@@ -8,8 +8,8 @@
 namespace tomales {
 namespace {
 
-/// Edges of a portal over those of the opening. A strip of an opening that is left out makes specks, where samples
-/// beside it only make noise.
+/// Ratio of the edges of a portal to those of its opening. A strip of an opening that is left out makes specks, where
+/// samples beside it only make noise.
 constexpr float kWider = 1.04f;
 
 /// Returns the first light whose sky casts shadows and has no portals, though its shader knows some; null if there is

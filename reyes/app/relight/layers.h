@@ -41,7 +41,7 @@ class LayerStore {
   void wait(uint64_t after, uint64_t told) const;
   /// Call this when there is something else to tell.
   void wake() const;
-  uint64_t woken() const;  ///< Returns how often it has been called.
+  uint64_t woken() const;  ///< Returns how often wake() has been called.
   /// Returns the colour of a layer at a pixel, by its raster coordinates; black if it has not been put.
   vec3 at(size_t layer, int x, int y) const;
   int64_t bytes() const;

@@ -1,4 +1,4 @@
-// What the pages of a shot have in common: one of them edits, and all wait until the shot is prepared.
+// The pages of a shot share these: one of them edits, and all wait until the shot is prepared.
 #pragma once
 #include <atomic>
 #include <condition_variable>
@@ -22,7 +22,7 @@ class Editor {
       page_.compare_exchange_strong(nobody, page);
     return page_ == page;
   }
-  /// Returns true if it was the one.
+  /// Lets another page edit. Returns true if this one has edited until now.
   bool leave(uint64_t page) { return page_.compare_exchange_strong(page, 0); }
   uint64_t page() const { return page_; }
 
@@ -30,10 +30,10 @@ class Editor {
   std::atomic<uint64_t> page_{0};
 };
 
-/// Waits for what is prepared meanwhile. Threads: any.
+/// Makes questions of pages wait until the shot is prepared. Threads: any.
 class Gate {
  public:
-  /// `good`: what waits may go on; else it has to end.
+  /// Ends the wait. `good`: the shot can be shown; otherwise pass() throws BadRequest.
   void open(bool good) {
     const std::lock_guard lock(mutex_);
     good_ = good;

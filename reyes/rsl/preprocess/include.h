@@ -30,8 +30,8 @@ class IncludeSearch {
   std::vector<std::string> folders_;    ///< Folders in the order in which they are searched.
   bool standard_;                       ///< True if the renderer's own headers come last.
   std::vector<std::string> permitted_;  ///< Paths without symbolic links.
-  /// Where collections of shaders keep their headers, as K-3D does above the folders of surfaces and displacements.
-  /// Headers alone are read from there, and by plain names alone.
+  /// Folders in which collections of shaders keep their headers, as K-3D does above its folders of surfaces and
+  /// displacements. Headers alone are read from there, by plain names and not through links.
   std::vector<std::string> collections_;
 };
 
