@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ChunkFile : ::testing::Test {
-  const fs::path folder = fs::temp_directory_path() / ("tomales_chunks_" + std::to_string(::getpid()));
+  const fs::path folder = fs::temp_directory_path() / "tomales_chunks";
   const std::string path = (folder / "a.chunks").string();
   ChunkFile() { fs::create_directories(folder); }
   ~ChunkFile() override { fs::remove_all(folder); }

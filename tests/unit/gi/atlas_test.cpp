@@ -18,7 +18,7 @@ using namespace test;
 namespace fs = std::filesystem;
 
 struct Atlas : ::testing::Test {
-  const fs::path folder = fs::temp_directory_path() / ("tomales_atlas_test_" + std::to_string(::getpid()));
+  const fs::path folder = fs::temp_directory_path() / "tomales_atlas_test";
   ~Atlas() override { fs::remove_all(folder); }
 };
 

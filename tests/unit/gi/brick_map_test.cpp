@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct BrickMaps : ::testing::Test {
-  const fs::path folder = fs::temp_directory_path() / ("tomales_bricks_" + std::to_string(::getpid()));
+  const fs::path folder = fs::temp_directory_path() / "tomales_bricks";
   const std::string path = (folder / "a.bkm").string();
   BrickCache cache;
   BrickMaps() { fs::create_directories(folder); }

@@ -2,7 +2,6 @@
 #include "gi/clouds.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -65,7 +64,7 @@ class Clouds : public ::testing::Test {
     return path("wall.ptc");
   }
 
-  const fs::path folder = fs::path(::testing::TempDir()) / ("tomales_clouds_" + std::to_string(::getpid()));
+  const fs::path folder = fs::path(::testing::TempDir()) / "tomales_clouds";
   Wall wall{32};
   Log log{Log::Verbosity::Quiet};
 };

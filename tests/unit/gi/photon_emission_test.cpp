@@ -76,7 +76,7 @@ TEST(PhotonEmission, SmallRoomsHaveTheLightOfLargeOnes) {
 }
 
 struct PhotonFiles : ::testing::Test {
-  const fs::path folder = fs::temp_directory_path() / ("tomales_photon_files_" + std::to_string(::getpid()));
+  const fs::path folder = fs::temp_directory_path() / "tomales_photon_files";
   ~PhotonFiles() override { fs::remove_all(folder); }
 
   /// Green, of all that is in the file of a map.

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -12,9 +11,7 @@ namespace fs = std::filesystem;
 
 class Display : public testing::Test {
  protected:
-  Display() : folder_(fs::temp_directory_path() / ("tomales_display_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
+  Display() : folder_(fs::temp_directory_path() / "tomales_display") { fs::create_directories(folder_); }
   ~Display() override { fs::remove_all(folder_); }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 

@@ -1,5 +1,4 @@
 // Inline archives, procedurals and programs.
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -121,7 +120,7 @@ TEST(Procedural, LightsAndWorldsInsideAreRefused) {
 }
 
 TEST(RunProgram, IsStartedOnceForManyCalls) {
-  const std::string starts = testing::TempDir() + "tomales_starts_" + std::to_string(getpid());
+  const std::string starts = testing::TempDir() + "tomales_starts";
   const std::string call = "Procedural2 \"RunProgram2\" \"SimpleBound\" \"string programname\" [\"echo >> " + starts +
                            "; while read detail radius; do echo Sphere $radius -1 1 360; printf '\\\\377'; done\" ] "
                            "\"string data\" [\"";

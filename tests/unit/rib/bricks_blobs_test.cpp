@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 /// One brick over the unit cube, with two voxels: (0,0,0) faces z and holds 1 2 3, (7,7,7) is a volume and holds 4 5 6.
 struct BrickMapFile : ::testing::Test {
-  const fs::path folder = fs::temp_directory_path() / ("tomales_rib_bricks_" + std::to_string(::getpid()));
+  const fs::path folder = fs::temp_directory_path() / "tomales_rib_bricks";
   BrickMapFile() {
     fs::create_directories(folder);
     const Brick brick(

@@ -1,5 +1,4 @@
 // Motion blocks, retained objects, archives, geometry requests.
-#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -223,7 +222,7 @@ class Archives : public testing::Test {
     good_ = readRib(files, settings, log_);
     return scenes;
   }
-  const std::string folder_ = testing::TempDir() + "tomales_archives_" + std::to_string(::getpid());
+  const std::string folder_ = testing::TempDir() + "tomales_archives";
   Log log_{Log::Verbosity::Quiet};
   bool good_ = false;
 };

@@ -1,5 +1,4 @@
 // Edits of shaders, lights and attributes of a scene whose geometry is settled.
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -22,7 +21,7 @@ const std::string kWorld = inWorld(
 struct Edited {
   explicit Edited(const std::string& text) : scene(std::move(reading.scenes.at(0))) {
     scene.freeze();
-    const auto file = std::filesystem::temp_directory_path() / ("tomales_edit_" + std::to_string(::getpid()) + ".rib");
+    const auto file = std::filesystem::temp_directory_path() / "tomales_edit.rib";
     std::ofstream(file) << text;
     editScene({file.string()}, scene, reading.log);
     std::filesystem::remove(file);

@@ -72,8 +72,7 @@ TEST(WorldSum, ChangesWithTheOperationsOfSolids) {
 }
 
 TEST(WorldSum, ChangesWithTheFilesThatShadersName) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("tomales_world_" + std::to_string(::getpid()) + ".tex");
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tomales_world.tex";
   const std::string rib = kCamera + world(kLight + "Surface \"paintedplastic\" \"texturename\" [\"" + file.string() +
                                           "\"]\nSphere 1 -1 1 360\n");
   const auto write = [&](const std::string& text) { std::ofstream(file) << text; };

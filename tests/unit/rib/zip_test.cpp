@@ -1,5 +1,4 @@
 // Archives that are members of zip files.
-#include <unistd.h>
 
 #include <fstream>
 
@@ -45,7 +44,7 @@ std::string zipOf(const std::string& text, bool damaged = false) {
 
 /// A zip file at this path.
 std::string written(const std::string& content) {
-  const std::string path = testing::TempDir() + "tomales_models_" + std::to_string(getpid()) + ".zip";
+  const std::string path = testing::TempDir() + "tomales_models.zip";
   std::ofstream(path, std::ios::binary) << content;
   return path;
 }

@@ -1,6 +1,5 @@
 // The standard shaders, written in RSL from their formulas (RISpec 3.2, appendix A): what they give, and what is found
 // of them, is what the built-in ones of the same names give and declare.
-#include <unistd.h>
 
 #include <fstream>
 #include <random>
@@ -86,9 +85,7 @@ displacement bumpy(float Km = 1; string texturename = "") {
 )RSL";
 
 /// A file of this process, since ctest runs several of these tests at once.
-std::string ownFile(const char* ending) {
-  return ::testing::TempDir() + "tomales_standard_shaders_" + std::to_string(::getpid()) + ending;
-}
+std::string ownFile(const char* ending) { return ::testing::TempDir() + "tomales_standard_shaders" + ending; }
 
 /// A stage that stands by itself, so that a test may have two.
 class Studio : public Stage {
