@@ -20,9 +20,11 @@ struct GatherSettings {
   bool indirect = false;                      ///< The shaders of the hits ask for indirect light in turn.
   bool mirrored = true;                       ///< The same as ShadeContext::mirrored.
   std::string subset{};  ///< The sets of objects that the rays see; empty for those of the object's trace:subset.
-  /// Occlusion instead of light: E/pi is the uncovered share of the hemisphere, and no hit is shaded.
-  std::optional<OcclusionQuery> occlusion{};
+  std::optional<HemisphereQuery> asked{};  ///< The question of a shader; empty for an indirect light.
   bool operator==(const GatherSettings&) const = default;
+
+  /// True for occlusion instead of light: E/pi is the uncovered share of the hemisphere, and no hit is shaded.
+  bool covers() const { return asked && !asked->radiance; }
 };
 
 /// A point to gather at.

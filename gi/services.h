@@ -66,8 +66,9 @@ using RaySource = std::function<const RayTools*()>;
 using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
 using HitRadianceSource = std::function<std::unique_ptr<const HitRadiance>()>;
 
-/// Tells whether the cache keeps answers of occlusion() where a group asks for it (ShadingSystem::asksOcclusion).
-bool keepsOcclusion(const GiSettings&);
+/// Tells whether the cache keeps answers of occlusion() and indirectdiffuse() where a group asks for them
+/// (ShadingSystem::asksHemispheres).
+bool keepsHemispheres(const GiSettings&);
 
 class GiServices final : public ShadeServices {
  public:
@@ -157,8 +158,8 @@ class GiServices final : public ShadeServices {
   float emitterReach(int light) const override;
   float emitterArea(int light) const override;
   Bound3 emitterBound(int light) const override;
-  bool interpolatedOcclusion(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const OcclusionQuery&,
-                             const ShadeContext&, float* covered) const override;
+  bool interpolatedHemisphere(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const HemisphereQuery&,
+                              const ShadeContext&, TmVec3 out) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                        const ShadeContext&, IndirectResult out) const override;
 

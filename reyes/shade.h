@@ -97,7 +97,7 @@ class ShadingSystem {
   /// Tells whether its surface shader asks for rays, for more than occlusion() or highlights.
   bool tracesRays(int group) const;
   /// Tells whether a shader of the group may call occlusion() so that answers may be interpolated.
-  bool asksOcclusion(int group) const;
+  bool asksHemispheres(int group) const;
 
   /// Returns LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.
   LightKind lightKind(int light) const;

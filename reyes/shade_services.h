@@ -152,16 +152,21 @@ struct MediumColors {
   vec3 scattering{0.0f}, absorption{0.0f};
 };
 
-/// A question of occlusion() for the hemisphere, weighted by the cosine, whose answers may be interpolated.
-struct OcclusionQuery {
+/// The HemisphereQuery::maxVariation that allows as much as a maxerror of 1.
+constexpr float kVariationOfError = 0.05f;
+
+/// What occlusion() or indirectdiffuse() asks of a hemisphere, weighted by the cosine. Answers may be interpolated.
+struct HemisphereQuery {
   int samples = 1;
   float maxDistance = 1e30f, bias = -1;
   float falloff = 0;
   int falloffMode = 0;
-  float maxVariation = 0;  ///< Greatest error of the answers.
+  float maxVariation = 0;       ///< Greatest error of the answers: absolute, but for radiance relative to it.
+  bool radiance = false;        ///< Asks for the mean radiance from the hemisphere, not for the share that is covered.
+  std::optional<HitMode> mode;  ///< As RayQuery::mode; for radiance alone.
   std::string subset, excludeSubset;
   HitSides sides = HitSides::Both;
-  bool operator==(const OcclusionQuery&) const = default;
+  bool operator==(const HemisphereQuery&) const = default;
 
   /// Returns how much of a ray is covered by a hit at that distance.
   float coveredAt(float distance) const {
@@ -215,10 +220,10 @@ class ShadeServices {
   virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
                            const EmitterPoints& out) const = 0;
 
-  /// Interpolates the share of the hemisphere around N that is covered. Returns false, and leaves `covered` alone, if
-  /// nothing is known and rays must tell.
-  virtual bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
-                                     const OcclusionQuery& query, const ShadeContext& context, float* covered) const;
+  /// Interpolates what a query asks of the hemisphere around N: its mean radiance (E/pi), or in each of the three
+  /// colours the share that is covered. Returns false, and leaves `out` alone, if nothing is known and rays must tell.
+  virtual bool interpolatedHemisphere(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                                      const HemisphereQuery& query, const ShadeContext& context, TmVec3 out) const;
 
   /// Gives the E/pi that an earlier pass stored around each point, or zero where there is none. kArea of the points is
   /// the area to average over.
@@ -260,7 +265,7 @@ struct DisksQuery {
   float maxSolidAngle = 0.01f;  ///< Disks that are seen together under less count as one.
   bool clamp = true;            ///< Disks behind others do not count.
   float coneAngle = kPi / 2;    ///< The half angle of the cone that is looked at.
-  OcclusionQuery falloff;
+  HemisphereQuery falloff;
 };
 
 /// The interface to point clouds and brick maps (implemented in gi/clouds, injected by reyes/app). `problem` says why

@@ -63,21 +63,24 @@ class GatherPass {
   }
 
  private:
-  bool isLight(size_t cache) const { return !state_.caches[cache].plan.gather.occlusion; }
+  const GatherSettings& gatherOf(size_t cache) const { return state_.caches[cache].plan.gather; }
+  bool isLight(size_t cache) const { return !gatherOf(cache).covers(); }
+  bool isIndirect(size_t cache) const { return !gatherOf(cache).asked; }
   bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
 
   // Groups whose lights and shaders have equal plans share a cache. With maxerror 0 no record could be reused. Returns
   // false if no group asks for indirect light.
   bool prepareCaches() {
     cachesOfGroup_.assign(state_.scene.groups.size(), {});
-    learnOcclusionQueries(state_, layout_, tiles_, cancelled_);
+    learnHemisphereQueries(state_, layout_, tiles_, cancelled_);
     std::vector<std::pair<size_t, GatherPlan>> plans;
     for (size_t g = 0; g < cachesOfGroup_.size(); ++g) {
       const int group = static_cast<int>(g);
       const IndirectQuery* query = state_.shading.indirectQuery(group);
       const Attributes& attributes = *state_.scene.groups[g].attributes;
       if (attributes.matte || attributes.volume) continue;
-      for (const OcclusionQuery& asked : state_.occlusionAsked[g]) plans.emplace_back(g, planFor(state_, group, asked));
+      for (const HemisphereQuery& asked : state_.hemispheresAsked[g])
+        plans.emplace_back(g, planFor(state_, group, asked));
       if (!query || !attributes.indirect.receive || !interpolatesIndirect(state_)) continue;
       const GatherPlan plan = planFor(state_, group, *query);
       if (plan.cache.kappa < kInfinity) plans.emplace_back(g, plan);
@@ -135,19 +138,19 @@ class GatherPass {
     int bounces = 1;
     for (size_t g = 0; g < cachesOfGroup_.size(); ++g)
       for (const size_t c : cachesOfGroup_[g])
-        if (isLight(c))
+        if (isIndirect(c))
           bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
     std::vector<GatherPoint> points;
     for (const Site& s : sites)
-      if (isLight(s.cache)) points.push_back(s.point);
+      if (isIndirect(s.cache)) points.push_back(s.point);
     if (bounces == 1 || points.empty()) return;
     // Every gather point may look the bounce caches up, so they have as many rays, as long, as any plan asks for,
     // whatever pixel comes first.
     size_t first = 0;
-    while (!isLight(first)) ++first;
+    while (!isIndirect(first)) ++first;
     GatherSettings gather = state_.caches[first].plan.gather;
     for (const PreparedCache& c : state_.caches) {
-      if (c.plan.gather.occlusion) continue;
+      if (c.plan.gather.asked) continue;
       gather.samples = std::max(gather.samples, c.plan.gather.samples);
       gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
     }

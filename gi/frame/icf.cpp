@@ -10,18 +10,19 @@ namespace tomales {
 // Found by the structures' namespace, so they cannot stand in the unnamed one. The structured bindings stop the
 // compiler at a structure that has gained a field which its list lacks.
 template <class A>
-void fields(A& a, OcclusionQuery& x) {
-  auto& [samples, maxDistance, bias, falloff, falloffMode, maxVariation, subset, excludeSubset, sides] = x;
-  each(a, samples, maxDistance, bias, falloff, falloffMode, maxVariation, subset, excludeSubset, sides);
+void fields(A& a, HemisphereQuery& x) {
+  auto& [samples, maxDistance, bias, falloff, falloffMode, maxVariation, radiance, mode, subset, excludeSubset, sides] =
+      x;
+  each(a, samples, maxDistance, bias, falloff, falloffMode, maxVariation, radiance, mode, subset, excludeSubset, sides);
 }
 
 template <class A>
 void fields(A& a, GatherPlan& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels, minPixels, enough] = cache;
-  auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset, occlusion] = gather;
+  auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset, asked] = gather;
   each(a, errorFunction, kappa, maxPixels, minPixels, enough, samples, maxDistance, seed, light, curvature, maxError,
-       depth, indirect, mirrored, subset, occlusion);
+       depth, indirect, mirrored, subset, asked);
 }
 
 template <class A>

@@ -9,16 +9,6 @@
 namespace tomales {
 namespace {
 
-CacheSettings settingsOf(ErrorFunction function, float maxError) {
-  const ErrorFunctionInfo& info = infoOf(function);
-  CacheSettings out{function, info.kappa, info.maxPixels, info.minPixels, info.enough};
-  if (info.limitsFollowError) {
-    out.minPixels *= maxError;
-    out.enough /= std::max(1.0f, maxError);
-  }
-  return out;
-}
-
 // Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
 // remove noise (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
@@ -41,7 +31,7 @@ std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, con
       std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
   if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
   return std::find_if(state.caches.begin(), state.caches.end(),
-                      [](const PreparedCache& c) { return !c.plan.gather.occlusion; });
+                      [](const PreparedCache& c) { return !c.plan.gather.asked; });
 }
 
 /// Returns the light of the records under the gains, or drawn anew; empty if that is their own.
@@ -61,12 +51,23 @@ float normalDraw(const vec3& place) {
 
 }  // namespace
 
+CacheSettings cacheSettings(ErrorFunction function, float maxError) {
+  const ErrorFunctionInfo& info = infoOf(function);
+  CacheSettings out{function, maxError > 0 ? info.kappa / maxError : kInfinity, info.maxPixels, info.minPixels,
+                    info.enough};
+  if (info.limitsFollowError) {
+    out.minPixels *= maxError;
+    out.enough /= std::max(1.0f, maxError);
+  }
+  return out;
+}
+
 std::span<const LightShare> mixedLight(const GiState& state, size_t cache) {
   if (!state.mixed) return {};
   std::call_once(state.mixed->once, [&] {
     for (const PreparedCache& c : state.caches)
-      state.mixed->ofCaches.push_back(c.plan.gather.occlusion ? std::span<const LightShare>()
-                                                              : c.cache.keptMix(state.gains));
+      state.mixed->ofCaches.push_back(c.plan.gather.covers() ? std::span<const LightShare>()
+                                                             : c.cache.keptMix(state.gains));
   });
   return state.mixed->ofCaches[cache];
 }
@@ -107,10 +108,9 @@ GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) 
   GatherPlan plan;
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
-  plan.cache = settingsOf(settings.errorFunction.value_or(query.errorFunction), maxError);
+  plan.cache = cacheSettings(settings.errorFunction.value_or(query.errorFunction), maxError);
   plan.gather.curvature = infoOf(plan.cache.errorFunction).needsCurvature() && maxError > 0;
   if (plan.gather.curvature) plan.gather.maxError = maxError;
-  plan.cache.kappa = maxError > 0 ? plan.cache.kappa / maxError : kInfinity;
   plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
   plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   plan.gather.maxDistance = query.maxDistance;

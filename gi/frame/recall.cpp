@@ -12,10 +12,12 @@ namespace {
 uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
 
 /// Hashes the part of the query that GatherSettings do not hold as well.
-uint32_t nameOf(const std::optional<OcclusionQuery>& q) {
+uint32_t nameOf(const std::optional<HemisphereQuery>& q) {
   const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
   return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),
-                         static_cast<uint32_t>(q->sides), nameOf(q->subset), nameOf(q->excludeSubset))
+                         static_cast<uint32_t>(q->sides) | static_cast<uint32_t>(q->radiance) << 8 |
+                             (q->mode ? static_cast<uint32_t>(*q->mode) + 1 : 0) << 9,
+                         nameOf(q->subset), nameOf(q->excludeSubset))
            : 0;
 }
 
@@ -59,10 +61,10 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
           static_cast<uint32_t>(settings.indirect) | static_cast<uint32_t>(!settings.mirrored) << 1,
           nameOf(settings.subset),
           state.settings.mode == GiMode::Radiosity,
-          nameOf(settings.occlusion)};
+          nameOf(settings.asked)};
   static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
-  const std::span<const std::string> groups = settings.occlusion ? std::span<const std::string>() : state.groups;
+  const std::span<const std::string> groups = settings.covers() ? std::span<const std::string>() : state.groups;
   const auto mixed = [&](IndirectAnswer answer, const std::vector<vec3>& gains) {
     return groups.empty() || gains.empty() ? answer : withGains(std::move(answer), gains);
   };
@@ -71,9 +73,8 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
         it != answers->indirect.end() && it->second.shares.size() == groups.size())
       return mixed(it->second, state.gains);
   const RayTools* tools = gatherTools(state);
-  if (!tools) return {vec3(settings.occlusion ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
-  const KnownLight known =
-      settings.occlusion ? KnownLight{} : KnownLight{&state.learnt->spots, state.hitRadiance.get()};
+  if (!tools) return {vec3(settings.covers() ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
+  const KnownLight known = settings.covers() ? KnownLight{} : KnownLight{&state.learnt->spots, state.hitRadiance.get()};
   const IrradianceRecord record =
       gather(*tools->rays, *tools->shading, point, settings, known, state.stats, nullptr, groups);
   IndirectAnswer answer{record.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};

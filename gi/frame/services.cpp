@@ -218,9 +218,9 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
   if (!acrossWalls.empty()) traceToStored(*impl_, points, acrossWalls, E);
 }
 
-bool GiServices::interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
-                                       const OcclusionQuery& query, const ShadeContext& context, float* covered) const {
-  return context.auditPaths == 0 && interpolateOcclusion(*impl_, points, active, N, query, context, covered);
+bool GiServices::interpolatedHemisphere(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                                        const HemisphereQuery& query, const ShadeContext& context, TmVec3 out) const {
+  return context.auditPaths == 0 && interpolateHemisphere(*impl_, points, active, N, query, context, out);
 }
 
 float GiServices::emitterReach(int light) const {

@@ -25,8 +25,8 @@ struct GiState {
   std::vector<PreparedCache> caches{};                     ///< Written by fillCaches(), frozen while shading.
   std::optional<Emitters> emitters{};                      ///< Emitters that are known without rays.
   std::shared_ptr<LearntLight> learnt = std::make_shared<LearntLight>();  ///< Written by fillCaches().
-  /// Queries of each group; written by learnOcclusionQueries() alone.
-  mutable std::vector<std::vector<OcclusionQuery>> occlusionAsked{};
+  /// Queries of each group; written by learnHemisphereQueries() alone.
+  mutable std::vector<std::vector<HemisphereQuery>> hemispheresAsked{};
   KeptWork* kept = nullptr;                                  ///< Null if nothing is kept for a later run.
   bool cachesGiven = false;                                  ///< The caches were not gathered for this very frame.
   std::optional<PixelRect> anew{};                           ///< Pixels whose given records have been taken out.
@@ -56,13 +56,16 @@ const RayTools* gatherTools(const GiState&);
 /// attributes, and those over the light.
 GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
 
-GatherPlan planFor(const GiState&, int group, const OcclusionQuery&);
+GatherPlan planFor(const GiState&, int group, const HemisphereQuery&);
+
+/// Returns what a cache with this error function has at `maxError`.
+CacheSettings cacheSettings(ErrorFunction, float maxError);
 
 /// Tells whether indirect light comes from an irradiance cache.
 bool interpolatesIndirect(const GiState&);
 
-/// Runs the shaders of each group that asksOcclusion() at one of its visible points, to learn what they ask.
-void learnOcclusionQueries(GiState&, const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
+/// Runs the shaders of each group that asksHemispheres() at a few of its visible points, to learn what they ask.
+void learnHemisphereQueries(GiState&, const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
 
 /// Returns the number of diffuse bounces of a light.
 int bouncesFor(const GiState&, const IndirectQuery&);
@@ -186,9 +189,9 @@ void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, Tm
 /// Sets E/pi at points where the atlas does not tell two sides of a wall apart: by a path from each, whose hits look up
 /// what is stored there.
 void traceToStored(const GiState&, const ShadePoints&, const std::vector<int>& which, TmVec3 E);
-/// Implements ShadeServices::interpolatedOcclusion().
-bool interpolateOcclusion(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
-                          const OcclusionQuery&, const ShadeContext&, float* covered);
+/// Implements ShadeServices::interpolatedHemisphere().
+bool interpolateHemisphere(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
+                           const HemisphereQuery&, const ShadeContext&, TmVec3 out);
 /// Implements indirectDiffuse() at hits of gather rays: from the caches of further bounces, or traced.
 void bounceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                     const ShadeContext&, int bounces, const IndirectResult& out);

@@ -267,7 +267,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
-  if (!settings.occlusion && isOn(Amendment::Occluders))
+  if (!settings.covers() && isOn(Amendment::Occluders))
     record.limit = radiusUnderOccluder(samples, point.pixelSize, hemisphere.upright());
   for (const std::vector<vec3>& seen : hemisphere.shares()) {
     HemisphereSamples share = samples;
@@ -281,9 +281,8 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
     record.hessian[1] = curvature.xy;
     record.hessian[2] = curvature.yy;
     // Light changes faster near an occluder, so the curvature at the record holds for half of the distance at best.
-    if (settings.occlusion)
-      record.smoothRadius =
-          std::min(variationRadius(curvature, settings.occlusion->maxVariation), 0.5f * record.closest);
+    if (settings.covers())
+      record.smoothRadius = std::min(variationRadius(curvature, settings.asked->maxVariation), 0.5f * record.closest);
     else
       record.smoothRadius = 1 / (1 / radiusByHessian(curvature, record, settings.maxError) + 1 / record.closest);
   }

@@ -38,12 +38,11 @@ GatherRays::GatherRays(const RayScene& scene, const ShadingSystem& shading, cons
   orthonormalBasis(point.normal, tangent_, bitangent_);
   first_.spread = spreadOfRays(static_cast<int>(count));
   scene.prepareOrigin(point.group, point.position, point.edgeLength, first_);
-  const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
   filter_.groups = groupsSeenFrom(scene, point.group, settings);
-  if (occlusion) filter_.sides = occlusion->sides;
-  if (occlusion && occlusion->bias >= 0) {
+  if (settings.asked) filter_.sides = settings.asked->sides;
+  if (settings.asked && settings.asked->bias >= 0) {
     first_.offset = 0;
-    first_.bias = occlusion->bias;
+    first_.bias = settings.asked->bias;
   }
   if (!filter_.passesAll()) first_.filter = &filter_;
   start_ = polygonStart(scene, first_, kMaskDiffuse);
@@ -75,14 +74,14 @@ vec3 GatherRays::add(int element, int cell, const vec3& local, size_t raysOfHemi
 }
 
 void GatherRays::see(Stats& stats, size_t elements, SeenLight& seen, FirstHits* first) {
-  seen.all.assign(elements, vec3(settings_.occlusion ? 1 : 0));
+  seen.all.assign(elements, vec3(settings_.covers() ? 1 : 0));
   seen.shares.resize(groups_.size());
   for (std::vector<vec3>& share : seen.shares) share.assign(elements, vec3(0));
   if (first) {
     first->distances.assign(elements, kInfinity);
     first->normals.resize(elements);
   }
-  if (settings_.occlusion)
+  if (settings_.covers())
     uncover(stats, seen.all, first);
   else
     shade(stats, seen, first);
@@ -94,16 +93,18 @@ void GatherRays::uncover(Stats& stats, std::vector<vec3>& radiance, FirstHits* f
   for (size_t r = 0; r < scratch_.hits.size(); ++r)
     if (const Hit& hit = scratch_.hits[r]; hit.object >= 0)
       radiance[static_cast<size_t>(scratch_.layers.elements[r])] -=
-          vec3(settings_.occlusion->coveredAt(std::max(0.0f, hit.t)));
+          vec3(settings_.asked->coveredAt(std::max(0.0f, hit.t)));
 }
 
 void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
   context.light = settings_.light;
   context.mirrored = settings_.mirrored;
-  // direct light counts by the diffuse component alone; mirrors and glass show their reflections
-  context.diffuseLimit = 0;
-  scratch_.answers.mode = HitMode::Shader;
+  // Direct light counts by the diffuse component alone; mirrors and glass show their reflections. What shaders ask
+  // themselves goes on as deep as the object allows.
+  const Attributes& own = *scene_.scene().groups[static_cast<size_t>(point_.group)].attributes;
+  context.diffuseLimit = settings_.asked ? own.trace.maxDiffuseDepth : 0;
+  scratch_.answers.mode = settings_.asked ? settings_.asked->mode : HitMode::Shader;
   for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
     meet(stats, layer == 0 ? first : nullptr);
     answer(context);
@@ -184,10 +185,9 @@ void GatherRays::answer(const ShadeContext& context) {
 }
 
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings) {
-  const OcclusionQuery* occlusion = settings.occlusion ? &*settings.occlusion : nullptr;
-  const std::string& asked = occlusion ? occlusion->subset : settings.subset;
+  const std::string& asked = settings.asked ? settings.asked->subset : settings.subset;
   const std::string& own = rays.scene().groups[static_cast<size_t>(group)].attributes->trace.subset;
-  return rays.groupsIn(asked.empty() ? own : asked, occlusion ? occlusion->excludeSubset : "");
+  return rays.groupsIn(asked.empty() ? own : asked, settings.asked ? settings.asked->excludeSubset : "");
 }
 
 }  // namespace tomales

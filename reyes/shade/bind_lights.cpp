@@ -168,6 +168,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound, light->takesFoundPortals());
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, TM_ROLE_SAMPLES, kLightSamples, 1, kMostLightSamples, log_);
+  if (light->can(TM_INTERPOLATED)) light->maxVariation = light->can(TM_INTERPOLATED_UNASKED) ? 1 : -1;
   if (light->can(TM_OCCLUDED)) light->maxVariation = bound->number(TM_ROLE_MAX_VARIATION, 1);
   if (!light->can(TM_LIGHT_INDIRECT)) return light;
   light->shadows = false;

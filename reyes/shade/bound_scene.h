@@ -29,11 +29,11 @@ struct BoundLight {
   IndirectQuery query;                           ///< Set for TM_LIGHT_INDIRECT alone.
   IndirectRequest request;                       ///< The light's request to the whole frame.
   bool filters = false;                          ///< It brings the light of another indirect light.
-  float maxVariation = 0;                        ///< TmOcclusion::maxVariation, for TM_OCCLUDED alone.
-  std::string group;                             ///< The name of its group, or its handle if it names none.
-  std::string category;                          ///< Names that commas separate; "indirect" if it is.
-  std::shared_ptr<const Sky> sky;                ///< Set for TM_LIGHT_SKY alone.
-  vec3 sourceTint{1.0f};                         ///< The tint of the indirect light that this one filters.
+  float maxVariation = 0;          ///< TmOcclusion::maxVariation of its calls, if answers may be interpolated.
+  std::string group;               ///< The name of its group, or its handle if it names none.
+  std::string category;            ///< Names that commas separate; "indirect" if it is.
+  std::shared_ptr<const Sky> sky;  ///< Set for TM_LIGHT_SKY alone.
+  vec3 sourceTint{1.0f};           ///< The tint of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
   /// Tells whether it is a sky that casts shadows and names no portals, though its shader knows some.
   bool takesFoundPortals() const {

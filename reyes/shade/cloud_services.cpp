@@ -126,7 +126,7 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   if (!toFile(batch, g, file, P, N, tmCloudDefaults(), query)) return false;
   DisksQuery inFile = disks;
   const float scale = 1 / scaleOf(batch.scene.cameraFromWorld);
-  OcclusionQuery& far = inFile.falloff;
+  HemisphereQuery& far = inFile.falloff;
   if (far.maxDistance < 1e30f) far.maxDistance *= scale;
   if (far.bias > 0) far.bias *= scale;
   if (far.falloffMode != 1) far.falloff /= scale;

@@ -8,8 +8,8 @@
 
 namespace tomales {
 
-bool ShadeServices::interpolatedOcclusion(const ShadePoints&, const uint8_t*, TmConstVec3, const OcclusionQuery&,
-                                          const ShadeContext&, float*) const {
+bool ShadeServices::interpolatedHemisphere(const ShadePoints&, const uint8_t*, TmConstVec3, const HemisphereQuery&,
+                                           const ShadeContext&, TmVec3) const {
   return false;
 }
 

@@ -12,37 +12,54 @@ namespace tomales {
 namespace {
 
 constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Slightly less than pi/2, which shaders give with few digits.
-constexpr float kVariationOfError = 0.05f;      ///< The variation for a maxerror of 1.
+/// The maxerror of the cache if nobody says one. Shading the hits of rays costs much, so that radiance is interpolated
+/// as that of an indirect light is.
+constexpr float kErrorOfCoverage = 0, kErrorOfRadiance = 1;
 
-/// Returns the question of a call of occlusion().
-OcclusionQuery occlusionOf(const TmRayOptions& o, const TmOcclusion& asked, const RayQuery& rays, const Attributes& a) {
-  OcclusionQuery q{.samples = o.samples,
-                   .maxDistance = o.maxDistance,
-                   .bias = o.bias,
-                   .falloff = asked.falloff,
-                   .falloffMode = asked.falloffMode,
-                   .maxVariation = asked.maxVariation,
-                   .subset = rays.subset,
-                   .excludeSubset = rays.excludeSubset,
-                   .sides = rays.sides};
-  if (q.maxVariation < 0) q.maxVariation = kVariationOfError * a.irradianceMaxError.value_or(0.0f);
+/// Returns what a call of occlusion() or indirectdiffuse() asks.
+HemisphereQuery queryOf(const TmRayOptions& o, const TmOcclusion& asked, const RayQuery& rays, const Attributes& a,
+                        bool radiance) {
+  HemisphereQuery q{.samples = o.samples,
+                    .maxDistance = o.maxDistance,
+                    .bias = o.bias,
+                    .falloff = asked.falloff,
+                    .falloffMode = asked.falloffMode,
+                    .maxVariation = asked.maxVariation,
+                    .radiance = radiance,
+                    .mode = radiance ? rays.mode : std::nullopt,
+                    .subset = rays.subset,
+                    .excludeSubset = rays.excludeSubset,
+                    .sides = rays.sides};
+  if (q.maxVariation < 0)
+    q.maxVariation = kVariationOfError * a.irradianceMaxError.value_or(radiance ? kErrorOfRadiance : kErrorOfCoverage);
   return q;
 }
 
-/// Answers from earlier records where it can, and returns the points that need rays. Records lie at the points that the
-/// eye sees, and hold whole hemispheres.
+/// Answers from earlier records what they know, and returns the points that need rays. Records lie at the points that
+/// the eye sees. They hold whole hemispheres.
 const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o,
-                           const OcclusionQuery& q, float* covered) {
-  if (!(q.maxVariation > 0) || batch.context.kind != RayKind::Camera || o.uniform || o.coneAngle < kWholeCone ||
-      o.sampleBase > 0)
-    return g->active;
+                           const RayQuery& rays, const TmOcclusion& out) {
+  const bool plain = batch.context.kind == RayKind::Camera && !o.uniform && o.coneAngle >= kWholeCone &&
+                     o.sampleBase == 0 && !o.environment && !out.environmentColor.x && !out.environmentDirection.x;
+  if (!plain || (out.radiance.x && !rays.label.empty())) return g->active;
   uint8_t *own = batch.arena.bytes(g->count), *moved = batch.arena.bytes(g->count);
   for (int i = 0; i < g->count; ++i) {
     own[i] = g->active[i] && get(P, i) == batch.points->position(i);
     moved[i] = g->active[i] && !own[i];
   }
-  return batch.scene.services->interpolatedOcclusion(*batch.points, own, N, q, batch.context, covered) ? moved
-                                                                                                       : g->active;
+  const auto answered = [&](bool radiance, const TmVec3& answer) {
+    const HemisphereQuery q = queryOf(o, out, rays, *batch.group.group->attributes, radiance);
+    return q.maxVariation > 0 &&
+           batch.scene.services->interpolatedHemisphere(*batch.points, own, N, q, batch.context, answer);
+  };
+  const TmVec3 covered = batch.arena.vec3(g->count), radiance = batch.arena.vec3(g->count);
+  if ((out.covered && !answered(false, covered)) || (out.radiance.x && !answered(true, radiance))) return g->active;
+  for (int i = 0; i < g->count; ++i) {
+    if (!own[i]) continue;
+    if (out.covered) out.covered[i] = covered.x[i];
+    if (out.radiance.x) set(out.radiance, i, get(radiance, i));
+  }
+  return moved;
 }
 
 /// The picture that rays see where they meet nothing, looked up as environment() does.
@@ -75,10 +92,9 @@ bool traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
   const bool looksUp = options.environment && (out.radiance.x || out.environmentColor.x),
              directs = out.environmentDirection.x != nullptr;
   RayQuery query = rayQuery(options, RayKind::Diffuse);
-  const OcclusionQuery asked = occlusionOf(options, out, query, *batch.group.group->attributes);
+  const HemisphereQuery asked = queryOf(options, out, query, *batch.group.group->attributes, false);
   TmGrid traced = *g;
-  if (out.covered && !out.radiance.x && !looksUp && !directs)
-    traced.active = interpolate(batch, g, P, N, options, asked, out.covered);
+  traced.active = interpolate(batch, g, P, N, options, query, out);
   if (std::none_of(traced.active, traced.active + traced.count, [](uint8_t a) { return a != 0; })) return true;
   setFootprints(batch, &traced, N, options, query);
   RayResult result;
@@ -121,7 +137,8 @@ bool hemisphereOfDisks(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3
                  "asks a point cloud for environments, an even distribution or a sample base, which rays alone know; "
                  "they are left out");
   const DisksQuery query{out.pointChannel ? out.pointChannel : "_radiosity", std::max(out.maxSolidAngle, 1e-4f),
-                         out.clamp != 0, o.coneAngle, occlusionOf(o, out, rayQuery(o), *batch.group.group->attributes)};
+                         out.clamp != 0, o.coneAngle,
+                         queryOf(o, out, rayQuery(o), *batch.group.group->attributes, false)};
   float* covered = out.covered ? out.covered : batch.arena.floats(g->count);
   return occlusionByDisks(batch, g, out.pointCloud, P, N, query, covered, out.radiance);
 }

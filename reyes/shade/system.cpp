@@ -119,12 +119,13 @@ bool ShadingSystem::tracesRays(int group) const {
 }
 
 // A light with TmOcclusion::maxVariation in a parameter tells it before it runs.
-bool ShadingSystem::asksOcclusion(int group) const {
+bool ShadingSystem::asksHemispheres(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
   const bool allowed = g.group->attributes->irradianceMaxError.value_or(0.0f) > 0;
-  return g.surface->can(TM_OCCLUDED) || std::any_of(g.lights.begin(), g.lights.end(), [&](const BoundLight* l) {
-           return l->maxVariation < 0 ? allowed : l->maxVariation > 0;
-         });
+  return g.surface->can(TM_OCCLUDED) || g.surface->can(TM_INTERPOLATED_UNASKED) ||
+         (allowed && g.surface->can(TM_INTERPOLATED)) ||
+         std::any_of(g.lights.begin(), g.lights.end(),
+                     [&](const BoundLight* l) { return l->maxVariation < 0 ? allowed : l->maxVariation > 0; });
 }
 
 bool ShadingSystem::needsRays() const {

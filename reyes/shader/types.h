@@ -66,7 +66,14 @@ typedef enum TmCapability {
    * TM_ROLE_POSITION, or, with TM_LIGHT_AREA, as radiance (which TM_ROLE_AREA may turn into that). Its numbers may vary
    * over a batch, as those of many lights, and it asks for no space of its own. Where there are many such lights a
    * point runs only some of them */
-  TM_LIGHT_BOUNDED = 1 << 15
+  TM_LIGHT_BOUNDED = 1 << 15,
+
+  /* --- Rays again */
+  TM_INTERPOLATED = 1 << 16, /* surface, light, with TM_TRACES: answers of occlusion() and indirectdiffuse() may be
+                                interpolated as with TM_OCCLUDED where Attribute "irradiance" "maxerror" is above 0,
+                                whatever else it asks of rays */
+  TM_INTERPOLATED_UNASKED = 1 << 17 /* with TM_INTERPOLATED: and where that attribute is not given, because it asks for
+                                       radiance, or names a TmOcclusion::maxVariation */
 } TmCapability;
 
 /* What the host understands of a parameter, whatever its name: how a shader says which of its parameters is the number

@@ -47,8 +47,8 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
     });
   gathers_ = method_->caches;
   counts_ = countsPhotons(*method_, scene);
-  for (size_t g = 0; g < scene.groups.size() && mode() == GiMode::None && keepsOcclusion(giSettings()); ++g)
-    gathers_ |= shading_->asksOcclusion(static_cast<int>(g));
+  for (size_t g = 0; g < scene.groups.size() && mode() == GiMode::None && keepsHemispheres(giSettings()); ++g)
+    gathers_ |= shading_->asksHemispheres(static_cast<int>(g));
   warnAboutPixels();
 }
 

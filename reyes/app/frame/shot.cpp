@@ -209,7 +209,7 @@ void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
 void ShotJob::takeEdits(std::vector<PreparedCache>& caches) const {
   if (lightEdits_.gains.empty()) return;
   for (PreparedCache& prepared : caches) {
-    if (prepared.plan.gather.occlusion) continue;
+    if (prepared.plan.gather.covers()) continue;
     IrradianceCache edited(prepared.cache.bound(), prepared.plan.cache);
     for (const IrradianceRecord& r : prepared.cache.records()) edited.restore(withGains(r, lightEdits_.gains));
     prepared.cache = std::move(edited);

@@ -33,17 +33,18 @@ class Analysis {
     return found;
   }
 
-  static uint32_t ofInstruction(const Instruction& i) {
+  uint32_t ofInstruction(const Instruction& i) const {
     switch (i.op) {
       case Op::Trace:
       case Op::TraceDistance:
       case Op::Transmission:
       case Op::Gather:
-      case Op::Occlusion:
-      case Op::IndirectDiffuse:
       case Op::EnvironmentF:  // "raytrace" traces rays
       case Op::EnvironmentT:
         return TM_TRACES;
+      case Op::Occlusion:
+      case Op::IndirectDiffuse:
+        return TM_TRACES | ofHemisphere(i);
       case Op::StepU:
       case Op::StepV:
       case Op::TextureF:
@@ -52,6 +53,18 @@ class Analysis {
       default:
         return 0;
     }
+  }
+
+  uint32_t ofHemisphere(const Instruction& i) const {
+    const auto names = [&](const char* setting) {
+      return std::ranges::any_of(i.settings, [&](const Setting& s) {
+        const std::vector<std::string>& name = at(s.name).texts;
+        return !name.empty() && name.front() == setting;
+      });
+    };
+    if (names("pointbased")) return 0;
+    return TM_INTERPOLATED |
+           (i.op == Op::IndirectDiffuse || names("maxvariation") ? TM_INTERPOLATED_UNASKED : uint32_t{0});
   }
 
   uint32_t ofLight() const {

@@ -86,14 +86,15 @@ class FakeServices final : public ShadeServices {
       }
     }
   }
-  bool interpolatedOcclusion(const ShadePoints& points, const uint8_t* active, TmConstVec3, const OcclusionQuery&,
-                             const ShadeContext&, float* covered) const override {
+  bool interpolatedHemisphere(const ShadePoints& points, const uint8_t* active, TmConstVec3, const HemisphereQuery&,
+                              const ShadeContext&, TmVec3 out) const override {
     if (!interpolated) return false;
     for (int i = 0; i < points.count(); ++i)
-      if (active[i]) covered[i] = *interpolated;
+      if (active[i]) set(out, i, vec3(*interpolated));
     return true;
   }
-  std::optional<float> interpolated;  ///< What records answer to occlusion(); none: rays must tell.
+  std::optional<float>
+      interpolated;  ///< What records answer to occlusion() and indirectdiffuse(); none: rays must tell.
   bool volumesBefore(const ShadePoints& points, const ShadeContext&, ShadedPoints& out) const override {
     if (!volumes) return false;
     out.resize(points.count());

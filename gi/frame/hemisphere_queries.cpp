@@ -1,0 +1,121 @@
+// occlusion() and indirectdiffuse() of shaders from records as in the irradiance cache. For occlusion() they hold the
+// uncovered share of the hemisphere instead of light.
+#include "gi/frame/state.h"
+#include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
+
+namespace tomales {
+namespace {
+
+/// Least number of rays of a record: many points share it, so its noise is seen as blotches.
+constexpr int kLeastOfRecord = 256;
+/// Points of a group at which its shaders are run to learn their queries. A shader may ask at some of its points alone.
+constexpr size_t kExamples = 4;
+
+/// A visible point at which the shaders of its group are run.
+struct Example {
+  uint32_t order;  ///< The points with the least numbers of a group are taken, whatever the tiles are.
+  ShadePoints point;
+};
+
+ShadePoints onePoint(const ShadePoints& batch, int i) {
+  ShadePoints one(batch.group(), batch.primvarFloats(), batch.hasSteps());
+  one.assign(batch, i, i + 1);
+  return one;
+}
+
+/// Keeps the first examples in their order. A point that several tiles see counts once.
+void add(std::vector<Example>& known, const ShadePoints& batch) {
+  for (int i = 0; i < batch.count(); ++i) {
+    const uint32_t order = hash32(batch.key(i));
+    const auto at = std::ranges::lower_bound(known, order, {}, &Example::order);
+    if (at - known.begin() >= static_cast<std::ptrdiff_t>(kExamples) || (at != known.end() && at->order == order))
+      continue;
+    known.insert(at, {order, onePoint(batch, i)});
+    if (known.size() > kExamples) known.pop_back();
+  }
+}
+
+std::vector<std::vector<Example>> examplesOf(const GiState& state, const DeepFrame& layout, const TileReader& tiles,
+                                             const std::atomic<bool>* cancelled) {
+  std::vector<std::vector<Example>> examples(state.scene.groups.size());
+  std::mutex merging;
+  parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
+    const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
+    if (!tile) return;
+    const std::lock_guard lock(merging);
+    for (const ShadePoints& batch : tile->batches)
+      if (state.shading.asksHemispheres(batch.group())) add(examples[static_cast<size_t>(batch.group())], batch);
+  });
+  return examples;
+}
+
+}  // namespace
+
+bool keepsHemispheres(const GiSettings& settings) {
+  return settings.mode != GiMode::Reference && settings.maxError != 0;
+}
+
+void learnHemisphereQueries(GiState& state, const DeepFrame& layout, const TileReader& tiles,
+                            const std::atomic<bool>* cancelled) {
+  state.hemispheresAsked.assign(state.scene.groups.size(), {});
+  bool any = false;
+  for (size_t g = 0; g < state.scene.groups.size(); ++g) any |= state.shading.asksHemispheres(static_cast<int>(g));
+  if (!any || !keepsHemispheres(state.settings)) return;
+  ShadeContext context;
+  context.rehearsal = true;
+  context.indirect = false;
+  context.seed = state.settings.seed;
+  const std::vector<std::vector<Example>> examples = examplesOf(state, layout, tiles, cancelled);
+  parallelFor(examples.size(), 1, [&](size_t g, size_t) {
+    for (const Example& e : examples[g]) {
+      ShadedPoints out;
+      state.shading.shade(e.point, context, out);
+    }
+  });
+}
+
+GatherPlan planFor(const GiState& state, int group, const HemisphereQuery& query) {
+  GatherPlan plan;
+  const float maxError = state.settings.maxError > 0 ? state.settings.maxError : query.maxVariation / kVariationOfError;
+  plan.cache = query.radiance ? cacheSettings(ErrorFunction::Hessian, maxError)
+                              : CacheSettings{.errorFunction = ErrorFunction::Hessian};
+  plan.cache.maxPixels = state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(
+      infoOf(ErrorFunction::Hessian).maxPixels);
+  plan.gather.curvature = true;
+  if (query.radiance) plan.gather.maxError = maxError;
+  plan.gather.samples = std::max(query.samples, kLeastOfRecord);
+  plan.gather.maxDistance = query.maxDistance;
+  plan.gather.seed = state.settings.seed;
+  plan.gather.asked = query;
+  return plan;
+}
+
+bool interpolateHemisphere(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
+                           const HemisphereQuery& query, const ShadeContext& context, TmVec3 out) {
+  if (!keepsHemispheres(state.settings)) return false;
+  if (context.rehearsal) {
+    auto& asked = state.hemispheresAsked[static_cast<size_t>(points.group())];
+    if (std::find(asked.begin(), asked.end(), query) == asked.end()) asked.push_back(query);
+    return true;
+  }
+  const GatherPlan plan = planFor(state, points.group(), query);
+  const auto prepared =
+      std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  if (prepared == state.caches.end()) return false;
+  const GatherPlaces places(state, points);
+  const BatchLookup found = lookUp(state, &*prepared, places, points, active, N, context);
+  for (size_t k = 0; k < found.points.size(); ++k) {
+    const int i = found.points[k];
+    vec3 E = found.known[k].E;
+    if (!(found.known[k].weight > 0)) {
+      GatherPoint point = places.at(i);
+      point.normal = found.at[k].shadingNormal;
+      E = gatherOrRecall(state, point, plan.gather, context.answers).E;
+    }
+    set(out, i, query.radiance ? glm::max(E, vec3(0)) : glm::clamp(1.0f - E, 0.0f, 1.0f));
+  }
+  return true;
+}
+
+}  // namespace tomales
