@@ -1,4 +1,6 @@
 // Finds in the code what the host wants to know before it runs a shader, so that no author has to declare it.
+#include <algorithm>
+
 #include "reyes/rsl/globals.h"
 #include "reyes/rsl/passes/passes.h"
 #include "reyes/rsl/passes/walk.h"
