@@ -65,8 +65,8 @@ class Analysis {
       });
     };
     if (names("pointbased")) return 0;
-    return TM_INTERPOLATED |
-           (i.op == Op::IndirectDiffuse || names("maxvariation") ? TM_INTERPOLATED_UNASKED : uint32_t{0});
+    const bool unasked = i.op == Op::IndirectDiffuse || names("maxvariation");
+    return unasked ? TM_INTERPOLATED | TM_INTERPOLATED_UNASKED : TM_INTERPOLATED;
   }
 
   uint32_t ofLight() const {
