@@ -164,6 +164,7 @@ struct HemisphereQuery {
   float maxVariation = 0;       ///< Greatest error of the answers: absolute, but for radiance relative to it.
   bool radiance = false;        ///< Asks for the mean radiance from the hemisphere, not for the share that is covered.
   std::optional<HitMode> mode;  ///< As RayQuery::mode; for radiance alone.
+  int diffuseLimit = 0;         ///< Greatest depth at which the shaders of hits ask for radiance in turn; likewise.
   std::string subset, excludeSubset;
   HitSides sides = HitSides::Both;
   bool operator==(const HemisphereQuery&) const = default;

@@ -27,7 +27,8 @@ HemisphereQuery queryOf(const TmRayOptions& o, const TmOcclusion& asked, const R
                     .maxVariation = asked.maxVariation,
                     .radiance = radiance,
                     .mode = radiance ? rays.mode : std::nullopt,
-                    .subset = rays.subset,
+                    .diffuseLimit = radiance ? a.trace.maxDiffuseDepth : 0,
+                    .subset = rays.subset.empty() ? a.trace.subset : rays.subset,
                     .excludeSubset = rays.excludeSubset,
                     .sides = rays.sides};
   if (q.maxVariation < 0)

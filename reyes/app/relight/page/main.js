@@ -24,6 +24,8 @@ click        choose the object there
 ,  .         darker, brighter
 /            search`;
 const kPause_ms = 250;
+/** Least time between two pictures of what the program sends. Each takes time of the processors that shade the rest. */
+const kNews_ms = 250;
 
 $("end").onclick = async () => { await post("end"); $("what").textContent = "ended"; };
 for (let p; !(p = await get("preparation")).ready; await new Promise((then) => setTimeout(then, kPause_ms))) {
@@ -75,7 +77,7 @@ const view = () => {
     transform: $("transform").selectedIndex, falseColor, range: $("shown").value ? range ?? [0, 1] : null };
 };
 
-let asked = false, hasNews = false;
+let asked = false, hasNews = false, shownNews_ms = -kNews_ms, later = null;
 const paint = () => {
   if (asked) return;
   asked = true;
@@ -83,10 +85,20 @@ const paint = () => {
     asked = false;
     mixer.paint(weights(), view());
     performance.mark("painted");
-    if (hasNews) performance.mark("shown");
+    if (hasNews) {
+      performance.mark("shown");
+      shownNews_ms = performance.now();
+    }
     hasNews = false;
     stage.showProbe();
   });
+};
+
+/** Paints what has come: the first of an edit and the last at once. */
+const paintNews = (isLast) => {
+  const wait_ms = isLast ? 0 : shownNews_ms + kNews_ms - performance.now();
+  if (wait_ms <= 0) return paint();
+  later ??= setTimeout(() => { later = null; paint(); }, wait_ms);
 };
 
 const stage = new Stage($("stage"), $("picture"), $("wipe"), {
@@ -133,7 +145,7 @@ const follow = async (present) => {
   paint();
   refresh();
 };
-const changed = (what) => { performance.mark("changed"); history.keep(state, what); show(); };
+const changed = (what) => { performance.mark("changed"); shownNews_ms = -kNews_ms; history.keep(state, what); show(); };
 const become = (next) => { state = wholeOf(next); changed(); };
 const step = (by) => {
   if (watches()) return;
@@ -269,7 +281,7 @@ const showNews = async (news, blocks) => {
   for (const message of news.messages) note(message);
   work.show(news);
   hasNews ||= blocks.length > 0;
-  if (hasNews) paint();
+  if (hasNews) paintNews(!news.doing);
 };
 try {
   await listen(showNews);
