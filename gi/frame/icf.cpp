@@ -11,9 +11,10 @@ namespace tomales {
 // compiler at a structure that has gained a field which its list lacks.
 template <class A>
 void fields(A& a, HemisphereQuery& x) {
-  auto& [samples, maxDistance, bias, falloff, falloffMode, maxVariation, radiance, mode, subset, excludeSubset, sides] =
-      x;
-  each(a, samples, maxDistance, bias, falloff, falloffMode, maxVariation, radiance, mode, subset, excludeSubset, sides);
+  auto& [samples, maxDistance, bias, falloff, falloffMode, maxVariation, radiance, mode, diffuseLimit, subset,
+         excludeSubset, sides] = x;
+  each(a, samples, maxDistance, bias, falloff, falloffMode, maxVariation, radiance, mode, diffuseLimit, subset,
+       excludeSubset, sides);
 }
 
 template <class A>

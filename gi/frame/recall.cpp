@@ -16,7 +16,8 @@ uint32_t nameOf(const std::optional<HemisphereQuery>& q) {
   const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
   return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),
                          static_cast<uint32_t>(q->sides) | static_cast<uint32_t>(q->radiance) << 8 |
-                             (q->mode ? static_cast<uint32_t>(*q->mode) + 1 : 0) << 9,
+                             (q->mode ? static_cast<uint32_t>(*q->mode) + 1 : 0) << 9 |
+                             static_cast<uint32_t>(q->diffuseLimit) << 16,
                          nameOf(q->subset), nameOf(q->excludeSubset))
            : 0;
 }
