@@ -5,7 +5,7 @@
 #include <unordered_set>
 
 #include "gi/cache/amendments/switches.h"
-#include "gi/frame/frame_survey.h"
+#include "gi/frame/frame_caches.h"
 #include "gi/frame/gather_tile.h"
 #include "gi/frame/record_fields.h"
 #include "gi/frame/record_slices.h"
@@ -43,7 +43,7 @@ void fields(A& a, Site& x) {
 class GatherPass {
  public:
   GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles)
-      : state_(state), layout_(layout), tiles_(tiles), slices_(state.kept, KeptKind::GatherRecords) {}
+      : state_(state), layout_(layout), tiles_(tiles), slices_(state.kept, KeptKind::GatherRecords), caches_(state) {}
 
   void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
            const std::function<void(int stride)>& covered) {
@@ -59,7 +59,7 @@ class GatherPass {
       const int stride = strideAfter(phase_);
       if (covered && stride > 1 && !isCancelled()) covered(stride);
     }
-    rememberFrame();
+    if (!isCancelled()) caches_.rememberFrame();
   }
 
  private:
@@ -68,65 +68,19 @@ class GatherPass {
   bool isIndirect(size_t cache) const { return !gatherOf(cache).asked; }
   bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
 
-  // Groups whose lights and shaders have equal plans share a cache. With maxerror 0 no record could be reused. Returns
-  // false if no group asks for indirect light.
+  // Returns false if there is nothing to gather.
   bool prepareCaches() {
-    cachesOfGroup_.assign(state_.scene.groups.size(), {});
-    learnHemisphereQueries(state_, layout_, tiles_, cancelled_);
-    std::vector<std::pair<size_t, GatherPlan>> plans;
-    for (size_t g = 0; g < cachesOfGroup_.size(); ++g) {
-      const int group = static_cast<int>(g);
-      const IndirectQuery* query = state_.shading.indirectQuery(group);
-      const Attributes& attributes = *state_.scene.groups[g].attributes;
-      if (attributes.matte || attributes.volume) continue;
-      for (const HemisphereQuery& asked : state_.hemispheresAsked[g])
-        plans.emplace_back(g, planFor(state_, group, asked));
-      if (!query || !attributes.indirect.receive || !interpolatesIndirect(state_)) continue;
-      const GatherPlan plan = planFor(state_, group, *query);
-      if (plan.cache.kappa < kInfinity) plans.emplace_back(g, plan);
-    }
-    if (plans.empty()) return false;
-    const FrameSurvey survey = surveyOf(layout_, tiles_, cachesOfGroup_.size(), cancelled_);
-    for (const auto& [group, plan] : plans) {
-      size_t c = 0;
-      while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
-      if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(survey.bound, plan.cache)});
-      cachesOfGroup_[group].push_back(c);
-      frames_.resize(state_.caches.size());
-      frames_[c] += survey.seenOfGroup[group];
-    }
+    if (!caches_.prepare(layout_, tiles_, cancelled_)) return false;
     sites_.resize(state_.caches.size());
-    frames_.resize(state_.caches.size());
-    if (!state_.anew && !forgetKnownCaches()) return false;
     std::vector<uint8_t> gathers;
-    for (const std::vector<size_t>& caches : cachesOfGroup_) gathers.push_back(!caches.empty());
+    for (const std::vector<size_t>& caches : caches_.ofGroups()) gathers.push_back(!caches.empty());
     gatherTiles_.emplace(state_, tiles_, layout_.tileCount(), std::move(gathers));
     return true;
   }
 
   bool isAnew(const Site& s) const { return state_.anew && state_.anew->contains(s.x, s.y); }
-  bool isNew(size_t cache) const { return std::ranges::count(state_.caches[cache].frames, frames_[cache]) == 0; }
-
-  // Removes the caches that have been gathered for this very frame: points that disagree after the last phase would add
-  // records each time. Returns false if no cache is left.
-  bool forgetKnownCaches() {
-    bool left = false;
-    for (std::vector<size_t>& caches : cachesOfGroup_) {
-      std::erase_if(caches, [&](size_t c) { return !isNew(c); });
-      left |= !caches.empty();
-    }
-    return left;
-  }
-
-  void rememberFrame() {
-    if (isCancelled()) return;
-    for (const std::vector<size_t>& caches : cachesOfGroup_)
-      for (const size_t c : caches)
-        if (isNew(c)) state_.caches[c].frames.push_back(frames_[c]);
-  }
-
   void measureUnseenDisplacement() {
-    unseenDisplacementOfGroup_.assign(cachesOfGroup_.size(), 0.0f);
+    unseenDisplacementOfGroup_.assign(caches_.ofGroups().size(), 0.0f);
     for (const Object& o : tools_->rays->scene().objects)
       if (!o.attributes->trace.displacements) {
         float& unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(o.group)];
@@ -136,8 +90,8 @@ class GatherPass {
 
   void prepareBounces(const std::vector<Site>& sites) {
     int bounces = 1;
-    for (size_t g = 0; g < cachesOfGroup_.size(); ++g)
-      for (const size_t c : cachesOfGroup_[g])
+    for (size_t g = 0; g < caches_.ofGroups().size(); ++g)
+      for (const size_t c : caches_.ofGroups()[g])
         if (isIndirect(c))
           bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
     std::vector<GatherPoint> points;
@@ -188,7 +142,7 @@ class GatherPass {
   // Takes over what an interrupted run has found.
   bool takeSites(std::vector<Site>& sites) {
     const auto fits = [&](const Site& s) {
-      return s.cache < sites_.size() && static_cast<size_t>(s.point.group) < cachesOfGroup_.size();
+      return s.cache < sites_.size() && static_cast<size_t>(s.point.group) < caches_.ofGroups().size();
     };
     if (!state_.kept || !state_.kept->take(KeptKind::GatherSites, static_cast<size_t>(phase_), sites)) return false;
     if (!std::ranges::all_of(sites, fits)) {
@@ -202,7 +156,7 @@ class GatherPass {
   void collectTile(const GatherTile& tile, std::vector<Site>& out) const {
     std::vector<std::vector<Site>> asked(state_.caches.size());
     tile.forPoints(state_.camera, phase_, [&](const GatherPoint& p, int x, int y) {
-      for (const size_t c : cachesOfGroup_[static_cast<size_t>(p.group)]) asked[c].push_back({p, c, x, y});
+      for (const size_t c : caches_.ofGroups()[static_cast<size_t>(p.group)]) asked[c].push_back({p, c, x, y});
     });
     for (size_t c = 0; c < asked.size(); ++c) keepUncovered(c, asked[c], out);
   }
@@ -213,7 +167,7 @@ class GatherPass {
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
     OccluderSearch occluders(*tools_->rays, state_.caches[cache].plan.gather);
-    const bool isNew = this->isNew(cache);
+    const bool isNew = caches_.isNew(cache);
     const float enough = state_.caches[cache].plan.cache.enough;
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
@@ -303,9 +257,8 @@ class GatherPass {
   const TileReader& tiles_;
   RecordSlices slices_;
   const RayTools* tools_ = nullptr;
-  std::vector<std::vector<size_t>> cachesOfGroup_;
+  FrameCaches caches_;
   std::vector<float> unseenDisplacementOfGroup_;  ///< Displacement that rays do not see, in current space.
-  std::vector<uint64_t> frames_;                  ///< Checksum of this frame's pixels, for each cache.
   std::optional<GatherTiles> gatherTiles_;
   std::vector<std::unordered_set<uint64_t>> sites_;  ///< The sites of each cache that have a record.
   const std::function<void(float)>* progress_ = nullptr;

@@ -88,6 +88,7 @@ const paint = () => {
     if (hasNews) {
       performance.mark("shown");
       shownNews_ms = performance.now();
+      work.show(status);
     }
     hasNews = false;
     stage.showProbe();
@@ -279,9 +280,9 @@ const showNews = async (news, blocks) => {
   $("gather").disabled = news.gathering;
   for (const name of news.notLinear) note(`${name}: light does not add up there; Exact shows it right.`);
   for (const message of news.messages) note(message);
-  work.show(news);
   hasNews ||= blocks.length > 0;
   if (hasNews) paintNews(!news.doing);
+  else work.show(news);
 };
 try {
   await listen(showNews);

@@ -1,0 +1,63 @@
+#include "gi/frame/frame_caches.h"
+
+#include <algorithm>
+
+#include "gi/frame/frame_survey.h"
+
+namespace tomales {
+namespace {
+
+/// Returns what the groups ask for, each with its group.
+std::vector<std::pair<size_t, GatherPlan>> plansOf(const GiState& state) {
+  std::vector<std::pair<size_t, GatherPlan>> plans;
+  for (size_t g = 0; g < state.scene.groups.size(); ++g) {
+    const int group = static_cast<int>(g);
+    const IndirectQuery* query = state.shading.indirectQuery(group);
+    const Attributes& attributes = *state.scene.groups[g].attributes;
+    if (attributes.matte || attributes.volume) continue;
+    for (const HemisphereQuery& asked : state.hemispheresAsked[g]) plans.emplace_back(g, planFor(state, group, asked));
+    if (!query || !attributes.indirect.receive || !interpolatesIndirect(state)) continue;
+    const GatherPlan plan = planFor(state, group, *query);
+    if (plan.cache.kappa < kInfinity) plans.emplace_back(g, plan);
+  }
+  return plans;
+}
+
+}  // namespace
+
+bool FrameCaches::prepare(const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
+  ofGroups_.assign(state_.scene.groups.size(), {});
+  learnHemisphereQueries(state_, layout, tiles, cancelled);
+  const std::vector<std::pair<size_t, GatherPlan>> plans = plansOf(state_);
+  if (plans.empty()) return false;
+  const FrameSurvey survey = surveyOf(layout, tiles, ofGroups_.size(), cancelled);
+  for (const auto& [group, plan] : plans) {
+    size_t c = 0;
+    while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
+    if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(survey.bound, plan.cache)});
+    ofGroups_[group].push_back(c);
+    frames_.resize(state_.caches.size());
+    frames_[c] += survey.seenOfGroup[group];
+  }
+  frames_.resize(state_.caches.size());
+  return state_.anew || forgetKnown();
+}
+
+// Removes the caches that have been gathered for this very frame: points that disagree after the last phase would add
+// records each time. Returns false if no cache is left.
+bool FrameCaches::forgetKnown() {
+  bool left = false;
+  for (std::vector<size_t>& caches : ofGroups_) {
+    std::erase_if(caches, [&](size_t c) { return !isNew(c); });
+    left |= !caches.empty();
+  }
+  return left;
+}
+
+void FrameCaches::rememberFrame() {
+  for (const std::vector<size_t>& caches : ofGroups_)
+    for (const size_t c : caches)
+      if (isNew(c)) state_.caches[c].frames.push_back(frames_[c]);
+}
+
+}  // namespace tomales
