@@ -84,4 +84,8 @@ expect("and forbids it", *render("  with maxvariation 0", 'Ci = occlusion(P, n, 
 expect("a cone is not the hemisphere", *render("  of a cone", 'Ci = occlusion(P, n, 300, "coneangle", 1.55, "maxvariation", .02);'), False, 0.01, 0.08)
 moved = render("  from another place", 'Ci = indirectdiffuse(P + .001 * n, n, 300);')
 expect("elsewhere than P is traced", *moved, False, 0.01, 0.08)
+
+one, _ = render("on one thread", BOUNCED, "", "-t", "1", "--bucket", "16x16")
+two, _ = render("on two", BOUNCED, "", "-t", "2", "--bucket", "13x17")
+t.expect(one == two, "  the bits are the same")
 t.finish()

@@ -130,6 +130,18 @@ TEST_F(Passes, WhoTracesAndWhoDifferentiatesIsFound) {
   EXPECT_FALSE(found("x = step(0.5, s);") & TM_DERIVATIVES);
 }
 
+TEST_F(Passes, WhoseHemispheresMayBeInterpolatedIsFound) {
+  constexpr uint32_t kUnasked = TM_INTERPOLATED | TM_INTERPOLATED_UNASKED;
+  EXPECT_EQ(found("Ci = occlusion(P, N, 4);") & kUnasked, static_cast<uint32_t>(TM_INTERPOLATED));
+  EXPECT_EQ(found("Ci = occlusion(P, N, 4, \"maxvariation\", 0.1);") & kUnasked, kUnasked);
+  EXPECT_EQ(found("Ci = indirectdiffuse(P, N, 4);") & kUnasked, kUnasked);
+  EXPECT_EQ(found("Ci = occlusion(P, N, 4) * trace(P, N);") & kUnasked, static_cast<uint32_t>(TM_INTERPOLATED));
+  EXPECT_EQ(found("Ci = indirectdiffuse(P, N, 4, \"pointbased\", 1, \"filename\", \"a\");") & kUnasked, 0u);
+  EXPECT_EQ(found("Ci = trace(P, N);") & kUnasked, 0u);
+  EXPECT_EQ(found("illuminate (point (0, 0, 0)) Cl = 1 - occlusion(Ps, Ns, 4);", "light") & kUnasked,
+            static_cast<uint32_t>(TM_INTERPOLATED));
+}
+
 TEST_F(Passes, KindsOfLightsAreFound) {
   EXPECT_EQ(found("Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_AMBIENT));
   EXPECT_EQ(found("illuminate (point (0, 0, 0)) Cl = 1;", "light"), 0u);
