@@ -85,7 +85,7 @@ expect("a cone is not the hemisphere", *render("  of a cone", 'Ci = occlusion(P,
 moved = render("  from another place", 'Ci = indirectdiffuse(P + .001 * n, n, 300);')
 expect("elsewhere than P is traced", *moved, False, 0.01, 0.08)
 
-one, _ = render("on one thread", BOUNCED, "", "-t", "1", "--bucket-size", "16x16")
-two, _ = render("on two", BOUNCED, "", "-t", "2", "--bucket-size", "13x17")
+one, _ = render("on one thread", BOUNCED, "", "-t", "1", "--bucket-size", "16")
+two, _ = render("on two", BOUNCED, "", "-t", "2", "--bucket-size", "13")
 t.expect(one == two, "  the bits are the same")
 t.finish()
