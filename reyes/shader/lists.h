@@ -114,10 +114,16 @@ inline Entry set(TmRayOptions& o, std::string_view name, const Setting& v) {
   return {};
 }
 
+/// RSL leaves it to the scene how exact the answers have to be.
+inline TmOcclusion interpolatedWhereAllowed() {
+  TmOcclusion o = tmOcclusionDefaults();
+  o.maxVariation = -1;
+  return o;
+}
 /// The list of occlusion() and indirectdiffuse(): options of rays, a point cloud, an environment and variables to fill.
 struct HemisphereList {
   TmRayOptions rays = tmRayDefaults();
-  TmOcclusion options = tmOcclusionDefaults();
+  TmOcclusion options = interpolatedWhereAllowed();
   bool pointBased = false;
   const char* file = nullptr;
 };

@@ -16,8 +16,8 @@ HEIGHT = 1.5
 SCENE = """Format %d %d 1
 PixelFilter "box" 1 1
 PixelSamples 2 2
+ScreenWindow -2 2 -2 2
 Translate 0 0 10
-Scale .5 .5 1
 WorldBegin
 %s
 AttributeBegin

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-// Number of connections that may wait to be taken. With the library's 5, those of a page that loads its parts at once,
-// or of a client that floods the port, are refused and tried again a second later.
-#define CPPHTTPLIB_LISTEN_BACKLOG 128
 #include <httplib.h>
+#include <sys/socket.h>
 
 #include <atomic>
 #include <chrono>
@@ -21,6 +19,9 @@ namespace {
 constexpr const char* kAddress = "127.0.0.1";
 constexpr size_t kMostPayload_bytes = 1 << 18;
 constexpr int kPatience_s = 5;
+/// Number of connections that may wait to be taken. With the library's 5, those of a page that loads its parts at once,
+/// or of a client that floods the port, are refused and tried again a second later.
+constexpr int kMostWaiting = 128;
 constexpr size_t kThreads = 16;  ///< Each page waits in one for news; others have to be answered meanwhile.
 
 /// 128 bits of the system's random numbers.
@@ -143,8 +144,16 @@ HttpServer::HttpServer(int port) : impl_(std::make_unique<Impl>()) {
       [](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) { response.status = 500; });
   server.Get(".*", [this](const httplib::Request& q, httplib::Response& a) { impl_->answer(q, a, impl_->gets); });
   server.Post(".*", [this](const httplib::Request& q, httplib::Response& a) { impl_->answer(q, a, impl_->posts); });
+  int listening = -1;
+  server.set_socket_options([&](int socket) {  // the library's would let another process share the port
+    const int on = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    listening = socket;
+  });
   impl_->port = port > 0 ? (server.bind_to_port(kAddress, port) ? port : -1) : server.bind_to_any_port(kAddress);
   if (impl_->port <= 0) throw std::runtime_error(fmt::format("no port of {} can be listened on", kAddress));
+  // The library listens already, and listening again only lengthens the queue.
+  ::listen(listening, kMostWaiting);
 }
 
 HttpServer::~HttpServer() { stop(); }
