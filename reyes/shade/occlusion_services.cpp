@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Slightly less than pi/2, which shaders give with few digits.
 /// The maxerror of the cache if nobody says one. Shading the hits of rays costs much, so that radiance is interpolated
-/// as that of an indirect light is.
+/// as that of an indirect light is, and with it the occlusion that the same call asks for.
 constexpr float kErrorOfCoverage = 0, kErrorOfRadiance = 1;
 
 /// Returns what a call of occlusion() or indirectdiffuse() asks.
@@ -32,7 +32,8 @@ HemisphereQuery queryOf(const TmRayOptions& o, const TmOcclusion& asked, const R
                     .excludeSubset = rays.excludeSubset,
                     .sides = rays.sides};
   if (q.maxVariation < 0)
-    q.maxVariation = kVariationOfError * a.irradianceMaxError.value_or(radiance ? kErrorOfRadiance : kErrorOfCoverage);
+    q.maxVariation =
+        kVariationOfError * a.irradianceMaxError.value_or(asked.radiance.x ? kErrorOfRadiance : kErrorOfCoverage);
   return q;
 }
 
