@@ -148,6 +148,7 @@ class GiServices final : public ShadeServices {
   void transmission(const ShadePoints&, const uint8_t* active, TmConstVec3 toward, const ShadowRays&,
                     const ShadeContext&, TmVec3 light) const override;
   bool volumesBefore(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const override;
+  bool tracesFrom(const ShadePoints&, const RayQuery&, const ShadeContext&) const override;
   void trace(const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction, const RayQuery&,
              const ShadeContext&, const RayResult&) const override;
   bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,

@@ -208,8 +208,9 @@ class ShadeServices {
   virtual void transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
                             const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const = 0;
 
-  /// Traces one ray from P along the unit `direction` for each active point, unless the limit of the depth of rays is
-  /// reached.
+  /// Tells whether trace() traces anything for this query: false past the limit of the depth of rays.
+  virtual bool tracesFrom(const ShadePoints&, const RayQuery&, const ShadeContext&) const { return true; }
+  /// Traces one ray from P along the unit `direction` for each active point, if tracesFrom() says so.
   virtual void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
                      const RayQuery& query, const ShadeContext& context, const RayResult& result) const = 0;
 

@@ -9,29 +9,6 @@ namespace {
 
 constexpr int kMostBranches = 1 << 14;
 
-/// Returns the context of the points that such rays meet: their depths and limits. An object's limit counts from its
-/// own depth, and never lifts an earlier one.
-ShadeContext contextOfHits(const Attributes& own, int group, const RayQuery& query, const ShadeContext& context,
-                           GiMode mode) {
-  ShadeContext hit = context;
-  hit.highlights = mode == GiMode::Reference || context.auditPaths > 0;
-  hit.kind = query.kind;
-  hit.label = query.label;
-  hit.lampsGlow = query.lampsGlow && context.mirrorsLamps(group);
-  hit.importance *= query.importance;
-  hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
-  hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
-  if (query.kind == RayKind::Diffuse) {
-    ++hit.depth;
-    hit.lightSamples = 1;
-    hit.indirect = hit.highlights;
-  } else {
-    ++hit.specularDepth;
-    hit.branches = std::min(hit.branches * query.count, kMostBranches);
-  }
-  return hit;
-}
-
 bool isTooDeep(const ShadeContext& hit, const Options& options) {
   const bool past = hit.kind == RayKind::Diffuse ? hit.depth > hit.diffuseLimit : hit.specularDepth > hit.specularLimit;
   return past || hit.kind == RayKind::Transmission || hit.depth + hit.specularDepth > options.maxRayDepth;
@@ -146,6 +123,31 @@ void clearResult(const ShadePoints& points, const uint8_t* active, const RayResu
 
 }  // namespace
 
+// An object's limit counts from its own depth, and never lifts an earlier one.
+std::optional<ShadeContext> contextOfHits(const GiState& state, const ShadePoints& points, const RayQuery& query,
+                                          const ShadeContext& context) {
+  const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
+  ShadeContext hit = context;
+  hit.highlights = state.settings.mode == GiMode::Reference || context.auditPaths > 0;
+  hit.kind = query.kind;
+  hit.label = query.label;
+  hit.lampsGlow = query.lampsGlow && context.mirrorsLamps(points.group());
+  hit.importance *= query.importance;
+  hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
+  hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
+  if (query.kind == RayKind::Diffuse) {
+    ++hit.depth;
+    hit.lightSamples = 1;
+    hit.indirect = hit.highlights;
+  } else {
+    ++hit.specularDepth;
+    hit.branches = std::min(hit.branches * query.count, kMostBranches);
+  }
+  if (context.rehearsal || context.kind == RayKind::Transmission || isTooDeep(hit, state.scene.options))
+    return std::nullopt;
+  return hit;
+}
+
 RayFilter filterOf(const RayScene& rays, const RayQuery& query, const Attributes& own) {
   return {rays.groupsIn(query.subset.empty() ? own.trace.subset : query.subset, query.excludeSubset), query.sides};
 }
@@ -161,14 +163,13 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
                     TmConstVec3 direction, const RayQuery& query, const ShadeContext& context,
                     const RayResult& result) {
   clearResult(points, active, result);
-  if (context.rehearsal) return;
-  const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
-  const ShadeContext hitContext = contextOfHits(own, points.group(), query, context, state.settings.mode);
-  if (context.kind == RayKind::Transmission || isTooDeep(hitContext, state.scene.options)) return;
+  const std::optional<ShadeContext> ofHits = contextOfHits(state, points, query, context);
+  if (!ofHits) return;
   const RayTools* tools = state.rays();
   if (!tools) return;
+  const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
   const RayFilter filter = filterOf(*tools->rays, query, own);
-  ShaderRays rays(state, *tools, query, hitContext, result);
+  ShaderRays rays(state, *tools, query, *ofHits, result);
   for (int i = 0; i < points.count(); ++i) {
     const vec3 d{direction.x[i], direction.y[i], direction.z[i]};
     if (!active[i] || d == vec3(0)) continue;
@@ -184,8 +185,7 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
     ray.filter = filter.passesAll() ? nullptr : &filter;
     const SampleName name = points.name(i);
     rays.add(i, ray,
-             {hashCombine(name.key, randomStream("trac"),
-                          static_cast<uint32_t>(hitContext.depth + hitContext.specularDepth)),
+             {hashCombine(name.key, randomStream("trac"), static_cast<uint32_t>(ofHits->depth + ofHits->specularDepth)),
               name.sequence * static_cast<uint32_t>(query.count) + static_cast<uint32_t>(query.number)});
   }
   rays.trace();

@@ -144,6 +144,10 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
   impl_->stats.rays.hitlistAdjusted += adjusted;
 }
 
+bool GiServices::tracesFrom(const ShadePoints& points, const RayQuery& query, const ShadeContext& context) const {
+  return contextOfHits(*impl_, points, query, context).has_value();
+}
+
 void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
                        const RayQuery& query, const ShadeContext& context, const RayResult& result) const {
   traceForShader(*impl_, points, active, P, direction, query, context, result);

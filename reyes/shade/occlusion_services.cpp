@@ -98,6 +98,7 @@ bool traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
   TmGrid traced = *g;
   traced.active = interpolate(batch, g, P, N, options, query, out);
   if (std::none_of(traced.active, traced.active + traced.count, [](uint8_t a) { return a != 0; })) return true;
+  if (!looksUp && !directs && !batch.scene.services->tracesFrom(*batch.points, query, batch.context)) return true;
   setFootprints(batch, &traced, N, options, query);
   RayResult result;
   result.distance = batch.arena.floats(g->count);
