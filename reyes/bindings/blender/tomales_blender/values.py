@@ -1,7 +1,7 @@
 """Colours and numbers of materials: constants, or pictures over texture coordinates.
 
-A value is an array of linear colours, of shape (3,) where it is the same everywhere, else (height, width, 3) with the top row
-first. A number is a colour of three equal channels.
+A value is an array of linear colours. Its shape is (3,) if it is the same everywhere, else (height, width, 3) with the
+top row first. A number is a colour of three equal channels.
 """
 from __future__ import annotations
 
