@@ -1,4 +1,5 @@
-"""Every request, option and attribute of RISpec 3.2 and PRMan works, or is named once with its line: the table is rispec.txt."""
+"""Tests every request, option and attribute of RISpec 3.2 and PRMan, by the table rispec.txt: it works, or it is named once
+with its line."""
 import collections
 import pathlib
 import re

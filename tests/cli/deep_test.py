@@ -1,4 +1,5 @@
-"""Input that nests or chains as deep as a file can: every recursion over it ends in a message or a picture, and signals are answered."""
+"""Tests input that nests or chains as deep as a file can: every recursion over it must end in a message or a picture, and signals must be
+answered."""
 import signal
 import subprocess
 import time
@@ -103,7 +104,7 @@ shader("a chain of 300 files", "x = 1;", before='#include "h0.h"\n')
 shader("lines that go on", "x = 1" + "\\\n" * N + ";")
 
 
-# What takes long answers signals.
+# Signals end what takes long.
 def answers(what, name, text, command=()):
     t.write(name, text)
     process = subprocess.Popen([t.program, *(command or [name])], cwd=t.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
