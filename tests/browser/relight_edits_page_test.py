@@ -1,6 +1,6 @@
-"""Tests the page of tomales relight in Chromium, which begins with a scene. It must tell what is being prepared and take other shaders, texts,
-colours and links of lights. It must show variables, regions and ages, gather anew, and get coarse pictures first over a slow link. Usage:
-relight_edits_page_test.py TOMALES CHROMIUM FOLDER"""
+"""Tests the page of tomales relight in Chromium, which begins with a scene. It must tell what is being prepared and take other shaders, texts, colours
+and links of lights. It must show variables, regions and ages, gather anew, and get coarse pictures first over a slow link.
+Usage: relight_edits_page_test.py TOMALES CHROMIUM FOLDER"""
 import pathlib
 import re
 import select

@@ -1,6 +1,6 @@
 """Tests the page of tomales relight in Chromium. It must load, show the picture, follow its sliders without asking the server, undo, save and reload.
-What it saves must be the picture that `tomales shade --edit` makes. The test leaves pictures of the page in the given folder, to be looked at. Usage:
-relight_page_test.py TOMALES CHROMIUM FOLDER [SHOT.dfb SHOT.icf]"""
+What it saves must be the picture that `tomales shade --edit` makes. The test leaves pictures of the page in the given folder, to be looked at.
+Usage: relight_page_test.py TOMALES CHROMIUM FOLDER [SHOT.dfb SHOT.icf]"""
 import json
 import pathlib
 import select
