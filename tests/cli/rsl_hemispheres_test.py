@@ -13,7 +13,6 @@ SIZE = 96
 HEIGHT = 1.5
 # The camera sees a floor from -2 to 2 from above, with x to the right and y up. A glowing square of side 2 hangs before it. The eye looks through the
 # square and does not see it.
-# hangs before it. The eye looks through it.
 SCENE = """Format %d %d 1
 PixelFilter "box" 1 1
 PixelSamples 2 2

@@ -181,7 +181,7 @@ def lives(pid):
         return False
 
 
-# What a program starts itself is found by its process group, which nobody can kill after SIGKILL.
+# Processes that such a program starts are found by its process group. Nobody can kill that after SIGKILL.
 for number, code, work in ((signal.SIGTERM, 143, "sleep 1000 & wait"), (signal.SIGKILL, -9, "exec sleep 1000")):
     t.write("program.sh", f"#!/bin/sh\necho $$ >> pids\nread line\n{work}\n")
     os.chmod(t.folder / "program.sh", 0o755)

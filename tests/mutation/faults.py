@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 # Each row has a regular expression and its replacement. clang-format puts spaces around binary operators, which tells them
 # from templates, references and signs. Texts cannot be subtracted.
-# templates, references and signs. Texts cannot be subtracted.
 SWAPS = [(re.compile(pattern), new) for pattern, new in (
     (r"(?<= )<(?= )", "<="), (r"(?<= )<=(?= )", "<"), (r"(?<= )>(?= )", ">="), (r"(?<= )>=(?= )", ">"),
     (r"(?<= )==(?= )", "!="), (r"(?<= )!=(?= )", "=="), (r"(?<= )&&(?= )", "||"), (r"(?<= )\|\|(?= )", "&&"),

@@ -1,4 +1,4 @@
-"""Blender's camera as the options of RIB."""
+"""Writes Blender's camera as options of RIB."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Meshes, curves and points of evaluated objects as RIB.
+"""Writes meshes, curves and points of evaluated objects as RIB.
 
 Every shape becomes one piece for each of its materials. A piece is RIB without attributes, so it can be an archive.
 """

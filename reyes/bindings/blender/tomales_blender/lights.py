@@ -1,4 +1,4 @@
-"""Blender's lights as light sources.
+"""Writes Blender's lights as light sources.
 
 The units are those of Cycles: watts for a lamp, which counts as radiating into all directions, and watts per square
 metre for a sun. A light of the RISpec sends E/pi (docs/gi.md), so a pi is divided out.

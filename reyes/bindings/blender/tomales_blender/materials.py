@@ -1,4 +1,4 @@
-"""Blender's materials as shaders.
+"""Turns Blender's materials into shaders.
 
 A graph of closures becomes one surface (closures.py), and this becomes one shader, which is usually `disney`. Where
 disney takes no picture, the mean of the picture counts. A shader that the panel names replaces all nodes.

@@ -1,4 +1,4 @@
-"""The commands of the program tomales as functions.
+"""Offers the commands of the program tomales as functions.
 
 A keyword is an option of the command line. For example, `shading_rate=4` is --shading-rate 4 and `t=2` is -t 2. True
 stands for an option without a value, and an option that may be repeated takes a list. `tomales render --help` lists the
