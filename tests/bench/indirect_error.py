@@ -26,8 +26,8 @@ ROOT = pathlib.Path(__file__).parents[2]
 class Case:
     scene: str
     size: tuple    # The size of the frame in pixels.
-    windows: int   # of so many pixels each,
-    edge: int      # of so many pixels,
+    windows: int   # The reference is traced in so many squares
+    edge: int      # of so many pixels each,
     samples: int   # with so many paths for a point and batch.
 
 

@@ -23,7 +23,7 @@ def ends(what, name, text, codes=(0, 3)):
     return result
 
 
-# RIB
+# RIB nests.
 for begin, end in (("MotionBegin [0 1]", "MotionEnd"), ('SolidBegin "union"', "SolidEnd"), ('SolidBegin "difference"', "SolidEnd"), ('SolidBegin "primitive"', "SolidEnd"),
                    ("AttributeBegin", "AttributeEnd"), ('IfBegin "1"', "IfEnd"), ('ArchiveBegin "a"', "ArchiveEnd"), ("ResourceBegin", "ResourceEnd"),
                    ("ObjectBegin 1", "ObjectEnd"), ("FrameBegin 1", "FrameEnd"), ("WorldBegin", "WorldEnd"), ('EditBegin "a"', "EditEnd")):
@@ -55,7 +55,7 @@ ends("a chain of patterns that closes", "deep.rib", WORLD % (
 ends("a token of 20 MB", "deep.rib", WORLD % ("A" * (20 << 20) + "\n" + DOT))
 ends("a string of 20 MB", "deep.rib", WORLD % ('Attribute "identifier" "name" "' + "A" * (20 << 20) + '"\n' + DOT))
 
-# Shaders
+# Shaders nest.
 t.write("scene.rib", WORLD % ('Surface "deep" ' + DOT))
 
 

@@ -140,7 +140,7 @@ def check(scene):
 
 
 def check_bits(scene, base):
-    """A crop has irradiance records of its own."""
+    """Compares bits. A crop has irradiance records of its own, so scenes with records are not cropped."""
     crop = [] if has_records(scene.text) else ["--crop", "0.25,0.75,0.25,1"]
     other = scene.render(scene.text, "-t", "3", "--bucket-size", "8", *crop)
     seen = [(x, y) for x, y in base if not crop or WIDTH <= 4 * x < 3 * WIDTH and HEIGHT <= 4 * y]
