@@ -1,4 +1,5 @@
-"""What documents and comments name exists: files, functions (`path:function`), relative links and their headings, decisions."""
+"""Checks that everything that documents and comments name exists: files, functions (`path:function`), relative links and
+their headings, and decisions."""
 import pathlib
 import re
 import sys
@@ -11,13 +12,13 @@ bad = []
 
 
 def exists(path):
-    """A path of the tree; docs/decisions/0040 stands for the page of that number."""
+    """Tells whether a path of the tree exists. docs/decisions/0040 stands for the page of that number."""
     number = re.fullmatch(r"docs/decisions/(\d{4})", path)
     return len(list(root.glob(f"{path}-*.md"))) == 1 if number else (root / path).exists()
 
 
 def anchors(page):
-    """The names that a page's headings have in links, as GitHub makes them."""
+    """Returns the names that a page's headings have in links, as GitHub makes them."""
     headings = re.findall(r"^#+ +(.*?) *$", page.read_text(), re.M)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
@@ -51,7 +52,7 @@ for page in sorted((root / "docs").glob("*.md")):
     if page.name != "README.md" and f"]({page.name})" not in index:
         bad.append(f"docs/README.md does not list {page.name}")
 
-# A guide that nobody can read whole helps nobody. What it measures and why it is so have folders of their own.
+# Nobody can read a guide that is too long. Measurements and reasons have folders of their own.
 most_words = 30000
 guide = [root / "README.md", *(root / "docs").glob("*.md")]
 words = sum(bool(re.search(r"\w", word)) for page in guide for word in page.read_text().split())

@@ -1,4 +1,5 @@
-"""All C++ is as clang-format leaves it: `format.py SOURCE`. Exit code 77 (skipped) where the version that formats it is not there."""
+"""Checks that all C++ is as clang-format leaves it: `format.py SOURCE`. The exit code is 77 (skipped) if the version that formats
+the tree is not installed."""
 import pathlib
 import re
 import shutil
@@ -10,7 +11,7 @@ SKIPPED = 77
 
 
 def formatter():
-    """The program of that version. Others differ in details, which would be a commit for each change of machine."""
+    """Returns the program of that version. Other versions differ in details, and each change of machine would need a commit."""
     for name in (f"clang-format-{VERSION}", "clang-format"):
         if shutil.which(name) and f"version {VERSION}." in subprocess.run([name, "--version"], capture_output=True, text=True).stdout:
             return name

@@ -1,10 +1,10 @@
-"""Includes point down, never sideways, never into another unit's private folder (docs/architecture.md)."""
+"""Checks that includes point down, never sideways, and never into another unit's private folder (docs/architecture.md)."""
 import pathlib
 import re
 import sys
 
 root = pathlib.Path(sys.argv[1])
-rank, public, unit_named = {}, {}, {}  # rank: line of a unit; public: the folders that may read a unit's own; unit_named: by prefix
+rank, public, unit_named = {}, {}, {}  # `rank` has a unit's line, `public` the folders that may include its private headers, `unit_named` the unit of a prefix.
 for line_number, line in enumerate((root / "tests/layers.txt").read_text().splitlines()):
     for names in line.split("#")[0].split():
         folder, *headers = names.split(":")
@@ -15,14 +15,14 @@ for line_number, line in enumerate((root / "tests/layers.txt").read_text().split
 
 
 def unit_of(path):
-    """By the longest prefix that is listed: reyes/shade/batch.h and reyes/shade.h belong to reyes/shade."""
+    """Returns the unit with the longest prefix that is listed: reyes/shade/batch.h and reyes/shade.h belong to reyes/shade."""
     parts = path.rsplit(".", 1)[0].split("/")
     prefixes = ("/".join(parts[:k]) for k in range(len(parts), 0, -1))
     return next((unit_named[p] for p in prefixes if p in unit_named), None)
 
 
 def is_private(path, unit):
-    """Is it in the folder of the unit?"""
+    """Tells whether a path is in the folder of the unit."""
     return path.startswith(unit + "/")
 
 
@@ -56,7 +56,7 @@ for folder in ("reyes", "raytrace", "gi", "shaders", "displays"):
     for file in sorted((root / folder).rglob("*.[hc]*")):
         me = file.relative_to(root).as_posix()
         if me.startswith("shaders/include/"):
-            continue  # Of the shading language, not of C++.
+            continue  # These are functions of the shading language, not of C++.
         for line_number, line in enumerate(file.read_text().splitlines(), 1):
             if m := re.match(r"\s*#\s*include\s+<([^>]+)>", line):
                 for library, users in THIRD_PARTY.items():

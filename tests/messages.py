@@ -1,10 +1,10 @@
-"""docs/messages.md explains every code that the sources can report, and no other."""
+"""Checks that docs/messages.md explains every code that the sources can report, and no other."""
 import pathlib
 import re
 import sys
 
 root = pathlib.Path(sys.argv[1])
-# What has the shape of a code and is none: words of RIB, of HTTP, and of tests/bench/amendments.py.
+# These have the shape of a code and are none: words of RIB, of HTTP, and of tests/bench/amendments.py.
 words = {"b-spline", "blackman-harris", "built-in", "catmull-clark", "catmull-rom", "no-referrer", "no-store", "same-origin", "second-order", "separable-catmull-rom", "zigzag-x", "zigzag-y"}
 # Codes have hyphens, or are the first text that is passed to a function `report`.
 code = re.compile(r'"([a-z0-9]+(?:-[a-z0-9]+)+)"|\breport\((?!\))[^";]*"([a-z0-9]+)"')

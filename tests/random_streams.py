@@ -1,4 +1,5 @@
-"""Random numbers are named in one table (reyes/base/random_streams.h): no use mixes a number of its own into a hash, and every name is used."""
+"""Checks that one table names all random numbers (reyes/base/random_streams.h): no use mixes a number of its own into a hash, and every name
+is used."""
 import pathlib
 import re
 import sys
@@ -6,7 +7,7 @@ import sys
 root = pathlib.Path(sys.argv[1])
 table = root / "reyes/base/random_streams.h"
 names = re.findall(r'^    \{"([^"]+)", "', table.read_text(), re.M)
-own = {table.name, "rng.h", "rng.cpp"}  # the hashes themselves
+own = {table.name, "rng.h", "rng.cpp"}  # These files define the hashes.
 mixes = re.compile(r"\b(?:hashCombine|hash32|permutation|sobol[12]|owenScramble)\(")
 bad, used = [], set()
 for folder in ("reyes", "raytrace", "gi"):

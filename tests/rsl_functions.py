@@ -1,4 +1,5 @@
-"""docs/rsl_reference.md lists the built-in functions of RSL that the compiler has, and no other: `rsl_functions.py SOURCE`."""
+"""Checks that docs/rsl_reference.md lists exactly the built-in functions of RSL that the compiler has: `rsl_functions.py
+SOURCE`."""
 import pathlib
 import re
 import sys
@@ -16,7 +17,7 @@ page = [name for cell in cells for name in re.findall(r"(\w+)\(", cell)]
 
 bad = [f"docs/rsl_reference.md does not list {name}(), which the compiler has" for name in sorted(compiler - set(page))]
 bad += [f"docs/rsl_reference.md lists {name}(), which the compiler does not have" for name in sorted(set(page) - compiler)]
-if len(table) < 100 or len(written) < 20:  # the tables are written otherwise, and nothing would be compared
+if len(table) < 100 or len(written) < 20:  # If the tables were written otherwise, nothing would be compared.
     bad.append(f"only {len(table)} rows of builtins.cpp and {len(written)} functions of prelude.cpp were found")
 print("\n".join(bad))
 sys.exit(bool(bad))

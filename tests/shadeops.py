@@ -1,11 +1,13 @@
-"""Every shadeop of tests/unit/shade/shadeops.txt is in an installed header and has a test: `shadeops.py SOURCE HEADERS`, those by colons."""
+"""Checks that every shadeop of tests/unit/shade/shadeops.txt is in an installed header and has a test: `shadeops.py SOURCE HEADERS`, with
+colons between headers."""
 import pathlib
 import re
 import sys
 
 
 def code(files):
-    """Their text without comments, in which a word proves nothing. What stands there is compiled; tests/unit is run as a whole."""
+    """Returns the files' text without comments, because a name in a comment proves nothing. What stands in the code is compiled, and
+    tests/unit is run as a whole."""
     return "\n".join(re.sub(r"//.*|/\*.*?\*/", "", file.read_text()) for file in files)
 
 

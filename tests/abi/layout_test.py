@@ -1,4 +1,4 @@
-"""What ABI 1 holds stays where it is: the structs, enumerations and defaults of today's C headers against those of tests/abi/1.
+"""Tests that members of ABI 1 stay where they are. It compares the structs, enumerations and defaults of today's C headers with those of tests/abi/1.
 The rule of growth is in reyes/shader_api.h."""
 import os
 import pathlib
@@ -26,7 +26,7 @@ def text_of(root):
 
 
 def fields_of(body):
-    """{name: type} of the members of a struct, one for each declarator."""
+    """Returns {name: type} of the members of a struct, one for each declarator."""
     out = {}
     for member in filter(None, (re.sub(r"\s+", " ", m).strip() for m in body.split(";"))):
         function = re.match(r"(.*?)\(\*(\w+)\)(.*)$", member)
@@ -51,7 +51,7 @@ def constants_of(text):
 
 
 def measured(root, structs, constants, defaults):
-    """{name: number} by the compiler: sizes and offsets of the structs, values of constants and of defaults."""
+    """Returns {name: number}, measured by the compiler: sizes and offsets of the structs, and values of constants and defaults."""
     lines = []
     for struct, fields in structs.items():
         lines.append(f'printf("sizeof {struct} %zu\\n", sizeof({struct}));')

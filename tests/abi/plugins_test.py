@@ -1,4 +1,4 @@
-"""Plugins of ABI 1 are compiled against its headers and rendered: they mean today what they meant then."""
+"""Compiles plugins of ABI 1 against its headers and renders them: they must mean today what they meant then."""
 import json
 import os
 import pathlib
@@ -34,7 +34,7 @@ def expect_even(picture, channel, value):
     t.expect(abs(c["min"] - value) < 1e-3 and abs(c["max"] - value) < 1e-3, f"{picture} {channel} is {value} everywhere: {c['min']} to {c['max']}")
 
 
-# A square before the eye, lit and seen from the front; behind the eye a wall of constant colour, which its rays meet.
+# The scene is a lit square before the eye, seen from the front, and behind the eye a wall of constant colour that its rays meet.
 png("fifth.png", 16, 51)
 SCENE = """DisplayChannel "varying color traced"
 Display "o.exr" "file" "rgb"
@@ -60,9 +60,9 @@ WorldEnd
 t.write("clear.rib", SCENE % "")
 result = t.expect_run("a surface and a light of ABI 1", ["clear.rib", "--shaders", "shaders"], 0)
 t.expect(not result.stderr, "render without a word: " + result.stderr)
-expect_even("o.exr", "R", 0.2)   # the picture
-expect_even("o.exr", "G", 0.75)  # the wall's green, and half of what it covers
-expect_even("o.exr", "B", 0.4)   # the light, twice
+expect_even("o.exr", "R", 0.2)   # This is the picture.
+expect_even("o.exr", "G", 0.75)  # This is the wall's green, and half of what it covers.
+expect_even("o.exr", "B", 0.4)   # This is the light, twice.
 for channel, value in zip(sorted(channels("traced.exr"), key=lambda name: "RGB".find(name[-1].upper())), (0.125, 0.25, 0.5)):
     expect_even("traced.exr", channel, value)
 

@@ -1,12 +1,12 @@
-"""Scenes of others beside the pictures that their authors rendered of them: how far ours are from theirs.
+"""Compares our pictures of other people's scenes with the pictures that their authors rendered.
 
     tests/bench/author_pictures.py build/release/tomales FOLDER ... --keep SHEETS [--seconds 60] [--only PART] [-- -t 1 ...]
 
-Debian's packages: python3-numpy python3-openimageio. A RIB file has its author's picture beside it if a picture in its folder, or in a folder of pictures
-below it, has the file's name or that of one of its Displays. The scene is rendered from where it lies, at the size of that picture, as public_scenes.py
-does it. Old pictures hold 8 bits without gamma unless the scene's Exposure says otherwise, and ours are compared as such. The rms difference is that of
-blocks of 4 x 4 pixels, in units of white, so that grain and filters at outlines count little. SHEETS gets a picture of each pair: ours, theirs, and the
-difference times four.
+Debian's packages: python3-numpy python3-openimageio. A RIB file has its author's picture beside it if a picture in its folder, or in a folder of
+pictures below it, has the file's name or that of one of its Displays. The scene is rendered from where it lies, at the size of that picture, as
+public_scenes.py does it. Old pictures hold 8 bits without gamma unless the scene's Exposure says otherwise, and ours are converted alike. The rms
+difference is that of blocks of 4 x 4 pixels, in units of white, so that grain and filters at outlines count little. SHEETS gets a picture of each
+pair: ours, theirs, and the difference times four.
 """
 import os
 import pathlib
@@ -19,13 +19,13 @@ import OpenImageIO
 
 import public_scenes
 
-KINDS = (".tiff", ".tif", ".png", ".gif", ".jpg", ".jpeg", ".bmp")  # The first is taken, if there are several.
+KINDS = (".tiff", ".tif", ".png", ".gif", ".jpg", ".jpeg", ".bmp")  # If there are several, the first one is taken.
 PICTURE_FOLDERS = ("", "images", "pics", "pictures", "pix")
 DISPLAY = re.compile(rb'Display\s+"\+?([^"]+)"')
 
 
 def pixels(path):
-    """Height x width x 3, in units of white; what has an alpha lies over black."""
+    """Returns pixels of shape height x width x 3 in units of white. Pictures with alpha lie over black."""
     image = OpenImageIO.ImageInput.open(str(path))
     data = image.read_image(OpenImageIO.FLOAT) if image else None
     if data is None:
@@ -36,7 +36,7 @@ def pixels(path):
 
 
 def author_picture(scene):
-    """The path of the picture that the author of the scene rendered, or None."""
+    """Returns the path of the picture that the author of the scene rendered, or None."""
     names = [scene.name[:scene.name.lower().index(".rib")]]
     names += [pathlib.PurePath(m.decode("latin-1")).stem for m in DISPLAY.findall(public_scenes.text_of(scene))]
     for name in names:
@@ -62,7 +62,7 @@ def write(path, data):
 
 
 def compared(ours, theirs, sheet):
-    """The rms difference, and the mean of ours and theirs."""
+    """Returns the rms difference, and the means of ours and theirs."""
     write(sheet, numpy.concatenate([ours, theirs, numpy.clip(4 * numpy.abs(ours - theirs), 0, 1)], axis=1))
     return float(numpy.sqrt(((blocks(ours) - blocks(theirs)) ** 2).mean())), float(ours.mean()), float(theirs.mean())
 

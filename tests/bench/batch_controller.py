@@ -1,5 +1,5 @@
-"""Gives many tiny frames to a real Slurm on this machine (tests/slurm/cluster.py: needs root, slurm-wlm and munge), and tells what the
-controller had to do: its CPU time, its memory, the time of submitting and until all frames are finished.
+"""Gives many tiny frames to a real Slurm on this machine (tests/slurm/cluster.py, which needs root, slurm-wlm and munge). It measures the
+controller's CPU time and memory, the time to submit, and the time until all frames are finished.
     batch_controller.py build/release/tomales [FRAMES]"""
 import json
 import os
@@ -24,7 +24,7 @@ def run(*arguments):
 
 
 def controller():
-    """CPU seconds and resident megabytes of slurmctld."""
+    """Returns the CPU seconds and resident megabytes of slurmctld."""
     process = pathlib.Path("/proc") / str(cluster.daemons["slurmctld"].pid)
     used = (process / "stat").read_text().rsplit(")", 1)[1].split()
     return (int(used[11]) + int(used[12])) / TICKS, int((process / "statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6

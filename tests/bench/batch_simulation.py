@@ -1,5 +1,5 @@
-"""Replays the plan of a long shot on many nodes, with the pass times and files of a batch that has run: when it would be done, the
-critical path, idle nodes, and what the shared file system carries.
+"""Replays the plan of a long shot on many nodes, with the pass times and files of a batch that has run. It tells when the shot would be done, the
+critical path, the idle nodes, and the traffic of the shared file system.
     batch_simulation.py PLAN_FOLDER [--frames 2000] [--nodes 500] [--scale 1]
 The tasks of the batch are repeated until there are that many frames, but for those that all frames share (photons, maps of light, Make
 requests). Each takes the CPU time that it took, times --scale (frames of the test are small), and reads and writes the files that it did.
@@ -25,7 +25,7 @@ Task = collections.namedtuple("Task", "name stage needs seconds read written")
 
 
 def tasks():
-    """Those of the plan that has run, with what they took."""
+    """Returns the tasks of the plan that has run, with their measured costs, and the number of frames."""
     plan = json.loads((given.plan / "plan.json").read_text())["tasks"]
     states = {t["name"]: json.loads((given.plan / "state" / (t["name"] + ".json")).read_text()) for t in plan}
     sizes = {file: size for t in plan for file, size in zip(t["makes"], states[t["name"]]["bytes"])}
@@ -47,8 +47,8 @@ def duration(task):
 
 
 def replay(all_tasks, nodes):
-    """The earliest free node takes the first task that may run. Seconds until all is done, those that nodes have worked, and the
-    bytes of each second."""
+    """Gives the first task that may run to the earliest free node. Returns the seconds until all is done, the seconds that nodes have worked, and
+    the bytes of each second."""
     place = {t.name: i for i, t in enumerate(all_tasks)}
     missing, followers = [len(t.needs) for t in all_tasks], collections.defaultdict(list)
     for i, t in enumerate(all_tasks):
@@ -77,9 +77,9 @@ def replay(all_tasks, nodes):
 
 
 def critical_path(all_tasks):
-    """The longest chain, as if there were a node for each task."""
+    """Returns the longest chain, as if each task had a node of its own."""
     at, chain = {}, {}
-    for t in all_tasks:  # a task stands after those that it needs
+    for t in all_tasks:  # A task stands after those that it needs.
         before = max(t.needs, key=at.get, default=None)
         at[t.name], chain[t.name] = at.get(before, 0) + duration(t), chain.get(before, []) + [t.stage]
     end = max(at, key=at.get)

@@ -1,13 +1,13 @@
-"""Frames of 500 objects that move, exported: blender -b --factory-startup -P tests/bench/blender_export.py -- FOLDER
+"""Exports frames of 500 moving objects: blender -b --factory-startup -P tests/bench/blender_export.py -- FOLDER
 
-Says frames a second, of 24, where transformations alone change. Takes TOMALES_SOURCE, the source tree, as the tests do.
+It prints the frames a second over 24 frames in which only transformations change. As in the tests, TOMALES_SOURCE names the source tree.
 """
 import os
 import sys
 import time
 
 arguments = sys.argv[sys.argv.index("--") + 1 :]
-sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # scenes.py renders nothing, and lends its tools
+sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # With this name scenes.py renders nothing, and only lends its tools.
 sys.path.insert(0, os.path.join(os.environ["TOMALES_SOURCE"], "tests/blender"))
 import bpy  # noqa: E402
 from scenes import camera, empty_scene, light, material  # noqa: E402
@@ -18,7 +18,7 @@ light(scene, "SUN", (0, 0, 5), angle=0)
 bpy.ops.mesh.primitive_monkey_add()
 shape = bpy.context.object.data
 for i in range(500):
-    mesh = shape.copy()  # each has a mesh of its own
+    mesh = shape.copy()  # Each object has a mesh of its own.
     mesh.materials.append(material(f"m{i % 20}", (i / 500, 0.5, 0.5), "ShaderNodeBsdfPrincipled")[0] if i < 20 else bpy.data.materials[f"m{i % 20}"])
     obj = bpy.data.objects.new(f"o{i}", mesh)
     scene.collection.objects.link(obj)

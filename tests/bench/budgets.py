@@ -1,9 +1,9 @@
-"""How near to its end a frame with `--time-budget` ends, in CPU seconds, so that other jobs of the machine do not count.
+"""Measures how exactly a frame with `--time-budget` keeps its budget, in CPU seconds, so that other jobs of the machine do not count.
 
     tests/bench/budgets.py build/release/tomales [--scenes cornell interior random1] [--budgets 5 10 20] [--seeds 2] [--format 256x256] [--audit] [-v]
 
-A library that is loaded before others (made here with the C compiler) tells the program the CPU time of its process where it asks for the time since
-the machine was started. With one thread that is what its clock would say on a quiet machine. It writes the table in docs/measured/error.md.
+A preloaded library, which this script makes with the C compiler, replaces the program's clock by the CPU time of its process. With one thread that is
+what the clock would show on a quiet machine. It writes the table in docs/measured/error.md.
 """
 import argparse
 import json

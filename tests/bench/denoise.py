@@ -1,9 +1,9 @@
-"""What `tomales denoise` takes out of ten scenes at three levels of noise, and how true the errors are that it states.
+"""Measures how much noise `tomales denoise` removes from ten scenes at three levels of noise, and how true its stated errors are.
 
-    tests/bench/denoise.py build/release/tomales [--format 160x120] [--only PART,PART]: of the scenes' names
+    tests/bench/denoise.py build/release/tomales [--format 160x120] [--only PART,PART] with parts of the scenes' names
 
-Errors are root mean squares over the mean colour and over three pairs of halves, against the mean of 8 pictures with 64 times the
-samples of the noisiest level: of the mean of the two halves, of the filtered picture, and both as the command states them.
+Errors are root mean squares, over the mean colour, of three pairs of halves. The truth is the mean of 8 pictures with 64 times the samples of the
+noisiest level. The errors are those of the mean of the two halves and of the filtered picture, and both as the command states them.
 """
 import math
 import pathlib
@@ -22,7 +22,7 @@ DIRECT = ("--gi", "none")
 SCENES = {"cornell/cornell.rib": GATHER, "cornell_ball/cornell_ball.rib": GATHER, "interior/interior.rib": GATHER, "rectlight/rectlight.rib": DIRECT,
           "shading/sky.rib": DIRECT, "shading/materials.rib": DIRECT, "spheres/spheres.rib": DIRECT, "still_life/still_life.rib": DIRECT,
           "rays/traced.rib": DIRECT, "ris/ris.rib": DIRECT}
-LEVELS = (1, 4, 16)  # samples of a light, and 16 times as many rays of a record
+LEVELS = (1, 4, 16)  # These are the samples of a light. A record has 16 times as many rays.
 TRUTHS, PAIRS = 8, 3
 
 program = str(pathlib.Path(sys.argv[1]).resolve())
@@ -55,7 +55,7 @@ with tempfile.TemporaryDirectory() as name:
         mean = sum(sum(v) for v in truth.values()) / (3 * len(truth))
         line = f"{scene:28}"
         for level in LEVELS:
-            squares = [[], [], [], []]  # true before and after, stated before and after
+            squares = [[], [], [], []]  # The order is: true before and after, stated before and after.
             for pair in range(PAIRS):
                 a, b = (render(folder, path, level, 2 * pair + k, f"{k}.exr", options) for k in (1, 2))
                 half = {p: [(x + y) / 2 for x, y in zip(a[p][:3], b[p][:3])] for p in a}

@@ -1,10 +1,11 @@
-"""Equation 8 of approximate-gi on its bumped, glossy ball (scenes/cornell_ball), against a gather at every point that knows the whole plastic.
+"""Compares equation 8 of approximate-gi, on its bumped, glossy ball (scenes/cornell_ball), with a gather at every point that knows the whole plastic.
 
     equation8.py TOMALES FOLDER [--size 128] [--truth 4096]
 
-The truth is a surface shader that shoots rays over the hemisphere of the bumped normal and lets the light of each fall into the plastic's diffuse() and
-specular(); with fewer rays it is the other method. Errors are rms over the pixels of the ball, in means of the truth's whole light there; CPU s are those of
-the picture of both parts, less those without indirect light. Pictures stay in FOLDER. Needs a C++ compiler.
+The truth is a surface shader that sends rays over the hemisphere of the bumped normal, and passes the light of each to the plastic's diffuse() and
+specular(). With fewer rays this shader is the other method of the comparison. Errors are rms over the pixels of the ball, divided by the mean of the
+truth's whole light there. CPU seconds are those of the picture of both parts, less those without indirect light. Pictures stay in FOLDER. Needs a C++
+compiler.
 """
 import argparse
 import json
@@ -60,14 +61,14 @@ folder = options.folder.resolve()
 
 
 def on_ball(x, y):
-    """But for a rim of a pixel."""
+    """Tells whether a pixel shows the ball, except for a rim of a pixel."""
     half = options.size / 2
     unit = half / math.tan(math.radians(FOV / 2))
     return math.hypot(x + 0.5 - half, y + 0.5 - half + unit * BALL / EYE) < unit * RADIUS / math.sqrt(EYE ** 2 - RADIUS ** 2) - 1.5
 
 
 def render(name, surface, *arguments):
-    """Colours of the ball, and CPU seconds."""
+    """Returns the colours of the ball, and CPU seconds."""
     rib, out, stats = folder / f"{name}.rib", folder / f"{name}.exr", folder / f"{name}.json"
     rib.write_text(f'Option "searchpath" "string shader" ["{folder}:@"]\n' + SCENE.replace(PLASTIC, surface))
     subprocess.run([options.tomales.resolve(), "render", rib, "-q", "-t", "1", "--format", f"{options.size}x{options.size}", "--crop", CROP, "-o", out, "--stats", stats,

@@ -1,4 +1,5 @@
-"""Does `--audit` state a small error where a picture is wrong, and no warning is given? Every scene with a knob of the laboratory answers.
+"""Finds pictures that are wrong although `--audit` states a small error and no warning is given, over every scene with a knob in
+tests/stability/knobs.
 
     tests/bench/error_lab.py build/release/tomales [--scenes irradiance_spot dice_rate] [--values first last] [-t 1]
 
@@ -37,7 +38,7 @@ class Scene:
         return pixels(out), json.loads(stats.read_text())
 
     def measure(self, value):
-        """Rows: method, true error and its noise, what is stated, what pixel samples add, the codes of warnings."""
+        """Returns rows: method, true error and its noise, the stated error, what pixel samples add, the codes of warnings."""
         truths = [self.render(self.of["truth"][0].replace("@", str(i)), value, 1)[0] for i in (1, 2)]
         for method in self.of["method"]:
             name, arguments = method.rsplit(": ", 1)

@@ -1,11 +1,12 @@
-"""How true the error is that `tomales render --audit` states: rooms of the laboratory, and rooms at random, against many paths at every pixel.
+"""Measures how true the error is that `tomales render --audit` states, on rooms of tests/stability and random rooms, against many paths at every
+pixel.
 
     tests/bench/error_rooms.py build/release/tomales [--rooms box_ball hot_spot random1 random2] [--seeds 5] [--size 32] [--paths 2048] [-t 1]
                                [--settings "--samples 150" "--samples 600 --max-error 2"]
 
-It writes the rows of the table in docs/measured/error.md. The truth is the mean of two pictures by `--gi reference`, whose own noise, half of their
-difference, is taken off in squares. hot_spot gets four times the paths. With settings of `--gi none` it is direct light, against 1024 light samples,
-else indirect light alone, so that the error of that light is the error of the picture.
+It writes the rows of the table in docs/measured/error.md. The truth is the mean of two pictures by `--gi reference`. Its own noise, which is half of
+their difference, is subtracted in squares. hot_spot gets four times the paths. With settings of `--gi none` direct light is compared, against 1024
+light samples. Otherwise indirect light alone is compared, so that its error is the error of the picture.
 """
 import argparse
 import json
@@ -36,7 +37,7 @@ def box(low, high):
 
 
 def random_room(seed):
-    """RIB of a room with boxes and balls, lit by one to three lamps; the camera looks in from somewhere in front of the open side."""
+    """Returns the RIB of a room with boxes and balls, lit by one to three lamps. The camera looks in from somewhere in front of the open side."""
     r = random.Random(seed)
     width, height, depth = r.uniform(2, 5), r.uniform(2, 3.5), r.uniform(2, 5)
 
@@ -82,7 +83,7 @@ class Rooms:
         return path
 
     def render(self, room, *arguments):
-        """The picture, and what the audit says if there is one."""
+        """Returns the picture, and what the audit says if there is one."""
         out, stats = self.folder / "picture.exr", self.folder / "stats.json"
         subprocess.run([self.tomales, "render", self.scene(room), "-q", "-t", self.threads, *self.light(arguments), "--format", f"{self.size}x{self.size}",
                         "--pixel-samples", "2x2", "-o", out, "--stats", stats, *arguments], check=True)
@@ -93,14 +94,14 @@ class Rooms:
         return [] if "none" in arguments else ["--indirect-only"]
 
     def truth(self, room, paths, direct=False):
-        """Two pictures with random numbers of their own."""
+        """Returns two pictures with random numbers of their own."""
         count = str(paths * MORE_PATHS.get(room, 1))
         method = ["--gi", "none", "--light-samples", "1024"] if direct else ["--gi", "reference", "--ray-geometry", "scene", "--samples", count]
         return [self.render(room, *method, "--light-seed", str(1000 + i))[0] for i in range(2)]
 
 
 def true_error(picture, truth):
-    """The mean relative error, and the noise of the truth that has been taken off."""
+    """Returns the mean relative error, and the noise of the truth that has been subtracted."""
     error = noise = count = 0
     for xy, a in truth[0].items():
         b = truth[1][xy]

@@ -1,10 +1,10 @@
-"""Where irradiance records lie in scenes/cornell_ball (figure 5 of approximate-gi): pictures of (d), (e), (f), and how many lie where.
+"""Shows where irradiance records lie in scenes/cornell_ball (figure 5 of approximate-gi), with pictures of (d), (e), (f) and counts by place.
 
     figure5.py TOMALES FOLDER [--size 512] [--samples 1000] [-t 2]
 
-(d) equation 5 with kappa = 0.5; (e) the same with bumped normals in equation 4; (f) the error function of Ward and Heckbert 1992, which knows no limits in
-pixels and refines nothing, with as many records as (d); limited: that with R- and R+ of equation 3, as many again. Needs ImageMagick. FOLDER gets pictures and
-figure5.png: picture, closeup, (d); (e), (f), limited.
+(d) is equation 5 with kappa = 0.5, and (e) is the same with bumped normals in equation 4. (f) is the error function of Ward and Heckbert 1992 with as
+many records as (d); it has no limits in pixels and refines nothing. "limited" is (f) with R- and R+ of equation 3, and has as many records too. This
+needs ImageMagick. FOLDER gets pictures and figure5.png, whose rows are picture, closeup, (d) and (e), (f), limited.
 """
 import argparse
 import math
@@ -15,10 +15,10 @@ import subprocess
 SCENE = (pathlib.Path(__file__).parents[2] / "scenes/cornell_ball/cornell_ball.rib").read_text()
 BALL, RADIUS = (0, -0.15, 0), 0.5
 BUMP = 'Displacement "noisybump"'
-# An object with a displacement bound has points that move, and its records the normals of displacement; so small a bound changes nothing else.
+# An object with a displacement bound has points that move, and its records have the normals of displacement. So small a bound changes nothing else.
 BUMPED = SCENE.replace(BUMP, 'Attribute "displacementbound" "float sphere" [1e-6] ' + BUMP)
-TILE = 400  # of the picture of all, pixels
-NEAR = (0.02, 0.04, 0.08, 0.16)  # of an edge of the box
+TILE = 400  # These are pixels of the picture of all.
+NEAR = (0.02, 0.04, 0.08, 0.16)  # These are distances from an edge of the box.
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("tomales", type=pathlib.Path)
@@ -34,7 +34,7 @@ def run(*arguments):
 
 
 class Variant:
-    """A deep frame buffer, gathered with one error function or another."""
+    """A deep frame buffer that is gathered with several error functions."""
 
     def __init__(self, name, rib):
         self.name = name
@@ -42,7 +42,7 @@ class Variant:
         run("hide", f"{name}.rib", "-q", "-o", f"{name}.dfb", "--format", f"{options.size}x{options.size}", "-t", options.t)
 
     def records(self, *arguments):
-        """Positions, as .ptc and .ply say them: three floats first, all others after."""
+        """Returns the records' positions by way of .ptc and .ply, whose first three floats they are."""
         run("gather", f"{self.name}.dfb", "-q", "-o", f"{self.name}.icf", "--samples", options.samples, "-t", options.t, *arguments)
         run("convert", f"{self.name}.icf", f"{self.name}.ptc")
         run("convert", f"{self.name}.ptc", f"{self.name}.ply")
@@ -51,7 +51,7 @@ class Variant:
         return [p[:3] for p in struct.iter_unpack(f"<{width}f", data)]
 
     def as_many(self, count, function):
-        """Records of another error function, within 1 % or as near as bisection comes, and their maxerror."""
+        """Returns records of another error function and their maxerror. Their number is within 1 %, or as near as bisection comes."""
         low, high = math.log(0.25), math.log(10)
         for _ in range(12):
             middle = (low + high) / 2
@@ -70,7 +70,7 @@ def on_ball(p):
 
 
 def from_edge(p):
-    """Of the box, which has none in front."""
+    """Returns the distance from an edge of the box, which has none in front."""
     return math.hypot(*sorted((1 - abs(p[0]), 1 - abs(p[1]), 1 - p[2]))[:2])
 
 
@@ -93,7 +93,7 @@ def main():
         report(variant, *variant.as_many(len(of_d), function))
     given = ("render", "d.rib", "-q", "--irradiance", "d.icf", "-t", options.t)
     run(*given, "--format", f"{TILE}x{TILE}", "-o", "picture.png")
-    run(*given, "--format", "1000x1000", "--crop", "0.3,0.7,0.36,0.76", "-o", "closeup.png")  # TILE pixels, too
+    run(*given, "--format", "1000x1000", "--crop", "0.3,0.7,0.36,0.76", "-o", "closeup.png")  # This is TILE pixels, too.
     tiles = [f"{name}.png" for name in ("picture", "closeup", "d", "e", "f", "limited")]
     subprocess.run(["montage", *tiles, "-tile", "3x2", "-geometry", "+4+4", "-background", "black", "figure5.png"], check=True, cwd=options.folder)
 

@@ -1,5 +1,5 @@
-"""What a small geometry cache costs (docs/measured/rays.md): a scene whose rays see its displacement at three levels, with room for all
-that they ask for and with a thirtieth of its full-rate geometry, in turn.
+"""Measures what a small geometry cache costs (docs/measured/rays.md). Rays see the displacement of a scene at three levels. The cache has room in
+turn for all that they ask for, and for a thirtieth of the full-rate geometry.
     geometry_cache.py TOMALES [RIB [further arguments of each render]]"""
 import json
 import pathlib
@@ -12,7 +12,7 @@ tomales = sys.argv[1]
 scene = sys.argv[2] if len(sys.argv) > 2 else root / "scenes/film/film.rib"
 further = sys.argv[3:] or ["--format", "560x338", "--gi", "none"]
 
-BYTES_OF_POLYGON = 37  # position, normal, Embree's 22 (raytrace/embree_chunks.cpp)
+BYTES_OF_POLYGON = 37  # These are position, normal, and Embree's 22 (raytrace/embree_chunks.cpp).
 TIMES_SMALLER = 30
 ROUNDS = 2
 

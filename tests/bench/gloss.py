@@ -1,12 +1,12 @@
-"""What metal and gloss cost at the noise of plastic, on a knot under a sky, and fireflies in the gallery.
+"""Measures what metal and gloss cost at the noise of plastic, on a knot under a sky, and counts fireflies in the gallery.
 
     tests/bench/gloss.py build/release/tomales [another tomales ...]
-    tests/bench/gloss.py build/release/tomales --gallery [PART ...]: of the scenes' paths
+    tests/bench/gloss.py build/release/tomales --gallery [PART ...] with parts of the scenes' paths
 
-Noise: root mean square of the difference of two light seeds on the knot, over sqrt(2) and the mean colour there. Time at
-equal noise: CPU seconds times the square of the noise, as a multiple of plastic's. Of the gallery: how many pixels are
-brighter than 10 times the median of their 5 x 5 neighbours, and which of these are more than twice as bright as with
-another light seed, so that no thin bright thing is what is seen.
+Noise is the root mean square of the difference of two light seeds on the knot, divided by sqrt(2) and by the mean colour there. Time at equal noise
+is CPU seconds times the square of the noise, as a multiple of plastic's. For the gallery, this counts the pixels that are brighter than 10 times the
+median of their 5 x 5 neighbours. It lists those that are also more than twice as bright as with another light seed, because these are no thin bright
+objects.
 """
 import math
 import pathlib
@@ -48,7 +48,7 @@ SURFACES = {"plastic": '"plastic"', "metal": '"disney" "metallic" [1] "roughness
 
 
 def knot(around=240, across=32, radius=0.35):
-    """A trefoil as RIB."""
+    """Returns a trefoil as RIB."""
     def middle(t):
         r = 2 + math.cos(3 * t)
         return (r * math.cos(2 * t) / 2, r * math.sin(2 * t) / 2, math.sin(3 * t) / 1.6)
@@ -79,7 +79,7 @@ def knot(around=240, across=32, radius=0.35):
 
 
 def render(program, folder, *arguments):
-    """CPU seconds."""
+    """Renders and returns CPU seconds."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     code = subprocess.run([program, "render", *arguments, "-q"], cwd=folder).returncode
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -138,7 +138,7 @@ def gallery(program, parts):
                     render(program, folder, "maps.rib")
                 for seed in "12":
                     render(program, folder, "scene.rib", "--light-seed", seed, "-o", f"{seed}.exr", "--format", "192x144", "--one-picture", *picture.options)
-                    shutil.rmtree(folder / "maps", ignore_errors=True)  # of photons: they would be taken as they are
+                    shutil.rmtree(folder / "maps", ignore_errors=True)  # Photon maps would be used as they are.
                 bright, chance = fireflies(*(pixels(folder / f"{seed}.exr") for seed in "12"))
             print(f"{picture.name}: {bright}, of which by chance {len(chance)} {chance or ''}", flush=True)
 

@@ -1,6 +1,7 @@
-"""Figure 4 of "An Approximate Global Illumination System" again: rays against coarse polygons, with the hit list and with a bias alone, compared
-with rays against all displaced micropolygons. On the surface: where the ball is; around it the shadow of a coarse ball is another shape.
-    hit_list.py TOMALES [--scene soft|skin] [--keep FOLDER: for the pictures] [further arguments of each render]"""
+"""Repeats figure 4 of "An Approximate Global Illumination System". It compares rays that meet coarse polygons, with the hit list and with a bias
+alone, with rays that meet all displaced micropolygons. Only pixels on the ball count as "on the surface", because the shadow of a coarse ball around
+it has another shape.
+    hit_list.py TOMALES [--scene soft|skin] [--keep FOLDER for the pictures] [further arguments of each render]"""
 import argparse
 import json
 import pathlib
@@ -14,7 +15,7 @@ sys.path.insert(0, str(root / "tests/image"))
 sys.dont_write_bytecode = True
 from pictures import pixels  # noqa: E402
 
-# Centre and radius of the ball in picture heights.
+# The centre and radius of the ball are in picture heights.
 SCENES = {"soft": ("scenes/displaced/soft.rib", (0.5, 0.45), 0.3), "skin": ("scenes/skin/skin.rib", (0.5, 0.487), 0.36)}
 
 parser = argparse.ArgumentParser()
@@ -42,7 +43,7 @@ size = max(y for _, y in full) + 1
 ball = [(x, y) for x, y in full if (x / size - center[0]) ** 2 + (y / size - center[1]) ** 2 < radius**2]
 for name, arguments in (("on", []), ("off", ["--no-hit-list"])):
     picture = render(name, *arguments)
-    errors = {k: abs(picture[k] - full[k]) / (full[k] + 0.01) for k in full}  # as in docs/chart.md
+    errors = {k: abs(picture[k] - full[k]) / (full[k] + 0.01) for k in full}  # The error is defined as in docs/chart.md.
     closed = [errors[k] for k in ball]
     print(f"{name}: mean absolute relative error {100 * statistics.fmean(errors.values()):.2f} %, on the surface {100 * statistics.fmean(closed):.2f} %; "
           f"{sum(e > 0.5 for e in closed)} of its {len(closed)} pixels wrong by more than half, the worst by {100 * max(closed):.0f} %", flush=True)

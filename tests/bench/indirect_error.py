@@ -1,12 +1,13 @@
-"""How far interpolated indirect light is from path tracing: error, its 99th percentile, noise of the reference, time, error maps.
+"""Measures how far interpolated indirect light is from path tracing: its error and 99th percentile, the noise of the reference, time, and error maps.
 
     tests/bench/indirect_error.py build/release/tomales FOLDER [--scenes cornell film hot_spot sun_room box_ball] [--batches 2] [--bounces 1]
                                   [-t 1] [--json out.json] [-- ARGUMENTS OF tomales render ...]
 
 Debian's packages: python3-numpy python3-openimageio. The reference is `--gi reference`, each batch with a seed of its own, in square windows whose
-places depend on nothing but their number (Halton's points), because whole frames would take hours; only their pixels count. FOLDER/SCENE keeps it, so that
-the next call is quick, and gets error.png. Error: |test - reference| / (reference + 1 % of its mean) of the indirect light, over the colours of all
-pixels where the reference is not black; and the same with a tenth of the mean and with 0.01, as `tomales chart` has it. `noise` is that of the reference itself, from the spread of its batches, and part of every figure.
+places depend on nothing but their number (Halton's points), because whole frames would take hours; only their pixels count. FOLDER/SCENE keeps it, so
+that the next call is quick, and gets error.png. The error is |test - reference| / (reference + 1 % of its mean) of the indirect light, over the
+colours of all pixels where the reference is not black. It is also given with a tenth of the mean and with 0.01, which `tomales chart` uses. `noise`
+is that of the reference itself, from the spread of its batches. Every figure contains this noise.
 """
 import argparse
 import dataclasses
@@ -24,10 +25,10 @@ ROOT = pathlib.Path(__file__).parents[2]
 @dataclasses.dataclass
 class Case:
     scene: str
-    size: tuple    # of the frame, pixels
-    windows: int   # Where the reference is traced: so many squares
-    edge: int      # of so many pixels,
-    samples: int   # with so many paths a point and batch.
+    size: tuple    # The size of the frame in pixels.
+    windows: int   # The reference is traced in so many squares
+    edge: int      # of so many pixels each,
+    samples: int   # with so many paths for a point and batch.
 
 
 CASES = {
@@ -48,12 +49,12 @@ def halton(i, base):
 
 
 def windows(case):
-    """Corners of squares."""
+    """Returns the corners of the squares."""
     return [(int(halton(i, 2) * (case.size[0] - case.edge)), int(halton(i, 3) * (case.size[1] - case.edge))) for i in range(1, case.windows + 1)]
 
 
 def pixels(path):
-    """Of the whole frame; what is outside of a crop is black."""
+    """Returns the pixels of the whole frame. It is black outside of a crop."""
     image = OpenImageIO.ImageInput.open(str(path))
     spec, data = image.spec(), image.read_image(OpenImageIO.FLOAT)
     out = numpy.zeros((spec.full_height, spec.full_width, 3), numpy.float32)
@@ -68,14 +69,14 @@ class Bench:
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def render(self, out, *arguments):
-        """Its statistics."""
+        """Renders and returns the statistics."""
         stats = self.folder / "stats.json"
         subprocess.run([self.given.tomales, "render", ROOT / self.case.scene, "-q", "--indirect-only", "--format", f"{self.size[0]}x{self.size[1]}", "-t", str(self.given.threads),
                         "--bounces", str(self.given.bounces), "-o", out, "--stats", stats, *map(str, arguments)], check=True, cwd=self.folder)
         return json.loads(stats.read_text())
 
     def reference(self, batch):
-        """Where it is known, and it."""
+        """Returns the reference, and where it is known."""
         (width, height), edge = self.size, self.case.edge
         whole, known = numpy.zeros((height, width, 3), numpy.float32), numpy.zeros((height, width), bool)
         for x, y in windows(self.case):
@@ -104,14 +105,14 @@ def figures(test, batches, counts):
 
     mean, p99 = mean_and_p99(error(test, truth))
     n = len(batches)
-    # A batch is off the mean of the others by sqrt(n + n / (n - 1)) times what the mean of all is off.
+    # The difference of a batch from the mean of the others is sqrt(n + n / (n - 1)) times the error of the mean of all.
     noise = [error(b, (truth * n - b) / (n - 1)) / (n + n / (n - 1)) ** 0.5 for b in batches] if n > 1 else [numpy.inf]
     return {"mean": mean, "p99": p99, "of_tenth": mean_and_p99(error(test, truth, 0.1 * light)), "of_chart": mean_and_p99(error(test, truth, 0.01)), "bias": float(test[lit].sum() / truth[lit].sum() - 1),
             "noise": float(numpy.mean(noise)), "noise_p99": float(numpy.percentile(noise, 99)), "pixels": int(counts.sum())}
 
 
 def errorMap(path, test, truth, known, extent=0.1):
-    """Red is too bright, blue too dark, white is right; full colour at `extent`. Grey is not known."""
+    """Draws the error. Red is too bright, blue too dark, and white right. Colours are full at `extent`, and grey is unknown."""
     grey = numpy.array([0.2126, 0.7152, 0.0722])
     light = truth @ grey
     off = numpy.clip((test @ grey - light) / (light + FLOOR * light[known].mean()) / extent, -1, 1)

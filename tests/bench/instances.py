@@ -1,4 +1,5 @@
-"""10,000 instances of a mesh of 10,000 faces under an area light with traced shadows, 320 x 240: user seconds and peak memory. The goal is 300 MB.
+"""Measures user seconds and peak memory of 10,000 instances of a mesh of 10,000 faces, under an area light with traced shadows, at 320 x 240. The
+goal is 300 MB.
 
     tests/bench/instances.py build/release/tomales [--camera low all cloud] [--gi none gather] [-t 2] [--keep FOLDER]
 
@@ -18,7 +19,7 @@ CAMERAS = {"all": "Rotate -35 1 0 0 Translate 0 -40 60", "low": "Rotate -5 1 0 0
 
 
 def scene(camera, side=100):
-    """A bumpy ball of side x side quadrilaterals, side x side times on a plane."""
+    """Returns a scene of a bumpy ball of side x side quadrilaterals, shown side x side times on a plane."""
     points, faces = [], []
     for j in range(side + 1):
         for i in range(side):
@@ -44,7 +45,7 @@ def scene(camera, side=100):
 
 
 def cloud(side=100):
-    """side x side x side small spheres in a cube over a floor."""
+    """Returns a scene of side x side x side small spheres in a cube over a floor."""
     chance = random.Random(1)
     yield ('Format 320 240 1 PixelSamples 2 2 Projection "perspective" "fov" [50] Translate 0 -1 9 Rotate -20 1 0 0 WorldBegin\n'
            'LightSource "distantlight" 1 "from" [1 3 -2] "to" [0 0 0] LightSource "indirectlight" 2 "samples" [256]\n'
@@ -77,7 +78,7 @@ def main():
 
 
 def _wait(process):
-    """What this child alone used: RUSAGE_CHILDREN keeps the largest of all."""
+    """Waits for this child and returns what it alone used, because RUSAGE_CHILDREN keeps the largest of all children."""
     pid, status, used = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     return pid, process.returncode, used

@@ -1,10 +1,10 @@
-"""Ends a render at random moments by SIGTERM and SIGKILL in turn, resumes it, and tells what is done again (--resume): the CPU
-time of both runs together, against that of one, and the share of the gather rays of the first run that are traced again.
+"""Ends a render at random moments by SIGTERM and SIGKILL in turn, resumes it with --resume, and tells what is done again: the CPU time of both runs
+together against that of one, and the share of the first run's gather rays that are traced again.
     interruptions.py build/release/tomales [SCENE.rib [KILLS [OPTIONS...]]]
     interruptions.py build/release/tomales --animation
-The second ends an animation of 20 frames 5 times, and tells how many finished frames are rendered again (--skip-finished).
-Counted rays have no noise, but a killed program tells none, so they are said for SIGTERM alone. They are those of gathering: the
-partial picture that SIGTERM leaves is shaded after the signal, with direct light and rays of its own."""
+The second form ends an animation of 20 frames 5 times, and tells how many finished frames are rendered again (--skip-finished). Counts of rays have
+no noise, but a killed program tells none, so they are given for SIGTERM alone. Only rays of gathering count, because the partial picture that SIGTERM
+leaves is shaded after the signal, with direct light and rays of its own."""
 import json
 import os
 import pathlib
@@ -31,7 +31,7 @@ def cpu_s():
 
 
 def render(picture, *more, after_s=None, number=None):
-    """CPU seconds, gather rays (None if they are not told) and the exit code."""
+    """Returns CPU seconds, gather rays (None if they are not told) and the exit code."""
     stats, before = folder / "stats.json", cpu_s()
     stats.unlink(missing_ok=True)
     process = subprocess.Popen([program, scene.name, "-o", folder / picture, "--one-picture", "-q", "--stats", stats, *options, *more], cwd=scene.parent, stderr=subprocess.DEVNULL)
@@ -45,7 +45,7 @@ def render(picture, *more, after_s=None, number=None):
 
 
 def animation(frames=20, kills=5):
-    """A Cornell box that is seen from the left to the right."""
+    """Ends and resumes frames of a Cornell box, seen by a camera that goes from the left to the right."""
     text = scene.read_text()
     head, world = text[:text.index("WorldBegin")], text[text.index("WorldBegin"):]
     (folder / "turn.rib").write_text(head + "".join(f"FrameBegin {k}\nTranslate {0.02 * k - 0.2:.2f} 0 0\n{world}\nFrameEnd\n" for k in range(1, frames + 1)))
@@ -59,7 +59,7 @@ def animation(frames=20, kills=5):
         wanted = frames if k == kills else chance.randint(3, 5) + len(before)
         while process.poll() is None and (len(finished()) < wanted or k == kills):
             time.sleep(0.01)
-        time.sleep(0 if k == kills else chance.uniform(0, 0.3))  # within a frame
+        time.sleep(0 if k == kills else chance.uniform(0, 0.3))  # This stops within a frame.
         process.send_signal((signal.SIGTERM, signal.SIGKILL)[k % 2])
         process.wait()
         now = finished()
@@ -84,7 +84,7 @@ for k in range(kills):
     rest_s, rest_rays, _ = render("cut.exr", "--resume")
     different += (folder / "cut.exr").read_bytes() != whole
     if code == 0:
-        continue  # it was done before the signal came
+        continue  # The frame was done before the signal came.
     both_s.append(spent_s + rest_s)
     said = f"{number.name} after {spent_s:.2f} CPU s: {rest_s:.2f} for the rest"
     if spent_rays:

@@ -1,8 +1,8 @@
-"""Noise of direct light at equal samples, and what it costs, as a table.
+"""Prints a table of the noise of direct light at equal samples, and of its cost.
 
     tests/bench/light_noise.py build/release/tomales [another tomales ...]
 
-Error: mean absolute relative error of one picture without filter, against 1024 samples by the first program.
+The error is the mean absolute relative error of one picture without a filter, against 1024 samples by the first program.
 """
 import json
 import pathlib
@@ -43,7 +43,7 @@ FLOOR = 'Patch "bilinear" "P" [-9 -1 -9  -9 -1 9  9 -1 -9  9 -1 9]\n'
 
 
 def cornell_lamp(n, extra=""):
-    """A ball close below the lamp of a Cornell box, and the wall behind it."""
+    """Returns a scene of a ball close below the lamp of a Cornell box, and the wall behind it."""
     return (BALL + HEAD.format(fov=38, camera="Translate 0 0 2.6") + area(n, rectangle(0, 0.98, 0, 0.3), 16, extra) + """Surface "matte"
 Polygon "P" [-1 1 -1  1 1 -1  1 1 1  -1 1 1]
 Polygon "P" [-1 -1 1  -1 1 1  1 1 1  1 -1 1]
@@ -111,7 +111,7 @@ def error(program, folder, picture):
 def main():
     programs = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:]]
     folder = pathlib.Path(tempfile.mkdtemp())
-    # A sky of about 1 and a sun of half a degree that brings three times as much light.
+    # The sky has about 1, and a sun of half a degree brings three times as much light.
     subprocess.run(["oiiotool", "--pattern", "fill:top=0.5,0.8,1.5:bottom=0.4,0.4,0.3", "2048x1024", "3",
                     "--fill:color=130000,110000,80000", "3x3+700+300", "-o", folder / "sky.exr"], check=True)
     for name, (scene, samples) in SCENES.items():

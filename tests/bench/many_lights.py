@@ -1,10 +1,10 @@
-"""Direct light of many lamps: error and time by their number, all of them and as Option "trace" "lightcut" chooses, as a table.
+"""Prints a table of error and time of direct light by the number of lamps, with all of them and with those that Option "trace" "lightcut" chooses.
 
     tests/bench/many_lights.py build/release/tomales [--kinds point area unshadowed ...] [--lamps 10 100 ...] [--lights 0 32 ...]
                                [--out FOLDER]
 
-The scene is a town square at night with lamps between its houses. Error: mean absolute relative error of the picture
-against that of all lamps. Seconds: CPU seconds of the process.
+The scene is a town square at night with lamps between its houses. The error is the mean absolute relative error of the picture against that of all
+lamps. Seconds are CPU seconds of the process.
 """
 import argparse
 import json

@@ -1,9 +1,9 @@
-"""Peak memory against the size of the picture, as JSON: a plastic sphere before a wall.
+"""Prints peak memory against the size of the picture as JSON, for a plastic sphere before a wall.
 
     tests/bench/memory.py build/release/tomales [--largest 16384]
 
-For each edge of a square picture in pixels: peak resident MB of `render`, of `render --memory-limit 100M`, of `hide` and of `shade`,
-and the user seconds of `render`.
+For each edge of a square picture in pixels, this gives the peak resident MB of `render`, of `render --memory-limit 100M`, of `hide`
+and of `shade`, and the user seconds of `render`.
 """
 import argparse
 import json

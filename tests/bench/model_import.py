@@ -1,5 +1,5 @@
-"""CPU seconds that `tomales import` and the frame after it take for a glTF file of a million triangles with normals and
-texture coordinates: model_import.py TOMALES. The least of three imports counts."""
+"""Measures the CPU seconds that `tomales import` and the frame after it take for a glTF file of a million triangles with normals
+and texture coordinates: model_import.py TOMALES. The least of three imports counts."""
 import array
 import math
 import os
@@ -12,7 +12,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
 from models import Gltf  # noqa: E402
 
-SIDE = 708  # vertices along each side of a sphere with bumps
+SIDE = 708  # This is the number of vertices along each side of a sphere with bumps.
 
 
 def model():

@@ -1,6 +1,7 @@
-"""Ambient occlusion against closed forms (docs/measured/rays.md): a floor beside a sphere that stands on it, and beside an endless wall.
+"""Compares ambient occlusion with closed forms (docs/measured/rays.md), on a floor beside a sphere that stands on it, and beside an
+endless wall.
     occlusion.py TOMALES
-Points on a row of pixels; the floor is white and only occlusionlight shines, so that a pixel is what is open of the hemisphere."""
+The points are a row of pixels. The floor is white and only occlusionlight shines, so a pixel is the open part of the hemisphere."""
 import math
 import pathlib
 import subprocess
@@ -27,9 +28,9 @@ Attribute "trace" "float tessellation" [{{tessellation}}]
 Polygon "P" [-2000 0 -2000  2000 0 -2000  2000 0 2000  -2000 0 2000]
 """
 SCENES = {
-    # Form factor of a sphere that touches the horizon: (r / D)^2 cos.
+    # This is the form factor of a sphere that touches the horizon: (r / D)^2 cos.
     "sphere of radius 1": (8, "Translate 0 1 0\nRotate 90 1 0 0\nSphere 1 -1 1 360\n", lambda x: (1 + x * x) ** -1.5),
-    # Of an endless wall of height 2: half of one less the sine of what is left of the quarter circle.
+    # For an endless wall of height 2 it is half of one less the sine of the rest of the quarter circle.
     "wall of height 2": (1, 'Polygon "P" [0 0 -2000  0 0 2000  0 2 2000  0 2 -2000]\n', lambda x: 0.5 * (1 - x / math.hypot(x, 2))),
 }
 
@@ -43,7 +44,7 @@ with tempfile.TemporaryDirectory() as name:
         for i in range(COLUMNS):
             places = [LEFT + (RIGHT - LEFT) * (i + (k + 0.5) / 16) / COLUMNS for k in range(16)]
             if scene.startswith("sphere") and places[0] < 1:
-                continue  # the camera sees the sphere
+                continue  # The camera sees the sphere here.
             expected = 1 - sum(covered(x) for x in places) / 16
             off = row[i, 0][0] / expected - 1
             worst = max(worst, abs(off))

@@ -1,14 +1,16 @@
-"""Error of indirect light against CPU seconds, ours beside POV-Ray's radiosity and Cycles' path tracing, on the same rooms.
+"""Compares the error of indirect light against CPU seconds of this renderer, of POV-Ray's radiosity and of Cycles' path tracing, on the same rooms.
 
     tests/bench/peers.py build/release/tomales [--size 512] [--rooms cornell interior] [--programs tomales povray cycles] [--json out.json]
 
-Debian's packages: povray blender time python3-numpy python3-openimageio. One thread each. Seconds: user and system time above the same program's
-render of direct light alone (of Cycles, which has no use for direct light alone: above its start). Error: mean |test - truth| / (truth + 1 % of the mean) of the indirect light, over the pixels that see one shape,
-in windows of 16 x 16 pixels. The truth is ours of many paths, in two halves, which say how noisy it is; that noise is taken off every error (in squares, as noises that are independent add up). Where a
-program that errs by noise alone was not rendered long enough, the seconds to an error are extrapolated along its last two points, and marked ~.
+It needs Debian's packages povray blender time python3-numpy python3-openimageio. Each program has one thread. Seconds are user and system time above
+the same program's render of direct light alone (for Cycles, which has no use for that, above its start). The error is the mean of |test - truth| /
+(truth + 1 % of the mean) of the indirect light, over the pixels that see one shape, in windows of 16 x 16 pixels. The truth is our picture with many
+paths, in two halves that tell its noise. That noise is subtracted from every error in squares, because squares of independent noises add up. If a
+program that errs by noise alone was not rendered long enough, the seconds to an error are extrapolated along its last two points and marked ~.
 
-With --agreement, how far the programs are from each other is printed first, a check on the physics: the difference of the means and its standard error; and the root mean square difference of blocks of 16 x 16 pixels beside what
-the noise of their pixels leaves, so that differences of one place show.
+With --agreement, the differences between the programs are printed first, as a check on the physics. These are the difference of the means and its
+standard error, and the root mean square difference of blocks of 16 x 16 pixels beside the share of noise in it. The latter shows differences of
+single places.
 """
 import argparse
 import json
@@ -25,14 +27,14 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent / "peers"))
 import programs  # noqa: E402
 import rooms  # noqa: E402
 
-POV_SETTINGS = [(40, 0.6, 5), (100, 0.4, 6), (250, 0.25, 8), (500, 0.2, 12)]  # count, error_bound, nearest_count
-OUR_STEPS = [(100, 3, 30000), (200, 2, 100000), (400, 1.4, 300000), (800, 1, 600000)]  # samples, maxerror, photons
+POV_SETTINGS = [(40, 0.6, 5), (100, 0.4, 6), (250, 0.25, 8), (500, 0.2, 12)]  # The columns are count, error_bound and nearest_count.
+OUR_STEPS = [(100, 3, 30000), (200, 2, 100000), (400, 1.4, 300000), (800, 1, 600000)]  # The columns are samples, maxerror and photons.
 WINDOW, WINDOWS_A_SIDE = 16, 5
 ASKED_ERROR = 0.02
 
 
 def run(command, cwd):
-    """CPU seconds and peak MB."""
+    """Returns CPU seconds and peak MB."""
     usage = cwd / "usage.txt"
     done = subprocess.run(["/usr/bin/time", "-q", "-f", "%U %S %M", "-o", usage, *command], cwd=cwd, stdin=subprocess.DEVNULL, capture_output=True)
     if done.returncode:
@@ -42,7 +44,7 @@ def run(command, cwd):
 
 
 def read(path, prefix=""):
-    file = OpenImageIO.ImageInput.open(str(path))  # an ImageBuf would remember what an earlier file of this name held
+    file = OpenImageIO.ImageInput.open(str(path))  # An ImageBuf would remember the contents of an earlier file of this name.
     names = list(file.spec().channelnames)
     return file.read_image(OpenImageIO.FLOAT)[..., [names.index(prefix + c) for c in "RGB"]]
 
@@ -69,7 +71,7 @@ class Bench:
         return parts["DiffDir"] * parts["DiffCol"], parts["DiffInd"] * parts["DiffCol"], cpu, memory
 
     def corners(self):
-        """Upper left pixels of the windows: one in the middle of each cell of a lattice."""
+        """Returns the upper left pixels of the windows. One lies in the middle of each cell of a lattice."""
         step = self.size / WINDOWS_A_SIDE
         return [(round((i + 0.5) * step - WINDOW / 2), round((j + 0.5) * step - WINDOW / 2)) for j in range(WINDOWS_A_SIDE) for i in range(WINDOWS_A_SIDE)]
 
@@ -77,7 +79,7 @@ class Bench:
         return numpy.concatenate([image[y:y + WINDOW, x:x + WINDOW][self.mask[y:y + WINDOW, x:x + WINDOW]] for x, y in self.corners()])
 
     def truth(self, bounces, paths):
-        """Indirect light in the windows, and its noise."""
+        """Returns indirect light in the windows, and its noise."""
         halves = []
         for seed in (71, 72):
             image = numpy.zeros((self.size, self.size, 3), numpy.float32)
@@ -90,7 +92,7 @@ class Bench:
         return mean, relative(halves[0] - halves[1], mean) / 2
 
     def error(self, test, truth):
-        """Its noise taken off."""
+        """Returns the error with the truth's noise subtracted."""
         mean, noise = truth
         return math.sqrt(max(relative(self.in_windows(test) - mean, mean)**2 - noise**2, 0))
 
@@ -98,13 +100,13 @@ class Bench:
         return float(self.in_windows(test).mean() / truth[0].mean() - 1)
 
     def difference(self, test, truth):
-        """Of the means, its standard error, rms of blocks, and what noise leaves there; all relative to the mean."""
+        """Returns the difference of the means, its standard error, the rms of blocks, and the noise in that. All are relative to the mean."""
         scale = truth[self.mask].mean()
         d = numpy.where(self.mask[..., None], test - truth, numpy.nan).mean(-1) / scale
         blocks = [d[y:y + WINDOW, x:x + WINDOW] for y in range(0, self.size, WINDOW) for x in range(0, self.size, WINDOW)]
         blocks = [b[~numpy.isnan(b)] for b in blocks]
         blocks = [b for b in blocks if b.size > WINDOW * WINDOW // 2]
-        # neighbouring pixels have the same light but for noise, so that half of the square of their difference is its variance
+        # Neighbouring pixels have the same light except for noise, so half of the square of their difference is the variance.
         variance = numpy.nanmean((d[:, 1:] - d[:, :-1])**2) / 2
         counts = numpy.array([b.size for b in blocks])
         return (float(numpy.nanmean(d)), math.sqrt(variance / self.mask.sum()), math.sqrt(numpy.mean([b.mean()**2 for b in blocks])), math.sqrt(numpy.mean(variance / counts)))
@@ -115,7 +117,7 @@ def relative(difference, truth):
 
 
 def radiosity(count, error_bound, nearest, bounces):
-    """adc_bailout: rays of level n weigh 2^-n whatever they meet, so that the default, 0.01, would end at 6 bounces."""
+    """Returns settings. Rays of level n weigh 2^-n whatever they meet, so the default of adc_bailout, 0.01, would end at 6 bounces."""
     return (f"count {count} error_bound {error_bound} nearest_count {nearest} recursion_limit {bounces} gray_threshold 0 normal off low_error_factor 0.5 "
             "pretrace_start 0.08 pretrace_end 0.005 always_sample off brightness 1 adc_bailout 0.0001")
 
@@ -159,8 +161,9 @@ def measure(bench, bounces, who, truth_paths, paths, pov_settings):
 
 
 def seconds_to(rows, error):
-    """On straight lines between points in logarithmic axes, and whether that is an extrapolation; None where it is not reached."""
-    rows = sorted(({**r, "cpu_s": max(r["cpu_s"], 1e-3)} for r in rows), key=lambda r: r["cpu_s"])  # a difference, which noise may take below 0
+    """Interpolates on straight lines between points in logarithmic axes. Returns the seconds and whether they are extrapolated, or None if the
+    error is not reached."""
+    rows = sorted(({**r, "cpu_s": max(r["cpu_s"], 1e-3)} for r in rows), key=lambda r: r["cpu_s"])  # This is a difference, which noise may take below 0.
     for before, after in zip([None] + rows[:-1], rows):
         if after["error"] <= error:
             if before is None:
@@ -175,7 +178,7 @@ def seconds_to(rows, error):
 
 
 def compare(rows):
-    """Seconds to the asked error."""
+    """Prints the seconds to the asked error."""
     print(f"\n| room | bounces | program | CPU s to {100 * ASKED_ERROR:g} % |\n|---|---|---|---|")
     for key in dict.fromkeys((r["room"], r["bounces"], r["program"]) for r in rows):
         mine = [r for r in rows if (r["room"], r["bounces"], r["program"]) == key]
@@ -185,7 +188,7 @@ def compare(rows):
 
 
 def agreement(bench, bounces, paths):
-    """Direct and indirect light of all, at their best."""
+    """Prints the differences of direct and indirect light of all programs at their best."""
     def say(name, test, truth):
         mean, uncertain, blocks, noise = bench.difference(test, truth)
         print(f"| {bench.room.name} | {name} | {100 * mean:+.3f} ± {100 * uncertain:.3f} % | {100 * blocks:.2f} % | {100 * noise:.2f} % |", flush=True)

@@ -1,6 +1,8 @@
-"""Error functions of the irradiance cache at equal numbers of records (docs/measured/irradiance_cache.md): indirect light alone against two gathers at every point.
+"""Compares error functions of the irradiance cache at equal numbers of records (docs/measured/irradiance_cache.md), for indirect light alone, with
+two gathers at every point.
     placement.py TOMALES [--scenes flush_box spot_room box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--crop X0,X1,Y0,Y1] [--keep FOLDER]
-Corners: pixels that are open to less than 97 % within 0.12 units. `screen` has the records it asks for at maxerror 1, the others as many."""
+Corners are pixels that are open to less than 97 % within 0.12 units. `screen` has the records that it asks for at maxerror 1, and the others have as
+many."""
 import argparse
 import json
 import math
@@ -32,7 +34,7 @@ options = parser.parse_args()
 
 
 def render(scene, out, *arguments):
-    """The number of records."""
+    """Renders and returns the number of records."""
     stats = out.with_suffix(".json")
     subprocess.run([options.tomales, "render", scene, "-q", "--format", f"{options.size}x{options.size}", "--pixel-samples", "2x2", "--crop", options.crop, "-t", options.t,
                     "-o", out, "--stats", stats, *map(str, arguments)], check=True)
@@ -44,7 +46,7 @@ def gather(scene, out, function, max_error):
 
 
 def with_as_many(scene, out, function, records):
-    """maxerror and records, within 1 % or as near as it comes."""
+    """Returns maxerror and the number of records, which is within 1 % or as near as it comes."""
     low, high, at = math.log(0.05), math.log(20), 0.0
     tries = []
     for step in range(12):
@@ -53,16 +55,16 @@ def with_as_many(scene, out, function, records):
         if abs(made - records) <= 0.01 * records:
             break
         low, high = (at, high) if made > records else (low, at)
-        guess = at + math.log(made / records) / 1.2  # so many fewer the larger maxerror is
+        guess = at + math.log(made / records) / 1.2  # Records are about as many as maxerror to the power of -1.2.
         at = guess if step < 8 and low < guess < high else (low + high) / 2
     _, nearest, made = min(tries)
     if (nearest, made) != tries[-1][1:]:
-        gather(scene, out, function, math.exp(nearest))  # its picture
+        gather(scene, out, function, math.exp(nearest))  # This makes its picture.
     return math.exp(nearest), made
 
 
 def corners_of(scene, folder):
-    """Pixels beside other geometry."""
+    """Returns the pixels beside other geometry."""
     text = scene.read_text()
     begin = text.index('LightSource "indirectlight"')
     open_scene = folder / f"{scene.stem}_open.rib"
@@ -76,7 +78,7 @@ def corners_of(scene, folder):
 
 
 def rms(squares):
-    """Products of the differences from two truths, whose noise is not in their mean."""
+    """Returns the rms error. The squares are products of the differences from two truths, so the truths' noise does not bias their mean."""
     return math.sqrt(max(0, sum(squares) / max(len(squares), 1)))
 
 
@@ -91,7 +93,7 @@ def describe(seen, truths, corners, mean):
 
 
 def truth_of(scene, folder, seed):
-    """Inside the crop."""
+    """Returns the truth inside the crop."""
     picture = folder / f"{scene.stem}_truth{seed}.exr"
     if not picture.exists():
         render(scene, picture, "--gi", "gather", "--indirect-only", "--max-error", 0, "--samples", options.truth, "--light-seed", seed)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What many shader plugins cost: plugins.py build/release/tomales [--count 300]. Renders the same small squares with a plugin
-each, with a built-in, and with a built-in while the plugins lie unused on the search path, in turn. Prints seconds, the least of some runs."""
+"""Measures what many shader plugins cost: plugins.py build/release/tomales [--count 300]. It renders the same small squares in turn with a plugin
+each, with a built-in, and with a built-in while the plugins lie unused on the search path. It prints the least seconds of some runs."""
 import argparse
 import pathlib
 import subprocess
@@ -22,7 +22,7 @@ TM_SHADER_LIBRARY(shader)
 
 
 def build(folder, count):
-    """One is compiled; the others are copies under another name."""
+    """Compiles one plugin. The others are copies under other names."""
     (folder / "plugins").mkdir()
     (folder / "p.cpp").write_text(PLUGIN % "p-000")
     subprocess.run(["g++", "-O1", "-std=c++17", "-fPIC", "-shared", "-I", str(SOURCE), str(folder / "p.cpp"), "-o", str(folder / "p.so")], check=True)

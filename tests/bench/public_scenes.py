@@ -1,12 +1,12 @@
-"""How scenes of others end: exit codes, messages a scene, and silent failures.
+"""Tells how other people's scenes end: exit codes, messages for each scene, and silent failures.
 
     tests/bench/public_scenes.py build/release/tomales FOLDER ... [--seconds 20] [--list] [--keep FOLDER] [-- -t 1 ...]
 
 Every RIB file in the folders that has a world is rendered at 160 x 120 in a copy of its folder, from where it lies, as one would do by hand, and is
-stopped after so many CPU seconds (exit code "stopped"); files of the same bytes count once. All folders of a repository that hold shaders are on the
-path, in TOMALES_SHADERS, unless that is set. What follows -- goes to the renderer. --keep keeps the pictures, as PNG. A message is a line that ends with its code in brackets: one for each cause, however
-often it came. A failure is silent if the exit code is 0 and there is no message, though no picture was written or every pixel of the first is black or
-empty. --list prints a line for each scene.
+stopped after so many CPU seconds (exit code "stopped"). Files of the same bytes count once. All folders of a repository that hold shaders are on the
+path, in TOMALES_SHADERS, unless that is set. What follows -- goes to the renderer. --keep keeps the pictures, as PNG. A message is a line that ends
+with its code in brackets. Each cause counts once, however often it came. A failure is silent if the exit code is 0 and there is no message, though no
+picture was written or every pixel of the first is black or empty. --list prints a line for each scene.
 """
 import argparse
 import collections
@@ -37,7 +37,7 @@ def text_of(file):
 
 
 def scenes_of(folder):
-    """Paths in the folder, one for each content."""
+    """Returns the paths in the folder, one for each content."""
     seen = {}
     for file in sorted(p for p in folder.rglob("*") if p.is_file() and (p.suffix.lower() == ".rib" or p.name.lower().endswith(".rib.gz"))):
         text = text_of(file)
@@ -79,7 +79,7 @@ def row(name, results):
 
 
 def command_line(description, seconds, *options):
-    """What the command line gives, and the arguments of the renderer, which follow --. An option is its name and keywords of add_argument()."""
+    """Returns what the command line gives, and the renderer's arguments, which follow --. An option is its name and keywords of add_argument()."""
     arguments = sys.argv[1:]
     end = arguments.index("--") if "--" in arguments else len(arguments)
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)

@@ -1,4 +1,5 @@
-"""Megabytes a CPU second at which Ri writes a mesh: python3 tests/bench/python_rib.py (numpy where it is)."""
+"""Measures how many megabytes of a mesh Ri writes in a CPU second: python3 tests/bench/python_rib.py (with numpy too if
+it is installed)."""
 import pathlib
 import random
 import sys
@@ -16,7 +17,7 @@ POINTS, MESHES = 1_000_000, 5
 
 
 class Nowhere:
-    """Counts what is written to /dev/null."""
+    """Counts the bytes that are written to /dev/null."""
 
     def __init__(self):
         self.bytes, self.file = 0, open("/dev/null", "wb")

@@ -1,5 +1,5 @@
-"""How fast the page of tomales relight answers, in Chromium without a window: the first picture, a light's brightness, the first squares and the whole
-picture of a light that moves, with and without WebGL2.
+"""Measures how fast the page of tomales relight answers in Chromium without a window: the first picture, a light's brightness, and the first squares
+and the whole picture of a light that moves, with and without WebGL2.
 Usage: relight_latency.py TOMALES CHROMIUM SHOT.dfb SHOT.icf [LIGHT POINT [MOVES]]    the light moves by its parameter POINT"""
 import os
 import pathlib
@@ -13,13 +13,13 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "browser"))
 import chromium as driver  # noqa: E402
 from chromium import Page  # noqa: E402
 
-driver.PATIENCE_S = 600  # a light that moves in a film frame
+driver.PATIENCE_S = 600  # This light moves in a film frame.
 
 SLIDE = """(async (to) => { const s = document.querySelector("#lights .light:has(button[title=solo]) input[type=range]");
 s.value = to; s.dispatchEvent(new Event("input")); const start = performance.getEntriesByName("changed").at(-1).startTime;
 while (!performance.getEntriesByName("painted").some((m) => m.startTime > start)) await new Promise(requestAnimationFrame);
 const took = performance.getEntriesByName("painted").find((m) => m.startTime > start).startTime - start; performance.clearMarks(); return took; })(%s)"""
-# The first picture after blocks of the light have come, and the last one.
+# This is the first picture after blocks of the light have come, and the last one.
 MOVE = """(async () => { const inputs = () => [...document.querySelectorAll("#lights .light")].find((l) => l.querySelector("strong").textContent === "%s")
 .querySelectorAll(".vector"); const row = [...inputs()].find((r) => r.querySelector("span").textContent === "%s"), input = row.querySelector("input");
 performance.clearMarks(); input.value = Number(input.value) + %s; input.dispatchEvent(new Event("change"));

@@ -1,10 +1,10 @@
-"""Times whole renders of generated scenes, one thread, and prints JSON: what a Reyes renderer is asked to do every day,
+"""Times whole renders of generated scenes on one thread, and prints JSON. The scenes are what a Reyes renderer does every day,
 and the two things that classic ones do worst (deep transparency; motion with defocus).
 
     tests/bench/reyes_set.py build/release/tomales [--runs 3] [--only NAME ...] [--keep FOLDER]
 
-`classic_s`: user seconds of the two open Reyes renderers on a machine of this kind, for scenes of the same description
-(not the same files), the better first; null: stopped after 120 s. `faster` is the better one's time over ours.
+`classic_s` has the user seconds of the two open Reyes renderers on a machine of this kind, the better first, for scenes of the
+same description (not the same files). null means that it was stopped after 120 s. `faster` is the better one's time over ours.
 """
 import argparse
 import json
@@ -83,7 +83,7 @@ def curves():
 
 
 def lattice(rows, columns, height):
-    """A hilly plane: rows x columns quadrilaterals."""
+    """Returns a hilly plane of rows x columns quadrilaterals."""
     points = []
     for j in range(rows + 1):
         for i in range(columns + 1):
@@ -147,7 +147,7 @@ def moving_spheres(samples, width, height):
     return frame(scattered(rng, 150, (0.2, 0.6), body), samples=samples, options=options, width=width, height=height)
 
 
-# Name: scene, classic seconds.
+# Each name has a scene and the seconds of the classic renderers.
 SCENES = {
     "fractal_sphere": (fractal_sphere, [0.6, 1.5]),
     "displaced_spheres": (displaced_spheres, [1.4, 3.3]),
@@ -162,7 +162,7 @@ SCENES = {
 
 
 def run(tomales, folder, name):
-    """User seconds and statistics of one render."""
+    """Returns the user seconds and statistics of one render."""
     stats = folder / "stats.json"
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     subprocess.run([tomales, "render", folder / f"{name}.rib", "-o", folder / f"{name}.exr", "-q", "-t", "1", "--stats", stats],

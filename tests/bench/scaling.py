@@ -1,8 +1,8 @@
-"""How time grows, as JSON: with micropolygons, with depth complexity, with threads.
+"""Prints as JSON how time grows with micropolygons, with depth complexity and with threads.
 
     tests/bench/scaling.py build/release/tomales [--largest 1e7]
 
-hide_user_s: user seconds of the process less those of the same scene without geometry.
+hide_user_s is the user seconds of the process less those of the same scene without geometry.
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ from reyes_set import frame
 
 
 def sheets(count):
-    """Rippled bicubic sheets that each fill the frame, nearest first."""
+    """Returns rippled bicubic sheets that each fill the frame, nearest first."""
     out = 'Surface "matte"\n'
     for k in range(count):
         z = 5 + 0.5 * k
@@ -57,7 +57,7 @@ def main():
         empty = run(0, 1, "-t", "1")["user_s"]
         wanted = 1e5
         while wanted <= options.largest:
-            # The rate changes what there is to hide, not the picture.
+            # The rate changes how much there is to hide, but not the picture.
             r = run(1, 640 * 480 / wanted, "-t", "1")
             r["hide_user_s"] = r["user_s"] - empty
             r["user_ns_per_micropolygon"] = round(r["hide_user_s"] / r["micropolygons"] * 1e9)

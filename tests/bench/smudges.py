@@ -1,10 +1,10 @@
-"""Mean error, smudges and perceptual measures of pictures that `--target-error` makes, true and as the audit states them.
+"""Measures mean error, smudges and perceptual differences of pictures that `--target-error` makes, true and as the audit states them.
 
     tests/bench/smudges.py build/release/tomales [--scenes interior cornell] [--targets 8 4 2] [--smudges 0 1] [--format 128x96] [--paths 1024] [-t 1]
 
-A target of smudges of 0 leaves it at that of the mean error. The truth is a picture by `--gi reference`. Beside the figures of `tomales compare` stand
-the share of pixels that the model of an eye by Yee (in OpenImageIO, 0.2 m of picture seen from 0.5 m) finds different, and the mean FLIP error of
-Andersson et al. if the package flip-evaluator is installed. It writes the table in docs/measured/error.md.
+If the target of smudges is 0, only the mean error has a target. The truth is a picture by `--gi reference`. Two more figures stand beside those of
+`tomales compare`. One is the share of pixels that Yee's model of the eye (in OpenImageIO, 0.2 m of picture seen from 0.5 m) finds different. The
+other is the mean FLIP error of Andersson et al., if the package flip-evaluator is installed. It writes the table in docs/measured/error.md.
 """
 import argparse
 import json
@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).parents[2]
 
 
 def flip(test, truth):
-    """Mean FLIP error of two pictures as an sRGB display of range [0, 1] shows them; nothing without the package."""
+    """Returns the mean FLIP error of two pictures as an sRGB display of range [0, 1] shows them, or None without the package."""
     try:
         import flip_evaluator
     except ImportError:
@@ -32,7 +32,7 @@ def flip(test, truth):
 
 
 def seen(test, truth):
-    """The share of pixels that Yee's model finds different."""
+    """Returns the share of pixels that Yee's model finds different."""
     result = oiio.CompareResults()
     a, b = (oiio.ImageBufAlgo.channels(oiio.ImageBuf(str(p)), ("R", "G", "B")) for p in (test, truth))
     failed = oiio.ImageBufAlgo.compare_Yee(a, b, result, 100.0, 45.0)

@@ -1,10 +1,10 @@
-"""How often `tomales render --target-error` reaches the error that it is asked for, on the rooms of error_rooms.py.
+"""Measures how often `tomales render --target-error` reaches the error that it is asked for, on the rooms of error_rooms.py.
 
     tests/bench/target_rooms.py build/release/tomales [--rooms box_ball hot_spot random1 random2] [--targets 8 4 2 1] [--seeds 2] [--size 64] [--paths 1024]
 
-Pictures of indirect light alone, against two path traced ones. A row of each room and target: the true errors, the errors that were stated, how many
-frames are within 1.2 times of the target, how many had to be lit again or say that they missed it, and CPU seconds of the frame and of its trials.
-It writes the table of docs/measured/error.md.
+Pictures of indirect light alone are compared with two path-traced ones. Each room and target has a row: the true errors, the stated errors, how many
+frames are within 1.2 times the target, how many had to be lit again or say that they missed it, and CPU seconds of the frame and of its trials. It
+writes the table of docs/measured/error.md.
 """
 import argparse
 import json
@@ -22,7 +22,7 @@ from pictures import pixels  # noqa: E402
 
 class Targets(Rooms):
     def reach(self, room, percent, seed):
-        """Picture, statistics and messages of a frame."""
+        """Returns the picture, the statistics and the messages of a frame."""
         out, stats = self.folder / "picture.exr", self.folder / "stats.json"
         run = subprocess.run([self.tomales, "render", self.scene(room), "-t", self.threads, "--indirect-only", "--format", f"{self.size}x{self.size}",
                               "--pixel-samples", "2x2", "--bucket-size", "16", "-o", out, "--stats", stats, "--target-error", f"{percent}%",

@@ -1,12 +1,13 @@
-"""Whether `tomales render --target-error` keeps its word: its own statement of the error, and what it has reached, over laboratory, gallery and generated rooms.
+"""Tests whether `tomales render --target-error` keeps its word. It compares the stated error with the true one, over rooms of tests/stability, of the
+gallery, and generated ones.
 
     tests/bench/target_scenes.py build/release/tomales ROWS.jsonl [--scenes cornell lamp_slot generated1] [--targets 8 4 2 1] [--seeds 1 2] [--format 64x48] [--paths 1024]
     tests/bench/target_scenes.py --table ROWS.jsonl
 
-Pictures of all light. The truth of each is the mean of two pictures by `--gi reference`, or with 1024 samples
-of each light where there is no indirect one, with other random numbers, whose own noise, half of their difference, is taken off in
-squares. All share the pixels' samples, so edges are the same. Each frame is a line of ROWS.jsonl, made once: the same command goes on. The second form prints the table and the
-totals of docs/measured/error.md.
+The pictures have all light. The truth of each is the mean of two pictures with other random numbers, by `--gi reference`, or with 1024 samples of
+each light if there is no indirect one. Its noise, which is half of their difference, is subtracted in squares. All pictures share the pixels'
+samples, so edges are the same. Each frame is a line of ROWS.jsonl and is made once, so the same command continues where it stopped. The second form
+prints the table and the totals of docs/measured/error.md.
 """
 import argparse
 import collections
@@ -32,7 +33,7 @@ TRUTH_SEED = 1000
 
 
 def generated_room(seed):
-    """random_room() with lamps that have an area, a sky, and other materials. No figure of the program was set by these rooms."""
+    """Returns random_room() with lamps that have an area, a sky, and other materials. No figure of the program was set by these rooms."""
     r = random.Random(100 + seed)
     text = random_room(100 + seed)
 
@@ -58,7 +59,7 @@ class Scenes:
         self.tomales, self.folder, self.given = tomales, pathlib.Path(folder), given
 
     def rib(self, scene):
-        """A copy of the scene whose pixels are those that audits see: no filter across pixels, no exposure and no imager."""
+        """Copies the scene so that its pixels are those that audits see: no filter across pixels, no exposure and no imager."""
         if scene.startswith("generated"):
             text, home = generated_room(int(scene.removeprefix("generated"))), self.folder
         else:
@@ -80,12 +81,12 @@ class Scenes:
 
     def truth(self, scene):
         paths = str(self.given.paths * MORE_PATHS.get(scene, 1))
-        gathers = '"indirectlight"' in self.rib(scene)[0].read_text()  # the reference would add such a light
+        gathers = '"indirectlight"' in self.rib(scene)[0].read_text()  # The reference would add such a light.
         method = ["--gi", "reference", "--ray-geometry", "scene", "--samples", paths] if gathers else ["--light-samples", "1024"]
         return [self.render(scene, self.folder / "truth.exr", "-q", *method, "--light-seed", str(TRUTH_SEED + i))[0] for i in range(2)]
 
     def frame(self, scene, truth, target, seed):
-        """The figures of one frame."""
+        """Returns the figures of one frame."""
         picture, stats, said = self.render(scene, self.folder / "picture.exr", "--target-error", f"{target}%", "--light-seed", str(seed))
         true, noise = true_error(picture, truth)
         stated = stats["audit"]["picture"]
@@ -102,7 +103,7 @@ def percents(values):
 
 
 def told(row):
-    """Whether the statement is a number, and not a bound."""
+    """Tells whether the statement is a number, and not a bound."""
     return row["stated"] >= row["noise"]
 
 

@@ -1,6 +1,6 @@
-"""What coarse ray geometry costs and brings (docs/measured/rays.md): scenes/film with its shadows by rays at each rate of Attribute "trace"
-"tessellation", against rays that meet its displacement at half a pixel a polygon.
-    tessellation.py TOMALES [--truth FILE.exr: of an earlier run] [--chart FILE.svg]"""
+"""Measures what coarse ray geometry costs and saves (docs/measured/rays.md). scenes/film has ray-traced shadows at each rate of Attribute "trace"
+"tessellation", and is compared with rays that meet its displacement at half a pixel a polygon.
+    tessellation.py TOMALES [--truth FILE.exr of an earlier run] [--chart FILE.svg]"""
 import argparse
 import json
 import math
@@ -26,7 +26,7 @@ def render(folder, tessellation, displacements, pixels, *further):
     rates = folder / "rates.rib"
     rates.write_text(f'Attribute "trace" "float tessellation" [{tessellation}] "int displacements" [{displacements}]\n')
     scene = folder / "scene.rib"
-    scene.write_text(re.sub(r'Attribute "trace" .*\n', "", pathlib.Path(a.scene).read_text()))  # the film asks for rates of its own
+    scene.write_text(re.sub(r'Attribute "trace" .*\n', "", pathlib.Path(a.scene).read_text()))  # The film asks for rates of its own.
     out, stats = folder / "out.exr", folder / "stats.json"
     subprocess.run([a.tomales, "render", rates, scene, "--format", pixels, *further, "-o", out, "--stats", stats, "-q", "-t", "1"], check=True, cwd=folder)
     return out, json.loads(stats.read_text())
@@ -38,7 +38,7 @@ def error(picture, truth):
 
 
 def chart(rows, path):
-    """Error against memory; a dot for each rate, the default's filled."""
+    """Draws error against memory. Each rate has a dot, and the default's is filled."""
     width, height, margin = 560, 300, 50
     most_mb, least_mb = max(mb for _, mb, _ in rows), min(mb for _, mb, _ in rows)
     most = max(wrong for _, _, wrong in rows)

@@ -1,10 +1,10 @@
-"""Small scenes on which methods of indirect light are known to go wrong, against a path tracer that shares no code with the renderer
-(tests/bench/truth_tracer.cpp, compiled here), or against closed forms.
+"""Compares small scenes on which methods of indirect light are known to go wrong with a path tracer that shares no code with the renderer
+(tests/bench/truth_tracer.cpp, compiled here), or with closed forms.
 
     tests/bench/truth.py build/release/tomales [--scenes thin_walls niche] [--methods atlas] [--paths 0.1] [--keep FOLDER] [-t 2] [-- ...]
 
-For each scene and method: mean of the picture and 99th percentile of its blocks of 8 x 8 pixels, both as relative errors; three times the noise of
-the truth at that percentile; CPU seconds; and the codes of warnings. It writes the rows of docs/measured/truth.md.
+Each scene and method has a row: the relative errors of the picture's mean and of the 99th percentile of its blocks of 8 x 8 pixels, three times the
+noise of the truth at that percentile, CPU seconds, and the codes of warnings. These are the rows of docs/measured/truth.md.
 """
 import argparse
 import json
@@ -26,7 +26,7 @@ METHODS = {"atlas": ["--gi", "atlas"], "gather": ["--gi", "gather", "--bounces",
 
 
 def blocks(picture):
-    """The mean of each block; all scenes are grey."""
+    """Returns the mean of each block. All scenes are grey."""
     sums = {}
     for (x, y), value in pixels(picture).items():
         at = (y // BLOCK, x // BLOCK)
@@ -48,7 +48,7 @@ class Bench:
             (self.folder / f"{name}.sl").write_text(text)
 
     def truth(self, name, share=1):
-        """Means and their standard errors, kept beside the scene."""
+        """Returns block means and their standard errors, which are kept beside the scene."""
         make, paths = SCENES[name]
         scene, paths = make(), int(paths * share)
         (self.folder / f"{name}.rib").write_text(scene.text())
@@ -61,7 +61,7 @@ class Bench:
         return [tuple(map(float, row.split())) for row in kept.read_text().splitlines()]
 
     def render(self, name, method, *more):
-        """Block means, CPU seconds, codes of warnings."""
+        """Returns block means, CPU seconds and the codes of warnings."""
         out, stats = self.folder / f"{name}_{method}.exr", self.folder / "stats.json"
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run([self.tomales, "render", self.folder / f"{name}.rib", "-q", "-t", self.threads, *METHODS[method], *SCENES[name][0]().more, *more, "-o", out, "--stats", stats], check=False)

@@ -1,9 +1,9 @@
-"""The scenes of tests/bench/truth.py: each is RIB for the renderer, and lines for truth_tracer.cpp or a closed form."""
+"""The scenes of tests/bench/truth.py. Each is RIB for the renderer, and lines for truth_tracer.cpp or a closed form."""
 import math
 
 class Scene:
-    """A scene that both programs read: RIB, and the lines of truth_tracer.cpp. `known` is the radiance of every pixel, where a formula has it."""
-    size = 128  # pixels along each edge
+    """A scene that both programs read: RIB, and the lines of truth_tracer.cpp. `known` is the radiance of every pixel if a formula gives it."""
+    size = 128  # This is the number of pixels along each edge.
 
     def __init__(self, eye, yaw=0, pitch=0, fov=70, shutter=False, samples=256, known=None, more=()):
         self.rib, self.lines, self.lights, self.count, self.shutter, self.known, self.more = [], [], "", 0, shutter, known, list(more)
@@ -30,7 +30,7 @@ class Scene:
         self.rib.append(self.color(albedo, name) + f'Polygon "P" [{" ".join(str(x) for p in (a, b, c, d) for x in p)}]\n')
 
     def box(self, low, high, albedo=0.7, name="", without=""):
-        """Its six sides, but for those named (of -x +x -y +y -z +z)."""
+        """Adds the six sides of a box, without those named (of -x +x -y +y -z +z)."""
         (x, y, z), (X, Y, Z) = low, high
         sides = {"-x": ((x, y, z), (x, Y, z), (x, Y, Z), (x, y, Z)), "+x": ((X, y, z), (X, y, Z), (X, Y, Z), (X, Y, z)),
                  "-y": ((x, y, z), (x, y, Z), (X, y, Z), (X, y, z)), "+y": ((x, Y, z), (X, Y, z), (X, Y, Z), (x, Y, Z)),
@@ -46,7 +46,7 @@ class Scene:
                         + f"Sphere {radius} {-radius} {radius} 360\nAttributeEnd\n")
 
     def lamp(self, corner, u, v, radiance):
-        """A rectangle that shines to the side of u x v."""
+        """Adds a rectangle that shines to the side of u x v."""
         a, b, d = corner, [p + q for p, q in zip(corner, u)], [p + q for p, q in zip(corner, v)]
         c = [p + q for p, q in zip(b, v)]
         self.line("lamp", *a, *b, *c, *d, 0, radiance)
@@ -55,7 +55,7 @@ class Scene:
                         f'Patch "bilinear" "P" [{" ".join(str(x) for p in (a, b, d, c) for x in p)}]\nAttributeEnd\nIlluminate {self.count} 1\n')
 
     def aim(self, a, b, c, d):
-        """An opening through which the tracer sends a fifth of its paths."""
+        """Names an opening through which the tracer sends a fifth of its paths."""
         self.line("aim", *a, *b, *c, *d)
 
     def point(self, at, intensity):
@@ -67,7 +67,7 @@ class Scene:
         self.lights += f'LightSource "environmentlight" "sky" "intensity" [{radiance}] "samples" [64] {more}\n'
 
     def mesh(self, corners, triangles, albedo, rib):
-        """The tracer gets triangles, the renderer what they stand for."""
+        """Adds a mesh. The tracer gets triangles, and the renderer gets what they stand for."""
         for t in triangles:
             self.line("triangle", *(x for i in t for x in corners[i]), albedo, 0)
         self.rib.append(rib)
@@ -88,7 +88,7 @@ def thin_walls():
 
 
 def niche():
-    """A lamp of 26 cm that shines upwards between walls of 40 cm."""
+    """Returns a lamp of 26 cm that shines upwards between walls of 40 cm."""
     s = Scene((-1.7, 1.5, -1.7), yaw=45, pitch=5, fov=80)
     s.box((-2, 0, -2), (2, 3, 2), name="room")
     s.lamp((0.87, 0.02, 0.87), (0, 0, 0.26), (0.26, 0, 0), 300)
@@ -100,7 +100,7 @@ def niche():
 
 
 def slot():
-    """A room without a lamp beside one with a lamp, with a slot of 2 cm between them."""
+    """Returns a room without a lamp beside one with a lamp, with a slot of 2 cm between them."""
     s = Scene((2.6, 1.2, -1.2), yaw=-60, fov=80)
     s.box((-3, 0, -1.5), (3, 2.5, 1.5), name="room")
     for low, high in ((0, 1), (1.02, 2.5)):
@@ -111,7 +111,7 @@ def slot():
 
 
 def window(more=""):
-    """A closed room with a window of 1 x 1 to an even sky."""
+    """Returns a closed room with a window of 1 x 1 to an even sky."""
     s = Scene((-1.7, 1.5, -1.7), yaw=40, fov=80)
     s.box((-2, 0, -2), (2, 3, 2), name="room", without="+x")
     for (y, Y), (z, Z) in (((0, 1), (-2, 2)), ((2, 3), (-2, 2)), ((1, 2), (-2, -0.5)), ((1, 2), (0.5, 2))):
@@ -138,7 +138,7 @@ def moving_ball():
 
 
 def displaced_ball(amplitude=0.08, waves=9, more=""):
-    """A ball of radius 0.7 with bumps; the tracer gets 320 x 160 x 2 triangles of it."""
+    """Returns a ball of radius 0.7 with bumps. The tracer gets 320 x 160 x 2 triangles of it."""
     s = Scene((0, 1.2, -3), pitch=12, fov=50)
     s.quad((-8, 0, -8), (-8, 0, 8), (8, 0, 8), (8, 0, -8), 0.6, "floor")
     s.lamp((-2.5, 3, -1.5), (0.8, 0, 0), (0, 0, 0.8), 20)
@@ -162,7 +162,7 @@ def displaced_ball(amplitude=0.08, waves=9, more=""):
 
 
 def sphere(albedo, known, surface, more=()):
-    """Looks about in a sphere of radius 1. What is closed and even has one radiance everywhere."""
+    """Looks about in a sphere of radius 1. A closed, even sphere has one radiance everywhere."""
     s = Scene((0.2, 0.1, -0.3), fov=90, known=known, more=more)
     s.surface = surface
     s.ball((0, 0, 0), 1, albedo, name="sphere")
@@ -170,12 +170,12 @@ def sphere(albedo, known, surface, more=()):
 
 
 def glowing(albedo):
-    """A surface that sends 1 and reflects: 1 / (1 - albedo)."""
+    """Returns a surface that sends 1 and reflects. Its radiance is 1 / (1 - albedo)."""
     return sphere(albedo, 1 / (1 - albedo), 'Surface "glow"')
 
 
 def white(albedo):
-    """A bulb in the middle sends 1; what is reflected at least twice."""
+    """Returns a sphere with a bulb of intensity 1 in the middle. Light counts that is reflected at least twice."""
     s = sphere(albedo, albedo ** 2 / (1 - albedo), 'Surface "matte"', ["--indirect-only"])
     s.point((0, 0, 0), 1)
     return s
@@ -190,7 +190,7 @@ BUMPS = """displacement bumps(float amplitude = 0.1; float waves = 9) {
 }
 """
 SHADERS = {"bumps": BUMPS, "glow": GLOW}
-# What makes each scene, and the tracer's paths a pixel, at which the truth is better than what it judges.
+# Each scene has a function that makes it and the tracer's paths a pixel, with which the truth is better than what it judges.
 SCENES = {"thin_walls": (thin_walls, 512), "niche": (niche, 2048), "slot": (slot, 1024), "window": (window, 512), "contact": (contact, 512),
           "moving_ball": (moving_ball, 512), "displaced_ball": (displaced_ball, 512)}
 SCENES |= {f"glowing_{int(100 * a)}": (lambda a=a: glowing(a), 0) for a in (0.5, 0.8, 0.9)}

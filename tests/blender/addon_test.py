@@ -1,4 +1,4 @@
-"""The add-on against Cycles, in the same Blender: the same scenes give the same pictures."""
+"""Compares the add-on with Cycles in the same Blender: the same scenes must give the same pictures."""
 import json
 import os
 import pathlib
@@ -13,19 +13,19 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 def blender(script, *arguments):
     command = [os.environ["BLENDER"], "-b", "--factory-startup", "--python-exit-code", "9", "-P", str(HERE / script), "--", *map(str, arguments)]
-    # The Python within Blender takes the modules of the first python3 on the path: that must be the one beside it.
+    # The Python within Blender takes the modules of the first python3 on the path, so that must be the one beside it.
     path = os.pathsep.join([os.path.dirname(command[0]), os.environ["PATH"]])
     return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=1500, env={**os.environ, "PATH": path})
 
 
 def pairs(figures):
-    """Values of blocks that are bright enough to compare: Cycles', Tomales', and the brightest of Cycles'."""
+    """Yields the values of blocks that are bright enough to compare: Cycles', Tomales', and the brightest of Cycles'."""
     cycles, tomales = ([v for row in figures[e] for block in row for v in block] for e in ("cycles", "tomales"))
     return list(zip(cycles, tomales)), max(cycles)
 
 
 class Pictures(unittest.TestCase):
-    """Mean colours of 48 blocks of each picture, against Cycles at 256 samples a pixel."""
+    """Compares the mean colours of 48 blocks of each picture with Cycles at 256 samples a pixel."""
 
     @classmethod
     def setUpClass(cls):
@@ -40,14 +40,14 @@ class Pictures(unittest.TestCase):
         return json.loads(path.read_text())
 
     def expect_mean(self, name, share):
-        """The light of the whole picture."""
+        """Compares the light of the whole picture."""
         values, _ = pairs(self.figures(name))
         cycles, tomales = sum(c for c, _ in values), sum(t for _, t in values)
         self.assertGreater(cycles, 0)
         self.assertAlmostEqual(tomales / cycles, 1, delta=share, msg=name)
 
     def expect_blocks(self, name, share):
-        """Every block, in shares of the brightest."""
+        """Compares every block; `share` is of the brightest."""
         values, brightest = pairs(self.figures(name))
         self.assertGreater(brightest, 0)
         worst = max(abs(c - t) for c, t in values) / brightest
@@ -77,7 +77,7 @@ class Pictures(unittest.TestCase):
         self.expect_blocks("turned_sky", 0.03)
 
     def test_skies_that_nodes_compute(self):
-        """The horizon of the Sky Texture and the sun's disk are sharper than a panorama."""
+        """The horizon of a Sky Texture and the sun's disk are sharper than the pixels of a panorama."""
         self.expect_mean("sky", 0.03)
         self.expect_blocks("sky", 0.08)
         self.expect_mean("woven_sky", 0.02)
@@ -110,7 +110,7 @@ class Pictures(unittest.TestCase):
         self.expect_blocks("metal", 0.03)
 
     def test_hair_is_as_thick(self):
-        """Blender scatters strands anew for each rendering, so that single blocks differ."""
+        """Blender scatters strands anew for each rendering, so single blocks differ."""
         self.expect_mean("hair", 0.05)
 
     def test_instances_stand_in_their_places(self):
@@ -146,7 +146,7 @@ class Addon(unittest.TestCase):
         self.assertAlmostEqual(passes["DiffCol"], 0.25, delta=0.01)
 
     def test_archives_are_shared_between_frames(self):
-        """Only transformations change: twelve frames of a hundred objects write as many archives as one."""
+        """Only transformations change, so twelve frames of a hundred objects must write as many archives as one."""
         animation = self.of("animation")
         self.assertEqual(animation["frames"], 12)
         self.assertEqual(animation["archives"], 2)
@@ -219,7 +219,7 @@ class Addon(unittest.TestCase):
 
 
 class InstalledAddon(unittest.TestCase):
-    """The add-on as a user copies it into Blender's folder, away from the Python module."""
+    """Tests the add-on as a user copies it into Blender's folder, away from the Python module."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -235,7 +235,7 @@ class InstalledAddon(unittest.TestCase):
         program.chmod(0o755)
 
     def engines(self, expression="pass", path=()):
-        """Whether the engine is there after switching the add-on on, and after the expression besides."""
+        """Tells whether the engine is there after the add-on is switched on, and whether it is after the expression too."""
         script = ("import bpy; bpy.ops.preferences.addon_enable(module='tomales_blender'); there = lambda: print('THERE', any(e.bl_idname == 'TOMALES' for e in bpy.types.RenderEngine.__subclasses__())); "
                   f"there(); preferences = bpy.context.preferences.addons['tomales_blender'].preferences; {expression}; there()")
         said = subprocess.run([os.environ["BLENDER"], "-b", "--factory-startup", "--python-exit-code", "9", "--python-expr", script], capture_output=True, text=True, timeout=300,

@@ -1,4 +1,7 @@
-"""What needs no other renderer to compare with: blender -b --factory-startup -P features.py -- FOLDER. Writes FOLDER/features.json."""
+"""Tests what needs no other renderer to compare with. It writes FOLDER/features.json.
+
+blender -b --factory-startup -P features.py -- FOLDER
+"""
 import glob
 import json
 import os
@@ -9,7 +12,7 @@ import sys
 import time
 
 arguments = sys.argv[sys.argv.index("--") + 1 :]
-sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # scenes.py renders nothing, and lends its tools
+sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # With this name scenes.py renders nothing, and only lends its tools.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 import numpy  # noqa: E402
@@ -22,7 +25,7 @@ FOLDER, found = arguments[0], {}
 
 
 def render(scene, name, **settings):
-    """The RIB of the frame."""
+    """Renders and returns the RIB of the frame."""
     scene.render.engine = "TOMALES"
     scene.tomales.folder = os.path.join(FOLDER, name)
     scene.render.filepath = os.path.join(FOLDER, name, "picture.exr")
@@ -34,7 +37,7 @@ def render(scene, name, **settings):
 
 
 def archives(name):
-    """The archives of a frame as text."""
+    """Returns the archives of a frame as text."""
     files = sorted(glob.glob(os.path.join(FOLDER, name, "archives", "*.rib")))
     return "".join(subprocess.run([os.environ["TOMALES"], "catrib", f], capture_output=True, text=True).stdout for f in files)
 
@@ -78,7 +81,7 @@ def animation():
 
 
 def lines(path):
-    """Of a frame, but for its folder."""
+    """Returns the lines of a frame's RIB without its folder."""
     with open(path) as file:
         return [line for line in file if "searchpath" not in line]
 
@@ -102,7 +105,7 @@ def deformation():
 
 
 def faults():
-    """Whether Blender lives on after a fault in the add-on itself, which has crashed it at the second rendering."""
+    """Tells whether Blender lives on after a fault in the add-on itself, which once crashed it at the second rendering."""
     read = passes_module.Passes.read
     passes_module.Passes.read = lambda *_: {}["a fault of ours"]
     scene = empty_scene()
@@ -163,7 +166,7 @@ def unsupported():
 
 
 def cancel():
-    """Stops at the first question whether to; seconds until the scene, which takes minutes, is given up."""
+    """Stops at the first question whether to. Returns the seconds until the scene, which takes minutes, is given up."""
     scene = scenes.area()
     scene.render.engine, scene.tomales.pixel_samples, scene.tomales.light_samples = "TOMALES", 32, 4096
     asked, TomalesEngine._is_given_up = TomalesEngine._is_given_up, lambda self: True
@@ -174,7 +177,7 @@ def cancel():
 
 
 def progress():
-    """What the engine has said while it rendered: the shares rise to the whole."""
+    """Returns the progress that the engine tells while it renders. The shares rise to the whole."""
     scene = scenes.area()
     scene.render.engine = "TOMALES"
     shares, warnings = [], []
@@ -186,9 +189,9 @@ def progress():
 
 
 def preview():
-    """Pictures that are shown before the whole: rows that are there are those of the whole, the others are empty."""
+    """Returns the pictures that are shown before the whole one. Their finished rows are those of the whole, and the others are empty."""
     scene = scenes.area()
-    scene.render.resolution_y = 288  # rows come by 64
+    scene.render.resolution_y = 288  # Rows come in groups of 64.
     scene.tomales.bounces, scene.tomales.light_samples = 0, 128
     shown, fill = [], engine.fill
     engine.fill = lambda target, planes, result: (shown.append(planes.transpose(1, 2, 0)), fill(target, planes, result))
@@ -209,7 +212,7 @@ GLOW = "surface glow(output varying color warm = 0;) { warm = color(0.25, 0.5, 0
 
 
 def layers():
-    """Two view layers, of which the second has an AOV of a shader's output, and a light group."""
+    """Renders two view layers. The second one has an AOV of a shader's output, and a light group."""
     scene = scenes.area()
     scene.objects["Plane"].data.materials[0].tomales.shader = "glow"
     scene.objects["AREA"].lightgroup = "key"
@@ -230,7 +233,7 @@ def layers():
 
 
 def mattes():
-    """Cryptomatte of Cycles and of Tomales: the first rank of a pixel in the middle of the floor, and the names in the file."""
+    """Returns Cryptomatte of Cycles and of Tomales: the first rank of a pixel in the middle of the floor, and the names in the file."""
     out = {}
     for engine in ("CYCLES", "TOMALES"):
         scene = scenes.area()
@@ -250,7 +253,7 @@ def mattes():
 
 
 def moved():
-    """A frame with pictures that is exported, moved and rendered where it is then; and one without a folder, of which two frames are rendered."""
+    """Exports a frame with pictures, moves it and renders it there. Then renders two frames without a folder."""
     scene = scenes.texture()
     render(scene, "exported", export_only=True)
     there = os.path.join(FOLDER, "moved")
@@ -264,7 +267,7 @@ def moved():
 
 
 def interface():
-    """The properties that the button makes of what the renderer says of a shader."""
+    """Returns the properties that the button makes of a shader's parameters."""
     made, _ = material("m", (0.5, 0.5, 0.5))
     made.tomales.shader = "plastic"
     panels.fill(made.tomales, panels.parameters_of("plastic"))

@@ -1,4 +1,4 @@
-"""Scenes for Blender, rendered by Tomales and by Cycles: blender -b --factory-startup -P scenes.py -- FOLDER [NAME...]
+"""Renders scenes of Blender with Tomales and with Cycles: blender -b --factory-startup -P scenes.py -- FOLDER [NAME...]
 
 For each scene FOLDER/NAME.json has the mean colours of a grid of blocks of both pictures, and FOLDER has the pictures.
 """
@@ -133,7 +133,7 @@ def spot():
 
 
 def soft_spot():
-    """A spot with a radius, between whose light and dark a ball has a soft shadow."""
+    """A spot lamp has a radius, and a ball between its light and its dark part has a soft shadow."""
     scene = empty_scene()
     floor()
     made, _ = material("ball", (0.8, 0.8, 0.8))
@@ -144,7 +144,7 @@ def soft_spot():
 
 
 def camera_shift():
-    """Objects that glow by themselves say where the camera stands, and how it is turned, shifted and cut."""
+    """Objects that glow by themselves tell where the camera stands, and how it is turned, shifted and cropped."""
     scene = empty_scene()
     for i, (place, color) in enumerate([((-1.5, 0, 0), (1, 0, 0)), ((1, 1, 0.5), (0, 1, 0)), ((0.3, -1, 1.2), (0, 0, 1)), ((0, 3, 0), (1, 1, 0))]):
         glow, _ = material(f"glow{i}", color, "ShaderNodeEmission")
@@ -195,7 +195,7 @@ def picture(name, width, height, color_of, is_float=False):
 
 
 def texture():
-    """A picture that is no mirror image of itself, on a plane, coded as sRGB."""
+    """A picture in sRGB, which is no mirror image of itself, lies on a plane."""
     scene = empty_scene()
     made, shader = material("picture", (1, 1, 1), "ShaderNodeBsdfPrincipled", Roughness=1.0, Specular=0.0)
     node = made.node_tree.nodes.new("ShaderNodeTexImage")
@@ -211,7 +211,7 @@ def texture():
 
 
 def pictures_of_all():
-    """Roughness, metal, alpha and what glows by pictures that are no mirror images of themselves, before a floor."""
+    """Pictures that are no mirror images of themselves give roughness, metal, alpha and glow, before a floor."""
     scene = empty_scene()
     made, shader = material("pictures", (0.8, 0.6, 0.3), "ShaderNodeBsdfPrincipled", **{"Emission Strength": 0.5})
     for socket, of in (("Roughness", lambda u, v: 0.3 + 0.5 * u), ("Metallic", lambda u, v: 1.0 * (v > 0.6)), ("Alpha", lambda u, v: 1.0 * (u + v < 1.4)), ("Emission", lambda u, v: 1.0 * (u < 0.3))):
@@ -229,7 +229,7 @@ def pictures_of_all():
 
 
 def panorama():
-    """A sky of which every direction has its colour: seen by the camera, and lighting a white ball."""
+    """Every direction of the sky has its own colour. The camera sees the sky, and it lights a white ball."""
     scene = empty_scene()
     world = scene.world
     world.use_nodes = True
@@ -246,7 +246,7 @@ def panorama():
 
 
 def instances():
-    """A collection that three empties show, one of them mirrored, and faces that show a cone each."""
+    """Three empties show a collection, one of them mirrored, and faces show a cone each."""
     scene = empty_scene()
     collection = bpy.data.collections.new("shown")
     glow, _ = material("glow", (1, 0.3, 0.1))
@@ -266,7 +266,7 @@ def instances():
 
 
 def room():
-    """Light that bounces, and a mesh that glows."""
+    """Light bounces in a room, and a mesh glows."""
     scene = empty_scene()
     floor((0.7, 0.7, 0.7), 4)
     add(bpy.ops.mesh.primitive_plane_add, material("wall", (0.8, 0.2, 0.1))[0], size=4, location=(-2, 0, 2), rotation=(0, math.pi / 2, 0))
@@ -290,7 +290,7 @@ def subdivision():
 
 
 def sky():
-    """A Sky Texture with its sun low at one side, and a box in it."""
+    """A Sky Texture has its sun low at one side, and a box stands in it."""
     scene = empty_scene()
     scene.world.use_nodes = True
     tree = scene.world.node_tree
@@ -308,7 +308,7 @@ def sky():
 
 
 def woven_sky():
-    """Waves over directions, and a second Background that is added."""
+    """Waves over directions are the sky, and a second Background is added to it."""
     scene = empty_scene()
     scene.world.use_nodes = True
     tree = scene.world.node_tree
@@ -336,7 +336,7 @@ def soft_sun():
 
 
 def lit_plane(kind="ShaderNodeBsdfDiffuse", **inputs):
-    """A plane under a slanting sun, whose nodes the caller adds: scene, node tree, shader."""
+    """Makes a plane under a slanting sun, whose nodes the caller adds. Returns scene, node tree and shader."""
     scene = empty_scene()
     made, shader = material("graph", (0.5, 0.5, 0.5), kind, **inputs)
     add(bpy.ops.mesh.primitive_plane_add, made, size=4)
@@ -356,7 +356,7 @@ def image_node(tree, image, **settings):
 
 
 def waves(u, v):
-    """Heights that are no mirror image of themselves, and periodic as pictures are."""
+    """Returns heights that are no mirror image of themselves, and periodic as pictures are."""
     u, v = 2 * math.pi * u, 2 * math.pi * v
     return numpy.repeat((0.5 + 0.25 * numpy.sin(u + v) + 0.25 * numpy.sin(2 * v - u + 1))[..., None], 3, -1)
 
@@ -381,7 +381,7 @@ def normal_map():
 
 
 def second_uv():
-    """Colours over one UV map; metal, and normals that bend, over another that is turned and stretched."""
+    """Colours use one UV map. Metal and bent normals use another one that is turned and stretched."""
     scene, tree, shader = lit_plane("ShaderNodeBsdfPrincipled", Roughness=0.7)
     mesh = scene.objects["Plane"].data
     second = mesh.uv_layers.new(name="Second")
@@ -403,7 +403,7 @@ def second_uv():
 
 
 def displaced():
-    """A displacement that moves the surface, seen from the side."""
+    """A displacement moves the surface, which is seen from the side."""
     scene, tree, shader = lit_plane()
     plane = scene.objects["Plane"]
     modifier = plane.modifiers.new("fine", "SUBSURF")
@@ -418,7 +418,7 @@ def displaced():
 
 
 def graph():
-    """Two pictures, one turned and repeated, mixed by a third through the nodes that artists use, in a group."""
+    """A group mixes two pictures, one of them turned and repeated, by a third one, through the nodes that artists use."""
     scene, tree, shader = lit_plane()
     group = bpy.data.node_groups.new("mixed", "ShaderNodeTree")
     group.outputs.new("NodeSocketColor", "Color")
@@ -450,11 +450,11 @@ def graph():
 
 
 def mixture():
-    """A quarter of a surface that is not there over one that glows a little, with colours of the vertices."""
+    """A quarter of the surface is invisible, over one that glows a little with colours of the vertices."""
     scene, tree, shader = lit_plane()
     plane = scene.objects["Plane"]
     colors = plane.data.color_attributes.new("Painted", "FLOAT_COLOR", "CORNER")
-    for item, loop in zip(colors.data, plane.data.loops):  # linear over the plane, so that no diagonal shows
+    for item, loop in zip(colors.data, plane.data.loops):  # The colours are linear over the plane, so that no diagonal shows.
         x, y, _ = plane.data.vertices[loop.vertex_index].co
         item.color = (0.5 + 0.2 * x, 0.5 + 0.2 * y, 0.4 - 0.1 * x, 1)
     painted, clear, mix, glow, both = (
@@ -495,7 +495,7 @@ def creases():
 
 
 def hair():
-    """Strands of a particle system on a ball. They glow, because renderers differ in how light falls on a ribbon."""
+    """A particle system has strands on a ball. They glow, because renderers differ in how light falls on a ribbon."""
     scene = empty_scene()
     made, _ = material("hair", (0.7, 0.4, 0.2), "ShaderNodeEmission")
     ball = add(bpy.ops.mesh.primitive_uv_sphere_add, made, radius=1)
@@ -509,7 +509,7 @@ def hair():
 
 
 def deformation():
-    """A glowing cube that a shape key moves within the shutter."""
+    """A shape key moves a glowing cube within the shutter."""
     scene = empty_scene()
     glow, _ = material("glow", (1, 0.5, 0.2), "ShaderNodeEmission")
     cube = add(bpy.ops.mesh.primitive_cube_add, glow, size=1.5)
@@ -533,7 +533,7 @@ def deformation():
 
 
 def metal():
-    """Polished metal that mirrors a lit floor."""
+    """Polished metal mirrors a lit floor."""
     scene = empty_scene()
     floor((0.6, 0.3, 0.2))
     made, _ = material("metal", (0.9, 0.9, 0.9), "ShaderNodeBsdfPrincipled", Metallic=1.0, Roughness=0.3)

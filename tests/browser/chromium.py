@@ -1,4 +1,4 @@
-"""Chromium without a window, driven by the DevTools protocol over a pipe: https://chromedevtools.github.io/devtools-protocol/."""
+"""Drives Chromium without a window by the DevTools protocol over a pipe: https://chromedevtools.github.io/devtools-protocol/."""
 import base64
 import json
 import os
@@ -20,7 +20,7 @@ class Page:
         for fd in (there_read, there_write):
             os.set_inheritable(fd, True)
 
-        def place():  # the protocol is spoken at descriptors 3 and 4
+        def place():  # The protocol uses descriptors 3 and 4.
             spare = (os.dup(there_read), os.dup(there_write))
             os.dup2(spare[0], 3)
             os.dup2(spare[1], 4)
@@ -66,7 +66,7 @@ class Page:
         self.wait("location.href !== 'about:blank' && document.readyState === 'complete'")
 
     def run(self, script):
-        """The value of an expression in the page, which may be a promise."""
+        """Returns the value of an expression in the page, and waits for it if it is a promise."""
         result = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in result:
             raise RuntimeError(result["exceptionDetails"].get("exception", {}).get("description", str(result)))
@@ -99,7 +99,7 @@ class Page:
         path.write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
 
     def complaints(self):
-        """Errors that the page has written to its console, and exceptions."""
+        """Returns the errors that the page has written to its console, and its exceptions."""
         self.run("1")
         return [e for e in self.events if e["method"] == "Runtime.exceptionThrown" or
                 (e["method"] == "Log.entryAdded" and e["params"]["entry"]["level"] == "error") or

@@ -1,5 +1,5 @@
-"""The page of tomales relight in Chromium, from a scene on: it tells what is prepared, takes other shaders, texts, colours and links of lights, shows
-variables, regions and ages, gathers anew, and gets coarse pictures first over a slow link.
+"""Tests the page of tomales relight in Chromium, which begins with a scene. It must tell what is being prepared and take other shaders, texts, colours
+and links of lights. It must show variables, regions and ages, gather anew, and get coarse pictures first over a slow link.
 Usage: relight_edits_page_test.py TOMALES CHROMIUM FOLDER"""
 import pathlib
 import re
@@ -22,7 +22,7 @@ suite.write("stripes.sl", """surface stripes(float Kd = 0.8; string look = "plai
   Ci = Kd * base * diffuse(faceforward(normalize(N), I)); Oi = Os;
 }
 """)
-page = Page(chromium)  # Before the server, which gathers at once: a browser may take longer to start than a small scene to gather.
+page = Page(chromium)  # Chromium starts before the server, because the server gathers at once, and a browser may take longer to start than a small scene to gather.
 server = subprocess.Popen([suite.program, "relight", "box.rib", "--samples", "256", "--no-browser"], cwd=suite.folder,
                           stdout=subprocess.PIPE, text=True)
 ready, _, _ = select.select([server.stdout], [], [], 60)
@@ -38,7 +38,7 @@ suite.expect(page.wait(DONE), "then the picture is there")
 
 
 def color(x, y):
-    """The mean of some pixels, 0..255."""
+    """Returns the mean of some pixels, from 0 to 255."""
     return page.run(f"""(() => {{ const from = document.getElementById("picture"), c = document.createElement("canvas"); c.width = from.width; c.height = from.height;
 const g = c.getContext("2d"); g.drawImage(from, 0, 0); const d = g.getImageData({x} * from.width - 4, {y} * from.height - 4, 8, 8).data, s = [0, 0, 0];
 for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s[i % 4] += d[i] / 64; return s; }})()""")
@@ -52,7 +52,7 @@ def card(name):
     return f'[...document.querySelectorAll("#surfaces .surface")].find((c) => c.querySelector("strong").textContent === "{name}")'
 
 
-# Another surface, and its text.
+# The surface gets another shader, and a text.
 page.run(f"document.getElementById('surfaces').closest('details').open = true; ({card('back wall')}).querySelector('details').open = true")
 page.wait(f"({card('back wall')}).querySelector('input.shader')")
 CHOOSER = f"({card('back wall')}).querySelector('input.shader')"
@@ -101,7 +101,7 @@ page.key("a")
 suite.expect(page.wait("!document.getElementById('ages').hidden"), "ages are shown")
 page.key("a")
 
-# A light that leaves an object out, and a variable.
+# A light leaves an object out, and a variable is shown.
 page.run(f"({card('left wall')}).querySelector('details').open = true")
 LINK = f"""[...({card('left wall')}).querySelectorAll(".link")].find((l) => l.textContent === "lamp")?.querySelector("input")"""
 suite.expect(page.wait(f"!!{LINK}"), "an object lists the lights that shine on it")
@@ -123,7 +123,7 @@ page.run("(() => { const s = document.getElementById('search'); s.value = 'right
 suite.expect(page.run("[...document.querySelectorAll('#surfaces .surface')].filter((c) => !c.hidden).length") == 1, "a search finds an object")
 page.run("(() => { const s = document.getElementById('search'); s.value = ''; s.dispatchEvent(new Event('input')); })()")
 
-# A slow link: 100 kB/s.
+# A slow link carries 100 kB/s.
 page.call("Network.enable")
 page.call("Network.emulateNetworkConditions", offline=False, latency=40, downloadThroughput=100e3, uploadThroughput=100e3)
 other = f"({card('back wall')}).querySelector('input[type=range]')"

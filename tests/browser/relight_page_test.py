@@ -1,5 +1,5 @@
-"""The page of tomales relight in Chromium: it loads, shows the picture, follows its sliders without asking, undoes, saves, and reloads; and what it
-saves is the picture that `tomales shade --edit` makes. Pictures of it are left in the folder given, to be looked at.
+"""Tests the page of tomales relight in Chromium. It must load, show the picture, follow its sliders without asking the server, undo, save and reload.
+What it saves must be the picture that `tomales shade --edit` makes. The test leaves pictures of the page in the given folder, to be looked at.
 Usage: relight_page_test.py TOMALES CHROMIUM FOLDER [SHOT.dfb SHOT.icf]"""
 import json
 import pathlib
@@ -41,7 +41,7 @@ SLIDE = """(async (to) => { const s = document.querySelector("#lights .light:has
 s.value = to; s.dispatchEvent(new Event("input")); const start = performance.getEntriesByName("changed").at(-1).startTime;
 while (!performance.getEntriesByName("painted").some((m) => m.startTime > start)) await new Promise(requestAnimationFrame);
 return performance.getEntriesByName("painted").at(-1).startTime - start; })(%s)"""
-NOISE = 0.5  # of 255
+NOISE = 0.5  # The error is out of 255.
 
 
 def test(kind, query):
@@ -49,7 +49,7 @@ def test(kind, query):
     start = time.time()
     page.open(url + query)
     suite.expect(page.wait("!!document.querySelector('#lights .light')"), f"{kind}: the page loads")
-    page.run("document.getElementById('takeOver').click()")  # the page before may have been closed without a word
+    page.run("document.getElementById('takeOver').click()")  # The page before may have been closed without a word.
     suite.expect(page.wait(f"{AVERAGE} > 1"), f"{kind}: the first picture is there after {time.time() - start:.2f} s")
     suite.expect(page.wait("document.body.dataset.ready === '1' && document.getElementById('what').textContent === 'up to date'", 300),
                  f"{kind}: all layers are there after {time.time() - start:.2f} s")
@@ -79,7 +79,7 @@ suite.expect(page.wait("!document.getElementById('rib').textContent.includes('in
 page.close()
 page, whole, dark = test("WebGL2", "?webgl")
 
-# What is saved is what shade makes, and is loaded again.
+# The saved edit is what shade makes, and the page loads it again.
 page.run("document.getElementById('name').value = 'dark'; document.getElementById('save').click()")
 suite.expect(page.wait("[...document.querySelectorAll('#edits option')].some((o) => o.value === 'dark')"), "the edit is saved")
 page.key("e")
@@ -97,7 +97,7 @@ page.run("document.getElementById('load').click()")
 suite.expect(page.wait("document.getElementById('rib').textContent.includes('intensity')"), "it is loaded again")
 page.key("e")
 
-# A click chooses, and the pointer tells.
+# A click chooses an object, and the pointer tells its name.
 box = page.run("(() => { const b = document.getElementById('picture').getBoundingClientRect(); return [b.left + 0.3 * b.width, b.top + 0.7 * b.height]; })()")
 page.click(*box)
 suite.expect(page.wait("document.querySelectorAll('#probe .bar').length > 1"), "bars tell what each light brings to the pixel")
@@ -133,7 +133,7 @@ page.run("document.getElementById('takeOver').click()")
 suite.expect(other.wait("!document.getElementById('takeOver').hidden"), "and back")
 other.close()
 
-# Snapshots; the page looks well.
+# Snapshots are kept, and the page looks well.
 page.key("s")
 page.run(SLIDE % 0.5)
 page.key("w")

@@ -1,4 +1,4 @@
-"""The irradiance atlas as files: what is made again and what is kept, and what damaged, foreign, empty and cut-off files say."""
+"""Tests the files of the irradiance atlas: what is made again and what is kept, and what is said of damaged, foreign, empty and truncated files."""
 import json
 import resource
 import shutil
@@ -33,7 +33,7 @@ def room(name="room.rib", camera="0", light="2", color="0.5"):
 
 
 def stages(*arguments):
-    """The stages of the atlas that had work to do, and how many maps were kept."""
+    """Returns the stages of the atlas that had work to do, and the number of maps that were kept."""
     result = t.run(*arguments, "--gi", "atlas", "--atlas", "maps", "--photons", "20000", "-o", "out.exr", "--stats", "stats.json")
     stats = json.loads((t.folder / "stats.json").read_text())
     work = [s for s in ("photons", "irradiance", "brickmake") if s in stats["time_s"]]
@@ -41,7 +41,7 @@ def stages(*arguments):
 
 
 def limited(size, *arguments):
-    """With files of no more than `size` bytes: as on a full disk."""
+    """Runs the command with files of no more than `size` bytes, as on a full disk."""
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
@@ -60,14 +60,14 @@ t.expect(stages("red.rib", "--seed", "4")[1] == "photons irradiance brickmake", 
 (t.folder / "maps" / "room.bkm").write_bytes((t.folder / "maps" / "room.bkm").read_bytes()[:-9])
 t.expect(stages("red.rib", "--seed", "4") == (0, "brickmake", 1), "a map that is cut off is made again")
 
-# Maps that somebody made: they are used, and it is said when they are of another scene.
+# Maps that somebody made by hand are used. Maps of another scene get a message.
 t.run("photons", "room.rib", "-o", "byhand_photons", "--photons", "20000")
 t.run("irradiance", "byhand_photons", "-o", "byhand_points")
 t.run("brickmake", "byhand_points", "-o", "byhand", "--relative", "--maxerror", "0.03")
 t.expect_run("maps made by hand", ["room.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "out.exr"], 0)
 t.expect_run("and of a scene that has changed since", ["red.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "out.exr"], 0, "was made before the scene was changed")
 
-# The same by a request of RIB, and one that asks for what is not there.
+# The RIB request MakeBrickMap does what brickmake does. A second request names a file that is missing.
 t.write("make.rib", 'MakeBrickMap ["byhand_points/room.ptc" "byhand_points/closet.ptc"] "rib.bkm" "maxerror" [0.01] "maxdepth" [2] "speed" [1]')
 t.expect_run("MakeBrickMap joins clouds", ["make.rib"], 0, "make.rib:1", '"speed"')
 t.run("brickmake", "byhand_points", "-o", "both.bkm", "--maxerror", "0.01", "--maxdepth", "2")
@@ -78,7 +78,7 @@ t.expect_run("of a cloud that is not there", ["absent.rib"], 3, "absent.rib:1", 
 t.write("nowhere.rib", 'MakeBrickMap ["byhand_points/room.ptc" "byhand_points/closet.ptc"] "nowhere.rib/x.bkm"')
 t.expect_run("and one for a folder that cannot be", ["nowhere.rib"], 4, "nowhere.rib:1", "nowhere.rib/x.bkm")
 
-# Bad files.
+# Bad files are refused.
 points = (t.folder / "byhand_points" / "room.ptc").read_bytes()
 bricks = (t.folder / "byhand" / "room.bkm").read_bytes()
 for end in (0, 5, 40, len(points) // 2, len(points) - 1):
@@ -94,7 +94,7 @@ t.write("foreign.ptc", bricks)
 t.expect_run("a brick map that calls itself a cloud", ["brickmake", "foreign.ptc", "-o", "foreign.bkm"], 2, "another kind")
 t.expect_run("irradiance of what is no photon map", ["irradiance", "byhand_points", "-o", "again"], 2, "no photon map")
 
-# What glows by its shader and is no light: the wall of a closed ball sends 1 / (1 - albedo) of what it adds.
+# A surface glows by its shader and is no light. The wall of a closed ball sends 1 / (1 - albedo) of what it adds.
 t.write("glow.sl", "surface glow() { Oi = Os; Ci = Os * (1 + Cs * diffuse(faceforward(normalize(N), I))); }")
 t.write("glow.rib", """Format 16 16 1
 Projection "perspective" "fov" [90]
@@ -111,7 +111,7 @@ result = t.run("glow.rib", "--gi", "atlas", "--photons", "100000", "-o", "glow.e
 glow = json.loads(t.run("info", "--json", "glow.exr").stdout)["channels"][0]["mean"]
 t.expect(result.stderr == "" and abs(glow - 5) < 0.1, f"a closed ball that glows is as bright as the series of its albedo: {glow:.3f}, {result.stderr}")
 
-# Two rooms that share floor and ceiling, with a wall of 2 cm between a bright and a dim lamp.
+# Two rooms share floor and ceiling. A wall of 2 cm stands between a bright and a dim lamp.
 def rooms(name, dim, wall, *more):
     def sheet(*corners):
         return 'Polygon "P" [' + "  ".join(f"{x} {y} {z}" for x, y, z in corners) + "]\n"
@@ -146,9 +146,9 @@ t.run("thin.rib", "--gi", "gather", "--samples", "256", "--bounces", "8", "-o", 
 dim, right = (json.loads(t.run("info", "--json", name).stdout)["channels"][0]["mean"] for name in ("rooms.exr", "gathered.exr"))
 t.expect("photon-walls" not in said and abs(dim / right - 1) < 0.2, f"where hits sample lamps the dim room keeps its light: {dim / right:.3f} of what is right")
 
-# What was gathered as brick maps, with which another camera shades at the cost of direct light (irradiance-atlas 6.3).
+# Light that was gathered into brick maps shades the view of another camera at the cost of direct light (irradiance-atlas 6.3).
 def lit(scene, *arguments):
-    """Exit code, gather rays, and what was said."""
+    """Returns the exit code, the number of gather rays, and the messages."""
     result = t.run(scene, *arguments, "--stats", "stats.json", "--samples", "64")
     return result.returncode, json.loads((t.folder / "stats.json").read_text())["rays"]["gather"], result.stderr
 
@@ -184,7 +184,7 @@ t.expect_run("baked light that is not there", ["room.rib", "--gi", "baked", "--b
 (t.folder / "light" / "room.bkm").write_bytes(b"TMBRICKS" + bytes(40))
 t.expect(lit("red.rib", "--gi", "baked", "--baked", "light", "-o", "out.exr")[0] == 3, "a damaged map is said")
 
-# Direct light in the maps, or of samples where gather rays hit.
+# Direct light is in the maps, or comes from samples where gather rays hit.
 sampled = ("--gi", "atlas", "--atlas", "sampled", "--photons", "20000", "--samples", "400", "-q", "-o")
 t.run("render", "room.rib", *sampled, "sampled.exr")
 t.run("render", "room.rib", "--gi", "atlas", "--atlas", "byhand", "--samples", "400", "-q", "-o", "stored.exr")
@@ -193,7 +193,7 @@ shutil.rmtree(t.folder / "sampled" / "photons")
 t.run("render", "room.rib", *sampled, "again.exr", "--atlas-direct", "stored")
 t.expect(apart("again.exr", "sampled.exr") == 0, "and maps say themselves which of both they need")
 
-# Point clouds in place of brick maps.
+# Point clouds take the place of brick maps.
 t.run("render", "room.rib", "--gi", "atlas", "--atlas", "byhand", "-o", "bricks.exr", "-q")
 t.expect_run("gather rays look up points", ["room.rib", "--gi", "points", "--atlas", "byhand_points", "-o", "points.exr", "-q"], 0)
 t.expect(apart("points.exr", "bricks.exr") < 0.001, "as they do brick maps of them")
@@ -201,7 +201,8 @@ t.expect_run("points without a folder", ["room.rib", "--gi", "points", "-o", "ou
 t.expect_run("points that are not there", ["room.rib", "--gi", "points", "--atlas", "nowhere", "-o", "out.exr"], 3, "there are no points")
 t.expect_run("photons are no irradiance", ["room.rib", "--gi", "points", "--atlas", "byhand_photons", "-o", "out.exr"], 3, 'has no channel "irradiance"')
 
-# A lamp that turns its back on the floor, and a mirror: gather rays see it in there, and photons come from there to a map of caustics. Once is enough.
+# A lamp turns its back on the floor and faces a mirror. Gather rays see the lamp in the mirror, and photons come from there to a map of caustics, but
+# the light must count once.
 MIRROR = """Format 24 24 1
 Projection "perspective" "fov" [40]
 Rotate -90 1 0 0
@@ -229,7 +230,7 @@ for name, of in (("seen", ""), ("landed", "floor")):
     t.run("render", name + ".rib", "--gi", "atlas", "--photons", "200000", "--indirect-only", "-o", name + ".exr", "-q")
 t.expect(apart("landed.exr", "seen.exr") < 0.25, f"light from mirrors counts once, as photons or as rays: {apart('landed.exr', 'seen.exr')}")
 
-# A scene without light, an object that no photon reaches, a disk that is full.
+# A scene has no light, an object gets no photon, and a disk is full.
 t.write("dark.rib", ROOM.format(camera="0", light="2", color="0.5").replace('LightSource "pointlight"', '# LightSource "pointlight"'))
 t.expect_run("a scene without light", ["dark.rib", "--gi", "atlas", "-o", "dark.exr"], 0, "emits photons")
 t.write("lonely.rib", ROOM.format(camera="0", light="2", color="0.5").replace("LightSource \"pointlight\" 3", "# LightSource \"pointlight\" 3"))

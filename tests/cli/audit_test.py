@@ -1,4 +1,5 @@
-"""Every request, option and attribute of RISpec 3.2 and PRMan works, or is named once with its line: the table is rispec.txt."""
+"""Tests every request, option and attribute of RISpec 3.2 and PRMan, by the table rispec.txt: it works, or it is named once
+with its line."""
 import collections
 import pathlib
 import re
@@ -10,7 +11,7 @@ here = pathlib.Path(__file__).resolve().parent
 rows = [line.split(None, 2) for line in (here / "rispec.txt").read_text().splitlines()
         if line.strip() and not line.startswith("# ") and not line.startswith("#  ")]
 
-# Each row stands on a line of its own; what is drawn is small.
+# Each row stands on a line of its own, and small objects are drawn.
 lines, expected = ['Option "user" "float x" 1 Format 8 8 1 Display "out.exr" "file" "rgba"'], {}
 
 

@@ -1,4 +1,4 @@
-"""Bad scenes: the right exit code, a message with file:line, and never a crash or a hang."""
+"""Tests bad scenes: each gives the right exit code and a message with file:line, and never a crash or a hang."""
 import os
 import random
 
@@ -7,7 +7,7 @@ from program import GOOD, Suite
 t = Suite()
 WORLD = 'Display "out.exr" "file" "rgba"\nFormat 16 16 1\nTranslate 0 0 4\nWorldBegin\n%s\nWorldEnd\n'
 
-# Nothing to read: exit 2.
+# There is nothing to read: exit 2.
 t.write("empty.rib", "")
 t.expect_run("an empty file", ["empty.rib"], 2, "empty.rib")
 t.expect_run("a file that is not there", ["absent.rib"], 2, "absent.rib")
@@ -19,7 +19,7 @@ t.expect_run("options without a world", ["options.rib"], 2, "options.rib")
 t.write("cut.rib.gz", b"\x1f\x8b\x08\x00\x00\x00\x00\x00")
 t.expect_run("a gzip header and nothing more", ["cut.rib.gz"], 2, "cut.rib.gz")
 
-# Junk and truncation end in some documented code, whatever it is.
+# Junk and truncated files end in some documented exit code.
 random.seed(1)
 for i in range(6):
     t.write("junk.rib", random.randbytes(4000) if i % 2 else GOOD.encode() + random.randbytes(2000))
@@ -28,7 +28,7 @@ for end in range(0, len(GOOD), 23):
     t.write("cut.rib", GOOD[:end])
     t.expect(t.run("cut.rib", "-q").returncode in (0, 2, 3), f"a scene cut after {end} bytes")
 
-# Errors inside a scene are repaired, and said with their line.
+# Errors inside a scene are repaired and reported with their line.
 t.write("request.rib", WORLD % "Spheer 1 -1 1 360\nSphere 1 -1 1 360")
 result = t.run("request.rib")
 t.expect("request.rib:5" in result.stderr and "Spheer" in result.stderr, "an unknown request is named with its line")
@@ -36,13 +36,13 @@ t.expect((t.folder / "out.exr").exists(), "and the rest of the scene is rendered
 t.write("filter.rib", 'PixelFilter "blurry" 2 2\n' + WORLD % "Sphere 1 -1 1 360")
 t.expect(t.run("filter.rib").returncode == 0, "an unknown filter does not stop a frame")
 
-# What was asked too high is limited.
+# Values that are too high are limited.
 t.write("bound.rib", WORLD % 'Attribute "displacementbound" "float sphere" [1e9]\nSphere 1 -1 1 360')
 t.expect_run("a huge displacement bound", ["bound.rib"], 0)
 t.write("samples.rib", WORLD % 'LightSource "indirectlight" 1 "float samples" [1e9]\nLightSource "distantlight" 2\nSphere .1 -.1 .1 360')
 t.expect_run("a thousand million rays", ["samples.rib"], 0, "samples.rib:5", "65536 is used")
 
-# Nothing to be seen: the frame is what the scene asks for, but hardly what its author wanted.
+# Nothing is visible: the frame is what the scene asks for, but hardly what its author wanted.
 for what, change, says in (("behind the camera", ("0 0 4", "0 0 -4"), "behind the camera"),
                            ("beyond the far plane", ("Translate", "Clipping 0.1 2\nTranslate"), "far clipping plane"),
                            ("out of view", ("0 0 4", "9 0 4"), "outside the view"), ("hidden", ("matte", "null"), "is hidden"),
@@ -57,9 +57,9 @@ for verb, output in (("render", "sliver.exr"), ("hide", "sliver.dfb")):
 result = t.expect_run("a crop without anything in it", ["good.rib", "--crop", "0,0.1,0,0.1"], 0)
 t.expect("nothing" not in result.stderr, "is no reason for a warning")
 
-# Where methods come to their limits, they say so.
+# Methods warn at their limits.
 ROOM = 'Translate %s %s 0\nSurface "matte"\nLightSource "indirectlight" 1 "float samples" [%d]\nLightSource "pointlight" 2 "point from" [1 1 -3]\n' \
-       'Sphere 1 -1 1 360\nSphere 9 -9 9 360\n'  # a ball in a hollow one
+       'Sphere 1 -1 1 360\nSphere 9 -9 9 360\n'  # A ball lies in a hollow one.
 def room(away, samples):
     return (WORLD % (ROOM % (away, away, samples))).replace("WorldBegin", f"Translate {-away} {-away} 0\nWorldBegin")
 for what, away, samples, says in (("far from the origin", 1000000, 256, "float-range"), ("with few rays", 0, 3, "gather-noise")):
@@ -68,7 +68,7 @@ for what, away, samples, says in (("far from the origin", 1000000, 256, "float-r
 t.write("limit.rib", room(1000, 256))
 t.expect(not t.run("limit.rib", "-o", "limit.exr", "--format", "64x64").stderr, "a scene near the origin and with rays enough is no reason for a warning")
 
-# Something missing: the frame is complete, exit 3.
+# Something is missing: the frame is complete, and the exit code is 3.
 t.write("archive.rib", WORLD % 'Sphere 1 -1 1 360\nReadArchive "nowhere.rib"')
 t.expect_run("a missing archive", ["archive.rib"], 3, "archive.rib:6", "nowhere.rib")
 t.write("shader.rib", WORLD % 'Surface "unobtainium"\nSphere 1 -1 1 360')
@@ -76,8 +76,8 @@ t.expect_run("a missing shader", ["shader.rib"], 3, "shader.rib:5", "unobtainium
 t.write("light.rib", WORLD % 'LightSource "nolight" 1\nSphere 1 -1 1 360')
 t.expect_run("a missing light shader", ["light.rib"], 3, "light.rib:5", "nolight")
 
-# Output that cannot be written: exit 4, before hours are spent on it.
-nowhere = str(t.folder / "no" / "where")  # relative folders are made
+# Output cannot be written: exit 4, before hours are spent on it.
+nowhere = str(t.folder / "no" / "where")  # Relative folders are made.
 t.expect_run("-o into a folder that does not exist", ["good.rib", "-o", nowhere + "/a.exr"], 4, "no/where/a.exr")
 t.expect_run("-o into what is no folder", ["good.rib", "-o", "good.rib/a.exr"], 4, "good.rib/a.exr")
 t.write("display.rib", GOOD.replace("good.exr", nowhere + "/b.exr"))
@@ -87,7 +87,7 @@ t.expect_run("-o onto a folder", ["good.rib", "-o", "taken.exr"], 4, "taken.exr"
 t.expect_run("--stats into a folder that does not exist", ["good.rib", "--stats", "no/where.json"], 4, "no/where.json")
 t.expect(not [f for f in os.listdir(t.folder) if f.endswith(".part")], "no temporary file is left behind")
 
-# Plugins and pictures that are none.
+# Plugins and pictures have the wrong contents.
 t.write("fake.so", "not a library")
 t.expect_run("a plugin that is no library", ["info", "fake.so"], 2, "fake.so")
 t.write("fake.exr", "not a picture")

@@ -1,4 +1,4 @@
-"""bake3d() where the camera sees nothing: Attribute "cull"."""
+"""Tests that bake3d() stores points that the camera does not see, as Attribute "cull" asks."""
 import math
 import pathlib
 import struct
@@ -29,7 +29,7 @@ WALL = 'AttributeBegin\nAttribute "cull" "hidden" [1]\nSurface "constant"\nPolyg
 
 
 def baked(name, cull="", sides=2, shapes=BALL, arguments=()):
-    """The area of all points, and the bytes of the file."""
+    """Returns the area of all points, and the bytes of the file."""
     t.write(name + ".rib", SCENE.format(name=name, cull=f'Attribute "cull" {cull}' if cull else "", sides=sides, shapes=shapes))
     t.expect_run(name, [name + ".rib", *arguments], 0)
     t.expect_run(f"{name}, as PLY", ["convert", "points.ptc", "points.ply"], 0)

@@ -1,5 +1,5 @@
-"""Batches in trouble: a full disk, files that lost their end, machines that died, clusters that refuse. What is finished stays, what is
-half is made again, and what cannot work is said before anything begins."""
+"""Tests batches in trouble: full disks, truncated files, machines that died, and clusters that refuse jobs. Finished files stay, unfinished ones are
+made again, and what cannot work is reported before anything begins."""
 import json
 import os
 import pathlib
@@ -23,7 +23,7 @@ def same(prefix, other="one", frames=range(1, 4)):
 
 
 def limited(size, *arguments):
-    """With files of no more than `size` bytes: as beyond a quota."""
+    """Runs the command with files of no more than `size` bytes, as beyond a quota."""
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
@@ -34,7 +34,7 @@ def left(pattern):
     return sorted(p.name for p in t.folder.glob(pattern))
 
 
-# A disk or a quota that is full.
+# A disk or a quota is full.
 result = limited(100, "batch", "shot.rib", "-o", "q.#.exr", "--plan", "quota")
 t.expect(result.returncode == 4 and "plan.json" in result.stderr and "could not be written" in result.stderr, f"no room for the plan: {result.stderr.strip()}")
 t.expect(not left("q.*") and not left("quota/plan.json"), "begins nothing")
@@ -53,7 +53,7 @@ else:
     t.expect(result.returncode == 4 and "No space left on device" in result.stdout + result.stderr, f"a full disk: exit {result.returncode}")
     t.expect(not [n for n in result.stdout.splitlines() if n.endswith((".part", ".tmp"))], "leaves no file that looks finished")
 
-# Files that have lost their end are made again, with those that come of them.
+# Truncated files are made again, with the files that depend on them.
 t.expect_run("a plan alone", ["batch", "shot.rib", "-o", "h.#.exr", "--tiles", "2x1", "--plan", "half", "--plan-only"], 0, "15 tasks are in")
 t.expect(not left("half/state/*") and not left("h.*"), "runs nothing")
 plan = json.loads((t.folder / "half/plan.json").read_text())
@@ -69,7 +69,7 @@ before = (t.folder / "half/work/0002.dfb").stat().st_mtime_ns
 t.expect_run("half of a file between", ["batch", "half", "-j", "2"], 0, "finished 3 of 3")
 t.expect(same("h") and (t.folder / "half/work/0002.dfb").stat().st_mtime_ns == before, "is not taken for a whole one, and nothing else is made")
 
-# A machine that died, and one that lives.
+# One machine has died, and one lives.
 t.write("half/owner", "4711 elsewhere\n")
 (t.folder / "h.1.exr").unlink()
 t.expect_run("another machine works on the plan", ["batch", "half"], 2, "process 4711 of elsewhere works on the plan", "if that machine has died")
@@ -79,12 +79,12 @@ t.expect_run("it has died", ["batch", "half"], 0, "finished 3 of 3")
 t.expect(not left("half/owner*"), "and nobody owns the plan now")
 t.expect_run("cancel of a plan that rests", ["batch", "cancel", "half"], 2, "nothing works on the plan")
 
-# One of two that begin at the same moment does the work.
+# If two machines begin a task at the same moment, one of them does the work.
 runs = [subprocess.Popen([t.program, "batch", "shot.rib", "-o", "b.#.exr", "--plan", "both", "-j", "1"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
 codes = sorted((run.communicate(timeout=120)[1].count("another process works") or run.returncode * 10) for run in runs)
 t.expect(codes in ([0, 1], [0, 0]) and same("b"), f"two submissions of one plan: one of them says so, or finds all done {codes}")
 
-# A frame that always fails: others finish, and the page has it in red.
+# One frame always fails. Others finish, and the page shows it in red.
 (t.folder / "closed").write_text("a file where a folder must be")
 t.write("two.rib", head(64, 48) + 'Display "ok.exr" "file" "rgba"\n' + frame(1, 32, 0.2) + 'Display "closed/no.exr" "file" "rgba"\n' + frame(2, 32, 0.2))
 t.expect_run("a frame fails", ["batch", "two.rib", "--html", "page.html", "-j", "1"], 4, "finished 1 of 2", "task 0002.render failed", "output-folder")
@@ -99,7 +99,7 @@ t.write("same.rib", head(64, 48) + 'Display "same.exr" "file" "rgba"\n' + frame(
 t.expect_run("a scene that writes one file from every frame", ["batch", "same.rib"], 2, "frames 1 and 2 both write \"same.exr\"")
 t.expect(not left("same.*exr") and not left("same.batch"), "begins nothing")
 
-# Frames that share a chain of records, as by hand.
+# Frames share a chain of records, as they would by hand.
 t.expect_run("records in groups of two", ["batch", "shot.rib", "-o", "c.#.exr", "--share-records", "2", "--plan", "chain", "-j", "2"], 0, "finished 3 of 3")
 for f in (1, 2):
     t.run("hide", "shot.rib", "-o", f"c{f}.dfb", "--frames", str(f), "-q")
@@ -109,7 +109,7 @@ for f in (1, 2):
 t.expect(same("c", "d", (1, 2)) and same("c", "one", (3,)), "have the bits of the chain, and of one run where a group ends")
 t.expect_run("records of frames without a picture in OpenEXR", ["batch", "shot.rib", "-o", "c.#.png", "--share-records", "2", "--plan", "png"], 2, "--share-records: frame 1 has")
 
-# A cluster that refuses, played by scripts.
+# Scripts play a cluster that refuses jobs.
 fakes = pathlib.Path(t.temporary.name) / "bin"
 fakes.mkdir()
 

@@ -1,5 +1,5 @@
-"""What frames of a batch share is made once, and in parts: photons and brick maps, radiosity, and what Make requests make. Pictures keep
-the bits of one run."""
+"""Tests that a batch makes once, and in parts, what its frames share: photons and brick maps, radiosity, and the files of Make requests. The pictures
+must have the bits of one run."""
 import json
 import os
 import pathlib
@@ -68,7 +68,7 @@ t.expect("tracing photons" not in log, "and no frame traces photons")
 t.expect_run("a map that is gone", ["batch", "parts", "-j", "1"], 0, "finished 3 of 3")
 t.expect(same("parts") and files("parts maps") == files("maps"), "is made again")
 
-# Worlds that differ have maps of their own; without a folder every frame makes its own.
+# Worlds that differ have maps of their own. Without a folder, every frame makes its own maps.
 rooms("dim.rib", (2, 2, 1))
 t.run("dim.rib", *GI, "-o", "alone.#.exr", "-q")
 t.expect_run("frames without a folder of maps", ["batch", "dim.rib", *GI, "-o", "own.#.exr", "--plan", "own", "-j", "2"], 0)
@@ -79,7 +79,7 @@ t.run("dim.rib", *GI, "--atlas", "serial", "-o", "two.#.exr", "-q")
 t.expect_run("two worlds and one folder", ["batch", "dim.rib", *GI, "--atlas", "worlds", "-o", "worlds.#.exr", "--plan", "worlds", "-j", "2"], 0)
 t.expect(same("worlds", "two") and sorted(p.name for p in (t.folder / "worlds").glob("0*")) == ["0001", "0003"], "have a folder for each world")
 
-# Radiosity, by a folder that the scene names.
+# The scene names a folder for radiosity.
 rooms("radiosity.rib", radiance='"string radiance" ["radiosity"] "string atlas" ["rads"]')
 t.run("radiosity.rib", "-o", "r1.#.exr", "-q")
 once = files("rads")
@@ -88,7 +88,7 @@ for f in (t.folder / "rads").rglob("*.*"):
 t.expect_run("radiosity", ["batch", "radiosity.rib", "-o", "r2.#.exr", "-j", "2"], 0)
 t.expect(stages("radiosity.batch") == {"lightmaps": 1, "render": 3} and same("r2", "r1") and files("rads") == once, "is made once")
 
-# A light that asks for such maps by the default of its shader, under another name.
+# A light asks for such maps by the default of its shader, under another name.
 t.trust_shaders(".")
 t.write("radiant.cpp", """#include <reyes/shader.h>
 rsl::StringParam how("how", "radiosity", "", TM_ROLE_HIT_RADIANCE), where("where", "", "", TM_ROLE_ATLAS);
@@ -103,7 +103,7 @@ for name, light in (("asks", '"radiant" 1 "string where" ["radiant maps"]'), ("d
     t.expect_run(f"a light that {name}", ["batch", f"{name}.rib", "-o", f"{name}.#.exr", "--plan-only"], 0)
 t.expect(stages("asks.batch") == {"lightmaps": 1, "render": 2} and stages("doesnot.batch") == {"render": 2}, f"is asked itself, not by the name of its parameter: {stages('asks.batch')}")
 
-# Frames that need what has failed are told, with what it is.
+# Frames that need a failed task are reported with its name.
 (t.folder / "closed").write_text("a file where a folder must be")
 t.expect_run("maps that cannot be made", ["batch", "rooms.rib", *GI, "--atlas", "closed/maps", "-o", "b.#.exr", "--plan", "blocked", "-j", "2", "--html", "page.html"], 4,
              "finished 0 of 3", "failed 1: 1", "blocked 2: 2-3", "task 0001.lightmaps failed, and frames 2-3 wait for it", "and 2 wait for them")
@@ -115,7 +115,7 @@ t.expect('<tr class="blocked"><td>3' in (t.folder / "page.html").read_text(), "a
 (t.folder / "closed").mkdir()
 t.expect_run("and when it can be made", ["batch", "retry", "blocked", "-j", "2"], 0, "finished 3 of 3")
 
-# Make requests are performed once, after the frames that they read and before those that read them.
+# Make requests are performed once, after the frames that they read and before the frames that read them.
 t.write("make.rib", 'Format 16 16 1\n' + "".join(f"""FrameBegin {i}
 Display "{'z.tif' if i == 1 else f'look{i}.exr'}" "{'zfile' if i == 1 else 'file'}" "{'z' if i == 1 else 'rgba'}"
 Projection "perspective" "fov" [40]
@@ -136,7 +136,7 @@ t.expect_run("Make requests", ["batch", "make.rib", "-j", "3"], 0, "finished 3 o
 t.expect([x["name"] for x in plan_of("make.batch")] == ["0001.maps", "make000", "0002.render", "0003.render"], "are tasks of their own")
 t.expect(all(json.loads(t.run("info", "--json", f"look{i}.exr").stdout)["channels"][0]["mean"] > 0 for i in (2, 3)), "and frames find what they make")
 
-# prepare by itself.
+# The command prepare works by itself.
 t.expect_run("prepare of a scene that needs no maps", ["prepare", "make.rib", "--frames", "2", "--makes", "none"], 0, "prepare-unused")
 t.expect_run("prepare without a folder", ["prepare", "rooms.rib", *GI, "--frames", "1"], 2, "prepare-folder")
 t.expect_run("a part that is none", ["prepare", "rooms.rib", *GI, "--pass", "photons", "--part", "4/3", "--atlas", "x"], 1, "--part")

@@ -1,5 +1,5 @@
-"""A batch is frames as tasks of a plan: the same bits as one run, in spite of tasks that fail, of runs that are killed, and of plans
-that are edited; what cannot work is told before anything begins."""
+"""Tests a batch, which renders frames as tasks of a plan. The pictures must have the bits of one run although tasks fail, runs are killed and plans
+are edited. What cannot work is reported before anything begins."""
 import base64
 import json
 import os
@@ -17,7 +17,7 @@ from program import Suite
 HEAD = head(64, 48)
 SCENE = HEAD + "".join(frame(i, 32, 0.2) for i in range(1, 5))
 t = Suite()
-t.folder = t.folder / "a folder's name"  # paths with blanks and quotes
+t.folder = t.folder / "a folder's name"  # Paths have blanks and quotes.
 t.folder.mkdir()
 t.write("my shot.rib", SCENE)
 t.run("my shot.rib", "-o", "one.####.exr", "-q")
@@ -53,7 +53,7 @@ t.expect(same("t") and (t.folder / "t.0001.exr").stat().st_mtime_ns == before, "
 t.expect(status("tiles")["finished"] == 4, "status tells so")
 t.expect_run("the log of a frame", ["batch", "log", "tiles", "3"], 0, "0003.hide:", "0003.join:")
 
-# What gathering has learnt beside the records goes with them: where light is bright, and how it bounces on, which mirrors show.
+# Two more things must go along with the records: where light is bright, and how it bounces on. Mirrors show the latter.
 t.write("bounces.rib", HEAD.replace("Format 64 48", "Format 96 72") + """WorldBegin
 LightSource "indirectlight" 1 "samples" [64] "float bounces" [3]
 Attribute "light" "shadows" ["on"]
@@ -87,7 +87,7 @@ for name in ("tiled bounces", "answers", "records"):
     different = json.loads(t.run("compare", f"{name}.exr", "bounces.exr", "--json").stdout)["different_pixels"]
     t.expect(different == 0, f"{name}: the bits of one run, {different} pixels differ")
 
-# What cannot work is told before anything begins.
+# What cannot work is reported before anything begins.
 for what, arguments, code, says in (
         ("one file for all frames", ["my shot.rib", "-o", "x.exr"], 2, "batch-same-file"),
         ("no frame", ["my shot.rib", "-o", "x.#.exr", "--frames", "77"], 2, "there is no frame"),
@@ -133,7 +133,7 @@ t.expect(len(status("two.batch")["failures"]) == 1 and status("two.batch")["by_f
 (t.folder / "closed").mkdir()
 t.expect_run("and is tried again", ["batch", "retry", "two.batch"], 0, "finished 2 of 2")
 
-# What Slurm grants.
+# The program takes what Slurm grants.
 grant = {"SLURM_JOB_ID": "1", "SLURM_CPUS_PER_TASK": "1", "SLURM_MEM_PER_CPU": "500"}
 os.environ.update(grant)
 t.expect_run("a job takes what it was granted", ["two.rib", "-o", "grant.#.exr", "-v", "--stats", "grant.json"], 0, "makes -t 1 and --memory-limit 400M")
@@ -174,7 +174,7 @@ run = begin()
 
 
 def at_work():
-    """Processes of the program in this folder."""
+    """Returns the processes of the program in this folder."""
     out = []
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:

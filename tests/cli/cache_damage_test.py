@@ -1,5 +1,5 @@
-"""Files that the program keeps for itself: what is damaged in them is told, made anew and never used. (The folder of converted pictures:
-frames_of_textures_test.py.)"""
+"""Tests files that the program keeps for itself: damaged ones must be reported, made anew and never used. (frames_of_textures_test.py tests the
+folder of converted pictures.)"""
 from program import Suite
 
 t = Suite()
@@ -37,7 +37,7 @@ def expect_made_anew(kind, folder, arguments):
             file.write_bytes(damage(whole))
             result = t.run(*arguments, "-o", "again.exr")
             t.expect(result.returncode == 0 and bits("again.exr") == bits("first.exr"), f"{kind}, {file.name} {what}: the same picture (exit {result.returncode})")
-            # What lies behind a map that is whole is read when it has to be made, and not before.
+            # If a map is whole, the files from which it is made are read only when it has to be made again.
             told = "made anew" in result.stderr and file.name in result.stderr
             t.expect(told or file.suffix == ".ptc" and file.read_bytes() == damage(whole), f"and it is told: {result.stderr[-300:]}")
             file.write_bytes(whole)
@@ -46,7 +46,7 @@ def expect_made_anew(kind, folder, arguments):
 expect_made_anew("maps of an atlas", "maps", ["room.rib", "--gi", "atlas", "--atlas", "maps", "--photons", "5000"])
 expect_made_anew("maps of radiosity", "bricks", ["room.rib", "--gi", "radiosity", "--atlas", "bricks"])
 
-# Damage behind a map that has to be made anew.
+# Files are damaged from which a map has to be made anew.
 atlas = ["room.rib", "--gi", "atlas", "--atlas", "maps", "--photons", "5000"]
 t.run(*atlas, "-o", "first.exr")
 for folder in ("photons", "irradiance"):
@@ -58,7 +58,7 @@ for folder in ("photons", "irradiance"):
     t.expect_run(f"rotten {folder} of which maps are to be made", atlas + ["-o", "again.exr"], 0, "made anew", f"{folder}/scene0.ptc")
     t.expect(bits("again.exr") == bits("first.exr"), "are made anew too")
 
-# Baked light of earlier cameras.
+# Earlier cameras have baked light.
 baked = ["room.rib", "--gi", "gather", "--baked", "light", "-o", "baked.exr"]
 t.expect_run("light is baked", baked, 0)
 points = t.folder / "light" / "points" / "scene0.ptc"
@@ -66,10 +66,10 @@ points.write_bytes(DAMAGES["rotten in its first part"](points.read_bytes()))
 t.expect_run("rotten points of it are told", baked, 0, "made anew", "points/scene0.ptc")
 t.expect_run("and gathered anew", ["room.rib", "--gi", "baked", "--baked", "light", "-o", "baked.exr"], 0)
 
-# What charts have measured.
+# Charts have kept their measurements.
 chart = ["chart", "room.rib", "-o", "c.html", "--sweep", "samples", "--cache", "lab", "--budget", "60s", "--batches", "2", "--format", "8x8"]
 t.expect_run("a chart is measured", chart, 0)
-# How many batches the reference takes depends on the machine's speed, so damage goes to the measured points alone, which have thumbnails.
+# How many batches the reference takes depends on the machine's speed, so only the measured points are damaged. These have thumbnails.
 figures = sorted(p for p in (t.folder / "lab").glob("*.json") if p.with_suffix(".exr.thumb.png").exists())
 pictures = [p.with_suffix(".exr") for p in figures]
 for file, damage in ((figures[0], lambda d: d[:len(d) // 2]), (figures[1], lambda d: b'{"cpu_s": "much", "wall_s": []}'), (pictures[2], lambda d: d[:len(d) // 2]),

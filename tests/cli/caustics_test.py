@@ -1,4 +1,4 @@
-"""Three ways to a caustic agree: photon maps (Attribute "photon" "causticmap"), --gi progressive and --gi reference."""
+"""Tests that three ways to a caustic agree: photon maps (Attribute "photon" "causticmap"), --gi progressive and --gi reference."""
 import pathlib
 import statistics
 import sys
@@ -49,12 +49,13 @@ SCENES = {
 }
 METHODS = {"reference": ("--samples", "16", "--photons", "300000"), "progressive": ("--photons", "400000"), "atlas": ("--photons", "150000")}
 SEEDS = 3
-# Of the mean: what each of them blurs, over a micropolygon, over four and less, or over 50 photons, where the ring's light is a thin line.
+# A share of the mean is allowed, because each method blurs: over a micropolygon, over four and less, or over 50 photons, where the ring's light is a
+# thin line.
 BLUR = 0.02
 
 
 def means(name, method):
-    """Of the pictures of some seeds: of red, over all and over each quarter."""
+    """Returns means of red over the pictures of some seeds, for each quarter and for the whole."""
     out = []
     for seed in range(SEEDS):
         t.run(f"{name}.rib", "--gi", method, *METHODS[method], "--bounces", "1", "--indirect-only", "--ray-geometry", "full", "--light-seed", str(seed), "-q")
@@ -71,7 +72,7 @@ for name, (light, thing) in SCENES.items():
     truth = [statistics.mean(m) for m in found["reference"]]
     for method in ("progressive", "atlas"):
         for place, mine, theirs in zip(("left above", "left below", "right above", "right below", "all"), found[method], found["reference"]):
-            # Four standard errors of both means, of which the seeds of all places tell the size.
+            # The noise is four standard errors of both means. The seeds of all places tell its size.
             noise = 4 * max(statistics.stdev(m) for m in (mine, theirs)) * (2 / SEEDS) ** 0.5
             off = statistics.mean(mine) - statistics.mean(theirs)
             t.expect(abs(off) <= noise + BLUR * truth[-1] and truth[-1] > 0.05,

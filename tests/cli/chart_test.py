@@ -1,4 +1,4 @@
-"""tomales chart: a page that stands alone, figures beside it, and nothing measured twice."""
+"""Tests tomales chart: it makes a page that stands alone with figures beside it, and measures nothing twice."""
 import html.parser
 import json
 import os
@@ -28,7 +28,7 @@ WorldEnd
 
 
 class Page(html.parser.HTMLParser):
-    """Which tags are left open, where links lead, what is loaded from elsewhere."""
+    """Finds the tags that are left open, where links lead, and what is loaded from elsewhere."""
 
     VOID = {"meta", "img", "br", "input"}
 
@@ -64,7 +64,7 @@ def measured():
 
 
 def broken_off(by, at):
-    """The exit code of a chart that gets this signal when this much is measured."""
+    """Returns the exit code of a chart that gets this signal when this much is measured."""
     process = subprocess.Popen([suite.program, *chart], cwd=suite.folder, stderr=subprocess.PIPE, text=True)
     while measured() < at and process.poll() is None:
         time.sleep(0.02)
@@ -74,7 +74,7 @@ def broken_off(by, at):
 
 
 def left_behind():
-    """Programs that still render in this folder."""
+    """Returns the programs that still render in this folder."""
     def folder(process):
         try:
             return (process / "cwd").resolve()
@@ -94,11 +94,11 @@ def within_two_seconds(condition):
 code = broken_off(signal.SIGKILL, 1)
 suite.expect(code == -signal.SIGKILL and 1 <= measured() < 9, f"a chart that is killed keeps what was measured ({code}, {measured()})")
 suite.expect(within_two_seconds(lambda: not left_behind()), "and its renderer ends")
-# A picture of minutes, which nobody waits for.
+# The picture would take minutes, and nobody waits for it.
 suite.write("long.rib", SCENE.replace("24 24", "2048 2048").replace("PixelSamples 2 2", "PixelSamples 16 16"))
 charting = subprocess.Popen([suite.program, "chart", "long.rib", *chart[2:]], cwd=suite.folder, stderr=subprocess.DEVNULL)
 suite.expect(within_two_seconds(lambda: len(left_behind()) == 2), "a chart of a long picture renders in a process of its own")
-time.sleep(0.5)  # in the midst of it
+time.sleep(0.5)  # The chart is in the midst of it.
 charting.kill()
 charting.wait()
 ended = within_two_seconds(lambda: not left_behind())
@@ -125,7 +125,7 @@ suite.expect(any(p["best_in_time"] for p in points), "some point is on the Paret
 text = (suite.folder / "report.html").read_text()
 page = Page(text)
 suite.expect(not page.wrong and not page.open, f"tags are closed: {page.wrong} {page.open}")
-own = re.sub(r"/\*!.*?\*/", "", text, flags=re.S)  # licences name where a library comes from
+own = re.sub(r"/\*!.*?\*/", "", text, flags=re.S)  # Licences name where a library comes from.
 suite.expect(not re.search(r"https?:|@import|url\((?!#)|<script[^>]+src|<link|fetch\(|XMLHttp", own) and "Released under the MIT License" in text, "nothing comes from a network")
 suite.expect(all(s.startswith("data:image/png;base64,iVBOR") for s in page.loads) and len(page.loads) == 13, "thumbnails and error maps are inside")
 suite.expect(len(re.findall(r'class="picture" data-name="', text)) == 7 and 'filter id="exposure"' in text, "pictures have an exposure and a place to be flipped in")
@@ -189,7 +189,7 @@ suite.expect_run("a laboratory without a knob", lab, 2, "knob")
 suite.write("lab/bars.rib", LAB.replace("##lab note", "##lab limit pixel-noise: 9\n##lab note"))
 suite.expect_run("a laboratory whose limit is the first value", lab, 2, "none of the knob's values after the first")
 
-if browser := shutil.which("chromium"):  # looks, where there is something to look with
+if browser := shutil.which("chromium"):  # If there is a browser, the page is looked at.
     seen = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", (suite.folder / "report.html").as_uri()],
                           capture_output=True, text=True, timeout=120).stdout
     suite.expect(re.findall(r'aria-label="([^"]*)"', seen) == [f"{d['title']}: 6 points" for d in drawings], "a browser draws all points within the axes")

@@ -1,4 +1,4 @@
-"""What bash completes, by the script that the program itself makes, and what --version tells."""
+"""Tests what bash completes by the script that the program itself makes, and what --version prints."""
 import re
 import subprocess
 
@@ -10,7 +10,7 @@ t.write("tomales.bash", script)
 
 
 def completed(*words):
-    """What bash offers for the last word of the command line."""
+    """Returns what bash offers for the last word of the command line."""
     line = f'source tomales.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _tomales; printf "%s\\n" "${{COMPREPLY[@]}}"'
     result = subprocess.run(["bash", "-euc", line, "bash", "tomales", *words], cwd=t.folder, capture_output=True, text=True)
     t.expect(not result.stderr, f"  bash reads it without a word {result.stderr}")

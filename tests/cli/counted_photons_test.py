@@ -1,4 +1,4 @@
-"""Photons that are counted at visible points (--gi progressive, and caustics of --gi reference), against closed forms."""
+"""Compares photons that are counted at visible points (--gi progressive, and caustics of --gi reference) with closed forms."""
 import math
 import pathlib
 import sys
@@ -9,7 +9,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
 from pictures import pixels  # noqa: E402
 
 t = Suite()
-# The eye looks straight at a floor at z = 5, which a white matte makes as bright as its E/pi.
+# The eye looks straight at a floor at z = 5. A white matte surface makes it as bright as its E/pi.
 ABOVE = """Display "{name}.exr" "file" "rgb"
 Format 16 16 1
 Projection "orthographic"
@@ -39,13 +39,13 @@ def near(what, got, expected, share):
 
 
 def fresnel(cosine, index):
-    """Of unpolarised light."""
+    """Returns the reflectance for unpolarised light."""
     inside = math.sqrt(1 - (1 - cosine**2) / index**2)
     s, p = (cosine - index * inside) / (cosine + index * inside), (inside - index * cosine) / (inside + index * cosine)
     return (s * s + p * p) / 2
 
 
-# A pane lets through (1 - R) / (1 + R), with all reflections between its sides.
+# A pane lets (1 - R) / (1 + R) through, with all reflections between its sides.
 pane = (f'LightSource "distantlight" "sun" "intensity" [2] "from" [0 0 0] "to" [{math.sqrt(0.75)} 0 0.5]\nSurface "matte"\n' + square(1.5, 5) +
         PHOTONS_ALONE + 'Attribute "photon" "shadingmodel" ["glass"]\n' + square(2.2, 4.85, False) + square(2.2, 4.9))
 R = fresnel(0.5, 1.5)
@@ -54,7 +54,7 @@ for method in "reference", "progressive":
     got = mean("pane_" + method, ABOVE.format(name="pane_" + method, half=1, world=pane), "--gi", method, "--indirect-only", "--samples", "1", "--bounces", "1", "--photons", "400000")
     near(f"a pane of glass, {method}", got, through, 0.005)
 
-# Under an even sky of radiance 1 a floor has E/pi = 1, whether a mirror stands on its sky or not.
+# Under an even sky of radiance 1, a floor has E/pi = 1, whether or not a mirror hides part of the sky.
 furnace = ('Attribute "light" "shadows" ["on"]\nLightSource "environmentlight" "sky" "intensity" [1]\nSurface "matte"\n' + square(0.2, 5) +
            'Attribute "visibility" "int camera" [0]\nAttribute "photon" "shadingmodel" ["{model}"]\nSurface "mirror"\n'
            "Translate 0 0 3.5\nSphere 1 -1 1 360\n")
@@ -64,7 +64,7 @@ for model, method in ("matte", "reference"), ("chrome", "reference"), ("chrome",
                "--gi", method, "--samples", "64", "--light-samples", "64", "--photons", "800000")
     near(f"a furnace with a mirror that is {model} for photons, {method}", got, 1, 0.03)
 
-# A lamp in a closed sphere gives I / R^2 everywhere, and all bounces together albedo / (1 - albedo) times that.
+# A lamp in a closed sphere gives I / R^2 everywhere. All bounces together give albedo / (1 - albedo) times that.
 CLOSED = """Display "{name}.exr" "file" "rgb"
 Format 16 16 1
 Projection "perspective" "fov" [60]
@@ -82,7 +82,7 @@ near("one bounce in it", mean("one", CLOSED.format(name="one"), "--gi", "progres
      0.5 * 0.5 * 3 / 4, 0.015)
 
 
-# The same bits for any threads and buckets; no photon where there is no mirror; the noise can end them.
+# The bits are the same for any threads and buckets. Without a mirror there is no photon. A bound on the noise can end the photons.
 def bytes_of(name, text, *arguments):
     mean(name, text.format(name=name), *arguments)
     return pixels(t.folder / (name + ".exr"))

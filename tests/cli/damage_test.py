@@ -1,5 +1,5 @@
-"""Disks that fill up, folders that vanish, files that are cut: a clear message, the documented exit code, and what was finished is
-kept. (Flipped bytes: unit tests of Dfb and RecordFiles, every one of them; shot_test.py, killed runs.)"""
+"""Tests disks that fill up, folders that vanish, and truncated files: each gives a clear message and the documented exit code, and finished files are
+kept. (The unit tests of Dfb and RecordFiles flip every byte, and shot_test.py kills runs.)"""
 import resource
 import shutil
 import signal
@@ -14,9 +14,9 @@ t.write("good.rib", GOOD)
 
 
 def limited(size, *arguments):
-    """With files of no more than `size` bytes: as on a full disk."""
+    """Runs the command with files of no more than `size` bytes, as on a full disk."""
     def limit():
-        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # as under ulimit -f
+        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # The signal acts as under ulimit -f.
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
     return subprocess.run([t.program, *arguments], cwd=t.folder, capture_output=True, text=True, preexec_fn=limit, timeout=60)
 
@@ -35,7 +35,7 @@ t.expect_run("for a run with more room", ["lit.rib", "-o", "resume.exr", "--resu
 t.run("hide", "good.rib", "-o", "good.dfb", "-q")
 expect_said(limited(100, "gather", "good.dfb", "-o", "good.icf"), 4, "a disk too full for records", "good.icf", "could not be written")
 
-# Too little memory: a frame that needs none for rays, then one that does. (Sanitizers need more than they are given here.)
+# Memory is too small, for a frame that needs none for rays and then for one that does. (Sanitizers need more than they are given here.)
 t.write("two.rib", "FrameBegin 1\n" + GOOD + "FrameEnd\nFrameBegin 2\n" + LIT.replace("Format 24 24 1", "Format 400 400 1") + "FrameEnd\n")
 
 
@@ -46,7 +46,7 @@ def starved(megabytes, *arguments):
 
 if starved(300, "--version").returncode == 0:
     codes, kept = set(), False
-    stacks = 3 * 64  # of three threads, for deep paths: address space alone, which the limit counts
+    stacks = 3 * 64  # Three threads have stacks for deep paths. These take only address space, which the limit counts.
     for megabytes in range(80 + stacks, 200 + stacks, 10):
         (t.folder / "frame1.exr").unlink(missing_ok=True)
         ended = starved(megabytes, "two.rib", "-o", "frame#.exr", "-t", "2", "-q")
@@ -60,7 +60,7 @@ if starved(300, "--version").returncode == 0:
     t.expect(4 in codes, f"some of these were too few: {codes}")
     t.expect(kept, "a first frame stays when the second one needs too much")
 
-# A folder that vanishes while the frame is made.
+# A folder vanishes while the frame is made.
 (t.folder / "gone").mkdir()
 process = subprocess.Popen([t.program, "good.rib", "-o", "gone/a.exr", "--format", "700x700", "--progress", "-t", "1"], cwd=t.folder,
                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -69,7 +69,7 @@ shutil.rmtree(t.folder / "gone")
 _, said = process.communicate(timeout=100)
 t.expect(process.returncode == 4 and "gone/a.exr" in said, "a folder that vanishes on the way " + said[-200:])
 
-# Cut files of ours.
+# Files of our own formats are truncated.
 whole = (t.folder / "good.dfb").read_bytes()
 for end in (0, 7, 31, 32, 200, len(whole) // 2, len(whole) - 1):
     t.write("cut.dfb", whole[:end])
@@ -77,7 +77,7 @@ for end in (0, 7, 31, 32, 200, len(whole) // 2, len(whole) - 1):
 t.write("newer.dfb", whole[:8] + b"\xff" + whole[9:])
 t.expect_run("a .dfb of another version", ["shade", "newer.dfb", "-o", "cut.exr"], 2, "newer.dfb")
 
-# A channel that nobody writes, and a deep picture that no machine holds.
+# Nobody writes a channel of that name, and no machine holds so large a deep picture.
 t.write("aov.rib", 'Display "a.exr" "file" "rgba"\nDisplay "+b.exr" "file" "color nobody"\n' + GOOD.split("\n", 1)[1])
 t.expect_run("a channel that no shader writes", ["aov.rib"], 0, "aov.rib:2", "nobody")
 t.expect((t.folder / "b.exr").exists(), "is written with its fill")

@@ -1,4 +1,4 @@
-"""Frames that are dark, too bright, or lit by another renderer's rules: the program says why."""
+"""Tests frames that are dark, too bright, or lit by another renderer's rules: the program must say why."""
 import json
 import pathlib
 import sys
@@ -23,7 +23,7 @@ BALL = 'Attribute "identifier" "name" "ball"\nSurface "matte"\nSphere 1 -1 1 360
 
 
 def told(name, world, options="", code=0, *arguments):
-    """The codes of what is said of a scene, and the statistics."""
+    """Returns the codes of the messages about a scene, and the statistics."""
     t.write(name + ".rib", HEAD.format(name=name, options=options, world=world))
     t.expect_run(name, [name + ".rib", "--stats", name + ".json", *arguments], code)
     warnings = json.loads((t.folder / (name + ".json")).read_text())["warnings"]
@@ -38,7 +38,7 @@ def middle(name):
     return picture(name)[16, 16][0]
 
 
-# No light at all.
+# There is no light at all.
 said = told("no_light", BALL)
 t.expect("ball" in said.get("light-none", ""), f"a world without light says which surface asks for it: {said}")
 t.expect(not told("default_surface", 'Sphere 1 -1 1 360'), "the default surface needs no light")
@@ -46,16 +46,16 @@ t.expect(not told("constant", 'Surface "constant"\nSphere 1 -1 1 360'), "neither
 said = told("mixed", 'Attribute "identifier" "name" "glow"\nSurface "constant"\nTranslate .2 0 0 Sphere .5 -.5 .5 360\n' + BALL)
 t.expect("ball" in said["light-none"] and "glow" not in said["light-none"], "only surfaces that ask are named")
 
-# What cuts itself out by its opacity is shaded for a map of depth too, which shows no light.
+# A surface that is cut out by its opacity is shaded for a depth map too, but a depth map shows no light.
 t.write("leaf.sl", "surface leaf() { Oi = step(.5, s); Ci = Oi * diffuse(N); }")
 t.write("map.rib", 'Display "map.z" "zfile" "z"\nFormat 32 32 1\nWorldBegin\nSurface "leaf"\nTranslate 0 0 5\nSphere 1 -1 1 360\nWorldEnd\n')
 t.expect("light-none" not in t.run("map.rib").stderr, "a map for later frames needs no light")
 
-# A light that shines on nothing that follows it, or is switched off.
+# A light shines on nothing that follows it, or is switched off.
 said = told("scoped", 'AttributeBegin\nLightSource "distantlight" 1\nAttributeEnd\n' + BALL)
 t.expect("light-off" in said and "light-none" not in said, f"a light that ends with its block: {said}")
 
-# Lights that come to nothing, and why.
+# Lights come to nothing, and the message says why.
 said = told("zero", 'LightSource "distantlight" 1 "intensity" 0\n' + BALL)
 t.expect("sends no light" in said.get("light-useless", ""), f"intensity 0: {said}")
 said = told("aside", 'LightSource "spotlight" 1 "from" [0 0 -5] "to" [0 0 -9] "intensity" 50\n' + BALL)
@@ -74,12 +74,12 @@ t.expect(not told("cropped", 'LightSource "distantlight" 1 "intensity" 0\n' + BA
 said = told("behind_the_camera", 'LightSource "distantlight" 1\nTranslate 0 0 -10\n' + BALL, "", 3)
 t.expect("behind the camera" in said.get("frame-empty", ""), f"everything behind the camera: {said}")
 
-# Far too bright, by one lamp.
+# One lamp is far too bright.
 said = told("glare", 'LightSource "distantlight" 1\nLightSource "distantlight" 2 "intensity" 100\n' + BALL)
 t.expect('"2"' in said.get("light-glare", "") and "64 times" in said["light-glare"], f"the lamp is named, and how much: {said}")
 t.expect("light-glare" not in told("exposed", 'LightSource "distantlight" 2 "intensity" 100\n' + BALL, "Exposure .01 1"), "Exposure counts")
 
-# The two conventions of arealight: a patch of area 1 at distance 3 in front of the camera's wall.
+# The two conventions of arealight are compared: a patch of area 1 is at distance 3 in front of the camera's wall.
 AREA = 'AttributeBegin\nTranslate 0 0 -3\nAttribute "visibility" "camera" 0\nAreaLightSource "arealight" 1 "intensity" 9 {given}\nPatch "bilinear" "P" [{p}]\nAttributeEnd\nIlluminate 1 1\n'
 WALL = 'Surface "matte" "Ka" 0 "Kd" 1\nPatch "bilinear" "P" [-.1 .1 0 .1 .1 0 -.1 -.1 0 .1 -.1 0]\n'
 
@@ -101,7 +101,7 @@ t.expect("scene-bmrt" in said and abs(middle("of_bmrt") - 1) < .05, f"a scene of
 told("not_of_bmrt", 'Attribute "radiosity" "patchsize" [10]\n' + lamp(.2) + WALL, 'ScreenWindow -.01 .01 -.01 .01', 0, "--arealight", "radiance")
 t.expect(middle("not_of_bmrt") < .2, "unless the command line says otherwise")
 
-# The exponent of specular().
+# The exponent of specular() depends on the convention.
 SHINE = 'LightSource "distantlight" 1\nSurface "metal" "Ka" 0 "roughness" .1\nSphere 1 -1 1 360\n'
 told("prman", SHINE)
 told("rispec", SHINE, 'Option "shade" "specular" "rispec"')

@@ -1,4 +1,5 @@
-"""Input that nests or chains as deep as a file can: every recursion over it ends in a message or a picture, and signals are answered."""
+"""Tests input that nests or chains as deep as a file can: every recursion over it must end in a message or a picture, and signals must be
+answered."""
 import signal
 import subprocess
 import time
@@ -22,7 +23,7 @@ def ends(what, name, text, codes=(0, 3)):
     return result
 
 
-# RIB
+# RIB nests.
 for begin, end in (("MotionBegin [0 1]", "MotionEnd"), ('SolidBegin "union"', "SolidEnd"), ('SolidBegin "difference"', "SolidEnd"), ('SolidBegin "primitive"', "SolidEnd"),
                    ("AttributeBegin", "AttributeEnd"), ('IfBegin "1"', "IfEnd"), ('ArchiveBegin "a"', "ArchiveEnd"), ("ResourceBegin", "ResourceEnd"),
                    ("ObjectBegin 1", "ObjectEnd"), ("FrameBegin 1", "FrameEnd"), ("WorldBegin", "WorldEnd"), ('EditBegin "a"', "EditEnd")):
@@ -54,7 +55,7 @@ ends("a chain of patterns that closes", "deep.rib", WORLD % (
 ends("a token of 20 MB", "deep.rib", WORLD % ("A" * (20 << 20) + "\n" + DOT))
 ends("a string of 20 MB", "deep.rib", WORLD % ('Attribute "identifier" "name" "' + "A" * (20 << 20) + '"\n' + DOT))
 
-# Shaders
+# Shaders nest.
 t.write("scene.rib", WORLD % ('Surface "deep" ' + DOT))
 
 
@@ -103,7 +104,7 @@ shader("a chain of 300 files", "x = 1;", before='#include "h0.h"\n')
 shader("lines that go on", "x = 1" + "\\\n" * N + ";")
 
 
-# What takes long answers signals.
+# Signals end what takes long.
 def answers(what, name, text, command=()):
     t.write(name, text)
     process = subprocess.Popen([t.program, *(command or [name])], cwd=t.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

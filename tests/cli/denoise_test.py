@@ -1,4 +1,4 @@
-"""tomales denoise: two noisy pictures to one that is nearer to the truth, with all else that the first one holds."""
+"""Tests tomales denoise: two noisy pictures become one that is nearer to the truth and keeps all else that the first one holds."""
 import json
 import re
 import subprocess

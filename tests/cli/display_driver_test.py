@@ -1,4 +1,4 @@
-"""Display drivers: what they get is what a file holds; one that fails, crashes or is not trusted is told, and takes nothing else with it."""
+"""Tests display drivers: they must get what a file holds. A driver that fails, crashes or is not trusted is reported, and all else goes on."""
 import os
 import pathlib
 import re
@@ -15,7 +15,7 @@ t.trust_shaders("drivers")
 (t.folder / "drivers").mkdir()
 (t.folder / "brought").mkdir()
 
-# Writes what it is told as text; parameters make it fail.
+# This driver writes what it is told as text. Its parameters make it fail.
 DRIVER = r"""#include <reyes/display_api.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -116,7 +116,7 @@ t.expect_run("through hide", ["hide", "text.rib", "-o", "o.dfb"], 0)
 t.expect_run("and shade", ["shade", "o.dfb"], 0)
 t.expect(written("o.txt")[1] == pixels, "the same picture comes")
 
-# What fails.
+# Drivers fail.
 def failing(what, params, code, *says, rows, complete):
     (t.folder / "seen.exr").unlink(missing_ok=True)
     t.expect_run(what, [scene("fails.rib", f'"o.txt" "text" "rgba" {params}', FILE), "-q"], code, "fails.rib:1", '"o.txt" could not be written', *says)
@@ -148,7 +148,7 @@ t.expect_run("a plugin of another kind", [scene("shader.rib", '"o.txt" "shader" 
 (t.folder / "drivers/torn.so").write_bytes(b"no library")
 t.expect_run("a file that is no library", [scene("torn.rib", '"o.txt" "torn" "rgba"')], 4, "torn.so", "cannot be loaded")
 
-# Who is trusted: as for shaders (trust_test.py).
+# Drivers are trusted as shaders are (trust_test.py).
 build("theirs", folder="brought")
 untrusted = scene("theirs.rib", '"o.txt" "theirs" "rgba"')
 t.write("theirs.rib", 'Option "searchpath" "string display" ["brought"]\n' + (t.folder / untrusted).read_text())
@@ -161,7 +161,7 @@ t.expect(written("o.txt")[2] == 6000, "it is")
 upwards = scene("upwards.rib", '"o.txt" "../brought/theirs" "rgba"')
 t.expect_run("a trusted folder is not left", [upwards], 0, "no display type")
 
-# The drivers that come with the program and its documentation.
+# The drivers come with the program and its documentation.
 viewer = Viewer()
 t.expect_run("tev", [scene("tev.rib", f'"{viewer.address}" "tev" "rgba" "string title" ["beauty"]')], 0)
 viewer.join(10)

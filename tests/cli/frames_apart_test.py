@@ -1,5 +1,5 @@
-"""Frames that are not wanted are passed over unread (--frames-apart), with the bits of reading them, and a batch does so where nothing in
-a frame outlives it. Make requests are picked by their places (--makes)."""
+"""Tests that unwanted frames are passed over unread (--frames-apart), with the same bits as if they were read. A batch does so if nothing in a frame
+outlives it. Make requests are chosen by their places (--makes)."""
 import json
 
 from moving_ball import frame, head
@@ -30,7 +30,7 @@ for flag in ((), ("--frames-apart",)):
     t.expect_run("and so does shade", ["shade", "s.3.dfb", "--irradiance", "s.icf", "-o", "shot.exr", *flag], 0)
     t.expect(same("shot.exr", "one.3.exr"), "with the same bits")
 
-# What is passed over is not looked at.
+# Errors in frames that are passed over are not found.
 broken = FRAMES[0].replace("WorldBegin", 'WorldBegin\nReadArchive "nowhere.rib"\nNonsense 1 2 "WorldBegin" [ \n')
 t.write("broken.rib", HEAD + broken + "FrameBegin 7\nWorldBegin\nSphere 1 -1 1 360\n" + FRAMES[2] + broken)
 said = t.run("broken.rib", "-o", "x.#.exr", "--frames", "3").stderr
@@ -62,7 +62,7 @@ t.write("plan.rib", HEAD + "".join(f'FrameBegin {i}\nReadArchive "world.rib"\nFr
 t.run("batch", "plan.rib", "-o", "w.#.exr", "--plan-only", "--plan", "worlds")
 t.expect("--frames-apart" not in tasks("worlds")[0]["arguments"], "worlds in archives could not be counted")
 
-# Make requests by their places.
+# Make requests are chosen by their places.
 t.run("shot.rib", "-o", "pic.#.tif", "--frames", "1-2", "-q")
 t.write("makes.rib", "".join(f'MakeTexture "pic.{1 + i % 2}.tif" "t{i}.tx" "periodic" "periodic" "box" 1 1\n' for i in range(4)) + HEAD + FRAMES[0])
 t.expect_run("some Make requests alone", ["makes.rib", "--frames", "none", "--makes", "1-2"], 0)

@@ -1,5 +1,5 @@
-"""Several textured frames in one stream: the same bits for any number of threads, and pictures that are rewritten between frames are read
-anew."""
+"""Tests several textured frames in one stream: they have the same bits for any number of threads, and pictures that are rewritten between frames are
+read anew."""
 import random
 import re
 import struct
@@ -37,7 +37,7 @@ FrameEnd
 
 
 def pixels(first, last):
-    """A hash of the pixels of each frame."""
+    """Returns a hash of the pixels of each frame."""
     names = [f"frame.{n:02}.exr" for n in range(first, last + 1)]
     said = subprocess.run(["oiiotool", "--hash", "--info", "-v", *names], cwd=suite.folder, capture_output=True, text=True).stdout
     return [part.split()[0] for part in said.split("SHA-1:")[1:]]
@@ -54,7 +54,7 @@ for threads in (2, 4, 2, 4):
     suite.expect_run(f"the same with {threads} threads", ["many.rib", "-t", str(threads), "--texture-memory", "1M", "--bucket-size", "8"], 0)
     suite.expect(pixels(1, FRAMES) == whole, "has the same bits")
 
-# Processes that want one picture at the same moment: the first one converts it, and the others wait.
+# Several processes want one picture at the same moment. The first one converts it, and the others wait.
 noise = random.Random(1)
 png("large.png", 768, lambda x, y: noise.randbytes(3))
 suite.write("shared.rib", "".join(frame(n, "large.png") for n in range(1, 5)))
@@ -62,7 +62,7 @@ seen, over = set(), threading.Event()
 
 
 def watch():
-    """Conversions are made in scratch folders of their own."""
+    """Watches that conversions are made in scratch folders of their own."""
     while not over.is_set():
         seen.update(p.name for p in (suite.folder / "textures").iterdir() if not re.fullmatch("[0-9a-f]{2}", p.name))
 
@@ -74,7 +74,7 @@ over.set()
 watcher.join()
 suite.expect(len(seen) == 1, f"converts it once: {seen}")
 
-# One name, two contents.
+# One name has two contents.
 png("red.png", 64, lambda x, y: (255, 0, 0))
 png("green.png", 64, lambda x, y: (0, 255, 0))
 make = 'MakeTexture "{}.png" "now.tex" "periodic" "periodic" "box" 1 1'
@@ -84,7 +84,7 @@ for threads in (1, 2):
     odd, even, *later = pixels(1, 4)
     suite.expect(odd != even and later == [odd, even], "shows in each frame what it holds then")
 
-# The cache folder.
+# The folder of converted pictures is tested.
 suite.expect_run("the first of many", ["many.rib", "--frames", "1"], 0)
 good = pixels(1, 1)
 for what, damage in (("cut off", lambda d: d[:len(d) // 2]), ("empty", lambda d: b""), ("of something else", lambda d: b"no picture" * 100),

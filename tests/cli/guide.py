@@ -1,4 +1,4 @@
-"""What the pages of the guide hold: their order, and the blocks of code in them."""
+"""Reads the pages of the guide: their order, and the blocks of code in them."""
 import pathlib
 import re
 from typing import NamedTuple
@@ -14,7 +14,7 @@ class Block(NamedTuple):
 
     @property
     def file(self):
-        """The file that a comment in the first line names: the reader saves the block under that name."""
+        """Returns the file that a comment in the first line names. The reader saves the block under that name."""
         named = re.match(r"(?:#|//|/\*) ([\w.]+\.(?:rib|sl|py|c|cpp|h))(?: \*/)?\n", self.text)
         return named and named[1]
 
@@ -24,7 +24,7 @@ class Block(NamedTuple):
 
 
 def pages():
-    """README.md, then the pages in the order of docs/README.md, as paths from the root."""
+    """Returns README.md and then the pages in the order of docs/README.md, as paths from the root."""
     listed = re.findall(r"^(?:- |\| |\d+\. )\[[^]]*\]\(([\w.]+\.md)\)", (ROOT / "docs/README.md").read_text(), re.M)
     return ["README.md", *("docs/" + page for page in listed)]
 

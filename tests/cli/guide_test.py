@@ -1,4 +1,4 @@
-"""Every command, scene, shader and script of the guide does what the page says: each page is a session in a folder."""
+"""Tests that every command, scene, shader and script of the guide does what the page says. Each page is a session in a folder."""
 import os
 import re
 import shutil
@@ -11,11 +11,12 @@ from guide import ROOT, blocks, pages
 from program import GOOD, Suite
 
 t = Suite()
-# A session has small pictures and few rays, so that it takes seconds. Later options would be refused, so those of the page go first.
+# A session has small pictures and few rays, so that it takes seconds. The program refuses an option that is given twice, so these take the place of
+# the page's options.
 SMALL = {"render": "--format 32x32 --samples 16 --pixel-samples 2x2 -t 2", "hide": "--format 32x32 --pixel-samples 2x2", "gather": "--samples 16",
          "batch": "--format 32x32 --samples 16 --pixel-samples 2x2",
          "photons": "--photons 5000", "chart": "--format 16x16 --budget 30s --batches 2 -t 2"}
-# These choose the number of rays themselves, so none is given beside them.
+# These options choose the number of rays themselves, so none is given beside them.
 CHOOSING = {"--target-error": "20%", "--time-budget": "3s"}
 SHIM = f"""#!{sys.executable}
 import subprocess, sys
@@ -34,9 +35,9 @@ for option, value in zip(mine[::2], mine[1::2]):
 code = subprocess.call([{str(t.program)!r}, *given, *mine])
 sys.exit(0 if command == "chart" and code == 3 else code)  # so short a budget leaves points out
 """
-# These stand for the reader's own files.
+# These files stand for the reader's own ones.
 OWN = {"scene.rib": (ROOT / "scenes/cornell/cornell.rib").read_text(), "model.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n"}
-# What a session cannot do, and why.
+# A session cannot do these commands, for the reason given.
 LEFT_OUT = {"./dev": "it builds the program", "sudo ": "it changes the machine", "git ": "it needs a network", "--watch": "it never ends", "tomales relight": "likewise"}
 
 
@@ -75,10 +76,10 @@ def parse(block, folder):
     t.expect(result.returncode == 0 and ": warning" not in result.stderr, f"{block.place}: its requests are RIB" + result.stderr[:300])
 
 
-prefix = t.folder / "prefix"  # of an installation, for who writes plugins
+prefix = t.folder / "prefix"  # The installation is for readers who write plugins.
 subprocess.run(["cmake", "--install", t.program.parent, "--prefix", prefix, "--component", "dev"], check=True, stdout=subprocess.DEVNULL)
 
-only = sys.argv[3:]  # such as docs/light.md, for who writes that page
+only = sys.argv[3:]  # Whoever writes a page may name it, such as docs/light.md.
 for page in [page for page in pages() if not only or page in only]:
     folder = new_folder(page)
     for block in blocks(page):
@@ -94,10 +95,10 @@ for page in [page for page in pages() if not only or page in only]:
             t.expect(not re.search(r"^ *(tomales|g\+\+|python3|\./dev) ", block.text, re.M), f"{block.place}: commands stand in blocks of sh")
     shutil.rmtree(folder)
 
-# Options and commands that pages name in running text.
+# These are the options and commands that pages name in running text.
 helps = {command: t.run(command, "--help-all").stdout for command in re.findall(r"^  (\w+) +[A-Z]", t.run("--help").stdout.split("Subcommands:")[1], re.M)}
 known = set(re.findall(r"--[a-z][a-z-]*", "".join(helps.values()) + t.run("--help").stdout))
-others = {"--preset", "--build", "--test-dir", "--all"}  # of cmake, of ctest and of scripts of the tree
+others = {"--preset", "--build", "--test-dir", "--all"}  # These belong to cmake, to ctest and to scripts of the tree.
 for page in pages():
     quoted = " ".join(re.findall(r"`([^`\n]+)`", (ROOT / page).read_text()))
     t.expect(not (unknown := set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", quoted)) - known - others), f"{page}: its options exist {unknown or ''}")

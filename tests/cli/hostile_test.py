@@ -1,4 +1,4 @@
-"""Scenes that would take all time or memory if they were allowed to: each ends soon, says where, and exits with 3 or 4."""
+"""Tests scenes that would take all time or memory if they were allowed to: each must end soon, say where, and exit with 3 or 4."""
 import gzip
 import resource
 import subprocess
@@ -41,20 +41,20 @@ limited("2^40 archives of archives", "doubles.rib", f'ArchiveBegin "a0" {DOT} Ar
     f'ArchiveBegin "a{k}" ReadArchive "a{k - 1}" ReadArchive "a{k - 1}" ArchiveEnd\n' for k in range(1, 41)) + 'ReadArchive "a40"\nWorldEnd\n',
     3, "stands for more than 1000000 requests")
 
-# What holds its own old value doubles with every line.
+# A definition that holds its own old value doubles with every line.
 limited("a search path that doubles", "path.rib", 'Option "searchpath" "string archive" "a"\n' + 'Option "searchpath" "string archive" "&:&"\n' * 60 + DOT + "\nWorldEnd\n",
         0, "path.rib:18", "longer than 65536 bytes")
 limited("a variable that doubles", "variable.rib", 'Option "ribparse" "string varsubst" "$" Option "user" "string a" "0123456789"\n'
         + 'Option "user" "string a" "${a}${a}"\n' * 60 + DOT + "\nWorldEnd\n", 0, "variable.rib:19", "longer than 1048576 bytes")
 
-# Deeper than a stack of 8 MB.
+# Nesting is deeper than a stack of 8 MB.
 t.write("furnace.rib", 'Display "o.exr" "file" "rgba" Format 4 4 1 PixelSamples 1 1 Projection "perspective" "fov" [40] WorldBegin\n'
         'LightSource "pointlight" 1 LightSource "indirectlight" 2 Attribute "visibility" "int diffuse" 1 "int specular" 1 "int transmission" 1\n'
         'Surface "matte" "Kd" 1 Color 1 1 1 Sphere 5 -5 5 360 WorldEnd\n')
 t.expect_run("a path of 1000 bounces", ["furnace.rib", "--gi", "reference", "--bounces", "1000", "--samples", "1", "-t", "2"], 0)
 t.expect_run("more are refused", ["furnace.rib", "--bounces", "1001"], 1, "range 1 to 1000")
 
-# Compressed and encoded.
+# The input is compressed and encoded.
 scene = (HEAD + "Sphere 1 -1 1 360\n").encode()
 limited("a bomb of blanks", "blanks.rib.gz", gzip.compress(scene + b" " * (80 << 20) + b"WorldEnd\n"), 3, "blanks.rib.gz", "64 MiB and 200 times")
 limited("a bomb of numbers", "numbers.rib.gz", gzip.compress(scene + b'Points "P" [' + b"0 " * (40 << 20) + b"] WorldEnd\n"), 3, "64 MiB")
@@ -66,7 +66,7 @@ for k in range(0, len(binary), 7):
     if code not in (0, 2, 3):
         t.expect(False, f"binary RIB broken at byte {k}: exit {code}")
 
-# Numbers.
+# Numbers are extreme.
 t.write("huge.rib", HEAD.replace("16 16 1", "1e9 1e9 1") + DOT + "\nWorldEnd\n")
 t.expect_run("a Format of 1e18 pixels", ["huge.rib"], 3, "huge.rib:1", "Format", "more than the 32768 pixels")
 for number in ("nan", "inf", "-inf", "1e999", "1e38", "99999999999999999999", "1e-45", "-0"):
@@ -81,7 +81,7 @@ MotionBegin [0 {number}] Translate 0 0 0 Translate 1 0 0 MotionEnd Attribute "di
 WorldEnd
 """, 3 if number != "-0" else 3, "number.rib:")
 
-# A file that ends in the middle of its world is not a finished picture.
+# A file that ends in the middle of its world is no finished picture.
 for end in range(GOOD.index("WorldBegin") + len("WorldBegin\n"), GOOD.index("WorldEnd"), 5):
     t.write("part.rib", GOOD[:end])
     code = t.run("part.rib", "-q").returncode

@@ -1,4 +1,4 @@
-"""Models of other programs as scenes: what is where in the picture, and what is told of what cannot be brought in."""
+"""Tests models of other programs as scenes: where things are in the picture, and the messages about what cannot be imported."""
 import math
 import pathlib
 import sys
@@ -15,7 +15,7 @@ opaque = [(*c, 1) for c in colors]
 
 
 def picture(name, *options):
-    """Of a scene: its exit code is 0, and the pixels are rows of triples of bytes, about as a screen shows them."""
+    """Renders a scene with exit code 0. Returns rows of pixels of three bytes, about as a screen shows them."""
     t.expect_run(f"{name} renders", [name + ".rib", "-o", name + ".exr", *options], 0)
     seen = pixels(t.folder / (name + ".exr"))
     width, height = (max(place[k] for place in seen) + 1 for k in (0, 1))
@@ -23,7 +23,7 @@ def picture(name, *options):
 
 
 def imported(name, model, *options):
-    """Writes a model and brings it in; returns the picture."""
+    """Writes a model and imports it. Returns the picture."""
     t.write(name, model)
     stem = name.replace(".", "_")
     made = t.expect_run(f"{name} comes in", ["import", name, "-o", stem + ".rib", *options], 0)
@@ -32,7 +32,7 @@ def imported(name, model, *options):
 
 
 def strongest(pixel):
-    """Letters of the channels above half of the greatest."""
+    """Returns the letters of the channels above half of the greatest."""
     return "".join(c for c, value in zip("rgb", pixel) if value > 0.5 * max(pixel) and max(pixel) > 10)
 
 
@@ -45,7 +45,7 @@ for name, model in (("cube.obj", obj(positions, quads, uvs, normals, colors)), (
     sides = [strongest(seen[y][x]) for x, y in ((63, 73), (108, 66), (77, 28))]
     t.expect(sides == ["b", "r", "g"], f"{name}: blue, red and green are where z, x and y point to: {sides}")
     t.expect(seen[5][5] == (0, 0, 0), f"{name}: the picture's corner is empty")
-# A model that is not of the same size along all axes, and stands on one of them.
+# The model has different sizes along its axes, and stands on one of them.
 tall = [(x / 4, y / 4, z) for x, y, z in positions]
 
 
@@ -65,7 +65,7 @@ t.expect(is_upright(imported("tall.obj", obj(tall, quads), "--up", "z")), "--up 
 t.expect(not is_upright(imported("lying.stl", stl(tall, triangles(quads)), "--up", "y")), "--up y leaves .stl")
 t.expect(strongest(imported("red.fbx", fbx(positions, quads, normals))[73][63]) == "r", "an .fbx has the colour of its material")
 
-# Its own camera: a cube of width 1 whose front is 4 from the eye, in the middle of an angle of 40 degrees.
+# The model has its own camera: a cube of width 1 whose front is 4 from the eye, in the middle of an angle of 40 degrees.
 fov = math.radians(40)
 own = Gltf()
 cube_mesh = own.mesh(positions, triangles(quads), NORMAL=normals, COLOR_0=opaque)
@@ -73,7 +73,7 @@ own.node(mesh=cube_mesh)
 own.add("cameras", {"type": "perspective", "perspective": {"yfov": fov, "znear": 0.1, "aspectRatio": 4 / 3}})
 own.node(camera=0, name="eye", translation=[0.25, 0, 4.5])
 left, right, top, bottom = extent(imported("camera.glb", own.glb()))
-scale = 60 / math.tan(fov / 2) / 4  # pixels of a unit
+scale = 60 / math.tan(fov / 2) / 4  # This is the number of pixels of a unit.
 expected = [80 - 0.75 * scale, 80 + 0.25 * scale - 1, 60 - 0.5 * scale, 60 + 0.5 * scale - 1]
 t.expect(all(abs(a - b) <= 1.5 for a, b in zip((left, right, top, bottom), expected)),
          f"the model's camera is looked through: {left, right, top, bottom}, expected {expected}")
@@ -86,7 +86,7 @@ t.write("away.glb", away.glb())
 t.expect_run("a camera that looks away", ["import", "away.glb", "-o", "away.rib"], 0, 'camera "eye" looks away')
 t.expect(max(picture("away", "--format", "160x120")[60][80]) > 10, "another one sees the model")
 
-# One mesh for several nodes, of which one mirrors: red towards +x is then on the other side.
+# Several nodes show one mesh, and one of them mirrors it: its red towards +x is then on the other side.
 twice = Gltf()
 twin = twice.mesh(positions, triangles(quads), NORMAL=normals, COLOR_0=opaque)
 twice.node(mesh=twin, translation=[-1, 0, 0], name="left")
@@ -99,13 +99,13 @@ t.expect(text.count("ObjectBegin") == 1 and text.count("ObjectInstance") == 2 an
 middle = [strongest(seen[60][x]) for x in range(60, 101)]
 t.expect("r" in middle and "rg" not in middle and "gb" not in middle, "both show the red side to the middle: " + " ".join(middle))
 
-# Area lights of .fbx, of which Assimp tells neither kind nor size: they shine before themselves alone.
+# Assimp tells neither the kind nor the size of the area lights of .fbx. They shine only in front of themselves.
 for name, height, top in (("above.fbx", 4, "r"), ("below.fbx", -4, "")):
     t.write(name, fbx(positions, quads, normals, area=(0, height, 0)))
     t.expect_run(f"an area light: {name}", ["import", name, "-o", name + ".rib"], 0, "1 lights are taken as small areas")
     seen = picture(name, "--format", "160x120")
     t.expect((strongest(seen[28][77]), strongest(seen[73][63])) == (top, ""), f"{name}: the light falls down: {seen[28][77]}, {seen[73][63]}")
-# Lights: the same light from a point of four times the intensity at twice the distance; a sun is as strong everywhere.
+# A point light of four times the intensity at twice the distance gives the same light, and a sun is as strong everywhere.
 
 
 def lit(name, *options, **light):
@@ -132,14 +132,14 @@ t.write("flood.glb", dim.glb())
 t.expect_run("light that would flood the picture", ["import", "flood.glb", "-o", "flood.rib"], 0, "--light-scale 1")
 t.expect(max(map(max, picture("flood", "--format", "80x60")[30])) < 255, "is scaled down")
 
-# Pictures: a quarter of each is of one colour.
-QUARTERS = ((255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255))  # from the left, the upper row first
+# Each quarter of a picture has one colour.
+QUARTERS = ((255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255))  # These go from the left, with the upper row first.
 quarters = png(64, lambda x, y: QUARTERS[(x >= 32) + 2 * (y >= 32)])
 square = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
 
 
 def facing(name, look, uv=uvs[:4], files=(), **attributes):
-    """A square that the camera looks at, of a material of glTF; `look` makes it, with pictures of its own."""
+    """A square of a glTF material faces the camera. `look` makes the material, with pictures of its own."""
     scene = Gltf()
     material = scene.add("materials", look(scene))
     scene.node(mesh=scene.mesh(square, [(0, 1, 2), (0, 2, 3)], NORMAL=[(0, 0, 1)] * 4, TEXCOORD_0=uv, material=material, **attributes))
@@ -166,11 +166,11 @@ ways = facing("metal.glb", lambda scene: {"pbrMetallicRoughness": {"metallicRoug
 t.expect(ways[60][50][0] > 1.5 * ways[60][110][0], "the blue channel makes the right half a metal, which scatters nothing")
 cut = facing("cut.glb", paint(png(8, lambda x, y: (255, 255, 255, 255 * (y >= 4))), alphaMode="BLEND"))
 t.expect(max(cut[30][80]) == 0 and min(cut[90][80]) > 50, "alpha of a picture cuts away where the material blends")
-ramp = png(64, lambda x, y: (255, 255, 255, 255 * (64 - y) // 64))  # alpha 1 on top, 0 at the bottom
+ramp = png(64, lambda x, y: (255, 255, 255, 255 * (64 - y) // 64))  # Alpha is 1 on top and 0 at the bottom.
 
 
 def rows(name, **mode):
-    """Brightness above, and below, the middle of a square whose alpha falls downwards."""
+    """Returns the brightness above and below the middle of a square whose alpha falls downwards."""
     seen = facing(name, paint(ramp, **mode))
     return [seen[y][80][0] for y in (40, 56, 64, 80)]
 
@@ -192,7 +192,7 @@ t.expect([strongest(glow[y][x]) for x, y in CENTERS] == ["r", "g", "b", "rgb"], 
 
 # Each picture may have texture coordinates of its own.
 def of_two(scene):
-    """The colour by the first set, what cuts away by the second: there the square has the left half of the picture alone."""
+    """Takes the colour by the first set and the cut by the second, so that the square has the left half of the picture alone."""
     halves = scene.image(png(64, lambda x, y: (255, 255, 255, 255 * (x < 16))))
     return {"alphaMode": "MASK", "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0, 0, 0, 1], "baseColorTexture": {"index": halves}},
             "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": scene.image(quarters), "texCoord": 1}}
@@ -206,7 +206,7 @@ t.expect([strongest(only[y][x]) for x, y in CENTERS] == ["r", "g", "b", "rgb"], 
 
 
 def wrapped(name, **sampler):
-    """Of the quarters, between -1 and 2: colours at the middles of the nine squares there, row by row."""
+    """Returns the colours at the middles of nine squares, row by row, of the four-coloured picture between -1 and 2."""
     def look(scene):
         index = scene.image(quarters)
         if sampler:
@@ -228,7 +228,7 @@ def tilted(x, y):
 
 
 def lit_from(name, direction, look, **more):
-    """Brightness of a square under a sun that shines along -z of a node which is turned so."""
+    """Returns the brightness of a square under a sun that shines along -z of a node with this rotation."""
     scene = Gltf()
     scene.node(mesh=scene.mesh(square, [(0, 1, 2), (0, 2, 3)], NORMAL=[(0, 0, 1)] * 4, TEXCOORD_0=uvs[:4], material=scene.add("materials", look(scene))))
     scene.node(extensions=scene.light(type="directional", intensity=2.0), rotation=direction)
@@ -241,7 +241,7 @@ bumps = [[lit_from(f"tilt{a}{b}.glb", sun, tilted(*by)) for b, sun in enumerate(
 t.expect(bumps[0][0] > bumps[1][0] + 40, f"red of a normal map turns to the right: {bumps}")
 t.expect(bumps[2][1] > bumps[2][0] + 20 and bumps[0][0] > bumps[0][1] + 20, f"green turns up, where red lets light from there alone: {bumps}")
 
-# Lights of other formats, whose cones are told by whole angles: what a white square sends back, which they face.
+# Lights of other formats tell their cones by whole angles. A white square that faces them sends their light back.
 WHITE_SQUARE = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
 
 
@@ -260,7 +260,7 @@ t.expect(abs(sun[1] - sun[0]) <= 4 and cone[1] == 0, f"and a spot lights its con
 t.write("nameless.dae", collada(WHITE_SQUARE, [(0, 1, 2, 3)], "", "<perspective><xfov>40</xfov></perspective>").replace('name="camera"', ""))
 t.expect_run("a camera that Assimp does not read is told of", ["import", "nameless.dae", "-o", "nameless.rib"], 0, "import-camera", "does not tell its angle")
 
-# What moves is told.
+# Motion is reported.
 moving = Gltf()
 bound = moving.mesh(positions, triangles(quads), NORMAL=normals)
 moving.document["meshes"][bound]["primitives"][0]["attributes"].update(
@@ -276,7 +276,7 @@ moving.add("animations", {"channels": [{"sampler": 0, "target": {"node": joint, 
 t.write("moving.glb", moving.glb())
 t.expect_run("animations, bones and other shapes are told of", ["import", "moving.glb", "-o", "moving.rib"], 0, "import-animation", "import-skin", "import-morph")
 
-# Pictures beside the model, under the names that people's machines give them.
+# Pictures lie beside the model, under the names that people's machines give them.
 (t.folder / "textures").mkdir(exist_ok=True)
 t.write("textures/a picture.png", quarters)
 t.write("wood.png", quarters)
@@ -290,7 +290,7 @@ t.write("wood.png", b"no picture")
 t.write("paint.mtl", "newmtl paint\nmap_Kd wood.png\n")
 t.expect_run("a texture that is no picture", ["import", "named.obj", "-o", "gone.rib"], 3, "cannot be read")
 
-# Larger meshes are archives in a folder beside the scene, wherever one stands.
+# Larger meshes become archives in a folder beside the scene.
 n = 24
 grid = [(math.cos(6.283 * i / n) * math.sin(3.1416 * j / n), math.cos(3.1416 * j / n), math.sin(6.283 * i / n) * math.sin(3.1416 * j / n)) for j in range(n + 1) for i in range(n)]
 ball = [(j * n + i, j * n + (i + 1) % n, (j + 1) * n + (i + 1) % n, (j + 1) * n + i) for j in range(n) for i in range(n)]
@@ -303,7 +303,7 @@ t.expect(2 * step[0] < step[1], f"a model without normals looks smooth, and face
 imported("cage.obj", obj(positions, quads), "--subdivide")
 t.expect("SubdivisionMesh" in (t.folder / "cage_obj.rib").read_text(), "--subdivide makes subdivision surfaces")
 
-# What cannot be brought in.
+# Some models cannot be imported.
 t.expect_run("a file that is not there", ["import", "none.obj", "-o", "none.rib"], 2, "cannot be read")
 t.write("empty.obj", "# nothing\n")
 t.expect_run("a file without geometry", ["import", "empty.obj", "-o", "none.rib"], 2, "[import-")
@@ -316,7 +316,7 @@ t.expect_run("a name that is no RIB's", ["import", "cube.obj", "-o", "none.txt"]
 t.expect(not list(t.folder.glob("*none*")) and not list(t.folder.glob(".tomales*")), "none of these leaves a file")
 t.expect_run("a model where a scene is wanted", ["cube.obj"], 2, "tomales import cube.obj -o FILE.rib")
 
-# Names are no paths.
+# Names must not become paths.
 escaping = 'name with "quotes" ../../../escaped\n'
 large = Gltf()
 large.node(mesh=large.mesh(grid, [f for a, b, c, d in ball for f in ((a, b, c), (a, c, d))], name=escaping))

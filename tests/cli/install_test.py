@@ -1,5 +1,5 @@
-"""What docs/shader_writing.md says, done literally in an empty folder: installed into an empty prefix, the renderer runs from there, and a
-plugin of every kind is built with nothing but the installed headers and seen in a picture."""
+"""Does literally what docs/shader_writing.md says, in an empty folder. The renderer is installed into an empty prefix and runs from there. A plugin
+of every kind is built with nothing but the installed headers, and a picture shows it."""
 import os
 import pathlib
 import re
@@ -22,7 +22,7 @@ LightSource "distantlight" 1
 %sSphere 1 -1 1 360
 WorldEnd
 """
-KINDS = {  # requests before WorldBegin and before the sphere
+KINDS = {  # These requests stand before WorldBegin and before the sphere.
     "plain": ("", 'Surface "plastic"\n'),
     "dots": ("", 'Surface "dots" "float Kd" [0.9] "color dotcolor" [0 0 1]\n'),
     "ripple": ("", 'Attribute "displacementbound" "float sphere" [0.1]\nDisplacement "ripple" "float waves" [6]\nSurface "plastic"\n'),
@@ -73,7 +73,7 @@ for name, (options, attributes) in KINDS.items():
 pictures = {name: (t.folder / (name + ".exr")).read_bytes() for name in KINDS}
 t.expect(len(set(pictures.values())) == len(KINDS), "each shader shows")
 t.expect_run("the installed program tries one shader alone", ["shadetest", t.folder / "plugins/dots.so", "--grid", "64x64", "-o", "ci.png"], 0, "nanoseconds a point")
-# Licences of what has no package of its own ask for their notices beside the program.
+# The licences of libraries without a package of their own ask for their notices beside the program.
 notices = (docs.parent / "cmake/copyright").read_text()
 known = t.run("--version").stdout
 for library in ("GLM", "CLI11", "JSON for Modern C++", "Chart.js"):

@@ -1,4 +1,4 @@
-"""Tiles of one frame, joined, are the file that one run writes; tiles that do not belong together are refused."""
+"""Tests that joined tiles of one frame are the file that one run writes, and that tiles of different frames are refused."""
 import itertools
 import subprocess
 
@@ -50,7 +50,7 @@ for end in ("", "_deep"):
     t.write(f"part{end}.exr", content(f"tile0{end}.exr"))
 t.expect(t.run("render", "direct.rib", "-o", "part.exr", "--skip-finished").stderr.count("is finished") == 0, "which a tile is not")
 
-# Parts and Cryptomatte.
+# The picture has several parts and Cryptomatte.
 t.write("parts.rib", 'Display "parts.exr" "openexr" "rgba" "int multipart" [1]\nDisplay "+id.exr" "openexr" "cryptoobject"\n'
         + "\n".join(DIRECT.splitlines()[2:]) + "\n")
 t.run("render", "parts.rib", "-o", "parts.exr", "-q")
@@ -59,7 +59,7 @@ for end in ("", "_id"):
     t.expect_run("pictures of objects and parts are joined", ["join", *(m.replace(".exr", end + ".exr") for m in made_parts), "-o", "parts_joined.exr"], 0)
     t.expect(content("parts_joined.exr") == content(f"parts{end}.exr"), f"parts{end}.exr: to the bytes that one run writes")
 
-# Tiles of a shot: indirect light has no seams, other compressions and tiled files keep their form.
+# These are tiles of a shot: indirect light has no seams, and other compressions and tiled files keep their form.
 t.write("indirect.rib", INDIRECT)
 t.run("hide", "indirect.rib", "-o", "shot.dfb", "-q")
 t.run("gather", "shot.dfb", "-o", "shot.icf", "-q")
@@ -75,7 +75,7 @@ t.run(*shade, "-o", "window.exr", "--crop", "0,0.41,0,1", "-q")
 t.expect_run("a frame may have a window of its own", ["join", "s0.exr", "s2.exr", "--crop", "0,0.41,0,1", "-o", "half.exr"], 0)
 t.expect(content("half.exr") == content("window.exr"), "and is joined to that")
 
-# What does not belong together.
+# These tiles do not belong together.
 seamed = tiles(["render", "indirect.rib"], CROPS[:2] + ["0,1,0.3,1"], prefix="g")
 t.expect_run("tiles that gathered for themselves", ["join", *seamed, "-o", "no.exr"], 2, "gathered light for its own window", "hide, gather and shade")
 t.expect_run("a tile is missing", ["join", *made[:3], "-o", "no.exr"], 2, "no tile has the pixel 29,28")

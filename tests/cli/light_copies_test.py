@@ -1,5 +1,5 @@
-"""A light is known by what its shader declares, never by names: a plugin copy of every built-in light, under another name and with other
-names of its parameters, gives the same bits by every way to indirect light and through every command."""
+"""Tests that the renderer knows a light by what its shader declares, never by names. A plugin copy of every built-in light has another name and other
+names of its parameters. It must give the same bits by every way to indirect light and through every command."""
 import json
 import os
 import pathlib
@@ -16,10 +16,10 @@ t = Suite()
 t.trust_shaders(".")
 source = pathlib.Path(__file__).resolve().parent.parent.parent
 
-# --- The copies: one plugin of all files that hold lights, each in a namespace of its own.
+# --- The copies are one plugin of all files that hold lights, each in a namespace of its own.
 PARAMETER = re.compile(r'(\b\w+[({]\s*)"(\w+)"(?=,\s)')
 LIGHT = re.compile(r'\bTM_LIGHT,\s*"(\w+)"')
-declared = {}  # of each light, the names of its parameters
+declared = {}  # These are the names of the parameters of each light.
 
 
 def copied(path):
@@ -45,7 +45,7 @@ def build_copies():
         shaders += [f"{path.stem}_copy::{name}Shader" for name in names]
     parts.append(f"TM_SHADER_LIBRARY({', '.join(shaders)})\n")
     t.write("copies.cpp", "".join(parts))
-    # The options of the build that arithmetic depends on.
+    # Arithmetic depends on these options of the build.
     subprocess.run([os.environ["CXX"], "-O1", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-std=c++20", "-shared", "-fPIC", "-I", t.folder,
                     "-I", source, t.folder / "copies.cpp", "-o", t.folder / "copies.so"], check=True)
     for shader in json.loads(t.run("info", "--json", "copies.so").stdout)["shaders"]:
@@ -55,7 +55,7 @@ def build_copies():
 
 build_copies()
 
-# --- Scenes, of the built-in lights ("built") and of the copies ("copy").
+# --- The scenes have built-in lights ("built") or copies ("copy").
 SCENE = """Format 20 20 1
 PixelSamples 2 2
 ShadingRate 4
@@ -96,7 +96,7 @@ Illuminate "lamp" 1
 
 
 def light(variant, shader, handle, **params):
-    """A LightSource; names of parameters are Python's, values RIB. An arealight is a rectangle under the ceiling."""
+    """Returns a LightSource. The names of parameters are Python's, and their values are RIB. An arealight is a rectangle under the ceiling."""
     types = {"from_": "point from", "to": "point to", "lightcolor": "color lightcolor", "sundirection": "vector sundirection"}
     strings = ("map", "mapspace", "portals", "source", "shadowname", "radiance", "atlas", "errorfunction", "lighting", "__group", "sfpx", "sfnz")
     text = ""
@@ -109,12 +109,12 @@ def light(variant, shader, handle, **params):
 
 
 def said(text):
-    """Messages, with the names of the built-in lights and without those of temporary folders."""
+    """Returns messages with the names of the built-in lights and without those of temporary folders."""
     return sorted(set(re.sub(r"/tmp/tomales_\w+", "", text.replace("copy", "built").replace("built_", "")).splitlines()))
 
 
 def alike(what, lights, *commands):
-    """Runs the commands, in which {v} is the variant, of both scenes; the picture of the last one is compared, and what is said."""
+    """Runs the commands, in which {v} is the variant, for both scenes. Compares their messages and the picture of the last command."""
     results = {}
     for variant in ("built", "copy"):
         t.write(variant + ".rib", SCENE.format(lights="".join(light(variant, *request, **params) for *request, params in lights)))
@@ -135,7 +135,7 @@ t.expect_run("a sky", ["sky.rib"], 0)
 t.write("map.rib", 'Format 32 32 1\nDisplay "map.shd" "shadow" "z"\nRotate -90 1 0 0\nTranslate 0 -3 0\nWorldBegin\nSphere 0.5 -0.5 0.5 360\nWorldEnd\n')
 t.expect_run("a shadow map", ["map.rib"], 0)
 
-# --- Each light by itself.
+# --- Each light works by itself.
 AREA = ("arealight", "lamp", {"intensity": 3, "lightcolor": "1 0.3 0.2", "samples": 4})
 KEY = ("pointlight", "key", {"from_": "1 1.5 -1", "intensity": 2})
 DOWN = {"from_": "0 3 0", "to": "0 0 0", "intensity": 3}
@@ -165,7 +165,7 @@ alike("arealight, invisible", [("arealight", "lamp", {"samples": 4, "visible": 0
 tested = {name for name, _ in alone} | {"arealight", "indirectlight", "filterlight"}
 t.expect(tested == set(declared), f"every built-in light is here: {tested ^ set(declared)}")
 
-# --- Indirect light, as the command line has it and as the light asks for it.
+# --- Indirect light is as the command line asks, and as the light asks.
 GI = ("indirectlight", "gi", {"samples": 16, "maxerror": 0.7, "errorfunction": '"ward"', "maxdist": 20, "intensity": 1.5, "lightcolor": "1 1 0.5"})
 FILTER = ("filterlight", "more", {"source": '"gi"', "brightness": 0.5, "from_": "0 2 0", "to": "0 0 0", "coneangle": 1})
 
@@ -199,7 +199,7 @@ for name, params in alone:
 alike("a draft", asking(), [*RENDER, "--draft"])
 alike("no indirect light of the scene's own", [KEY], [*RENDER, "--gi", "gather", "--samples", "16"])
 
-# --- Through files.
+# --- The lights go through files.
 HIDE = ["hide", "{v}.rib", "-o", "{v}.dfb"]
 GATHER = ["gather", "{v}.dfb", "-o", "{v}.icf"]
 SHADE = ["shade", "{v}.dfb", "--irradiance", "{v}.icf", "-o", "{v}.exr"]

@@ -1,4 +1,4 @@
-"""What each light has bounced is kept (gather --by-light), so that shade --edit dims and colours lights with all that they bounce."""
+"""Tests that gather --by-light keeps what each light has bounced, so that shade --edit dims and colours lights with all their bounced light."""
 import pathlib
 import sys
 
@@ -38,7 +38,7 @@ def picture(name):
 
 
 def off(name, truth):
-    """The mean difference of two pictures in shares of the second."""
+    """Returns the mean difference of two pictures as a share of the second."""
     a, b = picture(name), picture(truth)
     return sum(abs(x - y) for p in b for x, y in zip(a[p][:3], b[p][:3])) / sum(sum(v[:3]) for v in b.values())
 
@@ -65,7 +65,7 @@ suite.expect(off("dim.exr", "truth.exr") < 0.015, f"as if gathered anew: {100 * 
 suite.expect_run("without shares it is stale", shade("stale.exr", "--irradiance", "plain.icf", "--edit", "dim.rib"), 0, "light-stale")
 suite.expect(off("stale.exr", "truth.exr") > 0.1, f"and wrong: {100 * off('stale.exr', 'truth.exr'):.0f} % off")
 
-# Light that is gathered after the edit is that of the edited lamp already, whether the rest is kept in the file or not.
+# Light that is gathered after the edit already belongs to the edited lamp, whether or not the file keeps the rest.
 suite.write("bright.rib", 'LightSource "pointlight" "key" "intensity" [5]\n')
 suite.write("bright_room.rib", ROOM % ("5", "1 1 1", "0.5"))
 suite.run("render", "bright_room.rib", "-o", "bright_truth.exr", "-q")
@@ -78,7 +78,7 @@ mended = suite.expect_run("one half gathered anew", shade("mended.exr", "--irrad
 suite.expect("light-stale" not in mended.stderr and off("mended.exr", "truth.exr") < 0.015,
              f"and the other as dim as the lamp: {100 * off('mended.exr', 'truth.exr'):.2f} % off")
 
-# Two pictures of one light each are the picture of both.
+# Two pictures of one light each add up to the picture of both.
 for name, other in (("key", "spotlight\" \"rim"), ("rim", "pointlight\" \"key")):
     suite.write(f"{name}.rib", f'LightSource "{other}" "intensity" [0]\n')
     suite.run(*shade(f"{name}.exr", "--irradiance", "room.icf", "--edit", f"{name}.rib", "-q"))
@@ -86,7 +86,7 @@ key, rim, both = picture("key.exr"), picture("rim.exr"), picture("room.exr")
 worst = max(abs(key[p][c] + rim[p][c] - both[p][c]) for p in both for c in range(3))
 suite.expect(worst < 2e-5, f"the pictures of one light each add up to that of both ({worst:.1e})")
 
-# What a light bounces does not follow it to another place, but goes when it is put out there.
+# The bounced light of a lamp does not follow it to another place, but goes out with it there.
 suite.write("away.rib", 'LightSource "pointlight" "key" "from" [-0.5 0.6 -0.3] "intensity" [0]\n')
 suite.expect_run("a light that is moved and put out", shade("away.exr", "--irradiance", "room.icf", "--edit", "away.rib"), 0, "light-stale", '"key"')
 suite.expect(picture("away.exr") == rim, "brings nothing")

@@ -1,4 +1,4 @@
-"""Lights as the renderer knows them: lamps are seen as their shaders shine, and plugins that bring indirect light are known for it."""
+"""Tests lights as the renderer knows them: lamps look as their shaders shine, and plugins that bring indirect light are known to do so."""
 import os
 import pathlib
 import subprocess
@@ -20,7 +20,7 @@ def build(name, code):
                    check=True)
 
 
-# --- A lamp of radiance (power, 0, 0); `stripes` of it on its left half, and `beam` as a power of the cosine to its normal.
+# --- The lamp has radiance (power, 0, 0). With `stripes` its left half is striped, and `beam` is a power of the cosine to its normal.
 build("redlamp", """namespace {
 rsl::FloatParam power("power", 5, ""), stripes("stripes", 0, ""), beam("beam", 0, "");
 void shade(const TmGrid* g) {
@@ -60,7 +60,7 @@ AttributeEnd
 
 
 def seen(what, params="", turn=0, mirrored=False):
-    """The lamp before the eye; mirrored: behind it, in a mirror."""
+    """Returns the lamp as the eye sees it. If mirrored, it is behind the eye and seen in a mirror."""
     t.write("lamp.rib", LAMP.format(params=params, lamp_z=-5 if mirrored else 5, turn=turn if not mirrored else 180 - turn, mirror=MIRROR if mirrored else ""))
     t.expect_run(what + " renders", ["lamp.rib", "-o", "lamp.exr"], 0)
     return pixels(str(t.folder / "lamp.exr"))
@@ -82,7 +82,7 @@ for mirrored, place in ((False, "to the camera"), (True, "in a mirror")):
     slanted = seen(f"a slanted beam {place}", '"float beam" [2]', 60, mirrored=mirrored)
     t.expect(near(red(slanted, 8), (1.25, 0, 0)), f"and with the direction {place}: {red(slanted, 8)}")
 
-# --- What an indirect light asks for is said only where it is not done.
+# --- A request of an indirect light is reported only if it is not followed.
 ROOM = """Format 16 16 1
 Projection "perspective" "fov" [60]
 Translate 0 0 1.5
@@ -112,7 +112,7 @@ t.run("irradiance", "photons", "-o", "clouds")
 said, points, _ = room('LightSource "indirectlight" "gi" "float samples" [16] "string radiance" ["points"] "string atlas" ["clouds"]')
 t.expect("not supported" not in said, "so are points")
 
-# --- A plugin that brings indirect light, by its capability.
+# --- A plugin brings indirect light, which its capability tells.
 build("bounced", """namespace {
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);
@@ -137,7 +137,7 @@ t.write("sphere.rib", SPHERE + "\n")
 _, whole, _ = room("", SPHERE, "--gi", "gather", "--samples", "64")
 _, procedural, _ = room("", 'Procedural "DelayedReadArchive" ["sphere.rib"] [-2 2 -2 2 -2 2]', "--gi", "gather", "--samples", "64")
 t.expect(abs(whole - procedural) < 0.01 * whole > 0.01 * direct, f"for those of procedurals too: {procedural:.4f}, {whole:.4f}")
-# --- A small lamp with a cone is a spotlight: as strong within it, dark outside, half as strong in the middle of its soft edge.
+# --- A small lamp with a cone is a spotlight: it is as strong within the cone, dark outside, and half as strong in the middle of its soft edge.
 BEAM = """Format 64 1 1
 PixelSamples 4 4
 PixelFilter "box" 1 1

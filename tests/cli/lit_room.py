@@ -1,4 +1,5 @@
-"""A small room whose light has every source that an audit tells apart: a lamp with an area, a spot, and what surfaces send on."""
+"""A small room with every source of light that an audit tells apart: a lamp with an area, a spot, and the light that surfaces
+reflect."""
 ROOM = """Display "room.exr" "file" "rgba"
 Format 20 16 1
 Projection "perspective" "fov" [60]

@@ -1,5 +1,4 @@
-"""Frames that are made row by row, or that rest in a file, have the bits of frames in memory, and memory does not grow with their
-area."""
+"""Tests that frames that are made row by row, or are kept in a file, have the bits of frames in memory. Memory must not grow with their area."""
 import json
 import subprocess
 
@@ -36,7 +35,7 @@ suite = Suite()
 
 
 def pictures():
-    """What is in them; not their bytes, which hold dates."""
+    """Returns the contents of the pictures. Their bytes would not do, because they hold dates."""
     out = []
     for name in FILES:
         dump = "--dumpdata" if name == "deep.exr" else "--hash"

@@ -1,4 +1,4 @@
-"""What a stranger is told: each cause once, what helps, what a scene needs, what is built in, and what the options are."""
+"""Tests what a stranger is told: each cause once, what helps, what a scene needs, what is built in, and which options exist."""
 import json
 import re
 
@@ -15,7 +15,7 @@ def scene(world):
     return 'Display "x.exr" "file" "rgba" Format 16 16 1 Translate 0 0 4 WorldBegin LightSource "distantlight" 1 ' + world + " WorldEnd\n"
 
 
-# One message for each shader, however the file is broken into lines.
+# Each shader gets one message, however the file is broken into lines.
 seven = scene(" ".join(f'Surface "rock{n}" Sphere 1 -1 1 360' for n in range(7)))
 t.write("line.rib", seven)
 t.run("catrib", "--binary", "line.rib", "-o", "binary.rib")
@@ -24,19 +24,19 @@ for file in ("line.rib", "binary.rib"):
     t.expect(len(lines_with(told, "[shader-missing]")) == 7, "are seven messages: " + told.stderr)
     t.expect(all(lines_with(told, f'"rock{n}"') for n in range(7)), "which name them")
 
-# One message for one shader, however often it is asked for.
+# One shader gets one message, however often it is requested.
 t.write("many.rib", scene("\n".join('Surface "rock" "Kd" [%g] Sphere 1 -1 1 360' % (0.01 * n) for n in range(93))))
 told = t.expect_run("one shader that 93 lines ask for", ["many.rib"], 3)
 missing = lines_with(told, "[shader-missing]")
 t.expect(len(missing) == 2 and "is unknown" in missing[0] and missing[0].startswith("many.rib:1:"), "is one message: " + told.stderr)
 t.expect(missing[-1].startswith("tomales: 93 times:") and "many.rib:1, many.rib:2, many.rib:3, many.rib:4, ..." in missing[-1], "with its count and first places at the end: " + missing[-1])
 
-# Frames over one picture.
+# Several frames write one picture.
 t.write("frames.rib", "\n".join(f"FrameBegin {n}\n{GOOD}FrameEnd" for n in range(1, 21)))
 told = t.expect_run("twenty frames over one picture", ["frames.rib", "--format", "4x4"], 0)
 t.expect(len(lines_with(told, "written over")) == 2 and lines_with(told, "tomales: 19 times:", "written over"), "are one message and its count: " + told.stderr)
 
-# What is missing: where it was looked for, and what lies near.
+# The message names where a missing file was looked for, and what lies near.
 (t.folder / "shaders").mkdir()
 t.write("shaders/rock.sl", "surface rock() { Ci = Cs; Oi = 1; }")
 t.write("near.rib", scene('Surface "rock" Sphere 1 -1 1 360 Surface "Plastik" Sphere 1 -1 1 360 Surface "fog" Sphere 1 -1 1 360 Surface "rock" Sphere 1 -1 1 360'))
@@ -49,7 +49,7 @@ t.write("wood.tif", "no picture")
 t.write("files.rib", scene('ReadArchive "Part.rib" ReadArchive "nowhere.rib" Surface "paintedplastic" "string texturename" ["wood.tx"] Sphere 1 -1 1 360'))
 told = t.expect_run("an archive and a picture that are not found", ["files.rib"], 3, 'there is "part.rib"', 'there is "wood.tif"', "looked for in .", "not found in .")
 
-# What a scene needs.
+# The program lists what a scene needs.
 needs = t.expect_run("info of a scene", ["info", "near.rib"], 3, "missing: 3 of 4")
 t.expect(any(line.split()[:3] == ["missing", "surface", "rock"] and "near.rib:1" in line for line in needs.stdout.splitlines()), "says what is missing and where it is named: " + needs.stdout)
 t.expect(any(line.split() == ["found", "light", "distantlight", "built-in"] for line in needs.stdout.splitlines()), "and what is built in")
@@ -65,13 +65,13 @@ t.write("maps.rib", 'FrameBegin 1\n' + scene("Sphere 1 -1 1 360").replace("x.exr
 told = json.loads(t.expect_run("info of a scene that makes its maps", ["info", "maps.rib", "--json"], 3).stdout)
 t.expect({n["name"]: n["found"] for n in told["needs"] if n["kind"] == "texture"} == {"made.tex": True, "other.tex": False}, f"knows which: {told['needs']}")
 
-# A plugin in a folder that nobody has named.
+# A plugin lies in a folder that nobody has named.
 (t.folder / "compiled").mkdir()
 t.write("compiled/knit.so", "no plugin")
 t.write("knit.rib", scene('Surface "knit" Sphere 1 -1 1 360'))
 t.expect_run("a plugin in another folder", ["knit.rib"], 3, '"compiled/knit.so" is there, in a folder that is not searched', "--shaders FOLDER")
 
-# What a shader's own text names, and a text that does not compile.
+# A shader's text names other files, and another text does not compile.
 t.write("worn.sl", 'surface worn() { Oi = 1; Ci = texture("wood.tif") + environment("far.tex", N) * match("x.tif$", "y"); string n = format("page%d.tif", 1); printf("no use.tif"); }\n')
 t.write("turned.sl", 'surface turned(string map = "") { Oi = 1; Ci = texture(map); }\n')
 t.write("worn.rib", scene('Surface "worn" Sphere 1 -1 1 360 Surface "turned" "string map" ["two words.tex"] Sphere 1 -1 1 360'))
@@ -84,7 +84,7 @@ for arguments in (["oak.rib"], ["info", "oak.rib"]):
     t.expect(told.stderr.count("several.sl: missing") <= 1 and "missing: ./several.sl" not in told.stderr, "is named once: " + told.stderr)
 t.expect_run("info of a scene that has everything", ["info", "frames.rib"], 0, "missing: 0 of 2")
 
-# What is built in.
+# The program lists what is built in.
 told = t.expect_run("info of a built-in shader", ["info", "plastic"], 0, "roughness", "specularcolor", "default")
 t.expect_run("info of a shader's text by its name", ["info", "rock", "--shaders", "shaders"], 0, "shaders/rock.sl")
 t.expect_run("info of a shader that there is not", ["info", "plastik"], 2, 'did you mean "plastic"?', "tomales list shaders")
@@ -98,13 +98,13 @@ t.expect(all(light["doc"] and all(p["doc"] for p in light["parameters"]) for lig
 t.expect_run("list of shaders, which is what most want", ["list"], 0, "surface plastic", "= 0.8 ")
 t.expect_run("list of what there is not", ["list", "gremlins"], 1, "shaders", "filters")
 
-# What is no scene.
+# The file is no scene.
 for file, says in {"rock.sl": "tomales compile", "rock.slo": ".sl", "house.obj": "tomales import house.obj", "house.usda": "OpenUSD", "house.blend": "export the scene as RIB",
                    "x.exr": "tomales info x.exr", "shot.dfb": "tomales shade shot.dfb", "house.PY": "python3"}.items():
     t.expect_run(file + " is no scene", [file], 2, "no RIB", says)
     t.expect_run(file + " is none to hide", ["hide", file, "-o", "house.dfb"], 2, "no RIB")
 
-# Help.
+# The help fits a screen, and --help-all has everything.
 brief, whole = t.run("render", "--help").stdout, t.run("render", "--help-all").stdout
 t.expect(len(brief.splitlines()) <= 60 and "--samples" in brief and "--brick-cache" not in brief and "--help-all" in brief, f"render --help fits a screen: {len(brief.splitlines())} lines")
 t.expect("--brick-cache" in whole and "--samples" in whole, "and --help-all has the rest")

@@ -1,4 +1,5 @@
-"""docs/rsl_plugins/milk.cpp marches through the volume photon map: light of any number of bounces in a ball against closed forms."""
+"""Tests docs/rsl_plugins/milk.cpp, which marches through the volume photon map. Light of any number of bounces in a ball is compared with closed
+forms."""
 import json
 import math
 import os
@@ -14,7 +15,7 @@ subprocess.run([os.environ["CXX"], "-O1", "-std=c++17", "-shared", "-fPIC", "-I"
 
 
 def ball(name, light, scattering, absorption):
-    """Of the middle of a ball of radius 1, what it sends to the eye and what it hides, in red."""
+    """Returns what the middle of a ball of radius 1 sends to the eye and what it hides, in red."""
     medium = f'"color scattering" [{scattering} {scattering} {scattering}] "color absorption" [{absorption} {absorption} {absorption}]'
     t.write(name + ".rib", f"""Display "{name}.exr" "file" "rgba"
 Format 32 32 1
@@ -41,10 +42,10 @@ def is_near(value, expected, what, tolerance):
     t.expect(abs(value - expected) < tolerance * expected, f"{what}: {value:.4f}, by the closed form {expected:.4f}")
 
 
-# A furnace: what scatters everything hides as much light as it sends.
+# This is a furnace: a medium that only scatters hides as much light as it sends.
 sent, hidden = ball("furnace", 'LightSource "environmentlight" 1 "intensity" [1]', 2, 0)
 is_near(sent / hidden, 1, "in a furnace of radiance 1, over what it hides", 0.03)
-# The eye within it, by the built-in medium: what the map holds over half a unit before a black wall.
+# The eye is within the built-in medium, with half a unit of it before a black wall. The map tells its light.
 t.write("within.rib", """Display "within.exr" "file" "rgb"
 Format 8 8 1
 Projection "orthographic"
@@ -59,10 +60,11 @@ WorldEnd
 """)
 t.expect_run("a medium by its photons", ["within.rib"], 0)
 is_near(json.loads(t.run("info", "--json", "within.exr").stdout)["channels"][0]["mean"], 1 - math.exp(-1), "seen from within", 0.03)
-# So thin that light is scattered once: a beam of E = pi has the fluence pi everywhere, the mean radiance 1/4, of which half is scattered.
+# The medium is so thin that light is scattered once. A beam of E = pi has the fluence pi everywhere and the mean radiance 1/4, of which half is
+# scattered.
 sent, hidden = ball("thin", 'LightSource "distantlight" 1 "from" [1 0 0] "to" [0 0 0] "intensity" [1]', 0.01, 0.01)
 is_near(sent / hidden, 0.125, "thin smoke in a beam, over what it hides", 0.05)
-# Over the window of 1.2 by 1.2, the mean of 1 - exp(-0.02 chord).
+# The closed form is the mean of 1 - exp(-0.02 chord) over the window of 1.2 by 1.2.
 n = 200
 at = [1.2 * (i + 0.5) / n - 0.6 for i in range(n)]
 is_near(hidden, sum(1 - math.exp(-0.04 * math.sqrt(1 - x * x - y * y)) for x in at for y in at) / n**2, "and it hides", 0.01)

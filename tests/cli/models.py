@@ -1,4 +1,4 @@
-"""Small models in several formats, made of lists, so that no file of a modeller needs to be kept.
+"""Makes small models in several formats from lists, so that no file of a modeller needs to be kept.
 
 A model is right-handed with y up, unless its format says otherwise. Faces are counterclockwise seen from outside.
 """
@@ -7,7 +7,7 @@ import json
 import struct
 import zlib
 
-#: A unit cube around the origin: a face, its normal, its corners with texture coordinates whose v runs up.
+#: The unit cube around the origin has for each face its normal and its corners, with texture coordinates whose v runs up.
 FACES = {
     "+x": ((1, 0, 0), ((1, -1, 1), (1, -1, -1), (1, 1, -1), (1, 1, 1))),
     "-x": ((-1, 0, 0), ((-1, -1, -1), (-1, -1, 1), (-1, 1, 1), (-1, 1, -1))),
@@ -17,12 +17,12 @@ FACES = {
     "-z": ((0, 0, -1), ((1, -1, -1), (-1, -1, -1), (-1, 1, -1), (1, 1, -1))),
 }
 UV = ((0, 0), (1, 0), (1, 1), (0, 1))
-#: Of the faces: red towards +x, green towards +y, blue towards +z, and their complements.
+#: The colours of the faces are red towards +x, green towards +y, blue towards +z, and their complements.
 COLORS = {"+x": (1, 0, 0), "-x": (0, 1, 1), "+y": (0, 1, 0), "-y": (1, 0, 1), "+z": (0, 0, 1), "-z": (1, 1, 0)}
 
 
 def cube():
-    """Positions, normals, texture coordinates and colours of 24 vertices, and the six quads."""
+    """Returns positions, normals, texture coordinates and colours of 24 vertices, and the six quads."""
     positions, normals, uvs, colors = [], [], [], []
     for name, (normal, corners) in FACES.items():
         for corner, uv in zip(corners, UV):
@@ -36,7 +36,7 @@ def triangles(quads):
 
 
 def png(size, texel):
-    """A square picture; `texel` gives the bytes of column x, row y from the top: three, or four with alpha."""
+    """Returns a square picture. `texel` gives the bytes of column x in row y from the top: three, or four with alpha."""
     rows = [[bytes(texel(x, y)) for x in range(size)] for y in range(size)]
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     head = struct.pack(">IIBBBBB", size, size, 8, 2 if len(rows[0][0]) == 3 else 6, 0, 0, 0)
@@ -45,7 +45,7 @@ def png(size, texel):
 
 
 def obj(positions, faces, uvs=(), normals=(), colors=(), before="", material=""):
-    """Texture coordinates, normals and colours are those of the positions."""
+    """Writes OBJ. Texture coordinates, normals and colours have the indices of the positions."""
     suffix = lambda i: f"/{i if uvs else ''}/{i}" if normals else f"/{i}" if uvs else ""
     rows = [p + (tuple(colors[i]) if colors else ()) for i, p in enumerate(positions)]
     lines = [before] + ["v " + " ".join(map(str, row)) for row in rows] + [f"vt {u} {v}" for u, v in uvs]
@@ -67,7 +67,7 @@ def ply(positions, faces, colors=(), binary=False):
 
 
 def stl(positions, faces):
-    """Binary, without normals."""
+    """Writes binary STL without normals."""
     out = b"made by a test".ljust(80) + struct.pack("<I", len(faces))
     for face in faces:
         out += struct.pack("<12fH", 0, 0, 0, *(c for i in face for c in positions[i]), 0)
@@ -75,7 +75,7 @@ def stl(positions, faces):
 
 
 class Gltf:
-    """A scene of glTF 2.0 that grows by calls, which return indices."""
+    """A scene of glTF 2.0. Its calls add to it and return indices."""
 
     def __init__(self):
         self.data = b""
@@ -103,7 +103,7 @@ class Gltf:
         return self.add("accessors", {"bufferView": self.view(struct.pack(f"<{len(values)}I", *values)), "componentType": 5125, "count": len(values), "type": "SCALAR"})
 
     def mesh(self, positions, faces, material=None, mode=4, name="mesh", **attributes):
-        """`attributes` by name: NORMAL, TEXCOORD_0, COLOR_0; texture coordinates whose v runs up are turned."""
+        """Adds a mesh. `attributes` are NORMAL, TEXCOORD_0 and COLOR_0; the v of the given texture coordinates runs up, so it is turned for glTF."""
         for key, rows in attributes.items():
             if key.startswith("TEXCOORD"):
                 attributes[key] = [(u, 1 - v) for u, v in rows]
@@ -121,7 +121,7 @@ class Gltf:
         return index
 
     def image(self, png, name="image"):
-        """A texture of a picture that is kept within the file."""
+        """Adds a texture whose picture is kept within the file."""
         return self.add("textures", {"source": self.add("images", {"bufferView": self.view(png), "mimeType": "image/png", "name": name})})
 
     def light(self, **entry):
@@ -145,7 +145,7 @@ class Gltf:
 
 
 def fbx(positions, faces, normals, area=None):
-    """FBX in text, as its version 7.4 has it, with an area light that shines along -y from the place `area`."""
+    """Writes FBX as text of version 7.4, with an area light at `area` that shines along -y."""
     points = ",".join(f"{c}" for p in positions for c in p)
     indices = ",".join(str(i if k + 1 < len(f) else -i - 1) for f in faces for k, i in enumerate(f))
     corners = ",".join(f"{c}" for f in faces for i in f for c in normals[i])
@@ -203,8 +203,7 @@ Connections:  {{
 
 
 def collada(positions, faces, light="", camera=""):
-    """COLLADA 1.4, with what stands in `light` and in `camera` as elements of technique_common; both look along -z from
-    (0, 0, 4)."""
+    """Writes COLLADA 1.4. `light` and `camera` are elements of technique_common, and both look along -z from (0, 0, 4)."""
     points = " ".join(f"{c}" for p in positions for c in p)
     counts, corners = " ".join(str(len(f)) for f in faces), " ".join(str(i) for f in faces for i in f)
     library = lambda kind, content: f'<library_{kind}s><{kind} id="{kind}" name="{kind}">{content}</{kind}></library_{kind}s>' if content else ""

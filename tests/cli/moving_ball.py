@@ -1,4 +1,4 @@
-"""A ball that moves over a floor from frame to frame, with indirect light: for tests of many frames."""
+"""A scene for tests of many frames: a ball moves over a floor from frame to frame, with indirect light."""
 FRAME = """FrameBegin %d
 WorldBegin
 LightSource "pointlight" 1 "from" [3 3 -3] "intensity" [20]

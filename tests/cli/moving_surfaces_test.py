@@ -1,4 +1,4 @@
-"""Surface shaders that assign P displace, as they do in renderers that shade before they hide."""
+"""Tests that surface shaders that assign P displace, as they do in renderers that shade before they hide."""
 import pathlib
 import sys
 

@@ -1,4 +1,4 @@
-"""Models that no modeller should write, in every format that has such corners: each is a picture or a message."""
+"""Tests models that no modeller should write, in every format that has such corners: each must give a picture or a message."""
 import json
 import math
 
@@ -11,9 +11,10 @@ nan, inf = float("nan"), float("inf")
 
 
 def judge(what, name, model, expected, *options):
-    """`expected`: "picture" (something is seen), "message" (exit code 2), or "either", which may be an empty picture too."""
+    """Imports and renders a model. `expected` is "picture" (something is seen), "message" (exit code 2), or "either", which may be an empty
+    picture too."""
     t.write(name, model)
-    made = t.run("import", name, "-o", "odd.rib", *options, cpu_s=3)  # Assimp does not end on some files
+    made = t.run("import", name, "-o", "odd.rib", *options, cpu_s=3)  # Assimp does not end on some files.
     codes = {"picture": (0,), "message": (2,), "either": (0, 2, 3)}[expected]
     good = made.returncode in codes and (made.stderr != "" or made.returncode == 0)
     told = f"{what}, {name} {' '.join(options)}: {made.returncode} {made.stderr[:300]}"
@@ -58,7 +59,7 @@ def without(scene, *path):
 
 
 def painted(data, mime="image/png", **entries):
-    """With a picture that is kept within the file, of which `entries` are changed."""
+    """Paints a square with a picture that is kept within the file. `entries` of it are changed."""
     def change(scene):
         index = scene.image(data)
         scene.document["images"][0].update(mimeType=mime, **entries)
@@ -111,7 +112,7 @@ for what, (model, expected) in GLTF.items():
     for options in ([], ["--subdivide"]):
         judge(what, "odd.glb", model, expected, *options)
 
-# The same shapes in each format: points, faces, and what is expected of them.
+# The same shapes come in each format: points, faces, and what is expected of them.
 SHAPES = {
     "nothing": ([], [], "message"),
     "points without faces": (square, [], "either"),

@@ -1,4 +1,4 @@
-"""Files of a scene that are not where its names say: beside it, in a user's folders, on another machine, under another ending."""
+"""Tests files of a scene that are not where their names say: beside it, in a user's folders, on another machine, or under another ending."""
 import json
 import os
 import subprocess
@@ -29,14 +29,14 @@ def same(a, b):
 picture("job/green.tif", "0,1,0")
 t.write("job/ball.rib", "Sphere 1 -1 1 360\n")
 
-# Beside the scene, also by a name that leads out of its folder.
+# The files lie beside the scene. Some names lead out of its folder.
 result = t.expect_run("a picture beside the scene, from another folder", [textured("beside", "green.tif")], 0)
 t.expect(not result.stderr, "is where it is meant to be")
 (t.folder / "job/scenes").mkdir()
 t.expect_run("a name that begins with ..", [textured("upwards", "../green.tif", folder="job/scenes")], 0)
 t.expect(same("upwards", "beside"), "is seen from the folder of the scene")
 
-# On another machine.
+# The names are those of another machine.
 for name, where in (("unix", "/usr/local/prman/textures/green.tif"), ("windows", "C:\\\\art\\\\green.tif"), ("relative", "textures/green.tif")):
     result = t.expect_run(f"a picture of another machine: {name}", [textured(name, where)], 0, "which has its name")
     t.expect(result.stderr.count("texture-elsewhere") == 1, "is said once")
@@ -47,9 +47,9 @@ t.expect_run("an archive of another machine", [scene("archive", ball='ReadArchiv
 t.expect(same("archive", "ball_itself"), "is read")
 t.expect_run("an archive that is nowhere", [scene("no_archive", ball='ReadArchive "/net/job7/none.rib"')], 3, "none.rib")
 
-# Under another ending: the texture of another renderer is missing or cannot be read, and its picture lies there.
+# A file has another ending: the texture of another renderer is missing or cannot be read, and its picture lies beside it.
 t.expect_run("a texture that is missing", [textured("missing_tx", "green.tx")], 0, "green.tif is taken")
-t.write("job/old.tx", b"\xce\xfa" + bytes(range(256)) * 8)  # an old texture of PRMan's begins so
+t.write("job/old.tx", b"\xce\xfa" + bytes(range(256)) * 8)  # An old texture of PRMan's begins like this.
 picture("job/old.tif", "0,1,0")
 t.expect_run("a texture of another renderer", [textured("old_tx", "old.tx")], 0, "cannot be read", "old.tif is taken")
 t.expect_run("on another machine", [textured("old_unix", "/net/maps/old.tx")], 0, "old.tif is taken")
@@ -62,14 +62,14 @@ t.expect_run("a texture of another renderer alone", [textured("alone", "alone.tx
 t.expect_run("info finds what rendering takes", ["info", "job/missing_tx.rib"], 0, "job/green.tif", "missing: 0")
 t.expect("missing: 1" in t.run("info", "job/nowhere.rib").stdout, "and nothing else")
 
-# No name is no picture.
+# An empty name is no picture.
 t.write("job/looks.sl", 'surface looks(string map = "";) { Oi = 1; Ci = color texture(map) + color environment(map, N) + shadow(map, P); }')
 result = t.expect_run("an empty name", [scene("empty", 'Surface "looks"')], 0)
 t.expect(not result.stderr, "is no matter")
 t.expect_run("black", [scene("black", 'Surface "constant" Color 0 0 0')], 0)
 t.expect(same("empty", "black"), "and brings nothing")
 
-# Folders of the user.
+# The files lie in folders of the user.
 picture("mine/blue.tif", "0,0,1")
 picture("theirs/blue.tif", "1,0,0")
 t.write("mine/bead.rib", "Sphere 1 -1 1 360\n")
@@ -109,7 +109,7 @@ for kind in ("textures", "archives", "shaders"):
 for one in (picture_scene, archive_scene, shader_scene):
     with_environment("XDG_CONFIG_HOME", t.folder / "config2", one)
 
-# What stands in the working folder comes first: maps that an earlier frame has written are there.
+# Files in the working folder come first, because maps that an earlier frame has written are there.
 picture("green.tif", "1,0,0")
 t.expect_run("a picture in the working folder", [textured("working", "green.tif")], 0)
 t.expect(not same("working", "beside"), "comes before the one beside the scene")

@@ -1,4 +1,4 @@
-"""--output-root: all files that a scene writes lie below one folder, and later frames find them there."""
+"""Tests that with --output-root all files that a scene writes lie below one folder, and that later frames find them there."""
 
 from program import Suite
 
@@ -16,7 +16,7 @@ PICTURE = "Format 16 16 1\n" + WORLD
 
 
 def files():
-    """Those of the test's folder that lie outside of the root, and those inside."""
+    """Returns the files of the test's folder that lie outside of the root, and those inside."""
     all_files = {p.relative_to(t.folder).as_posix() for p in t.folder.rglob("*") if p.is_file()}
     inside = {f for f in all_files if f.startswith("work/kept/")}
     return all_files - inside - scenes, {f.removeprefix("work/kept/") for f in inside}
@@ -28,7 +28,7 @@ def scene(name, text):
 
 
 def expect_kept(what, name, text, written, *says, code=0, arguments=()):
-    """The scene writes these files below the root, and nothing outside."""
+    """Tests that the scene writes these files below the root, and nothing outside."""
     scene(name, text)
     result = t.expect_run(what, [name, "--output-root", "work/kept", *arguments], code, *says)
     outside, inside = files()

@@ -1,5 +1,5 @@
-"""Which files a command writes, and what they say of themselves: -o, --crop and --overwrite with five Displays, frames that
-are finished, and frames that are interrupted."""
+"""Tests which files a command writes and what their headers say: -o, --crop and --overwrite with five Displays, finished frames, and interrupted
+frames."""
 import hashlib
 import itertools
 import pathlib
@@ -56,7 +56,7 @@ def contents():
 
 
 def header(name):
-    """{attribute: its text as oiiotool prints it}, and the data window."""
+    """Returns {attribute: its text as oiiotool prints it}, and the data window."""
     text = subprocess.run(["oiiotool", "--info", "-v", str(t.folder / name)], capture_output=True, text=True).stdout
     out = dict(re.findall(r'^ +([\w:/]+): "?(.*?)"?$', text, re.M))
     width, height = map(int, re.search(r": +(\d+) x +(\d+)", text).groups())
@@ -84,7 +84,7 @@ for command, output, crop, one in itertools.product((["render", "shot.rib"], ["s
     t.expect_run(what, line, 0)
     after = contents()
     changed = {name for name in before if before[name] != after[name]}
-    named = {output, output.replace(".exr", "_n.exr")} if output else set()  # beauty_n.exr is look_n.exr
+    named = {output, output.replace(".exr", "_n.exr")} if output else set()  # The name beauty_n.exr becomes look_n.exr.
     named |= {output.replace(".exr", f"_{p}") for p in PICTURES[2:]} if output else set()
     if output and one:
         named = {output}
@@ -107,7 +107,7 @@ t.expect(window("beauty.exr") == (0, 0, 48, 36), "takes its place too")
 t.expect_run("--overwrite alone", ["shot.rib", "--overwrite"], 1, "--crop")
 t.run("shot.rib", "-q")
 
-# --frames: of two frames whose Displays have names of their own, one alone.
+# The Displays of two frames have names of their own, and --frames chooses one frame.
 def frame(number):
     return f"FrameBegin {number}\n" + DISPLAYS.replace('.exr"', f'{number}.exr"') + WORLD + "FrameEnd\n"
 
@@ -137,7 +137,7 @@ t.expect(contents() == both, "changes nothing")
 for name in set(both) - {*PICTURES, "ball.map"}:
     (t.folder / name).unlink()
 
-# Pictures that a later Make request reads are maps, too: six faces of a room whose sides have a colour each.
+# Pictures that a later Make request reads are maps too. Here they are six faces of a room, and each side has a colour.
 FACES = ["px", "nx", "py", "ny", "pz", "nz"]
 face = lambda n, name: f"""FrameBegin {n}
 Display "{name}.exr" "file" "rgb"
@@ -167,13 +167,13 @@ for left in [f"{name}.exr" for name in FACES] + ["room.env", "look.exr"]:
     (t.folder / left).unlink()
 t.run("shot.rib", "-q")
 
-# Headers: points of the world are projected to where they are seen.
+# By the matrices in headers, points of the world are projected to where they are seen.
 seen = [at for at, value in pixels(t.folder / "beauty.exr").items() if value[3] > 0.99]
 middle = (sum(x for x, _ in seen) / len(seen) + 0.5, sum(y for _, y in seen) / len(seen) + 0.5)
 
 
 def projected(matrix, p):
-    row = [sum(v * matrix[4 * i + k] for i, v in enumerate((*p, 1))) for k in range(4)]  # rows from the left
+    row = [sum(v * matrix[4 * i + k] for i, v in enumerate((*p, 1))) for k in range(4)]  # Row vectors are multiplied from the left.
     return 64 * row[0] / row[3], 48 * row[1] / row[3]
 
 
@@ -190,7 +190,7 @@ t.run("beauty.rib", "-o", "set.exr", "--gi", "gather", "--samples", "16", "-q")
 settings = header("set.exr")[0]["tomales:settings"]
 t.expect(settings == "--gi gather --samples 16", f"settings of the command line are told ({settings})")
 
-# Finished frames are left out, by what they hold.
+# Finished frames are left out, and their contents tell that they are finished.
 SKIP = ["shot.rib", "--skip-finished"]
 
 

@@ -1,5 +1,5 @@
-"""A named pipe, a device or a folder in the place of every file that is read: a message that says what it is, and no waiting. The RIB of a
-command line alone may come through a pipe."""
+"""Puts a named pipe, a device or a folder in the place of every file that is read. A message must say what it is, and the program must not wait. Only
+the RIB of a command line may come through a pipe."""
 import os
 import subprocess
 
@@ -20,7 +20,7 @@ def inside(requests):
 
 
 def expect_told(what, arguments, code, *says):
-    """Waiting for a writer of the pipe would end by the time limit of Suite.run()."""
+    """Tests the message. If the program waited for a writer of the pipe, the time limit of Suite.run() would end it."""
     try:
         t.expect_run(what, arguments, code, *says)
     except subprocess.TimeoutExpired:
@@ -31,7 +31,7 @@ for name in ("p.exr", "p.tif", "p.png", "p.tx", "p.ptc", "p.bkm", "p.ply", "p.df
     pipe(name)
 PIPE = "it is a pipe"
 
-# Files that scenes name.
+# Scenes name files.
 scenes = {
     "a texture": (inside('Surface "paintedplastic" "texturename" ["p.tx"]'), 3, PIPE),
     "a texture that is a picture": (inside('Surface "paintedplastic" "texturename" ["p.png"]'), 3, PIPE),
@@ -54,7 +54,7 @@ for what, (text, code, says) in scenes.items():
 t.write("scene.rib", inside('Surface "p"'))
 expect_told("a shader that is a pipe", ["scene.rib"], 3)
 
-# Files that commands name.
+# Commands name files.
 t.run("hide", "good.rib", "-o", "good.dfb", "-q")
 for what, arguments in {
     "shade": ["shade", "p.dfb", "-o", "a.exr"],
@@ -86,7 +86,7 @@ expect_told("shadetest of a plugin that is a pipe", ["shadetest", "./p.so"], 3, 
 expect_told("a device", ["compare", "/dev/zero", "/dev/zero"], 2, "it is a device")
 expect_told("a folder", ["compare", ".", "."], 2, "it is a folder")
 
-# What is a stream.
+# Streams are allowed.
 t.expect_run("a scene on standard input", ["-", "-o", "in.exr"], 0, stdin=GOOD)
 t.expect_run("a scene on /dev/stdin", ["/dev/stdin", "-o", "in.exr"], 0, stdin=GOOD)
 

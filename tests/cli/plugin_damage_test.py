@@ -1,4 +1,4 @@
-"""A plugin with flipped bytes: `info` always ends with an exit code, a render does too or names the plugin in its last words."""
+"""Tests plugins with flipped bytes: `info` must always end with an exit code. A render must do so too, or name the plugin in its last words."""
 import os
 import pathlib
 import random
@@ -46,7 +46,7 @@ for _ in range(COUNT):
     t.expect(named, f"bytes {places}: a render that ends with {render.returncode} says whose code it was: {render.stderr[-300:]}")
 print(f"{crashes} of {COUNT} renders were ended by the plugin's code")
 
-# A plugin that lives through its trial and crashes when the renderer describes or runs it.
+# This plugin survives its trial and crashes when the renderer describes or runs it.
 t.write("late.cpp", """#include <reyes/shader.h>
 namespace { void shade(const TmGrid*) { *static_cast<volatile int*>(nullptr) = 1; } const rsl::Shader shader(TM_SURFACE, "dots", "", 0, shade, {}); }
 TM_SHADER_LIBRARY(shader)

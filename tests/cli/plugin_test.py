@@ -1,4 +1,4 @@
-"""Procedural "DynamicLoad": the example plugin built out of tree as its page says, and plugins that are broken."""
+"""Tests Procedural "DynamicLoad": the example plugin is built out of the tree as its page says, and other plugins are broken."""
 import os
 import pathlib
 import subprocess

@@ -1,4 +1,4 @@
-"""Runs the renderer in a folder of its own and collects what did not go as a test expects."""
+"""Runs the renderer in a folder of its own, and collects what did not go as a test expects."""
 import os
 import pathlib
 import re
@@ -35,11 +35,11 @@ class Suite:
         return name
 
     def trust_shaders(self, folders):
-        """Plugins of these folders of the test are loaded, as --shaders has it."""
+        """Makes the renderer load plugins of these folders of the test, as --shaders does."""
         os.environ["TOMALES_SHADERS"] = folders
 
     def run(self, *arguments, stdin=None, cpu_s=None):
-        """With `cpu_s`, the program and its children may each take that much CPU time."""
+        """Runs the program. With `cpu_s`, it and its children may each take that much CPU time."""
         limit = cpu_s and (lambda: resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, resource.RLIM_INFINITY)))
         result = subprocess.run([self.program, *arguments], cwd=self.folder, input=stdin, capture_output=True,
                               timeout=60, text=True, errors="replace", preexec_fn=limit,
@@ -55,7 +55,7 @@ class Suite:
         self.failures += not condition
 
     def expect_run(self, what, arguments, code, *says, stdin=None):
-        """The exit code, and every text of `says` among the messages."""
+        """Expects an exit code, and every text of `says` among the messages."""
         result = self.run(*arguments, stdin=stdin)
         missing = [s for s in says if s not in result.stdout + result.stderr]
         good = result.returncode == code and not missing

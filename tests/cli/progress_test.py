@@ -1,4 +1,4 @@
-"""--progress on a terminal: it says what is being done, and moves while nothing else does."""
+"""Tests --progress on a terminal: it tells what is being done, and moves while nothing else does."""
 import os
 import pty
 import re
@@ -12,13 +12,13 @@ t = Suite()
 
 
 def shown_until(master, process, wanted, seconds=60):
-    """What the terminal shows, up to what is wanted."""
+    """Returns what the terminal shows, up to the wanted text."""
     text, end = "", time.time() + seconds
     while time.time() < end and not re.search(wanted, text):
         if select.select([master], [], [], .1)[0]:
             try:
                 text += os.read(master, 4096).decode()
-            except OSError:  # the other side is closed
+            except OSError:  # The other side is closed.
                 break
         elif process.poll() is not None:
             break
@@ -32,7 +32,7 @@ def start(*line, stdin=subprocess.DEVNULL):
     return master, process
 
 
-# A scene that comes slowly.
+# The scene comes slowly.
 reader, writer = os.pipe()
 master, process = start("-", stdin=reader)
 os.write(writer, GOOD[:60].encode())
@@ -51,11 +51,11 @@ shadows = 'Attribute "light" "shadows" "on"\nLightSource "distantlight" 1'
 t.write("procedural.rib", GOOD.replace("Sphere 1 -1 1 360", slow).replace('LightSource "distantlight" 1', shadows))
 master, process = start("procedural.rib", "-o", "procedural.exr", "--allow-system")
 shown = shown_until(master, process, "100%")
-seconds = set(re.findall(r"opening procedurals 0:0(\d)", shown))  # a busy machine may skip one
+seconds = set(re.findall(r"opening procedurals 0:0(\d)", shown))  # A busy machine may skip one.
 t.expect(len(seconds) >= 3, f"procedurals: {shown!r}")
 t.expect(process.wait(timeout=60) == 0, "and goes on to the end")
 
-# Shares of a frame need no clock.
+# The shares of a frame need no clock.
 t.write("good.rib", GOOD)
 master, process = start("good.rib", "-o", "good.exr", "--format", "300x300")
 shown = shown_until(master, process, "100%")

@@ -1,4 +1,4 @@
-"""Radiosity maps as files, and what has none."""
+"""Tests radiosity maps as files, and objects that have none."""
 import json
 
 from program import Suite

@@ -1,5 +1,5 @@
-"""Everything that shade --edit takes can be changed in the page of tomales relight: other shaders, texts, colours, the air, links of lights, the
-imager. What is saved is small and readable, and has the bits of the page's picture."""
+"""Tests that the page of tomales relight can change everything that shade --edit takes: shaders, texts, colours, the air, links of lights, and the
+imager. The saved edit must be small and readable, and give the bits of the page's picture."""
 import json
 import os
 import pathlib
@@ -95,7 +95,7 @@ Illuminate "key" 0
 Surface "stripes" "float Kd" [0.5] "string look" ["dark"]
 """, "a saved edit holds what was changed, and no more")
 
-# A page reaches no other files.
+# A page cannot reach other files.
 for text in ("/etc/passwd", "../secret.tex", "a/../../b", "~/x", "|program", "x" * 300, "a\nb"):
     suite.expect(server.post("edit", {"lights": {"key": {"shadowname": [text]}}})[0] == 400, f"the text {text[:16]!r} is refused")
 for bad in ({"shaders": {"surfaces": {"ball": "../stripes"}}}, {"shaders": {"surfaces": {"ball": 1}}}, {"shaders": {"no": {}}}, {"shaders": []},
@@ -114,7 +114,7 @@ suite.expect(server.json("edits") == ["edit", "hand", "small"], "only edits of t
 suite.expect(json.loads(server.post("load", {"name": "hand"})[2])["objects"] == {"ball": {"color": [1, 0, 0]}}, "one that was written by hand is loaded")
 suite.expect(server.end() == 0, "it ends")
 
-# An edit of the command line is where the page begins.
+# The page begins with an edit of the command line.
 server = Server(suite, "--irradiance", "box.icf", "--edit", "edits/hand.rib", "--folder", "edits")
 suite.expect(server.json("scene")["present"]["objects"] == {"ball": {"color": [1, 0, 0]}}, "the page begins with an edit that is given")
 server.post("save", {"name": "again"})

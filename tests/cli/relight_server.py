@@ -43,7 +43,7 @@ class Server:
         self.host = f"127.0.0.1:{self.port}"
 
     def ask(self, method, path, body=None, headers=None):
-        """Status, headers and bytes of the answer; the path is taken as it is."""
+        """Returns the status, the headers and the bytes of the answer. The path is sent unchanged."""
         connection = http.client.HTTPConnection("127.0.0.1", int(self.port), timeout=30)
         connection.putrequest(method, path, skip_host=headers is not None and "Host" in headers)
         data = body if isinstance(body, bytes) or body is None else json.dumps(body).encode()
@@ -97,7 +97,7 @@ class Server:
 
 
 def parts(blocks):
-    """The blocks of news, as reyes/app/relight/layers.h describes them."""
+    """Returns the blocks of news, as reyes/app/relight/layers.h describes them."""
     out, at = [], 0
     while at < len(blocks):
         layer, x, y, w, h, version, serial, step = struct.unpack_from("<8I", blocks, at)
@@ -110,7 +110,7 @@ def parts(blocks):
 
 
 def layers(blocks, width, height):
-    """{layer: {(x, y): (r, g, b)}} of the blocks of news at full size."""
+    """Returns {layer: {(x, y): (r, g, b)}} of the blocks of news at full size."""
     out = {}
     for b in parts(blocks):
         if b["step"] == 1:

@@ -1,4 +1,4 @@
-"""The server of tomales relight: who may ask, what it answers, and that a saved edit is the picture of the page."""
+"""Tests the server of tomales relight: who may ask, what it answers, and that a saved edit gives the picture of the page."""
 import array
 import json
 import os
@@ -23,7 +23,7 @@ suite.run("gather", "box.dfb", "-o", "plain.icf", "-q")
 (suite.folder / "edits").mkdir()
 server = Server(suite, "--irradiance", "box.icf", "--folder", "edits")
 
-# Who may ask.
+# The server refuses strangers.
 page = f"/{server.token}/"
 suite.expect(server.ask("GET", page)[0] == 200, "the page is there")
 suite.expect("default-src 'none'" in server.ask("GET", page)[1].get("Content-Security-Policy", ""), "it may load nothing from elsewhere")
@@ -38,7 +38,7 @@ for origin in ("http://evil.example", "null", f"https://{server.host}", f"http:/
     suite.expect(server.ask("POST", page + "edit", {}, {"Origin": origin})[0] == 403, f"Origin {origin!r} is refused")
 suite.expect(server.ask("POST", page + "edit", {}, {"Origin": f"http://{server.host}"})[0] == 200, "the page's own origin is not")
 
-# What the page learns.
+# The page learns about the scene.
 scene = server.json("scene")
 suite.expect((scene["width"], scene["height"]) == (48, 36) and scene["exposure"] == [1.5, 1], "the size and the exposure")
 suite.expect([layer["name"] for layer in scene["layers"]] == ["everything", "glow", "key", "rim"] and scene["sharesBounces"],
@@ -46,7 +46,7 @@ suite.expect([layer["name"] for layer in scene["layers"]] == ["everything", "glo
 rim = next(light for light in scene["lights"] if light["owner"] == "rim")
 matrix, p = rim["pixelFromShader"], [0.3, -0.6, 0.3, 1]
 x, y, w = (sum(matrix[4 * c + row] * p[c] for c in range(4)) for row in (0, 1, 3))
-# Screen space is +-1 along the shorter side of 36 pixels, and fov 60 sees 1 / tan(30 degrees) of it at a distance of 1.
+# Screen space is +-1 along the shorter side of 36 pixels. With fov 60 it shows 1 / tan(30 degrees) at a distance of 1.
 focal = 18 * 3 ** 0.5
 suite.expect(abs(x / w - (24 + focal * 0.3 / 1.7)) < 1e-3 and abs(y / w - (18 + focal * 0.6 / 1.7)) < 1e-3, "a light's points have a place in the picture")
 suite.expect(server.settled() is not None, "all layers are shaded")
@@ -62,7 +62,7 @@ for what, of in (("the whole", lambda p: found[0][p]), ("the sum of the lights",
 suite.expect(status["notLinear"] == [], "light adds up everywhere")
 suite.expect(server.json("object?x=33&y=26") == {"object": "ball", "shader": "plastic"}, "a pixel tells its object and shader")
 
-# Edits: refused, shaded, saved and loaded.
+# Edits are refused, shaded, saved and loaded.
 key = {"lights": {"key": {"intensity": [0.2], "lightcolor": [1, 0.5, 0.25]}, "rim": {"coneangle": [0.3]}},
        "surfaces": {"ball": {"Ks": [0.9]}}, "exposure": [1.25, 1]}
 for bad in ([], {"rib": "Surface"}, {"lights": {"sun": {}}}, {"lights": {"key": {"mapname": ["x"]}}}, {"lights": {"key": {"intensity": [1, 2]}}},
@@ -79,7 +79,7 @@ suite.expect(whole is not None and all(whole[3 * (48 * y + x) + c] == warm[x, y]
              "shade --edit gives the bits of the page's picture")
 status, blocks = server.news()
 found = layers(blocks, 48, 36)
-# The page multiplies the layer of a light by what it sends over what the layer was shaded with.
+# The page multiplies the layer of a light by the ratio of what it sends now to what the layer was shaded with.
 unit = status["layers"][2]["unit"]
 suite.expect(all(abs(u - 0.7) < 1e-6 for u in unit), "layers are as bright as the scene's lights")
 key_weight = [0.2 * tint / u for tint, u in zip((1, 0.5, 0.25), unit)]
@@ -118,7 +118,7 @@ for address in ("127.0.0.2", socket.gethostbyname(socket.gethostname())):
         with socket.socket() as other:
             suite.expect(other.connect_ex((address, int(server.port))) != 0, "it listens at the loopback address alone")
 
-# A client that makes no sense, and one that says nothing.
+# One client makes no sense, and one says nothing.
 silent = [socket.create_connection(("127.0.0.1", int(server.port))) for _ in range(8)]
 random.seed(36)
 METHODS = ("GET", "POST", "PUT", "HEAD", "OPTIONS", "DELETE", "TRACE", "G\0T", "")
@@ -137,7 +137,7 @@ def nonsense():
     return bytes(data)
 
 
-# The suite sends some; TOMALES_REQUESTS=10000 is for a night.
+# The suite sends some requests; TOMALES_REQUESTS=10000 is for a night.
 requests = int(os.environ.get("TOMALES_REQUESTS", "300"))
 for _ in range(requests):
     with socket.create_connection(("127.0.0.1", int(server.port)), timeout=5) as connection:
@@ -153,7 +153,7 @@ for connection in silent:
     connection.close()
 suite.expect(server.end() == 0, "Ctrl-C ends it")
 
-# Records without shares, and none at all.
+# Some records have no shares, and then there are no records.
 server = Server(suite, "--irradiance", "plain.icf")
 scene = server.json("scene")
 suite.expect(not scene["sharesBounces"] and scene["layers"][-1]["name"] == "bounced light", "without shares bounced light is a layer of its own")

@@ -1,5 +1,5 @@
-"""The order of work of tomales relight: coarse pictures first, regions, variables, bounced light that is gathered anew, blocks that fit a slow link,
-and a scene that is hidden and gathered while the page waits."""
+"""Tests the order of work of tomales relight: coarse pictures come first. It also tests regions, variables, bounced light that is gathered anew,
+blocks that fit a slow link, and a scene that is hidden and gathered while the page waits."""
 import json
 import pathlib
 import struct
@@ -25,7 +25,7 @@ server = Server(suite, "--irradiance", "box.icf", "--folder", "edits")
 
 
 def window(name):
-    """The pixels of the window, from its corner."""
+    """Returns the pixels of the window, counted from its corner."""
     made = pixels(suite.folder / name)
     return {(x - X0, y - Y0): v for (x, y), v in made.items() if X0 <= x < X0 + WIDTH and Y0 <= y < Y0 + HEIGHT}
 
@@ -53,7 +53,7 @@ status = server.settled()
 suite.expect([layer["version"] for layer in status["layers"]][1:] == before[1:], "which shades nothing again")
 suite.expect("rim" in str(status["stale"]), "its bounced light is known to be missing")
 
-# Coarse blocks that are for the present edit come before the fine ones, for the light that has changed alone.
+# Coarse blocks of the present edit come before fine ones, and only for the light that has changed.
 after = server.news()[0]["newest"]
 server.post("pointer?x=200&y=30", {})
 moved = {"lights": {"key": {"from": [-0.5, 0.5, 0.2]}}}
@@ -79,7 +79,7 @@ if coarse:
     off = sorted(max(abs(coarse[0]["values"][y * columns + x][c] - now[2][16 * x + 8, 16 * y + 8][c]) for c in range(3)) for x, y in inside)
     suite.expect(off[len(off) // 2] < 0.02 * max(max(v) for v in now[2].values()), f"a square has the colour in its middle (median {off[len(off) // 2]:.1e})")
 
-# Blocks fit the bytes that a link carries, and follow at full size.
+# Blocks fit the bytes that a link carries, and those of full size follow.
 status, everything = server.news()
 for least in (20_000, 200_000):
     data = server.get(f"news?after=0&bytes={least}")[2]
@@ -99,7 +99,7 @@ while after < status["newest"]:
 suite.expect(most < 30_000 + 64 * 64 * 6 + 100, "parts at full size come a few at a time")
 suite.expect(layers(full, WIDTH, HEIGHT) == now, "and are all of it")
 
-# A variable of surfaces, and a channel of the scene.
+# The page shows a variable of surfaces, and a channel of the scene.
 for name, of in (("z", "Z"), ("a", "A"), ("N", None), ("mine", None)):
     suite.expect(server.post(f"variable?name={name}", {})[0] == 200, f"{name} may be asked for")
     end = time.time() + PATIENCE_S
@@ -115,7 +115,7 @@ for bad in ("none", "Ci,a", "../x", "N%00"):
     suite.expect(server.post(f"variable?name={bad}", {})[0] == 400, f"the variable {bad} is refused")
 server.post("variable?name=", {})
 
-# A region alone is shaded.
+# Only one region is shaded.
 suite.expect(server.post("only?x=0&y=0&width=40&height=40", {})[0] == 200, "a region is chosen")
 server.post("edit", {"surfaces": {"walls": {"Kd": [0.4]}}})
 end = time.time() + PATIENCE_S
@@ -156,7 +156,7 @@ fresh = window("fresh.exr")
 
 
 def off(picture, gain):
-    """The mean error inside of the region, of the light on the ball's side."""
+    """Returns the mean error inside of the region, which has the light on the ball's side."""
     inside = [(x, y) for x in range(20, 100, 5) for y in range(100, 155, 5)]
     return sum(abs(gain * picture(x, y)[c] - fresh[x, y][c]) for x, y in inside for c in range(3)) / (3 * len(inside))
 
@@ -165,7 +165,7 @@ before, after = off(lambda x, y: old[x, y], 1.5), off(lambda x, y: whole[3 * (WI
 suite.expect(after < 0.2 * before, f"and there the light is that of a new gathering ({before:.1e} off before, {after:.1e} after)")
 suite.expect(server.end() == 0, "it ends")
 
-# A scene is hidden and gathered while the page is there.
+# A scene is hidden and gathered while the page is open.
 suite.write("slow.rib", SCENE.replace("Format 48 36 1", "Format 320 240 1").replace('"float samples" [64]', '"float samples" [256]'))
 server = Server(suite, of="slow.rib")
 page = server.get("")[0]
@@ -175,7 +175,7 @@ while time.time() < end:
     if told["ready"]:
         break
     heard.add(told["doing"])
-    time.sleep(0.02)  # more questions a second than a page has are refused
+    time.sleep(0.02)  # The server refuses more questions a second than a page has.
 suite.expect(page == 200 and "gathering" in heard, f"the page is there first, and tells what is done {sorted(heard)}")
 suite.expect(server.json("scene")["width"] == 320, "then the scene")
 suite.expect(server.post("end", {})[0] == 200 and server.process.wait(20) == 0, "the page ends it")

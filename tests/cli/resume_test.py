@@ -1,5 +1,5 @@
-"""--resume: a frame that was interrupted or killed takes over its records, maps of light and shaded buckets, and has the
-bits of one that was not."""
+"""Tests --resume: a frame that was interrupted or killed takes over its records, maps of light and shaded buckets. It must have the bits of
+an uninterrupted frame."""
 import json
 import signal
 import subprocess
@@ -35,8 +35,8 @@ def rays(name):
 
 
 def cut(at, number, *line):
-    """Starts a frame and sends it a signal when it has come to so many percent. Where the signal comes too late, when all is
-    done and nothing is left to resume, the frame is rendered again."""
+    """Starts a frame and sends it a signal when it has come to so many percent. If the signal comes so late that nothing is left to resume,
+    the frame is rendered again."""
     for _ in range(5):
         process = subprocess.Popen([t.program, *line, "--resume", "--progress", "-q", "-t", "2", "--stats", "cut.json"],
                                    cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
@@ -53,7 +53,7 @@ def cut(at, number, *line):
 
 
 def resumed(*line):
-    """The share of all rays that the rest of the frame traces. It has the bits of a whole frame."""
+    """Resumes the frame, which must have the bits of a whole frame. Returns the share of all rays that this traces."""
     t.expect_run("    goes on", [*line, "--resume", "--stats", "rest.json", "-t", "2"], 0)
     t.run(*line, "-o", "whole.exr", "--stats", "whole.json", "-q")
     t.expect((t.folder / "room.exr").read_bytes() == (t.folder / "whole.exr").read_bytes(), "    and has the same bits")

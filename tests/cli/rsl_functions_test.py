@@ -1,5 +1,4 @@
-"""Functions of plugins that shaders in RSL call (DSO shadeops): docs/example_plugin/functions.c, and what is wrong with
-others."""
+"""Tests functions of plugins that shaders in RSL call (DSO shadeops): docs/example_plugin/functions.c, and broken ones."""
 import math
 import os
 import pathlib
@@ -49,7 +48,7 @@ t.write("woven.sl", "surface woven() { Oi = 1; Ci = weave(4 * s, 4 * t); }\n")
 expect("woven", lambda s, t: ((math.floor(4 * s) + math.floor(4 * t)) % 2,) * 3, "a number of numbers")
 t.write("turned.sl", "surface turned() { float r = 7, a = 7; if (s > .5) polar(s - .5, t - .5, r, a); Oi = 1; Ci = color(r, a, 0); }\n")
 expect("turned", lambda s, t: (math.hypot(s - .5, t - .5), math.atan2(t - .5, s - .5), 0) if s > .5 else (7, 7, 0),
-       "outputs, where a condition holds", 0.1)  # the angle turns quickly near the middle
+       "outputs, where a condition holds", 0.1)  # The angle turns quickly near the middle.
 t.write("faded.sl", "surface faded(uniform float density = 2) { Oi = 1; Ci = fade(color(1, s, 0), density); Ci += 0 * fade(1, t); }\n")
 expect("faded", lambda s, t: (math.exp(-2), s * math.exp(-2), 0), "colours, numbers for them, and what is uniform")
 t.expect_run("compile knows them", ["compile", "woven.sl"], 0)
@@ -59,7 +58,7 @@ t.expect_run("shadetest knows them", ["shadetest", "woven.sl", "--grid", "8x8"],
 t.write("own.sl", "float weave(float a, b) { return 0; }\nsurface own() { Oi = 1; Ci = weave(s, t); }\n")
 expect("own", lambda s, t: (0, 0, 0), "a function of the file comes first")
 
-# A function that nobody has.
+# The function does not exist.
 t.write("lacking.sl", "surface lacking() { Oi = 1; Ci = crochet(s, t); }\n")
 t.expect({p[:3] for p in render("lacking", 3, "crochet").values()} == {(1, 0, 1)}, "  is named, and gives a loud colour")
 
@@ -69,7 +68,7 @@ os.rename(t.folder / "plugins/functions.so", t.folder / "functions.so")
 render("woven", 3, "weave")
 expect("woven", lambda s, t: ((math.floor(4 * s) + math.floor(4 * t)) % 2,) * 3, "with --allow-plugins those beside the scene are", options=["--allow-plugins"])
 
-# What is wrong with a plugin is told.
+# Errors of a plugin are reported.
 t.trust_shaders("broken")
 HEAD = "#include <reyes/shader/functions.h>\nstatic void call(const TmFunctionCall* c) { (void)c; }\n"
 LIBRARY = "static const TmFunctionLibrary library = {%s, sizeof library, f, sizeof f / sizeof *f, sizeof *f};\nconst TmFunctionLibrary* tomales_functions(void) { return &library; }\n"

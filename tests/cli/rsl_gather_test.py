@@ -1,4 +1,4 @@
-"""What gather() of RSL brings of colours: of the surface that is met, and of it through the volume in between."""
+"""Tests which colours gather() of RSL returns: those of the surface that is met, and those seen through the volume in between."""
 import math
 import pathlib
 import sys
@@ -40,7 +40,7 @@ t.write("mist.sl", """volume mist(float density = 0.25) {
 }
 """)
 CLEAR = math.exp(-0.25 * 4)
-BARE = [0.4, 0.2, 0.1]  # premultiplied
+BARE = [0.4, 0.2, 0.1]  # This is premultiplied.
 MIXED = [CLEAR * c + (1 - CLEAR) * air for c, air in zip(BARE, (0, 0, 1))]
 
 

@@ -1,4 +1,4 @@
-"""occlusion() and indirectdiffuse() of RSL: interpolated between records where the scene allows it, and right."""
+"""Tests that occlusion() and indirectdiffuse() of RSL are interpolated between records where the scene allows it, and are right."""
 import json
 import math
 import pathlib
@@ -11,8 +11,8 @@ from program import Suite  # noqa: E402
 t = Suite()
 SIZE = 96
 HEIGHT = 1.5
-# A floor from -2 to 2, seen from above: x to the right, y up. A glowing square of side 2 that the eye does not see
-# hangs before it. The eye looks through it.
+# The camera sees a floor from -2 to 2 from above, with x to the right and y up. A glowing square of side 2 hangs before it. The eye looks through the
+# square and does not see it.
 SCENE = """Format %d %d 1
 PixelFilter "box" 1 1
 PixelSamples 2 2
@@ -32,7 +32,7 @@ WorldEnd
 
 
 def corner(x, y):
-    """The share of light that a rectangle at HEIGHT brings to the point below one of its corners (Howell, B-3)."""
+    """Returns the share of light that a rectangle at HEIGHT brings to the point below one of its corners (Howell, B-3)."""
     a, b = x / HEIGHT, y / HEIGHT
     root_a, root_b = math.sqrt(1 + a * a), math.sqrt(1 + b * b)
     return (a / root_a * math.atan(b / root_a) + b / root_b * math.atan(a / root_b)) / (2 * math.pi)
@@ -55,7 +55,7 @@ def render(name, shader, attributes="", *arguments):
 
 
 def expect(name, picture, rays, few, mean, most, channel=0, scale=1):
-    """`few`: whether fewer rays than four for each pixel's records are expected."""
+    """Compares with TRUTH. `few` tells whether fewer rays than four for each pixel's records are expected."""
     off = [abs(picture[k][channel] - scale * TRUTH[k]) for k in TRUTH]
     bias = sum(picture[k][channel] - scale * TRUTH[k] for k in TRUTH) / len(TRUTH)
     t.expect(abs(bias) < 0.002 and sum(off) / len(off) < mean and max(off) < most,

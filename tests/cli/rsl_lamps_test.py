@@ -1,5 +1,5 @@
-"""Light shaders in RSL with an extent: over the geometry of AreaLightSource (RISpec 3.2, sections 4.6 and 12.2), and
-solar() of the whole sky. Last, indirectdiffuse() beside the light that --gi adds."""
+"""Tests light shaders in RSL with an extent: over the geometry of AreaLightSource (RISpec 3.2, sections 4.6 and 12.2), and by solar() over the whole
+sky. Last, it tests indirectdiffuse() beside the light that --gi adds."""
 import pathlib
 import sys
 
@@ -9,7 +9,7 @@ from program import Suite  # noqa: E402
 
 t = Suite()
 SIZE = 8
-# A floor from -1 to 1, seen from above: x to the right, y up.
+# The camera sees a floor from -1 to 1 from above, with x to the right and y up.
 SCENE = """Format 8 8 1
 PixelFilter "box" 1 1
 PixelSamples 4 4
@@ -43,7 +43,7 @@ def render(name, requests, code=0, *says):
 
 
 def mean_over_lamp(x, y, light):
-    """The mean over the lamp of `light` at a point of it, times the cosine at the floor."""
+    """Returns the mean over the lamp of `light` at its points, times the cosine at the floor."""
     steps, total = 40, 0
     for i in range(steps):
         for j in range(steps):
@@ -54,7 +54,7 @@ def mean_over_lamp(x, y, light):
 
 
 def expect(name, picture, light, what, tolerance=0.04):
-    """Against an integral: in the mean, and at each pixel as far as samples are noisy."""
+    """Compares a picture with an integral, in the mean and at each pixel as far as samples are noisy."""
     at = [2 * (k + 0.5) / SIZE - 1 for k in range(SIZE)]
     wanted = {(x, y): mean_over_lamp(at[x], -at[y], light) for x in range(SIZE) for y in range(SIZE)}
     whole = sum(p[0] for p in picture.values()) / sum(wanted.values())
@@ -86,7 +86,7 @@ hidden = render("hidden", lamp("even") + '\nAttributeBegin Surface "constant" Op
 t.expect(max(p[0] for p in hidden.values()) == 0, "  what is between throws a shadow")
 t.expect_run("a light that stands elsewhere", [t.write("still.rib", SCENE % lamp("still", "")), "-o", "still.exr"], 0, "not an area light; it shines without its geometry")
 
-# solar() of no direction: from everywhere above, E/pi of a sky that is 1 is 1 (RISpec 3.2, section 13.4).
+# solar() without a direction takes light from everywhere above. E/pi of a sky that is 1 is 1 (RISpec 3.2, section 13.4).
 t.write("sky.sl", "light sky(color shade = 1) { solar() { Cl = shade; } }\n")
 t.write("dome.sl", 'light dome() { solar() { vector way = vtransform("world", -normalize(L)); Cl = -zcomp(way); } }\n')
 samples = '"float __samples" [64]'
@@ -100,7 +100,7 @@ ball = 'Translate 0 0 -.5 Surface "constant" Sphere .4 -.4 .4 360 Translate 0 0 
 shade = render("shaded", f'LightSource "sky" 1 {samples} AttributeBegin Attribute "visibility" "int camera" [0] {ball} AttributeEnd')
 t.expect(shade[3, 3][0] < 0.6 < 0.9 < shade[0, 0][0], f"  what stands before the sky throws a shadow ({shade[3, 3][0]:.2f} below, {shade[0, 0][0]:.2f} aside)")
 
-# Bounced light that a shader asks for itself, beside the indirect light that --gi adds.
+# A shader asks for bounced light itself, beside the indirect light that --gi adds.
 t.write("asks.sl", "surface asks() { normal n = normalize(N); Ci = diffuse(n) + indirectdiffuse(P, n, 4); Oi = 1; }\n")
 asks = SCENE.replace('"matte" "Kd" [1] "Ka" [0]', '"asks"') % 'LightSource "distantlight" 1 "intensity" [1]'
 t.write("asks.rib", asks)

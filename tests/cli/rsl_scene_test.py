@@ -1,4 +1,4 @@
-"""scenes/rsl: a scene with nine shaders in the RenderMan Shading Language beside it, of five kinds."""
+"""Tests scenes/rsl: a scene with nine shaders of five kinds in the RenderMan Shading Language beside it."""
 import json
 import pathlib
 import shutil

@@ -1,4 +1,4 @@
-"""Shaders in the RenderMan Shading Language as a user meets them: found by name, compiled, reported, tried."""
+"""Tests shaders in the RenderMan Shading Language as a user meets them: they are found by name, compiled, reported on and tried."""
 import json
 import os
 import pathlib
@@ -49,7 +49,7 @@ def expect_all(name, color, what):
 
 
 def expect_checker(name, what):
-    """Two colours, both of them magenta."""
+    """Expects two colours, both of them magenta."""
     colors = set(picture(name).values())
     t.expect(len(colors) > 1 and all(c[0] == c[2] > 2 * c[1] for c in colors), f"{what} ({sorted(colors)[:3]})")
 
@@ -61,7 +61,7 @@ def render(what, name, code=0, *says):
     return result
 
 
-# How shaders are found.
+# Shaders are found by name.
 t.write("green.sl", plain("green", "color(0, 1, 0)"))
 scene("beside", 'Surface "green"')
 render("a .sl beside the scene", "beside")
@@ -107,7 +107,7 @@ t.write("light.sl", plain("light", "color(0, 1, 0)"))
 scene("kind", 'LightSource "green" 1 Surface "constant"')
 render("a surface that is named as a light", "kind", 3, "green.sl", 'has no light "green", but surface "green"')
 
-# What is wrong with a shader is told, and the frame is rendered.
+# Errors of a shader are reported, and the frame is rendered.
 t.write("broken.sl", "surface broken(float Kd = 1) {\n  Oi = Os;\n  Ci = Kd * diffuse(N;\n}\n")
 scene("broken", 'Surface "broken"')
 said = render("a syntax error", "broken", 3, "broken.sl:3:22: error: expected ')' before ';'", "  Ci = Kd * diffuse(N;\n", "broken.rib:7").stderr
@@ -134,7 +134,7 @@ t.expect_run("an error in a header of a header", ["compile", "nested.sl", "-I", 
 t.write("classes.sl", "class classes(float Kd = 1) { public void surface(output color Ci, Oi) { Ci = Kd; } }\n")
 t.expect_run("a class of RSL 2", ["compile", "classes.sl"], 2, "RSL 2", "classes.sl:1:1")
 
-# compile, info, shadetest.
+# These commands take shaders: compile, info, shadetest.
 t.write("suspicious.sl", "surface suspicious(float unread = 1) { float forgotten; Oi = 1; Ci = forgotten; }\n")
 t.expect(not t.expect_run("compile of a good shader", ["compile", "green.sl"], 0).stderr, "says nothing")
 result = t.expect_run("compile of a suspicious one", ["compile", "suspicious.sl"], 0, 'warning: the parameter "unread" is never read', '"forgotten"')
@@ -202,7 +202,7 @@ t.expect_run("shadetest --check", ["shadetest", "green.sl", "--check"], 0, "faul
 
 
 def watch(what, change):
-    """The lines of --watch after a change, ended by a signal."""
+    """Returns the lines of --watch after a change. A signal ends it."""
     process = subprocess.Popen([t.program, "shadetest", "watched.sl", "--watch", "--grid", "4x4"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def next_mean():
@@ -226,7 +226,7 @@ t.write("level.h", "#define LEVEL 0.25\n")
 t.write("watched.sl", '#include "level.h"\n' + plain("watched", "LEVEL"))
 watch("what it includes changes", lambda: t.write("level.h", "#define LEVEL 0.75\n"))
 
-# Parameters: of the scene, of primitive variables, and outputs.
+# Parameters come from the scene and from primitive variables, and some are outputs.
 t.write("tinted.sl", "surface tinted(color tint = color(1, 0, 0)) { Oi = 1; Ci = tint; }\n")
 scene("given", 'Surface "tinted" "color tint" [0 0 1]')
 render("a parameter of the scene", "given")
@@ -261,7 +261,7 @@ scene("changing", 'LightSource "changing" 1 Surface "parts"')
 render("a light that changes such an output", "changing")
 expect_all("changing", (1, 1, 0), "has the last word, point by point")
 
-# The other kinds.
+# The other kinds of shaders work.
 t.write("kinds.sl", """light lamp(color shade = 1) { Cl = shade; }
 displacement lifted() { P += .25 * normalize(N); }
 volume halved() { Ci *= .5; }
@@ -290,7 +290,7 @@ scene("raised", 'LightSource "lamp" 1 Attribute "displacementbound" "sphere" [0.
 render("a surface that looks for light before it displaces", "raised")
 t.expect(sum(c != BLACK for c in picture("raised").values()) == far, "moves the surface as a displacement does")
 
-# What a stranger's shader cannot do.
+# A stranger's shader cannot do harm.
 t.write("endless.sl", "surface endless() { float i = 0; while (i < 1) { i = i * .5; } Ci = i; Oi = 1; }\n")
 scene("endless", 'Surface "endless"')
 began = time.time()
@@ -319,7 +319,7 @@ t.expect_run("macros that explode", ["compile", "bomb.sl"], 2, "bomb.sl:")
 t.write("self.sl", '#include "self.sl"\n' + plain("self", "1"))
 t.expect_run("a file that includes itself", ["compile", "self.sl"], 2, "self.sl:1:")
 
-# The shaders of a scene are compiled side by side; what is said of them keeps the order of the scene.
+# The shaders of a scene are compiled side by side, and their messages keep the order of the scene.
 requests = ""
 for k in range(24):
     broken = k % 7 == 3
@@ -332,7 +332,7 @@ t.expect([line.split(":")[0].split("/")[-1] for line in told[0].stderr.splitline
 t.expect(told[0].stderr.count("[shader-text]") == 3, "as texts, not as plugins")
 t.expect(all(r.stderr == told[0].stderr for r in told), "with any number of threads alike")
 
-# A shader that changes between two frames of one process, which waits for the second in a pipe when the first is done.
+# A shader changes between two frames of one process. The process waits for the second frame in a pipe when the first is done.
 t.write("edited.sl", plain("edited", "color(0, 1, 0)"))
 os.mkfifo(t.folder / "second.rib")
 scene("first", 'Surface "edited"')

@@ -1,5 +1,4 @@
-"""What the values of shaders' parameters come from besides the request: primitive variables of every class and type,
-and defaults in named spaces."""
+"""Tests the sources of shader parameters besides the request: primitive variables of every class and type, and defaults in named spaces."""
 import itertools
 import math
 import pathlib
@@ -25,7 +24,7 @@ SQUARE = '"P" [-1 1 0  1 1 0  -1 -1 0  1 -1 0]'
 PATCH = f'Patch "bilinear" {SQUARE}'
 NET = " ".join(f"{x} {y} 0" for y in (1, 1 / 3, -1 / 3, -1) for x in (-1, -1 / 3, 1 / 3, 1))
 WEIGHED = " ".join(f"{x} {y} 0 1" for y in (1, -1) for x in (-1, 1))
-# Squares that fill the picture, each with u and v from left to right and from top to bottom where it has them.
+# Squares fill the picture. Where they have u and v, these run from left to right and from top to bottom.
 PRIMITIVES = {"bilinear": PATCH,
               "bicubic": f'Basis "bezier" 3 "bezier" 3 Patch "bicubic" "P" [{NET}]',
               "mesh": f'PatchMesh "bilinear" 2 "nonperiodic" 2 "nonperiodic" {SQUARE}',
@@ -43,13 +42,13 @@ def shown(name, requests, code=0):
 
 
 def differs(picture, wanted):
-    """The largest difference of a picture to what wanted(x, y) says in the square from -1 to 1."""
+    """Returns the largest difference of a picture from wanted(x, y) in the square from -1 to 1."""
     at = [(2 * (k + 0.5) / SIZE - 1) for k in range(SIZE)]
     return max(abs(a - b) for x, y in itertools.product(range(SIZE), repeat=2)
                for a, b in zip(picture[x, y], wanted(at[x], -at[y])))
 
 
-def expect(name, requests, wanted, what, tolerance=0.02):  # a micropolygon is an eighth of a pixel wide
+def expect(name, requests, wanted, what, tolerance=0.02):  # A micropolygon is an eighth of a pixel wide.
     far = differs(shown(name, requests), wanted)
     t.expect(far <= tolerance, f"  {what} (off by {far:.2g})")
 
@@ -60,8 +59,8 @@ t.write("weighed.sl", "surface weighed(float weights[3] = {9, 9, 9}; uniform col
         " Ci = color(weights[0], weights[1], weights[2]) + 0 * tints[0]; }\n")
 t.write("tinted.sl", "surface tinted(color tints[2] = {9, 9}) { uniform float k; Oi = 1; Ci = 0; for (k = 0; k < 2; k += 1) Ci += tints[k]; }\n")
 
-# Points as hpoint and as point, at control points and at corners. They are of the object's space, and the camera is 3
-# away: what the shader has is 3 + x, 3 + y, 3.
+# Points come as hpoint and as point, at control points and at corners. They are in the object's space, and the camera is 3 away, so the shader has 3
+# + x, 3 + y, 3.
 CORNERS = ((2, 4), (4, 4), (2, 2), (4, 2))
 for name, primitive in PRIMITIVES.items():
     corners = [CORNERS[k] for k in ((0, 1, 3, 2) if name == "polygon" else (0, 1, 2, 3))]
@@ -83,7 +82,7 @@ expect("told", f'Surface "told" {PATCH} "varying color tint" [0 0 0  1 0 0  0 1 
 faces = 'PointsPolygons [4 4] [0 1 4 3 1 2 5 4] "P" [-1 1 0  0 1 0  1 1 0  -1 -1 0  0 -1 0  1 -1 0]'
 expect("told", f'Surface "told" {faces} "uniform color tint" [1 0 0  0 0 1]', lambda x, y: (1, 0, 0) if x < 0 else (0, 0, 1), "uniform color of each face")
 
-# Arrays.
+# Arrays work.
 expect("weighed", f'Surface "weighed" {PATCH} "constant float[3] weights" [1 2 3]', lambda x, y: (1, 2, 3), "constant float[3]")
 expect("weighed", f'Surface "weighed" {PATCH} "varying float[3] weights" [0 0 7  1 0 7  0 1 7  1 1 7]', lambda x, y: ((1 + x) / 2, (1 - y) / 2, 7),
        "varying float[3], each element point by point")
@@ -102,8 +101,7 @@ t.write("rough.sl", "displacement rough(float heights[2] = {9, 9}) { P += (heigh
 expect("rough", f'Attribute "displacementbound" "sphere" [2] Displacement "rough" Surface "rough2" {PATCH} "varying float[2] heights" [0 1 .5 1 0 1 .5 1]',
        lambda x, y: (4 + (1 + x) / 4,) * 3, "varying float[2] of a displacement")
 
-# Defaults in spaces by name. The shader's own is turned by 90 degrees about z and at 5 0 0 of the world, which is 3
-# before the camera.
+# Defaults are in named spaces. The shader's own space is turned by 90 degrees about z and at 5 0 0 of the world, whose origin is 3 before the camera.
 t.write("spaces.sl", """surface spaces(uniform point p = point SPACE (1, 2, 3); vector d = vector SPACE (1, 2, 3); normal n = normal SPACE (1, 2, 3);
   matrix m = matrix SPACE 1; float which = 0) {
   Oi = 1;

@@ -1,4 +1,4 @@
-"""What a run tells of itself: -v, --log, --stats for each frame, and passes that go from 0 to 100 %."""
+"""Tests what a run tells of itself: -v, --log, --stats for each frame, and passes that go from 0 to 100 %."""
 import json
 import re
 import socket
@@ -28,7 +28,7 @@ def read(name):
 
 
 def counts(figures):
-    """What does not depend on clocks and on the memory of the process."""
+    """Returns the figures that do not depend on clocks and on the memory of the process."""
     figures = json.loads(json.dumps(figures))
     for key in ("command", "written", "time_s", "cpu_s", "memory_bytes"):
         del figures[key]
@@ -63,7 +63,7 @@ before = (t.folder / "all.01.json").read_bytes()
 t.run("turn.rib", "--skip-finished", "--stats", "all.##.json")
 t.expect((t.folder / "all.01.json").read_bytes() == before, "a frame that is left out keeps its figures")
 
-# A run that goes well says so on request, and nothing else.
+# A run that goes well tells so on request, and prints nothing else.
 quiet = t.expect_run("a run without a word", ["turn.rib", "--frames", "1"], 0)
 t.expect(quiet.stdout + quiet.stderr == "", "says nothing")
 told = t.expect_run("-v", ["turn.rib", "--frames", "1,3", "-v"], 0).stderr
@@ -87,7 +87,7 @@ t.expect_run("a history on a full disk", ["good.rib", "--stats", "full.jsonl", "
 
 
 def passes(*arguments):
-    """The passes of a command with what they tell, in order, and the shares of the frame."""
+    """Returns the passes of a command with what they tell, in order, and the shares of the frame."""
     said = t.expect_run(" ".join(arguments[:2]), [*arguments, "--progress", "-t", "2"], 0).stdout.splitlines()
     out, frame = {}, []
     for line in said:

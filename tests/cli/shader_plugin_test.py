@@ -1,4 +1,4 @@
-"""Shader plugins that are broken in every way that can be told: located errors, and the frame goes on with a loud substitute."""
+"""Tests shader plugins that are broken in every way that can be told: errors have a place, and the frame goes on with a loud substitute."""
 import os
 import pathlib
 import signal
@@ -62,7 +62,7 @@ render("quitting", 3, "quitting.so", "ends the program while it is loaded", "sce
 t.write("several.rib", (SCENE % "crashing").replace("WorldEnd", 'Surface "good"\nSphere 1 -1 1 360\nSurface "leaving"\nSphere 1 -1 1 360\nSurface "crashing"\nSphere 1 -1 1 360\nWorldEnd'))
 said = t.expect_run("plugins are tried after others have crashed", ["several.rib"], 3, "crashing.so", "leaving.so").stderr
 t.expect("good.so" not in said and said.count("crashes while it is loaded") == 1, "each for itself, and once")
-# Met by procedurals while other threads shade: each broken plugin is told, and all that is sound is there.
+# Procedurals meet these plugins while other threads shade. Each broken plugin is reported, and everything sound is in the picture.
 for k in range(6):
     (t.folder / f"crashing{k}.so").write_bytes((t.folder / "crashing.so").read_bytes())
     t.write(f"later{k}.rib", f'Surface "crashing{k}"\nTranslate {k - 3} 0 0\nSphere 0.3 -0.3 0.3 360\n')
@@ -87,7 +87,7 @@ build("throwing", "#include <stdexcept>\n" + (SHADER % ("0.5f", "throwing", ""))
 said = render("throwing", 3, "\"ball\"", "no bananas", "scene.rib:8").stderr
 t.expect(said.count("no bananas") == 1, "an exception is told once")
 
-# Parameters that are listed wrongly are found when the plugin is loaded; each plugin counts its own.
+# Parameters that are listed wrongly are found when the plugin is loaded. Each plugin counts its own.
 build("unlisted", (SHADER % ("Ks(g, i)", "unlisted", "")).replace("void shade", 'rsl::FloatParam Ks("Ks", 0.5f, "");\nvoid shade'))
 render("unlisted", 3, "unlisted.so", 'no shader lists the parameter "Ks"', "magenta")
 build("placed", (SHADER % ("b(g, i)", "placed", 'const rsl::Shader second(TM_SURFACE, "second", "", 0, shade, {&b});'))
@@ -116,7 +116,7 @@ build("lit", (SHADER % ("0.5f", "lit", "")).replace("void shade(const TmGrid* g)
 t.write("scene.rib", (SCENE % "lit").replace('LightSource "distantlight" 1', 'LightSource "segv" "lamp"'))
 t.expect_run("a light that crashes", ["scene.rib"], -signal.SIGSEGV, 'scene.rib:6: light "lamp", on "ball", in the bucket of the pixels -1,-1 to 16,16: light shader "segv" crashes')
 
-# An endless one is told too, 10 s after the first signal.
+# An endless shader is reported too, 10 s after the first signal.
 build("endless", (SHADER % ("0.5f", "endless", "")).replace("void shade(const TmGrid* g) {", "void shade(const TmGrid* g) {\n  for (volatile int k = 0;; k = 1 - k) {}"))
 t.write("scene.rib", SCENE % "endless")
 process = subprocess.Popen([t.program, "scene.rib", "-t", "2"], cwd=t.folder, stderr=subprocess.PIPE, text=True)

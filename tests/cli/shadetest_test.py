@@ -1,4 +1,4 @@
-"""One shader over a grid: what it says of values that are known, and of shaders that there are not."""
+"""Tests one shader over a grid, for values that are known and for shaders that do not exist."""
 import os
 import pathlib
 import re
@@ -39,7 +39,7 @@ for shader in ("glass", "mirror", "occlusionlight", "arealight"):
 arealight = t.run("shadetest", "arealight", "--grid", "4x4")
 t.expect(figure(arealight, "Ci greatest")[0] > 0.01, "an area light has a lamp to shine from")
 
-# --check: what a shader declares, and what it does.
+# --check tells what a shader declares, and what it does.
 source = pathlib.Path(__file__).resolve().parent.parent.parent
 PLUGIN = """#include <reyes/shader.h>
 namespace {

@@ -1,4 +1,4 @@
-"""Settings of light that --target-error finds on a few frames hold for all frames of a run, and of others by a file."""
+"""Tests that settings of light that --target-error finds on a few frames hold for all frames of a run, and by a file for frames of other runs."""
 import json
 import pathlib
 import re
@@ -21,7 +21,7 @@ t.write("one.rib", head + "WorldBegin" + world)
 
 
 def render(*arguments, scene="shot.rib"):
-    """The result, what each frame's header says was chosen, and which frames have an audit."""
+    """Returns the result, the settings that each frame's header tells, and the frames that have an audit."""
     return run(scene, "-t", "1", *arguments)
 
 

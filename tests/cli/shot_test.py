@@ -1,5 +1,5 @@
-"""A picture in steps (hide, gather, shade) is the picture of one process, bit for bit; and what becomes of files that are damaged,
-disks that are full and runs that are killed."""
+"""Tests that a picture in steps (hide, gather, shade) is the picture of one process, bit for bit. It also tests damaged files, full disks and killed
+runs."""
 import json
 import pathlib
 import random
@@ -99,7 +99,7 @@ suite.run("render", "indirect.rib", "--crop", "0.25,0.75,0.5,1", "-o", "crop.ren
 window = subprocess.run(["oiiotool", "indirect.exr", "--crop", "24x20+12+20", "crop.exr", "--diff"], cwd=suite.folder, capture_output=True, text=True)
 suite.expect(window.returncode == 0 and "PASS" in window.stdout, "a crop of a shot is that part of its picture " + window.stdout[-200:])
 
-# Edits: what a lighter changes, against the same change in the scene.
+# What a lighter edits is compared with the same change in the scene.
 suite.write("edit.rib", """Attribute "identifier" "name" ["ball"]
 Surface "plastic" "Ks" [0.9]
 Color [0.2 0.3 0.9]
@@ -154,7 +154,7 @@ suite.expect_run("which are found from another folder", ["shade", "../moved.dfb"
 suite.folder = home
 expect_same("so that the picture stays the same", "moved.exr", "moved_elsewhere.exr")
 
-# Information
+# Information.
 for file, kind in (("direct.dfb", "dfb"), ("indirect.icf", "icf")):
     info = json.loads(suite.run("info", file, "--json").stdout)
     suite.expect(info["kind"] == kind, f"info knows {file}")
@@ -167,7 +167,7 @@ suite.expect(points == records, f"with a point for each record ({points} of {rec
 suite.expect_run("an .icf that is none", ["view", "indirect.dfb.icf", "-o", "records.png"], 2, "indirect.dfb.icf")
 suite.expect(json.loads(suite.run("info", "indirect.icf", "--json").stdout)["caches"][0]["records"] > 10, "info counts records")
 
-# Damage
+# Damage.
 whole = (suite.folder / "direct.dfb").read_bytes()
 for what, data, says in (("truncated", whole[:-100], "truncated"), ("empty", b"", "no file of this kind"),
                          ("foreign", b"TomalDFB" + whole[8:16] + bytes(16) + whole[32:], "header is damaged"),
@@ -190,7 +190,7 @@ for at in (3, 9, 40, 200, len(middle) // 2, len(middle) - 500, len(middle) - 5):
     if suite.run("info", "damaged.icf").returncode != 2:
         suite.expect(False, f"a flip at {at} of an .icf: info calls it sound")
 
-# A disk that fills up: a limit on file size is its model.
+# A disk fills up. A limit on file size stands in for it.
 def limited(*arguments):
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -206,7 +206,7 @@ suite.run("shade", "full.dfb", "-o", "full.exr", "-q")
 expect_same("a resumed shot gives the same bits", "direct.exr", "full.exr")
 suite.expect_run("no such folder", ["hide", "direct.rib", "-o", "nowhere/x.dfb"], 4, "folder is missing")
 
-# Killed at any moment
+# The program is killed at any moment.
 random.seed(1)
 for attempt in range(3):
     killed = subprocess.Popen([suite.program, "hide", "direct.rib", "-o", "killed.dfb", "--resume", "-q", "-t", "2"], cwd=suite.folder)
@@ -225,7 +225,7 @@ suite.expect_run("a render after kill -9", ["render", "indirect.rib", "-o", "res
 expect_same("gives the same bits too", "indirect.exr", "resumed.exr")
 suite.expect(not list(suite.folder.glob("resumed.exr.dfb*")), "and leaves no buckets behind")
 
-# Less memory, and records from a file: the same bits.
+# With less memory, and with records from a file, the bits are the same.
 suite.expect_run("a memory limit is obeyed and said so", ["render", "direct.rib", "-o", "small.exr", "--memory-limit", "1K", "-v"], 0, "row by row")
 expect_same("a frame that is shaded bucket by bucket has the same bits", "direct.exr", "small.exr")
 suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--stats", "given.json", "-q")
@@ -238,7 +238,7 @@ suite.expect_run("a dimmed light with records of the old one", ["shade", "indire
 quiet = suite.expect_run("an edit that bounces no light", ["shade", "indirect.dfb", "--irradiance", "indirect.icf", "--edit", "exposure.rib", "-o", "dim.exr"], 0)
 suite.expect("light-stale" not in quiet.stderr, "is not told")
 
-# One region is gathered anew, after an edit; the rest of the picture stays as it is.
+# One region is gathered anew after an edit, and the rest of the picture stays as it is.
 suite.write("region.rib", 'Attribute "identifier" "name" ["floor"] Color [0.9 0.1 0.1]')
 suite.run("gather", "indirect.dfb", "-o", "region.icf", "--irradiance", "indirect.icf", "--crop", "0,0.4,0,1", "--edit", "region.rib", "--stats", "region.json", "-q")
 for name in ("indirect", "region"):

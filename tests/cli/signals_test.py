@@ -1,4 +1,4 @@
-"""Signals: every pass ends soon, keeps what is finished, and leaves nothing else behind."""
+"""Tests signals: every pass must end soon, keep what is finished, and leave nothing else behind."""
 import os
 import re
 import signal
@@ -8,7 +8,7 @@ import time
 from program import GOOD, Suite
 
 t = Suite()
-SOON = 20  # seconds: a hang is what is tested
+SOON = 20  # These are seconds: the test looks for hangs.
 ROOM = """Display "room.exr" "file" "rgba"
 Format 64 64 1
 PixelSamples 1 1
@@ -57,7 +57,7 @@ def expect_soon(what, process, code, number=signal.SIGTERM):
     return messages
 
 
-# Every pass. Each would take minutes.
+# Every pass gets a signal. Each would take minutes.
 for threads in ("1", "2"):
     process = start("room.rib", "--gi", "atlas", "--photons", "1000000000", "--atlas", "atlas", "-o", "photons.exr", "-t", threads)
     wait_for(lambda: (t.folder / "atlas/photons").exists() and parts(t.folder / "atlas"))
@@ -97,14 +97,14 @@ expect_soon("the gather command", process, 143)
 process = start("shade", "room.dfb", "--gi", "reference", "--samples", "20000", "-o", "shade.exr")
 time.sleep(1)
 expect_soon("the shade command", process, 143)
-silent, writer = os.pipe()  # stays open: communicate() would end a pipe of its own, and that the program may see first
+silent, writer = os.pipe()  # This stays open. The function communicate() would close a pipe of its own, and the program might see that first.
 process = start("-", stdin=silent)
 time.sleep(0.3)
 expect_soon("waiting for a scene", process, 143)
 os.close(writer)
 os.close(silent)
 
-# Single things that take long: the work after a signal is less than a second of CPU time, whatever else the machine does.
+# Some single steps take long. The work after a signal must be less than a second of CPU time, whatever else the machine does.
 CLOCK = os.sysconf("SC_CLK_TCK")
 
 
@@ -133,7 +133,7 @@ t.write("inner.rib", "AttributeBegin Color [1 0 0] AttributeEnd\n" * 100000)
 t.write("archives.rib", GOOD.replace("Sphere 1 -1 1 360", 'ReadArchive "inner.rib"\n' * 50))
 expect_at_once("the reading of archives", start("archives.rib", "-o", "archives.exr", "-t", "1"), .3)
 
-# Many frames: those that are finished stay, and no other is begun.
+# With many frames, finished ones stay, and no other is begun.
 for number, code in ((signal.SIGHUP, 129), (signal.SIGINT, 130), (signal.SIGTERM, 143)):
     process = start("frames.rib", "-t", "2", "--stats", "frames.json")
     wait_for(lambda: (t.folder / "frame3.exr").exists())
@@ -151,7 +151,7 @@ process = start("good.rib", "-o", "nohup.exr", "--format", "300x300", "--progres
 process.stdout.readline()
 expect_soon("SIGHUP that is ignored does not end it: it", process, 0, signal.SIGHUP)
 
-# A second signal ends what finishes too slowly; SIGKILL leaves what the next run removes.
+# A second signal ends what finishes too slowly. SIGKILL leaves files that the next run removes.
 process = start("good.rib", "-o", "twice.exr", "--format", "6000x6000", "--pixel-samples", "16x16", "--progress", "-t", "1")
 process.stdout.readline()
 for _ in range(20):
@@ -169,7 +169,7 @@ t.expect(len(parts()) == 1, "SIGKILL leaves an unfinished file")
 t.expect_run("the next run", ["good.rib", "-o", "killed.exr"], 0)
 t.expect(not parts(), "removes it")
 
-# Programs that the renderer has started.
+# The renderer has started other programs.
 t.write("program.rib", GOOD.replace("Sphere 1 -1 1 360", 'Procedural "RunProgram" ["./program.sh" "1"] [-1 1 -1 1 -1 1]'))
 
 
@@ -181,7 +181,7 @@ def lives(pid):
         return False
 
 
-# What a program starts itself is found by its process group, which nobody can kill after SIGKILL.
+# Processes that such a program starts are found by its process group. Nobody can kill that after SIGKILL.
 for number, code, work in ((signal.SIGTERM, 143, "sleep 1000 & wait"), (signal.SIGKILL, -9, "exec sleep 1000")):
     t.write("program.sh", f"#!/bin/sh\necho $$ >> pids\nread line\n{work}\n")
     os.chmod(t.folder / "program.sh", 0o755)
@@ -192,7 +192,7 @@ for number, code, work in ((signal.SIGTERM, 143, "sleep 1000 & wait"), (signal.S
     expect_soon(f"a program that does not answer, {number.name}: it", process, code, number)
     t.expect(wait_for(lambda: not lives(int((t.folder / "pids").read_text()))), "and its program ends too")
 
-# Nobody reads what is said.
+# Nobody reads the messages.
 process = subprocess.Popen([t.program, "good.rib", "-o", "unread.exr", "--format", "400x400", "--progress", "-t", "1"], cwd=t.folder, stdout=subprocess.PIPE)
 process.stdout.readline()
 process.stdout.close()

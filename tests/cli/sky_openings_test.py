@@ -1,4 +1,5 @@
-"""A sky behind a window has its openings found: less noise, the same light, one message, and the same bits by way of a shot; it can be switched off."""
+"""Tests that the openings of a sky behind a window are found: less noise, the same light, one message, and the same bits by way of a shot. It can
+be switched off."""
 import pathlib
 import re
 import sys
@@ -11,7 +12,7 @@ t = Suite()
 
 
 def room(option="", portals="", depth=4):
-    """A room of 4 x 3 x `depth` around the eye with a window of 1 x 1 in the far wall."""
+    """Returns a room of 4 x 3 x `depth` around the eye, with a window of 1 x 1 in the far wall."""
     walls = [((-2, -1.5, -1), (2, -1.5, -1), (2, 1.5, -1), (-2, 1.5, -1))] * (depth > 0)
     walls += [((-2, -1.5, -1), (-2, -1.5, 4), (-2, 1.5, 4), (-2, 1.5, -1)), ((2, -1.5, -1), (2, -1.5, 4), (2, 1.5, 4), (2, 1.5, -1)),
               ((-2, -1.5, -1), (2, -1.5, -1), (2, -1.5, 4), (-2, -1.5, 4)), ((-2, 1.5, -1), (2, 1.5, -1), (2, 1.5, 4), (-2, 1.5, 4))] * (depth > 0)
@@ -48,7 +49,7 @@ mean = [sum(p.values()) for p in (truth, found, off)]
 t.expect(abs(mean[1] / mean[0] - 1) < 0.02, f"the light is the same: {mean}")
 errors = [noise(p, truth) for p in (found, off, named)]
 t.expect(errors[0] < 0.4 * errors[1], f"there is less noise: {errors}")
-# The border of what was found is not that of the window to the last digit, so that some samples meet the wall.
+# The border of the found opening is not exactly that of the window, so some samples meet the wall.
 t.expect(errors[0] < 2 * errors[2], f"not much more than with a named portal: {errors}")
 _, open_air = picture(room(depth=0))
 t.expect("light-openings" not in open_air, "a wall in the open has none")

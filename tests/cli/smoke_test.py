@@ -1,4 +1,5 @@
-"""The translated smoke of docs/rsl_plugins under real lights and shadow rays: single scattering in a slab of even smoke against closed forms."""
+"""Compares the translated smoke of docs/rsl_plugins, under real lights and shadow rays, with closed forms of single scattering in a slab of even
+smoke."""
 import json
 import math
 import os
@@ -12,11 +13,11 @@ t.trust_shaders(".")
 source = pathlib.Path(__file__).resolve().parent.parent.parent
 subprocess.run([os.environ["CXX"], "-O1", "-std=c++17", "-shared", "-fPIC", "-I", source, source / "docs/rsl_plugins/smoke.cpp", "-o", t.folder / "smoke.so"], check=True)
 DEPTH, DENSITY = 4, 0.9
-SIGMA = DENSITY * (lambda x: x * x * (3 - 2 * x))(0.3 / 0.7)  # smoke without octaves: density * smoothstep(0, .7, .3)
+SIGMA = DENSITY * (lambda x: x * x * (3 - 2 * x))(0.3 / 0.7)  # Smoke without octaves has this extinction: density * smoothstep(0, .7, .3).
 
 
 def mean(name, lights, things="", height=0, top=1e6, lightsteps=0):
-    """Of what the smoke before a black wall sends, at one height, to an eye in parallel projection."""
+    """Returns the mean of what smoke before a black wall sends, at one height, to an eye in parallel projection."""
     t.write(name + ".rib", f"""Display "{name}.exr" "file" "rgba"
 Format 16 16 1
 PixelSamples 1 1
@@ -48,7 +49,7 @@ down = 'LightSource "shadowdistant" 1 "from" [0 1 0] "to" [0 0 0] "intensity" [2
 is_near(mean("slab", down), 2 * (1 - math.exp(-SIGMA * DEPTH)), "a slab in parallel light")
 roof = 'Surface "matte" Sides 2 Patch "bilinear" "P" [-5 3 0 5 3 0 -5 3 2 5 3 2]'
 is_near(mean("roof", down, roof), 2 * (math.exp(-SIGMA * 2) - math.exp(-SIGMA * DEPTH)), "half of it under a roof, whose shadow it shows")
-# Above y = 0 the smoke thins out up to its top, 2, by the smoothstep, whose mean is a half: light goes through as much as of even smoke up to 1.
+# Above y = 0 the smoke thins out up to its top, 2, by the smoothstep. Its mean is a half, so light crosses as much smoke as even smoke up to 1.
 is_near(mean("deep", down, height=-1, top=2, lightsteps=40), 2 * (1 - math.exp(-SIGMA * DEPTH)) * math.exp(-2 * SIGMA), "light is dimmed on its way down")
 lamp = 'LightSource "pointlight" 1 "from" [0 50 2] "intensity" [2500]'
 # At distance 50 the inverse square is 1 within 0.2 %.

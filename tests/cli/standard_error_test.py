@@ -1,4 +1,5 @@
-"""The variable `standarderror` of a Display is as large as pictures with other seeds differ, and changes nothing of the picture."""
+"""Tests that the variable `standarderror` of a Display is as large as the difference of pictures with other seeds, and changes nothing of the
+picture."""
 import math
 import subprocess
 import sys
@@ -20,12 +21,12 @@ SEEDS = 12
 
 
 def squares(values):
-    """The mean square of the colours of all pixels."""
+    """Returns the mean square of the colours of all pixels."""
     return sum(c * c for p in values.values() for c in p[:3]) / (3 * len(values))
 
 
 def noise(scene, *arguments):
-    """The root mean square of the variable over some seeds, and how far pictures with these seeds are from their mean."""
+    """Returns the root mean square of the variable over some seeds, and how far pictures with these seeds are from their mean."""
     pictures, told = [], 0
     for seed in range(SEEDS):
         t.run(scene, "-q", "--light-seed", str(seed), *arguments)

@@ -1,4 +1,4 @@
-"""A scene's folder with shaders that are called as built-in ones are."""
+"""Tests that a scene's folder may hold shaders with the names of built-in ones."""
 import json
 
 from program import GOOD, Suite

@@ -1,4 +1,4 @@
-"""--audit states the error of a picture and changes nothing of it, whatever the threads, the buckets and the way to the picture."""
+"""Tests that --audit states the error of a picture and changes nothing of it, whatever the threads, the buckets and the way to the picture."""
 import json
 import pathlib
 import subprocess
@@ -16,7 +16,7 @@ t.write("dark.rib", ROOM.replace('"intensity" [4]', '"intensity" [0]').replace('
 
 
 def render(out, *arguments, command=("room.rib",)):
-    """What the audit says in the message, in the header and in the statistics."""
+    """Returns what the audit says in the message, in the header and in the statistics."""
     result = t.run(*command, "-o", out, "--stats", "stats.json", *arguments)
     said = [line for line in result.stderr.splitlines() if line.endswith("[audit]")]
     header = subprocess.run(["oiiotool", "--info", "-v", t.folder / out], capture_output=True, text=True).stdout

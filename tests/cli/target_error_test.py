@@ -1,4 +1,4 @@
-"""--target-error chooses settings that reach an error, tells them, and gives the picture that they give by hand."""
+"""Tests that --target-error chooses settings that reach an error, reports them, and gives the picture that they give by hand."""
 import json
 import pathlib
 import re
@@ -17,14 +17,14 @@ t.write("lamp.rib", ROOM.replace("Format 20 16", "Format 40 32").replace('LightS
 
 
 def reach(out, target, *arguments, command=("room.rib",)):
-    """The options that were chosen, what the audit says of the picture, and the result."""
+    """Returns the chosen options, what the audit says of the picture, and the result."""
     result = t.run(*command, "-o", out, "--target-error", target, "--stats", "stats.json", *arguments)
     chosen = re.search(r"chose (.*) for a mean error of .* \[target-error\]", result.stderr)
     return chosen and chosen[1].split(), json.loads((t.folder / "stats.json").read_text()).get("audit"), result
 
 
 def last_of(picture):
-    """The settings that the header tells."""
+    """Returns the settings that the header tells."""
     header = subprocess.run(["oiiotool", "--info", "-v", t.folder / picture], capture_output=True, text=True).stdout
     return re.search(r'tomales:chosen: "(.*)"', header)[1].split()
 

@@ -1,4 +1,4 @@
-"""A viewer of the tev protocol, which puts together what arrives."""
+"""A viewer of the tev protocol, which puts the picture together."""
 import socket
 import struct
 import threading
@@ -11,7 +11,7 @@ def text(data, at):
 
 
 class Viewer(threading.Thread):
-    """Puts together what arrives."""
+    """Puts together the parts that arrive."""
 
     def __init__(self, reads=True):
         super().__init__(daemon=True)
@@ -51,5 +51,5 @@ class Viewer(threading.Thread):
         floats = struct.unpack_from(f"<{width * height * channels}f", packet, at + 16 + 16 * channels)
         for i in range(width * height):
             self.pixels[x + i % width, y + i // width] = tuple(floats[offsets[c] + i * strides[c]] for c in range(channels))
-        if height == self.height > 64:  # more than the rows of a finished picture that come at once
+        if height == self.height > 64:  # This is more than the rows of a finished picture that come at once.
             self.sketches.append(dict(self.pixels))

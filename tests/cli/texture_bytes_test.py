@@ -1,4 +1,4 @@
-"""Converted textures: the same picture makes the same bytes, and what a killed conversion leaves is removed by the next one."""
+"""Tests converted textures: the same picture must make the same bytes, and the next conversion must remove what a killed one leaves."""
 import signal
 import subprocess
 import time
@@ -36,7 +36,7 @@ def files(folder):
 
 png("odd.png", 117, 83)
 t.run(scene("odd.png"), "--texture-cache", "first", "-t", "2")
-time.sleep(1.1)  # time stamps have seconds
+time.sleep(1.1)  # Time stamps have whole seconds.
 for k in range(3):
     t.run("scene.rib", "--texture-cache", f"again{k}", "-t", "2")
     t.expect(len(files("first")) == 1 and files("first") == files(f"again{k}"), "a picture converted again has the same bytes")

@@ -1,4 +1,4 @@
-"""Pictures on surfaces: filtered where small, made by RIB requests, loud where broken."""
+"""Tests pictures on surfaces: they are filtered where they are small, RIB requests make them, and broken ones have a loud substitute."""
 import json
 import struct
 import subprocess

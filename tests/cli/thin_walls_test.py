@@ -1,4 +1,5 @@
-"""offset-thin is said once for all objects of a name, at the place of the worst, with how many more there are; other names are told apart."""
+"""Tests that offset-thin is reported once for all objects of a name, at the place of the worst, with the number of others. Other names get
+messages of their own."""
 import re
 
 from program import Suite
@@ -7,7 +8,7 @@ t = Suite()
 
 
 def bowls(*shells):
-    """Bowls with another round them, each pair an attribute state of its own: (name, radius of the outer one)."""
+    """Returns bowls with another bowl round them. Each pair is an attribute state of its own: (name, radius of the outer one)."""
     out = ['Format 144 48 1 PixelSamples 1 1 PixelFilter "box" 1 1 Projection "orthographic" ScreenWindow -3 3 -1 1 Display "bowls.exr" "openexr" "rgb" WorldBegin '
            'LightSource "indirectlight" "gi" "float samples" [64] LightSource "distantlight" 1 "from" [0 0 -3] "to" [0 0 0] Surface "matte"']
     for k, (name, radius) in enumerate(shells):
@@ -17,7 +18,7 @@ def bowls(*shells):
 
 
 def told(*shells):
-    """{name: (line, share in %, how many more)} of what is said."""
+    """Returns (name, line, share in %, how many more) of each message."""
     t.write("bowls.rib", bowls(*shells))
     said = t.run("bowls.rib", "--gi", "gather", "--max-error", "0.5").stderr
     found = re.findall(r'rib:(\d+): warning: "(\w+)": (\d+) % of the rays.*?come through(?:; so do (\d+) more of that name)? \(.*\[offset-thin\]', said)

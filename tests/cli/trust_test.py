@@ -1,4 +1,4 @@
-"""A scene may come from a stranger: each way in that docs/security.md names is tried, with leave and without."""
+"""Tests scenes that come from a stranger: each way in that docs/security.md names is tried, with leave and without."""
 import os
 import pathlib
 import shutil
@@ -38,7 +38,7 @@ def scene(name, path, request):
 
 
 def runs(what, arguments, code, *says):
-    """Was the plugin's code run? In this process or in that which tries plugins."""
+    """Tells whether the plugin's code was run, in this process or in the one that tries plugins."""
     (t.folder / "ran").unlink(missing_ok=True)
     t.expect_run(what, arguments, code, *says)
     return (t.folder / "ran").exists()
@@ -109,7 +109,7 @@ built, t.program = t.program, t.folder / "prefix/bin/tomales"
 t.expect(runs("an installation", ["path.rib"], 0), "so does the installation")
 t.program = built
 
-# Procedurals: a plugin of "DynamicLoad".
+# Procedurals name a plugin of "DynamicLoad".
 t.write("procedural.cpp", """#include <reyes/ri.h>
 #include <cstdio>
 extern "C" RtPointer ConvertParameters(char*) { if (FILE* f = std::fopen("ran", "w")) std::fclose(f); return nullptr; }
@@ -135,7 +135,7 @@ for name in ("working", "path", "upwards", "absolute", "nested", "second"):
 for name in ("working", "path", "nested", "second"):
     t.expect(runs(f"{name}: --plugin-path", [f"p_{name}.rib", "--plugin-path", "mine/below"], 0), f"p_{name}.rib: a trusted folder runs it")
 
-# Programs.
+# Scenes name programs.
 scene("system.rib", None, 'System "touch ran"')
 scene("program.rib", None, 'Procedural "RunProgram" ["touch ran; echo Sphere 1 -1 1 360; printf \\377; cat" ""] [-1 1 -1 1 -1 1]')
 for name in ("system", "program"):

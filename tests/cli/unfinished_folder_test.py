@@ -1,4 +1,5 @@
-"""photons, irradiance and brickmake make folders of several files. Killed at any time, they leave nothing that is taken for a whole folder."""
+"""Tests that photons, irradiance and brickmake, which make folders of several files, leave nothing that is taken for a whole folder when they are
+killed."""
 import os
 import signal
 import subprocess
@@ -27,7 +28,7 @@ def files(folder):
 
 
 def killed(arguments, folder, count):
-    """Ended by SIGKILL as soon as the folder has so many files. False: it was whole before."""
+    """Kills the command as soon as the folder has so many files. Returns False if the folder was whole before."""
     process = subprocess.Popen([t.program, *arguments], cwd=t.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while process.poll() is None and len(files(folder)) < count:
         time.sleep(0.0005)
@@ -37,7 +38,7 @@ def killed(arguments, folder, count):
 
 
 def expect_not_taken(what, command, folder, count, reader, code):
-    """A reader refuses what is left of the command; run again, the command makes the folder whole."""
+    """Tests that a reader refuses what a killed command leaves, and that the command, run again, makes the folder whole."""
     for _ in range(20):
         if killed(command, folder, count):
             break

@@ -1,4 +1,5 @@
-"""Files on their way to their names: processes that write the same ones, links, inputs that are outputs, standard files that are closed."""
+"""Tests files on their way to their names: processes that write the same file, links, inputs that are outputs, and standard files that
+are closed."""
 import json
 import os
 import pathlib
@@ -30,13 +31,13 @@ def leftovers(folder=None):
     return [p for p in (folder or t.folder).rglob("*") if ".part" in p.name]
 
 
-# Containers have processes of the same number, and may share a folder.
+# Containers have processes with equal numbers, and may share a folder.
 ALONE = ["unshare", "--pid", "--fork", "--mount-proc"]
 separate = ALONE if shutil.which("unshare") and subprocess.run([*ALONE, "true"], capture_output=True).returncode == 0 else []
 
 
 def together(*lines):
-    """Exit codes and messages of programs that run at the same time, with the same process number where that can be had."""
+    """Returns the exit codes and messages of programs that run at the same time, with the same process number if that is possible."""
     running = [subprocess.Popen([*separate, t.program, *line], cwd=t.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                                 env={**os.environ, "TOMALES_TEXTURE_CACHE": str(t.folder / "textures")}) for line in lines]
     return [(p, p.communicate(timeout=100)[1]) for p in running]
@@ -90,7 +91,7 @@ expect_all_good("three programs that fill one texture cache end well", ended)
 t.expect(len([p for p in (t.folder / "textures").rglob("*") if p.is_file()]) == 1, "and it holds one file")
 t.expect(not leftovers(), f"nothing unfinished is left: {leftovers()}")
 
-# Links.
+# Outputs are links.
 (t.folder / "elsewhere").mkdir()
 os.symlink("elsewhere/picture.exr", t.folder / "latest.exr")
 t.expect_run("a picture by the name of a link", ["good.rib", "-o", "latest.exr"], 0)
@@ -101,7 +102,7 @@ t.run("good.rib", "-o", "a.exr", "--stats", "s.json", "-q")
 t.expect((t.folder / "precious").read_text() == "precious", "a link that somebody has put in the way is not followed")
 (t.folder / "s.json.part").unlink()
 
-# Devices and pipes.
+# Outputs are devices and pipes.
 t.expect_run("statistics to a device", ["good.rib", "-o", "a.exr", "--stats", "/dev/null"], 0)
 t.expect(pathlib.Path("/dev/null").is_char_device(), "which stays one")
 said = t.expect_run("statistics to standard output", ["good.rib", "-o", "a.exr", "-q", "--stats", "/dev/stdout"], 0).stdout
@@ -109,7 +110,7 @@ t.expect('"micropolygons_visible"' in said, "come there")
 os.mkfifo(t.folder / "pipe.exr")
 t.expect_run("a picture into a pipe", ["good.rib", "-o", "pipe.exr"], 4, "pipe or a device")
 
-# The scene is the output of catrib, by any name.
+# The scene is the output of catrib, under any name.
 plain = t.run("catrib", "good.rib").stdout
 t.expect("WorldBegin" in plain, "catrib writes the scene")
 os.link(t.folder / "good.rib", t.folder / "hard.rib")
@@ -137,7 +138,7 @@ t.expect_run("makes a whole file", ["info", "paint.tif"], 0)
 t.run("compare", "small.exr", "small.exr", "--diff", "small.exr")
 t.expect_run("compare over its picture makes a whole one", ["info", "small.exr"], 0)
 
-# Standard files that are closed.
+# Standard files are closed.
 line = "good.rib -o closed.exr --format 64x64 --progress -t 1"
 for closed in ("<&- >&-", "<&- >&- 2>&-", ">&-", "2>&-"):
     code = subprocess.run(["sh", "-c", f'exec "$0" {line} {closed}', t.program], cwd=t.folder, timeout=60).returncode

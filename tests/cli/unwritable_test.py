@@ -1,4 +1,5 @@
-"""What cannot be written ends with exit code 4, in every command and for every kind of output; numbers that are none are wrong usage."""
+"""Tests that output that cannot be written gives exit code 4, in every command and for every kind of output. Words in the place of numbers are
+wrong usage."""
 import subprocess
 
 from program import GOOD, Suite
@@ -43,7 +44,7 @@ commands = {
 for what, arguments in commands.items():
     for where, place in (("in a folder that is missing", "/nowhere/x"), ("in a file", "a_file/x"), ("over a folder", "is")):
         if what == "a chart" and place == "is":
-            continue  # that is known at the end alone
+            continue  # This is known only at the end.
         t.expect_run(f"{what} {where}", [a.format(place) for a in arguments], 4)
 for what, arguments in {
     "photon maps": ["photons", "lit.rib", "--photons", "100", "-o", "a_file"],
@@ -78,7 +79,7 @@ t.expect((t.folder / "kept.rib").read_text() == GOOD, "leaves the file that was 
 t.expect_run("catrib onto its input", ["catrib", "kept.rib", "-o", "kept.rib"], 0)
 t.expect_run("which is still a scene", ["kept.rib"], 0)
 
-# Numbers that are none.
+# These are no numbers.
 for text in ("nan", "-nan", "NaN", "inf", "-inf", "1e999"):
     for arguments in (["good.rib", "--shading-rate"], ["good.rib", "--max-error"], ["good.rib", "--radiosity-texels"], ["good.rib", "--brick-maxerror"],
                       ["good.rib", "--samples"], ["good.rib", "--seed"], ["good.rib", "--light-seed"], ["good.rib", "--memory-limit"],

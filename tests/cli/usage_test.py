@@ -1,4 +1,4 @@
-"""The command as its documentation has it: options, defaults, outputs and exit codes of good and wrong usage."""
+"""Tests the command as its documentation describes it: options, defaults, outputs, and exit codes of good and wrong usage."""
 import json
 import signal
 import subprocess
@@ -9,7 +9,7 @@ from program import GOOD, Suite
 t = Suite()
 t.write("good.rib", GOOD)
 
-# Wrong usage: exit 1.
+# Wrong usage gives exit code 1.
 for arguments in ([], ["render"], ["good.rib", "--frobnicate"], ["good.rib", "--memory-limit", "much"],
                   ["good.rib", "--crop", "1,0,0,1"], ["good.rib", "--format", "640"], ["good.rib", "--frames", "9-1"],
                   ["good.rib", "-t", "0"], ["good.rib", "-o", "a.jpg"], ["good.rib", "--gi", "magic"], ["compare", "good.rib"]):
@@ -64,7 +64,7 @@ t.expect(all(k in stats["time_s"] for k in ("total", "parse", "hide", "shade", "
 
 t.expect_run("an option that is given twice", ["good.rib", "-t", "1", "-t", "2"], 1, "-t is given more than once\nRun with --help")
 
-# info.
+# The command info.
 info = json.loads(t.expect_run("info of a scene", ["info", "frames.rib", "--json"], 0).stdout)
 t.expect([f["frame"] for f in info["frames"]] == [1, 2, 3] and info["frames"][0]["objects"] == 1, "lists frames and objects")
 info = json.loads(t.expect_run("info of a picture", ["info", "good.exr", "--json"], 0).stdout)
@@ -75,16 +75,16 @@ for copy in ("map.z", "map", "map.rib", "map.tex", "map.jpg"):
     t.expect(info["kind"] == "image" and info["size"] == [24, 24], "goes by its first bytes")
 t.expect_run("a picture is no scene, whatever its name", ["map.rib"], 2, "is a picture by its first bytes", "not-rib")
 
-# Interruption: finished buckets are written, the exit code tells.
+# After an interruption, finished buckets are written and the exit code tells it.
 for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
     out = t.folder / f"cut{code}.exr"
     process = subprocess.Popen([t.program, "good.rib", "-o", out.name, "--format", "2000x2000", "--stats", "cut.json", "--progress",
                                 "-t", "1"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    process.stdout.readline()  # The first percent: it is under way.
+    process.stdout.readline()  # The first percent shows that the frame is under way.
     process.send_signal(number)
     t.expect(process.communicate(timeout=200) and process.returncode == code, f"signal {int(number)} ends with {code}")
     t.expect(out.with_suffix(".partial.exr").exists() and not out.exists() and json.loads((t.folder / "cut.json").read_text())["time_s"]["total"] > 0, "with a picture and statistics")
-# -o takes the place of the picture, not of the maps that later frames need.
+# -o replaces the picture, but not the maps that later frames need.
 t.write("maps.rib", 'FrameBegin 1 Display "key.z" "zfile" "z"\n' + GOOD.split("\n", 1)[1] + "FrameEnd\nFrameBegin 2\n" + GOOD + "FrameEnd\n")
 t.expect_run("-o with a frame of maps before", ["maps.rib", "-o", "picture.exr"], 0)
 t.expect((t.folder / "key.z").exists() and (t.folder / "picture.exr").exists(), "the map and the picture are both there")

@@ -1,4 +1,4 @@
-"""Looking at a frame while it is made: --preview in a viewer of the tev protocol, --pixel; and frames that are interrupted and
+"""Tests looking at a frame while it is made: --preview in a viewer of the tev protocol, and --pixel. It also tests frames that are interrupted and
 resumed row by row."""
 import re
 import signal
@@ -27,7 +27,7 @@ t.expect_run("a crop has its own corner", ["good.rib", "-o", "crop.exr", "--crop
 part.join(10)
 t.expect(len(part.pixels) == 45 * 75 and (0, 0) in part.pixels, "which is that of the viewer's picture")
 
-# A gather pass shows what it has covered, in ever smaller squares, before any row is done.
+# A gather pass shows the part that it has covered, in ever smaller squares, before any row is done.
 t.write("gathered.rib", """Display "gathered.exr" "openexr" "rgba"
 Format 96 96 1
 Projection "perspective" "fov" [60]
@@ -46,7 +46,7 @@ t.expect(len(gathering.sketches) == 4, f"four pictures come before the rows ({le
 for stride, picture in zip((16, 8, 4, 2), gathering.sketches):
     t.expect(all(picture[x, y] == picture[x - x % stride, y - y % stride] for x, y in picture), f"in squares of {stride} pixels")
     off = sorted(abs(picture[x, y][0] - gathering.pixels[x, y][0]) / gathering.pixels[x, y][0] for x in range(0, 96, stride) for y in range(0, 96, stride))
-    most = off[int(0.75 * len(off))]  # pixels along an edge see both sides
+    most = off[int(0.75 * len(off))]  # Pixels along an edge see both sides.
     t.expect(most < 0.1, f"whose corners look as the finished picture does ({most:.3f})")
 t.run("gathered.rib", "-o", "ungathered.exr", "-q", "--gi", "gather")
 t.expect_run("and the picture is the same without", ["compare", "gathered.exr", "ungathered.exr"], 0, "different_pixels               0")
@@ -61,7 +61,7 @@ start = time.time()
 t.expect_run("a viewer that does not read", ["good.rib", "-o", "deaf.exr", "--format", "1200x1200", "--pixel-samples", "1x1", f"--preview={deaf.address}"], 0)
 t.expect_run("has not changed the picture", ["info", "deaf.exr"], 0)
 
-# What a pixel sees.
+# --pixel tells what a pixel sees.
 seen = t.expect_run("--pixel", ["good.rib", "-o", "seen.exr", "--pixel", "45,75", "--pixel", "0,0"], 0, "pixel 45,75: 4 samples see",
                     "pixel 0,0: 4 samples see 0 micropolygons", '"ball" (', "good.rib:9", "matte", "Oi 1 1 1")
 depth = float(re.search(r"z ([0-9.]+)", seen.stdout)[1])
@@ -75,7 +75,7 @@ t.run("hide", "good.rib", "-o", "good.dfb", "-q")
 again = t.expect_run("--pixel of a shot", ["shade", "good.dfb", "-o", "again.exr", "--pixel", "45,75"], 0, '"ball" (', "good.rib:9")
 t.expect(mean == [float(v) for v in re.search(r"mean of its samples: (\S+) (\S+) (\S+)", again.stdout).groups()], "sees the same")
 
-# Row by row, interrupted, and taken up again.
+# A frame is made row by row, interrupted, and resumed.
 for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)):
     line = ["good.rib", "-o", f"cut{code}.exr", "--format", "500x500", "--memory-limit", "1M", "--resume", "-t", "2"]
     process = subprocess.Popen([t.program, *line, "--progress", "-q"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

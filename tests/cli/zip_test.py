@@ -1,4 +1,4 @@
-"""ReadArchive "archives.zip!name.rib": files within zip files, good and damaged ones."""
+"""Tests ReadArchive "archives.zip!name.rib": files within zip files, good and damaged ones."""
 import zipfile
 
 from program import GOOD, Suite
@@ -32,7 +32,7 @@ t.expect_run("no such member", [scene("lost", "a.zip!nosuch.rib")], 3, "nosuch.r
 t.expect_run("no such zip file", [scene("nowhere", "b.zip!ball.rib")], 3, "b.zip")
 t.expect_run("a member that swells to a thousand times its size", [scene("bomb", "a.zip!bomb.rib")], 3, "bomb.rib")
 
-# Damage within a member, and a file that is no zip file.
+# A member is damaged, and a file is no zip file.
 data = bytearray((t.folder / "a.zip").read_bytes())
 start = data.index(b"ball.rib") + len("ball.rib")
 data[start + 4] ^= 0xFF

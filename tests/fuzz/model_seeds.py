@@ -1,4 +1,4 @@
-"""Seeds of the fuzzer of models: small ones of each format, behind the byte that names it (tests/fuzz/model_fuzz.cpp)."""
+"""Writes seeds for the fuzzer of models: small models of each format, behind the byte that names the format (tests/fuzz/model_fuzz.cpp)."""
 import pathlib
 import sys
 

@@ -1,12 +1,12 @@
-"""Scenes that nobody would write: does each end soon, in little memory and with an exit code?
+"""Renders scenes that nobody would write, and tells whether each ends soon, in little memory and with an exit code.
 
     random_scenes.py TOMALES [--count 200] [--seed 1] [--keep FOLDER] [-- OPTION...]
 
-Each scene is made of requests of the request table (reyes/rib/request_table.cpp): its letters say what arguments they
-take, and primitives get arrays of lengths that fit. Most numbers are reasonable, some are enormous, tiny, none or no
-number. Pictures have 24 x 20 pixels. What takes more than 10 CPU s or 1 GB, or ends by a signal or an unknown exit code,
-is a finding: its number, command and figures are printed, and the exit code is 1. The same seed makes the same scenes.
-Options after `--` are those of `tomales render`; without, each scene draws its own (--gi, --memory-limit).
+Each scene is made of requests of the request table (reyes/rib/request_table.cpp). The table's letters say what arguments a request takes, and
+primitives get arrays of lengths that fit. Most numbers are reasonable; some are enormous, tiny, missing or no number. Pictures have 24 x 20 pixels.
+What takes more than 10 CPU s or 1 GB, or ends by a signal or an unknown exit code, is a finding: its number, command and figures are printed, and the
+exit code is 1. The same seed makes the same scenes. Options after `--` are those of `tomales render`; without, each scene draws its own (--gi,
+--memory-limit).
 """
 import argparse
 import os
@@ -43,7 +43,7 @@ TRANSFORMS = ["Identity", "Transform", "ConcatTransform", "Perspective", "Transl
 class Scene:
     def __init__(self, seed):
         self.random = random.Random(seed)
-        self.extreme = self.random.choice([0.01, 0.05, 0.2])  # how often a number is no reasonable one
+        self.extreme = self.random.choice([0.01, 0.05, 0.2])  # A number is unreasonable this often.
         self.lines = []
 
     def number(self, low=-3.0, high=3.0):
@@ -66,7 +66,7 @@ class Scene:
         self.lines.append(text)
 
     def arguments(self, name):
-        """As the letters of the request's signature ask."""
+        """Returns arguments as the letters of the request's signature ask."""
         out = []
         letters = SIGNATURES[name]
         if letters.startswith("?"):
@@ -132,7 +132,7 @@ class Scene:
             f'"radiosity" "float screentexels" {self.number(0, 2)} "float worldtexels" {self.number(0, 2)}',
             f'"stochastic" "int sigma" 1', f'"cull" "int hidden" {r.randint(0, 1)} "int backfacing" {r.randint(0, 1)}']))
 
-    # Primitives: the arrays have the lengths that the request asks for.
+    # The arrays of primitives have the lengths that the request asks for.
     def variables(self, points, spread=1.5):
         out = f' "P" {self.numbers(3 * points, -spread, spread)}'
         if self.maybe(0.2):
@@ -274,7 +274,7 @@ def limited():
 
 
 def run(program, folder, scene, options):
-    """CPU seconds, memory in MB, exit code, messages."""
+    """Returns CPU seconds, memory in MB, the exit code and the messages."""
     with open(folder / "messages", "wb") as messages:
         process = subprocess.Popen([program, "render", scene, "-t", "1", *options], cwd=folder, stdout=messages, stderr=messages, preexec_fn=limited)
         _, status, usage = os.wait4(process.pid, 0)

@@ -1,4 +1,5 @@
-"""Air between transparent layers, against the law of Beer and Lambert: sheets before one another in fog, in each pixel some of them."""
+"""Compares air between transparent layers with the law of Beer and Lambert. Sheets stand before one another in fog, and each pixel
+sees some of them."""
 import math
 import pathlib
 import subprocess
@@ -10,7 +11,8 @@ from pictures import pixels
 tomales = sys.argv[1]
 failures = []
 FOG, DISTANCE = (0.2, 0.4, 0.8), 5.0
-# Sheets of one width, each further to the right than the one before: depth, colour, opacity, first column of eight.
+# The sheets have one width, and each is further to the right than the one before. A row has the depth, the colour, the opacity and the
+# first of eight columns.
 SHEETS = [(2, (1, 0, 0), 0.25, 0), (3, (0, 1, 0), 0.5, 1), (4.5, (0.5, 0.5, 1), 0.75, 2), (7, (1, 1, 0), 0.9, 3), (12, (1, 1, 1), 1, 4)]
 
 
@@ -40,7 +42,7 @@ Atmosphere "fog" "distance" [{DISTANCE}] "background" [{FOG[0]} {FOG[1]} {FOG[2]
 
 
 def beer_lambert(layers):
-    """Colour and alpha: the air ends at the last layer."""
+    """Returns colour and alpha. The air ends at the last layer."""
     color, clear, before = [0.0, 0.0, 0.0], 1.0, 0.0
     for z, own, opacity, _ in layers:
         passes = math.exp(-(z - before) / DISTANCE)

@@ -1,4 +1,4 @@
-"""Pictures with a closed form: the white furnace, and a rectangular light over a floor."""
+"""Compares pictures with closed forms: the white furnace, and a rectangular light over a floor."""
 import math
 import pathlib
 import subprocess
@@ -25,7 +25,8 @@ def render(scene, *options):
 
 
 def rectangle_irradiance(point, normal, corners):
-    """Irradiance / (pi * radiance) of a polygon by contour integration (Lambert); corners seen from the point."""
+    """Returns irradiance / (pi * radiance) of a polygon by contour integration (Lambert). The corners are in their order as the
+    point sees them."""
     directions = []
     for c in corners:
         d = [a - b for a, b in zip(c, point)]
@@ -40,7 +41,7 @@ def rectangle_irradiance(point, normal, corners):
     return abs(total) / (2 * math.pi)
 
 
-# White furnace: albedo 0.5 inside radiance 1.
+# The white furnace has albedo 0.5 inside radiance 1.
 for mode in ("gather", "reference"):
     picture = render("furnace/furnace.rib", "--gi", mode, "--samples", "64")
     inside = [p for (x, y), p in picture.items() if (x - 63.5) ** 2 + (y - 63.5) ** 2 < 36**2]
@@ -49,7 +50,7 @@ for mode in ("gather", "reference"):
     expect(abs(mean / 0.5 - 1) < 0.005, f"furnace --gi {mode}: mean {mean:.5f} of 0.5 (within 0.5 %)")
     expect(worst < 0.025, f"furnace --gi {mode}: no pixel of the sphere is off by more than 5 % (worst {worst / 0.5:.2%})")
 
-# Rectangle 2 x 1 of radiance 3, 1.5 above the floor. The camera looks down -y; raster x is +x, raster y (down) is -z.
+# The rectangle of 2 x 1 and radiance 3 is 1.5 above the floor. The camera looks down -y; raster x is +x, and raster y (down) is -z.
 picture = render("rectlight/rectlight.rib")
 corners = [(-1, 1.5, -0.5), (1, 1.5, -0.5), (1, 1.5, 0.5), (-1, 1.5, 0.5)]
 for px in (24, 96, 168):

@@ -1,4 +1,4 @@
-"""A hundredth of scenes/city: the whole chain of the irradiance atlas over 47 photon maps, and what has to come out of it."""
+"""Runs the whole chain of the irradiance atlas over 47 photon maps, on a hundredth of scenes/city, and checks its results."""
 import json
 import pathlib
 import subprocess

@@ -1,6 +1,6 @@
-"""The hit-list origin offset leaves no self-intersection speckle on a displaced sphere; a bias alone does.
-Speckle: a pixel that differs by more than 30 % from the median of its 5x5 neighbours where the picture made with fully displaced
-ray geometry does not."""
+"""Tests that the hit-list origin offset leaves no speckle of self-intersection on a displaced sphere, and that a bias alone
+does. A pixel is speckle if it differs by more than 30 % from the median of its 5x5 neighbours, and does not in the picture made
+with fully displaced ray geometry."""
 import pathlib
 import statistics
 import subprocess
@@ -39,7 +39,8 @@ speckle = {"hit list": outliers(on) - natural, "bias alone": outliers(off) - nat
 
 
 def on_the_ball(found):
-    """Inside the silhouette, away from its edge; on the floor the contact shadow is near black and its noise counts double."""
+    """Counts the pixels inside the silhouette, away from its edge. On the floor the contact shadow is near black, and its
+    noise would count double."""
     return sum((x - 128) ** 2 + (y - 115) ** 2 < 80**2 for x, y in found)
 
 

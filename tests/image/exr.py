@@ -1,11 +1,11 @@
-"""Reads the OpenEXR files that most tests look at, because a start of oiiotool takes several times as long as a small render: one part of
-scanlines, without compression or by ZIP. The layout is that of "OpenEXR File Layout" (openexr.com)."""
+"""Reads the OpenEXR files that most tests look at: one part of scanlines, uncompressed or compressed by ZIP. To start oiiotool would take
+several times as long as a small render. The layout is that of "OpenEXR File Layout" (openexr.com)."""
 import itertools
 import struct
 import zlib
 
-SCANLINES = {0: 1, 2: 1, 3: 16}  # of a chunk, by compression: none, ZIPS, ZIP
-NOT_SCANLINES = 0x1a00           # flags of the version: tiles, deep pixels, several parts
+SCANLINES = {0: 1, 2: 1, 3: 16}  # These are the rows of a chunk, by compression: none, ZIPS, ZIP.
+NOT_SCANLINES = 0x1a00           # These flags of the version mean tiles, deep pixels and several parts.
 NUMBERS = {0: "I", 1: "e", 2: "f"}
 
 
@@ -15,7 +15,7 @@ def _text(data, at):
 
 
 def _header(data):
-    """{attribute: its bytes}, and where they end."""
+    """Returns {attribute: its bytes}, and the offset where they end."""
     out, at = {}, 8
     while data[at]:
         name, at = _text(data, at)
@@ -26,7 +26,7 @@ def _header(data):
 
 
 def _channels(attribute):
-    """Name and format of struct of each, in the order of the file."""
+    """Returns the name and the struct format of each channel, in the order of the file."""
     out, at = [], 0
     while attribute[at]:
         name, at = _text(attribute, at)
@@ -36,7 +36,7 @@ def _channels(attribute):
 
 
 def _unzipped(packed, size):
-    """A chunk that compression would make larger stays as it is."""
+    """Unpacks a chunk. A chunk that compression would make larger is stored as it is."""
     if len(packed) == size:
         return packed
     sums = bytes(itertools.accumulate(zlib.decompress(packed), lambda before, step: (before + step - 128) & 255))
@@ -46,7 +46,7 @@ def _unzipped(packed, size):
 
 
 def read(path, wanted):
-    """The display window's size and {(x, y) within it: numbers} of the data window, with the channels in the order in which `wanted` names them.
+    """Returns the display window's size and {(x, y) within it: numbers} of the data window, with the channels in the order of `wanted`. Returns
     None if the file has other channels, or a layout that is not read here."""
     data = path.read_bytes()
     if data[:4] != b"\x76\x2f\x31\x01" or struct.unpack_from("<I", data, 4)[0] & NOT_SCANLINES:

@@ -1,4 +1,5 @@
-"""The gallery's scenes as pictures of one world each, and what they name, made beside them: plugins, brick maps, maps that earlier frames render."""
+"""Lists the gallery's scenes as pictures of one world each, and makes the files that they name: plugins, brick maps, and maps that earlier frames
+render."""
 import dataclasses
 import os
 import pathlib
@@ -6,18 +7,18 @@ import re
 import subprocess
 import sys
 
-# What the files' comments and READMEs say that they are rendered with; of fewer photons.
+# The files' comments and READMEs name these arguments, but with more photons.
 OPTIONS = {"shading/milk.rib": ("--gi", "atlas", "--atlas", "maps", "--photons", "100000", "--bounces", "20")}
-FINISHED = ("pool", "coast", "still_life", "teapots", "nave", "evening", "watch", "forest", "noon", "dandelion", "dragon")  # docs/gallery.md, finished pictures
-# File -> its source, where that has another name.
+FINISHED = ("pool", "coast", "still_life", "teapots", "nave", "evening", "watch", "forest", "noon", "dandelion", "dragon")  # These are the finished pictures of docs/gallery.md.
+# The source of each file whose source has another name.
 PLUGINS = {"stonesurface": "stone"}
 
 
 @dataclasses.dataclass
 class Picture:
     name: str
-    text: str    # RIB of one world
-    maps: str    # what has to be rendered first, "" for most: the frames before
+    text: str    # The RIB of one world.
+    maps: str    # The frames before, which have to be rendered first. It is "" for most pictures.
     options: tuple
 
     @property
@@ -26,17 +27,17 @@ class Picture:
 
 
 def text_of(path):
-    """What a scene's file says, or prints the script beside it where the scene is too large to be kept."""
+    """Returns the text of a scene's file, or what the script beside it prints if the scene is too large to be kept."""
     if path.exists():
         return path.read_text(errors="replace")
     return subprocess.run([sys.executable, path.parent / f"make_{path.stem}.py"], capture_output=True, text=True, check=True).stdout
 
 
 def pictures_of(path, root):
-    """Frames that only make maps are none."""
+    """Yields the pictures of a file. Frames that only make maps are no pictures."""
     name = str(path.relative_to(root / "scenes"))
     text = text_of(path).replace("../../docs", str(root / "docs"))
-    text = re.sub(r"^Transform \[", "ConcatTransform [", text, flags=re.M)  # the same before the world, but for what tests put before it
+    text = re.sub(r"^Transform \[", "ConcatTransform [", text, flags=re.M)  # Both do the same before the world, unless a test puts something before them.
     head, *frames = re.split(r"^(?=FrameBegin)", text, flags=re.M)
     if not frames:
         return [Picture(name, text, "", OPTIONS.get(name, ()))]
@@ -50,9 +51,9 @@ def has_to_be_furnished(text):
 
 
 def furnish(tomales, root, text, folder):
-    """Makes what RIB names that other commands make."""
+    """Makes the files that RIB names and that other commands make."""
     if "plugins:" in text:
-        os.environ["TOMALES_SHADERS"] = "plugins"  # for whoever renders it
+        os.environ["TOMALES_SHADERS"] = "plugins"  # Whoever renders the picture needs this.
         (folder / "plugins").mkdir()
         for plugin in sorted(set(re.findall(r'"(\w+)"', text))):
             source = root / "docs/rsl_plugins" / f"{PLUGINS.get(plugin, plugin)}.cpp"
@@ -70,13 +71,13 @@ def furnish(tomales, root, text, folder):
 
 
 def store_photons(tomales, scene, shaders):
-    """As scenes/pool/README.md says, and fewer."""
+    """Stores photons as scenes/pool/README.md says, but fewer."""
     subprocess.run([tomales, "photons", scene.name, "-o", "photons", "--photons", "20000", "--bounces", "3", "--shaders", shaders],
                    cwd=scene.parent, check=True, capture_output=True)
 
 
 def make_brick_map(tomales, root, folder):
-    """As scenes/primitives/brickmap.rib says."""
+    """Makes a brick map as scenes/primitives/brickmap.rib says."""
     for step in (("photons", root / "scenes/cornell/cornell.rib", "-o", "photons", "--photons", "20000"), ("irradiance", "photons", "-o", "irradiance"),
                  ("brickmake", "irradiance", "-o", "cornell.bkm", "--relative", "--maxerror", "0.1")):
         subprocess.run([tomales, *map(str, step)], cwd=folder, check=True, capture_output=True)

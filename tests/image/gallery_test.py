@@ -1,4 +1,4 @@
-"""Every scene of the gallery is rendered without a message and shows something: docs/gallery.md.
+"""Tests that every scene of the gallery (docs/gallery.md) renders without a message and shows something.
 
     gallery_test.py tomales repository
 """
@@ -28,12 +28,12 @@ with tempfile.TemporaryDirectory() as temporary:
     for scene in sorted({*scenes, *(root / f"scenes/{name}/{name}.rib" for name in FINISHED)}):
         name = f"{scene.parent.name}/{scene.stem}"
         text = text_of(scene).replace("../../docs", str(root / "docs"))
-        text = re.sub(r"Format (\d+) (\d+)", lambda m: f"Format {int(m[1]) // 8} {int(m[2]) // 8}", text)  # of shadow maps; --format is for pictures
+        text = re.sub(r"Format (\d+) (\d+)", lambda m: f"Format {int(m[1]) // 8} {int(m[2]) // 8}", text)  # This shrinks shadow maps, because --format is for pictures.
         (folder / scene.name).write_text(text)
         if "photons/" in text:
             store_photons(tomales, folder / scene.name, scene.parent)
         done = run("render", scene.name, "-o", "out.exr", "--format", "96x72", "--pixel-samples", "2x2", "--shaders", scene.parent, cwd=folder)
-        # Four samples a pixel are fewer than most ask, and balls of a few pixels are polyhedra.
+        # These messages are expected: four samples a pixel are fewer than most scenes ask for, and balls of a few pixels are polyhedra.
         said = [line for line in done.stderr.splitlines() if "[pixel-noise]" not in line and "[dice-turned]" not in line]
         if done.returncode or done.stdout or said:
             failures.append(f"{name}: exit code {done.returncode}: {done.stdout}{done.stderr}")

@@ -1,4 +1,4 @@
-"""Rays of one glossy point share the light samples and gather rays of that point: more of them cost no more of these, and
+"""Tests that rays of one glossy point share the light samples and gather rays of that point. More rays must cost no more of these, and
 bring the same light."""
 import json
 import pathlib

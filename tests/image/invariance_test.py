@@ -1,4 +1,4 @@
-"""The same picture, bit for bit, for any thread count, bucket size and crop; and from run to run."""
+"""Tests that the picture has the same bits for any thread count, bucket size and crop, and in every run."""
 import pathlib
 import subprocess
 import sys

@@ -1,5 +1,5 @@
-"""TextureCoordinates, Orientation, ReverseOrientation, Sides and Matte mean the same to every kind of primitive, and a polygon is textured
-alike whichever of its corners comes first.
+"""Tests that TextureCoordinates, Orientation, ReverseOrientation, Sides and Matte mean the same to every kind of primitive. A polygon must be
+textured alike whichever of its corners comes first.
 
     kinds_test.py tomales repository
 """
@@ -32,7 +32,7 @@ KINDS = {
     "tube": 'Attribute "dice" "int roundcurve" [1] Curves "linear" [3] "nonperiodic" "P" [-1 -0.5 0  0 0.5 0  1 -0.5 0] "constantwidth" [0.5]',
     "blobby": f'Blobby 1 [1001 0] [{BALL}] [""]', "teapot": 'Scale 0.3 0.3 0.3 Geometry "teapot"',
 }
-COLUMNS, CELL = 6, 32  # each kind has a cell of the picture, 3.2 units wide
+COLUMNS, CELL = 6, 32  # Each kind of primitive has a cell of the picture, 3.2 units wide.
 ROWS = -(-len(KINDS) // COLUMNS)
 BACKDROP = 'AttributeBegin Sides 2 Surface "constant" Patch "bilinear" "P" [-9 -9 9  99 -9 9  -9 99 9  99 99 9] AttributeEnd'
 
@@ -61,7 +61,7 @@ WorldEnd
 
 
 def polygons(folder, what):
-    """The same square eight times: begun at each corner, in both directions."""
+    """Writes the same square eight times, beginning at each corner in both directions."""
     corners = [(-0.4, -0.4), (-0.4, 0.4), (0.4, 0.4), (0.4, -0.4)]
     (folder / "map.ppm").write_text("P3 8 8 255 " + " ".join(f"{40 * (x % 4) + 60} {30 * y} {90 * ((x + y) % 2)}" for y in range(8) for x in range(8)))
     squares = "\n".join(
@@ -85,7 +85,7 @@ WorldEnd
 
 
 def expect(what, good):
-    """`good`: of the pixels of one kind."""
+    """Reports `what` for each kind of primitive whose pixels are not `good`."""
     for k, kind in enumerate(KINDS):
         x0, y0 = k % COLUMNS * CELL, (ROWS - 1 - k // COLUMNS) * CELL
         if not good([(x, y) for x in range(x0, x0 + CELL) for y in range(y0, y0 + CELL)]):
@@ -115,7 +115,7 @@ with tempfile.TemporaryDirectory() as temporary:
         off = sum(abs(a - b) for p in square for a, b in zip(square[p], squares[0][p])) / len(square)
         if off > 0.01:
             failures.append(f"a polygon that begins at another corner ({k}) is textured otherwise: {off:.3f}")
-    misty = render(folder, "Matte 1 Opacity 0.25 0.25 0.25", BACKDROP)  # of up to eight layers
+    misty = render(folder, "Matte 1 Opacity 0.25 0.25 0.25", BACKDROP)  # A kind may cover a pixel with up to eight layers.
     expect("transparent and Matte, it does not hold out as much as it covers",
            lambda cell: all(1 - (1 - 0.75**8) * both[p][3] - 1e-3 <= misty[p][3] <= 1 - 0.25 * both[p][3] + 1e-3 for p in cell))
 

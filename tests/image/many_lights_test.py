@@ -1,4 +1,5 @@
-"""Many lamps of which a point runs few (Option "trace" "lightcut"), against closed forms, all lamps, threads and crops."""
+"""Compares many lamps, of which each point runs only a few (Option "trace" "lightcut"), with closed forms, with all lamps, and over threads and
+crops."""
 import pathlib
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Cryptomatte read back by a decoder of its own, written from the public specification; deep pixels flattened by oiiotool."""
+"""Reads Cryptomatte by a decoder written from the public specification, and compares it with deep pixels that oiiotool flattens."""
 import json
 import pathlib
 import re
@@ -20,7 +20,7 @@ def check(good, what):
 
 
 def murmur(key):
-    """MurmurHash3_x86_32 with seed 0."""
+    """Returns MurmurHash3_x86_32 with seed 0."""
     mask, h = 0xFFFFFFFF, 0
     data = key.encode()
     for i in range(0, len(data), 4):
@@ -47,7 +47,7 @@ def as_id(name):
 
 
 def layer(path, name):
-    """(manifest, {(x, y): {id: coverage}}, number of ranks) of a Cryptomatte layer."""
+    """Returns (manifest, {(x, y): {id: coverage}}, number of ranks) of a Cryptomatte layer."""
     info = subprocess.run(["oiiotool", "--info", "-v", str(path)], capture_output=True, text=True, check=True).stdout
     key = f"cryptomatte/{murmur(name):08x}"[:len("cryptomatte/") + 7]
     assert f'{key}/name: "{name}"' in info and f'{key}/hash: "MurmurHash3_32"' in info, info

@@ -1,4 +1,4 @@
-"""Blobbies that merge while the shutter is open: the picture is the mean of still ones, and is whole at any size.
+"""Tests blobbies that merge while the shutter is open: the picture must be the mean of still ones, and have no holes at any size.
 
     merging_test.py tomales
 """
@@ -27,14 +27,14 @@ failures = []
 
 
 def blobby(share):
-    """Two balls that have just not met at 0, and have merged to a thick neck at 1."""
+    """Returns two balls that do not yet meet at share 0, and have merged to a thick neck at 1."""
     balls = ((-0.72 + 0.22 * share, 1), (0.6, 1 + 0.2 * share))
     floats = " ".join(f"{size} 0 0 0 0 {size} 0 0 0 0 {size} 0 {x} 0 0 1" for x, size in balls)
     return f'Blobby 2 [1001 0 1001 16 0 2 0 1] [{floats}] [""]'
 
 
 def points(share):
-    """The same as points."""
+    """Returns the same balls as Points."""
     return f'Points "P" [{-0.72 + 0.22 * share} 0 0  0.6 0 0] "varying float width" [1 {1 + 0.2 * share}] "uniform string type" ["blobby"]'
 
 

@@ -1,4 +1,5 @@
-"""Shadows and bounced light of what moves, under every method, against closed forms. Nothing asks for motion: a Shutter that is open does."""
+"""Compares shadows and bounced light of moving things with closed forms, under every method. The scenes set nothing but Shutter to get
+motion."""
 import pathlib
 import subprocess
 import sys
@@ -25,7 +26,7 @@ def rendered(scene, *arguments):
 
 
 SUN = 'LightSource "distantlight" 1 "from" [0 1 0] "to" [0 0 0] "string shadowname" "raytrace" LightSource "indirectlight" 2 '
-# The floor from above. A square that the camera does not see slides from x = -1 to 1 above it.
+# The camera sees the floor from above. A square that it does not see slides from x = -1 to 1 above the floor.
 SLIDE = """Format 96 8 1 PixelSamples 2 2 PixelFilter "box" 1 1 ShadingRate 0.5 Shutter 0 1 {hider}
 Projection "orthographic" ScreenWindow -2.4 2.4 -0.2 0.2 Translate 0 0 4 Rotate -90 1 0 0
 WorldBegin """ + SUN + """Surface "matte" {attribute}
@@ -42,7 +43,7 @@ def row(picture):
 
 
 def worst(picture, covered):
-    """The greatest difference from the light that the square leaves, away from its still edges."""
+    """Returns the greatest difference from the light that the square leaves, away from its still edges."""
     x_of = [-2.4 + 4.8 * (k + 0.5) / 96 for k in range(96)]
     return max(abs(is_ - (1 - covered(x))) for x, is_ in zip(x_of, row(picture)) if min(abs(x + 1.5), abs(x + 0.5)) > 0.06)
 
@@ -72,7 +73,7 @@ check(error < 0.02, f"where the camera sees none, rays see none either (off by {
 here = slide("--gi", "gather", "-t", "1")
 check(here == slide("--gi", "gather", "-t", "3", hider='Option "limits" "int[2] bucketsize" [7 5]'), "the same for any threads and buckets")
 
-# A wall along the sunbeams, lit by the floor before it alone. A lid comes over that floor at 0.5256 of the shutter.
+# A wall stands along the sunbeams, and only the floor before it lights it. A lid comes over that floor at 0.5256 of the shutter.
 BOUNCE = """Format 24 24 1 PixelSamples 2 2 Shutter 0 1 Projection "orthographic" ScreenWindow -1 1 -1 1 Translate 0 -1 4
 WorldBegin """ + SUN.replace("2 ", '2 "float samples" [1024] ') + """Surface "matte"
 Patch "bilinear" "P" [-3 0 0  3 0 0  -3 3 0  3 3 0]
@@ -90,7 +91,8 @@ def mean(picture):
 
 
 def share(method):
-    """Of the light without a lid. Records are few, and all rays of one see the same times: one seed is off by 3 %."""
+    """Returns the share of the light without a lid. Records are few, and all rays of one record see the same times, so one seed is off by
+    3 %."""
     seeds = [("--gi", method, "--seed", seed) for seed in "123"]
     return sum(mean(rendered(BOUNCE.format(lid=LID), *s)) / mean(rendered(BOUNCE.format(lid=""), *s)) for s in seeds) / 3
 

@@ -1,5 +1,5 @@
-"""Float pixels of a picture with nothing but the standard library. What exr.py does not read, oiiotool (openimageio-tools, which the
-install step brings) turns into an uncompressed float TIFF, and that is simple to read."""
+"""Reads float pixels of a picture with nothing but the standard library. Files that exr.py does not read are turned by oiiotool
+(openimageio-tools, which the install step brings) into uncompressed float TIFF, which is simple to read."""
 import pathlib
 import struct
 import subprocess
@@ -9,7 +9,7 @@ import exr
 
 
 def _tiff_fields(data):
-    """{tag: values} of the first directory of a little-endian TIFF."""
+    """Returns {tag: values} of the first directory of a little-endian TIFF."""
     types = {1: "B", 3: "H", 4: "I"}
     at = struct.unpack_from("<I", data, 4)[0]
     fields = {}
@@ -26,7 +26,7 @@ def _tiff_fields(data):
 
 
 def pixels(path):
-    """{(x, y): (R, G, B, ...)} of an image file; outside the data window of a crop it is black."""
+    """Returns {(x, y): (R, G, B, ...)} of an image file. Pixels outside of the data window of a crop are black."""
     if read := exr.read(pathlib.Path(path), "RGBA"):
         (width, height), seen = read
         black = (0.0,) * len(next(iter(seen.values())))

@@ -1,5 +1,5 @@
-"""RIB that says the same in another way: its objects in another order, polygons as one mesh, primitives in halves. Each function returns the text
-unchanged where it finds nothing to rewrite; requests are looked for at the beginning of lines, as the gallery writes them.
+"""Rewrites RIB so that it says the same in another way: objects in another order, polygons as one mesh, or primitives in halves. A function returns
+the text unchanged if it finds nothing to rewrite. It looks for requests at the beginning of lines, where the gallery writes them.
 """
 import re
 
@@ -13,7 +13,7 @@ STAYS = re.compile(r"LightSource|Illuminate")
 
 
 def pieces(text):
-    """The lines of the world, together where an AttributeBegin at its level has not ended."""
+    """Returns the lines of the world in pieces. An attribute block stays in one piece."""
     out, depth = [], 0
     for line in text.splitlines(keepends=True):
         if depth > 0:
@@ -31,7 +31,7 @@ def movable(piece):
 
 
 def reordered(text):
-    """Whatever may change places with its neighbours, the other way round."""
+    """Reverses the order of neighbours that may change places."""
     head, world, rest = text.partition("WorldBegin")
     out, run = [], []
     for piece in [*pieces(rest), ""]:
@@ -57,7 +57,7 @@ def middle(a, b):
 
 
 def merged(text):
-    """Neighbouring polygons as one mesh."""
+    """Makes one mesh of neighbouring polygons."""
     def mesh(match):
         polygons = [points(p[1]) for p in POLYGON.finditer(match[0])]
         corners = [p for polygon in polygons for p in polygon]
@@ -82,7 +82,7 @@ def half_patches(match):
 
 
 def split(text):
-    """Quadrilaterals and what is swept all round, in halves. Neither in motion, in solids nor as lamps."""
+    """Cuts quadrilaterals and full sweeps in halves, unless they move, belong to solids or are lamps."""
     out = []
     for piece in pieces(text):
         if not re.search(r"(?:Motion|Solid)Begin|AreaLightSource", piece):

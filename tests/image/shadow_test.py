@@ -1,4 +1,4 @@
-"""Shadow maps and deep shadow maps against closed forms, against traced shadows, and through MakeShadow."""
+"""Compares shadow maps and deep shadow maps with closed forms and with traced shadows, and tests MakeShadow."""
 import pathlib
 import subprocess
 import sys
@@ -16,7 +16,7 @@ def check(good, what):
         failures.append(what)
 
 
-# A square of side 1 at height 1 under a lamp at height 4: its shadow on the floor has side 4/3.
+# A square of side 1 at height 1 stands under a lamp at height 4, so its shadow on the floor has side 4/3.
 SQUARE = """
   Attribute "identifier" "name" "floor"
   Surface "matte"
@@ -44,7 +44,7 @@ LightSource "shadowdistant" "lamp" "point from" [0 1 0] "point to" [0 0 0] "stri
 
 
 def lit(kind, opacity, hider="", of_map=""):
-    """The floor seen from above, lit by a light without falloff through a map of that type."""
+    """Returns the floor seen from above, lit by a light without falloff through a map of that type."""
     with tempfile.TemporaryDirectory() as folder:
         rib = pathlib.Path(folder) / "a.rib"
         rib.write_text(MAP.format(folder=folder, type=kind, hider=hider, world=SQUARE.format(opacity=opacity, seen=1).replace("matte", of_map or "matte")) +
@@ -57,7 +57,7 @@ def mean(picture, channel=0):
     return sum(p[channel] for p in picture.values()) / len(picture)
 
 
-area = (4 / 3) ** 2 / 4  # of the picture, which is 2 x 2
+area = (4 / 3) ** 2 / 4  # The picture is 2 x 2, so this is its share.
 for name, hider in (("min", ""), ("midpoint", 'Hider "hidden" "string depthfilter" "midpoint"')):
     shadow = 1 - mean(lit("shadow", "1 1 1", hider))
     check(abs(shadow - area) < 0.02 * area, f"area of the shadow of a square, depthfilter {name}: {shadow:.5f}, closed form {area:.5f}")
@@ -72,7 +72,7 @@ for channel, opacity in enumerate((0.75, 0.5, 0.25)):
 floor = lit("shadow", "1 1 1")
 check(min(floor[x, y][0] for x in range(128) for y in range(128) if x < 15 or y < 15) > 0.999, "the floor does not shadow itself")
 
-# A bare floor, at a slant to the lamp: no filter of a deep map may let it shadow itself.
+# A bare floor lies at a slant to the lamp. No filter of a deep map may let it shadow itself.
 BARE = """Surface "matte" Patch "bilinear" "P" [-8 0 -8  8 0 -8  -8 0 8  8 0 8]"""
 for filter in ('"gaussian" 2 2', '"triangle" 4 4', '"catmull-rom" 4 4'):
     with tempfile.TemporaryDirectory() as folder:

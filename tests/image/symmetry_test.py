@@ -1,12 +1,13 @@
-"""Pictures do not care where the world stands, how large it is, which hand it has, in what order and pieces it is told, or how it is rendered: each
-scene of the gallery.
+"""Tests with each scene of the gallery that a picture does not depend on the world's place, size or handedness, on the order and pieces in which it
+is told, or on how it is rendered.
 
     symmetry_test.py tomales repository [--all] [--share=K/N] [part of a scene's name]
 
-Threads and buckets must leave no trace, crops only in records of indirect light.
-What only rounding tells apart (turned, far away, scaled) must agree in almost every pixel. What draws other random numbers or dices otherwise
-(mirrored, another seed, twice the resolution, told in another order, as one mesh or in halves, crops of indirect light; where there are photons, turned and far
-away too) must agree in means of blocks as two seeds do. Without --all: bits, and what moving and scaling change, of scenes that need nothing made.
+Threads and buckets must leave no trace, and crops only in records of indirect light. Worlds that differ by rounding alone (turned, far away, scaled)
+must agree in almost every pixel. Worlds that draw other random numbers or dice otherwise must agree in means of blocks as two seeds do. These are
+worlds that are mirrored, have another seed or twice the resolution, are told in another order, as one mesh or in halves, or are crops with indirect
+light; with photons, also worlds that are turned or far away. Without --all, only scenes that need no other files are tested, and only for equal bits,
+moving and scaling.
 """
 import itertools
 import os
@@ -25,24 +26,24 @@ from rewrite import merged, reordered, split
 tomales, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 only = next((a for a in sys.argv[3:] if not a.startswith("--")), "")
 every_check = "--all" in sys.argv
-# Every Nth scene, from the Kth on: one process for all of them would be the last of ctest's to end.
+# Each process takes every Nth scene, from the Kth on. One process for all of them would be the last of ctest's to end.
 share, shares = map(int, next((a.split("=")[1] for a in sys.argv if a.startswith("--share=")), "0/1").split("/"))
 WIDTH, HEIGHT, BLOCK = (96, 72, 8) if every_check else (64, 48, 8)
 failures = []
 
-# Why some scenes are left out of some checks.
-FALLS_OFF = re.compile(r'"(pointlight|spotlight|shadowspot|sl_shadowspot|slidespot)"')  # I / d^2 knows the unit of length
-IN_UNITS = re.compile(r"DepthOfField|[Dd]isplace|fog|Atmosphere|Interior|filterlight")  # so do lengths that are parameters,
-ON_SCREEN = re.compile(r"ScreenWindow|orthographic")                                      # and windows on the screen
-BY_PIXELS = re.compile(r"motionfactor|DetailRange")                                       # is coarser, or another shape, by so many pixels
-KNOWS_WORLD = re.compile(r'"smoke"')                                                     # has heights in the world as parameters
-BY_PARAMETERS = re.compile(r"[Tt]exture|[Dd]isplace|primvar|vertex|varying|wood|grid")  # halves have other u, v and bounds
+# The reasons why some scenes are left out of some checks.
+FALLS_OFF = re.compile(r'"(pointlight|spotlight|shadowspot|sl_shadowspot|slidespot)"')  # I / d^2 depends on the unit of length.
+IN_UNITS = re.compile(r"DepthOfField|[Dd]isplace|fog|Atmosphere|Interior|filterlight")  # So do lengths that are parameters,
+ON_SCREEN = re.compile(r"ScreenWindow|orthographic")                                      # and windows on the screen.
+BY_PIXELS = re.compile(r"motionfactor|DetailRange")                                       # The picture is coarser, or has another shape, by so many pixels.
+KNOWS_WORLD = re.compile(r'"smoke"')                                                     # Its parameters are heights in the world.
+BY_PARAMETERS = re.compile(r"[Tt]exture|[Dd]isplace|primvar|vertex|varying|wood|grid")  # The halves have other u, v and bounds.
 SLOW = ("furnace", "interior", "rectlight", "ris")
 MOVES = {"turned": ("Rotate 37 1 2 3", "Rotate -37 1 2 3"), "far from the origin": ("Translate 300 -200 500", "Translate -300 200 -500")}
 
 
 class Scene:
-    """One picture of the gallery in a folder of its own, which is where the renderer runs."""
+    """One picture of the gallery in a folder of its own, in which the renderer runs."""
 
     def __init__(self, picture, folder):
         self.name, self.maps, self.options, self.has_photons, self.folder = picture.name, picture.maps, picture.options, picture.has_photons, folder
@@ -50,7 +51,7 @@ class Scene:
 
     def render(self, text, *options, size=(WIDTH, HEIGHT)):
         (self.folder / "scene.rib").write_text(text)
-        shutil.rmtree(self.folder / "maps", ignore_errors=True)  # of photons: they would be taken as they are
+        shutil.rmtree(self.folder / "maps", ignore_errors=True)  # Photon maps would be used as they are.
         out = self.folder / "out.exr"
         out.unlink(missing_ok=True)
         done = subprocess.run([tomales, "render", "scene.rib", "-o", "out.exr", "-q", "--format", f"{size[0]}x{size[1]}", *self.options, *options],
@@ -60,7 +61,7 @@ class Scene:
         return {key: value[:3] for key, value in pixels(out).items()}
 
     def render_moved(self, there, back):
-        """With its maps, which know where the world stands."""
+        """Renders the moved world with maps of its own, because maps know where the world stands."""
         picture = self.make_maps(there, back).render(moved(self.text, there, back))
         self.make_maps()
         return picture
@@ -89,7 +90,8 @@ def scaled(text, k):
 
 
 def finer(text):
-    """Micropolygons as they are at twice the resolution: outlines of round things are chords, which lose up to 1 % of a picture's light (docs/measured/invariance.md)."""
+    """Keeps the micropolygons as they are at twice the resolution. Outlines of round things are chords, which lose up to 1 % of a picture's light
+    (docs/measured/invariance.md)."""
     return "ShadingRate 0.25\n" + re.sub(r"^(\s*ShadingRate\s+)([\d.e+-]+)", lambda m: f"{m[1]}{float(m[2]) / 4}", text, flags=re.M)
 
 
@@ -99,19 +101,19 @@ def blocks(picture, width=WIDTH, height=HEIGHT, block=BLOCK, x0=0, y0=0):
 
 
 def differing(a, b):
-    """Share of pixels that rounding does not explain."""
+    """Returns the share of pixels that rounding does not explain."""
     scale = statistics.fmean(sum(p) / 3 for p in a.values()) + 1e-6
     return sum(any(abs(p - q) > 0.02 * (scale + abs(p)) for p, q in zip(a[key], b[key])) for key in a) / len(a)
 
 
 def distance(a, b):
-    """Root mean square between means of blocks, and of their sum."""
+    """Returns the root mean square difference between means of blocks, and that between their sums."""
     squares = [(p - q)**2 for u, v in zip(a, b) for p, q in zip(u, v)]
     return statistics.fmean(squares)**0.5, abs(statistics.fmean(sum(u) - sum(v) for u, v in zip(a, b))) / 3
 
 
 def has_records(text):
-    """Of indirect light or of what covers a point; RIS scenes ask for it by their integrator."""
+    """Tells whether the scene has records of indirect light or of occlusion. RIS scenes ask for them by their integrator."""
     return any(word in text for word in ("indirectlight", "PxrPathTracer", "maxvariation", '"irradiance" "float maxerror"'))
 
 
@@ -121,7 +123,7 @@ def check(scene):
     mean = statistics.fmean(sum(p) / 3 for p in base.values())
     scene.verdict("shows something", mean > 0, f"mean {mean:.3g}")
     check_bits(scene, base)
-    most = 0.05 if has_records(text) else 0.02  # where irradiance records lie is decided by a hair's breadth
+    most = 0.05 if has_records(text) else 0.02  # Rounding decides where irradiance records lie.
 
     def check_pixels(what, other):
         share = differing(base, other)
@@ -138,7 +140,7 @@ def check(scene):
 
 
 def check_bits(scene, base):
-    """A crop has irradiance records of its own."""
+    """Compares bits. A crop has irradiance records of its own, so scenes with records are not cropped."""
     crop = [] if has_records(scene.text) else ["--crop", "0.25,0.75,0.25,1"]
     other = scene.render(scene.text, "-t", "3", "--bucket-size", "8", *crop)
     seen = [(x, y) for x, y in base if not crop or WIDTH <= 4 * x < 3 * WIDTH and HEIGHT <= 4 * y]
@@ -148,7 +150,7 @@ def check_bits(scene, base):
 
 def check_means(scene, mean):
     text = scene.text
-    # Four: means of two seeds may be near to each other by chance, and then a fifth is not.
+    # There are four seeds: means of two may be near to each other by chance, and then a fifth is not.
     pictures = [scene.render(text, "--seed", str(n)) for n in (1, 2, 3, 4)]
     seeds = [blocks(p) for p in pictures]
     noise, noise_of_mean = (statistics.fmean(d * d for d in of)**0.5 for of in zip(*(distance(a, b) for a, b in itertools.combinations(seeds, 2))))
@@ -156,7 +158,7 @@ def check_means(scene, mean):
     against = {}
     if scene.has_photons:
         others.update({what: blocks(scene.render_moved(there, back)) for what, (there, back) in MOVES.items()})
-    if has_records(text):  # else check_bits
+    if has_records(text):  # For other scenes check_bits has tested crops.
         window = {"x0": WIDTH // 4, "width": 3 * WIDTH // 4, "y0": HEIGHT // 3}
         others["cropped"] = blocks(scene.render(text, "--seed", "1", "--crop", f"0.25,0.75,{1 / 3},1"), **window)
         against["cropped"] = blocks(pictures[0], **window)
@@ -183,8 +185,8 @@ for path in sorted((root / "scenes").rglob("*.rib"))[share::shares]:
         if not every_check and (picture.maps or has_to_be_furnished(picture.text)):
             continue
         with tempfile.TemporaryDirectory() as where:
-            os.chdir(where)  # pictures that a scene names stay here
-            shutil.copytree(path.parent, where, dirs_exist_ok=True)  # no links: a header that leads out of its folder is refused
+            os.chdir(where)  # Pictures that a scene names stay here.
+            shutil.copytree(path.parent, where, dirs_exist_ok=True)  # Links would not do: a header that leads out of its folder is refused.
             furnish(tomales, root, picture.text, pathlib.Path(where))
             check(Scene(picture, pathlib.Path(where)))
             os.chdir(root)

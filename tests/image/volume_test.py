@@ -1,4 +1,4 @@
-"""Volumes against closed forms: what they let through, scatter and shade, of boxes and of OpenVDB files; and what is said of bad ones."""
+"""Compares volumes with closed forms: what boxes and OpenVDB files let through, scatter and shade. It also tests the messages about bad ones."""
 import math
 import pathlib
 import subprocess
@@ -40,7 +40,7 @@ def run(body, *options):
 
 
 def middle(body, *options):
-    """Red and alpha in the middle of the picture."""
+    """Returns red and alpha in the middle of the picture."""
     result = run(body, "-q", *options)
     expect(result.returncode == 0, f"rendered {result.stderr}")
     values = pixels(folder / "out.exr")[(4, 4)]
@@ -55,7 +55,7 @@ with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     dark = "Color [0 0 0]\n"
 
-    # Beer and Lambert.
+    # The law of Beer and Lambert holds.
     near(middle(WALL.format(9) + dark + BOX.format(0.5))[0], math.exp(-1.5), 1e-4, "a wall behind it is dimmed")
     near(middle(WALL.format(3) + dark + BOX.format(0.5))[0], math.exp(-1), 1e-4, "a wall inside is dimmed by what is before it")
     near(middle(WALL.format(0.5) + dark + BOX.format(0.5))[0], 1, 1e-6, "a wall before it is not")
@@ -66,7 +66,7 @@ with tempfile.TemporaryDirectory() as name:
     near(middle(WALL.format(9) + dark + f'Volume "box" [-2 2 -2 2 1 4] [2 2 4] "varying float density" [{slope}]\n')[0], math.exp(-4.5), 1e-4,
          "a density that grows is integrated")
 
-    # A file: 12 points of density 2, 0.25 apart, linear to 0 beyond the outermost.
+    # The file has 12 points of density 2, 0.25 apart. Density falls linearly to 0 beyond the outermost points.
     vdb.write(folder / "fog.vdb", "density", 12, lambda x, y, z: 2.0, 0.25, (-1.5, -1.5, 1))
     near(middle(WALL.format(9) + dark + openvdb("density"))[0], math.exp(-6), 1e-4, "the density of a file")
     near(middle(WALL.format(9) + dark + openvdb("density:fogvolume", bound="-9 9 -9 9 1 2"))[0], math.exp(-2), 1e-4, "the bound cuts it")
@@ -74,7 +74,7 @@ with tempfile.TemporaryDirectory() as name:
     vdb.write(folder / "far.vdb", "density", 140, lambda x, y, z: 0.1 if x < 130 and 100 <= y < 132 and z in (2, 133) else 0.0, 1, (-70, -116, 1))
     near(middle(WALL.format(999) + dark + openvdb("density", "far.vdb", "-99 99 -99 99 -99 999"))[0], math.exp(-0.2), 1e-4, "bricks far apart, and none between")
 
-    # Scattered once, from a lamp at the side, as in air that is the same everywhere.
+    # Light of a lamp at the side is scattered once, as in air that is the same everywhere.
     lamp = 'LightSource "distantlight" 1 "to" [0 -1 0] "intensity" [2]\n'
     gas = 'Interior "medium" "scattering" [0.3 0.3 0.3] "absorption" [0.2 0.2 0.2]\n'
     near(middle(lamp + gas + BOX.format(0.5))[0], 2 / 4 * 0.6 * -math.expm1(-0.75), 1e-3, "it scatters in proportion to what it stops")
@@ -85,13 +85,13 @@ with tempfile.TemporaryDirectory() as name:
     air = middle(beside + steps.replace("Interior", "Atmosphere") + black)[0]
     near(middle(beside + steps + BOX.format(1).replace("-2 2 -2 2 1 4", "-9 9 -9 9 0 3.9"))[0], air, 5e-3, "a lamp in it, as in even air")
 
-    # Shadows, on it and by it: light falls from above, 1 to 3 units deep.
+    # Shadows fall on the volume and by it. Light comes from above, and has gone 1 to 3 units deep.
     shadow = 'Attribute "light" "string shadows" ["on"]\nLightSource "distantlight" 1 "to" [0 0 1]\n'
     near(middle(shadow + 'Surface "matte" Color [1 1 1]\nPolygon "P" [-9 -9 9 9 -9 9 9 9 9 -9 9 9]\n' + 'Attribute "visibility" "int camera" [0]\n' + dark + BOX.format(0.5))[0],
          math.exp(-1.5), 1e-3, "it casts a shadow")
     near(middle(shadow + gas + BOX.format(1))[0], 0.6 / 4 * -math.expm1(-2 * 0.5 * 3) / 2, 5e-3, "it dims the light on its way in")
 
-    # Gather rays through a slab: 2 E3(1), of the exponential integral.
+    # Gather rays go through a slab: this is 2 E3(1), of the exponential integral.
     slab = 'Volume "box" [-900 900 -900 900 4 5] [0 0 0] "constant float density" [1]\n'
     glow = 'Surface "constant" Color [1 1 1]\nPolygon "P" [-9000 -9000 -9  9000 -9000 -9  9000 9000 -9  -9000 9000 -9]\n'
     floor = 'Surface "matte" Color [1 1 1]\nPolygon "P" [-9 -9 9 -9 9 9 9 9 9 9 -9 9]\n'
@@ -101,7 +101,7 @@ with tempfile.TemporaryDirectory() as name:
     mirror = 'Surface "mirror"\nPolygon "P" [-9 -9 9 9 -9 9 9 9 9 -9 9 9]\n'
     near(middle(lamp + mirror + gas + unseen + BOX.format(0.5))[0], 2 / 4 * 0.6 * -math.expm1(-0.75), 0.02, "a mirror shows it, and nothing behind it")
 
-    # The same bits for any number of threads, buckets and orders.
+    # The bits are the same for any number of threads, any buckets and any order.
     body = shadow + gas + WALL.format(3) + openvdb("density") + BOX.format(0.2).replace("1 4", "3 6")
     bits = set()
     for options in ("-t 1", "-t 2", "-t 2 --bucket 4x4"):
@@ -109,7 +109,7 @@ with tempfile.TemporaryDirectory() as name:
         bits.add(str(sorted(pixels(folder / "out.exr").items())))
     expect(len(bits) == 1, "the bits do not depend on threads and buckets")
 
-    # What cannot be used is said, with file and line.
+    # A volume that cannot be used is reported with file and line.
     vdb.write(folder / "double.vdb", "density", 8, lambda x, y, z: 1.0, kind="double")
     whole = (folder / "fog.vdb").read_bytes()
     (folder / "broken.vdb").write_bytes(whole[:len(whole) // 2])

@@ -1,10 +1,10 @@
-"""One-line faults of C++ sources: what can be wrong at a line, drawn at random."""
+"""Draws one-line faults of C++ sources at random: what can be wrong at a line."""
 import random
 import re
 from dataclasses import dataclass
 
-# A regular expression and what takes its place. clang-format puts spaces around binary operators, which tells them from
-# templates, references and signs. Texts cannot be subtracted.
+# Each row has a regular expression and its replacement. clang-format puts spaces around binary operators, which tells them
+# from templates, references and signs. Texts cannot be subtracted.
 SWAPS = [(re.compile(pattern), new) for pattern, new in (
     (r"(?<= )<(?= )", "<="), (r"(?<= )<=(?= )", "<"), (r"(?<= )>(?= )", ">="), (r"(?<= )>=(?= )", ">"),
     (r"(?<= )==(?= )", "!="), (r"(?<= )!=(?= )", "=="), (r"(?<= )&&(?= )", "||"), (r"(?<= )\|\|(?= )", "&&"),
@@ -14,16 +14,17 @@ SWAPS = [(re.compile(pattern), new) for pattern, new in (
     (r"\btrue\b", "false"), (r"\bfalse\b", "true"), (r"\bcontinue;", "break;"), (r"\bbreak;", "continue;"))]
 NUMBER = re.compile(r"(?<![\w.\[<])(\d+)((?:\.\d+)?[fu]?)\b(?![\w.])")
 CONDITION = re.compile(r"\b(?:if|while) \((?!const |auto |std::optional)")
-# A call, an assignment or a guarded statement, but no declaration.
+# This matches a call, an assignment or a guarded statement, but no declaration.
 STATEMENT = re.compile(r"(?:[\w.:>\[\]*()-]+(?:\(| [-+*/|&]?= |\+\+;)|(?:if|for|while) \().*;$|\+\+\w+;$|(?:continue|break);$")
-# Lines that say what is so at compile time, or that check promises: nothing that runs differs where the promise holds.
+# These lines tell what is so at compile time, or what check promises. Where the promise holds, a fault in them changes nothing
+# that runs.
 PROMISES = re.compile(r"^\s*(#|using |static_assert|CHECK_\w+\(|friend |template |/\*|\*)")
 
 
 @dataclass(frozen=True)
 class Fault:
     path: str
-    line: int  # from 1
+    line: int  # Lines count from 1.
     old: str
     new: str
 
@@ -32,13 +33,14 @@ class Fault:
 
 
 def code_of(line):
-    """The line without its comment, with the insides of its texts blanked: as long as it was, up to the comment."""
+    """Returns the line without its comment and with the insides of its texts blanked. Columns stay the same up to the
+    comment."""
     blanked = re.sub(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)\'', lambda text: '"' + "_" * (len(text[0]) - 2) + '"', line)
     return blanked.split("//")[0].rstrip()
 
 
 def closing(code, start):
-    """Where the parenthesis closes that opens before `start`; None if on another line."""
+    """Returns where the parenthesis closes that opens before `start`, or None if that is on another line."""
     depth = 1
     for place in range(start, len(code)):
         depth += {"(": 1, ")": -1}.get(code[place], 0)
@@ -48,7 +50,7 @@ def closing(code, start):
 
 
 def faults_of(line, before):
-    """All faulty forms of a line; `before` is the code above it."""
+    """Yields all faulty forms of a line. `before` is the code above it."""
     code, comment = code_of(line), line[len(code_of(line)):]
     if PROMISES.match(code):
         return []
@@ -60,7 +62,7 @@ def faults_of(line, before):
             spans.append((match.end(), end, f"!({line[match.end():end]})"))
     out = [line[:start] + new + line[end:] for start, end, new in spans]
     indent = re.match(r" *", line)[0]
-    if indent and re.search(r"([;{}]|\belse)$", before):  # the line begins a statement
+    if indent and re.search(r"([;{}]|\belse)$", before):  # The line begins a statement.
         if re.match(r" *return .+;$", code):
             out.append(f"{indent}return {{}};{comment}")
         if STATEMENT.match(code.strip()) and not code.strip().startswith("return"):
@@ -69,7 +71,7 @@ def faults_of(line, before):
 
 
 def faults_of_files(root, paths):
-    """For each line that can be wrong, its faults."""
+    """Returns, for each line that can be wrong, its faults."""
     out = []
     for path in paths:
         before = ""
@@ -82,7 +84,7 @@ def faults_of_files(root, paths):
 
 
 def drawn(root, paths, seed):
-    """Endless faults at random: a line, evenly among those that can be wrong, and one fault of it; no line twice."""
+    """Yields a random fault of each line that can be wrong, in random order."""
     lines = faults_of_files(root, paths)
     draw = random.Random(seed)
     draw.shuffle(lines)

@@ -1,4 +1,4 @@
-"""Mutation testing: puts one-line faults into a unit's sources and says which of them its tests do not notice.
+"""Mutation testing: this puts one-line faults into a unit's sources, and tells which of them its tests do not notice.
 
     mutate.py UNIT [--faults N] [--seed N] [--build build/release] [--jobs 2]
     mutate.py UNIT --at FILE:LINE --as 'the line with the fault'
@@ -24,16 +24,16 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 @dataclass
 class Owner:
-    """What a unit is tested by."""
-    library: str  # tomales_<library> has its objects
-    files: str    # what is given faults
-    program: str  # its unit tests
-    only: str = "*"                # those of them that can tell, by GoogleTest's patterns
-    slow: str = ""                 # those that come after all others
-    pictures: list = field(default_factory=list)  # tests of ctest that the survivors are tried with
+    """The tests of a unit."""
+    library: str  # The library tomales_<library> has the unit's objects.
+    files: str    # These sources are given faults.
+    program: str  # These are the unit tests.
+    only: str = "*"                # These patterns of GoogleTest choose the tests that can notice a fault.
+    slow: str = ""                 # These tests run after all others.
+    pictures: list = field(default_factory=list)  # The faults that survive are tried with these tests of ctest.
 
 
-# Headers of rib, prim and shade hold declarations, and a fault in one costs a compilation of all that include it.
+# The headers of rib, prim and shade hold declarations, and a fault in one costs a compilation of all files that include it.
 UNITS = {
     "rib": Owner("rib", "reyes/rib/*.cpp", "test_rib",
                  slow="ZipMember.OfAZip*:RunProgram.That*:Interning.Many*:ByteStream.StopsAt*:Writer.*:Number.*:Objects.That*:SearchPath.That*"),
@@ -44,7 +44,7 @@ UNITS = {
 
 
 def equivalents():
-    """Rows of equivalent.txt: file, pattern of the line, pattern of the fault, why nothing can notice it."""
+    """Returns the rows of equivalent.txt: file, pattern of the line, pattern of the fault, and why nothing can notice it."""
     rows = (ROOT / "tests/mutation/equivalent.txt").read_text().splitlines()
     return [[part.strip() for part in row.split(" | ")] for row in rows if row.strip() and not row.startswith("#")]
 
@@ -68,7 +68,7 @@ class Bench:
         self.folders = itertools.count()
         objects = [self.unit.object_of(source) for source in self.unit.sources]
         self.limit_s = {}
-        # `a:b-c:d` is a and b without c and d.
+        # `a:b-c:d` means a and b without c and d.
         self.stages = [f"{owner.only}-{owner.slow}" if owner.slow else owner.only] + ([owner.slow] if owner.slow else [])
         self.unit.linked(owner.program, objects, self._folder())
         for stage in self.stages:
@@ -84,14 +84,14 @@ class Bench:
         return self.local.folder
 
     def _failing(self, stage, limit_s):
-        """The first test of the linked program that fails; None if all pass."""
+        """Returns the first test of the linked program that fails, or None if all pass."""
         env = {"GTEST_FAIL_FAST": "1", "GTEST_BRIEF": "1", "TOMALES_TEXTURE_CACHE": str(self._folder() / "textures")}
         code, text = programs.run([str(self._folder() / self.owner.program), f"--gtest_filter={stage}"], self.build / "tests", limit_s, env)
         failed = re.search(r"^\[  FAILED  \] (\S+)", text, re.M)
         return None if code == 0 else failed[1] if failed else "time limit" if code is None else f"exit code {code}"
 
     def tried(self, fault):
-        """`no program`, `same program`, `survives`, or by what the fault was found."""
+        """Returns `no program`, `same program`, `survives`, or the test that found the fault."""
         objects = self.unit.objects_with(fault, self._folder())
         if not objects:
             return "no program" if objects is None else "same program"

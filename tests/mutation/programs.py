@@ -1,4 +1,4 @@
-"""Test programs in which one file of a unit has a fault, without building the rest: what is needed besides comes from a build folder."""
+"""Builds test programs in which one file of a unit has a fault, without building the rest. All else comes from a build folder."""
 import concurrent.futures
 import json
 import os
@@ -8,12 +8,12 @@ import resource
 import shlex
 import subprocess
 
-MOST_MEMORY = 12 << 30  # bytes of address space: a faulty loop shall not take the machine with it
+MOST_MEMORY = 12 << 30  # This limits the address space in bytes, so that a faulty loop does not take the machine with it.
 INCLUDE = re.compile(r'^#include ("([^"]+)"|<[^>]+>)', re.M)
 
 
 def run(command, cwd, limit_s, env=None):
-    """Exit code, None after the time limit; and what was printed."""
+    """Returns the exit code (None after the time limit) and the output."""
     def limits():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
@@ -28,7 +28,7 @@ def run(command, cwd, limit_s, env=None):
 
 
 class Unit:
-    """The objects of a unit's files, each compiled alone, and how its test programs are linked."""
+    """The objects of a unit's files, each compiled alone, and the way to link its test programs."""
 
     def __init__(self, root, build, name, jobs):
         self.root, self.build, self.library = root, build, f"libtomales_{name}.a"
@@ -55,8 +55,8 @@ class Unit:
         return [os.path.relpath(source, self.root) for source in sources], flags
 
     def _compile_prefix(self):
-        """The headers of others that the unit includes, compiled once: reading them is most of the time that a file takes.
-        Its own headers may not be good together."""
+        """Compiles the headers of other units that this one includes once, because reading them takes most of a file's time. The unit's own headers
+        are left out, because some cannot be included together."""
         own_folders = {str(pathlib.Path(source).parent) for source in self.sources}
         found = set()
         for source in self.sources:
@@ -84,13 +84,13 @@ class Unit:
         return self._is_new(out, [file, f"{self.prefix}.gch"]) or self.compiled(file, out)
 
     def compiled(self, file, out, overlay=None):
-        """Whether it compiles, after the prefix, or with the headers of a folder that shadow those of the project."""
+        """Compiles a file after the prefix, or with a folder whose headers shadow those of the project. Returns whether it compiles."""
         first = [f"-I{overlay}"] if overlay else ["-include", str(self.prefix)]
         return subprocess.run([self.flags[0], *first, *self.flags[1:], "-c", str(file), "-o", str(out)], stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL).returncode == 0
 
     def users_of(self, header):
-        """Sources of the unit that include the header, by way of others too."""
+        """Returns the sources of the unit that include the header, also by way of other headers."""
         known = {}
 
         def uses(path):
@@ -102,7 +102,7 @@ class Unit:
         return [source for source in self.sources if uses(source)]
 
     def objects_with(self, fault, folder):
-        """The unit's objects with that fault; None if it does not compile, [] if no object differs."""
+        """Returns the unit's objects with that fault: None if it does not compile, [] if no object differs."""
         overlay = folder / "overlay"
         file = overlay / fault.path
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -119,11 +119,11 @@ class Unit:
             if out.read_bytes() != self.object_of(source).read_bytes():
                 changed[source] = out
         file.unlink()
-        # Those with the fault come first, since of a template's or inline function's copies the first one is taken.
+        # The objects with the fault come first, because a linker takes the first copy of a template or inline function.
         return changed and [*changed.values(), *(self.object_of(source) for source in self.sources if source not in changed)]
 
     def linked(self, program, objects, folder):
-        """The program with these objects instead of the unit's library."""
+        """Links the program with these objects instead of the unit's library. Returns the program."""
         command = subprocess.run(["ninja", "-C", str(self.build), "-t", "commands", "-s", program], capture_output=True, text=True, check=True).stdout
         command = next(part for part in command.split("&&") if f" -o {program} " in part)
         words = shlex.split(command)
@@ -131,7 +131,7 @@ class Unit:
         words[words.index("-o") + 1] = str(folder / program)
         words[1:1] = map(str, objects)
         subprocess.run(words, cwd=self.build, check=True)
-        for beside in [*self.build.glob("tomales_*"), *self.build.glob("*.so")]:  # found by the folder of the program
+        for beside in [*self.build.glob("tomales_*"), *self.build.glob("*.so")]:  # The program looks for these in its own folder.
             if not (folder / beside.name).exists():
                 (folder / beside.name).symlink_to(beside)
         return folder / program

@@ -1,4 +1,5 @@
-"""Where the add-on of Blender looks for the Python module: beside an installed program, and in the tree of a built one."""
+"""Tests where the add-on of Blender looks for the Python module: beside an installed program, and in the tree of a
+built one."""
 import contextlib
 import io
 import os
@@ -15,7 +16,7 @@ import tomales_blender  # noqa: E402
 
 class Folders(unittest.TestCase):
     def found(self, program, named=""):
-        """The folders of the list that hold the module, for a program at that place of a folder of its own."""
+        """Returns the folders of the list that hold the module, for a program in that place of a folder of its own."""
         with tempfile.TemporaryDirectory() as temporary:
             base = pathlib.Path(temporary).resolve()
             for place in ("usr/lib/python3.11/dist-packages", "tree/reyes/bindings/python"):

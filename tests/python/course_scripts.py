@@ -1,11 +1,10 @@
-"""Runs every script below a folder that imports prman, unchanged but in small, and counts those that end with a picture.
+"""Runs every script below a folder that imports prman, unchanged but with small pictures, and counts those that end with a picture.
 
     python3 tests/python/course_scripts.py FOLDER [-j 2] [--only PART] [--keep FOLDER]
 
-The folder is copied, because scripts write beside themselves. A script that writes a RIB file instead of rendering has
-its file rendered. Modules that scripts import, and that begin no stream themselves, need only import. Modules that they
-ask for are found by PYTHONPATH. In place of oslc, which comes with RenderMan, stands a program that makes an empty file:
-the renderer has other shaders in their place.
+The folder is copied, because scripts write beside themselves. A script that writes a RIB file instead of rendering has its file rendered. A module
+that scripts import, and that begins no stream itself, passes if it can be imported. PYTHONPATH finds the modules that scripts ask for. A program that
+makes an empty file stands in for oslc, which comes with RenderMan, because the renderer uses other shaders anyway.
 """
 import argparse
 import concurrent.futures
@@ -19,7 +18,7 @@ import tempfile
 import time
 
 PICTURES = {".exr", ".tif", ".tiff", ".png"}
-FRAMES = 3  # that are rendered of a script that writes RIB files, of which animations have hundreds
+FRAMES = 3  # So many RIB files of a script are rendered, because animations write hundreds.
 bindings = pathlib.Path(__file__).resolve().parent.parent.parent / "reyes/bindings/python"
 sys.path.insert(0, str(bindings))
 sys.dont_write_bytecode = True
@@ -50,10 +49,10 @@ def files_of(folder, endings, since):
 
 
 def run(script):
-    """The kind of end, and the reason for it."""
+    """Returns the kind of end, and the reason for it."""
     text = script.read_text(errors="replace")
     begins = re.search(r"^[^#\n]*\bBegin\(", text, re.M)
-    # Each runs in a copy of its folder's files, under the name that it has: scripts of one folder write the same names.
+    # Each script runs in a copy of its folder's files under its own name, because scripts of one folder write files of the same names.
     since = time.time() - 1
     command = [sys.executable, script.name]
     try:
@@ -80,7 +79,7 @@ def run(script):
 
 
 def all_of(folder):
-    """The scripts of one folder, one after the other. Says how each ends."""
+    """Runs the scripts of one folder one after the other. Returns how each ends."""
     ends = []
     for script in sorted(folder.glob("*.py")):
         if given.only in str(script) and "import prman" in script.read_text(errors="replace"):

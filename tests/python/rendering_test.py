@@ -1,4 +1,4 @@
-"""Scenes go from Python straight into the renderer, and pictures, figures and messages come back."""
+"""Tests that scenes go from Python straight into the renderer, and that pictures, figures and messages come back."""
 import math
 import os
 import subprocess
@@ -154,7 +154,7 @@ class Rendering(InFolder):
 
 
 class Procedurals(InFolder):
-    """A procedural of a Python function gives the picture of what it describes."""
+    """A procedural of a Python function must give the picture of what it describes."""
 
     def picture(self, describe, *options):
         ri = prman.Ri()
@@ -204,7 +204,7 @@ class Procedurals(InFolder):
         self.assertEqual(freed, [(-1, 1), -1, 1])
 
     def test_it_is_asked_while_the_script_goes_on(self):
-        """An infinite bound is read at once, and then the renderer waits while much more comes down the pipe."""
+        """A procedural with an infinite bound is read at once, and then the renderer waits while much more comes through the pipe."""
 
         def late(ri):
             ri.Procedural(0.5, [-1e38, 1e38] * 3, lambda radius, detail: ri.Sphere(radius, -radius, radius, 360))

@@ -1,4 +1,4 @@
-"""What Ri writes is what the renderer reads, in text and encoded."""
+"""Tests that the renderer reads what Ri writes, as text and encoded."""
 import gzip
 import io
 import os
@@ -23,7 +23,7 @@ ONE = {"f": [0.1], "i": [-3], "s": ['a "b" \\ c\n'], "h": ["handle"], "F": [[0.2
 
 
 def arguments_of(signature):
-    """Good arguments for any signature."""
+    """Returns good arguments for any signature."""
     out = []
     for letter in signature.arguments:
         out += ONE[letter] if letter in ONE else [0.1 * i for i in range(int(letter))]
@@ -31,7 +31,7 @@ def arguments_of(signature):
 
 
 def written(form, *calls):
-    """RIB of calls on Ri, each a function of it; `form` is "ascii" or "binary"."""
+    """Returns the RIB of calls on Ri, each a function of it. `form` is "ascii" or "binary"."""
     out = io.BytesIO()
     ri = prman.Ri()
     ri.ErrorHandler("abort")
@@ -44,20 +44,20 @@ def written(form, *calls):
 
 
 def read_by_renderer(rib):
-    """The requests as the renderer understands them, and what it has to say."""
+    """Returns the requests as the renderer understands them, and its messages."""
     done = subprocess.run([TOMALES, "catrib", "-"], input=rib, capture_output=True)
     return done.stdout.decode(), done.stderr.decode()
 
 
 class Requests(unittest.TestCase):
     def test_the_table_is_that_of_the_renderer(self):
-        """If this fails: tomales requests > reyes/bindings/python/tomales/requests.txt"""
+        """If this fails, run: tomales requests > reyes/bindings/python/tomales/requests.txt"""
         said = subprocess.run([TOMALES, "requests"], capture_output=True, text=True).stdout
         self.assertEqual(said, TABLE.read_text())
         self.assertGreater(len(SIGNATURES), 120)
 
     def test_every_request_is_a_method_that_the_renderer_reads(self):
-        special = {"version", "Option", "Procedural", "Declare"}  # have tests of their own
+        special = {"version", "Option", "Procedural", "Declare"}  # These have tests of their own.
         for form in ("ascii", "binary"):
             for name, signature in SIGNATURES.items():
                 if name in special:

@@ -1,6 +1,6 @@
-"""A moving scene with indirect light, in tiles, on a real Slurm cluster of two nodes: one node is killed while it works, a task is killed,
-the folder of pictures is read-only for a while, and the pictures have the bits of one run on one machine. A node that is lost holds its
-tasks up for about two and a half minutes."""
+"""Renders a moving scene with indirect light, in tiles, on a real Slurm cluster of two nodes. One node is killed while it works, a task is killed,
+and the folder of pictures is read-only for a while. The pictures must still have the bits of one run on one machine. A lost node holds its tasks up
+for about two and a half minutes."""
 import json
 import os
 import pathlib
@@ -45,7 +45,7 @@ def wait_for(condition, patience_s):
 
 
 def close_folder(path):
-    """As a server that is being mended: root may not write there either."""
+    """Closes a folder, as a server that is being mended would. Root may not write there either."""
     return all(subprocess.run(["mount", *how, path, *to], capture_output=True).returncode == 0
                for how, to in ((["--bind"], [path]), (["-o", "remount,bind,ro"], [])))
 
@@ -89,7 +89,7 @@ with tempfile.TemporaryDirectory() as folder:
             expect(wait_for(lambda: status()["failures"] or status()["finished"], 200) and not list((work / "out").iterdir()), "no picture is finished in a closed folder")
             open_folder(work / "out")
         done = wait_for(lambda: status()["finished"] == FRAMES or not cluster.say("squeue", "-h"), 600)
-        if status()["finished"] < FRAMES:  # Slurm gives up jobs whose launch failed with the node
+        if status()["finished"] < FRAMES:  # Slurm gives up jobs whose launch failed with the node.
             print("        " + run(*submit).stdout.strip() + " once more", flush=True)
         done = wait_for(lambda: status()["finished"] == FRAMES, 300)
         expect(done, f"all frames are finished after {time.monotonic() - begun:.0f} s")

@@ -1,5 +1,5 @@
-"""A Slurm cluster of two nodes on this machine, in a folder of its own: munged, slurmctld and two slurmd with ports of their own. It
-needs root, as slurmd does, and Debian's packages slurm-wlm and munge; no systemd."""
+"""A Slurm cluster of two nodes on this machine, in a folder of its own. It runs munged, slurmctld and two slurmd with ports of their own. It needs
+root, because slurmd does, and Debian's packages slurm-wlm and munge, but not systemd."""
 import os
 import pathlib
 import shutil
@@ -42,7 +42,7 @@ PartitionName=render Nodes=n[1-2] Default=YES MaxTime=INFINITE State=UP DefMemPe
 
 
 def missing():
-    """What this machine lacks to be a cluster; empty if nothing."""
+    """Returns what this machine lacks to be a cluster. The text is empty if it lacks nothing."""
     if os.geteuid() != 0:
         return "slurmd must run as root"
     lost = [p for p in ("munged", "slurmctld", "slurmd", "sbatch", "runuser") if not shutil.which(p, path=os.environ["PATH"] + ":/usr/sbin")]
@@ -56,7 +56,7 @@ class Cluster:
         for name in ("munge", "state", "spool/n1", "spool/n2", "log"):
             (self.folder / name).mkdir(parents=True)
         for path in (self.folder, self.folder.parent):
-            path.chmod(0o755)  # for the user munge
+            path.chmod(0o755)  # The user munge must enter these.
         key = self.folder / "munge/munge.key"
         key.write_bytes(os.urandom(1024))
         key.chmod(0o400)
@@ -95,7 +95,7 @@ class Cluster:
         return subprocess.run(command, capture_output=True, text=True).stdout
 
     def kill_node(self, name):
-        """As a machine that loses its power: the daemon, the step daemons that it has started, and the tasks."""
+        """Kills a node as if its machine lost power: the daemon, the step daemons that it has started, and the tasks."""
         daemon = self.daemons.pop(name)
         for number in self.below(daemon.pid) + self.steps_of(name):
             try:
@@ -106,7 +106,7 @@ class Cluster:
         daemon.wait()
 
     def steps_of(self, node):
-        """The step daemons of a node, and their tasks: those with the node's spool folder in their environment or command."""
+        """Returns the step daemons of a node and their tasks: processes with the node's spool folder in their environment or command."""
         found = []
         for process in pathlib.Path("/proc").glob("[0-9]*"):
             try:

@@ -1,15 +1,15 @@
-"""Flicker of interpolated indirect light over frames in which the camera, then an object, moves slowly.
+"""Measures the flicker of interpolated indirect light over frames in which the camera, then an object, moves slowly.
 
 flicker_test.py TOMALES [SIZE SAMPLES FRAMES] [--moves camera,object] [--crop X0,X1,Y0,Y1] [--truth RAYS] [--groups 2,4] [-- OPTIONS OF GATHER]
 
-Flicker is the temporal high-pass of what a picture is off from a gather at every point: the rms over pixels and frames of
-h(t) = e(t) - (e(t-1) + e(t+1)) / 2, e over the mean of the truth, divided by sqrt(3/2) so that independent noise keeps its size. The truth is
-gathered twice with other rays, and squares are products of the two h, so that its noise is not in their mean; what it leaves of chance is told as the
-figures between which one standard error of that mean leads (by tiles of 8 x 8 pixels, which are taken to err apart). "On fixed points": what the records of each frame
-say in the view of the first, which a static scene should not change; no truth is needed for that (--truth 0 does without). Caches are made for each
-frame, or shared: each frame adds records where those of the frames before leave points uncovered or disagree. With --groups they are
-shared by so many frames in a row as well, whose pictures are all of the last cache, as `batch --share-records` has it. The CPU seconds of
-gathering are told.
+Let e(t) be the difference of a picture from a gather at every point, over the mean of that truth. Flicker is the rms over pixels and frames of its
+temporal high-pass h(t) = e(t) - (e(t-1) + e(t+1)) / 2, divided by sqrt(3/2) so that independent noise keeps its size. The truth is gathered twice
+with other rays, and each square is the product of the two h, so the noise of the truth does not bias the mean. Two more figures tell how far one
+standard error of that mean reaches. It is estimated from tiles of 8 x 8 pixels, whose errors are taken as independent. "On fixed points" means the
+light that the records of each frame give in the view of the first frame. A static scene should not change it, and it needs no truth, so --truth 0
+leaves the truth out. Caches are made for each frame, or shared: then each frame adds records where those of earlier frames leave points uncovered or
+disagree. With --groups, so many frames in a row also share a cache, and all their pictures use the last state of it, as with `batch --share-records`.
+The CPU seconds of gathering are printed.
 """
 import argparse
 import pathlib
@@ -23,12 +23,13 @@ FOLDER = pathlib.Path(__file__).parent
 sys.path.insert(0, str(FOLDER.parent / "image"))
 from pictures import pixels  # noqa: E402
 
-# As many points as rate 1 gave before ShadingRate was taken as an area (docs/decisions/0050); at rate 1, with fewer, it is 3.3 % in four frames of 24 x 24.
+# This gives as many points as rate 1 gave before ShadingRate was taken as an area (docs/decisions/0050). At rate 1 there are fewer, and flicker is
+# 3.3 % in four frames of 24 x 24.
 RATE = 0.66
 SCENE = (FOLDER / "irradiance_cache" / "box_ball.rib").read_text()
 EYE, BALL = "Translate 0 0 3.95", "Translate 0.4 -0.65 -0.3"
-TILE = 8  # wider than most records reach
-LAMP = 1  # more than any surface reflects, less than a lamp that covers a quarter of a pixel sends
+TILE = 8  # This is wider than most records reach.
+LAMP = 1  # Surfaces reflect less than this, and a lamp that covers a quarter of a pixel sends more.
 MOVES = {"camera": (EYE, lambda f: f"Translate {0.01 * f:.4f} 0 {3.95 - 0.01 * f:.4f}"),
          "object": (BALL, lambda f: f"Translate {0.4 - 0.01 * f:.4f} -0.65 {-0.3 - 0.005 * f:.4f}")}
 
@@ -43,7 +44,7 @@ own_arguments, _, gather = " ".join(sys.argv[1:]).partition(" -- ")
 options = parser.parse_args(own_arguments.split())
 size, samples, frames = options.numbers or (24, 128, 4)
 rays = samples if options.truth is None else options.truth
-LIMITS = {"own": 0.01, "shared": 0.01} if options.numbers else {"own": 0.06, "shared": 0.024}  # few rays and large pixels make a coarser picture
+LIMITS = {"own": 0.01, "shared": 0.01} if options.numbers else {"own": 0.06, "shared": 0.024}  # Few rays and large pixels make a coarser picture.
 edges = [size * float(x) for x in options.crop.split(",")] if options.crop else [0, size, 0, size]
 
 
@@ -75,10 +76,10 @@ class Shot:
         out = self.folder / "picture.exr"
         run("shade", self.dfb, "-q", "--indirect-only", "-o", out, *(["--crop", options.crop] if options.crop else []), *arguments)
         seen = {(x, y): color[:3] for (x, y), color in pixels(out).items() if edges[0] <= x < edges[1] and edges[2] <= y < edges[3]}
-        return [v if v < LAMP else 0 for xy in sorted(seen, key=tile_of) for v in seen[xy]]  # those of a tile together
+        return [v if v < LAMP else 0 for xy in sorted(seen, key=tile_of) for v in seen[xy]]  # This keeps the pixels of a tile together.
 
     def lit_by(self, icf):
-        return self.picture("--irradiance", icf, "--samples", samples, *gather.split())  # with which it gathers what no record serves
+        return self.picture("--irradiance", icf, "--samples", samples, *gather.split())  # The picture is shaded with this many rays where no record serves.
 
     def truth(self, seed):
         return self.picture("--max-error", 0, "--samples", rays, "--light-seed", seed)
@@ -101,7 +102,7 @@ def high_pass(series):
 
 
 def flicker(some, others):
-    """Of two series of differences: the figure, and one standard error below and above."""
+    """Returns the flicker of two series of differences: the figure, and one standard error below and above it."""
     squares = [a * b / 1.5 for a, b in zip(high_pass(some), high_pass(others))]
     tiles = [statistics.fmean(part) for frame in range(0, len(squares), len(some[0]))
              for part in batched(squares[frame:frame + len(some[0])], 3 * TILE * TILE)]
@@ -118,7 +119,7 @@ def over(light, figures):
 
 
 def of_move(folder, move):
-    """{kind: figures over the mean}, of pixels and on fixed points; None: not measured."""
+    """Returns {kind: figures over the mean}, of pixels and on fixed points. None means that it was not measured."""
     shots = [Shot(folder, move, frame) for frame in range(frames)]
     truths = [[shot.truth(seed) for shot in shots] for seed in (1, 2)] if rays else []
     found = {}
@@ -127,7 +128,7 @@ def of_move(folder, move):
         for number, shot in enumerate(shots):
             caches.append(shot.gather(kind.replace(" ", "_"), caches[-1] if number % group else None))
         taken = cpu_s() - before
-        if kind not in LIMITS:  # the last of a group serves all of it
+        if kind not in LIMITS:  # The last cache of a group serves all its frames.
             caches = [caches[min(number // group * group + group, frames) - 1] for number in range(frames)]
         pictures = [shot.lit_by(icf) for shot, icf in zip(shots, caches)]
         seen = over(mean(truths[0] + truths[1]), flicker(*(minus(pictures, t) for t in truths))) if rays else None

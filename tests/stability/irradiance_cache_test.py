@@ -1,4 +1,4 @@
-"""Scenes on which irradiance caches are known to fail: the cache against a gather at every point, indirect light alone.
+"""Compares the irradiance cache with a gather at every point, on scenes where irradiance caches are known to fail. Only indirect light counts.
 
 irradiance_cache_test.py TOMALES [SIZE SAMPLES [ARGUMENTS...]]: larger and finer, it makes the table of docs/measured/irradiance_cache.md.
 """
@@ -12,9 +12,9 @@ FOLDER = pathlib.Path(__file__).parent
 sys.path.insert(0, str(FOLDER.parent / "image"))
 from pictures import pixels  # noqa: E402
 
-# Most that the mean and the 99th percentile of the relative error, and the share of black pixels that get light, may be at the size and
-# with the rays of the test: 40 x 40 pixels of up to 6 cm, so that the wall of 2 cm is thinner than the least reach of a record.
-# They are 1.3 times what it has today: `plain`, without the amendments, is over them in box_ball, lamp_slot and thin_wall.
+# These bounds are for the mean and the 99th percentile of the relative error, and for the share of pixels that should be black and get light. They
+# hold at the size and with the rays of the test: 40 x 40 pixels of up to 6 cm, so that the wall of 2 cm is thinner than the least reach of a record.
+# They are 1.3 times today's figures. The method `plain`, without the amendments, exceeds them in box_ball, lamp_slot and thin_wall.
 LIMITS = {
     "box_ball": (0.0244, 0.121, 0.001),
     "bumps": (0.0185, 0.087, 0.001),
@@ -43,7 +43,7 @@ def render(folder, scene, *arguments):
 
 
 def errors(picture, truth):
-    """Sorted; of all colours of all pixels that have light, and of those that have none what they were given."""
+    """Returns two sorted lists: the errors of all colours of all pixels that have light, and what pixels without light were given."""
     lit = [abs(p - t) / (t + FLOOR) for xy, color in truth.items() for p, t in zip(picture[xy][:3], color[:3]) if max(color[:3]) > 0]
     dark = [max(picture[xy][:3]) for xy, color in truth.items() if max(color[:3]) == 0]
     return sorted(lit), sorted(dark)

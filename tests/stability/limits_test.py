@@ -1,5 +1,5 @@
-"""The renderer warns where the laboratory says that a method ends: for every scene of tests/stability/knobs with a limit (##lab limit CODE: VALUE), some
-method reports that code at the value, and none at the one before it.
+"""Tests that the renderer warns at the limits of a method. A scene of tests/stability/knobs with a limit has a line ##lab limit CODE: VALUE. Some
+method must report that code at the value, and none at the value before it.
 
     limits_test.py TOMALES [part of a scene's name]
 """
@@ -24,7 +24,7 @@ class LabScene:
         self.limit = self.of["limit"][0].rsplit(": ", 1) if "limit" in self.of else None
 
     def warns(self, value):
-        """Does any method say what the limit names?"""
+        """Tells whether any method reports the code of the limit."""
         scene, statistics = self.folder / "scene.rib", self.folder / "stats.json"
         scene.write_text(self.text.replace("$knob", value).replace("$truth", "0"))
         for method in self.of["method"]:

@@ -1,4 +1,5 @@
-"""The error that --audit states is near the true one, on rooms of the laboratory and one at random: a small tests/bench/error_rooms.py."""
+"""Tests that the error that --audit states is near the true one, on rooms of tests/stability and a random one. It is a small
+tests/bench/error_rooms.py."""
 import pathlib
 import sys
 import tempfile

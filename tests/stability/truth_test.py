@@ -1,4 +1,5 @@
-"""Scenes on which indirect light went wrong, against a path tracer that shares no code with the renderer: a small tests/bench/truth.py.
+"""Compares scenes on which indirect light once went wrong with a path tracer that shares no code with the renderer. It is a small
+tests/bench/truth.py.
 
     truth_test.py TOMALES TRACER
 """
@@ -11,7 +12,8 @@ from truth import Bench  # noqa: E402
 from truth_scenes import Scene  # noqa: E402
 
 Scene.size = 64
-# Share of the truth's paths, and greatest errors of the mean and of the 99th percentile of blocks; the latter beyond three times the noise of the truth.
+# A row has the share of the truth's paths, and the greatest errors of the mean and of the 99th percentile of blocks. The latter is counted beyond
+# three times the noise of the truth.
 LIMITS = {("thin_walls", "atlas"): (0.5, 0.05, 0.20), ("thin_walls", "gather"): (0.5, 0.03, 0.05), ("displaced_ball", "gather"): (1, 0.02, 0.10)}
 failures = 0
 with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""The rooms in the words of each program, and how to run it. Every writer returns the text of a scene."""
+"""Writes the rooms as scenes of each program, and runs it. Every writer returns the text of a scene."""
 import math
 
 
@@ -22,8 +22,8 @@ def rib(room, size):
 
 
 def povray(room, radiosity, lamps):
-    """radiosity: the block's contents, or None for direct light. lamps: the rectangle is a raster of lamps x lamps spotlights, because
-    area_light spans its samples from edge to edge and is 17 % low where light grazes; such spotlights shine with the cosine."""
+    """`radiosity` is the contents of that block, or None for direct light. The rectangle is a raster of lamps x lamps spotlights, which shine with
+    the cosine. POV-Ray's own area_light spans its samples from edge to edge, and is 17 % low where light grazes."""
     def vector(p):
         return "<" + ",".join(f"{v:.9g}" for v in p) + ">"
 
@@ -33,7 +33,7 @@ def povray(room, radiosity, lamps):
     settings = f"radiosity {{ {radiosity} }}" if radiosity else ""
     lamp, lines = room.lamp, [f"#version 3.7;\nglobal_settings {{ assumed_gamma 1 max_trace_level 10 {settings} }}\ndefault {{ finish {{ ambient 0 diffuse 1 }} }}"]
     lines.append(f"camera {{ perspective location 0 direction z right x up y angle {room.fov_deg} }}")
-    power = lamp.radiance * lamp.width * lamp.depth / lamps**2 / math.pi / 2e-6  # fade 2 d^2 / r^2 with d = 1e-3
+    power = lamp.radiance * lamp.width * lamp.depth / lamps**2 / math.pi / 2e-6  # With d = 1e-3 POV-Ray's fade is 2 d^2 / r^2.
     for i in range(lamps):
         for j in range(lamps):
             p = (lamp.centre[0] + ((i + 0.5) / lamps - 0.5) * lamp.width, lamp.centre[1] - 1e-5, lamp.centre[2] + ((j + 0.5) / lamps - 0.5) * lamp.depth)
@@ -50,8 +50,8 @@ def povray(room, radiosity, lamps):
 
 
 def cycles(room, size, samples, bounces, out):
-    """A script for Blender, whose z is our y. Light passes are written apart. Lamps of Cycles let light through, ours and POV-Ray's are black on
-    both sides: a black sheet lies on this one."""
+    """Returns a script for Blender, whose z is our y. Light passes are written apart. Lamps of Cycles let light through, but ours and POV-Ray's are
+    black on both sides, so a black sheet lies on this one."""
     x, y, z = room.lamp.centre
     w, d = room.lamp.width / 2, room.lamp.depth / 2
     sheet = [(x - w, y + 1e-4, z - d), (x + w, y + 1e-4, z - d), (x + w, y + 1e-4, z + d), (x - w, y + 1e-4, z + d)]

@@ -1,4 +1,4 @@
-"""Two rooms that every renderer can render, as data. Camera space of RIB: x right, y up, z away; the eye at the origin.
+"""Two rooms that every renderer can render, as data. They are in RIB's camera space: x right, y up, z away, and the eye at the origin.
 
 A room is quadrilaterals and spheres of one diffuse colour each, and one rectangular lamp that shines downwards (radiance in W/m2/sr).
 """
@@ -12,7 +12,7 @@ WHITE, RED, GREEN = (0.73, 0.73, 0.71), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091)
 
 @dataclasses.dataclass
 class Quad:
-    corners: list  # 4 points in turn
+    corners: list  # The 4 points are in turn.
     color: tuple
 
 
@@ -26,8 +26,8 @@ class Ball:
 @dataclasses.dataclass
 class Lamp:
     centre: tuple
-    width: float   # along x
-    depth: float   # along z
+    width: float   # The width is along x.
+    depth: float   # The depth is along z.
     radiance: float
 
 
@@ -40,7 +40,7 @@ class Room:
     balls: list
 
     def first_seen(self, x, y):
-        """Which shape rays through (x, y) of the plane z = 1 meet first: index, -1 for none, -2 for the lamp."""
+        """Returns the index of the shape that rays through (x, y) of the plane z = 1 meet first: -1 for none, -2 for the lamp."""
         d = numpy.stack([x, y, numpy.ones_like(x)], -1)
         nearest, which = numpy.full(x.shape, numpy.inf), numpy.full(x.shape, -1)
 
@@ -69,15 +69,15 @@ class Room:
         return which
 
     def over_lamp(self, x, y):
-        """Whether rays through (x, y) of the plane z = 1 meet the ceiling over the lamp, or less than 5 cm beside it."""
+        """Tells whether rays through (x, y) of the plane z = 1 meet the ceiling over the lamp, or less than 5 cm beside it."""
         top = max(corner[1] for q in self.quads for corner in q.corners)
         t = top / numpy.where(y > 0, y, 1e-30)
         cx, _, cz = self.lamp.centre
         return (y > 0) & (abs(t * x - cx) < self.lamp.width / 2 + 0.05) & (abs(t - cz) < self.lamp.depth / 2 + 0.05)
 
     def mask(self, size):
-        """Pixels of which all points see one and the same shape, no lamp: one ray a pixel and box filters agree there. Not the slot over
-        the lamp: Cycles' lamps are no obstacles, and POV-Ray's cache carries light into it (twice the mean light too bright)."""
+        """Returns the pixels whose points all see one shape that is no lamp, because one ray a pixel and box filters agree there. The slot over the
+        lamp is left out: Cycles' lamps are no obstacles, and POV-Ray's cache carries light into it (twice the mean light too bright)."""
         edge = math.tan(math.radians(self.fov_deg) / 2)
         parts = []
         for dx in (0.0, 0.5, 1.0):
@@ -88,7 +88,7 @@ class Room:
 
 
 def box(lo, hi, color, turn_deg=0.0):
-    """Six sides, turned about the vertical axis through the middle."""
+    """Returns six sides, turned about the vertical axis through the middle."""
     middle = [(a + b) / 2 for a, b in zip(lo, hi)]
     s, c = math.sin(math.radians(turn_deg)), math.cos(math.radians(turn_deg))
 
@@ -102,7 +102,7 @@ def box(lo, hi, color, turn_deg=0.0):
 
 
 def walls(lo, hi, colors):
-    """A box without its front; colors: left, right, floor, ceiling, back."""
+    """Returns a box without its front. The colours are those of left, right, floor, ceiling and back."""
     left, right, floor, ceiling, back = colors
     sides = box(lo, hi, WHITE)
     for side, color in zip(sides[1:], (back, left, right, floor, ceiling)):
@@ -125,14 +125,14 @@ def cornell():
 
 
 def interior():
-    """A room with a table and shelves; the lamp stands behind a screen, so that most of what the eye sees is lit indirectly."""
+    """Returns a room with a table and shelves. The lamp stands behind a screen, so most of the visible surfaces are lit indirectly."""
     wood, cloth = (0.45, 0.28, 0.15), (0.2, 0.3, 0.5)
     quads = walls((-2, -1.2, 1), (2, 1.3, 6), (WHITE, cloth, wood, WHITE, WHITE))
-    quads += box((0.1, -1.2, 3.4), (0.2, 0.75, 6), WHITE)                                         # the screen
-    quads += box((-1.5, -0.55, 2.8), (-0.3, -0.48, 3.8), wood, 12)                                # the table and its legs
+    quads += box((0.1, -1.2, 3.4), (0.2, 0.75, 6), WHITE)                                         # This is the screen.
+    quads += box((-1.5, -0.55, 2.8), (-0.3, -0.48, 3.8), wood, 12)                                # These are the table and its legs.
     for x, z in ((-1.4, 2.95), (-0.45, 2.95), (-1.4, 3.65), (-0.45, 3.65)):
         quads += box((x, -1.2, z), (x + 0.08, -0.55, z + 0.08), wood)
     for y in (-0.5, 0.1, 0.7):
-        quads += box((-2, y, 4.6), (-1.6, y + 0.05, 6), WHITE)                                    # shelves
+        quads += box((-2, y, 4.6), (-1.6, y + 0.05, 6), WHITE)                                    # These are shelves.
     balls = [Ball((-0.9, -0.3, 3.3), 0.18, RED), Ball((-0.3, -0.95, 4.6), 0.25, GREEN)]
     return Room("interior", 60, Lamp((1.1, 1.2, 4.7), 0.6, 0.6, 25), quads, balls)

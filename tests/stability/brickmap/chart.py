@@ -1,4 +1,4 @@
-"""Draws what the laboratory of brick maps measures: error against filter size, for each number of photons and maxerror.
+"""Draws the measurements of brick maps: error against filter size, for each number of photons and maxerror.
 
     tests/stability/brickmap/chart.py build/release/brickmap_lab CHART.svg [--photons 10000 100000 1000000]
 """
@@ -7,13 +7,13 @@ import math
 import pathlib
 import subprocess
 
-COLORS = ("#b04030", "#308050", "#3070b0")          # of the numbers of photons
-DASHES = {"0.03": "", "0.1": ' stroke-dasharray="6 3"', "0.3": ' stroke-dasharray="2 3"'}   # of maxerror
+COLORS = ("#b04030", "#308050", "#3070b0")          # There is a colour for each number of photons.
+DASHES = {"0.03": "", "0.1": ' stroke-dasharray="6 3"', "0.3": ' stroke-dasharray="2 3"'}   # There is a dash pattern for each maxerror.
 PANEL, MARGIN, SPACE, LEAST, MOST = 200, 46, 34, 0.005, 0.08
 
 
 def tables(lab, photons):
-    """(scene, nearest photon's error, {maxerror: [(filter, error)]}, {maxerror: (bytes, left out)}) of one run."""
+    """Returns (scene, nearest photon's error, {maxerror: [(filter, error)]}, {maxerror: (bytes, left out)}) of one run."""
     lines = subprocess.run([lab, "--photons", str(photons)], check=True, capture_output=True, text=True).stdout.splitlines()
     for line in lines:
         cells = [c.strip() for c in line.strip("|").split("|")]
@@ -35,7 +35,7 @@ def scale(value, least, most, length):
 
 
 def panel(x0, title, curves):
-    """`curves`: (color, nearest, errors) for each number of photons."""
+    """Draws a panel. `curves` has (color, nearest, errors) for each number of photons."""
     out = [f'<g transform="translate({x0},{MARGIN})"><rect x="0" y="0" width="{PANEL}" height="{PANEL}" fill="none" stroke="#999"/>'
            f'<text x="{PANEL / 2}" y="-8">{title}</text>']
     for error in (0.005, 0.01, 0.02, 0.04, 0.08):

@@ -1,4 +1,4 @@
-"""Renders Blender's scenes with Tomales: scenes go out as RIB, pictures come back into Blender's passes."""
+"""Renders Blender's scenes with Tomales: it writes scenes as RIB, and reads the pictures into Blender's passes."""
 from __future__ import annotations
 
 import importlib.util
@@ -19,29 +19,31 @@ bl_info = {
 
 
 def _folders(named: str) -> Iterator[Path]:
-    """Where the module tomales may lie if Python does not know it: Blender's own Python has other folders than the system's."""
+    """Yields the folders where the module tomales may lie. Blender's own Python does not look in the system's
+    folders."""
     if named:
         yield Path(named)
-    yield Path(__file__).resolve().parents[2] / "python"  # in a tree of sources
+    yield Path(__file__).resolve().parents[2] / "python"  # The source tree holds it here.
     if program := shutil.which(os.environ.get("TOMALES", "tomales")):
         above = list(Path(program).resolve().parents)
         yield from sorted(folder for prefix in above[1:2] for folder in prefix.glob("lib/python3*/dist-packages"))
-        yield from (tree / "reyes/bindings/python" for tree in above[2:3])  # build/release/tomales, in a tree of sources
+        yield from (tree / "reyes/bindings/python" for tree in above[2:3])  # This is the folder above build/release/tomales, which lies in a source tree.
 
 
 def _find_module(named: str) -> bool:
-    """Puts the module tomales on Python's path."""
+    """Puts the module tomales on Python's path. Returns whether it was found."""
     if importlib.util.find_spec("tomales") is None:
         sys.path.extend(str(folder) for folder in list(_folders(named)) if (folder / "tomales").is_dir())
         importlib.invalidate_caches()
     return importlib.util.find_spec("tomales") is not None
 
 
-_registered = False  #: Whether the engine is.
+_registered = False  #: Whether the engine is registered.
 
 
 def register_engine() -> bool:
-    """Registers the engine once its module is found. The preferences, which may name the module, call this when they change."""
+    """Registers the engine once its module is found, and returns whether it is registered. The preferences may name
+    the module, so they call this when they change."""
     import bpy
 
     global _registered

@@ -1,7 +1,7 @@
 """Renders a world's panorama: blender -b --factory-startup -P bake_world.py -- LIBRARY WORLD FRAME WIDTH FOLDER
 
-FOLDER/whole.exr has all that the world's nodes show, over directions as an Environment Texture has them. Where they show the
-disks of suns, FOLDER/sunless.exr is without those. Cycles makes the pictures, so that all nodes count.
+FOLDER/whole.exr gets all that the world's nodes show, in the layout of an Environment Texture. Where the nodes show the
+disk of a sun, FOLDER/sunless.exr gets the same without it. Cycles makes the pictures, so every kind of node works.
 """
 import math
 import os
@@ -11,7 +11,7 @@ import bpy
 
 
 def suns(world):
-    """Sky Textures that show one."""
+    """Returns the Sky Textures that show the disk of a sun."""
     return [node for node in world.node_tree.nodes if node.type == "TEX_SKY" and node.sky_type not in ("PREETHAM", "HOSEK_WILKIE") and node.sun_disc]
 
 

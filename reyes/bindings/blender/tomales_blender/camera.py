@@ -1,4 +1,4 @@
-"""Blender's camera as the options of RIB."""
+"""Writes Blender's camera as options of RIB."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ from mathutils import Matrix
 
 
 def flat(matrix: Matrix) -> list[float]:
-    """As RIB has matrices: of row vectors."""
+    """Returns the 16 numbers of a matrix for RIB, whose matrices multiply row vectors."""
     return [matrix[row][column] for column in range(4) for row in range(4)]
 
 
@@ -20,11 +20,12 @@ def resolution(scene: bpy.types.Scene) -> tuple[int, int]:
 
 
 class UnsupportedCamera(Exception):
-    """What this renderer has no projection for."""
+    """The camera has a kind of projection that this renderer lacks."""
 
 
 def write_camera(ri: tomales.Ri, scene: bpy.types.Scene, camera: bpy.types.Object, depsgraph: bpy.types.Depsgraph, times: Sequence[float], placed: Sequence[Matrix]) -> None:
-    """Format, projection, focus, and where it stands at each time of the shutter. Raises UnsupportedCamera."""
+    """Writes the format, the projection, the focus, and the camera's place at each time of the shutter. Raises
+    UnsupportedCamera."""
     data, render = camera.data, scene.render
     if data.type == "PANO":
         raise UnsupportedCamera("panoramic cameras are not supported: choose perspective or orthographic")
@@ -44,7 +45,8 @@ def write_camera(ri: tomales.Ri, scene: bpy.types.Scene, camera: bpy.types.Objec
 
 
 def _window(to_screen: Matrix, axis: int, perspective: bool) -> tuple[float, float]:
-    """Left and right, or bottom and top, at depth 1: what the matrix sends to -1 and 1."""
+    """Returns left and right (or bottom and top) of the picture at depth 1. They are what the matrix sends to -1 and
+    1."""
     scale = to_screen[axis][axis]
     shift = to_screen[axis][2] if perspective else -to_screen[axis][3]
     return (shift - 1) / scale, (shift + 1) / scale
@@ -62,7 +64,7 @@ def _write_focus(ri: tomales.Ri, camera: bpy.types.Object) -> None:
 
 
 def _write_motion(ri: tomales.Ri, times: Sequence[float], matrices: Sequence[Matrix]) -> None:
-    """A ConcatTransform, in a motion block where it changes."""
+    """Writes a ConcatTransform, in a motion block if the matrices differ."""
     if all(m == matrices[0] for m in matrices):
         return ri.ConcatTransform(flat(matrices[0]))
     ri.MotionBegin(list(times))

@@ -1,4 +1,5 @@
-"""Shader nodes as one surface: what Principled BSDF describes, which mixtures of closures come down to."""
+"""Turns shader nodes into one surface with the parameters of Principled BSDF, to which mixtures of closures are
+reduced."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
@@ -13,7 +14,7 @@ from .values import Value, constant, is_picture, matched, mean
 
 _BLACK, _ONE = constant(0.0), constant(1.0)
 
-#: disney's parameters, and the inputs of the Principled BSDF in the names of Blender 3.4 and of 4.0.
+#: Each parameter of disney, and the names of its Principled BSDF input in Blender 3.4 and 4.0.
 _PRINCIPLED = {
     "metallic": ("Metallic",), "specular": ("Specular", "Specular IOR Level"), "speculartint": ("Specular Tint",), "roughness": ("Roughness",),
     "sheen": ("Sheen", "Sheen Weight"), "sheentint": ("Sheen Tint",), "clearcoat": ("Clearcoat", "Coat Weight"),
@@ -22,23 +23,23 @@ _PRINCIPLED = {
 
 
 def _numbers(**values: float) -> dict[str, Value]:
-    """Of a surface without highlights, but for what is given."""
+    """Returns the numbers of a surface without highlights. Arguments take the place of these defaults."""
     rest = {"metallic": 0, "specular": 0, "speculartint": 0, "roughness": 1, "sheen": 0, "sheentint": 0.5, "clearcoat": 0, "clearcoatgloss": 1}
     return {name: constant(float(value)) for name, value in {**rest, **values}.items()}
 
 
 @dataclass
 class Closure:
-    kind: str  #: matte, disney, glass; glow: it sends light alone; null: it is not there.
+    kind: str  #: The kind is matte, disney or glass; or glow, which only sends light; or null, which is invisible.
     color: Value = field(default_factory=lambda: _BLACK)
     numbers: dict[str, Value] = field(default_factory=_numbers)
     opacity: Value = field(default_factory=lambda: _ONE)
     emission: Value = field(default_factory=lambda: _BLACK)
     ior: Value = field(default_factory=lambda: constant(1.45))
-    vertex_color: str = ""  #: The attribute that has the colour.
-    #: What has pictures over the material's second UV map: color, opacity, emission, and names of numbers.
+    vertex_color: str = ""  #: The name of the colour attribute that holds the colour.
+    #: The parameters whose pictures use the material's second UV map: color, opacity, emission, and names of numbers.
     over_second: frozenset[str] = frozenset()
-    normal: bpy.types.NodeSocket | None = None  #: The input that bends normals.
+    normal: bpy.types.NodeSocket | None = None  #: The input that bends the normals.
 
 
 class Reader:
@@ -47,7 +48,7 @@ class Reader:
     def __init__(self, pixels: Callable[[bpy.types.Image], numpy.ndarray | None], say: Callable[[str], None]) -> None:
         self.graph = Graph(pixels)
         self._say = say
-        self._second: str | None = None  #: The material's second UV map.
+        self._second: str | None = None  #: The name of the material's second UV map.
 
     def surface(self, material: bpy.types.Material) -> Closure:
         self._second = uses_of(material).second_uv_map
@@ -55,7 +56,8 @@ class Reader:
         return self._closure(output.inputs["Surface"]) if output else Closure("glow")
 
     def value(self, socket: bpy.types.NodeSocket) -> Value:
-        """Of an input. What cannot be computed is named, and the socket's own value counts."""
+        """Returns the value of an input. If it cannot be computed, this reports the node and uses the socket's own
+        value."""
         try:
             return self.graph.of(socket)
         except Unsupported as problem:
@@ -63,10 +65,11 @@ class Reader:
             return constant(socket.default_value)
 
     def is_over_second(self, socket: bpy.types.NodeSocket | None) -> bool:
-        """Whether the pictures of an input are over the second UV map. An input that mixes maps counts for the first."""
+        """Tells whether the pictures of an input use the second UV map. An input that mixes both maps counts as
+        using the first."""
         try:
             maps = self.graph.uv_maps(socket) if socket and self._second is not None else set()
-        except Unsupported:  # which value() has named
+        except Unsupported:  # The method value() has already reported this node.
             return False
         if len(maps) > 1:
             self._say(f"{socket.name} mixes pictures over several UV maps; the first map counts for all")
@@ -111,7 +114,7 @@ def output_of(material: bpy.types.Material) -> bpy.types.Node | None:
 
 
 def color_attribute(socket: bpy.types.NodeSocket) -> str:
-    """The colour attribute that feeds an input; empty: none does."""
+    """Returns the name of the colour attribute that feeds an input, or an empty name if none does."""
     output = source(socket)
     if output and output.name == "Color" and output.node.type == "VERTEX_COLOR":
         return output.node.layer_name
@@ -121,7 +124,7 @@ def color_attribute(socket: bpy.types.NodeSocket) -> str:
 
 
 def uses_of(material: bpy.types.Material | None) -> Uses:
-    """The UV maps and the colour attribute that the nodes read; where they read more, the first of them."""
+    """Returns the UV maps and the colour attribute that the nodes read. If they read several, the first ones count."""
     if material is None or not material.use_nodes or material.tomales.shader:
         return Uses()
     maps, colors = [], []
@@ -146,9 +149,10 @@ def _all_nodes(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Node]:
 
 
 def _between(a: Closure, b: Closure, share: Value, say: Callable[[str], None]) -> Closure:
-    """(1 - share) a + share b. Parameters are mixed, which is right where they are proportions, and near it elsewhere.
+    """Returns (1 - share) a + share b. It mixes the parameters, which is exact for proportions and nearly right for
+    others.
 
-    Two pictures that are mixed are both over the second UV map if one of them is.
+    If one of two mixed pictures uses the second UV map, both are taken to use it.
     """
     rest = 1 - share
     if a.kind == "null" or b.kind == "null":
@@ -199,7 +203,7 @@ def _principled(reader: Reader, node: bpy.types.Node) -> Closure:
     emitted, strength = _input(node, ("Emission", "Emission Color")), node.inputs.get("Emission Strength")
     emission = _product(reader.value(emitted), reader.value(strength))
     sockets = {name: _input(node, inputs) for name, inputs in _PRINCIPLED.items()}
-    sockets = {name: socket for name, socket in sockets.items() if socket and socket.type == "VALUE"}  # a colour since Blender 4.0, which disney's number cannot hold
+    sockets = {name: socket for name, socket in sockets.items() if socket and socket.type == "VALUE"}  # Since Blender 4.0 this input is a colour, but disney takes a number.
     numbers = {**_numbers(), **{name: reader.value(socket) for name, socket in sockets.items()}}
     numbers["clearcoatgloss"] = 1 - numbers["clearcoatgloss"]
     second = frozenset(name for name, socket in {**sockets, "opacity": node.inputs["Alpha"], "emission": emitted}.items() if reader.is_over_second(socket))

@@ -1,4 +1,5 @@
-"""The render engine: a RIB file for each frame, the program tomales, and its picture in Blender's passes."""
+"""The render engine. It writes a RIB file for each frame, runs the program tomales, and puts its picture into
+Blender's passes."""
 from __future__ import annotations
 
 import re
@@ -20,19 +21,20 @@ from .passes import Passes, fill, wanted
 from .preview import Preview
 from .snapshot import Cache, ends_in_subdivision
 
-_OF_FRAME = re.compile(rb"R9\d+ +(\d+)%")  #: What `--progress` says to render farms.
+_OF_FRAME = re.compile(rb"R9\d+ +(\d+)%")  #: A line of progress that `--progress` prints for render farms.
 _OF_PASS = re.compile(rb"(\w.*?) +(\d+) %")
-_LOOK_S = 0.1  #: How often it is seen whether the user wants to stop.
-_SHOW_S = 1.0  #: How often a picture that grows is shown: Blender converts all of it.
+_LOOK_S = 0.1  #: The time between two looks at whether the user wants to stop.
+_SHOW_S = 1.0  #: The time between two updates of an unfinished picture. They cost time, because Blender converts the whole picture.
 
 
 class Session:
-    """One rendering of one frame or of many, for each of which Blender makes an engine."""
+    """One rendering of one frame or of many frames. Blender makes a new engine for each frame, so this state lives
+    outside of it."""
 
     def __init__(self) -> None:
         self.cache = Cache()
         self._temporary: tempfile.TemporaryDirectory[str] | None = None
-        self._switched_off: list[tuple[str, str]] = []  #: Names of objects and modifiers.
+        self._switched_off: list[tuple[str, str]] = []  #: The names of an object and of its modifier.
 
     def folder(self, chosen: str) -> Path:
         if chosen:
@@ -42,7 +44,7 @@ class Session:
         return Path(self._temporary.name)
 
     def begin(self, scene: bpy.types.Scene) -> None:
-        """Switches modifiers off whose cages are exported."""
+        """Switches off the modifiers whose cages are exported as subdivision surfaces."""
         for obj in scene.objects if scene.tomales.subdivide else ():
             if obj.type == "MESH" and not obj.library and ends_in_subdivision(obj) and obj.modifiers[-1].show_render:
                 obj.modifiers[-1].show_render = False
@@ -80,7 +82,7 @@ class TomalesEngine(bpy.types.RenderEngine):
         except Exception:
             self._error(traceback.format_exc())
         finally:
-            # Blender 3.4 crashes when the next rendering begins before the result of this one has ended.
+            # Blender 3.4 crashes if the next rendering begins before this result has ended.
             self.end_result(result)
 
     def _render(self, depsgraph: bpy.types.Depsgraph, folder: Path, result: bpy.types.RenderResult) -> None:
@@ -98,7 +100,7 @@ class TomalesEngine(bpy.types.RenderEngine):
             passes.stamp(depsgraph.view_layer.name, self.get_result())
 
     def _write(self, depsgraph: bpy.types.Depsgraph, folder: Path) -> tuple[Passes, Path]:
-        """The current frame."""
+        """Exports the current frame. Returns its passes and its RIB file."""
         scene, layer = depsgraph.scene, depsgraph.view_layer
         name = f"{Path(bpy.data.filepath).stem or 'untitled'}.{scene.frame_current:04d}"
         if len(scene.view_layers) > 1:
@@ -108,7 +110,8 @@ class TomalesEngine(bpy.types.RenderEngine):
         return passes, Frame(self, depsgraph, folder, _session.cache, self._warn).write(name, passes)
 
     def _export_frames(self, depsgraph: bpy.types.Depsgraph, folder: Path) -> None:
-        """All of the scene, in one rendering: Blender takes longer to prepare one than a frame takes to be written."""
+        """Exports all frames of the scene in one rendering, because Blender needs longer to prepare a rendering than
+        this needs to write a frame."""
         scene = depsgraph.scene
         now, frames = scene.frame_current, range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
         for i, frame in enumerate(frames):
@@ -129,8 +132,9 @@ class TomalesEngine(bpy.types.RenderEngine):
         return int(width * render.border_max_x) - int(width * render.border_min_x), int(height * render.border_max_y) - int(height * render.border_min_y)
 
     def _run(self, rib: Path, folder: Path, options: list[str], result: bpy.types.RenderResult) -> bool:
-        """Whether there is a picture. Shows progress and what is done, and ends the program when the user wants to stop."""
-        is_asked_for = any(option.startswith("--preview") for option in options)  # by the user, for another viewer
+        """Runs the renderer and returns whether there is a picture. It shows progress and the unfinished picture,
+        and ends the program when the user wants to stop."""
+        is_asked_for = any(option.startswith("--preview") for option in options)  # The user has asked for another viewer.
         preview = Preview() if self._has_viewer and not is_asked_for else None
         shown = [f"--preview={preview.address}"] if preview else []
         command = [tomales.program.find(), "render", "--progress", *shown, *options, *tomales.program.more_options(), str(rib)]
@@ -167,7 +171,7 @@ class TomalesEngine(bpy.types.RenderEngine):
         self.update_stats("", self._pass)
 
     def _show_picture(self, preview: Preview | None, result: bpy.types.RenderResult) -> None:
-        """What the renderer has made of it."""
+        """Shows the part of the picture that the renderer has finished."""
         if preview is None or time.monotonic() - self._shown_s < _SHOW_S:
             return
         picture = preview.take()
@@ -180,7 +184,7 @@ class TomalesEngine(bpy.types.RenderEngine):
         return self.test_break()
 
     def _listen(self, process: subprocess.Popen[bytes]) -> None:
-        """In a thread of its own: touches nothing of Blender."""
+        """Reads the renderer's messages in a thread of its own. It must not touch Blender's data."""
         assert process.stdout is not None
         for line in process.stdout:
             if of_frame := _OF_FRAME.match(line):
@@ -206,7 +210,7 @@ class TomalesEngine(bpy.types.RenderEngine):
 
 @bpy.app.handlers.persistent
 def begin(scene: bpy.types.Scene, *_: object) -> None:
-    """Before frames are rendered."""
+    """Blender calls this before it renders frames."""
     global _session
     _session.end()
     _session = Session()
@@ -216,7 +220,7 @@ def begin(scene: bpy.types.Scene, *_: object) -> None:
 
 @bpy.app.handlers.persistent
 def end(*_: object) -> None:
-    """After them, or where they are cancelled."""
+    """Blender calls this after it has rendered frames, or when the user cancels."""
     global _session
     _session.end()
     _session = Session()

@@ -1,6 +1,7 @@
-"""Uncompressed OpenEXR files of one part as numpy arrays: textures out in tiles, render passes in by rows.
+"""Uncompressed OpenEXR files of one part as numpy arrays. This writes textures in tiles, and reads render passes in
+rows.
 
-The format is that of "OpenEXR File Layout" (openexr.com). Blender has no module of its own for it in all versions.
+The format is that of "OpenEXR File Layout" (openexr.com). Not every version of Blender has a module for this format.
 """
 from __future__ import annotations
 
@@ -16,13 +17,14 @@ _TYPES = {0: numpy.dtype("<u4"), 1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
 
 
 _TILE = 64
-_MIPMAP_LEVELS, _TILED = 1, 0x200  # rounded down
+_MIPMAP_LEVELS, _TILED = 1, 0x200  # The number of levels is rounded down.
 
 
 def write_texture(path: str | os.PathLike[str], pixels: numpy.ndarray) -> None:
-    """float16 of shape (height, width, channels), the top row first; channels are R, G, B, A, or fewer of these.
+    """Writes a float16 array of shape (height, width, channels) with the top row first. The channels are R, G, B, A,
+    or the first of these.
 
-    Tiles of all levels down to one pixel, and periodic: the renderer reads the file as it is.
+    The file has tiles of all levels down to one pixel, and it repeats: the renderer reads such a file as it is.
     """
     height, width, count = pixels.shape
     names = sorted("RGBA"[:count])
@@ -37,7 +39,7 @@ def write_texture(path: str | os.PathLike[str], pixels: numpy.ndarray) -> None:
         ("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
         ("screenWindowWidth", "float", struct.pack("<f", 1)),
         ("tiles", "tiledesc", struct.pack("<IIB", _TILE, _TILE, _MIPMAP_LEVELS)),
-        ("wrapmodes", "string", b"periodic,periodic"),  # as Blender's Image Texture repeats
+        ("wrapmodes", "string", b"periodic,periodic"),  # The texture repeats, as Blender's Image Texture does.
     ]
     header = struct.pack("<ii", _MAGIC, _VERSION | _TILED)
     for name, kind, value in attributes:
@@ -51,7 +53,8 @@ def write_texture(path: str | os.PathLike[str], pixels: numpy.ndarray) -> None:
 
 
 def _levels(picture: numpy.ndarray) -> Iterator[numpy.ndarray]:
-    """Each half as wide and high as the one before: means of two by two pixels. A last odd row or column is left out."""
+    """Yields levels that each have half the width and height of the one before. A pixel is the mean of two by two
+    pixels. A last odd row or column is left out."""
     yield picture
     while max(picture.shape[:2]) > 1:
         for axis in (0, 1):
@@ -63,7 +66,7 @@ def _levels(picture: numpy.ndarray) -> Iterator[numpy.ndarray]:
 
 
 def _tiles(level: int, picture: numpy.ndarray) -> Iterator[bytes]:
-    """Those at the right and at the bottom are as large as what is left."""
+    """Yields the tiles of a level. Tiles at the right and at the bottom are smaller if less is left for them."""
     for y in range(0, picture.shape[0], _TILE):
         for x in range(0, picture.shape[1], _TILE):
             data = numpy.ascontiguousarray(picture[y : y + _TILE, x : x + _TILE].transpose(0, 2, 1), "<f2").tobytes()
@@ -71,7 +74,7 @@ def _tiles(level: int, picture: numpy.ndarray) -> Iterator[bytes]:
 
 
 def read(path: str | os.PathLike[str]) -> dict[str, numpy.ndarray]:
-    """Channels of shape (height, width), float32, the top row first: those of the data window.
+    """Returns the channels of the data window as float32 arrays of shape (height, width), with the top row first.
 
     Raises OSError for files of another kind.
     """
@@ -84,7 +87,7 @@ def read(path: str | os.PathLike[str]) -> dict[str, numpy.ndarray]:
 
 
 def texts(path: str | os.PathLike[str]) -> dict[str, str]:
-    """Attributes of a file that read() takes which are strings. Raises OSError as read() does."""
+    """Returns the attributes of a file that are strings. Raises OSError for the files that read() refuses."""
     with open(path, "rb") as file:
         data = file.read()
     try:
@@ -94,7 +97,7 @@ def texts(path: str | os.PathLike[str]) -> dict[str, str]:
 
 
 def _header(data: bytes) -> tuple[dict[str, tuple[str, bytes]], int]:
-    """Types and values of attributes, and where they end."""
+    """Returns the types and values of the attributes, and the offset where they end."""
     magic, version = struct.unpack_from("<ii", data)
     if magic != _MAGIC or version & ~0x400 != _VERSION:
         raise ValueError(f"magic {magic}, version {version}")

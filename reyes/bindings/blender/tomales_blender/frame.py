@@ -1,4 +1,4 @@
-"""One frame as a RIB file, with archives beside it that later frames use again."""
+"""Writes one frame as a RIB file, and beside it archives that later frames use again."""
 from __future__ import annotations
 
 import hashlib
@@ -27,12 +27,12 @@ Warn = Callable[[str], None]
 
 @dataclass
 class _Part:
-    """What is drawn of a shape, in one material."""
+    """The part of a shape that has one material."""
 
     archive: str
     look: Look
-    material: str  #: Its name.
-    handle: str | int | None = None  #: Of the object that instances show.
+    material: str  #: The name of the piece.
+    handle: str | int | None = None  #: The attributes of the object that the instances show.
 
 
 class Frame:
@@ -52,21 +52,22 @@ class Frame:
 
     @property
     def _settings(self) -> TomalesScene:
-        """Asked for each time: Blender frees it when the frame changes."""
+        """Returns the scene's settings. They must be asked for each time, because Blender frees them when the frame
+        changes."""
         return self._scene.tomales
 
     def write(self, name: str, passes: Passes) -> Path:
-        """Raises UnsupportedCamera, and OSError."""
+        """Writes the frame and returns the RIB file. Raises UnsupportedCamera and OSError."""
         camera = self._scene.camera
         snapshots = self._snapshots(camera)
-        times = TIMES(len(snapshots)) if len(snapshots) > 1 else [0.0]  # the shutter opens at 0 and closes at 1
+        times = TIMES(len(snapshots)) if len(snapshots) > 1 else [0.0]  # The shutter opens at 0 and closes at 1.
         first = snapshots[0]
         path = self._folder / f"{name}.rib"
         self._folder.mkdir(parents=True, exist_ok=True)
         write_shaders(self._folder)
         ri = tomales.Ri()
         ri.Begin(path)
-        ri.Option("searchpath", {"string texture": f"{self._folder}:.:@"})  # the working folder, where the whole has been moved
+        ri.Option("searchpath", {"string texture": f"{self._folder}:.:@"})  # the working folder is searched too, in case the export is moved
         passes.write(ri)
         self._write_options(ri)
         if len(times) > 1:
@@ -80,10 +81,10 @@ class Frame:
         ri.End()
         return path
 
-    # When
+    # The times of the frame.
 
     def _snapshots(self, camera: bpy.types.Object) -> list[Snapshot]:
-        """At every key of the shutter, or at the frame alone."""
+        """Returns the scene at every time of the shutter, or only at the frame if nothing is blurred."""
         if not self._scene.render.use_motion_blur:
             return [self._take(camera)]
         shutter, frame, out = self._scene.render.motion_blur_shutter, self._scene.frame_current, []
@@ -98,7 +99,7 @@ class Frame:
     def _take(self, camera: bpy.types.Object) -> Snapshot:
         return take(self._depsgraph, camera, self._settings.subdivide, self._cache, self._warn)
 
-    # Options and lights
+    # Options and lights.
 
     def _write_options(self, ri: tomales.Ri) -> None:
         s = self._settings
@@ -126,7 +127,7 @@ class Frame:
             known[world.name_full] = panorama_of(world, self._scene.frame_current)
         return known[world.name_full]
 
-    # Objects
+    # Objects.
 
     def _write_objects(self, ri: tomales.Ri, times: list[float], snapshots: list[Snapshot]) -> None:
         first = snapshots[0]
@@ -170,7 +171,8 @@ class Frame:
         return _Part(archive, looks[name], name)
 
     def _archive(self, key: str, i: int, snapshots: list[Snapshot]) -> str:
-        """The file of a piece, below the folder. Its name tells its contents, so that it is written once."""
+        """Returns the file of a piece, relative to the folder. Its name is a hash of its contents, so that each
+        piece is written once."""
         shape = snapshots[0].shapes[key]
         known = self._cache.archives.get((key, i)) if self._cache.shapes.get(key) is shape else None
         if known:

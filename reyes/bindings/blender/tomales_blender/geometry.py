@@ -1,6 +1,6 @@
-"""Meshes, curves and points of evaluated objects as RIB.
+"""Writes meshes, curves and points of evaluated objects as RIB.
 
-Every shape becomes one piece for each of its materials. A piece is RIB without attributes, so that it can be an archive.
+Every shape becomes one piece for each of its materials. A piece is RIB without attributes, so it can be an archive.
 """
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ import tomales
 
 @dataclass
 class Piece:
-    """Geometry of one material."""
+    """The geometry of one material."""
 
     slot: int
-    calls: list[tuple]  #: Of Ri: name, positional arguments, parameters. Values are arrays.
-    #: What moves: the parameters P and N of each call.
+    calls: list[tuple]  #: Calls of Ri: the name, the positional arguments and the parameters. The values are arrays.
+    #: The parameters P and N of each call, which may move.
     moving: tuple[str, ...] = ("P", "N")
 
     def rib(self, *later: Piece) -> bytes:
-        """Binary RIB; with `later` in motion, if those are the same but for P and N."""
+        """Returns the piece as binary RIB. It is in motion with the pieces `later` if these differ from it in P and
+        N alone."""
         out = io.BytesIO()
         ri = tomales.Ri()
         ri.ErrorHandler("abort")
@@ -41,7 +42,7 @@ class Piece:
         return out.getvalue()
 
     def fits(self, other: Piece) -> bool:
-        """Whether both have the same requests with as many values."""
+        """Tells whether both pieces have the same requests with equally many values."""
         return len(self.calls) == len(other.calls) and all(
             a[0] == b[0] and all(numpy.shape(a[2].get(k)) == numpy.shape(b[2].get(k)) for k in {*a[2], *b[2]})
             for a, b in zip(self.calls, other.calls)
@@ -53,15 +54,15 @@ class Piece:
 
 @dataclass(frozen=True)
 class Uses:
-    """What a material's shader wants to know under the names of the RISpec."""
+    """The UV maps and the colour attribute that a material's shader expects under the standard names of the RISpec."""
 
-    uv_map: str = ""  #: As st; empty: the active one.
-    second_uv_map: str | None = None  #: As s1 and t1; None: its pictures are all over the first.
-    color: str = ""  #: Colour attribute, as Cs.
+    uv_map: str = ""  #: The UV map that becomes st. An empty name means the active map.
+    second_uv_map: str | None = None  #: The UV map that becomes s1 and t1. None means that all pictures use the first map.
+    color: str = ""  #: The colour attribute that becomes Cs.
 
 
 def TIMES(count: int) -> list[float]:
-    """Keys of a shutter that opens at 0 and closes at 1."""
+    """Returns the times of a shutter that opens at 0 and closes at 1."""
     return [i / (count - 1) for i in range(count)]
 
 
@@ -74,7 +75,7 @@ class _Faces:
     counts: numpy.ndarray
     vertices: numpy.ndarray
     materials: numpy.ndarray
-    corners: dict[str, numpy.ndarray] = field(default_factory=dict)  #: Face-varying values, a row for each corner.
+    corners: dict[str, numpy.ndarray] = field(default_factory=dict)  #: Face-varying values, with a row for each corner.
 
     @classmethod
     def of(cls, mesh: bpy.types.Mesh) -> _Faces:
@@ -87,7 +88,7 @@ class _Faces:
         )
 
     def only(self, chosen: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
-        """Counts of the chosen faces, and the indices of their corners."""
+        """Returns the number of corners of each chosen face, and the indices of these corners."""
         of_corner = numpy.repeat(chosen, self.counts)
         return self.counts[chosen], numpy.flatnonzero(of_corner)
 
@@ -99,7 +100,7 @@ def _values(items, name: str, kind: str, width: int = 1) -> numpy.ndarray:
 
 
 def _add_texture_coordinates(mesh: bpy.types.Mesh, faces: _Faces) -> None:
-    """Every set under its own name. The origin of pictures is at the top in RIB."""
+    """Adds every UV map under its own name. RIB has the origin of pictures at the top, so v is turned."""
     for layer in mesh.uv_layers:
         uv = _values(layer.data, "uv", "f4", 2)
         uv[:, 1] = 1 - uv[:, 1]
@@ -114,7 +115,7 @@ def _add_colors(mesh: bpy.types.Mesh, faces: _Faces) -> None:
 
 
 def _variables_of(mesh: bpy.types.Mesh, faces: _Faces, use: Uses) -> dict[str, numpy.ndarray]:
-    """All that faces of one material bring, and what its shader knows as st, s1, t1 and Cs."""
+    """Returns all variables of the faces of one material, with st, s1, t1 and Cs as its shader expects them."""
     active = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
     uv_of = lambda name: faces.corners.get(f"facevarying float[2] uv_{_word(name or active)}")  # noqa: E731
     out, known = dict(faces.corners), {"float[2] st": uv_of(use.uv_map), "color Cs": faces.corners.get(f"facevarying color color_{_word(use.color)}")}
@@ -129,7 +130,8 @@ def _word(name: str) -> str:
 
 
 def mesh_pieces(mesh: bpy.types.Mesh, subdivision: bpy.types.SubsurfModifier | None, uses: list[Uses]) -> list[Piece]:
-    """Polygons with their normals, or what the modifier would make of the mesh as a subdivision surface. `uses`: of each slot."""
+    """Returns polygons with normals, or the subdivision surface that the modifier would make. `uses` has an entry
+    for each slot."""
     faces = _Faces.of(mesh)
     if len(faces.counts) == 0:
         return []
@@ -157,7 +159,7 @@ def _polygons(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, variab
 
 
 def _subdivision(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, variables: dict[str, numpy.ndarray], modifier: bpy.types.SubsurfModifier) -> tuple:
-    """Faces of other materials are holes, so that the surface stays smooth across the seam."""
+    """Writes faces of other materials as holes, so that the surface stays smooth across the seam."""
     tags, counts, integers, floats = ["interpolateboundary"], [1, 0], [2 if modifier.boundary_smooth == "ALL" else 1], []
     if modifier.use_creases:
         edges = _values(mesh.edges, "vertices", "i4", 2)
@@ -168,7 +170,7 @@ def _subdivision(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, var
                 tags.append(tag)
                 counts += [len(on), 1]
                 integers += on
-                floats.append(10 * float(sharpness[i]) ** 2)  # as Blender gives them to OpenSubdiv
+                floats.append(10 * float(sharpness[i]) ** 2)  # Blender passes these values to OpenSubdiv.
     holes = numpy.flatnonzero(~chosen).tolist()
     if holes:
         tags.append("hole")
@@ -178,7 +180,7 @@ def _subdivision(mesh: bpy.types.Mesh, faces: _Faces, chosen: numpy.ndarray, var
 
 
 def curve_pieces(curves: bpy.types.Curves) -> list[Piece]:
-    """Hair curves. Their radii are of the points; without them they are a millimetre wide."""
+    """Returns hair curves. Their radii come from the points; curves without radii are a millimetre wide."""
     points = _values(curves.points, "position", "f4", 3)
     counts = _values(curves.curves, "points_length", "i4")
     if len(counts) == 0:
@@ -189,7 +191,7 @@ def curve_pieces(curves: bpy.types.Curves) -> list[Piece]:
 
 
 def hair_pieces(obj: bpy.types.Object, system: bpy.types.ParticleSystem) -> list[Piece]:
-    """Strands of a particle system, in the space of the object."""
+    """Returns the strands of a particle system in the space of the object."""
     settings = system.settings
     steps = 2**settings.render_step + 1
     first = len(system.particles) if system.settings.child_type != "NONE" and not settings.use_parent_particles else 0
@@ -199,7 +201,7 @@ def hair_pieces(obj: bpy.types.Object, system: bpy.types.ParticleSystem) -> list
     if not strands:
         return []
     points = numpy.array(strands, "f4").reshape(-1, 3)
-    # What Blender calls radii are diameters in Cycles, whose taper this is.
+    # Cycles takes what Blender calls radii for diameters; this taper is that of Cycles.
     power = 1 + settings.shape if settings.shape < 0 else 1 / max(1 - settings.shape, 1e-3)
     along = numpy.linspace(1, 0, steps, dtype="f4") ** power
     widths = (settings.tip_radius + (settings.root_radius - settings.tip_radius) * along) * settings.radius_scale
@@ -214,7 +216,7 @@ def _strands(points: numpy.ndarray, counts: numpy.ndarray, width: numpy.ndarray)
 
 
 def particle_pieces(obj: bpy.types.Object, system: bpy.types.ParticleSystem) -> list[Piece]:
-    """Particles that are drawn as halos: disks, in the space of the object."""
+    """Returns particles that are drawn as halos: disks in the space of the object."""
     alive = [p for p in system.particles if p.alive_state == "ALIVE"]
     if not alive:
         return []

@@ -1,7 +1,7 @@
-"""Blender's lights as light sources.
+"""Writes Blender's lights as light sources.
 
-The units are Cycles': watts of a lamp that radiates into all directions, watts per square metre of a sun. A light of the
-RISpec sends E/pi (docs/gi.md), so a pi is divided out.
+The units are those of Cycles: watts for a lamp, which counts as radiating into all directions, and watts per square
+metre for a sun. A light of the RISpec sends E/pi (docs/gi.md), so a pi is divided out.
 """
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .camera import flat
 
 
 def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: str, samples: int) -> None:
-    """Within an attribute block of its own; the caller illuminates with the handle."""
+    """Writes a lamp in an attribute block of its own. The caller switches it on by the handle."""
     light = obj.data
     ri.Attribute("light", {"string shadows": "on" if light.use_shadow else "off"})
     ri.ConcatTransform(flat(matrix.normalized() if light.type != "AREA" else matrix))
@@ -31,23 +31,24 @@ def write_light(ri: tomales.Ri, obj: bpy.types.Object, matrix: Matrix, handle: s
 
 
 def group_of(owner: bpy.types.Object | bpy.types.World) -> dict[str, object]:
-    """The light group, for a pass of its own."""
+    """Returns the light group as a parameter, so that the group can have a pass of its own."""
     name = getattr(owner, "lightgroup", "")
     return {"uniform string __group": name} if name else {}
 
 
 def _emit(ri: tomales.Ri, handle: str, radiance: float, samples: int, common: dict[str, object]) -> None:
-    """What follows shines, and is itself seen by nothing."""
+    """Makes the geometry that follows a lamp that neither the camera nor rays see."""
     ri.AreaLightSource("arealight", handle, {"intensity": radiance, "float samples": samples, "float visible": 0, **common})
     ri.Attribute("visibility", {"int camera": 0, "int diffuse": 0, "int specular": 0, "int transmission": 0})
     ri.Surface("constant")
 
 
-_SUN_DISTANCE = 1e6  # so far that a scene of a kilometre sees it in one direction, to a milliradian
+_SUN_DISTANCE = 1e6  # At this distance a scene of a kilometre sees the sun in one direction, to a milliradian.
 
 
 def write_sun(ri: tomales.Ri, angle: float, energy: float, handle: str, samples: int, common: dict[str, object]) -> None:
-    """It stands at +z. Its strength is what falls on a surface that faces it. A disk of the angle's size has soft shadows."""
+    """Writes a sun, which stands at +z. Its strength is the irradiance of a surface that faces it. It is a disk of
+    the given angle, so its shadows are soft."""
     if angle < 1e-4:
         ri.LightSource("distantlight", handle, {"intensity": energy / pi, "point from": [0, 0, 0], "point to": [0, 0, -1], **common})
         return
@@ -65,7 +66,7 @@ def _cone(light: bpy.types.SpotLight) -> dict[str, object]:
 
 
 def _write_point(ri: tomales.Ri, light: bpy.types.PointLight | bpy.types.SpotLight, handle: str, samples: int, common: dict[str, object]) -> None:
-    """A ball of the light's radius; with a cone, one that shines into it along -z."""
+    """Writes a ball of the light's radius. A spot is such a ball that shines into a cone along -z."""
     radius, is_spot = light.shadow_soft_size, "coneangle" in common
     if radius > 0:
         axis = {"vector axis": [0, 0, -1]} if is_spot else {}
@@ -77,16 +78,17 @@ def _write_point(ri: tomales.Ri, light: bpy.types.PointLight | bpy.types.SpotLig
 
 
 def _write_area(ri: tomales.Ri, light: bpy.types.AreaLight, matrix: Matrix, handle: str, samples: int, common: dict[str, object]) -> None:
-    """It shines along -z of its object, from its whole size in the world.
+    """Writes a lamp that shines along -z of its object, with the size that it has in the world.
 
-    Cycles takes a quarter of the power over the area for its radiance, where a Lambertian emitter would have 1 / pi.
+    Its radiance is a quarter of the power over the area, as in Cycles. A Lambertian emitter would have 1 / pi in
+    place of a quarter.
     """
     scale = matrix.to_scale()
     width, height = light.size, light.size if light.shape in ("SQUARE", "DISK") else light.size_y
     round_ = light.shape in ("DISK", "ELLIPSE")
     area = width * height * abs(scale.x * scale.y) * (pi / 4 if round_ else 1)
     _emit(ri, handle, light.energy / (4 * max(area, 1e-12)), samples, common)
-    ri.Scale(width / 2, height / 2, -1)  # mirrored, so that what faces +z faces -z
+    ri.Scale(width / 2, height / 2, -1)  # This mirrors the shape, so that what faces +z faces -z.
     if round_:
         ri.Disk(0, 1, 360)
     else:

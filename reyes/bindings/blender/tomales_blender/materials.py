@@ -1,7 +1,7 @@
-"""Blender's materials as shaders.
+"""Turns Blender's materials into shaders.
 
-A graph of closures becomes one surface (closures.py), and that a shader: `disney` as a rule. What disney takes no picture for
-has the picture's mean. A shader named in the panel takes the place of all nodes.
+A graph of closures becomes one surface (closures.py), and this becomes one shader, which is usually `disney`. Where
+disney takes no picture, the mean of the picture counts. A shader that the panel names replaces all nodes.
 """
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ Warn = Callable[[str], None]
 
 @dataclass
 class Look:
-    """A surface shader with what surrounds it."""
+    """A surface shader and the attributes that belong to it."""
 
     shader: str = "disney"
     parameters: dict[str, Any] = field(default_factory=dict)
-    color: list[float] | None = field(default_factory=lambda: [0.8, 0.8, 0.8])  #: None: the primitive's own.
+    color: list[float] | None = field(default_factory=lambda: [0.8, 0.8, 0.8])  #: The colour; None leaves the primitive's own.
     opacity: float = 1
-    emission: list[float] | None = None  #: Radiance, which an area light brings: the shader itself must not.
-    relief: dict[str, Any] | None = None  #: Parameters of the displacement shader tomales_relief.
-    bound: float = 0  #: How far that moves the surface, in the object's space.
+    emission: list[float] | None = None  #: The radiance that an area light sends. The shader itself must not send it again.
+    relief: dict[str, Any] | None = None  #: The parameters of the displacement shader tomales_relief.
+    bound: float = 0  #: The greatest distance by which it moves the surface, in the object's space.
 
     @functools.cached_property
     def rib(self) -> str:
-        """Its requests, which every object that has it repeats."""
+        """Returns the requests of the look. Every object that has it repeats them."""
         out = io.BytesIO()
         ri = tomales.Ri()
         ri.Begin(out)
@@ -54,7 +54,7 @@ class Look:
 
 
 def look_of(material: bpy.types.Material | None, textures: Textures, reflections: int, warn: Warn) -> Look:
-    """`reflections`: rays of a point that mirror the scene."""
+    """Returns the look of a material. `reflections` is the number of rays that each point sends to mirror the scene."""
     if material is None:
         return Look(parameters={"float roughness": 0.5})
     if material.tomales.shader:
@@ -71,7 +71,7 @@ def look_of(material: bpy.types.Material | None, textures: Textures, reflections
 
 
 def changes(material: bpy.types.Material | bpy.types.World) -> bool:
-    """Whether it may look different in another frame."""
+    """Tells whether the material may look different in another frame."""
     trees = [material.node_tree] if material.use_nodes else []
     for tree in trees:
         trees += [node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree and node.node_tree not in trees]
@@ -86,7 +86,7 @@ def _override(material: bpy.types.Material) -> Look:
 
 
 def _shaded(closure: Closure, textures: Textures, reflections: int, say: Warn) -> Look:
-    """The shader that has this closure's parameters."""
+    """Returns the shader with the parameters of this closure."""
     emission = mean(closure.emission)
     shows_glow = is_picture(closure.emission) and closure.kind == "disney"
     if is_picture(closure.emission) and not shows_glow:
@@ -122,11 +122,11 @@ def _matte(look: Look, closure: Closure, textures: Textures) -> None:
 
 @functools.cache
 def _maps() -> dict[str, str]:
-    """The parameter of disney that takes a picture for another one of its parameters."""
+    """Returns, for each parameter of disney, the parameter that takes a picture for it."""
     try:
         strings = {p["name"] for shader in tomales.info("disney")["shaders"] for p in shader["parameters"] if p["type"].endswith("string")}
     except (tomales.CommandFailed, tomales.RendererNotFound):
-        strings = set()  # an export without the program: means of pictures count
+        strings = set()  # The program is missing, so the export uses the means of pictures.
     return {name.removesuffix("map"): name for name in strings if name.endswith("map")} | {"color": "texturename"}
 
 

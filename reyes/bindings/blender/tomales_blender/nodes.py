@@ -1,4 +1,4 @@
-"""What nodes compute. They work on whole arrays (values.py), so that a graph becomes a constant or one picture."""
+"""Computes the values of nodes. They are whole arrays (values.py), so a graph becomes a constant or one picture."""
 from __future__ import annotations
 
 import math
@@ -10,24 +10,24 @@ import numpy
 
 from .values import Value, constant, gray, looked_up, matched
 
-_MOST_PIXELS = 4096  #: Along an edge of a picture that is computed.
+_MOST_PIXELS = 4096  #: The number of pixels along an edge of a picture that is computed.
 
 
 class Unsupported(Exception):
-    """A node that cannot be computed; the text names it."""
+    """A node that cannot be computed. The text of the exception names it."""
 
 
 class Graph:
-    """Values of a material's node tree."""
+    """The values of a material's node tree."""
 
     def __init__(self, pixels: Callable[[bpy.types.Image], numpy.ndarray | None]) -> None:
-        """`pixels` gives an image as a linear array of four channels, or None."""
+        """`pixels` returns an image as a linear array of four channels, or None."""
         self._pixels = pixels
         self._known: dict[tuple, Value] = {}
-        self._groups: list[bpy.types.Node] = []  #: Those that the walk is within, the innermost last.
+        self._groups: list[bpy.types.Node] = []  #: The groups that the walk is inside of, with the innermost last.
 
     def of(self, socket: bpy.types.NodeSocket) -> Value:
-        """What arrives at an input. Raises Unsupported."""
+        """Returns the value that arrives at an input. Raises Unsupported."""
         link = source(socket)
         if link is None:
             return constant(getattr(socket, "default_value", 0.0))
@@ -44,7 +44,8 @@ class Graph:
         return self._known[key]
 
     def across(self, output: bpy.types.NodeSocket, visit: Callable[[bpy.types.NodeSocket], Any]) -> Any:
-        """Visits the input that feeds an output of a group, or of the inputs within a group, on the other side of its border."""
+        """Crosses the border of a group: visits the input inside that feeds an output of the group, or the input
+        outside that feeds an input of the group."""
         node = output.node
         i = list(node.outputs).index(output)
         if node.type == "GROUP":
@@ -63,7 +64,8 @@ class Graph:
             self._groups = before
 
     def uv_maps(self, socket: bpy.types.NodeSocket) -> set[str]:
-        """Of the pictures that feed an input; an empty name: the active one. Raises Unsupported."""
+        """Returns the UV maps of the pictures that feed an input. An empty name means the active map. Raises
+        Unsupported."""
         output = source(socket)
         if output is None:
             return set()
@@ -82,7 +84,7 @@ class Graph:
 
 
 def source(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
-    """The output that feeds an input, through reroutes; None if nothing does."""
+    """Returns the output that feeds an input, through reroutes, or None if nothing feeds it."""
     while socket.is_linked:
         output = socket.links[0].from_socket
         if output.node.type != "REROUTE":
@@ -92,7 +94,8 @@ def source(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
 
 
 def uv_map(node: bpy.types.Node) -> str:
-    """The UV map that an Image Texture reads; empty: the active one. Raises Unsupported for other coordinates."""
+    """Returns the UV map that an Image Texture reads. An empty name means the active map. Raises Unsupported for
+    other coordinates."""
     output = source(node.inputs["Vector"])
     if output and output.node.type == "MAPPING":
         output = source(output.node.inputs["Vector"])
@@ -104,9 +107,9 @@ def uv_map(node: bpy.types.Node) -> str:
 
 
 def _mapped(picture: Value, node: bpy.types.Node) -> Value:
-    """The picture over texture coordinates from 0 to 1, after a Mapping node."""
+    """Returns the picture over texture coordinates from 0 to 1, after a Mapping node."""
     output = source(node.inputs["Vector"])
-    if node.type == "TEX_ENVIRONMENT":  # over directions
+    if node.type == "TEX_ENVIRONMENT":  # The picture lies over directions.
         return picture
     uv_map(node)
     if output is None or output.node.type != "MAPPING":
@@ -124,7 +127,7 @@ def _mapped(picture: Value, node: bpy.types.Node) -> Value:
     if mapping.vector_type == "POINT":
         u, v = u * scale[0], v * scale[1]
         u, v = cosine * u - sine * v + move[0], sine * u + cosine * v + move[1]
-    else:  # the picture itself is moved, turned and scaled
+    else:  # A Mapping node of this kind moves, turns and scales the picture itself.
         u, v = u - move[0], v - move[1]
         u, v = (cosine * u + sine * v) / (scale[0] or 1), (-sine * u + cosine * v) / (scale[1] or 1)
     return looked_up(picture, u, 1 - v)
@@ -148,7 +151,8 @@ _BLENDS: dict[str, Callable[[Value, Value], Value]] = {
 
 
 def _mix(graph: Graph, node: bpy.types.Node, output: bpy.types.NodeSocket) -> Value:
-    """Mix of Blender 3.4 and MixRGB of those before it. Names of sockets are those of all data types in one node."""
+    """Computes the node Mix of Blender 3.4, and MixRGB of earlier versions. One Mix node has sockets of the same
+    names for every data type."""
     inputs = [i for i in node.inputs if i.enabled]
     factor, a, b = matched([graph.of(i) for i in inputs[:3]])
     kind = getattr(node, "data_type", "RGBA")

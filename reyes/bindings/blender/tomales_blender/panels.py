@@ -1,4 +1,4 @@
-"""Panels of the render engine, and operators that they need."""
+"""The panels of the render engine, and the operators that they need."""
 from __future__ import annotations
 
 import bpy
@@ -27,7 +27,8 @@ class ReadParameters(bpy.types.Operator):
 
 
 def parameters_of(shader: str) -> list[dict]:
-    """Of `tomales info NAME --json`: name, type, default. Raises ValueError if it is no shader."""
+    """Returns what `tomales info NAME --json` prints of each parameter: name, type and default. Raises ValueError if
+    it is no shader."""
     said = tomales.info(shader)
     shaders = said["shaders"] if "shaders" in said else [said]
     if "parameters" not in shaders[0]:
@@ -36,7 +37,7 @@ def parameters_of(shader: str) -> list[dict]:
 
 
 def fill(settings, found: list[dict]) -> None:
-    """A property for each parameter; values that are set stay."""
+    """Makes a property for each parameter. It keeps values that are already set."""
     before = {p.name: p.value() for p in settings.parameters if p.is_set}
     settings.parameters.clear()
     for one in found:
@@ -104,7 +105,7 @@ CLASSES = (ReadParameters, TOMALES_PT_render, TOMALES_PT_material)
 
 
 def _shared_panels():
-    """Blender's own panels that make sense for any engine."""
+    """Yields Blender's own panels that make sense for any engine."""
     excluded = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_simplify"}
     for panel in bpy.types.Panel.__subclasses__():
         if "BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ()) and panel.__name__ not in excluded:

@@ -1,4 +1,4 @@
-"""What a world's nodes show, by Cycles in a Blender of its own (bake_world.py)."""
+"""Makes panoramas of a world's nodes, by running Cycles in another Blender (bake_world.py)."""
 from __future__ import annotations
 
 import subprocess
@@ -14,27 +14,27 @@ from mathutils import Vector
 from . import exr
 from .values import Value
 
-_WIDTH = 1024  #: A third of a degree to a pixel, less than the sun.
+_WIDTH = 1024  #: A pixel is a third of a degree wide, which is less than the sun.
 
 
 @dataclass
 class Sun:
-    toward: Vector  #: In the world's space.
-    color: list[float]  #: Irradiance of what faces it, in Cycles' units.
-    angle: float  #: Of the disk, across.
+    toward: Vector  #: The direction to the sun, in the world's space.
+    color: list[float]  #: The irradiance of a surface that faces the sun, in the units of Cycles.
+    angle: float  #: The angle across the disk.
 
 
 @dataclass
 class Panorama:
-    """Pictures over directions, as an Environment Texture has them."""
+    """Pictures over directions, in the layout of an Environment Texture."""
 
     whole: Value
-    sunless: Value  #: Without the disk of the sun, which is a light of its own.
+    sunless: Value  #: The picture without the disk of the sun, because the sun becomes a light of its own.
     sun: Sun | None
 
 
 def panorama_of(world: bpy.types.World, frame: int) -> Panorama:
-    """Raises OSError. Several suns are taken as one between them."""
+    """Makes the panorama of a world. It replaces several suns by one between them. Raises OSError."""
     with tempfile.TemporaryDirectory(prefix="tomales_") as folder:
         library = str(Path(folder, "world.blend"))
         bpy.data.libraries.write(library, {world}, path_remap="ABSOLUTE")
@@ -58,7 +58,8 @@ def _picture(path: Path) -> Value:
 
 
 def _sun(disk: Value, angle: float) -> Sun | None:
-    """The mean direction of a picture's light, and its sum over solid angle; None if it is dark, as below the horizon."""
+    """Returns the mean direction of a picture's light, and its sum over solid angle. Returns None if the picture is
+    dark, as when the sun is below the horizon."""
     height, width = disk.shape[:2]
     polar, turn = numpy.arange(height + 1) / height * pi, (0.5 - (numpy.arange(width) + 0.5) / width) * 2 * pi
     solid_angle = -numpy.diff(numpy.cos(polar)) * 2 * pi / width

@@ -1,4 +1,4 @@
-"""Blender's render passes as the channels of one picture, and back."""
+"""Converts Blender's render passes to the channels of one picture, and back."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -11,28 +11,29 @@ import tomales
 
 from . import exr
 
-_FAR = 1e10  #: Blender's depth where nothing is.
-#: Cryptomatte: the renderer's variables with Blender's names of passes, which are those of the file, and its settings.
+_FAR = 1e10  #: The depth that Blender stores where there is nothing.
+#: The renderer's Cryptomatte variables, with the names of Blender's passes (also used in the file) and the settings
+#: that ask for them.
 _MATTES = {"cryptoobject": ("CryptoObject", "use_pass_cryptomatte_object"), "cryptomaterial": ("CryptoMaterial", "use_pass_cryptomatte_material")}
-_MATTE_PASSES = 3  #: In the file, of two ranks each.
+_MATTE_PASSES = 3  #: The number of passes that the file has of each matte. Each pass has two ranks.
 
 
 @dataclass(frozen=True)
 class Pass:
-    """One of Blender's passes, from a variable of the renderer."""
+    """A pass of Blender that a variable of the renderer fills."""
 
-    name: str  #: Blender's.
+    name: str  #: Blender's name.
     channels: str
-    variable: str = ""  #: The renderer's, in Display's mode; empty: none, the pass is white.
-    setting: str = ""  #: The view layer's property that asks for it.
+    variable: str = ""  #: The renderer's variable, in the mode of a Display. If it is empty, there is none and the pass is white.
+    setting: str = ""  #: The view layer's property that asks for the pass.
     kind: str = "COLOR"
-    declared: str = ""  #: DisplayChannel's type, for what is not a standard variable of surfaces.
-    source: str = ""  #: DisplayChannel's.
-    is_light: bool = False  #: Cycles has the surface's colour apart, so it is divided out.
-    own: bool = False  #: One that Blender does not know by itself.
+    declared: str = ""  #: The type for DisplayChannel, if this is no standard variable of surfaces.
+    source: str = ""  #: The parameters of DisplayChannel.
+    is_light: bool = False  #: Cycles keeps the surface's colour apart, so it is divided out.
+    own: bool = False  #: Whether Blender must be told of this pass, because it is not built in.
 
     def plane_names(self) -> list[str]:
-        """Its channels in the file."""
+        """Returns the names of the pass's channels in the file."""
         if self.variable == "z":
             return ["Z"]
         if self.variable in _MATTES:
@@ -56,7 +57,7 @@ PASSES = (
 
 
 def wanted(layer: bpy.types.ViewLayer) -> list[Pass]:
-    """Those that are switched on, AOVs (outputs of shaders by their names) and light groups."""
+    """Returns the passes that are switched on, the AOVs (shader outputs by name) and the light groups."""
     out = [p for p in PASSES if getattr(layer, p.setting)]
     for aov in layer.aovs:
         if aov.is_valid and aov.name.isidentifier():
@@ -72,10 +73,10 @@ def wanted(layer: bpy.types.ViewLayer) -> list[Pass]:
 
 
 class Passes:
-    """Those of one view layer, in one file."""
+    """The passes of one view layer, which share one file."""
 
     def __init__(self, layer: bpy.types.ViewLayer, folder: Path, name: str) -> None:
-        """`name`: of the picture, relative to the folder in which the renderer runs."""
+        """`name` is the path of the picture, relative to the folder in which the renderer runs."""
         self._passes = wanted(layer)
         self._folder = folder
         self._name = name
@@ -84,14 +85,16 @@ class Passes:
             self._settings.setdefault("albedo", PASSES[3])
 
     def write(self, ri: tomales.Ri) -> None:
-        """DisplayChannels and the Display. The picture is raw, so that Blender's own view transform applies."""
+        """Writes the DisplayChannels and the Display. The picture is linear, so that Blender's own view transform
+        applies."""
         for p in self._settings.values():
             if p.declared:
                 ri.DisplayChannel(f"{p.declared} {p.variable}", {"string source": p.source} if p.source else {})
         ri.Display(self._name, "openexr", ",".join(["Ci", "a", *self._settings]), {"string compression": "none", "string exrpixeltype": "float"})
 
     def read(self, result: bpy.types.RenderResult, to_world: numpy.ndarray) -> None:
-        """Into the result's layer, bottom row first. `to_world`: a matrix of 4 x 4, from camera space. Raises OSError."""
+        """Puts the picture into the result's layer, with the bottom row first. `to_world` is a matrix of 4 x 4 from
+        camera space. Raises OSError."""
         channels = exr.read(self._folder / self._name)
         planes_of = lambda names: numpy.stack([_channel(channels, name) for name in names])  # noqa: E731
         layer = result.layers[0]
@@ -102,8 +105,8 @@ class Passes:
                 fill(layer.passes[p.name], self._converted(p, planes, planes_of, to_world), result)
 
     def stamp(self, layer: str, result: bpy.types.RenderResult) -> None:
-        """Says which names the numbers of mattes stand for, as Blender's compositor seeks them. `result`: of the engine, with
-        all its layers. Raises OSError."""
+        """Stores which names the numbers of mattes stand for, where Blender's compositor looks for them. `result` is
+        the engine's result with all its layers. Raises OSError."""
         if not any(p.variable in _MATTES for p in self._passes):
             return
         for key, value in exr.texts(self._folder / self._name).items():
@@ -111,7 +114,7 @@ class Passes:
                 result.stamp_data_add_field(key, f"{layer}.{value}" if key.endswith("/name") else value)
 
     def _converted(self, p: Pass, planes: numpy.ndarray, planes_of: Callable[[list[str]], numpy.ndarray], to_world: numpy.ndarray) -> numpy.ndarray:
-        """As Blender has the values."""
+        """Converts the channels to Blender's conventions."""
         if p.variable == "z":
             return numpy.where(numpy.isfinite(planes), planes, _FAR)
         if p.kind == "VECTOR":
@@ -124,7 +127,8 @@ class Passes:
 
 
 def fill(target: bpy.types.RenderPass, planes: numpy.ndarray, result: bpy.types.RenderResult) -> None:
-    """Planes of shape (channels, height, width), the top row first, into a pass of the result. Raises OSError."""
+    """Puts planes of shape (channels, height, width), with the top row first, into a pass of the result. Raises
+    OSError."""
     _, height, width = planes.shape
     if (width, height) != (result.resolution_x, result.resolution_y):
         raise OSError(f"the picture has {width} x {height} pixels, not {result.resolution_x} x {result.resolution_y}")

@@ -1,4 +1,5 @@
-"""The picture while it is made: what the renderer sends to viewers (`tomales render --preview`, displays/tev.cpp)."""
+"""Receives the unfinished picture, which the renderer sends to viewers (`tomales render --preview`,
+displays/tev.cpp)."""
 from __future__ import annotations
 
 import socket
@@ -7,11 +8,11 @@ import threading
 
 import numpy
 
-_CREATE, _UPDATE = 4, 6  #: Kinds of packets.
+_CREATE, _UPDATE = 4, 6  #: The kinds of packets.
 
 
 class Preview:
-    """Listens at a port of its own on this machine, and reads in a thread of its own."""
+    """Listens at a free port of this machine, and reads in a thread of its own."""
 
     def __init__(self) -> None:
         self._listening = socket.create_server(("127.0.0.1", 0))
@@ -26,7 +27,8 @@ class Preview:
         return f"{self._place[0]}:{self._place[1]}"
 
     def take(self) -> numpy.ndarray | None:
-        """RGBA of shape (height, width, 4), the top row first; None where nothing has come since the last call."""
+        """Returns RGBA of shape (height, width, 4) with the top row first, or None if nothing has come since the
+        last call."""
         with self._lock:
             if self._picture is None or not self._is_new:
                 return None
@@ -34,7 +36,7 @@ class Preview:
             return self._picture.copy()
 
     def close(self) -> None:
-        """Where no renderer has come, the thread still waits for one."""
+        """Stops listening. If no renderer has connected, the thread still waits for one."""
         try:
             socket.create_connection(self._place).close()
         except OSError:
@@ -48,10 +50,10 @@ class Preview:
                 while length := stream.read(4):
                     self._read(stream.read(struct.unpack("<I", length)[0] - 4))
         except (OSError, ValueError, IndexError, struct.error):
-            pass  # the renderer has been ended; its picture is what counts
+            pass  # The renderer has been ended, and only its picture file counts.
 
     def _read(self, packet: bytes) -> None:
-        at = packet.index(b"\0", 2) + 1  # after the kind, a flag and the title
+        at = packet.index(b"\0", 2) + 1  # These values follow the kind, a flag and the title.
         if packet[0] == _CREATE:
             width, height = struct.unpack_from("<2i", packet, at)
             with self._lock:

@@ -1,4 +1,5 @@
-"""Bump nodes, normal maps and displacement as one displacement shader, which has the pictures of heights and normals."""
+"""Turns Bump nodes, normal maps and displacement into one displacement shader, which reads pictures of heights and
+normals."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -11,7 +12,7 @@ from .nodes import source
 from .textures import Textures
 from .values import constant, gray, is_picture
 
-#: In RSL. Slopes are those between the vertices of the grid, so bumps are as fine as micropolygons.
+#: The shader in RSL. It takes slopes between the vertices of the grid, so bumps are as fine as micropolygons.
 SHADER = """displacement tomales_relief(
     string heightmap = "";  /* heights over the texture coordinates */
     float scale = 1;        /* length of height 1 */
@@ -53,7 +54,8 @@ SHADER = """displacement tomales_relief(
 
 
 def relief_of(material: bpy.types.Material, reader: Reader, textures: Textures, say: Callable[[str], None]) -> tuple[dict[str, Any] | None, float]:
-    """Parameters of the shader, None if the surface is smooth, and how far it moves the surface in the object's space."""
+    """Returns the parameters of the shader (None if the surface is smooth), and how far it moves the surface in the
+    object's space."""
     parameters: dict[str, Any] = {}
     bound = 0.0
     output = output_of(material)
@@ -92,7 +94,8 @@ def _add_normal(parameters: dict[str, Any], socket: bpy.types.NodeSocket, reader
 
 
 def _add_heights(parameters: dict[str, Any], socket: bpy.types.NodeSocket, scale: float, midlevel: float, reader: Reader, textures: Textures) -> float:
-    """The most that a height differs from the middle; 0 if all are equal, which leaves normals as they are."""
+    """Adds the picture of heights. Returns the greatest distance of a height from the middle. It is 0 if all heights
+    are equal, which leaves the normals as they are."""
     heights = reader.value(socket) if source(socket) else constant(midlevel)
     if not is_picture(heights) or scale == 0:
         return 0.0

@@ -1,4 +1,4 @@
-"""What the add-on keeps in scenes, materials and preferences."""
+"""The settings that the add-on keeps in scenes, materials and preferences."""
 from __future__ import annotations
 
 from typing import Any
@@ -34,7 +34,7 @@ class TomalesScene(bpy.types.PropertyGroup):
 
 
 class TomalesParameter(bpy.types.PropertyGroup):
-    """A parameter of a shader that takes the place of a material's nodes."""
+    """A parameter of the shader that replaces a material's nodes."""
 
     kind: StringProperty()
     is_set: BoolProperty(name="Set", description="Otherwise the shader's own default counts")
@@ -44,7 +44,7 @@ class TomalesParameter(bpy.types.PropertyGroup):
     description: StringProperty()
 
     def field(self) -> str:
-        """The property that holds the value."""
+        """Returns the name of the property that holds the value."""
         base = self.kind.split()[-1]
         return "number" if base == "float" else "text" if base == "string" else "color"
 

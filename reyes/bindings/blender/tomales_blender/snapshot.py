@@ -1,4 +1,4 @@
-"""What is in the scene at one time: every object and instance with its place, and the shapes that they show."""
+"""The contents of the scene at one time: every object and instance with its place, and the shapes that they show."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -14,16 +14,17 @@ from .panorama import Panorama
 
 Warn = Callable[[str], None]
 
-#: Of objects that have no surface. Others that are not known are named.
+#: Types of objects that have no surface. An unknown type that is not listed here is reported.
 _EMPTY = {"EMPTY", "ARMATURE", "LATTICE", "CAMERA", "LIGHT", "SPEAKER", "LIGHT_PROBE"}
 
 
 @dataclass
 class Shape:
-    """Geometry that instances share. It refers to nothing of Blender, which frees what it evaluates with the frame."""
+    """Geometry that instances share. It must not refer to Blender's evaluated data, which Blender frees with the
+    frame."""
 
     name: str
-    materials: list[str]  #: Their full names by slot; empty: none.
+    materials: list[str]  #: The full names of the materials by slot. An empty name means none.
     pieces: list[geometry.Piece]
 
 
@@ -32,7 +33,7 @@ class Placed:
     """One object, or one instance of it, in the world."""
 
     key: tuple
-    shape: str  #: Key of Snapshot.shapes.
+    shape: str  #: The key in Snapshot.shapes.
     name: str
     matrix: Matrix
     visibility: dict[str, bool]
@@ -42,24 +43,25 @@ class Placed:
 class Snapshot:
     camera: Matrix
     placed: dict[tuple, Placed] = field(default_factory=dict)
-    lights: dict[tuple, tuple[bpy.types.Object, Matrix]] = field(default_factory=dict)  #: Original objects.
+    lights: dict[tuple, tuple[bpy.types.Object, Matrix]] = field(default_factory=dict)  #: The original objects.
     shapes: dict[str, Shape] = field(default_factory=dict)
 
 
 class Cache:
-    """What no frame of an animation can change: shapes of objects without modifiers, shape keys and animation, and looks."""
+    """What stays the same in all frames of an animation: the looks, and the shapes of objects without modifiers,
+    shape keys and animation."""
 
     def __init__(self) -> None:
         self.shapes: dict[str, Shape] = {}
         self.archives: dict[tuple[str, int], str] = {}
-        self.looks: dict[str, Look] = {}  #: By the full name of the material.
-        self.panoramas: dict[str, Panorama] = {}  #: By the full name of the world.
+        self.looks: dict[str, Look] = {}  #: The keys are full names of materials.
+        self.panoramas: dict[str, Panorama] = {}  #: The keys are full names of worlds.
 
 
 def take(depsgraph: bpy.types.Depsgraph, camera: bpy.types.Object, subdivide: bool, cache: Cache, warn: Warn) -> Snapshot:
     out = Snapshot(camera.evaluated_get(depsgraph).matrix_world.copy())
     for instance in depsgraph.object_instances:
-        # An instance's own object is a copy that lasts as long as the step of this loop: it has no meshes and particles.
+        # The object of an instance is a copy that lasts for this step of the loop, and it has no meshes and particles.
         obj = instance.instance_object if instance.is_instance else instance.object
         key = (obj.name_full, instance.parent.name_full if instance.parent else "", tuple(instance.persistent_id) if instance.is_instance else ())
         if obj.type == "LIGHT":
@@ -114,7 +116,7 @@ def _surface(obj: bpy.types.Object, subdivide: bool, warn: Warn) -> Shape | None
 
 
 def ends_in_subdivision(obj: bpy.types.Object) -> bool:
-    """Whether the last modifier is a Catmull-Clark subdivision, which the engine switches off while it exports."""
+    """Tells whether the last modifier is a Catmull-Clark subdivision. The engine switches it off during the export."""
     last = obj.modifiers[-1] if obj.modifiers else None
     return bool(last and last.type == "SUBSURF" and last.subdivision_type == "CATMULL_CLARK" and last.render_levels > 0)
 

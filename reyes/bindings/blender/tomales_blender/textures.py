@@ -1,4 +1,5 @@
-"""Images of Blender as linear arrays, and arrays as files that the renderer reads: it takes colours as they are in the file."""
+"""Converts images of Blender to linear arrays, and arrays to files. The renderer takes the colours of these files as
+linear."""
 from __future__ import annotations
 
 import hashlib
@@ -12,11 +13,12 @@ from . import exr
 from .values import Value, is_gray
 
 FOLDER = "textures"
-_MOST = 65504  #: That half floats hold.
+_MOST = 65504  #: The largest value that a half float holds.
 
 
 class Textures:
-    """Writes pictures once into FOLDER below a folder. Names tell contents, so that frames and scenes share files."""
+    """Writes each picture once, into FOLDER below a folder. File names are hashes of the contents, so frames and
+    scenes share files."""
 
     def __init__(self, folder: Path, warn: Callable[[str], None]) -> None:
         self._folder = folder
@@ -24,7 +26,8 @@ class Textures:
         self._images: dict[str, numpy.ndarray | None] = {}
 
     def pixels(self, image: bpy.types.Image) -> numpy.ndarray | None:
-        """Linear, of shape (height, width, 4), the top row first; None if there are none, with a message."""
+        """Returns linear pixels of shape (height, width, 4) with the top row first. If there are none, it reports
+        this and returns None."""
         if image.name_full not in self._images:
             self._images[image.name_full] = self._read(image)
         return self._images[image.name_full]
@@ -46,7 +49,7 @@ class Textures:
         return out
 
     def file(self, picture: Value) -> str:
-        """The file of a picture, relative to the folder."""
+        """Returns the file of a picture, relative to the folder."""
         pixels = numpy.ascontiguousarray((picture[..., :1] if is_gray(picture) else picture).clip(max=_MOST), "f2")
         name = f"{FOLDER}/{hashlib.sha256(pixels.tobytes()).hexdigest()[:20]}.exr"
         path = self._folder / name
@@ -57,5 +60,5 @@ class Textures:
 
 
 def linear(srgb: numpy.ndarray) -> numpy.ndarray:
-    """IEC 61966-2-1."""
+    """Converts sRGB to linear values (IEC 61966-2-1)."""
     return numpy.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)

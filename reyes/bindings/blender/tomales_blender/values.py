@@ -1,7 +1,7 @@
 """Colours and numbers of materials: constants, or pictures over texture coordinates.
 
-A value is an array of linear colours, of shape (3,) where it is the same everywhere, else (height, width, 3) with the top row
-first. A number is a colour of three equal channels.
+A value is an array of linear colours. Its shape is (3,) if it is the same everywhere, else (height, width, 3) with the
+top row first. A number is a colour of three equal channels.
 """
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ import numpy
 
 Value = numpy.ndarray
 
-_LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722], "f4")  # Rec. 709, as Blender makes numbers of colours
+_LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722], "f4")  # These are the weights of Rec. 709, by which Blender turns colours into numbers.
 
 
 def constant(value: object) -> Value:
-    """Of a socket's default: a number, a colour or a vector."""
+    """Returns the value of a socket's default: a number, a colour or a vector."""
     if hasattr(value, "__len__"):
         return numpy.array(list(value)[:3], "f4")  # type: ignore[call-overload]
     return numpy.full(3, value, "f4")
 
 
 def gray(value: Value) -> Value:
-    """The number that Blender makes of a colour, in three channels."""
+    """Returns the number that Blender makes of a colour, in three channels."""
     if is_gray(value):
         return value
     return numpy.repeat((value @ _LUMINANCE)[..., None], 3, -1)
@@ -39,7 +39,7 @@ def mean(value: Value) -> list[float]:
 
 
 def matched(values: list[Value]) -> list[Value]:
-    """Pictures brought to the resolution of the largest."""
+    """Brings all pictures to the resolution of the largest."""
     sizes = [v.shape[:2] for v in values if is_picture(v)]
     if not sizes:
         return values
@@ -55,7 +55,7 @@ def resampled(picture: Value, height: int, width: int) -> Value:
 
 
 def looked_up(picture: Value, u: numpy.ndarray, v: numpy.ndarray) -> Value:
-    """Between pixels linearly, and periodic; v runs from the top row down."""
+    """Interpolates linearly between pixels. The picture repeats, and v runs from the top row down."""
     height, width = picture.shape[:2]
     x, y = u * width - 0.5, v * height - 0.5
     column, row = numpy.floor(x).astype(int), numpy.floor(y).astype(int)

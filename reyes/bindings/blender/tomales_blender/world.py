@@ -1,4 +1,4 @@
-"""Blender's world as a light, and as what the camera sees behind everything."""
+"""Blender's world as a light, and as a sphere that the camera sees behind everything."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -28,22 +28,22 @@ SKY_SHADER = """surface tomales_sky(color tint = 1; string map = "";)
 }
 """
 
-SKY_RADIUS_SHARE = 0.9  # of the far clipping distance
+SKY_RADIUS_SHARE = 0.9  # This is a share of the far clipping distance.
 
 
 @dataclass
 class Background:
-    """What the world's nodes show."""
+    """The sky that the world's nodes show."""
 
     tint: list[float]
     seen: str = ""  #: The file of a panorama, which the tint multiplies.
-    lights: str = ""  #: The same without the sun.
-    turned: Matrix = field(default_factory=lambda: Matrix.Identity(4))  #: The world's space from the panorama's.
+    lights: str = ""  #: The same panorama without the sun.
+    turned: Matrix = field(default_factory=lambda: Matrix.Identity(4))  #: The rotation from the panorama's space to the world's.
     sun: Sun | None = None
 
 
 def write_world(ri: tomales.Ri, world: bpy.types.World, textures: Textures, panorama_of: Callable[[bpy.types.World], Panorama], samples: int, warn: Warn) -> Sky | None:
-    """A sky as a light, and its sun as another; None if it is black."""
+    """Writes a sky as a light, and its sun as another. Returns None if the sky is black."""
     shown = _background(world, textures, panorama_of, lambda text: warn(f"world {world.name}: {text}"))
     if max(shown.tint) <= 0:
         return None
@@ -67,17 +67,17 @@ def write_world(ri: tomales.Ri, world: bpy.types.World, textures: Textures, pano
 
 @dataclass
 class Sky:
-    """What the camera sees of the world."""
+    """The sky that the camera sees."""
 
     parameters: dict[str, object]
-    turned: Matrix  #: The world's space from the panorama's.
+    turned: Matrix  #: The rotation from the panorama's space to the world's.
 
     def place(self, ri: tomales.Ri) -> None:
         ri.ConcatTransform(flat(self.turned))
-        ri.Scale(-1, 1, 1)  # longitudes run the other way round in Blender's panoramas
+        ri.Scale(-1, 1, 1)  # Longitudes run the other way round in Blender's panoramas.
 
     def write(self, ri: tomales.Ri, eye: Matrix, radius: float) -> None:
-        """A sphere around the camera, which nothing else sees."""
+        """Writes a sphere around the camera that only the camera sees."""
         ri.AttributeBegin()
         ri.Attribute("visibility", {"int camera": 1, "int diffuse": 0, "int specular": 0, "int transmission": 0})
         ri.ConcatTransform(flat(Matrix.Translation(eye.translation)))
@@ -106,7 +106,7 @@ def _background(world: bpy.types.World, textures: Textures, panorama_of: Callabl
 
 
 def _computed(world: bpy.types.World, node: bpy.types.Node, textures: Textures) -> Background:
-    """Of a Background node before a colour or one panorama. Raises Unsupported for all else."""
+    """Returns the sky of a Background node before a colour or one panorama. Raises Unsupported for all else."""
     if node.type != "BACKGROUND":
         raise Unsupported(node.name)
     graph = Graph(textures.pixels)
@@ -118,7 +118,8 @@ def _computed(world: bpy.types.World, node: bpy.types.Node, textures: Textures) 
 
 
 def rotation_of(node: bpy.types.Node) -> Matrix:
-    """Of a Mapping node before an Environment Texture, the other way round: it turns directions, not the sky."""
+    """Returns the inverse of the rotation of a Mapping node before an Environment Texture. The node turns
+    directions, and the inverse turns the sky."""
     output = source(node.inputs["Vector"])
     turned = output is not None and output.node.type == "MAPPING"
     matrix = output.node.inputs["Rotation"].default_value.to_matrix().to_4x4() if turned else Matrix.Identity(4)
@@ -126,6 +127,6 @@ def rotation_of(node: bpy.types.Node) -> Matrix:
 
 
 def write_shaders(folder: Path) -> None:
-    """The shaders that frames need, in RSL."""
+    """Writes the RSL shaders that frames need."""
     for name, text in (("tomales_sky", SKY_SHADER), ("tomales_relief", relief.SHADER)):
         (folder / f"{name}.sl").write_text(text)

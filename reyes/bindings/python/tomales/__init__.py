@@ -1,7 +1,7 @@
 """Tomales, a Reyes renderer, from Python.
 
-`Ri` describes scenes (as the module prman does for RenderMan), `render` and its kin run the renderer, `read` gives
-pictures as numpy arrays. docs/python.md of the source has examples.
+`Ri` describes scenes, as the module prman does for RenderMan. Functions such as `render` run the renderer. `read`
+returns pictures as numpy arrays. docs/python.md in the source tree has examples.
 """
 from . import tokens
 from .commands import CommandFailed, Result, chart, compare, gather, hide, info, options, photons, render, run, shade

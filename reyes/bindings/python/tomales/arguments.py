@@ -1,4 +1,4 @@
-"""Arguments of a call, in any of their usual spellings, as the arguments that a request has in RIB."""
+"""Turns the arguments of a call, in any of their usual spellings, into the arguments of a request in RIB."""
 from __future__ import annotations
 
 from typing import Any
@@ -8,14 +8,15 @@ from .requests import Signature
 
 
 class CallError(Exception):
-    """A call that cannot become a request, and why."""
+    """A call cannot become a request. The text of the exception says why."""
 
 
 def encoded(signature: Signature, arguments: list[Any], encoder: Encoder, color_samples: int = 3) -> tuple[list[bytes], dict[str, Any]]:
-    """Pieces of RIB for the positional arguments, and the parameters that follow them as tokens and values (as in C:
-    Surface("plastic", "Kd", 0.5)). Raises CallError.
+    """Returns pieces of RIB for the positional arguments, and the parameters that follow these as tokens and values (as
+    in C: Surface("plastic", "Kd", 0.5)). Raises CallError.
 
-    Fixed numbers of numbers may be bare or in lists, and lists may be nested: Rotate(30, 1, 0, 0), Rotate(30, [1, 0, 0]).
+    Where a request takes a fixed count of numbers, they may be bare or in lists, and lists may be nested: Rotate(30, 1,
+    0, 0), Rotate(30, [1, 0, 0]).
     """
     left = list(arguments)
     out: list[bytes] = []
@@ -51,7 +52,7 @@ def _one(letter: str, left: list[Any], encoder: Encoder, color_samples: int) -> 
         raise ValueError(f"one value is needed, not {len(values)}")
     value = values[0]
     if letter == "h" and str(value).isdigit():
-        value = int(value)  # the handles of RISpec 3.2
+        value = int(value)  # The handles of RISpec 3.2 are numbers.
     if isinstance(value, str):
         if letter in "fi":
             raise ValueError(f'a number is needed, not "{value}"')
@@ -64,7 +65,7 @@ def _one(letter: str, left: list[Any], encoder: Encoder, color_samples: int) -> 
 
 
 def _array(letter: str, left: list[Any]) -> Any:
-    """One sequence, or all values that are bare: MotionBegin(0, 1)."""
+    """Takes one sequence, or all values if they are bare, as in MotionBegin(0, 1)."""
     bare = [left.pop(0)]
     while isinstance(bare[0], (int, float)) and left and isinstance(left[0], (int, float)):
         bare.append(left.pop(0))
@@ -86,7 +87,7 @@ def _array(letter: str, left: list[Any]) -> Any:
 
 
 def _numbers(count: int, left: list[Any], encoder: Encoder, bracketed: bool = False) -> list[bytes]:
-    """In brackets where the caller gave them as one list, or `bracketed`."""
+    """Returns numbers in brackets if the caller gave them as one list, or if `bracketed`."""
     values: list[Any] = []
     bracketed = bracketed or (bool(left) and not isinstance(left[0], (int, float, str)) and len(flat(left[0])) == count > 1)
     while len(values) < count:

@@ -1,8 +1,8 @@
-"""The commands of the program tomales as functions.
+"""Offers the commands of the program tomales as functions.
 
-A keyword is an option of the command line: `shading_rate=4` is --shading-rate 4, `t=2` is -t 2, True is an option alone,
-and an option that may be given again takes a list. So there is no second list of options here: `tomales render --help`
-has them, and an option that does not exist raises CommandFailed with the program's own message.
+A keyword is an option of the command line. For example, `shading_rate=4` is --shading-rate 4 and `t=2` is -t 2. True
+stands for an option without a value, and an option that may be repeated takes a list. `tomales render --help` lists the
+options. An option that does not exist raises CommandFailed with the program's own message.
 """
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from . import program
 from .pictures import Picture, read
 
 Path = str | os.PathLike[str]
-#: A RIB file, several as one stream, or RIB itself as bytes.
+#: A scene is a RIB file, several files as one stream, or RIB itself as bytes.
 Scene = Path | Sequence[Path] | bytes
 
 _USAGE, _INCOMPLETE = 1, 3
-_PAIRS = {"format", "pixel-samples", "grid"}  # written NxM; other tuples have commas
+_PAIRS = {"format", "pixel-samples", "grid"}  # Their values are written NxM. Other tuples have commas.
 _SHORT = {"output": "-o", "threads": "-t", "quiet": "-q", "verbose": "-v"}
 
 
@@ -38,23 +38,23 @@ class CommandFailed(Exception):
 
 @dataclass
 class Result:
-    """What a command has left."""
+    """The result of a command."""
 
-    exit_code: int  #: 0, or 3 where something was reported as missing.
+    exit_code: int  #: It is 0, or 3 if the renderer reported something as missing.
     messages: list[str]  #: The lines of standard error.
-    output: str = ""  #: What it printed.
-    file: str | None = None  #: The option -o.
-    statistics: dict[str, Any] = field(default_factory=dict)  #: Of --stats.
+    output: str = ""  #: The text of standard output.
+    file: str | None = None  #: The file that the option -o named.
+    statistics: dict[str, Any] = field(default_factory=dict)  #: The statistics that --stats wrote.
 
     def picture(self) -> Picture:
-        """Raises OSError if no picture was asked for by `output`."""
+        """Returns the picture. Raises OSError if `output` asked for none."""
         if self.file is None:
             raise OSError("the picture has no name: give `output`, or read what the Displays of the scene wrote")
         return read(self.file)
 
 
 def options(**given: Any) -> list[str]:
-    """Keywords as options of the command line."""
+    """Returns keywords as options of the command line."""
     out: list[str] = []
     for key, value in given.items():
         name = key.replace("_", "-")
@@ -70,9 +70,9 @@ def options(**given: Any) -> list[str]:
 
 
 def run(command: str, *files: Scene, check: bool = True, **given: Any) -> Result:
-    """`tomales COMMAND OPTIONS FILES`. Bytes go to its standard input.
+    """Runs `tomales COMMAND OPTIONS FILES`. Bytes go to its standard input.
 
-    With `check` CommandFailed is raised for exit codes other than 0 and 3. Raises program.RendererNotFound.
+    With `check`, an exit code other than 0 and 3 raises CommandFailed. Raises program.RendererNotFound.
     """
     stdin = next((f for f in files if isinstance(f, bytes)), None)
     names = [os.fspath(f) for some in files for f in ([some] if isinstance(some, (str, os.PathLike)) else ["-"] if isinstance(some, bytes) else some)]
@@ -95,41 +95,42 @@ def _with_statistics(command: str, scene: Scene, output: Path | None, given: dic
 
 
 def render(scene: Scene, output: Path | None = None, **given: Any) -> Result:
-    """A picture of a scene: `render("ball.rib", "ball.exr", format=(320, 240), gi="none").picture()["rgb"]`."""
+    """Renders a picture: `render("ball.rib", "ball.exr", format=(320, 240), gi="none").picture()["rgb"]`."""
     return _with_statistics("render", scene, output, given)
 
 
 def hide(scene: Scene, output: Path, **given: Any) -> Result:
-    """A deep frame buffer: `hide("ball.rib", "ball.dfb")`."""
+    """Writes a deep frame buffer: `hide("ball.rib", "ball.dfb")`."""
     return _with_statistics("hide", scene, output, given)
 
 
 def gather(shot: Path, output: Path, **given: Any) -> Result:
-    """The irradiance cache of a deep frame buffer: `gather("ball.dfb", "ball.icf")`."""
+    """Writes the irradiance cache of a deep frame buffer: `gather("ball.dfb", "ball.icf")`."""
     return _with_statistics("gather", shot, output, given)
 
 
 def shade(shot: Path, output: Path | None = None, **given: Any) -> Result:
-    """The picture of a deep frame buffer: `shade("ball.dfb", "ball.exr", irradiance="ball.icf")`."""
+    """Shades a deep frame buffer: `shade("ball.dfb", "ball.exr", irradiance="ball.icf")`."""
     return _with_statistics("shade", shot, output, given)
 
 
 def photons(scene: Scene, output: Path, **given: Any) -> Result:
-    """Photon maps in a folder."""
+    """Writes photon maps into a folder."""
     return _with_statistics("photons", scene, output, given)
 
 
 def chart(scenes: Scene, output: Path, **given: Any) -> dict[str, Any]:
-    """A page of error against time for every method; returns its figures, which stand beside it as JSON."""
+    """Writes a page that plots error against time for every method. Returns its figures, which also stand beside it
+    as JSON."""
     run("chart", scenes, output=output, **given)
     return json.loads(pathlib.Path(output).with_suffix(".json").read_text())
 
 
 def info(file: Path) -> dict[str, Any]:
-    """What is in a file: a scene, a shot, a picture, a shader."""
+    """Returns what is in a file: a scene, a shot, a picture or a shader."""
     return json.loads(run("info", file, json=True).output)
 
 
 def compare(picture: Path, reference: Path, **given: Any) -> dict[str, Any]:
-    """How far a picture is from a reference."""
+    """Returns how far a picture is from a reference."""
     return json.loads(run("compare", picture, reference, json=True, **given).output)

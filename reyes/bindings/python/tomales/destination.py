@@ -1,4 +1,4 @@
-"""Where a stream of RIB goes: a file, standard output, or a program that reads it while it is written."""
+"""The places where a stream of RIB can go: a file, standard output, or a program that reads it while it is written."""
 from __future__ import annotations
 
 import gzip
@@ -16,22 +16,23 @@ from typing import IO, Protocol
 
 from . import program
 
-#: Gets detail and data of a procedural, and returns what relay.py passes on.
+#: A function that gets the detail and the data of a procedural, and returns what relay.py passes on.
 Answer = Callable[[float, str], bytes]
 
 
 class Destination(Protocol):
-    #: The command of RunProgram that asks for procedurals; None: there is nobody to ask later.
+    #: The command that RunProgram requests name, so that the renderer can ask. None means that nobody can be asked later.
     relay: str | None
-    takes_places: bool  #: Whether its messages name places that the stream tells (#line 12 "scene.py").
+    takes_places: bool  #: Whether the reader's messages name places that the stream tells (#line 12 "scene.py").
 
     def write(self, data: bytes) -> None: ...
     def close(self) -> int:
-        """Waits for whoever reads. Returns the exit code of that program, else 0."""
+        """Waits for the reader. Returns the exit code if that is a program, else 0."""
 
 
 def open_destination(name: object, answer: Answer, compress: bool) -> Destination:
-    """`name` is that of Ri.Begin. Raises OSError and program.RendererNotFound."""
+    """Opens the destination of a stream. `name` is the argument of Ri.Begin. Raises OSError and
+    program.RendererNotFound."""
     if hasattr(name, "write"):
         return File(name, compress, close=False)
     text = str(name)
@@ -84,7 +85,7 @@ class Piped:
         try:
             self._pipe.write(data)
         except BrokenPipeError:
-            pass  # It has ended, as its exit code will tell.
+            pass  # The program has ended. Its exit code will tell why.
 
     def close(self) -> int:
         try:
@@ -95,15 +96,15 @@ class Piped:
 
 
 class Renderer(Piped):
-    """tomales render, reading while the script goes on.
+    """The program tomales render, which reads while the script goes on.
 
-    Procedurals that are Python functions are called in the thread that writes: whenever the pipe is full, and while
-    close() waits. So a script needs no locks; it may be in the middle of any call of Ri when they run.
+    Procedurals that are Python functions are called in the thread that writes, whenever the pipe is full and while
+    close() waits. So a script needs no locks. These functions may run in the middle of any call of Ri.
     """
 
     takes_places = True
     _step_bytes = 1 << 16
-    _look_s = 0.05  #: How often close() looks whether the renderer has ended.
+    _look_s = 0.05  #: The time between two looks of close() at whether the renderer has ended.
 
     def __init__(self, options: list[str], answer: Answer) -> None:
         self._folder = pathlib.Path(tempfile.mkdtemp(prefix="tomales_"))
@@ -157,7 +158,7 @@ class Renderer(Piped):
         return code
 
     def _serve(self, patience_s: float | None) -> bool:
-        """Answers what has been asked. Whether the pipe takes more."""
+        """Answers the questions that have come. Returns whether the pipe takes more."""
         ready = [key.fileobj for key, _ in self._selector.select(patience_s)]
         for one in ready:
             if one is self._listener:

@@ -1,4 +1,4 @@
-"""Values of Python as tokens of RIB: as text, or encoded (RISpec 3.2, appendix C).
+"""Writes values of Python as tokens of RIB, as text or encoded (RISpec 3.2, appendix C).
 
 Both encoders have the same three functions. Each returns bytes.
 """
@@ -9,16 +9,17 @@ from array import array
 from collections.abc import Iterable
 from typing import Any, Protocol
 
-#: Numbers or strings, flat. What has a dtype is an array of numpy; this module works without numpy.
+#: A flat sequence of numbers or strings. Anything with a dtype counts as an array of numpy; this module works without
+#: numpy.
 Values = Any
 
 _PLAIN = {int, float, bool}
 
 
 def flat(value: Any) -> Values:
-    """One string or number, or any nesting of lists, tuples and arrays, as one flat sequence.
+    """Flattens one string or number, or any nesting of lists, tuples and arrays.
 
-    Raises TypeError for what is neither a number nor a string.
+    Raises TypeError for anything that is neither a number nor a string.
     """
     if hasattr(value, "dtype"):
         return value.ravel() if value.dtype.kind in "fiub" and value.ndim else flat(value.tolist())
@@ -44,7 +45,7 @@ def _plain(value: Any) -> str | int | float:
 
 
 def are_strings(values: Values) -> bool:
-    """Raises TypeError if strings and numbers are mixed."""
+    """Tells strings from numbers. Raises TypeError if they are mixed."""
     if hasattr(values, "dtype"):
         return False
     strings = sum(isinstance(v, str) for v in values) if str in set(map(type, values)) else 0
@@ -54,16 +55,16 @@ def are_strings(values: Values) -> bool:
 
 
 class Encoder(Protocol):
-    """Its tokens may follow each other, and the name of a request, as they are."""
+    """A way to write tokens. Its tokens may directly follow each other and the name of a request."""
 
     def number(self, value: float) -> bytes: ...
     def string(self, value: str) -> bytes: ...
     def array(self, values: Values) -> bytes:
-        """Numbers or strings, with brackets."""
+        """Writes numbers or strings in brackets."""
 
 
 class Ascii:
-    """Text. Numbers have nine digits, which is what a float needs to come back as it was."""
+    """Writes text. Nine digits are what a float needs to be read back unchanged."""
 
     _special = re.compile(r'[\\"\x00-\x1f]')
     _escapes = {"\\": r"\\", '"': r"\"", "\n": r"\n", "\r": r"\r", "\t": r"\t", "\b": r"\b", "\f": r"\f"}
@@ -85,7 +86,7 @@ class Ascii:
 
 
 class Binary:
-    """Encoded tokens: floats as arrays of four bytes each, integers as one token each."""
+    """Writes encoded tokens: floats as arrays of four bytes each, integers as one token each."""
 
     def number(self, value: float) -> bytes:
         if isinstance(value, int) and -(2**31) <= value < 2**31:
@@ -112,7 +113,7 @@ class Binary:
         return self._counted(0o310, len(values)) + _big_endian(array("f", values))
 
     def _integers(self, least: int, most: int, words: bytes) -> bytes:
-        """Pre: `words` are big-endian, of four bytes. All integers get the size that the largest of them needs."""
+        """Writes integers of the size that the largest one needs. `words` must be big-endian and of four bytes each."""
         size = self._size(least, most)
         out = bytearray(len(words) // 4 * (size + 1))
         out[0 :: size + 1] = bytes([0o200 + size - 1]) * (len(words) // 4)

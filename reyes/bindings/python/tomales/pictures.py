@@ -1,4 +1,4 @@
-"""Pictures as numpy arrays, read by OpenImageIO's own module (Debian: python3-openimageio)."""
+"""Reads pictures as numpy arrays, through OpenImageIO's own module (Debian: python3-openimageio)."""
 from __future__ import annotations
 
 import os
@@ -13,12 +13,13 @@ if TYPE_CHECKING:
 class Picture:
     """One part of a picture file."""
 
-    pixels: numpy.ndarray  #: float32 of shape (height, width, channels), the top row first; EXR is linear.
-    channels: tuple[str, ...]  #: Their names: R, G, B, A, z, albedo.R ...
-    attributes: dict[str, Any]  #: The header's.
+    pixels: numpy.ndarray  #: float32 of shape (height, width, channels), with the top row first. EXR files are linear.
+    channels: tuple[str, ...]  #: The channels' names, such as R, G, B, A, z, albedo.R.
+    attributes: dict[str, Any]  #: The attributes of the file's header.
 
     def __getitem__(self, name: str) -> numpy.ndarray:
-        """A channel of shape (height, width), or all whose names begin with "name." of shape (height, width, n).
+        """Returns a channel of shape (height, width), or of shape (height, width, n) all channels whose names begin
+        with "name.".
 
         "rgb" is R, G and B. Raises KeyError.
         """
@@ -33,7 +34,7 @@ class Picture:
 
 
 def read(path: str | os.PathLike[str], part: int = 0) -> Picture:
-    """The pixels of a file. Raises ImportError without OpenImageIO, OSError if it cannot be read."""
+    """Reads a file. Raises ImportError without OpenImageIO, and OSError if the file cannot be read."""
     try:
         import OpenImageIO as oiio
     except ImportError:

@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from .ri import Ri
 
 
-_CLOSED = b"\xff"  # RunProgram's protocol: RISpec 3.2, section 5.10
+_CLOSED = b"\xff"  # This is the protocol of RunProgram: RISpec 3.2, section 5.10.
 
 
 class Procedurals:
-    """Those of one stream. The renderer knows them by their numbers."""
+    """The procedurals of one stream. The renderer knows them by their numbers."""
 
     def __init__(self, ri: Ri) -> None:
         self._ri = ri
@@ -37,7 +37,8 @@ class Procedurals:
             free(data)
 
     def answer(self, detail: float, number: str) -> bytes:
-        """The RIB of a procedural, and the byte that closes it: not where its function raises, which becomes an error."""
+        """Returns the RIB of a procedural and its closing byte. If the function raises, the byte is missing, and the
+        renderer reports an error."""
         data, subdivide, _ = self._all[int(number)]
         stream = self._ri._stream
         assert stream is not None

@@ -1,4 +1,4 @@
-"""The renderer's program: where it is, and how it is run."""
+"""Finds and runs the renderer's program."""
 from __future__ import annotations
 
 import os
@@ -16,10 +16,8 @@ class RendererNotFound(Exception):
 
 
 def find() -> str:
-    """The path of the program tomales.
-
-    It is $TOMALES if that is set; else the one that was installed, or built, with this module; else one on $PATH.
-    Raises RendererNotFound.
+    """Returns the path of the program tomales. It is $TOMALES if that is set, else the program that was installed or
+    built with this module, else the first on $PATH. Raises RendererNotFound.
     """
     if named := os.environ.get("TOMALES"):
         return named
@@ -31,12 +29,12 @@ def find() -> str:
 
 
 def more_options() -> list[str]:
-    """Options of every rendering that is started from Python: those of Init and of $TOMALES_RENDER_OPTIONS."""
+    """Returns the options of every rendering that Python starts: those of Init and of $TOMALES_RENDER_OPTIONS."""
     return merged(_more + shlex.split(os.environ.get("TOMALES_RENDER_OPTIONS", "")))
 
 
 def merged(options: Iterable[str]) -> list[str]:
-    """Every option once, with its latest values: the command line takes none twice."""
+    """Keeps the latest values of every option, because the command line takes no option twice."""
     groups: dict[str, list[str]] = {}
     name = ""
     for word in options:
@@ -48,7 +46,7 @@ def merged(options: Iterable[str]) -> list[str]:
 
 
 def from_prman(arguments: Iterable[str]) -> list[str]:
-    """Options of PRMan's command line as those of tomales. What has no counterpart is left out."""
+    """Turns options of PRMan's command line into those of tomales. It leaves out options without a counterpart."""
     out: list[str] = []
     for argument in arguments:
         name, _, value = argument.partition(":")
@@ -62,10 +60,10 @@ def from_prman(arguments: Iterable[str]) -> list[str]:
 
 
 def Init(arguments: Iterable[str] = ()) -> None:
-    """Options for renderings that are started from now on, as PRMan's command line has them ("-progress", "-t:4")."""
+    """Sets options for later renderings, as PRMan's command line writes them ("-progress", "-t:4")."""
     _more[:] = from_prman(arguments)
 
 
 def Cleanup() -> None:
-    """Forgets what Init has set."""
+    """Forgets the options that Init has set."""
     _more.clear()

@@ -1,9 +1,9 @@
 """The program that the renderer starts for a procedural that is a Python function: `python3 relay.py SOCKET`.
 
-It speaks RunProgram's protocol (RISpec 3.2, section 5.10) with the renderer, and asks the script that described the
-scene, which waits at the other end of the socket: a line of detail and data there, eight bytes of length and as many
-bytes back. They are RIB and the protocol's closing byte 0377, without which the script has failed: then this program
-fails too. It is run as a file, so that it need not find the package.
+It speaks RunProgram's protocol (RISpec 3.2, section 5.10) with the renderer. For each question it asks the script that
+described the scene, which waits at the other end of the socket. It sends a line of detail and data, and receives eight
+bytes of length and as many bytes of answer. The answer is RIB and the protocol's closing byte 0377. If that byte is
+missing, the script has failed, and this program fails too. Python runs it as a file, so it need not find the package.
 """
 from __future__ import annotations
 

@@ -14,18 +14,19 @@ TABLE = pathlib.Path(__file__).with_name("requests.txt")
 class Signature:
     """One request. `arguments` has a letter for each positional argument:
 
-    f number, i integer, s string, h handle, F I S array of numbers, integers, strings, c color, 2 to 9 that many
-    numbers, m 16 numbers, b a basis (name or 16 numbers), ? what follows is given as a whole or left out.
+    f is a number, i an integer, s a string and h a handle; F, I and S are arrays of numbers, integers and strings; c is
+    a color, and a digit from 2 to 9 stands for so many numbers; m is 16 numbers and b a basis (a name or 16 numbers).
+    All arguments after a ? are given together or left out together.
     """
 
     name: str
     arguments: str
     takes_parameters: bool
-    support: str  #: What the renderer does with it: "works", "draws", "ignored" or "missing".
+    support: str  #: What the renderer does with the request: "works", "draws", "ignored" or "missing".
 
     @property
     def makes_handle(self) -> bool:
-        """Whether it defines what its handle names. Others refer to what has been defined."""
+        """Tells whether the request defines what its handle names. Other requests refer to what has been defined."""
         return "h" in self.arguments and self.name not in ("ObjectInstance", "Illuminate")
 
 

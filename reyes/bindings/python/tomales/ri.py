@@ -30,11 +30,11 @@ _HERE = os.path.dirname(os.path.abspath(__file__)) + os.sep
 
 
 class RiError(Exception):
-    """What went wrong where the error handler is "abort"."""
+    """An error was found while the error handler is "abort"."""
 
 
 def _place() -> Place:
-    """The line outside this package that is being run."""
+    """Returns the line outside of this package that is being run."""
     frame = sys._getframe(1)
     while frame.f_back and frame.f_code.co_filename.startswith(_HERE):
         frame = frame.f_back
@@ -42,26 +42,27 @@ def _place() -> Place:
 
 
 class Ri:
-    """One description of frames, or several at a time in contexts. Threads: one."""
+    """One description of frames, or several at a time in contexts. One thread at a time may use it."""
 
-    #: Whether RIB files, too, hold comments of the form #line 12 "scene.py" for messages of whoever renders them.
+    #: Whether RIB files, too, hold comments of the form #line 12 "scene.py". With them a renderer's messages name the
+    #: script.
     places: bool = False
 
     def __init__(self) -> None:
         self.LastError: str | None = None  #: The latest message.
-        self.ExitCode = 0  #: Of the program that the latest End has waited for.
+        self.ExitCode = 0  #: The exit code of the program that the latest End has waited for.
         self._stream: Stream | None = None
         self._form = Format()
         self._handler: Any = "print"
         self._procedurals = Procedurals(self)
 
-    # Streams and contexts
+    # Streams and contexts.
 
     def Begin(self, name: object = None) -> None:
         """Begins a stream of RIB in a new context.
 
-        `name` is a file's name; "-" for standard output; Ri.RENDER or None for the renderer itself;
-        "launch:PROGRAM? ARGUMENTS" for a program that reads RIB; or what has a method write for bytes.
+        `name` is a file's name, "-" for standard output, Ri.RENDER or None for the renderer itself, "launch:PROGRAM?
+        ARGUMENTS" for a program that reads RIB, or an object with a method write for bytes.
         """
         self._stream = Stream(self.RENDER if name is None else name, self._form, self.places, self._procedurals.answer)
         self._form = Format()
@@ -77,25 +78,25 @@ class Ri:
                 self._error("End", f"the renderer has ended with exit code {self.ExitCode}")
 
     def GetContext(self) -> object:
-        """The current context, for Context."""
+        """Returns the current context, which Context() takes."""
         return self._stream
 
     def Context(self, context: object) -> None:
-        """Goes on with the stream of another Begin."""
+        """Continues the stream of another Begin."""
         self._stream = context if isinstance(context, Stream) else None
 
-    # Calls that are no plain requests
+    # Calls that are more than a request.
 
     def Option(self, name: str, *arguments: Any, **parameters: Any) -> None:
-        """Option "rib" chooses "format" ("ascii", "binary"), "compression" ("none", "gzip") and "asciistyle"
-        ("indented") of this stream, or before Begin of the next one. All others go into the stream."""
+        """Writes an option. Option "rib" instead chooses "format" ("ascii", "binary"), "compression" ("none",
+        "gzip") and "asciistyle" ("indented") of this stream, or before Begin of the next one."""
         if name != "rib":
             self._call(SIGNATURES["Option"], (name, *arguments), parameters)
         else:
             (self._stream.form if self._stream else self._form).set(self._split(arguments, parameters)[1])
 
     def ArchiveRecord(self, kind: str, *parts: Any) -> None:
-        """Writes a comment ("comment", "structure"), or with "verbatim" anything, as it is."""
+        """Writes a comment (kinds "comment" and "structure"), or with "verbatim" any text unchanged."""
         written = "".join(map(str, parts))
         marks = {"comment": "# ", "structure": "##"}
         lines = written.splitlines() if kind in marks else [written.rstrip("\n")]
@@ -105,7 +106,8 @@ class Ri:
                 stream.line(None if kind in marks else _place(), text)
 
     def ReadArchive(self, name: str, *arguments: Any, **parameters: Any) -> None:
-        """`ReadArchive(name, parameters)`. A callback before the parameters is left out: the renderer reads."""
+        """Writes `ReadArchive(name, parameters)`. It leaves out a callback before the parameters, because the
+        renderer reads the archive."""
         rest = tuple(a for a in arguments if not callable(a))
         self._call(SIGNATURES["ReadArchive"], (name, *rest), parameters)
 
@@ -115,16 +117,16 @@ class Ri:
         return name
 
     def ErrorHandler(self, handler: Any) -> None:
-        """"print" (messages go to standard error), "ignore", "abort" (RiError is raised), or a function of code (1),
-        severity (2) and message."""
+        """Sets the handler: "print" (messages go to standard error), "ignore", "abort" (RiError is raised), or a
+        function of code (1), severity (2) and message."""
         self._handler = handler
         if isinstance(handler, str) and self._stream:
             self._call(SIGNATURES["ErrorHandler"], (handler,), {})
 
     def Procedural(self, data: Any, bound: Any, subdivide: Any, free: Callable[[Any], None] | None = None) -> None:
-        """`subdivide` is a function of data and detail, called when the renderer asks for what is within the bound; where
-        a file is written, it is called at once, with infinite detail. Or it is the name of one of the renderer's own
-        procedurals, and data is its strings."""
+        """Writes a procedural. `subdivide` is a function of data and detail, which is called when the renderer asks
+        for the contents of the bound. If the stream goes to a file, it is called at once, with infinite detail. Or
+        `subdivide` is the name of one of the renderer's own procedurals, and data holds its strings."""
         if callable(subdivide):
             self._procedurals.add(data, bound, subdivide, free)
         else:
@@ -132,13 +134,13 @@ class Ri:
             self._call(SIGNATURES["Procedural"], (kind, [data] if isinstance(data, str) else data, bound), {})
 
     def TransformPoints(self, source: str, destination: str, points: Any) -> None:
-        """Reported as an error: a stream of RIB answers nothing."""
+        """Reports an error, because a stream of RIB cannot return points."""
         self._error("TransformPoints", "a stream of RIB answers nothing")
 
-    # How every other request is written
+    # All other requests are written by the following functions.
 
     def _call(self, signature: Signature, arguments: tuple[Any, ...], parameters: dict[str, Any]) -> Any:
-        """Returns the handle, where the request makes one."""
+        """Writes a request. Returns its handle if it makes one."""
         stream = self._running(signature.name)
         if not stream:
             return None
@@ -154,14 +156,15 @@ class Ri:
 
     @staticmethod
     def _split(arguments: tuple[Any, ...], parameters: dict[str, Any]) -> tuple[list[Any], dict[str, Any]]:
-        """Positional arguments, and parameters of dictionaries and keywords. None stands for no parameters."""
+        """Separates positional arguments from the parameters of dictionaries and keywords. None stands for no
+        parameters."""
         positional = [a for a in arguments if a is not None and not isinstance(a, dict)]
         named = {key: value for a in arguments if isinstance(a, dict) for key, value in a.items()}
         return positional, {**named, **parameters}
 
     @staticmethod
     def _add_handle(signature: Signature, positional: list[Any], named: dict[str, Any], stream: Stream) -> Any:
-        """The handle is the argument in its place, or the parameter "__handleid", or a number that is free."""
+        """Returns the handle: the argument in its place, or the parameter "__handleid", or else a free number."""
         at = signature.arguments.index("h")
         key = next((k for k in named if str(k).split()[-1] == TOKENS["HANDLEID"]), None)
         given = named.pop(key) if key is not None else None
@@ -188,7 +191,7 @@ class Ri:
         elif self._handler == "print":
             print(self.LastError, file=sys.stderr)
 
-    # Constants, known to type checkers by name alone
+    # Type checkers know these constants by name alone.
     def __getattr__(self, name: str) -> Any:
         raise AttributeError(f"Ri has no {name}: neither a request of RIB nor a constant of the RenderMan Interface")
 

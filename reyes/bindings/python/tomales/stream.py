@@ -1,4 +1,4 @@
-"""One stream of RIB between Begin and End: requests become lines, and lines go to a destination."""
+"""One stream of RIB between Begin and End. It turns requests into lines, and sends the lines to a destination."""
 from __future__ import annotations
 
 from typing import Any
@@ -8,11 +8,11 @@ from .destination import Answer, Destination, open_destination
 from .encoding import Ascii, Binary, Encoder, flat
 from .requests import Signature
 
-Place = tuple[str, int]  #: File and line of a script.
+Place = tuple[str, int]  #: The file and the line of a script.
 
 
 class Format:
-    """What Option "rib" says of a stream."""
+    """The format that Option "rib" has set for a stream."""
 
     def __init__(self) -> None:
         self.encoder: Encoder = Ascii()
@@ -34,7 +34,8 @@ class Stream:
     _chunk_bytes = 1 << 16
 
     def __init__(self, name: object, form: Format, places: bool, answer: Answer) -> None:
-        """`places`: lines of the script go along, so that the renderer's messages name them. A renderer gets them anyway."""
+        """With `places` the stream tells the script's lines, so that the renderer's messages name them. A renderer
+        always gets them."""
         self.form = form
         self.color_samples = 3
         self.handles = 0
@@ -49,11 +50,11 @@ class Stream:
 
     @property
     def relay(self) -> str | None:
-        """The command of RunProgram that asks for procedurals; None: there is nobody who could ask."""
+        """Returns the command that RunProgram requests name. None means that the renderer cannot ask later."""
         return self._destination.relay
 
     def request(self, signature: Signature, arguments: list[Any], parameters: dict[str, Any], place: Place) -> None:
-        """Raises CallError; nothing is written then."""
+        """Writes a request. Raises CallError, and then writes nothing."""
         encoder = self.form.encoder
         parts, more = encoded(signature, arguments, encoder, self.color_samples)
         parameters = {**parameters, **more}
@@ -78,7 +79,7 @@ class Stream:
         return b"\t" * self._depth if self.form.indent and self._is_text else b""
 
     def line(self, place: Place | None, *parts: bytes) -> None:
-        """RIB as it is."""
+        """Writes RIB unchanged."""
         if self._places and place and place != self._place:
             self._put(f'#line {place[1]} "{place[0]}"\n'.encode(errors="surrogateescape"))
         if place:
@@ -91,7 +92,7 @@ class Stream:
             return self._answers[-1].append(data)
         if len(data) >= self._chunk_bytes:
             self._flush()
-            return self._destination.write(data)  # arrays are not copied again
+            return self._destination.write(data)  # Arrays must not be copied again.
         self._waiting.append(data)
         self._waiting_bytes += len(data)
         if self._waiting_bytes >= self._chunk_bytes:
@@ -102,7 +103,7 @@ class Stream:
         self._destination.write(b"".join(waiting))
 
     def begin_answer(self) -> None:
-        """What is written from now on is the answer to a question of the renderer's."""
+        """Makes the following requests the answer to a question of the renderer."""
         self._answers.append([])
         self._place = ("", 0)
 

@@ -1,7 +1,7 @@
 """Names and constants of the RenderMan Interface (RISpec 3.2, appendix A), as attributes of Ri and as RI_NAME here."""
 from __future__ import annotations
 
-#: The value of each of these is its name in small letters.
+#: The value of each constant is its name in small letters.
 _SMALL = """
     framebuffer file rgb rgba rgbz rgbaz perspective orthographic hidden paint raytrace constant smooth flatness fov
     ambientlight pointlight distantlight spotlight intensity lightcolor from to coneangle conedeltaangle
@@ -27,7 +27,7 @@ _OTHER: dict[str, str] = {
     "ProcDelayedReadArchive": "DelayedReadArchive", "ProcRunProgram": "RunProgram", "ProcDynamicLoad": "DynamicLoad",
     "Proc2DelayedReadArchive": "DelayedReadArchive2", "Proc2RunProgram": "RunProgram2",
     "Proc2DynamicLoad": "DynamicLoad2", "SimpleBound": "SimpleBound", "DSOBound": "DSOBound",
-    #: The interface of RenderMan whose calls these are; scripts ask for it to choose among spellings.
+    #: The interface of RenderMan that these calls follow. Scripts ask for it to choose among spellings.
     "PRMAN_VERSION_STR": "24.0",
 }  # fmt: skip
 
@@ -38,7 +38,7 @@ _NUMBERS: dict[str, float] = {
 
 
 def _constant(name: str) -> str:
-    """The usual spelling: all in capitals, but for those that are functions in C."""
+    """Returns the usual spelling. It is all in capitals, except for constants that are functions in C."""
     return name if name.endswith(("Basis", "Filter", "Bound")) or name.startswith(("Error", "Proc")) else name.upper()
 
 
