@@ -25,11 +25,19 @@ vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, fl
   return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
 }
 
-/// Finds the cache of a plan. Records that were given serve even where a light has since been edited to ask for others.
+/// Finds the cache of a plan. Records that were given serve even where a light has since been edited to ask for others:
+/// first those that were gathered with other rays alone.
 std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
   const auto prepared =
       std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
   if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
+  const auto withOtherRays = std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) {
+    GatherPlan same = c.plan;
+    same.gather.samples = plan.gather.samples;
+    same.gather.seed = plan.gather.seed;
+    return same == plan;
+  });
+  if (withOtherRays != state.caches.end()) return withOtherRays;
   return std::find_if(state.caches.begin(), state.caches.end(),
                       [](const PreparedCache& c) { return !c.plan.gather.asked; });
 }
