@@ -8,6 +8,7 @@
 #include "reyes/app/frame/limits.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
+#include "reyes/app/frame/shaded_motion.h"
 #include "reyes/app/frame/sky_portals.h"
 #include "reyes/app/frame/target.h"
 #include "reyes/app/frame/time_budget.h"
@@ -94,6 +95,7 @@ void FrameJob::prepareRays() {
   chooseDisplacements(scene_, camera_, *shading_, log_);
   rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
   findSkyPortals(scene_, camera_, *shading_, *rays_, log_);
+  warnOfShadedMotion(*rays_, camera_, *shading_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
 }
 
