@@ -8,8 +8,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kAcross = 8;    ///< Points along each edge of a patch, all in all over the patches of an object.
-constexpr float kOff = 0.1f;  ///< Mean relative error that is told.
+constexpr int kAcross = 8;     ///< Points along each edge of a patch, all in all over the patches of an object.
+constexpr float kOff = 0.15f;  ///< Mean relative error that is told.
 
 struct Place {
   vec3 P, N;
@@ -36,10 +36,11 @@ class MovedLight {
   }
 
  private:
-  /// Adds E/pi of a light that has a place or a direction. Those without do not change as things move.
+  /// Adds E/pi of a light that has a place or a direction, and what ambient light there is beside it.
   void add(int light, const std::vector<Place>& places, std::vector<float>& out) const {
     const LightKind kind = shading_.lightKind(light);
-    if (kind != LightKind::Point && kind != LightKind::Distant && kind != LightKind::Area) return;
+    const bool isAmbient = kind == LightKind::Ambient;
+    if (kind != LightKind::Point && kind != LightKind::Distant && kind != LightKind::Area && !isAmbient) return;
     LightProbe probe;
     for (const Place& p : places) {
       probe.P.push_back(p.P);
@@ -51,7 +52,7 @@ class MovedLight {
     shading_.probe(light, probe);
     for (size_t i = 0; i < places.size(); ++i) {
       const vec3 L = isArea ? probe.Pl[i] - places[i].P : probe.L[i];
-      const float cosine = std::max(0.0f, dot(places[i].N, normalizeOr(L, vec3(0))));
+      const float cosine = isAmbient ? 1 : std::max(0.0f, dot(places[i].N, normalizeOr(L, vec3(0))));
       if (density[i] > 0) out[i] += luminance(probe.Cl[i]) * cosine / (isArea ? kPi * density[i] : 1);
     }
   }

@@ -9,7 +9,7 @@ namespace tomales {
 class Log;
 
 /// Names the object on which direct light, without its shadows, changes most over the shutter, if the picture is off by
-/// more than a tenth there.
+/// more than 15 % there.
 void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const ShadingSystem& shading, Log& log);
 
 }  // namespace tomales
