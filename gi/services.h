@@ -163,6 +163,9 @@ class GiServices final : public ShadeServices {
                               const ShadeContext&, TmVec3 out) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                        const ShadeContext&, IndirectResult out) const override;
+  bool followsLobes() const override;
+  void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeWay& way, const IndirectQuery& query,
+                     const ShadeContext& context, TmVec3 out) const override;
 
  private:
   struct Impl;

@@ -56,6 +56,10 @@ class ShadingSystem {
   /// Binds the groups that Scene::add() has added. One thread at a time; others may use the older groups meanwhile.
   void bindNewGroups();
 
+  /// Uses the openings to the sky that have been put into the scene since it was bound. Call it before anything is
+  /// shaded.
+  void takeFoundPortals();
+
   /// Tells whether a group hides what is behind it (Os = 1 everywhere and a shader that keeps opacity).
   bool opaque(int group) const;
   /// Tells whether a shader of the group asks how values change over the surface (ShadePoints::hasSteps).

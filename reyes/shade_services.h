@@ -198,6 +198,12 @@ struct ShadowRays {
   const RayQuery* query = nullptr;  ///< The query of transmission() in a shader; null for lights.
 };
 
+/// One of several directions that points draw from their lobes: unit vectors.
+struct LobeWay {
+  TmConstVec3 L;
+  int number = 0, count = 1;
+};
+
 /// The interface to ray tracing and GI (implemented in gi/services, injected by reyes/app). Batched; obeys `active`.
 class ShadeServices {
  public:
@@ -245,6 +251,12 @@ class ShadeServices {
   /// Gives the indirect diffuse light on the side of N.
   virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const = 0;
+
+  /// Tells whether indirectAlong() knows an answer: paths find indirect light.
+  virtual bool followsLobes() const { return false; }
+  /// Gives the radiance that other surfaces send to each point along a unit direction, `way.number` of `way.count`.
+  virtual void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeWay& way,
+                             const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const;
 };
 
 /// A lookup of bake3d() or texture3d() in data that shaders keep. Arrays have one length, in the space of the file.

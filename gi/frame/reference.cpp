@@ -1,5 +1,5 @@
-// indirectDiffuse() by path tracing: for the reference, and for hits that no cache of their bounce serves; and paths
-// from hits where the atlas cannot tell.
+// Indirect light by path tracing: for the reference, and for hits that no cache of their bounce serves; and paths from
+// hits where the atlas cannot tell.
 #include "gi/frame/state.h"
 #include "gi/gather/layers.h"
 #include "gi/gather/polygon_start.h"
@@ -50,19 +50,23 @@ class PathBatches {
     const PolygonStart start = startOn(i, normal);
     for (int path = 0; path < paths; ++path) {
       const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
-      Ray ray;
-      places_.aim(*tools_.rays, i, rayTime(*tools_.rays, points_, i, path, paths, context_.seed), ray);
-      ray.tMax = maxDistance_;
-      if (!filter_.passesAll()) ray.filter = &filter_;
       const vec3 local = cosineHemisphere(sobol2(number, pointKey));
-      ray.origin += start.lift;
-      ray.direction = start.above(local.x * tangent + local.y * bitangent + local.z * normal);
-      ray.offset = slantedOffset(ray.offset, local.z);
-      layers_.add(static_cast<int>(sums_.size()), ray, {hashCombine(pointKey, number), 0});
-      sums_.push_back(&sum);
-      directions_.push_back(ray.direction);
-      if (sums_.size() == kRaysPerBatch) flush();
+      const float time = rayTime(*tools_.rays, points_, i, path, paths, context_.seed);
+      send(sum, start, {local.x * tangent + local.y * bitangent + local.z * normal, local.z, time},
+           hashCombine(pointKey, number));
     }
+  }
+
+  /// Adds one path that begins along a direction of the point's lobe.
+  void addAlong(PathSum& sum, const LobeWay& way) {
+    const int i = sum.point;
+    const vec3 normal = points_.facingNormal(i), direction{way.L.x[i], way.L.y[i], way.L.z[i]};
+    const SampleName name = points_.name(i);
+    const uint32_t number = name.sequence * static_cast<uint32_t>(way.count) + static_cast<uint32_t>(way.number);
+    send(sum, startOn(i, normal),
+         {direction, std::abs(dot(direction, normal)),
+          rayTime(*tools_.rays, points_, i, way.number, way.count, context_.seed)},
+         hashCombine(name.key ^ randomStream("refl"), context_.seed, static_cast<uint32_t>(context_.depth), number));
   }
 
   void flush() {
@@ -85,6 +89,24 @@ class PathBatches {
   }
 
  private:
+  struct Start {
+    vec3 direction;
+    float cosine, time;
+  };
+  void send(PathSum& sum, const PolygonStart& polygon, const Start& start, uint32_t name) {
+    Ray ray;
+    places_.aim(*tools_.rays, sum.point, start.time, ray);
+    ray.tMax = maxDistance_;
+    if (!filter_.passesAll()) ray.filter = &filter_;
+    ray.origin += polygon.lift;
+    ray.direction = polygon.above(start.direction);
+    ray.offset = slantedOffset(ray.offset, start.cosine);
+    layers_.add(static_cast<int>(sums_.size()), ray, {name, 0});
+    sums_.push_back(&sum);
+    directions_.push_back(ray.direction);
+    if (sums_.size() == kRaysPerBatch) flush();
+  }
+
   PolygonStart startOn(int i, const vec3& normal) const {
     Ray first;
     first.direction = normal;
@@ -108,6 +130,22 @@ class PathBatches {
 
 }  // namespace
 
+namespace {
+
+ShadeContext contextOfPaths(const GiState& state, const ShadeContext& context, int bounces) {
+  const int depth = context.depth + 1;
+  ShadeContext out{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
+  out.diffuseLimit =
+      bounces;  // the depth also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
+  out.highlights = true;
+  out.lights = context.lights;
+  if (!state.focusing.empty()) out.focusing = &state.focusing;
+  out.auditPaths = context.auditPaths;
+  return out;
+}
+
+}  // namespace
+
 void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                    const IndirectQuery& query, const ShadeContext& context, int bounces, const IndirectResult& out) {
   const RayTools* tools = state.rays();
@@ -118,15 +156,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
                     : context.auditPaths > 0
                         ? context.auditPaths
                         : shareOfBranch(planFor(state, points.group(), query).gather.samples, 1, context);
-  const int depth = context.depth + 1;
-  ShadeContext hitContext{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
-  hitContext.diffuseLimit =
-      bounces;  // the depth also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
-  hitContext.highlights = true;
-  hitContext.lights = context.lights;
-  if (!state.focusing.empty()) hitContext.focusing = &state.focusing;
-  hitContext.auditPaths = context.auditPaths;
-  PathBatches batches(state, *tools, points, N, query, hitContext);
+  PathBatches batches(state, *tools, points, N, query, contextOfPaths(state, context, bounces));
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) sums.push_back({i});
@@ -136,6 +166,19 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
     for (vec3& d : sum.directions) d = normalizeOr(d, unitNormal(points, N, sum.point));
     store(out, sum.point, sum.radiance / static_cast<float>(paths), sum.directions);
   }
+}
+
+void traceAlong(const GiState& state, const ShadePoints& points, const uint8_t* active, const LobeWay& way,
+                const IndirectQuery& query, const ShadeContext& context, int bounces, TmVec3 out) {
+  const RayTools* tools = state.rays();
+  if (!tools) return;
+  PathBatches batches(state, *tools, points, way.L, query, contextOfPaths(state, context, bounces));
+  std::vector<PathSum> sums;
+  for (int i = 0; i < points.count(); ++i)
+    if (active[i]) sums.push_back({i});
+  for (PathSum& sum : sums) batches.addAlong(sum, way);
+  batches.flush();
+  for (const PathSum& sum : sums) set(out, sum.point, sum.radiance);
 }
 
 void traceToStored(const GiState& state, const ShadePoints& points, const std::vector<int>& which, TmVec3 E) {

@@ -263,4 +263,14 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
   addMeasured(*impl_, points, active, N, bounces, context, out);
 }
 
+bool GiServices::followsLobes() const { return impl_->settings.mode == GiMode::Reference; }
+
+void GiServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeWay& way,
+                               const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const {
+  ShadeServices::indirectAlong(points, active, way, query, context, out);
+  const int bounces = bouncesFor(*impl_, query);
+  if (context.depth < bounces && !context.rehearsal)
+    traceAlong(*impl_, points, active, way, query, context, bounces, out);
+}
+
 }  // namespace tomales

@@ -189,6 +189,9 @@ void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* acti
                          const ShadeContext&, const IndirectResult& out);
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                    const ShadeContext&, int bounces, const IndirectResult& out);
+/// Implements ShadeServices::indirectAlong(); likewise.
+void traceAlong(const GiState&, const ShadePoints&, const uint8_t* active, const LobeWay&, const IndirectQuery&,
+                const ShadeContext&, int bounces, TmVec3 out);
 /// Sets E/pi at points where the atlas does not tell two sides of a wall apart: by a path from each, whose hits look up
 /// what is stored there.
 void traceToStored(const GiState&, const ShadePoints&, const std::vector<int>& which, TmVec3 E);

@@ -29,6 +29,8 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"envi", "directions of environment() by rays"},
     {"lobe", "directions of a reflection's lobe"},
     {"path", "directions of the reference path tracer"},
+    {"refl", "its paths along a reflection's lobe"},
+    {"goes", "which of those go on behind the first"},
     {"laye", "points that rays meet behind what they pass"},
     {"height", "which height in its cell each column of a hemisphere takes", 0x51633e2d},
     {"angle", "which angle in its cell each ring takes", 0x68bc21eb},

@@ -120,7 +120,7 @@ void warnOfArea(const BoundLight& light, const LightCall& call, const Scene& sce
 
 }  // namespace
 
-std::shared_ptr<const Sky> Binder::sky(const BoundShader& light, bool takesFoundPortals) {
+std::shared_ptr<Sky> Binder::sky(const BoundShader& light) {
   const std::string picture = light.text(TM_ROLE_SKY_MAP, ""), space = light.text(TM_ROLE_SKY_SPACE, "world");
   if (space != "world" && space != "shader")
     log_.report(Severity::Warning, "light-mapspace", light.where,
@@ -141,14 +141,19 @@ std::shared_ptr<const Sky> Binder::sky(const BoundShader& light, bool takesFound
       log_.report(Severity::Warning, "light-portal", light.where,
                   fmt::format("{}: the portal \"{}\" has no area; it is left out", light.user, name));
   }
-  mat4 currentFromOpening;
-  for (int k = 1; takesFoundPortals && scene_.cameraFromNamed(kSkyOpening + std::to_string(k), currentFromOpening); ++k)
-    portals.add(currentFromOpening);
   sky->setPortals(std::move(portals));
   return sky;
 }
 
-std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index) {
+Portals foundPortals(const Scene& scene) {
+  Portals out;
+  mat4 currentFromOpening;
+  for (int k = 1; scene.cameraFromNamed(kSkyOpening + std::to_string(k), currentFromOpening); ++k)
+    out.add(currentFromOpening);
+  return out;
+}
+
+std::unique_ptr<BoundLight> Binder::light(const LightCall& call, int index) {
   BoundShaderPtr bound =
       bind(&call.shader, call.shader.where, fmt::format("light \"{}\"", call.handle), TM_LIGHT, call.area);
   if (!bound) return nullptr;
@@ -165,7 +170,8 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);
   setShadows(*light, shadowMaps_, log_);
   warnOfArea(*light, call, scene_, log_);
-  if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound, light->takesFoundPortals());
+  if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound);
+  if (light->takesFoundPortals()) light->sky->setPortals(foundPortals(scene_));
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
     light->samples = countOf(*bound, TM_ROLE_SAMPLES, kLightSamples, 1, kMostLightSamples, log_);
   if (light->can(TM_INTERPOLATED)) light->maxVariation = light->can(TM_INTERPOLATED_UNASKED) ? 1 : -1;
@@ -179,7 +185,7 @@ std::unique_ptr<const BoundLight> Binder::light(const LightCall& call, int index
   return light;
 }
 
-std::unique_ptr<const BoundLight> Binder::addedIndirectLight(int index) {
+std::unique_ptr<BoundLight> Binder::addedIndirectLight(int index) {
   LightCall call;
   call.shader.name = "indirectlight";
   call.shader.where = scene_.where;

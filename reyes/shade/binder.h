@@ -50,9 +50,9 @@ class Binder {
   /// binding, one after the other, finds them done.
   void expect(const ShaderCall* call, TmKind kind);
   void prepare();
-  std::unique_ptr<const BoundLight> light(const LightCall& call, int index);
+  std::unique_ptr<BoundLight> light(const LightCall& call, int index);
   /// Makes the light that Options::wantsIndirect asks for.
-  std::unique_ptr<const BoundLight> addedIndirectLight(int index);
+  std::unique_ptr<BoundLight> addedIndirectLight(int index);
 
  private:
   BoundShaderPtr cached(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object, const std::string& user,
@@ -65,7 +65,7 @@ class Binder {
   BoundShaderPtr bind(const ShaderCall* call, const SourceLoc& where, const std::string& user, TmKind kind,
                       bool area = false);
   /// Returns the sky of a light with TM_LIGHT_SKY.
-  std::shared_ptr<const Sky> sky(const BoundShader& light, bool takesFoundPortals);
+  std::shared_ptr<Sky> sky(const BoundShader& light);
 
   const Scene& scene_;
   const Textures& textures_;
@@ -78,6 +78,9 @@ class Binder {
   std::set<const ShaderCall*> expected_;
   std::vector<ShaderName> names_;  ///< The shaders that are expected since the last prepare().
 };
+
+/// Returns the openings to the sky that have been found for a scene.
+Portals foundPortals(const Scene& scene);
 
 /// Connects lights that filter an indirect light to their sources. Those without a source cast no light.
 void connectFilters(BoundScene& scene);

@@ -142,6 +142,11 @@ void BoundScene::addIndirectLight() {
   added = lights.back().get();
 }
 
+void BoundScene::takeFoundPortals() {
+  for (const auto& light : lights)
+    if (light && light->takesFoundPortals()) light->sky->setPortals(foundPortals(scene));
+}
+
 void BoundScene::bindNewGroups() {
   for (size_t k = groups.size(); k < scene.groups.size(); ++k) {
     const Attributes& a = *scene.groups[k].attributes;

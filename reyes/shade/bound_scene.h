@@ -29,11 +29,11 @@ struct BoundLight {
   IndirectQuery query;                           ///< Set for TM_LIGHT_INDIRECT alone.
   IndirectRequest request;                       ///< The light's request to the whole frame.
   bool filters = false;                          ///< It brings the light of another indirect light.
-  float maxVariation = 0;          ///< TmOcclusion::maxVariation of its calls, if answers may be interpolated.
-  std::string group;               ///< The name of its group, or its handle if it names none.
-  std::string category;            ///< Names that commas separate; "indirect" if it is.
-  std::shared_ptr<const Sky> sky;  ///< Set for TM_LIGHT_SKY alone.
-  vec3 sourceTint{1.0f};           ///< The tint of the indirect light that this one filters.
+  float maxVariation = 0;    ///< TmOcclusion::maxVariation of its calls, if answers may be interpolated.
+  std::string group;         ///< The name of its group, or its handle if it names none.
+  std::string category;      ///< Names that commas separate; "indirect" if it is.
+  std::shared_ptr<Sky> sky;  ///< Set for TM_LIGHT_SKY alone.
+  vec3 sourceTint{1.0f};     ///< The tint of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
   /// Tells whether it is a sky that casts shadows and names no portals, though its shader knows some.
   bool takesFoundPortals() const {
@@ -77,6 +77,8 @@ struct BoundScene {
   ~BoundScene();
   /// Binds the groups of the scene that are not bound yet.
   void bindNewGroups();
+  /// Gives the openings that the scene has by now to all skies that take them.
+  void takeFoundPortals();
 
   const Scene& scene;
   Log& log;
@@ -90,7 +92,7 @@ struct BoundScene {
   Textures textures;
   ShadowMaps shadowMaps;
   Skies skies;
-  std::vector<std::unique_ptr<const BoundLight>> lights;  ///< Indexed as Scene::lights; null for an unknown shader.
+  std::vector<std::unique_ptr<BoundLight>> lights;  ///< Indexed as Scene::lights; null for an unknown shader.
   const BoundLight* added = nullptr;  ///< The light that Options::wantsIndirect has added for all objects; else null.
   BoundLight stored;                  ///< Stands for all lights where Illumination is not Lights.
   StableVector<BoundGroup> groups;    ///< Indexed as Scene::groups.

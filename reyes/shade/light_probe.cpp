@@ -13,6 +13,12 @@ bool ShadeServices::interpolatedHemisphere(const ShadePoints&, const uint8_t*, T
   return false;
 }
 
+void ShadeServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeWay&,
+                                  const IndirectQuery&, const ShadeContext&, TmVec3 out) const {
+  for (int i = 0; i < points.count(); ++i)
+    if (active[i]) set(out, i, vec3(0.0f));
+}
+
 bool ShadeServices::volumesBefore(const ShadePoints&, const ShadeContext&, ShadedPoints&) const { return false; }
 
 void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {

@@ -5,6 +5,7 @@
 #include "reyes/base/rng.h"
 #include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
+#include "reyes/shade/light_runs.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/services.h"
 
@@ -64,6 +65,13 @@ struct BlinnLobe {
     const float cosine = dot(N, H), along = dot(V, H);
     return cosine > 0 && along > 0 ? (exponent + 1) / (2 * kPi) * std::pow(cosine, exponent) / (4 * along) : 0.0f;
   }
+  /// Returns what the radiance of a drawn direction counts: 1 / pi times the lobe over the density.
+  float weight(const vec3& L) const { return 8 * dot(V, normalizeOr(L + V, N)) / (exponent + 1); }
+  /// Returns the share of even light that the lobe sends to the viewer: 1 / pi times its integral over the hemisphere,
+  /// which is exact for `facing`, the cosine between N and V, of 1, and off by a few per cent from 0.3 on.
+  float reflectance(float facing) const {
+    return 8 * facing / (exponent + 2) * (1 - std::exp2(-0.5f * (exponent + 2)));
+  }
 };
 
 class Highlight {
@@ -77,6 +85,7 @@ class Highlight {
         exponent_(batch.arena.floats(g->count)),
         share_(batch.arena.floats(g->count)),
         side_(batch.arena.bytes(g->count)),
+        follows_(batch.points && batch.scene.services && batch.scene.services->followsLobes()),
         drawn_(lobeSamples(&batch, g)) {
     forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
     normalizeAll(g->count, N, N_);
@@ -85,8 +94,12 @@ class Highlight {
   }
 
   void addLightSamples() {
-    for (LightSample& sample : batch_.lights.samples(batch_)) {
+    for (LightSample& sample : batch_.lights.samples(batch_, !follows_)) {
       if (sample.light->nonspecular) continue;
+      if (sample.light->can(TM_LIGHT_INDIRECT)) {
+        if (!follows_) addIndirectSample(sample);
+        continue;
+      }
       chooseSide(view(sample.L));
       batch_.lights.shadow(batch_, sample, side_);
       setShares(g_->count, side_, sample.nonspecular, share_);
@@ -110,7 +123,69 @@ class Highlight {
     }
   }
 
+  /// Sends paths along the lobe, if indirect light comes by paths.
+  void addPaths() {
+    if (!follows_ || !batch_.context.indirect || !batch_.group.group->attributes->indirect.receive) return;
+    for (const BoundLight* light : batch_.group.lights)
+      if (light->can(TM_LIGHT_INDIRECT) && !light->nonspecular && applies(*light, batch_) &&
+          (!batch_.lights.group() || light->group == *batch_.lights.group()))
+        addPathsOf(*light);
+  }
+
  private:
+  /// Indirect light comes from all around. Its samples tell E/pi and the mean direction alone, so it is taken for light
+  /// that changes evenly from one side of the hemisphere to the other, with that mean; the lobe sees what it sends from
+  /// the mirrored direction.
+  void addIndirectSample(const LightSample& sample) {
+    constexpr float kTilt = 8.0f / 3;  // A radiance of 1 + b.w has a mean direction that leans by 3 b / 8.
+    constexpr float kSteepest = 2;
+    chooseSide(view(sample.L));
+    setShares(g_->count, side_, sample.nonspecular, share_);
+    forActive(g_, [&](int i) {
+      const vec3 N = get(N_, i), V = get(V_, i), L = get(sample.L, i);
+      const float cosine = dot(N, L), facing = dot(N, V);
+      if (!(share_[i] > 0 && cosine > 0 && facing > 0)) return;
+      vec3 slope = kTilt * (L / cosine - N);
+      slope *= std::min(1.0f, kSteepest / std::max(glm::length(slope), 1e-6f));
+      const float seen = std::max(0.0f, 1 + dot(slope, 2 * facing * N - V));
+      set(out_, i, get(out_, i) + share_[i] * cosine * seen * lobeAt(i).reflectance(facing) * get(sample.Cl, i));
+    });
+  }
+
+  void addPathsOf(const BoundLight& light) {
+    const int n = g_->count, count = std::max(1, batch_.context.lightSamples);
+    float *xi0 = batch_.arena.floats(n), *xi1 = batch_.arena.floats(n), *weight = batch_.arena.floats(n);
+    const TmVec3 L = batch_.arena.vec3(n), color = batch_.arena.vec3(n);
+    const vec3 scale = batch_.group.group->attributes->indirect.gain * light.sourceTint *
+                       light.bound->number(TM_ROLE_SCALE, 1) * light.bound->color(TM_ROLE_TINT, vec3(1.0f));
+    for (int k = 0; k < count; ++k) {
+      stratified(&batch_, g_, k, count, xi0, xi1);
+      forActive(g_, [&](int i) { set(L, i, lobeAt(i).draw({xi0[i], xi1[i]})); });
+      chooseSide(view(L));
+      forActive(g_, [&](int i) {
+        weight[i] = side_[i] ? lobeAt(i).weight(get(L, i)) / static_cast<float>(count) : 0.0f;
+        if (batch_.context.depth > 0) weight[i] *= goesOn(i, weight[i]);
+        side_[i] = weight[i] > 0;
+      });
+      batch_.scene.services->indirectAlong(*batch_.points, side_, {view(L), k, count}, light.query, batch_.context,
+                                           color);
+      forActive(g_, [&](int i) {
+        if (side_[i]) set(out_, i, get(out_, i) + weight[i] * scale * get(color, i));
+      });
+    }
+  }
+
+  /// Where paths have branched already, chance ends most of those along lobes; the others count for more. Returns that
+  /// factor, or 0.
+  float goesOn(int i, float weight) const {
+    constexpr float kMostBranches = 0.25f;  // a path of a dozen bounces would have thousands
+    const float chance = std::min(0.5f * weight, kMostBranches);
+    const SampleName name = batch_.points->name(i);
+    const uint32_t draw = hashCombine(name.key ^ randomStream("goes"), name.sequence, batch_.context.seed,
+                                      static_cast<uint32_t>(batch_.context.depth));
+    return chance > 0 && unitFloat(draw) < chance ? 1 / chance : 0.0f;
+  }
+
   BlinnLobe lobeAt(int i) const { return {get(N_, i), get(V_, i), exponent_[i]}; }
   /// Light counts on the side of N alone: illuminance(P, N, PI/2).
   void chooseSide(TmConstVec3 L) { markFacing(g_->count, g_->active, view(N_), L, side_); }
@@ -129,6 +204,7 @@ class Highlight {
   TmVec3 N_, V_;  ///< Unit vectors.
   float *exponent_, *share_;
   uint8_t* side_;
+  const bool follows_;  ///< Indirect light comes by paths along the lobe.
   const int drawn_;
 };
 
@@ -140,6 +216,7 @@ void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const f
   Highlight highlight(batch, primary.grid(), N, V, roughness, out);
   highlight.addLightSamples();
   highlight.addLobeSamples();
+  highlight.addPaths();
   primary.spread(out);
 }
 

@@ -37,6 +37,8 @@ void ShadingSystem::setClouds(CloudServices* clouds) { impl_->clouds = clouds; }
 
 void ShadingSystem::bindNewGroups() { impl_->bindNewGroups(); }
 
+void ShadingSystem::takeFoundPortals() { impl_->takeFoundPortals(); }
+
 bool ShadingSystem::opaque(int group) const {
   const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
   return g.group->attributes->opacity == vec3(1.0f) && g.OsOffset < 0 && g.surface->can(TM_KEEPS_OPACITY);

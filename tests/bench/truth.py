@@ -48,13 +48,15 @@ class Bench:
             (self.folder / f"{name}.sl").write_text(text)
 
     def truth(self, name, share=1):
-        """Returns block means and their standard errors, which are kept beside the scene."""
+        """Returns block means and their standard errors: by a formula, or by the tracer, which are kept beside the scene."""
         make, paths = SCENES[name]
-        scene, paths = make(), int(paths * share)
+        scene = make()
         (self.folder / f"{name}.rib").write_text(scene.text())
-        if scene.known is not None:
-            return [(scene.known, 0)] * (scene.size // BLOCK) ** 2
-        lines, kept = "\n".join(scene.lines), self.folder / f"{name}.{paths}.truth"
+        return [(scene.known, 0)] * (scene.size // BLOCK) ** 2 if scene.known is not None else self.traced(name, int(paths * share))
+
+    def traced(self, name, paths):
+        """The same by the tracer alone, kept beside the scene."""
+        lines, kept = "\n".join(SCENES[name][0]().lines), self.folder / f"{name}.{paths}.truth"
         if not kept.exists():
             out = subprocess.run([self.tracer, str(paths), self.threads], input=lines, capture_output=True, text=True, check=True).stdout
             kept.write_text(out)

@@ -58,6 +58,11 @@ class Scene:
         """Names an opening through which the tracer sends a fifth of its paths."""
         self.line("aim", *a, *b, *c, *d)
 
+    def gloss(self, Ks, roughness):
+        """What follows is plastic of this highlight; Ks 0: matte."""
+        self.line("gloss", Ks, 8 / roughness)
+        self.rib.append(f'Surface "plastic" "Kd" [1] "Ks" [{Ks}] "roughness" [{roughness}]\n')
+
     def point(self, at, intensity):
         self.line("point", *at, intensity)
         self.lights += f'LightSource "pointlight" "bulb" "from" [{at[0]} {at[1]} {at[2]}] "intensity" [{intensity}]\n'
@@ -106,7 +111,8 @@ def slot():
     for low, high in ((0, 1), (1.02, 2.5)):
         s.box((-0.05, low, -1.5), (0.05, high, 1.5), name="wall")
     s.point((-1.5, 2, 0), 8)
-    s.aim((0, 1, -1.5), (0, 1.02, -1.5), (0, 1.02, 1.5), (0, 1, 1.5))
+    for x in (0, 0.05):  # its middle, and its end, through which all light of the dark room comes
+        s.aim((x, 1, -1.5), (x, 1.02, -1.5), (x, 1.02, 1.5), (x, 1, 1.5))
     return s
 
 
@@ -161,6 +167,34 @@ def displaced_ball(amplitude=0.08, waves=9, more=""):
     return s
 
 
+def plastic():
+    """A shining ball on a shining floor: the ball's lower half sees the lamp's highlight on the floor, and all of it mirrors the sky."""
+    s = Scene((0, 1.2, -3), pitch=12, fov=50)
+    s.lamp((-1.6, 3, -1.5), (0.8, 0, 0), (0, 0, 0.8), 20)
+    s.gloss(0.5, 0.3)
+    s.quad((-8, 0, -8), (-8, 0, 8), (8, 0, 8), (8, 0, -8), 0.3, "floor")
+    s.ball((0, 0.8, 0), 0.7, 0.3, name="ball")
+    s.sky(0.1)
+    return s
+
+
+def mirrored(surroundings, Ks=0.5, roughness=0.3):
+    """A shining floor from far above, in light of radiance 1: the highlight is 1 / pi times the integral of (N.H)^e over the hemisphere."""
+    e = 8 / roughness
+    s = Scene((0, 100, 0), pitch=90, fov=1, known=0.3 + Ks * 8 / (e + 2) * (1 - 2 ** (-(e + 2) / 2)))
+    s.gloss(Ks, roughness)
+    s.quad((-400, 0, -400), (-400, 0, 400), (400, 0, 400), (400, 0, -400), 0.3, "floor")
+    surroundings(s)
+    return s
+
+
+def dome(s):
+    """Surfaces that shine by themselves all around: no lamp, but indirect light."""
+    s.line("gloss", 0, 1)
+    s.line("sphere", 0, 0, 0, 600, 0, 1, 0, 0, 0)
+    s.rib.append('AttributeBegin\nColor 1 1 1\nSurface "constant"\nSphere 600 -600 600 360\nAttributeEnd\n')
+
+
 def sphere(albedo, known, surface, more=()):
     """Looks about in a sphere of radius 1. A closed, even sphere has one radiance everywhere."""
     s = Scene((0.2, 0.1, -0.3), fov=90, known=known, more=more)
@@ -191,7 +225,8 @@ BUMPS = """displacement bumps(float amplitude = 0.1; float waves = 9) {
 """
 SHADERS = {"bumps": BUMPS, "glow": GLOW}
 # Each scene has a function that makes it and the tracer's paths a pixel, with which the truth is better than what it judges.
-SCENES = {"thin_walls": (thin_walls, 512), "niche": (niche, 2048), "slot": (slot, 1024), "window": (window, 512), "contact": (contact, 512),
-          "moving_ball": (moving_ball, 512), "displaced_ball": (displaced_ball, 512)}
+SCENES = {"thin_walls": (thin_walls, 512), "niche": (niche, 2048), "slot": (slot, 2048), "window": (window, 512), "contact": (contact, 512),
+          "moving_ball": (moving_ball, 512), "displaced_ball": (displaced_ball, 512), "plastic": (plastic, 512), "mirrored_sky": (lambda: mirrored(lambda s: s.sky(1)), 0),
+          "mirrored_dome": (lambda: mirrored(dome), 0)}
 SCENES |= {f"glowing_{int(100 * a)}": (lambda a=a: glowing(a), 0) for a in (0.5, 0.8, 0.9)}
 SCENES |= {f"white_{int(100 * a)}": (lambda a=a: white(a), 0) for a in (0.8, 0.9)}

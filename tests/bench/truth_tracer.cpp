@@ -1,6 +1,6 @@
-// A path tracer that judges the renderer: it shares no line with it. Surfaces are matte and things may move; every path
-// goes on until chance ends it. It reads a scene from standard input and prints the mean of each block of 8 x 8 pixels
-// and the standard error of that mean: `truth_tracer PATHS_A_PIXEL THREADS`.
+// A path tracer that judges the renderer: it shares no line with it. Surfaces are matte or plastic, and things may
+// move; every path goes on until chance ends it. It reads a scene from standard input and prints the mean of each block
+// of 8 x 8 pixels and the standard error of that mean: `truth_tracer PATHS_A_PIXEL THREADS`.
 //
 //   size WIDTH HEIGHT
 //   camera FOV EYE RIGHT UP FORWARD         the angle of the shorter side, in degrees
@@ -10,6 +10,7 @@
 //   quad A B C D ALBEDO EMITTED             a parallelogram, likewise with (d - a)
 //   lamp A B C D ALBEDO EMITTED             the same, and it is sampled
 //   sphere X Y Z RADIUS ALBEDO EMITTED V    moves by V over the shutter, and shines from both sides
+//   gloss KS EXPONENT                       what follows shines too: KS (N.H)^EXPONENT, without a cosine
 //   aim A B C D                             a fifth of all paths go on through such places; this changes noise alone
 #include <algorithm>
 #include <array>
@@ -37,7 +38,8 @@ double at(const V& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 std::istream& operator>>(std::istream& in, V& v) { return in >> v.x >> v.y >> v.z; }
 
 constexpr double kFar = 1e30, kNear = 1e-7, kPi = 3.14159265358979323846;
-constexpr double kAimed = 0.2;  // more would make the other paths rare, and each of them count for much
+constexpr double kMirrored = 0.3;  // the share of paths that go on by the highlight, where there is one
+constexpr double kAimed = 0.2;     // more would make the other paths rare, and each of them count for much
 
 // PCG of 32 bits (O'Neill 2014).
 struct Random {
@@ -58,6 +60,7 @@ struct Shape {
   bool ball = false, whole = false, lamp = false;  // whole: a parallelogram, else a triangle; lamp: it is sampled
   V a, u, v;                                       // corner and edges; a ball: centre, and v is its motion
   double radius = 0, albedo = 0, emitted = 0;
+  double gloss = 0, exponent = 1;
   V normal(const V& P, double time) const { return ball ? unit(P - (a + v * time)) : unit(cross(u, v)); }
   double meet(const V& O, const V& D, double time) const {
     if (ball) {
@@ -162,14 +165,15 @@ struct Scene {
     return !any;
   }
 
-  // What lamps and the point light send to P, times the cosine and over pi.
-  double direct(const V& P, const V& N, double time, Random& r) const {
+  // What lamps and the point light send to P and on towards -D.
+  double direct(const Shape& s, const V& P, const V& N, const V& D, double time, Random& r) const {
     double sum = 0;
     const auto add = [&](const V& Q, double light) {  // light: over pi, as it would come to a surface that faces it
       const V L = unit(Q - P);
       const double cosine = dot(N, L);
       if (!(cosine > 0 && light > 0 && sees(P, Q, time))) return;
-      sum += light * cosine;
+      sum += light * s.albedo * cosine;
+      if (s.gloss > 0) sum += light * s.gloss * std::pow(std::max(0.0, dot(N, unit(L - D))), s.exponent);
     };
     if (power > 0) add(point, power / dot(point - P, point - P));
     for (const Shape& lamp : lamps) {
@@ -179,6 +183,18 @@ struct Scene {
     }
     return sum;
   }
+
+  // A direction of the highlight to go on in, and how much light of there counts: H is drawn as the lobe is.
+  static V mirrored(const Shape& s, const V& N, const V& D, Random& r, double& counts) {
+    const double phi = 2 * kPi * r.next(), c = std::pow(1 - r.next(), 1 / (s.exponent + 1)), q = std::sqrt(1 - c * c);
+    const V T = tangent(N), H = T * (q * std::cos(phi)) + cross(N, T) * (q * std::sin(phi)) + N * c;
+    const double along = -dot(D, H);
+    const V L = D + H * (2 * along);
+    counts = along > 0 && dot(N, L) > 0 ? s.gloss * 8 * along / (s.exponent + 1) : 0;
+    return L;
+  }
+
+  static V tangent(const V& N) { return unit(cross(std::abs(N.x) < 0.7 ? V{1, 0, 0} : V{0, 1, 0}, N)); }
 
   // A direction to go on in, and how much light of there counts.
   V onward(const V& P, const V& N, Random& r, double& counts) const {
@@ -190,7 +206,7 @@ struct Scene {
       D = unit(a.a + a.u * r.next() + a.v * r.next() - P);
     } else {
       const double phi = 2 * kPi * r.next(), s2 = r.next(), s1 = std::sqrt(s2);
-      const V T = unit(cross(std::abs(N.x) < 0.7 ? V{1, 0, 0} : V{0, 1, 0}, N)), B = cross(N, T);
+      const V T = tangent(N), B = cross(N, T);
       D = unit(T * (s1 * std::cos(phi)) + B * (s1 * std::sin(phi)) + N * std::sqrt(1 - s2));
     }
     const double cosine = std::max(0.0, dot(N, D)) / kPi;
@@ -215,12 +231,19 @@ struct Scene {
       if ((front || s->ball) && (depth == 0 || !s->lamp)) sum += weight * s->emitted;
       if (!front) N = N * -1;
       O = P + N * 1e-6;
-      sum += weight * s->albedo * direct(O, N, time, r);
+      sum += weight * direct(*s, O, N, D, time, r);
       const double goesOn = depth < 3 ? 1 : s->albedo;
-      weight *= s->albedo / goesOn;
-      if (weight == 0 || r.next() >= goesOn) return sum;
+      weight /= goesOn;
+      if (r.next() >= goesOn) return sum;
+      const double shines = s->gloss > 0 ? kMirrored : 0;
       double counts;
-      D = onward(O, N, r, counts);
+      if (r.next() < shines) {
+        D = mirrored(*s, N, D, r, counts);
+        weight /= shines;
+      } else {
+        D = onward(O, N, r, counts);
+        weight *= s->albedo / (1 - shines);
+      }
       weight *= counts;
       if (weight == 0) return sum;
     }
@@ -235,8 +258,11 @@ struct Scene {
 
 void read(Scene& scene) {
   std::string word;
+  double gloss = 0, exponent = 1;
   while (std::cin >> word) {
     Shape s;
+    s.gloss = gloss;
+    s.exponent = exponent;
     V b, c;
     if (word == "size")
       std::cin >> scene.width >> scene.height;
@@ -246,6 +272,8 @@ void read(Scene& scene) {
       std::cin >> scene.sky;
     else if (word == "point")
       std::cin >> scene.point >> scene.power;
+    else if (word == "gloss")
+      std::cin >> gloss >> exponent;
     else if (word == "sphere") {
       std::cin >> s.a >> s.radius >> s.albedo >> s.emitted >> s.v;
       s.ball = true;

@@ -91,11 +91,11 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
   measureAreaLights(scene, *shaders, log);
   displaceByMovingSurfaces(scene, *shaders, log);
-  findSkyPortals(scene, *shaders, settings, log);
   scene.open([](const Attributes& a) { return a.visibility.photon; });
   ShadingSystem shading(scene, *shaders, nullptr, log, stats);
   const Camera camera(scene.options);
   const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);
+  findSkyPortals(scene, camera, shading, rays, log);
   const StageTimer timer(stats, "photons");
   AtlasSettings atlas = atlasSettings(settings, scene, shading);
   atlas.photons.direct = true;  // so that the maps, which somebody may look into, have all light

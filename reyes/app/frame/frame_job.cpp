@@ -8,6 +8,7 @@
 #include "reyes/app/frame/limits.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
+#include "reyes/app/frame/shaded_motion.h"
 #include "reyes/app/frame/sky_portals.h"
 #include "reyes/app/frame/target.h"
 #include "reyes/app/frame/time_budget.h"
@@ -36,7 +37,6 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
       clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
   measureAreaLights(scene, shaders, log);
   if (!settings.draft) displaceByMovingSurfaces(scene, shaders, log);
-  if (!settings.namesOnly) findSkyPortals(scene, shaders, settings, log);
   shading_ = std::make_unique<ShadingSystem>(scene, shaders, nullptr, log, stats);
   shading_->setClouds(&clouds_);
   method_ = &methodOf(settings, *shading_);
@@ -94,7 +94,27 @@ void FrameJob::prepareRays() {
   meter_.begin("ray geometry");
   chooseDisplacements(scene_, camera_, *shading_, log_);
   rays_ = std::make_unique<RayScene>(scene_, camera_, *shading_, raySettings(settings_, scene_.options), stats_, log_);
+  findSkyPortals(scene_, camera_, *shading_, *rays_, log_);
+  warnOfShadedMotion(*rays_, camera_, *shading_, log_);
   prepareRays([tools = RayTools{rays_.get(), shading_.get()}] { return &tools; });
+}
+
+void FrameJob::findOpenings() {
+  if (!wantsSkyPortals(scene_, *shading_)) return;
+  const StageTimer timer(stats_, "raytrace");
+  // Whoever shades the shot chooses displacements again.
+  std::vector<std::shared_ptr<const Attributes>> ofGroups, ofObjects;
+  for (const ShadeGroup& g : scene_.groups) ofGroups.push_back(g.attributes);
+  for (const Object& o : scene_.objects) ofObjects.push_back(o.attributes);
+  Log unheard(Log::Verbosity::Quiet);
+  chooseDisplacements(scene_, camera_, *shading_, unheard);
+  {
+    Stats ofSearch;
+    const RayScene rays(scene_, camera_, *shading_, raySettings(settings_, scene_.options), ofSearch, unheard);
+    findSkyPortals(scene_, camera_, *shading_, rays, log_);
+  }
+  for (size_t g = 0; g < ofGroups.size(); ++g) scene_.groups[g].attributes = ofGroups[g];
+  for (size_t o = 0; o < ofObjects.size(); ++o) scene_.objects[o].attributes = ofObjects[o];
 }
 
 void FrameJob::prepareRays(RaySource rays) {

@@ -45,6 +45,8 @@ class FrameJob {
   /// Reads all procedurals that are still closed. Call it before `hide` if tiles leave that one by one, to a file or
   /// shaded: it then finds no new shade groups on its way.
   void openAll();
+  /// Finds the openings to the sky for a scene that goes to a file, by rays that are dropped. Call it after openAll().
+  void findOpenings();
   /// Hides all buckets and opens what it needs. Returns false if it was interrupted.
   bool hide(const DeepFrame& layout, const TileSink& sink);
   /// Keeps what is gathered and shaded for a later run, and takes over what an interrupted one has. Call it before rays

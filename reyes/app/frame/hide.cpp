@@ -49,6 +49,7 @@ void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSe
   FrameJob job(scene, shaders, settings, stats, log);
   job.setShares(1, 1);
   job.openAll();
+  job.findOpenings();
   Shot shot{
       scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
       world};

@@ -1,16 +1,19 @@
 // Finds the openings through which a sky lights a closed room, and keeps them in the scene, so that a shot and its
 // frames have the same ones.
 #pragma once
-#include "reyes/app/settings.h"
+#include "raytrace/trace.h"
+#include "reyes/camera.h"
 #include "reyes/scene.h"
 
 namespace tomales {
 
 class Log;
-class ShaderRegistry;
 
-/// Adds spaces named kSkyOpening and a number. Scenes without geometry keep those that they have. Call it before a
-/// ShadingSystem is made of the scene. Opens procedurals if there is a sky that needs openings.
-void findSkyPortals(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Log& log);
+/// Tells whether a light of the scene takes openings, and the scene wants them found.
+bool wantsSkyPortals(const Scene& scene, const ShadingSystem& shading);
+
+/// Replaces the scene's spaces named kSkyOpening and a number by what the rays find, and tells the lights, where
+/// wantsSkyPortals(). Call it before anything is shaded.
+void findSkyPortals(Scene& scene, const Camera& camera, ShadingSystem& shading, const RayScene& rays, Log& log);
 
 }  // namespace tomales

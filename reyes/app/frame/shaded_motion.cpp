@@ -1,0 +1,132 @@
+#include "reyes/app/frame/shaded_motion.h"
+
+#include <fmt/format.h>
+
+#include "raytrace/emitters.h"
+#include "reyes/dice.h"
+
+namespace tomales {
+namespace {
+
+constexpr int kAcross = 8;     ///< Points along each edge of a patch, all in all over the patches of an object.
+constexpr float kOff = 0.15f;  ///< Mean relative error that is told.
+
+struct Place {
+  vec3 P, N;
+};
+
+class MovedLight {
+ public:
+  MovedLight(const RayScene& rays, const ShadingSystem& shading) : rays_(rays), shading_(shading) {}
+
+  /// Returns by how much the light at both ends of the way differs, as a share of its mean; half of it is what the
+  /// picture is off on the average, because it shows the first.
+  float change(const std::vector<Place>& first, const std::vector<Place>& last) const {
+    std::vector<float> a(first.size(), 0), b(first.size(), 0);
+    for (size_t l = 0; l < rays_.scene().lights.size(); ++l) {
+      add(static_cast<int>(l), first, a);
+      add(static_cast<int>(l), last, b);
+    }
+    float differs = 0, sum = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+      differs += std::abs(a[i] - b[i]);
+      sum += 0.5f * (a[i] + b[i]);
+    }
+    return sum > 0 ? differs / sum : 0;
+  }
+
+ private:
+  /// Adds E/pi of a light that has a place or a direction, and what ambient light there is beside it.
+  void add(int light, const std::vector<Place>& places, std::vector<float>& out) const {
+    const LightKind kind = shading_.lightKind(light);
+    const bool isAmbient = kind == LightKind::Ambient;
+    if (kind != LightKind::Point && kind != LightKind::Distant && kind != LightKind::Area && !isAmbient) return;
+    LightProbe probe;
+    for (const Place& p : places) {
+      probe.P.push_back(p.P);
+      probe.N.push_back(p.N);
+    }
+    std::vector<float> density(places.size(), 1);
+    const bool isArea = kind == LightKind::Area;
+    if (isArea && !onEmitter(light, probe, density)) return;
+    shading_.probe(light, probe);
+    for (size_t i = 0; i < places.size(); ++i) {
+      const vec3 L = isArea ? probe.Pl[i] - places[i].P : probe.L[i];
+      const float cosine = isAmbient ? 1 : std::max(0.0f, dot(places[i].N, normalizeOr(L, vec3(0))));
+      if (density[i] > 0) out[i] += luminance(probe.Cl[i]) * cosine / (isArea ? kPi * density[i] : 1);
+    }
+  }
+
+  /// Gives each place a point in the middle of an emitter, and its density over solid angle.
+  bool onEmitter(int light, LightProbe& probe, std::vector<float>& density) const {
+    const size_t n = probe.P.size();
+    std::vector<float> from[3], P[3], N[3], middle(n, 0.5f), met(n);
+    for (int k = 0; k < 3; ++k) {
+      for (const vec3& p : probe.P) from[k].push_back(p[k]);
+      P[k].resize(n);
+      N[k].resize(n);
+    }
+    const EmitterPoints points{
+        {P[0].data(), P[1].data(), P[2].data()}, {N[0].data(), N[1].data(), N[2].data()}, density.data(), met.data()};
+    if (!rays_.emitters().sampleFrom(light, static_cast<int>(n), {from[0].data(), from[1].data(), from[2].data()},
+                                     middle.data(), middle.data(), points))
+      return false;
+    for (size_t i = 0; i < n; ++i) {
+      probe.Pl.emplace_back(P[0][i], P[1][i], P[2][i]);
+      probe.Nl.emplace_back(N[0][i], N[1][i], N[2][i]);
+    }
+    return true;
+  }
+
+  const RayScene& rays_;
+  const ShadingSystem& shading_;
+};
+
+/// Returns points of an object that face the eye when the shutter opens.
+std::vector<Place> placesOn(const Scene& scene, int object) {
+  std::vector<Place> out;
+  const auto patches = static_cast<uint32_t>(scene.objects[static_cast<size_t>(object)].shape().patchCount());
+  const uint32_t stride = std::max(1u, patches / (kAcross * kAcross)),
+                 across = patches < kAcross ? kAcross : 1u;  // few patches are large ones
+  for (uint32_t patch = 0; patch < patches; patch += stride)
+    for (uint32_t k = 0; k < across * across; ++k) {
+      const auto at = [&](uint32_t i) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(across); };
+      const TrueSurface s = surfaceAt(scene, object, patch, at(k % across), at(k / across));
+      if (dot(s.normal, s.P) < 0) out.push_back({s.P, glm::normalize(s.normal)});
+    }
+  return out;
+}
+
+}  // namespace
+
+void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const ShadingSystem& shading, Log& log) {
+  const Scene& scene = rays.scene();
+  const MovedLight light(rays, shading);
+  float most = 2 * kOff;
+  const Object* worst = nullptr;
+  vec3 where(0);
+  for (const ShadeGroup& g : scene.groups) {
+    if (!scene.shutterIsOpen() || !g.currentFromOpen.moving() || g.exampleObject < 0 ||
+        !g.attributes->visibility.camera)
+      continue;
+    const std::vector<Place> first = placesOn(scene, g.exampleObject);
+    const mat4 moved = g.currentFromOpen.at(scene.options.shutterClose);
+    std::vector<Place> last;
+    for (const Place& p : first)
+      last.push_back({transformPoint(moved, p.P), normalizeOr(glm::transpose(glm::inverse(mat3(moved))) * p.N, p.N)});
+    const float change = light.change(first, last);
+    if (!(change > most)) continue;
+    most = change;
+    worst = &scene.objects[static_cast<size_t>(g.exampleObject)];
+    where = first.front().P;
+  }
+  if (!worst) return;
+  const vec2 pixel = camera.seeable(where) ? camera.raster(where) : vec2(0);
+  log.report(Severity::Warning, "motion-light", worst->where,
+             fmt::format("{}: light on it changes by {:.0f} % as it moves, and all of its blur, which begins at pixel "
+                         "{:.0f},{:.0f}, has that of shutter open; parts are off by half as much: shorten Shutter, or "
+                         "render parts of it and average the pictures",
+                         objectName(*worst), 100 * most, pixel.x, pixel.y));
+}
+
+}  // namespace tomales

@@ -1,0 +1,26 @@
+"""What moves through changing light is named with its place; what moves in even light, or stands still, is not."""
+import re
+
+from program import Suite
+
+t = Suite()
+
+
+def said(motion, light):
+    t.write("ball.rib", f"""Format 32 32 1 PixelSamples 2 2 Projection "perspective" "fov" [40] Shutter 0 1 Display "ball.exr" "openexr" "rgb" WorldBegin
+Attribute "light" "shadows" "on" {light}
+AttributeBegin Attribute "identifier" "name" ["ball"] MotionBegin [0 1] Translate -0.6 0 4 Translate {motion} 0 4 MotionEnd
+Surface "matte" Sphere 0.4 -0.4 0.4 360 AttributeEnd
+WorldEnd
+""")
+    return t.run("ball.rib", "-o", "ball.exr").stderr
+
+
+LAMP = 'LightSource "pointlight" "bulb" "from" [0.6 0.5 3] "intensity" [4]'
+SUN = 'LightSource "distantlight" "sun" "from" [1 1 -1] "to" [0 0 0] "intensity" [1]'
+near = said(0.6, LAMP)
+t.expect(re.search(r'"ball": light on it changes by \d+ % as it moves.*at pixel \d+,\d+.*\[motion-light\]', near) is not None, f"a ball that comes to a lamp: {near}")
+t.expect("motion-light" not in said(-0.6, LAMP), "a ball that stands still")
+t.expect("motion-light" not in said(-0.55, LAMP), "a ball that hardly moves")
+t.expect("motion-light" not in said(0.6, SUN), "a ball in the sun")
+t.finish()
