@@ -1,8 +1,8 @@
-"""What the scripts of finished pictures share: the head of their RIB, objects with names, and a few shapes.
+"""Holds what the scripts of finished pictures share: the head of their RIB, objects with names, and a few shapes.
 
-A script that lies in a folder beside this file finds it by
+A script that lies in a folder beside this file finds it with
     sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-Requests go to standard output.
+The functions that make a head or a part print requests. The others return them.
 """
 import math
 
@@ -12,12 +12,12 @@ def numbers(values, form=".4g"):
 
 
 def flat(points):
-    """The coordinates of points, one after the other."""
+    """Returns the coordinates of points, one after the other."""
     return [c for point in points for c in point]
 
 
 def head(name, about, fov, *requests, size=(1600, 900), samples=4, rate=1, imager="print"):
-    """A picture as linear EXR and as PNG to look at; requests are further options and the camera."""
+    """Prints the options of a picture, which becomes a linear EXR and a PNG. The requests are further options and the camera."""
     print(f'''##RenderMan RIB-Structure 1.1
 # {about}. make_{name}.py has written this file; README.md tells about it.
 version 3.04
@@ -34,7 +34,7 @@ Display "+{name}.png" "png" "rgb" "string transfer" ["sRGB"]''')
 
 
 def part(name, *requests):
-    """An object with a name; requests are its attributes and geometry."""
+    """Prints an object with a name. The requests are its attributes and geometry."""
     print(f'  AttributeBegin\n    Attribute "identifier" "string name" ["{name}"]')
     for request in requests:
         print("    " + request)
@@ -53,14 +53,14 @@ def box(*sides):
 
 
 def soft(*sides, hard=2.0):
-    """A box with rounded edges; the less hard, the fuller."""
+    """Returns a box with rounded edges. A smaller `hard` makes them rounder."""
     rings = "0 1 3 2 0  4 6 7 5 4  0 4  1 5  3 7  2 6"
     return (f'SubdivisionMesh "catmull-clark" [4 4 4 4 4 4] [{FACES}] ["crease" "crease" "crease" "crease" "crease" "crease"] '
             f'[5 1 5 1 2 1 2 1 2 1 2 1] [{rings}] [{numbers([hard] * 6)}] "P" [{numbers(flat(corners(*sides)))}]')
 
 
 def rounded(profile, steps=6):
-    """The profile as a Catmull-Rom curve through its points."""
+    """Returns the points of a Catmull-Rom curve through the points of a profile."""
     points = [profile[0], *profile, profile[-1]]
     curve = []
     for a, b, c, d in zip(points, points[1:], points[2:], points[3:]):
@@ -72,9 +72,9 @@ def rounded(profile, steps=6):
 
 
 def lathe(profile, around=12):
-    """A bicubic B-spline through rings of control points; profile is (radius, height) from below to above. The first and the last point
-    count three times, so that the surface ends there. Corners are points that stand twice. The radii of control points are a
-    little larger than those of the curve that they bend."""
+    """Returns a surface of revolution as a bicubic B-spline. The profile is a list of (radius, height) from the bottom to the top. Its first
+    and its last point count three times, so that the surface ends there. A point that stands twice makes a corner. The control points
+    lie a little outside the circle that they bend, so they get larger radii."""
     rings = [profile[0]] * 2 + list(profile) + [profile[-1]] * 2
     swell = 3 / (2 + math.cos(2 * math.pi / around))
     points = [c for r, y in rings for k in range(around)

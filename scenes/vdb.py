@@ -1,14 +1,15 @@
-"""Writes a grid of numbers as an OpenVDB file (version 224 of the format, nothing compressed), without the library.
+"""Writes a grid of numbers as an OpenVDB file without the OpenVDB library. It writes version 224 of the format, uncompressed.
 
     write(path, name, side, value, size=0.1, low=(0, 0, 0), kind="float")
 
-The lattice has side x side x side points, `size` apart, of which the first lies at `low`; value(x, y, z) is asked for each, by its
-whole numbers. `side` is at most 4096. With kind="double" it holds doubles, which tests want.
+The lattice has side x side x side points at a distance of `size`. The first one lies at `low`. value(x, y, z) is called for each point with
+its whole numbers from 0. `side` is at most 4096. With kind="double" the grid holds doubles, which some tests need.
 """
 import struct
 
-LEAF, INNER, OUTER = 8, 16, 32  # points of a leaf, leaves of a node, nodes of the next, along each axis
-UNCOMPRESSED = b"\x06"  # all values follow, active or not
+# Along each axis, a leaf has 8 points, an inner node has 16 leaves, and an outer node has 32 inner nodes.
+LEAF, INNER, OUTER = 8, 16, 32
+UNCOMPRESSED = b"\x06"  # This byte says that all values follow, active or not.
 
 
 def text(s):
@@ -24,14 +25,14 @@ def mask(bits, count):
 
 
 def inside(point, unit, across):
-    """The number of a child among those of its node: `unit` points wide, `across` of them along each axis, z fastest."""
+    """Returns the number of a child in its node. Children are `unit` points wide, `across` of them lie along each axis, and z varies fastest."""
     x, y, z = (c // unit % across for c in point)
     return (x * across + y) * across + z
 
 
 def write(path, name, side, value, size=0.1, low=(0, 0, 0), kind="float"):
     form = {"float": "f", "double": "d"}[kind]
-    leaves = {}  # by origin, in the order of the nodes that hold them
+    leaves = {}  # The key is the origin of the leaf.
     for origin in ((x, y, z) for x in range(0, side, LEAF) for y in range(0, side, LEAF) for z in range(0, side, LEAF)):
         points = [(origin[0] + x, origin[1] + y, origin[2] + z) for x in range(LEAF) for y in range(LEAF) for z in range(LEAF)]
         values = [value(*p) if max(p) < side else 0.0 for p in points]

@@ -1,6 +1,8 @@
-"""Writes city.rib and what it reads: a street of houses, cars and trees of NURBS and subdivision surfaces, displaced, painted with textures,
-lit by the sun alone; a photon map for every house, car and tree and for the ground, as in "An Irradiance Atlas for Global Illumination in
-Complex Production Scenes" (2004), section 5. The same files every time.
+"""Writes city.rib and the files that it reads: a street that the sun alone lights.
+
+Its houses, cars and trees are NURBS and subdivision surfaces with displacement and textures. Every house, car and tree has a photon map
+of its own, and so have the ground and the pavements, as in "An Irradiance Atlas for Global Illumination in Complex Production Scenes"
+(2004), section 5. The files are the same every time.
 """
 import argparse
 import math
@@ -11,8 +13,10 @@ import zlib
 
 HOUSES, CARS, TREES = 20, 12, 12
 TEXTURE_SIZE = 64
-SHADING_RATE = 0.04  # All primitives dice to 212 million triangles; rays see as many polygons as at rate 1 and half the tessellation.
-STREET, PAVEMENT, LENGTH = 10.0, 3.0, 90.0  # metres: width, width of each side, length
+# At this shading rate, all primitives dice to 212 million triangles. Rays meet as many polygons as at rate 1 and half the tessellation.
+SHADING_RATE = 0.04
+# These are the width of the street, the width of each pavement, and the length of both, in metres.
+STREET, PAVEMENT, LENGTH = 10.0, 3.0, 90.0
 
 PANEL_KNOTS = "[0 0 0 0 1 1 1 1]"
 SHEET_FACES = "[4 4 4 4] [0 1 4 3  1 2 5 4  3 4 7 6  4 5 8 7]"
@@ -26,7 +30,7 @@ def numbers(values):
 
 
 def panel(corner, u, v, bulge):
-    """A bicubic patch over a parallelogram whose middle stands out along u x v."""
+    """Returns a bicubic patch over a parallelogram. Its middle stands out along u x v."""
     n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
     length = math.sqrt(sum(c * c for c in n)) or 1
     points = []
@@ -38,7 +42,7 @@ def panel(corner, u, v, bulge):
 
 
 def tube(base, top, wide, narrow, bend=0.0):
-    """A closed cubic NURBS tube around a line, as a branch or a post."""
+    """Returns a closed cubic NURBS tube around a line, for a branch or a post."""
     axis = [t - b for t, b in zip(top, base)]
     side = (1, 0, 0) if abs(axis[0]) < 0.6 * math.hypot(*axis) else (0, 0, 1)
     p = (axis[1] * side[2] - axis[2] * side[1], axis[2] * side[0] - axis[0] * side[2], axis[0] * side[1] - axis[1] * side[0])
@@ -60,7 +64,7 @@ def box(lo, hi):
 
 
 def leaves(rng, centre, size):
-    """A bent sheet of four faces."""
+    """Returns a bent sheet of four faces, which stands for leaves."""
     a, b = rng.uniform(0, 2 * math.pi), rng.uniform(-0.6, 0.6)
     u = (size * math.cos(a), size * b, size * math.sin(a))
     v = (-size * math.sin(a) * 0.7, size * rng.uniform(-0.3, 0.5), size * math.cos(a) * 0.7)
@@ -93,7 +97,7 @@ class City:
                 f'Displacement "noisybump" "float Km" {bump} "float frequency" {frequency} "float octaves" 3\n')
 
     def group(self, name, parts):
-        """`parts`: of state and geometry. One archive, one photon map."""
+        """Writes an archive with `parts`, which are attributes and geometry. Each archive has one photon map."""
         self.groups += 1
         self.primitives += sum(p.startswith(("NuPatch", "Subdivision")) for p in parts)
         (self.folder / f"{name}.rib").write_text("".join(parts).replace("GROUP", name))
@@ -101,8 +105,8 @@ class City:
                         f'ReadArchive "{name}.rib"\nAttributeEnd\n')
 
     def bay(self, at, right, width, height, texture, color):
-        """One window with the wall around it: twelve primitives. `right`: along the wall, whose outside is right x up."""
-        out = (-right[2], 0.0, right[0])  # up x right, turned out of the wall
+        """Returns one window with the wall around it: twelve primitives. `right` runs along the wall, whose outside is up x right."""
+        out = (-right[2], 0.0, right[0])  # This is right x up. The next line turns it out of the wall.
         out = (-out[0], 0.0, -out[2])
 
         def p(x, y, z=0.0):
@@ -180,7 +184,7 @@ class City:
             a, e = rng.uniform(0, 2 * math.pi), rng.uniform(0.1, 1.2)
             end = (x + 1.6 * math.cos(a) * math.cos(e), tall * 0.75 + 1.8 * math.sin(e), z + 1.6 * math.sin(a) * math.cos(e))
             parts.append(tube((x + 0.05, tall * rng.uniform(0.5, 0.78), z), end, 0.05, 0.015, rng.uniform(-0.1, 0.1)))
-        # Fewer leaves are larger.
+        # If there are fewer leaves, each is larger, so that the crown stays as dense.
         leaf = self.count(420)
         size = 0.16 * math.sqrt(420 / leaf)
         for shade in range(3):
@@ -220,7 +224,7 @@ class City:
             tone = [rng.uniform(0.75, 1) for _ in range(256)]
             pixels = bytearray()
             for y in range(n):
-                pixels.append(0)  # PNG: no filter
+                pixels.append(0)  # This row of the PNG has no filter.
                 row = y * rows // n
                 for x in range(n):
                     column = (x + (row % 2) * n // rows) * rows // (2 * n) if kind == 0 else x * rows // n

@@ -1,10 +1,10 @@
 #include "coast.h"
 
-/* The sky behind everything: its colour, and thin clouds that the low sun lights from below. */
+/* The sky surrounds the scene. It has its own colour and thin clouds, which the low sun lights from below. */
 surface eveningsky(float cover = 0.5) {
   vector d = normalize(vtransform("coast", I));
   color sky = skycolor(d);
-  /* Clouds lie in a layer, which one sees the more slanting the nearer it is to the horizon. */
+  /* Clouds lie in a flat layer. The nearer a direction is to the horizon, the flatter it crosses this layer. */
   float up = max(ycomp(d), 0.015);
   point q = point(xcomp(d) / (up + 0.09), 0, zcomp(d) / (up + 0.09));
   q = point(0.55 * xcomp(q) + 0.25 * zcomp(q), 3.7, 1.3 * zcomp(q) - 0.3 * xcomp(q));

@@ -1,7 +1,9 @@
-/* The print: a film curve with a soft shoulder, a touch of warmth in the lights and of blue in the shadows, and darker corners. */
+/* This imager grades the picture like film. Its curve has a soft shoulder. Lights become a little warmer, shadows a
+ * little bluer, and the corners darker.
+ */
 imager grade(float exposure = 1.2, contrast = 1.2, vignette = 0.28) {
   color c = exposure * Ci;
-  /* Brighter than white runs out gently, channel by channel. */
+  /* Values above white are compressed gently, each channel by itself. */
   c = c * (1 + c / 9) / (1 + 0.62 * c);
   float grey = 0.2126 * comp(c, 0) + 0.7152 * comp(c, 1) + 0.0722 * comp(c, 2);
   float tone = clamp(grey, 0, 1);

@@ -1,6 +1,6 @@
 #include "coast.h"
 
-/* A dry blade: darker at its root, pale at its tip, and bright where the sun shines through it. */
+/* A dry blade of grass is darker at its root and pale at its tip. It is bright where the sun shines through it. */
 surface grass(color root = color(0.13, 0.085, 0.03), tip = color(0.72, 0.54, 0.24)) {
   point q = transform("coast", P);
   float tone = 0.75 + 0.5 * float noise(q * 0.45) + 0.25 * (float cellnoise(q * 7) - 0.5);

@@ -1,11 +1,13 @@
 #include "coast.h"
 
-/* Raises a flat sheet to hills and cliffs, and gives the cliffs layers of rock that are harder and softer. */
+/* This displacement raises a flat sheet to hills and cliffs. It gives the cliffs layers of harder and softer rock. */
 displacement headland(float strata = 1.9, crag = 2.4) {
   point q = transform("coast", P);
   float y = landheight(xcomp(q), zcomp(q));
   vector up = vtransform("coast", "current", vector(0, 1, 0));
-  /* Which way the sheet faces while it is flat says which of the two normals is the outer one. */
+  /* A normal that is computed from the surface may point to either side. The flat sheet tells which of the two sides is
+   * the upper one.
+   */
   float outer = sign(calculatenormal(P) . up);
   P += y * up;
   N = outer * calculatenormal(P);

@@ -1,6 +1,8 @@
 #include "coast.h"
 
-/* Golden meadows above, rock on the cliffs, sand at their feet, wet where the sea has been. */
+/* Golden meadows lie above, rock is on the cliffs, and sand is at their feet. The sand is dark where the sea has wetted
+ * it.
+ */
 surface land(color straw = color(0.50, 0.36, 0.13), green = color(0.16, 0.17, 0.055),
              rockcolor = color(0.50, 0.37, 0.23), darkrock = color(0.21, 0.15, 0.105),
              sand = color(0.46, 0.37, 0.26)) {
@@ -9,12 +11,12 @@ surface land(color straw = color(0.50, 0.36, 0.13), green = color(0.16, 0.17, 0.
   float y = ycomp(q), steep = smoothstep(0.22, 0.5, 1 - ycomp(n) + 0.12 * snoise(q / 6));
   float width = filterwidthp(q);
 
-  /* Grass: patches of green where water runs down, and streaks of the wind. */
+  /* The grass is greener in patches where water runs down, and the wind leaves streaks in it. */
   float patches = fBm(q / 60, width / 60, 4, 2.2, 0.55), fine = fBm(q / 2.5, width / 2.5, 3, 2, 0.6);
   color meadow = mix(straw, green, smoothstep(-0.15, 0.55, patches)) * (1 + 0.4 * fine);
   meadow = mix(meadow, color(0.075, 0.085, 0.035) * (1 + fine), smoothstep(0.1, 0.6, shrubs(q)));
 
-  /* Rock: beds of several colours, stains that run down, and lichen on what faces the sky. */
+  /* The rock has beds of several colours, stains that run down, and lichen on the parts that face the sky. */
   float bed = y / 5.2 + 0.5 * snoise(q / 40) + 0.018 * xcomp(q);
   float layer = float noise(3 * bed) + 0.5 * float noise(11 * bed);
   point stretched = point(xcomp(q), 0.15 * y, zcomp(q));
@@ -30,7 +32,7 @@ surface land(color straw = color(0.50, 0.36, 0.13), green = color(0.16, 0.17, 0.
   float wet = 1 - smoothstep(0.7, 2.4, y + 0.8 * patches);
   ground *= mix(1, 0.42, wet);
 
-  /* What lies lower than its surroundings sees less of the sky. */
+  /* Places that lie lower than their surroundings receive less light from the sky. */
   float here = landheight(xcomp(q), zcomp(q));
   float hollow = clamp((y - here) / 5 + 0.75, 0.45, 1.1);
   Oi = Os;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes coast.rib: a headland at evening, where all land is a flat sheet that shaders raise, and grass is curves.
+"""Writes coast.rib: a headland at evening. All land is a flat sheet that shaders raise, and the grass is curves.
 
     make_coast.py > coast.rib
 """
@@ -16,12 +16,12 @@ TUFTS, BLADES, PLACES = 6, 46, 2300
 
 
 def knoll(x, z):
-    """Height of the ground before the eye, in metres; the grass stands on it."""
+    """Returns the height in metres of the ground in front of the eye. The grass stands on it."""
     return 42.0 + 0.13 * x - 0.0032 * z * z + 0.10 * math.sin(0.9 * x + 0.5) * math.sin(0.7 * z) - 0.002 * x * x
 
 
 def tuft(name):
-    """Blades that start close together, lean outwards and bend with the wind, which comes from the sea."""
+    """Prints blades that start close together, lean outwards, and bend with the wind from the sea."""
     points, widths = [], []
     for _ in range(BLADES):
         angle, away = random.uniform(0, 2 * math.pi), 0.16 * math.sqrt(random.random())
@@ -38,7 +38,7 @@ def tuft(name):
 
 
 def sheet(near, far, columns):
-    """A flat ring sector before the eye, which "headland" raises."""
+    """Prints a flat sheet that widens away from the eye. The shader "headland" raises it."""
     angles = [math.radians(-31 + 62 * k / columns) for k in range(columns + 1)]
     points = [c for r in (near, far) for a in angles for c in (r * math.tan(a), 0, r)]
     print(f'    PatchMesh "bilinear" {columns + 1} "nonperiodic" 2 "nonperiodic" "P" [{numbers(points, ".3g")}]')

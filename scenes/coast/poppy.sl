@@ -1,6 +1,6 @@
 #include "coast.h"
 
-/* The petals of a poppy: the sun shines through them, so both sides glow. */
+/* The sun shines through the petals of a poppy, so both of their sides glow. */
 surface poppy(color petal = color(1.0, 0.33, 0.03)) {
   color sun = 0;
   illuminance (P, vector(0, 1, 0), PI) sun += 0.55 * Cl;

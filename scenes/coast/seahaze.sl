@@ -1,10 +1,10 @@
 #include "coast.h"
 
-/* Haze over the sea: what is far takes the colour that the sky has there, the less the higher it is. */
+/* Haze over the sea gives distant things the colour of the sky behind them. It is thinner higher up. */
 volume seahaze(float distance = 2600, height = 120) {
   vector way = vtransform("coast", I);
   float y0 = ycomp(transform("coast", P - I)), y1 = ycomp(transform("coast", P));
-  /* The mean of exp(-y / height) on the way from the eye. */
+  /* The density of the haze falls with height as exp(-y / height). This is its mean along the view ray. */
   float rise = (y1 - y0) / height;
   float thin = exp(-y0 / height) * (abs(rise) < 0.001 ? 1 : (1 - exp(-rise)) / rise);
   float clear = exp(-length(way) / distance * thin);

@@ -1,6 +1,8 @@
 #include "dandelion.h"
 
-/* A blade of grass that the sun shines through. Far ones (far = 1) fade into the golden air, near ones (-1) are in shade. */
+/* The sun shines through this blade of grass. Distant blades (far = 1) fade into the golden air, and near ones (far =
+ * -1) are in shade.
+ */
 surface blade(float far = 0) {
   point q = transform("meadow", P);
   float tone = float noise(point(0.11 * xcomp(q), 0, 0.09 * zcomp(q)) + vector(7, 3, 1));

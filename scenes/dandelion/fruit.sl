@@ -1,6 +1,6 @@
 #include "dandelion.h"
 
-/* The brown fruit with its ribs, and the pale bed on which fruits stand. */
+/* A fruit is brown and has ribs. The same shader draws the pale bed on which the fruits stand, if pale is 1. */
 surface fruit(float pale = 0) {
   normal Nf = faceforward(normalize(N), I);
   point q = transform("object", P);

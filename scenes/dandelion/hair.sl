@@ -1,7 +1,7 @@
 #include "dandelion.h"
 
-/* A hair that the sun shines through: bright at its sides as threads are (J. Kajiya and T. Kay, 1989), brightest against
- * the light.
+/* The sun shines through this hair. Like any thread, it is bright at its sides (J. Kajiya and T. Kay, 1989). It is
+ * brightest when seen against the light.
  */
 surface hair(color tint = color(0.92, 0.90, 0.86); float bristle = 0) {
   vector along = normalize(dPdv), V = normalize(I);
@@ -13,7 +13,7 @@ surface hair(color tint = color(0.92, 0.90, 0.86); float bristle = 0) {
     light += Cl * (0.16 * sine + 0.55 * sine * pow(against, 3) + 0.9 * pow(sine, 12) * pow(against, 8));
   }
   color root = mix(color(1), color(0.35, 0.42, 0.12), bristle * (1 - smoothstep(0, 0.45, v)));
-  /* Deep in the head, and on its side away from the sun, others stand in the light. */
+  /* Other hairs block the light deep in the head and on its side away from the sun. */
   point q = transform("meadow", P);
   vector out = (q - HEAD) / 23.5;
   float inside = 1 - smoothstep(1.02, 1.12, length(out));

@@ -3,7 +3,7 @@
 
     make_dandelion.py > dandelion.rib
 
-Units are millimetres: x to the right, y up, z away from the eye; the head of the flower is at HEAD.
+Units are millimetres. x points to the right, y up and z away from the eye. The head of the flower is at HEAD.
 """
 import math
 import pathlib
@@ -15,7 +15,7 @@ from parts import flat, head, numbers, part
 
 random.seed(5)
 HEAD = (-27, 6, 0)
-KINDS = 4                              # of seeds
+KINDS = 4  # Each seed is one of so many shapes.
 WIND = (1, 0.12, 0.1)
 
 
@@ -24,7 +24,7 @@ def curve(counts, points, widths, kind="cubic"):
 
 
 def moving(*keys):
-    """The same requests at the opening and at the closing of the shutter."""
+    """Returns a motion block. Its requests hold at the opening and at the closing of the shutter."""
     return "MotionBegin [0 1] " + " ".join(keys) + " MotionEnd"
 
 
@@ -35,7 +35,7 @@ def direction():
 
 
 def seed(name):
-    """Along +y: the fruit, its beak, and a parasol of hairs, which bear finer ones."""
+    """Prints the object of a seed along +y: the fruit, its beak, and a parasol of hairs, which bear finer hairs."""
     hairs, widths, count = [], [], 0
     for k in range(46):
         a, rise, length = 2.39996 * k + random.uniform(-0.1, 0.1), random.uniform(0.15, 0.62), random.uniform(5.6, 7.2)
@@ -62,12 +62,12 @@ def seed(name):
 
 
 def aim(d):
-    """Rotations that turn +y to d."""
+    """Returns the rotations that turn +y to d."""
     return f"Rotate {math.degrees(math.atan2(d[0], d[2])):.2f} 0 1 0", f"Rotate {math.degrees(math.acos(max(-1, min(1, d[1])))):.2f} 1 0 0"
 
 
 def clock():
-    """Seeds all over the head, but for where the wind has taken them; those beside the gap are about to go."""
+    """Returns seeds all over the head, except where the wind has taken them. Those beside the gap are about to go."""
     out = []
     for k in range(150):
         y = 1 - 2 * (k + 0.5) / 150
@@ -78,7 +78,7 @@ def clock():
         gone = d[0] * 0.90 + d[1] * 0.36 - d[2] * 0.25
         if gone > 0.62 + random.uniform(-0.12, 0.08):
             continue
-        lean = 4 + 13 * max(0, gone) ** 2  # degrees, with the wind
+        lean = 4 + 13 * max(0, gone) ** 2  # The wind bends seeds by so many degrees.
         stir = 1.1 + 2.2 * max(0, gone) ** 2
         turns = [f"Rotate {-angle:.2f} 0 0.2 1" for angle in (lean, lean + stir * random.uniform(0.5, 1.3))]
         out.append(f'TransformBegin {moving(*turns)} {" ".join(aim(d))} Rotate {random.uniform(0, 360):.0f} 0 1 0 ObjectInstance "seed{k % KINDS}" TransformEnd')
@@ -86,7 +86,7 @@ def clock():
 
 
 def flight(x, y, z, tilt, way, spin, size=1.0):
-    """A seed in the air at (x, y, z), whose parasol leads; it moves by `way` while the shutter is open."""
+    """Returns a seed in the air at (x, y, z), whose parasol leads. It moves by `way` while the shutter is open."""
     places = [f"Translate {x + t * way[0]:.2f} {y + t * way[1]:.2f} {z + t * way[2]:.2f}" for t in (0, 1)]
     turns = [f"Rotate {tilt + t * spin:.1f} 0.25 0.1 -1" for t in (0, 1)]
     return (f'TransformBegin {moving(*places)} {moving(*turns)} Rotate {random.uniform(0, 360):.0f} 0 1 0 Scale {size} {size} {size} Translate 0 -12 0 '
@@ -94,7 +94,7 @@ def flight(x, y, z, tilt, way, spin, size=1.0):
 
 
 def blade(x, z, tall, wide, lean, sway, foot=-75):
-    """A blade of grass as a ribbon, at both ends of the shutter."""
+    """Returns a blade of grass as a ribbon, at the opening and at the closing of the shutter."""
     keys = []
     for t in (0, 1):
         bend = lean + t * sway
@@ -104,7 +104,7 @@ def blade(x, z, tall, wide, lean, sway, foot=-75):
 
 
 def foxtail(x, z, tall, lean, sway, length, bristles):
-    """Grass that flowers: a stalk that bends over, and a brush of bristles around its end."""
+    """Returns a foxtail, a flowering grass. Its stalk bends over and has a brush of bristles around its end."""
     stalks, brushes, shape = [], [], random.getstate()
     for t in (0, 1):
         random.setstate(shape)

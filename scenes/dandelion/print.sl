@@ -1,6 +1,6 @@
 #include "noises.h"
 
-/* Disks of light out of focus, one in each cell of a grid or none. */
+/* Returns the light of disks, as lamps look that are out of focus. Each cell of a grid has one disk or none. */
 float disks(float x, y, size, share, seed) {
   float cx = floor(x / size), cy = floor(y / size), sum = 0;
   uniform float i, j;
@@ -16,7 +16,9 @@ float disks(float x, y, size, share, seed) {
   return sum;
 }
 
-/* The far edge of a meadow and trees in the evening, as a lens shows them that is wide open; up from -1 to 1. */
+/* Returns the colour of a meadow's far edge and trees in the evening, as a lens with a wide aperture blurs them. The
+ * coordinate "up" runs from -1 to 1.
+ */
 color backdrop(float right, up) {
   float x = 560 * right, y = 315 * up;
   color air = mix(color(0.020, 0.036, 0.010), color(0.16, 0.15, 0.035), smoothstep(-330, -40, y + 40 * snoise(point(x / 210, 1, y / 210))));
@@ -30,7 +32,9 @@ color backdrop(float right, up) {
   return air + color(0.40, 0.45, 0.10) * 0.07 * disks(x - 9, y + 40, 66, 0.4, 3) * smoothstep(-280, -140, y) * (1 - smoothstep(-100, -20, y));
 }
 
-/* The print: the backdrop behind the picture, a soft shoulder for the lights, cool shadows and warm lights, darker corners. */
+/* This imager puts the backdrop behind the picture and grades it like a photographic print. Bright parts run out
+ * softly, shadows become cooler and lights warmer, and the corners become darker.
+ */
 imager print(float exposure = 1.5, contrast = 1.12, vignette = 0.4) {
   float x = 2 * u - 1, y = 2 * v - 1;
   color c = exposure * (Ci + (1 - alpha) * backdrop(x, -y));

@@ -1,6 +1,6 @@
 #include "dandelion.h"
 
-/* A hollow stalk: reddish below, green above, and the light shines a little through its rim. */
+/* A hollow stalk is reddish below and green above. A little light shines through its rim. */
 surface stalk() {
   normal Nf = faceforward(normalize(N), I);
   vector V = -normalize(I);

@@ -1,5 +1,6 @@
-/* What shaders of this scene have to agree on: the shape of the face around the eye, and its scales. Lengths are
- * centimetres; x to the right, y up, heights towards the eye that looks at it. The sheet of skin has u along x and v along y.
+/* The shaders of this scene have to agree on the shape of the face around the eye and on its scales, so these stand
+ * here. Lengths are in centimetres, x points to the right and y up, and heights point towards the viewer. The sheet of
+ * skin has u along x and v along y.
  */
 #ifndef DRAGON_H
 #define DRAGON_H
@@ -11,20 +12,20 @@
 #define EYEX -1.3
 #define EYEY 0.1
 
-/* Coordinates of the eye, whose outer corner is the higher one. */
+/* Returns coordinates along and across the eye, whose outer corner is the higher one. */
 point eyespace(float x, y) {
   float a = x - (EYEX), b = y - (EYEY);
   return point(0.970 * a + 0.242 * b, -0.242 * a + 0.970 * b, 0);
 }
 
-/* How far a place is within the opening between the lids; negative outside. */
+/* Returns how far a place lies within the opening between the lids. It is negative outside. */
 float opening(point e) {
   float t = xcomp(e) / 2.02, arch = 1 - t * t;
   float upper = 1.16 * arch - 0.10 * t, lower = 0.98 * arch + 0.12 * t;
   return min(upper - ycomp(e), lower + ycomp(e));
 }
 
-/* Height of the face without scales. */
+/* Returns the height of the face without scales. */
 float face(float x, y) {
   point e = eyespace(x, y), q = point(x, y, 0);
   float d = length(vector e), angle = atan(ycomp(e), xcomp(e));
@@ -33,7 +34,7 @@ float face(float x, y) {
   float k = clamp(0.5 + (ball - base) / 0.7, 0, 1);
   float h = mix(base, ball, k) + 0.35 * k * (1 - k);
 
-  /* A brow above, and pouches below. */
+  /* A brow is above the eye, and pouches are below it. */
   float round = length(vector(xcomp(e) / 1.18, ycomp(e), 0));
   float above = smoothstep(0.05, 0.75, angle) * (1 - smoothstep(2.3, 3.05, angle));
   float ridge = (round - 3.05) / 0.62, socket = (round - 2.25) / 0.26;
@@ -42,14 +43,15 @@ float face(float x, y) {
   float pouch = (d - 2.75) / 0.7;
   h += below * exp(-pouch * pouch) * (0.16 * cos(8.5 * d + 0.9 * snoise(q * 0.9)));
 
-  /* Lids: a rim, and nothing within. */
+  /* The lids have a rim, and nothing lies within them. */
   float inside = opening(e), rim = (inside + 0.10) / 0.10;
   h += 0.13 * exp(-rim * rim) * (1 - smoothstep(2.1, 2.5, d));
   return h - 1.9 * smoothstep(0, 0.10, inside);
 }
 
-/* Scales in rings around the eye, which grow with the distance: cells on a cylinder, to which the logarithm of the plane is
- * conformal. `edge` is 0 between scales, `middle` 0 in the middle of one, `which` a number of its own.
+/* Scales lie in rings around the eye and grow with the distance from it. They are cells on a cylinder, because the
+ * logarithm maps the plane to a cylinder and keeps angles. `edge` is 0 between scales, `middle` is 0 in the middle of a
+ * scale, and `which` is a random number for each scale.
  */
 void scales(float x, y; output float edge, middle, which, size; output vector tilt) {
   point e = eyespace(x, y);

@@ -1,6 +1,6 @@
 #include "dragon.h"
 
-/* An eye: fibres around a slit, a dark rim, and a wet cornea that mirrors a window. */
+/* An eye has fibres around a slit and a dark rim. Its wet cornea reflects a window. */
 surface iris() {
   point q = transform("face", P);
   point e = eyespace(xcomp(q), ycomp(q));
@@ -9,7 +9,7 @@ surface iris() {
   float wave = 0.05 * snoise(point(3 * ey, 1, 2));
   float slit = (abs(ex) - 0.20 * pow(max(0, 1 - ey * ey / 1.25), 0.8) - 0.02 * wave);
 
-  /* Fibres run outwards and fork; a ring of them frays around the pupil. */
+  /* Fibres run outwards and fork. A ring of them frays around the pupil. */
   float away = max(0, d - 0.1);
   float fine = fBm(point(9 * cos(angle), 9 * sin(angle), 1.3 * away), 0, 5, 2.2, 0.65);
   float knots = fBm(point(3 * cos(angle), 3 * sin(angle), 2.2 * away + 7), 0, 4, 2.1, 0.6);
@@ -19,18 +19,18 @@ surface iris() {
   tint *= 1 - 0.9 * smoothstep(1.05, 1.38, d + 0.06 * fine);
   tint *= smoothstep(0, 0.05, slit + 0.03 * fine);
 
-  /* The lids throw a soft shadow. */
+  /* The lids cast a soft shadow. */
   float inside = opening(e);
   float shade = smoothstep(0.0, 0.55, inside - 0.12 * smoothstep(0, 0.6, ey));
   normal Nn = normalize(N), Nf = faceforward(Nn, I);
   vector V = -normalize(I);
-  /* The iris is flatter than the cornea before it. */
+  /* The iris is flatter than the cornea in front of it. */
   normal flatter = normalize(Nf - 2.5 * vtransform("face", "current", vector(0, 0, 1)));
   color light = 0;
   illuminance (P, flatter, PI / 2) light += Cl * (0.25 + 0.75 * (normalize(L) . flatter));
 
   vector R = normalize(vtransform("face", reflect(-V, Nf)));
-  /* A window with four panes, up and to the left, and the ground below. */
+  /* The cornea reflects a window with four panes, up and to the left, and the ground below. */
   float wx = (xcomp(R) + 0.52) / 0.17, wy = (ycomp(R) - 0.46) / 0.20;
   float pane = (1 - smoothstep(0.94, 1.02, max(abs(wx), abs(wy)))) * smoothstep(0.05, 0.10, min(abs(wx), abs(wy)));
   float edgewise = pow(1 - max(0, Nf . V), 5);

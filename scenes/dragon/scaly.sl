@@ -1,6 +1,6 @@
 #include "dragon.h"
 
-/* Raises the flat sheet to a face, and the face to scales. */
+/* This displacement raises the flat sheet to a face, and the face to scales. */
 displacement scaly(float high = 0.42) {
   float x = SHEETX(u), y = SHEETY(v);
   vector near = vtransform("face", "current", vector(0, 0, -1));
@@ -13,7 +13,7 @@ displacement scaly(float high = 0.42) {
   scales(x, y, edge, middle, which, size, tilt);
   float out = 1 - smoothstep(-0.30, -0.10, opening(eyespace(x, y)));
   float dome = smoothstep(0, 0.30, edge) * (1 - 0.55 * middle * middle) * (0.75 + 0.5 * which);
-  /* Each scale lies a little over the next one outwards, has a keel, and is worn. */
+  /* Each scale lies a little over the next one outwards. It has a keel and is worn. */
   float lean = 0.30 * zcomp(tilt) * smoothstep(0.02, 0.2, edge);
   point q = point(x, y, 10 * which);
   float worn = 0.10 * turbulence(q * (1.4 / size), 0, 3, 2.1, 0.55) + 0.05 * snoise(q * (5 / size));

@@ -1,7 +1,7 @@
 #include "dragon.h"
 
-/* Horn over skin: green and blue scales with pale edges, amber around the eye, a polish, and light that comes back out of
- * thin places redder than it went in.
+/* Horn covers the skin: green and blue scales with pale edges, amber ones around the eye. They are polished. Light that
+ * enters thin places comes out redder.
  */
 surface skin(color deep = color(0.008, 0.036, 0.032), pale = color(0.055, 0.16, 0.085), warm = color(0.36, 0.13, 0.018)) {
   float x = SHEETX(u), y = SHEETY(v);

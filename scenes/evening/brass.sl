@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* Brass with a soft shine and some tarnish. */
+/* This brass has a soft shine and some tarnish. */
 surface brass(color metal = color(0.80, 0.56, 0.25)) {
   point q = transform("room", P);
   float tarnish = smoothstep(-0.2, 0.6, fBm(14 * q, 14 * filterwidthp(q), 5, 2.1, 0.55));

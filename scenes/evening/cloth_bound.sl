@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* A book bound in cloth: its weave, and gilt lines across the back. */
+/* This is a book that is bound in cloth. It shows the weave of the cloth, and gilt lines across its back. */
 surface cloth_bound(varying float up = 0.5; color gold = color(0.62, 0.42, 0.16);) {
   point q = transform("room", P);
   float width = filterwidthp(q);

@@ -1,6 +1,6 @@
 #include "noises.h"
 
-/* What one sees outside: the last light over hills, and the lamps of a town. */
+/* The view from the window shows the last light over hills, and the lamps of a town. */
 surface dusk() {
   point q = transform("room", P);
   float x = xcomp(q), y = ycomp(q);

@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* Stoneware under a clear glaze. */
+/* Stoneware has a clear glaze over it. */
 surface glaze() {
   point q = transform("shader", P);
   float run = fBm(16 * q, 16 * filterwidthp(q), 4, 2.1, 0.55);

@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* A small globe: brown seas, ochre land, and meridians. */
+/* A small globe has brown seas, ochre land, and meridians. */
 surface globe() {
   point q = transform("shader", P);
   float land = smoothstep(0.05, 0.13, fBm(13 * q, 13 * filterwidthp(q), 6, 2.1, 0.55));

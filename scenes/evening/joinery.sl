@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* Wood under satin paint. */
+/* This is wood with satin paint over it. */
 surface joinery(color paint = color(0.5, 0.48, 0.43)) {
   normal Nf = faceforward(normalize(N), I);
   Oi = Os;

@@ -1,7 +1,7 @@
 #include "noises.h"
 
-/* The cloth of a lampshade, as one sees it: the bulb behind it is brightest at its own height, and threads cross. What the
- * shade sends into the room is an area light's.
+/* The cloth of a lampshade is brightest at the height of the bulb behind it, and its threads cross. This shader gives
+ * only the view of the shade. An area light sends the light of the shade into the room.
  */
 surface lampshade(float height = 0.27; color warm = color(0.55, 0.24, 0.075), hot = color(1.3, 0.80, 0.38);) {
   point q = transform("shader", P);

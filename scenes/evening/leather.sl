@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* Old leather: a fine grain, creases, and paler where it has been sat on. */
+/* Old leather has a fine grain and creases. It is paler where people have sat on it. */
 surface leather(color hide = color(0.30, 0.105, 0.032), worn = color(0.42, 0.19, 0.075)) {
   point q = transform("shader", P);
   float width = filterwidthp(q), cell;

@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* Curtains of linen: the dusk shines through a little. */
+/* The curtains are linen, and a little of the dusk shines through them. */
 surface linen(color cloth = color(0.52, 0.46, 0.36)) {
   point q = transform("room", P);
   float width = filterwidthp(q);

@@ -3,7 +3,7 @@
 
     make_evening.py > evening.rib
 
-Units are metres: x to the right, y up from the floor, z away from the eye.
+Units are metres. x points to the right, y up from the floor and z away from the eye.
 """
 import math
 import pathlib
@@ -14,13 +14,13 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from parts import box, head, lathe, numbers, part, rounded, soft
 
 random.seed(4)
-BACK, LEFT, RIGHT, TOP = 2.5, -2.9, 3.0, 2.75  # the room
+BACK, LEFT, RIGHT, TOP = 2.5, -2.9, 3.0, 2.75  # These are the rear wall, the side walls and the ceiling.
 
 
 def curtain(x0, x1, z, folds, top, bottom):
-    """Cloth that hangs in folds, which are tighter above."""
+    """Returns cloth that hangs in folds. The folds are shallower at the top."""
     columns, rows, points = 14 * folds, 9, []
-    for row in range(-1, rows + 2):  # the surface ends a row within its control points
+    for row in range(-1, rows + 2):  # A B-spline surface ends one row within its control points.
         h = row / rows
         for column in range(-1, columns + 2):
             s = column / columns
@@ -35,7 +35,8 @@ COVERS = [(0.30, 0.05, 0.035), (0.05, 0.10, 0.16), (0.06, 0.12, 0.07), (0.40, 0.
 
 
 def books(x0, x1, y, back, space):
-    """A row of books between x0 and x1 on a board: their backs, which face the eye, are bowed a little. "up" runs from 0 below to 1 above."""
+    """Returns a row of books between x0 and x1 on a board. Their spines face the eye and are bowed a little. The variable "up" runs from
+    0 at the foot of a book to 1 at its head."""
     counts, faces, points, ups, colors = [], [], [], [], []
     x, cover = x0, random.choice(COVERS)
     while x < x1 - 0.06:
@@ -68,7 +69,7 @@ UNSEEN = 'Attribute "visibility" "int camera" [0] "int diffuse" [0] "int specula
 
 
 def lamp(name, x, z, foot, shade, height, bulb, cloth):
-    """A lamp with a foot of brass; what shines are the bulb, up and down, and the cloth of the shade, outwards."""
+    """Prints a lamp with a foot of brass. Its bulb shines up and down, and the cloth of its shade shines outwards."""
     below, above, tall = shade
     place = f"Translate {x} {height} {z} Rotate -90 1 0 0"
     part(f"foot of the {name}", 'Surface "brass"', f"Translate {x} {foot[0]} {z}", lathe(foot[1]))
@@ -93,7 +94,7 @@ print('''WorldBegin
   AttributeEnd
   Illuminate "dusk" 1
 ''')
-# What the ceiling sends back above each lamp, and the wall behind the eye. To gather it would take many rays.
+# These area lights stand for the light that the ceiling and the wall behind the eye send back. Gathering it would take many rays.
 for name, power, points in (("ceiling above the floor lamp", 0.85, [(2.7, 2.74, 0.4), (2.7, 2.74, 2.45), (0.5, 2.74, 2.45), (0.5, 2.74, 0.4)]),
                             ("ceiling above the table lamp", 0.35, [(-1.2, 2.74, 0.6), (-1.2, 2.74, 2.45), (-2.88, 2.74, 2.45), (-2.88, 2.74, 0.6)]),
                             ("wall behind the eye", 0.075, [(2.9, 0.1, -3.9), (2.9, 2.7, -3.9), (-2.8, 2.7, -3.9), (-2.8, 0.1, -3.9)])):
@@ -105,7 +106,7 @@ lamp("floor lamp", 1.62, 1.62, (0, rounded([(0.0, 0.0), (0.15, 0.0), (0.16, 0.01
 lamp("table lamp", -2.5, 1.72, (0.78, rounded([(0, 0), (0.08, 0), (0.085, 0.015), (0.05, 0.04), (0.075, 0.1), (0.095, 0.17), (0.06, 0.25), (0.018, 0.29), (0.012, 0.33), (0.012, 0.45), (0, 0.46)], 3)),
      (0.17, 0.12, 0.2), 1.16, 800, 6.0)
 
-# The room: boards, plaster above a panelled dado, and a window with twelve panes.
+# The room has a wooden floor, plaster above a panelled dado, and a window with twelve panes.
 part("floor", 'Surface "parquet"', f'Polygon "P" [{LEFT} 0 -4  {LEFT} 0 {BACK}  {RIGHT} 0 {BACK}  {RIGHT} 0 -4]')
 part("ceiling", 'Surface "wall" "color paint" [0.74 0.71 0.65]', f'Polygon "P" [{LEFT} {TOP} -4  {RIGHT} {TOP} -4  {RIGHT} {TOP} {BACK}  {LEFT} {TOP} {BACK}]')
 PAINT = 'Surface "wall" "color paint" [0.135 0.20 0.185]'
@@ -125,7 +126,7 @@ part("outside", 'Attribute "visibility" "int diffuse" [0] "int transmission" [0]
 part("curtains", 'Sides 2 Surface "linen"', curtain(-2.62, -2.08, BACK - 0.16, 5, 2.58, 0.04), curtain(-0.72, -0.2, BACK - 0.16, 5, 2.58, 0.04))
 part("rod", 'Surface "brass"', "TransformBegin Translate -2.75 2.6 2.34 Rotate 90 0 1 0 Cylinder 0.014 0 2.68 360 TransformEnd", "TransformBegin Translate -0.07 2.6 2.34 Sphere 0.03 -0.03 0.03 360 TransformEnd")
 
-# A bookcase in the corner behind the chair.
+# A bookcase stands in the corner behind the chair.
 SHELVES = [0.09, 0.50, 0.88, 1.23, 1.56, 1.88, 2.2]
 OAK = 'Surface "oak" "color pale" [0.26 0.145 0.07] "color dark" [0.10 0.046 0.02]'
 part("bookcase", OAK, *(box(x - 0.017, x + 0.017, 0, 2.235, BACK - 0.28, BACK) for x in (0.02, 0.86, 1.70, 2.54)), box(0, 2.56, 2.22, 2.26, BACK - 0.3, BACK), box(0, 2.56, 0, 0.07, BACK - 0.26, BACK))
@@ -133,16 +134,16 @@ part("shelves", OAK, *(box(0.0, 2.55, y - 0.022, y, BACK - 0.27, BACK) for y in 
 for row, (y, above) in enumerate(zip(SHELVES, SHELVES[1:])):
     for column, x in enumerate((0.042, 0.882, 1.722)):
         end = x + 0.8
-        if (row, column) in ((3, 1), (4, 0), (5, 2)):  # places for things
+        if (row, column) in ((3, 1), (4, 0), (5, 2)):  # Other things stand in these places.
             end -= 0.34
         part(f"books {row} {column}", 'Surface "cloth_bound"', books(x, end, y, BACK - 0.03, above - y - 0.03))
-FINE = 'Attribute "trace" "float tessellation" [4]'  # thin, so that rays need more polygons
+FINE = 'Attribute "trace" "float tessellation" [4]'  # Thin things need more polygons for rays.
 part("vase on a shelf", 'Surface "glaze" Color 0.50 0.42 0.30', f"Translate 1.47 {SHELVES[3]} {BACK - 0.14}", lathe(rounded([(0, 0), (0.04, 0), (0.045, 0.01), (0.08, 0.08), (0.07, 0.15), (0.03, 0.19), (0.04, 0.22), (0.035, 0.222), (0, 0.2)], 3)))
 part("bowl on a shelf", FINE, 'Surface "glaze" Color 0.09 0.22 0.24', f"Translate 0.64 {SHELVES[4]} {BACK - 0.14}", lathe(rounded([(0, 0), (0.04, 0), (0.045, 0.015), (0.09, 0.06), (0.115, 0.11), (0.11, 0.112), (0.08, 0.06), (0, 0.03)], 3)))
 part("globe on a shelf", 'Surface "globe"', f"Translate 2.36 {SHELVES[5] + 0.155} {BACK - 0.15} Rotate 23 0 0 1", "Rotate -90 1 0 0", "Sphere 0.105 -0.105 0.105 360")
 part("foot of the globe", 'Surface "brass"', f"Translate 2.36 {SHELVES[5]} {BACK - 0.15}", lathe(rounded([(0, 0), (0.06, 0), (0.06, 0.012), (0.012, 0.025), (0.01, 0.05), (0, 0.055)], 3)))
 
-# An armchair of leather, and what belongs to it.
+# An armchair of leather stands on a rug. It has a cushion.
 CHAIR = "Translate 0.78 0 1.02 Rotate 28 0 1 0"
 part("armchair", 'Surface "leather"', CHAIR, soft(-0.33, 0.33, 0.13, 0.36, -0.36, 0.34, hard=2.5), soft(-0.325, 0.325, 0.30, 0.50, -0.42, 0.26, hard=1.4),
      soft(-0.49, -0.30, 0.12, 0.63, -0.42, 0.40, hard=1.6), soft(0.30, 0.49, 0.12, 0.63, -0.42, 0.40, hard=1.6),
@@ -151,7 +152,7 @@ part("feet of the armchair", OAK, CHAIR, *(f"TransformBegin Translate {x} 0 {z} 
 part("cushion", 'Surface "weave" "color ground" [0.40 0.17 0.055] "color stripe" [0.58 0.48 0.32]', CHAIR, "Translate 0.05 0.69 0.13 Rotate -7 0 0 1 Rotate 18 1 0 0", soft(-0.21, 0.21, -0.2, 0.2, -0.085, 0.085, hard=0.9))
 part("rug", 'Surface "rug"', box(-1.7, 1.9, 0.002, 0.014, -1.5, 1.55))
 
-# A table before the chair: a book, a cup, and a decanter of whisky.
+# A table stands in front of the chair, with a tray, a decanter of whisky, a tumbler and a book on it.
 TABLE = (-0.62, 0.02)
 part("table", OAK, f"Translate {TABLE[0]} 0 {TABLE[1]}", lathe([(0, 0.40), (0.44, 0.40), (0.45, 0.40), (0.465, 0.415), (0.46, 0.43), (0.44, 0.432), (0, 0.432)], 16),
      *(f"TransformBegin Rotate {a} 0 1 0 Translate 0.33 0 0 Rotate 8 0 0 1 Rotate -90 1 0 0 Hyperboloid 0.013 0 -0.01  0.022 0 0.405 360 TransformEnd" for a in (35, 155, 275)))
@@ -170,7 +171,7 @@ part("top of the whisky in the tumbler", GLASS, f'Surface "crystal" "float eta" 
 part("closed book", 'Surface "cloth_bound"', f"Translate {TABLE[0] + 0.22} 0.433 {TABLE[1] - 0.12} Rotate 24 0 1 0", 'Color 0.30 0.05 0.035', box(-0.08, 0.08, 0, 0.004, -0.11, 0.11), box(-0.08, 0.08, 0.03, 0.034, -0.11, 0.11), box(-0.084, -0.078, 0, 0.034, -0.11, 0.11),
      'Surface "pages"', box(-0.078, 0.075, 0.004, 0.03, -0.105, 0.105))
 
-# A chest along the left wall, below a picture.
+# A chest stands along the left wall, below a picture.
 part("chest", OAK, soft(LEFT + 0.01, LEFT + 0.5, 0.74, 0.78, 0.5, 2.0, hard=4), box(LEFT + 0.02, LEFT + 0.47, 0.12, 0.74, 0.54, 1.96), *(box(x, x + 0.04, 0, 0.12, z, z + 0.04) for x in (LEFT + 0.05, LEFT + 0.4) for z in (0.58, 1.88)))
 part("drawers", OAK, *(soft(LEFT + 0.46, LEFT + 0.485, y, y + 0.27, z, z + 0.67, hard=4) for y in (0.15, 0.45) for z in (0.57, 1.26)))
 part("knobs", 'Surface "brass"', *(f"TransformBegin Translate {LEFT + 0.5} {y} {z} Sphere 0.016 -0.016 0.016 360 TransformEnd" for y in (0.285, 0.585) for z in (0.75, 1.06, 1.44, 1.75)))

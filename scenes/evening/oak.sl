@@ -1,6 +1,8 @@
 #include "room.h"
 
-/* Dark oiled wood, with its grain along the longest way of boards: upright here, lying on tops. */
+/* This is dark oiled wood. Its grain runs along the length of the boards, which stand upright here and lie flat in
+ * table tops.
+ */
 surface oak(color pale = color(0.26, 0.145, 0.07), dark = color(0.10, 0.046, 0.02)) {
   point q = transform("shader", P);
   float width = filterwidthp(q);

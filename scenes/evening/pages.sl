@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* The cut edges of pages. */
+/* These are the cut edges of a book's pages. */
 surface pages(color paper = color(0.60, 0.52, 0.38)) {
   point q = transform("shader", P);
   normal Nf = faceforward(normalize(N), I);

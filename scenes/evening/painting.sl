@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* A landscape in oil: a lake between hills, laid on with a broad brush. */
+/* This is a landscape in oil. It shows a lake between hills, painted with a broad brush. */
 surface painting() {
   point q = point(3 * s, 2 * t, 0.3);
   vector bend = 0.05 * vsnoise(9 * q);

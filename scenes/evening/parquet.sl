@@ -1,15 +1,17 @@
 #include "room.h"
 
-/* How much of a pixel lies on a joint, which reaches as far as `wide` to both sides of 0. */
+/* Returns how much of a pixel lies on a joint, which extends from -wide to wide around 0. */
 float onjoint(float x, wide, pixel) {
   return max(0, min(x + 0.5 * pixel, wide) - max(x - 0.5 * pixel, -wide)) / pixel;
 }
 
-/* Oak in a herringbone, oiled and worn. */
+/* The floor is oak in a herringbone pattern, oiled and worn. */
 surface parquet(color pale = color(0.30, 0.165, 0.075), dark = color(0.13, 0.06, 0.025); float wide = 0.09, pieces = 5;) {
   point q = transform("room", P);
   float a = (xcomp(q) + zcomp(q)) / (1.41421 * wide), b = (zcomp(q) - xcomp(q)) / (1.41421 * wide);
-  /* Blocks lie along a or along b by turns: a staircase of whole numbers decides. */
+  /* Blocks alternate between lying along a and lying along b. The whole numbers below a and b tell which block covers a
+   * place.
+   */
   float row = floor(a), column = floor(b), turn = mod(row - column, 2 * pieces);
   float along = turn < pieces ? a - row + turn : b - column + 2 * pieces - 1 - turn;
   float across = turn < pieces ? b - column : a - row;
@@ -24,7 +26,7 @@ surface parquet(color pale = color(0.30, 0.165, 0.075), dark = color(0.13, 0.06,
   wood *= 1 - 0.7 * joint;
   normal Nf = faceforward(normalize(N), I);
   normal grained = faceforward(normalize(calculatenormal(P - 0.0006 * (fibre + 0.8 * (name - 0.5) * across) * normalize(N))), I);
-  /* Blocks do not continue each other's grain: the slope between two of them means nothing. */
+  /* The grain of one block does not continue in the next one, so a slope that spans two blocks means nothing. */
   float edge = min(min(across, 1 - across), min(along, pieces - along));
   Nf = normalize(Nf + (grained - Nf) * smoothstep(1, 2, edge / max(da, db)));
   float worn = 0.5 + 0.5 * fBm(1.1 * q, 1.1 * filterwidthp(q), 4, 2.1, 0.5);

@@ -1,16 +1,19 @@
-/* What the shaders of this scene share: the light at a matte point, and what a polished one mirrors. */
+/* The shaders of this scene share these functions for the light at a matte point and for reflections in a polished
+ * surface.
+ */
 #ifndef ROOM_H
 #define ROOM_H
 
 #include "noises.h"
 
-/* The light at a matte point: lamps, dusk, and a little that comes from everywhere. */
+/* Returns the light at a matte point: that of the lamps and the dusk, and a little that comes from everywhere. */
 color received(normal Nf) {
   return diffuse(Nf) + color(0.006, 0.005, 0.005);
 }
 
-/* What a polished surface adds: Fresnel's share of what lies in the mirrored direction, over a cone. Points that are seen
- * in a mirror take one ray, and further ones a mean of the room, because rays would multiply otherwise.
+/* Returns what a polished surface reflects by Fresnel's equations, averaged over a cone around the mirrored direction.
+ * Points that are seen in a mirror take one ray, and further points take a mean of the room, because rays would
+ * multiply otherwise.
  */
 color gloss(normal Nf; float eta, cone, samples) {
   float Kr, Kt;

@@ -1,11 +1,11 @@
 #include "room.h"
 
-/* A wool rug: a border, a field of lozenges, and the faded tones of plant dyes. */
+/* A wool rug has a border, a field of lozenges, and the faded tones of plant dyes. */
 surface rug(color field = color(0.165, 0.042, 0.032), border = color(0.055, 0.075, 0.12), thread = color(0.36, 0.26, 0.15)) {
   point q = transform("room", P);
   float width = filterwidthp(q), x = xcomp(q) - 0.1, z = zcomp(q) - 0.025;
   float away = min(1.8 - abs(x), 1.525 - abs(z));
-  /* A lozenge in each cell, with a smaller one in it. */
+  /* Each cell has a lozenge with a smaller one in it. */
   float a = x / 0.3, b = z / 0.3, name = cellnoise(a, b);
   float lozenge = abs(mod(a, 1) - 0.5) + abs(mod(b, 1) - 0.5), w = max(width / 0.3, 0.02);
   color wool = field;

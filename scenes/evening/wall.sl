@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* Limewash on plaster: clouds of the brush. */
+/* The plaster has a coat of limewash, and the brush has left clouds in it. */
 surface wall(color paint = color(0.135, 0.20, 0.185)) {
   point q = transform("room", P);
   float width = filterwidthp(q);

@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* A cushion of thick yarn with stripes. */
+/* The cushion is woven of thick yarn and has stripes. */
 surface weave(color ground = color(0.40, 0.17, 0.055), stripe = color(0.58, 0.48, 0.32)) {
   point q = transform("shader", P);
   float width = filterwidthp(q), x = mod(xcomp(q) / 0.075, 1);

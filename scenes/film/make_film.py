@@ -1,5 +1,7 @@
-"""Writes film.rib: a toad-like creature as one Catmull-Clark mesh with painted skin (vertex colours) and displaced warts, eyes, and a
-floor, under a sky; a film-sized frame. Nothing random: the same file every time."""
+"""Writes film.rib: a frame of the size of a film's.
+
+A creature like a toad sits on a floor under a sky. Its body is one Catmull-Clark mesh with vertex colours and displaced warts. Nothing is
+random, so the file is the same every time."""
 import math
 import sys
 
@@ -7,14 +9,14 @@ COLUMNS, ROWS = 64, 40
 
 
 def bump(x, y, cx, cy, width):
-    """1 at (cx, cy), smoothly 0 beyond `width`; x wraps at 1."""
+    """Returns a bump that is 1 at (cx, cy) and falls smoothly to 0 at the distance `width`. x wraps around at 1."""
     dx = (x - cx + 0.5) % 1 - 0.5
     d = math.hypot(dx, (y - cy) * 0.5) / width
     return (1 - d * d) ** 2 if d < 1 else 0.0
 
 
 def body(i, j):
-    """Position and colour at column i of COLUMNS (0 at the nose, around) and row j of ROWS (bottom to top)."""
+    """Returns position and colour of a vertex. Columns i run around the body from the nose, and rows j run from bottom to top."""
     x, y = i / COLUMNS, (j + 0.5) / ROWS
     phi, theta = 2 * math.pi * x, math.pi * (y - 0.5)
     radius = 1.0
@@ -40,7 +42,7 @@ def mesh():
             points.append(p), colors.append(c)
     faces = [[j * COLUMNS + i, j * COLUMNS + (i + 1) % COLUMNS, (j + 1) * COLUMNS + (i + 1) % COLUMNS, (j + 1) * COLUMNS + i]
              for j in range(ROWS - 1) for i in range(COLUMNS)]
-    for row, order in ((0, -1), (ROWS - 1, 1)):  # the poles
+    for row, order in ((0, -1), (ROWS - 1, 1)):  # A fan of triangles closes each pole.
         ring = [row * COLUMNS + i for i in range(COLUMNS)]
         centre = [sum(points[v][k] for v in ring) / COLUMNS for k in range(3)]
         points.append(tuple(centre)), colors.append(colors[ring[0]])
@@ -53,7 +55,7 @@ def numbers(values):
     return " ".join(f"{v:.5g}" for v in values)
 
 
-# Its environment is what gather rays meet where they miss all else: indirect light brings it, and no ray is spent on it where light is direct.
+# Gather rays that miss everything else meet this environment. The indirect light brings it, so direct light needs no rays for it.
 SKY = """AttributeBegin
 Attribute "identifier" "name" ["sky"]
 Attribute "visibility" "int camera" [0] "int diffuse" [1] "int specular" [0] "int transmission" [0]

@@ -1,6 +1,6 @@
 #include "forest.h"
 
-/* The smooth grey bark of a beech, with cracks that run around it, pale lichen, and moss at its foot. */
+/* A beech has smooth grey bark. Cracks run around it, pale lichen grows on it, and moss covers its foot. */
 surface bark(float old = 1) {
   point q = transform("forest", P);
   float width = filterwidthp(q);

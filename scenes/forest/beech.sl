@@ -1,6 +1,6 @@
 #include "forest.h"
 
-/* A leaf of a beech, cut out of its square: on the tree the sun shines through it, fallen it is copper. */
+/* A leaf of a beech is cut out of a square. The sun shines through a leaf on the tree, and a fallen leaf is copper. */
 surface beech(float fallen = 0; float which = 0.5) {
   float across = abs(2 * s - 1), width = 0.92 * pow(max(0, sin(PI * pow(clamp((t - 0.1) / 0.9, 0, 1), 0.8))), 0.75) + 0.02 * sin(70 * t);
   float inside = max(width - across, (t < 0.2 ? 0.06 : 0) - across);

@@ -1,10 +1,10 @@
 #include "forest.h"
 
-/* A frond, cut out of a strip: v runs along its rib and u across, over three points. */
+/* A frond is cut out of a strip that is three points wide. v runs along its rib, and u across it. */
 surface fern(float pairs = 23) {
   float across = abs(2 * u - 1), width = sin(PI * pow(v, 0.55)) * (1 - 0.3 * v);
   width = min(1, 1.15 * width * smoothstep(0.06, 0.2, v));
-  /* Each pinna tapers to its tip and has small lobes. */
+  /* Each pinna (a leaflet of the frond) tapers to its tip and has small lobes. */
   float row = pairs * v - 2.6 * across, reach = clamp(across / max(width, 0.01), 0, 1.2);
   float half = 0.47 * pow(max(0, 1 - reach), 0.6) * (0.86 + 0.14 * sin(52 * across));
   float inside = half - abs(mod(row, 1) - 0.5);

@@ -1,13 +1,15 @@
 #include "forest.h"
 
-/* The floor of the wood: leaves of last year that are told apart near the eye, bare earth on the path, and moss. */
+/* The floor of the wood has leaves of last year, which can be told apart near the eye. It has bare earth on the path,
+ * and moss.
+ */
 surface floor(color earth = color(0.11, 0.072, 0.042)) {
   point q = transform("forest", P);
   float x = xcomp(q), z = zcomp(q), width = filterwidthp(q);
   float path = abs(x - (0.55 - 0.9 * sin(0.17 * z) - 0.05 * z));
   float wide = fBm(q * 0.8, 0.8 * width, 4, 2.1, 0.6), fine = fBm(q * 11, 11 * width, 4, 2.2, 0.6);
 
-  /* Two layers of leaves, each one in a cell of its own colour. */
+  /* Leaves fill the cells of a random pattern, and each leaf has a colour of its own. */
   float f1, f2;
   point at1, at2;
   voronoi_f1f2_3d(point(17 * x, 0, 12 * z) + 0.3 * vsnoise(q * 9), 1, f1, at1, f2, at2);

@@ -3,7 +3,7 @@
 
     make_forest.py > forest.rib
 
-Units are metres: x to the right, y up, z away from the eye.
+Units are metres. x points to the right, y up and z away from the eye.
 """
 import math
 import pathlib
@@ -14,13 +14,13 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from parts import flat, head, numbers, part
 
 random.seed(11)
-SUN = (-0.21, 0.315, 0.926)            # towards it, as in forest.h
-CLEARING = (-2.8, 16.5, 5.5)           # x, z and radius
+SUN = (-0.21, 0.315, 0.926)            # This direction to the sun stands in forest.h too.
+CLEARING = (-2.8, 16.5, 5.5)           # The clearing has this x, z and radius.
 STAG = (-2.1, 13.4)
 
 
 def path(z):
-    """x of its middle."""
+    """Returns the x of the middle of the path."""
     return 0.55 - 0.9 * math.sin(0.17 * z) - 0.05 * z
 
 
@@ -39,7 +39,8 @@ def unit(a):
 
 
 def limb(points, radii, side=(0, 0, 1), around=8, flare=lambda k, a: 1):
-    """A tube through points: its rings have radii (across, along side), and flare(ring, angle) makes them other than ellipses."""
+    """Returns a tube through points. A ring is a circle of one radius, or an ellipse of two (across `side` and along it), and
+    flare(ring, angle) scales it."""
     rings = []
     for k, (point, radius) in enumerate(zip(points, radii)):
         before, after = points[max(k - 1, 0)], points[min(k + 1, len(points) - 1)]
@@ -53,16 +54,17 @@ def limb(points, radii, side=(0, 0, 1), around=8, flare=lambda k, a: 1):
     return f'Basis "b-spline" 1 "b-spline" 1 PatchMesh "bicubic" {around} "periodic" {len(rings)} "nonperiodic" "P" [{numbers(flat(flat(rings)))}]'
 
 
-# Leaves are two quadrangles with a fold between them, which the shader cuts to a leaf's shape.
+# A leaf is two quadrangles with a fold between them. The shader cuts them to the shape of a leaf.
 def leaf(base, along, up, size):
-    """Six points: left, middle and right at the stalk and at the tip."""
+    """Returns six points: left, middle and right at the stalk, and the same at the tip."""
     side = cross(unit(up), along)
     return [tuple(b + size * (t * a + w * s + (0.10 * abs(w) - droop) * u) for b, a, s, u in zip(base, along, side, up))
             for t, droop in ((0, 0), (1, 0.06)) for w in (-0.36, 0, 0.36)]
 
 
 def leaves(all_leaves):
-    """One mesh of leaves. "which" tells them apart; st is (0, 0) left of the stalk, (1, 1) right of the tip."""
+    """Returns one mesh of leaves. The variable "which" differs from leaf to leaf. st is (0, 0) left of the stalk and (1, 1) right of the
+    tip."""
     count = len(all_leaves)
     faces = " ".join(f"{6 * k} {6 * k + 1} {6 * k + 4} {6 * k + 3} {6 * k + 1} {6 * k + 2} {6 * k + 5} {6 * k + 4}" for k in range(count))
     which = " ".join(f"{random.random():.2f}" for _ in range(count) for _ in (0, 1))
@@ -71,7 +73,7 @@ def leaves(all_leaves):
 
 
 def spray(origin, heading, length, size, gap, droop=0.25):
-    """Leaves left and right of a twig and of its side twigs, nearly in one plane."""
+    """Returns leaves on both sides of a twig and of its side twigs, nearly in one plane, and the twigs."""
     out, twigs = [], []
 
     def twig(start, angle, reach, depth):
@@ -105,7 +107,7 @@ def sticks(twigs, thick, thin):
 
 
 def thing(name, surface, *requests):
-    """An object to be instanced."""
+    """Prints an object that instances repeat."""
     print(f'ObjectBegin "{name}"\n  Surface {surface}')
     for request in requests:
         print("  " + request)
@@ -121,7 +123,7 @@ def trunk(name, tall, radius):
 
 
 def crown(name, low, high, sprays, size, gap):
-    """Sprays in tiers around a trunk, wide below and narrow above, and the branches that bear them."""
+    """Prints sprays in tiers around a trunk and the branches that bear them. The crown is wide below and narrow above."""
     foliage, branches = [], []
     for k in range(sprays):
         h = (k + random.random()) / sprays
@@ -138,7 +140,7 @@ def crown(name, low, high, sprays, size, gap):
 
 
 def litter(name, count, wide):
-    """Fallen leaves, which lie as they fell."""
+    """Prints fallen leaves, which lie at random angles."""
     fallen = []
     for _ in range(count):
         x, z, angle = random.uniform(-wide, wide), random.uniform(-wide, wide), random.uniform(0, 2 * math.pi)
@@ -148,7 +150,7 @@ def litter(name, count, wide):
 
 
 def fern(name, fronds, size):
-    """A shuttlecock of arching fronds; the shader cuts their pinnae out of strips."""
+    """Prints arching fronds in the shape of a shuttlecock. The shader cuts their pinnae (leaflets) out of strips."""
     strips = []
     for k in range(fronds):
         angle, steep = 2.4 * k + random.uniform(-0.3, 0.3), random.uniform(0.6, 1.15)
@@ -166,7 +168,7 @@ def fern(name, fronds, size):
 
 
 def stag():
-    """Seen from its right side: it looks along +x."""
+    """Returns the parts of a stag that looks along +x. The eye sees its right side."""
     spine = [(-0.66, 1.02), (-0.64, 1.06), (-0.52, 1.06), (-0.25, 1.03), (0.05, 1.0), (0.3, 1.02), (0.47, 1.12), (0.58, 1.30), (0.66, 1.47), (0.72, 1.58)]
     girth = [(0.03, 0.03), (0.11, 0.09), (0.21, 0.16), (0.235, 0.19), (0.23, 0.19), (0.25, 0.175), (0.2, 0.14), (0.135, 0.1), (0.1, 0.075), (0.075, 0.06)]
     parts = [limb([(x, y, 0) for x, y in spine], girth),
@@ -191,7 +193,7 @@ def instance(name, x, z, scale=1.0, turn=None, lift=0.0, tilt=""):
 
 
 def places(x0, x1, z0, z1, apart, tries):
-    """Places that keep their distance from each other."""
+    """Returns random places that keep the distance `apart` from each other."""
     kept = []
     for _ in range(tries):
         x, z = random.uniform(x0, x1), random.uniform(z0, z1)
@@ -201,19 +203,19 @@ def places(x0, x1, z0, z1, apart, tries):
 
 
 def is_free(x, z, margin):
-    """Neither on the path nor in the clearing, nor before the stag."""
+    """Tells whether a place lies off the path, outside the clearing, and not between the eye and the stag."""
     cx, cz, radius = CLEARING
     return abs(x - path(z)) > margin and math.hypot(x - cx, z - cz) > radius and not (z < STAG[1] and abs(x - z * STAG[0] / STAG[1]) < 0.8 + 0.06 * z)
 
 
 def shades(x, z):
-    """Whether a tree stands where the sun's light is to be kept out; it comes in between."""
+    """Tells whether a tree may stand at a place. Sunlight comes in through the gaps between such places."""
     across = x - z * SUN[0] / SUN[2]
     return z < 11 or math.sin(1.25 * across + 1.4) + 0.5 * math.sin(0.61 * across) < 0.45
 
 
 def sun_view(wide, tall):
-    """The camera of the shadow map: parallel to the sun's light, over what it falls on."""
+    """Returns the camera of the shadow map, which looks along the sunlight at the part of the wood that the map covers."""
     w = tuple(-c for c in unit(SUN))
     u = unit(cross((0, 1, 0), w))
     v = cross(w, u)

@@ -1,6 +1,6 @@
 #include "forest.h"
 
-/* The sky between the trunks. */
+/* This is the sky between the trunks. */
 surface morning() {
   vector d = normalize(vtransform("forest", I));
   Oi = 1;

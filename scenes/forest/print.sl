@@ -1,4 +1,6 @@
-/* The print: a soft shoulder for the lights, contrast, cool shadows and warm lights, darker corners. */
+/* This imager grades the picture like a photographic print. Bright parts run out softly, contrast grows, shadows become
+ * cooler and lights warmer, and the corners become darker.
+ */
 imager print(float exposure = 1.75, contrast = 1.1, vignette = 0.35) {
   color c = exposure * Ci;
   c = c * (1 + c / 16) / (1 + 0.6 * c);

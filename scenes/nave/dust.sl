@@ -1,4 +1,4 @@
-/* Dusty air: the way from the eye is walked in steps, and where the sun is seen from, the air glows. */
+/* The shader walks through dusty air from the eye to the surface in steps. The air glows where the sun reaches it. */
 volume dust(float density = 0.014, steps = 120, glow = 0.42; color air = color(0.045, 0.045, 0.05);) {
   float way = length(I);
   vector along = normalize(I);

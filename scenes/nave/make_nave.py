@@ -3,7 +3,7 @@
 
     make_nave.py > nave.rib
 
-Units are metres: x to the right, y up from the floor, z into the hall.
+Units are metres. x points to the right, y up from the floor and z into the hall.
 """
 import math
 import pathlib
@@ -13,10 +13,10 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from parts import head, numbers
 
 BAYS, BAY = 7, 5.0
-HALF, SPRING, RISE = 4.0, 7.0, 4.0     # the nave: half its width, where its vaults begin, and how high they rise
-WALL, AISLE = 0.7, 7.6                 # the walls' thickness, and where the outer walls stand
-ARCADE, COLUMN = 4.2, 0.42             # where the arches between columns begin, and the columns' radius
-STEPS = 20                             # of an arch
+HALF, SPRING, RISE = 4.0, 7.0, 4.0     # These are half the width of the nave, the height at which its vaults begin, and their rise.
+WALL, AISLE = 0.7, 7.6                 # These are the thickness of the walls and the x of the outer walls.
+ARCADE, COLUMN = 4.2, 0.42             # These are the height at which the arches between columns begin, and the radius of the columns.
+STEPS = 20                             # An arch has so many straight pieces.
 
 
 def begin(name, *requests):
@@ -26,19 +26,19 @@ def begin(name, *requests):
 
 
 def arch(centre, half, spring, low):
-    """An opening with a round head: (z, y) from its foot at the far side over its head to the near one."""
+    """Returns the outline of an opening with a round head: points (z, y) from the far foot over the head to the near foot."""
     head = [(centre + half * math.cos(math.pi * k / STEPS), spring + half * math.sin(math.pi * k / STEPS)) for k in range(STEPS + 1)]
     return [(centre + half, low), *head, (centre - half, low)] if low < spring else head
 
 
 def strip(outline, x0, x1):
-    """What an opening shows of the wall's thickness."""
+    """Prints the sides of an opening, which run through the thickness of the wall."""
     points = [c for x in (x0, x1) for z, y in outline for c in (x, y, z)]
     print(f'    PatchMesh "bilinear" {len(outline)} "nonperiodic" 2 "nonperiodic" "P" [{numbers(points)}]')
 
 
 def wall(outer, hole, x0, x1):
-    """Both faces of a wall, and its opening's sides."""
+    """Prints both faces of a wall and the sides of its opening."""
     for x in (x0, x1):
         points = [c for z, y in outer + hole for c in (x, y, z)]
         loops = [len(outer), len(hole)] if hole else [len(outer)]
@@ -49,7 +49,7 @@ def wall(outer, hole, x0, x1):
 
 
 def vault(middle):
-    """Four fields of a groined vault: two barrels of the same height cross."""
+    """Prints the four fields of a groined vault. It is where two barrel vaults of the same height cross."""
     for turned in (False, True):
         for side in (-1, 1):
             points, normals = [], []
@@ -65,7 +65,7 @@ def vault(middle):
 
 
 def rib(x, z, degrees, width, thick):
-    """Half a hoop from one springing to the other."""
+    """Prints a rib, which is half a hoop from one springing of a vault to the other."""
     print(f'    TransformBegin Translate {x:g} {SPRING} {z:g} Rotate {degrees:g} 0 1 0 Scale {width / RISE:g} 1 1 Torus {RISE} {thick} 0 360 180 TransformEnd')
 
 

@@ -1,6 +1,6 @@
 #include "filterwidth.h"
 
-/* Old glass in lead, behind which the sky is: small panes, each of its own tint. */
+/* This is old glass in lead, with the sky behind it. Each small pane has a tint of its own. */
 surface pane(color sky = color(1.9, 1.95, 2.0); float size = 0.34;) {
   point q = transform("hall", P);
   normal n = normalize(ntransform("hall", normalize(N)));

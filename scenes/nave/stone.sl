@@ -1,6 +1,8 @@
 #include "noises.h"
 
-/* Dressed stone: courses of blocks with joints, each block of its own tone, weathered in clouds. */
+/* Blocks of dressed stone lie in courses with joints. Each block has a tone of its own, and weathering has left clouds
+ * in it.
+ */
 surface stone(color pale = color(0.54, 0.48, 0.40); float courses = 2.4, blocks = 1.1;) {
   point q = transform("hall", P);
   float width = filterwidthp(q);
@@ -18,7 +20,7 @@ surface stone(color pale = color(0.54, 0.48, 0.40); float courses = 2.4, blocks 
     float upright = 1 - smoothstep(0.6, 0.8, abs(ycomp(n)));
     paint *= mix(1, (0.88 + 0.24 * tone) * (1 - 0.3 * joint * (1 - smoothstep(0.02, 0.08, width))), upright);
   }
-  /* Soot above, and damp near the floor. */
+  /* The stone is dark from damp near the floor. */
   paint *= mix(0.72, 1, smoothstep(0, 1.5, ycomp(q) + 0.5 * clouds));
   Oi = Os;
   Ci = Os * paint * (diffuse(Nf) + ambient());

@@ -1,6 +1,6 @@
 #include "noises.h"
 
-/* Worn tiles, dark and pale by turns, which mirror the hall where feet have polished them. */
+/* Worn tiles alternate between dark and pale. They reflect the hall where feet have polished them. */
 surface tiles(color pale = color(0.46, 0.41, 0.33), dark = color(0.095, 0.085, 0.08); float size = 0.62;) {
   point q = transform("hall", P);
   float x = (xcomp(q) + zcomp(q)) / (1.4142 * size), y = (xcomp(q) - zcomp(q)) / (1.4142 * size);

@@ -1,8 +1,8 @@
 #include "noon.h"
 
-/* The skin of a car: paint, glass, seams and grille on one smooth body. Points are in the car's own space: metres, x to
- * its left, y up, z forwards. The windows lie between two slanted pillars: front and back say at which z they stand at
- * the belt and at the roof.
+/* This shader draws the paint, the glass, the seams and the grille on the one smooth body of a car. Points are in the
+ * space of the car. Its units are metres, x points to its left, y up and z forwards. The windows lie between two
+ * slanted pillars: `front` and `back` hold their z at the belt and at the roof.
  */
 surface carbody(float belt = 0.94, roof = 1.40, flake = 0; vector front = vector(0.98, 0.36, 0), back = vector(-1.42, -0.80, 0);
                 float middle = -0.22, panel = 0; float wheelfront = 1.32, wheelback = -1.28) {
@@ -22,7 +22,8 @@ surface carbody(float belt = 0.94, roof = 1.40, flake = 0; vector front = vector
   color tint = Cs;
   float clean = 1;
   if (isindirectray() == 0) {
-    /* Seams of doors, hood and trunk; rubber around the glass; the dark within wheel arches and grille. */
+    /* Doors, hood and trunk have seams, the glass has rubber around it, and the wheel arches and the grille are dark.
+     */
     float flank = smoothstep(0.5, 0.7, abs(xcomp(n))) * between(y, 0.30, belt + 0.02, soft);
     float seam = flank * max(stroke(z, xcomp(front) - 0.12, 0.009, soft), max(stroke(z, middle - 0.02, 0.009, soft), stroke(z, xcomp(back) + 0.30, 0.009, soft)));
     float top = smoothstep(0.6, 0.8, ycomp(n)) * (1 - pane);
@@ -43,7 +44,7 @@ surface carbody(float belt = 0.94, roof = 1.40, flake = 0; vector front = vector
   Ci = Os * tint * received(Nf, isindirectray() + raydepth());
   if (isindirectray() == 0) {
     color coat = mirrored(Nf, mix(1.5, 1.75, flake), 0.025, 32);
-    /* The sun itself in the lacquer. */
+    /* The lacquer reflects the sun itself. */
     vector V = -normalize(I);
     color glint = 0;
     illuminance ("sun", P, Nf, PI / 2) glint += Cl * (1.6 * pow(max(0, normalize(normalize(L) + V) . Nf), 900) + (0.02 + 0.12 * flake) * pow(max(0, normalize(normalize(L) + V) . Nf), 40));

@@ -1,8 +1,9 @@
-"""The cars of noon.rib: a smooth body through cross-sections, and what stands off it."""
+"""Makes the cars of noon.rib. A car is a smooth body through cross-sections, with parts that stand off it."""
 from houses import colour
 from parts import box, flat, numbers, part, soft
 
-# Stations of a body, from the tail to the nose: z, half width, sill, belt, height of the middle line. Where that is above the belt, there is the cabin.
+# Each cross-section has a z, half a width, and the heights of sill, belt and middle line. They run from the tail to the nose. The cabin is
+# where the middle line lies above the belt.
 SEDAN = [(-2.22, .66, .42, .66, .68), (-2.20, .78, .32, .80, .84), (-2.05, .85, .26, .90, .95), (-1.75, .875, .25, .93, .99), (-1.50, .885, .24, .94, 1.01), (-1.40, .885, .24, .94, 1.05),
          (-1.10, .89, .24, .945, 1.24), (-0.82, .89, .24, .945, 1.39), (-0.55, .89, .24, .945, 1.44), (-0.1, .89, .24, .945, 1.46), (0.25, .89, .24, .94, 1.43), (0.42, .89, .24, .94, 1.37),
          (0.72, .885, .24, .94, 1.17), (0.98, .88, .24, .93, 1.01), (1.08, .875, .24, .925, .985), (1.45, .87, .24, .90, .96), (1.85, .845, .25, .84, .895), (2.08, .80, .27, .74, .79), (2.19, .72, .34, .62, .64), (2.21, .60, .42, .56, .58)]
@@ -17,7 +18,7 @@ KINDS = {"sedan": (SEDAN, 'Surface "carbody" "float flake" [FLAKE]', 1.32, -1.28
 
 
 def ring(z, w, low, belt, top):
-    """Half of a cross-section as control points, from the middle below to the middle above, and its mirror image."""
+    """Returns a cross-section as a ring of control points. They are those of one half, from the bottom to the top, and their mirror images."""
     cabin = max(0, top - belt - 0.09)
     lean = w * (1 - 0.20 * min(1, cabin / 0.45)) * (1 if cabin else 0.93)
     shoulder = belt + 0.02
@@ -47,7 +48,7 @@ def car(name, kind, paint, x, z, heading, flake=0.6, taxi=False):
     bumper, dark = '"plain" "float gloss" [0.5]', "Color 0.03 0.03 0.032"
     high = 0.70 if kind != "van" else 0.86
     for s in (-1, 1):
-        # Head lamps and tail lamps lie half in the body; mirrors stand off it.
+        # Head lamps and tail lamps lie half in the body. Mirrors stand off it.
         rows += ["AttributeBegin", 'Surface "chrome" "float glass" [1]', "Color 0.9 0.92 0.95", f"Translate {s * 0.60} {high - 0.02} {nose - 0.035}", f"Rotate {s * 14} 0 1 0", "Scale 0.17 0.085 0.10", "Sphere 1 -1 1 360", "AttributeEnd",
                  "AttributeBegin", 'Surface "chrome" "float glass" [1]', "Color 0.75 0.03 0.02", f"Translate {s * (0.72 if kind != 'van' else 0.86)} {high + (0.07 if kind == 'sedan' else 0.22)} {tail + 0.03}", f"Rotate {s * -12} 0 1 0", f"Scale {0.13 if kind == 'sedan' else 0.07} {0.075 if kind == 'sedan' else 0.17} 0.055", "Sphere 1 -1 1 360", "AttributeEnd",
                  "AttributeBegin", surface.split(' "float flake"')[0].replace("carbody", "plain") + ' "float gloss" [1]', f"Translate {s * (width + 0.10):.3f} {belt + 0.09:.3f} {stations[-8][0] - 0.10:.3f}", soft(-0.11, 0.11, -0.075, 0.075, -0.05, 0.06, hard=0.6), "AttributeEnd",

@@ -1,6 +1,7 @@
 #include "noon.h"
 
-/* Polished metal, and by its colour lamps: it mirrors the street. glass: how much of it lies behind a lens with ribs. */
+/* Polished metal reflects the street. Coloured lamps use this shader too: `glass` is the share that lies behind a lens.
+ */
 surface chrome(float glass = 0) {
   normal Nf = faceforward(normalize(N), I);
   color seen = skycolor(vtransform("city", reflect(normalize(I), Nf)));

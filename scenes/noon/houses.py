@@ -1,9 +1,9 @@
-"""The houses of noon.rib: meshes by material, in metres along the wall, up, and out of it."""
+"""Makes the houses of noon.rib. A house is one mesh for each material. Points are in metres along the wall, up, and out of it."""
 import random
 
 from parts import flat, numbers, part
 
-WALL = 11.6                            # x of the houses on both sides
+WALL = 11.6                            # The houses on both sides stand at this distance from the middle of the street.
 BOX = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 WALLS = [((0.74, 0.66, 0.52), 2), ((0.66, 0.60, 0.51), 2), ((0.52, 0.26, 0.19), 1), ((0.78, 0.60, 0.42), 0), ((0.80, 0.74, 0.62), 0), ((0.60, 0.37, 0.27), 1),
          ((0.70, 0.46, 0.34), 0), ((0.62, 0.66, 0.62), 0), ((0.78, 0.70, 0.44), 0), ((0.68, 0.62, 0.56), 2)]
@@ -12,7 +12,7 @@ AWNINGS = [(0.55, 0.09, 0.07), (0.10, 0.26, 0.16), (0.12, 0.20, 0.38), (0.62, 0.
 
 
 class Mesh:
-    """Polygons of one material. Points are (along the wall, height, out of the wall)."""
+    """Collects polygons of one material. Points are (along the wall, height, out of the wall)."""
 
     def __init__(self, surface, *requests):
         self.surface, self.requests, self.points, self.sizes, self.vertices, self.st, self.which = surface, requests, [], [], [], [], []
@@ -45,7 +45,7 @@ def colour(c, shade=1.0):
 
 
 class House:
-    """One side of it is seen. Its parts are meshes by material."""
+    """Builds a house as meshes by material. Only the side towards the street is seen."""
 
     def __init__(self, index, wide, near):
         rng = random.Random(500 + index)
@@ -67,7 +67,7 @@ class House:
         self.build()
 
     def opening(self, x0, x1, y0, y1, a, b, c, d, deep):
-        """The wall between x0..x1, y0..y1 around a hole a..b, c..d, and the hole's sides."""
+        """Adds the wall between x0..x1, y0..y1 around a hole a..b, c..d, and the sides of the hole."""
         xs, ys = (x0, a, b, x1), (y0, c, d, y1)
         for i in range(3):
             for j in range(3):
@@ -161,7 +161,7 @@ class House:
             y += storey
             if floor < floors - 1:
                 self.ledge(y - 0.08, 0.14, 0.07)
-        # The main cornice on its consoles, and the roof behind it.
+        # The main cornice rests on consoles. The roof rises behind it.
         self.ledge(y, 0.32, 0.12), self.ledge(y + 0.30, 0.18, 0.46), self.ledge(y + 0.46, 0.14, 0.62)
         for k in range(int(self.wide / 0.55)) if self.near else ():
             self.stone.block(0.2 + 0.55 * k, 0.42 + 0.55 * k, y + 0.04, y + 0.32, 0.05, 0.42)
@@ -175,14 +175,15 @@ class House:
             self.stone.block(middle - 0.80, middle + 0.80, y + 1.9, y + 2.08, -0.9, 0.14)
             self.pane.rectangle(middle - 0.5, middle + 0.5, y + 0.45, y + 1.85, -0.14)
             self.frame.block(middle - 0.03, middle + 0.03, y + 0.4, y + 1.9, -0.14, -0.08), self.frame.block(middle - 0.55, middle + 0.55, y + 0.2, y + 0.45, -0.2, 0.0)
-        # The wall to the house before this one, with its chimneys.
+        # A wall with chimneys separates this house from the one before it.
         self.wall.block(-0.22, 0.22, 0, y + rise + 0.6, -8, -0.05)
         self.stone.block(-0.28, 0.28, y + rise + 0.58, y + rise + 0.8, -3.2, -1.0)
         for k in range(4):
             self.slate.block(-0.16, 0.16, y + rise + 0.8, y + rise + 1.25, -3.0 + 0.5 * k, -2.7 + 0.5 * k)
 
     def write(self, name, side, start):
-        """`side` is -1 left, 1 right. Along the wall is away from the eye on the left, towards it on the right, so that it is seen from the street."""
+        """Prints the house. `side` is -1 on the left and 1 on the right. The first coordinate runs away from the eye on the left and towards it
+        on the right, so that the third one always points to the street."""
         place = f"ConcatTransform [{numbers((0, 0, 1, 0, 0, 1, 0, 0, -side, 0, 0, 0, side * WALL, 0, start, 1))}]"
         rows = [r for mesh in (self.wall, self.stone, self.frame, self.pane, self.shop, self.shutter, self.iron, self.sign, self.awning, self.slate) for r in mesh.write()]
         if self.bars:

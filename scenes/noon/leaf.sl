@@ -1,6 +1,8 @@
 #include "noon.h"
 
-/* Leaves of a plane tree: the sun shines through them. Within the crown little of the sky is seen: t of the mesh says how little. */
+/* The sun shines through the leaves of a plane tree. Leaves within the crown see little of the sky: `open` tells how
+ * much.
+ */
 surface leaf(float open = 1; float which = 0.5) {
   normal Nf = faceforward(normalize(N), I);
   vector V = -normalize(I);

@@ -3,7 +3,7 @@
 
     make_noon.py > noon.rib
 
-Units are metres: x to the right, y up, z away from the eye.
+Units are metres. x points to the right, y up and z away from the eye.
 """
 import math
 import pathlib
@@ -16,9 +16,9 @@ from houses import WALL, House, colour
 from parts import box, flat, head, lathe, numbers, part, soft
 
 random.seed(12)
-SUN = (-0.44, 0.82, -0.36)             # towards it, as in noon.h
-LEAVES = 64                            # of the end of a twig
-KERB, FAR = 7.0, 250.0                 # x of the kerbs; where the street ends
+SUN = (-0.44, 0.82, -0.36)             # This direction to the sun stands in noon.h too.
+LEAVES = 64                            # The end of a twig has so many leaves.
+KERB, FAR = 7.0, 250.0                 # These are the x of the kerbs and the z at which the street ends.
 
 
 def street():
@@ -46,7 +46,7 @@ def unit(a):
 
 
 def tree(name, seed, tall):
-    """A plane tree: a trunk that forks, boughs, and leaves around the ends of its twigs. A leaf is a bent rhombus."""
+    """Prints a plane tree. Its trunk forks into boughs, and leaves surround the ends of its twigs. A leaf is a bent rhombus."""
     rng = random.Random(seed)
     boughs, ends = [], []
     def grow(at, d, length, radius, depth):
@@ -98,7 +98,7 @@ PAINTS = [(0.50, 0.020, 0.016), (0.70, 0.70, 0.68), (0.035, 0.075, 0.18), (0.025
 
 def cars():
     rng = random.Random(12)
-    # Those that drive: on the left towards the eye, on the right away from it.
+    # These cars drive. Those on the left come towards the eye, and those on the right go away from it.
     moving = [("hatch", (0.56, 0.022, 0.016), -2.25, 15.2, 180), ("sedan", (0.66, 0.42, 0.03), 2.2, 10.8 + 7, 0), ("van", (0.72, 0.72, 0.70), -2.2, 27, 180), ("sedan", (0.04, 0.10, 0.22), 2.35, 31, 0),
               ("sedan", PAINTS[4], -2.3, 43, 180), ("hatch", PAINTS[8], 2.2, 46, 0), ("van", (0.10, 0.20, 0.16), 2.2, 68, 0), ("sedan", PAINTS[1], -2.2, 63, 180), ("hatch", PAINTS[0], -2.2, 84, 180), ("sedan", PAINTS[3], 2.2, 90, 0), ("sedan", PAINTS[6], -2.2, 118, 180), ("van", PAINTS[1], 2.2, 124, 0), ("hatch", PAINTS[4], -2.2, 150, 180)]
     for k, (kind, paint, x, z, heading) in enumerate(moving):
@@ -112,7 +112,7 @@ def cars():
 
 
 def lamp(name):
-    """A street lamp of cast iron."""
+    """Prints a street lamp of cast iron."""
     print(f'ObjectBegin "{name}"\n  Surface "plain" "float gloss" [0.4] "float formula" [1]\n  Color 0.03 0.045 0.04')
     print("  " + lathe([(0.2, 0), (0.2, 0.1), (0.2, 0.1), (0.15, 0.2), (0.12, 0.7), (0.15, 0.8), (0.075, 0.95), (0.06, 2.2), (0.085, 2.3), (0.055, 2.4), (0.045, 4.3), (0.08, 4.4), (0.05, 4.5), (0.13, 4.62), (0.13, 4.66), (0.02, 4.66)]))
     print("  " + lathe([(0.24, 5.2), (0.24, 5.24), (0.12, 5.36), (0.05, 5.42), (0.05, 5.5), (0.0, 5.56)]))
@@ -120,7 +120,7 @@ def lamp(name):
 
 
 def walker(name, seed):
-    """Somebody who walks: legs, a coat or shirt, arms, a head."""
+    """Prints a person who walks, with legs, a coat or a shirt, arms and a head."""
     rng = random.Random(seed)
     cloth, legs = rng.choice([(0.55, 0.12, 0.10), (0.12, 0.18, 0.30), (0.62, 0.58, 0.50), (0.10, 0.10, 0.11), (0.45, 0.42, 0.12), (0.20, 0.32, 0.26)]), rng.choice([(0.06, 0.07, 0.12), (0.05, 0.05, 0.05), (0.30, 0.26, 0.20)])
     def limb(points, radii):
@@ -143,7 +143,7 @@ def walker(name, seed):
 
 
 def dome():
-    """What the street leads to: a church with a portico, a drum and a dome."""
+    """Prints the church to which the street leads. It has a portico, a drum and a dome."""
     rows = ['Surface "masonry" "float bond" [3]', "Color 0.70 0.66 0.58", box(-19, 19, 0, 24, 285, 330), box(-20, 20, 24, 25.4, 284, 331), box(-13, 13, 18, 20, 276, 286), box(-13, 13, 0, 1.2, 275, 286),
             'PointsPolygons [3 4 4] [0 1 2 0 2 3 4 1 5 3 2] "P" [-13.6 20 275.6 13.6 20 275.6 0 25.5 275.6 0 25.5 286 -13.6 20 286 13.6 20 286]']
     for k in range(8):

@@ -1,6 +1,8 @@
 #include "noon.h"
 
-/* The walls of houses. bond: 0 stucco, 1 brick, 2 ashlar with open joints, 3 dressed stone of ledges and frames. */
+/* This shader draws the walls of houses. `bond` is 0 for stucco, 1 for brick, 2 for ashlar with open joints, and 3 for
+ * the dressed stone of ledges and frames.
+ */
 surface masonry(float bond = 0) {
   point q = transform("city", P);
   normal Nf = faceforward(normalize(N), I), n = normalize(ntransform("city", Nf));
@@ -10,7 +12,7 @@ surface masonry(float bond = 0) {
     float stain = fBm(point(1.1 * along, 0.28 * y, xcomp(q)), soft, 5, 2.1, 0.55);
     float fine = fBm(9 * q, 9 * soft, 3, 2, 0.6);
     tint *= 1 + 0.16 * stain + 0.08 * fine;
-    /* Soot and rain run down from ledges. */
+    /* Rain washes soot down from the ledges. */
     float run = smoothstep(0.1, 0.7, fBm(point(5 * along, 0.16 * y, 3), 5 * soft, 3, 2, 0.5));
     tint *= mix(color(1, 1, 1), color(0.80, 0.78, 0.76), 0.6 * run);
     float fade = 1 - smoothstep(0.006, 0.03, soft);
@@ -25,7 +27,7 @@ surface masonry(float bond = 0) {
       tint *= 1 + 0.14 * (float cellnoise(floor(shifted - 0.5), floor(row - 0.5)) - 0.5);
       tint *= 1 - 0.55 * joint * (1 - smoothstep(0.04, 0.15, soft));
     }
-    /* The foot of a wall is splashed, and so are the tops of ledges. */
+    /* Dirt splashes onto the foot of a wall and settles on the tops of ledges. */
     tint *= mix(0.78, 1, smoothstep(0, 0.9, y + 0.3 * stain));
     tint *= mix(1, 0.8, smoothstep(0.5, 0.95, ycomp(n)) * (0.6 + 0.4 * stain));
   }

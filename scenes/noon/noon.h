@@ -1,5 +1,5 @@
-/* What the shaders of this scene share: the sun, the sky, and what polished surfaces mirror. Points and directions are in
- * the coordinate system "city": metres, x to the right, y up, z away from the eye.
+/* The shaders of this scene share the sun, the sky, and the reflections of polished surfaces. Points and directions are
+ * in the coordinate system "city". Its units are metres, x points to the right, y up and z away from the eye.
  */
 #ifndef NOON_H
 #define NOON_H
@@ -8,7 +8,7 @@
 
 #define SUN normalize(vector(-0.44, 0.82, -0.36))
 
-/* The radiance of the sky without clouds: blue above, pale at the horizon, white around the sun. */
+/* Returns the radiance of the sky without clouds. It is blue above, pale at the horizon, and white around the sun. */
 color skycolor(vector direction) {
   vector d = normalize(direction);
   float up = max(ycomp(d), 0), near = max(0, d . SUN);
@@ -16,19 +16,23 @@ color skycolor(vector direction) {
   return clear + color(0.30, 0.28, 0.24) * pow(near, 8);
 }
 
-/* What sky and houses send to a surface, as diffuse() would say: where no records of light are. */
+/* Returns the light that a matte surface receives from sky and houses, in the units of diffuse(). It stands in for
+ * indirect light at points for which none is computed.
+ */
 color skylight(normal n) {
   float up = 0.5 + 0.5 * ycomp(n);
   return mix(color(0.16, 0.145, 0.125), color(0.25, 0.32, 0.42), up);
 }
 
-/* The light at a matte point. Rays that gather light take the sun alone, and add the sky by its formula. */
+/* Returns the light at a matte point. At points that the eye sees, diffuse() brings the sun and the indirect light. At
+ * points that rays meet, it brings the sun alone, and the formula adds the sky.
+ */
 color received(normal Nf; float raylevel) {
   return raylevel > 0 ? diffuse(Nf) + skylight(normalize(ntransform("city", Nf))) : diffuse(Nf);
 }
 
-/* What a polished surface adds to its colour: Fresnel's share of what it mirrors. Points that are themselves seen in a
- * mirror take the sky, because rays would multiply otherwise.
+/* Returns what a polished surface reflects by Fresnel's equations. Points that are seen in a mirror themselves reflect
+ * only the sky, because rays would multiply otherwise.
  */
 color mirrored(normal Nf; float eta, cone, samples) {
   float Kr, Kt;
@@ -39,12 +43,12 @@ color mirrored(normal Nf; float eta, cone, samples) {
   return Kr * seen;
 }
 
-/* 1 on a line of a width at the middle of x, softened over a pixel. */
+/* Returns 1 on a line of the given width around `middle`, and fades to 0 over a pixel. */
 float stroke(float x, middle, width, soft) {
   return 1 - smoothstep(0.5 * width - 0.5 * soft, 0.5 * width + 0.5 * soft, abs(x - middle));
 }
 
-/* 1 where x lies between two places. */
+/* Returns 1 where x lies between `low` and `high`, and fades to 0 over a pixel. */
 float between(float x, low, high, soft) {
   return smoothstep(low - 0.5 * soft, low + 0.5 * soft, x) * (1 - smoothstep(high - 0.5 * soft, high + 0.5 * soft, x));
 }

@@ -1,10 +1,10 @@
 #include "noon.h"
 
-/* The sky: its colour, and fair-weather clouds in a layer, lit from the side of the sun. */
+/* The sky has its own colour and a layer of fair-weather clouds, which are brighter on the side of the sun. */
 surface noonsky(float cover = 0.28; vector drift = vector(4, 8, 3)) {
   vector d = normalize(vtransform("city", I));
   color sky = skycolor(d);
-  /* Heaps are wider than they are high. */
+  /* Clouds are wider than they are high. */
   point q = point(3.2 * xcomp(d), 5.6 * ycomp(d), 3.2 * zcomp(d)) + drift;
   float width = isindirectray() > 0 ? 0.3 : filterwidthp(q);
   q += 0.12 * vsnoise(2.3 * q);

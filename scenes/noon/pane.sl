@@ -1,6 +1,8 @@
 #include "noon.h"
 
-/* A window from outside: it mirrors the street, no two panes alike, before a dark room with curtains. st: 0..1 over the pane. */
+/* A window, seen from outside, reflects the street in front of a dark room with curtains. No two panes reflect alike. s
+ * and t run from 0 to 1 over the pane.
+ */
 surface pane(uniform float which = 0.5; float shop = 0) {
   normal Nf = faceforward(normalize(N), I);
   point q = transform("city", P);
@@ -13,7 +15,7 @@ surface pane(uniform float which = 0.5; float shop = 0) {
   color inside = mix(room, color(0.22, 0.21, 0.19) * (0.55 + 0.45 * fold), 0.8 * cloth);
   inside = mix(inside, color(0.34, 0.32, 0.27), blind);
   if (shop > 0) {
-    /* Shelves and what lies on them. */
+    /* A shop has shelves with goods. */
     float row = 4 * t, goods = float cellnoise(9 * s + 31 * which, floor(row));
     color ware = mix(color(0.05, 0.045, 0.04), color cellnoise(floor(9 * s) + 31 * which + 0.5, floor(row) + 0.5) * color(0.16, 0.11, 0.07), 0.7);
     float here = step(mod(row, 1), 0.35 + 0.5 * goods) * step(row, 3) * step(0.5, cellnoise(23 * which + 1));

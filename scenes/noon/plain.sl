@@ -1,7 +1,8 @@
 #include "noon.h"
 
-/* Painted wood, iron, rubber, slate: a colour, a little uneven, with an optional gloss. stripes: of an awning, in metres. formula: 1
- * where no light is gathered.
+/* This shader serves painted wood, iron, rubber and slate. It gives a slightly uneven colour and an optional gloss.
+ * `stripes` is the width of a pair of an awning's stripes in metres, and 0 means none. `formula` is 1 on surfaces for
+ * which no indirect light is computed.
  */
 surface plain(float gloss = 0, stripes = 0, uneven = 0.15, formula = 0; color second = color(0.8, 0.78, 0.72)) {
   point q = transform("city", P);

@@ -1,6 +1,8 @@
 #include "noon.h"
 
-/* Asphalt with its lines, patches, tracks of wheels and drops of oil; and the flags of the pavement beside it. */
+/* The street is asphalt with painted lines, patches, wheel tracks and oil stains. With flags = 1 the shader draws the
+ * stone slabs of the pavement beside it.
+ */
 surface street(float flags = 0) {
   point q = transform("city", P);
   normal Nf = faceforward(normalize(N), I);
@@ -16,18 +18,18 @@ surface street(float flags = 0) {
       tint *= 1 + 0.22 * (float cellnoise(floor(column - 0.5), floor(row - 0.5)) - 0.5);
       tint *= 1 - 0.5 * joint * (1 - smoothstep(0.05, 0.2, soft));
     } else {
-      /* Tyres polish two tracks in each lane; between them oil drips. */
+      /* Tyres polish two tracks in each lane. Oil drips between them. */
       float lane = abs(abs(x) - 2.2), track = exp(-pow((lane - 0.75) / 0.28, 2)), oil = exp(-pow(lane / 0.32, 2));
       tint *= 1 + 0.12 * track - (0.22 + 0.12 * wide) * oil;
-      /* Trenches that were filled again. */
+      /* Some trenches have been dug and filled again. */
       float cell = cellnoise(floor((x + 7) / 3.5), floor(z / 9));
       float patchx = mod(x + 7, 3.5), patchz = mod(z, 9);
       float filled = (cell > 0.76 ? 1 : 0) * between(patchx, 0.5, 2.4, soft) * between(patchz, 1.2, 3 + 4 * cell, soft);
       tint *= 1 - 0.28 * filled;
-      /* Cracks. */
+      /* The asphalt has cracks. */
       float crack = 1 - abs(snoise(0.55 * q + 0.35 * vsnoise(1.7 * q)));
       tint *= 1 - 0.3 * smoothstep(-0.1, 0.4, wide) * smoothstep(0.98, 0.994, crack) * (1 - smoothstep(0.02, 0.12, soft));
-      /* Lines: the middle, the lanes of parked cars, a crossing. */
+      /* Painted lines mark the middle, the lanes of parked cars, and a crossing. */
       float wear = smoothstep(-0.55, 0.25, fBm(2.2 * q, 2.2 * soft, 4, 2.2, 0.6) + 0.12 * fine);
       float dash = between(mod(z, 6), 0.5, 3.5, soft);
       paint = max(stroke(abs(x), 0.13, 0.11, soft), dash * stroke(abs(x), 4.55, 0.10, soft));

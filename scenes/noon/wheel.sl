@@ -1,6 +1,6 @@
 #include "noon.h"
 
-/* A disk with ten spokes of light metal before the dark of the brake. Polar: u turns around, v goes from the middle to the rim. */
+/* A wheel is a disk with ten spokes of light metal in front of the dark brake. */
 surface wheel() {
   normal Nf = faceforward(normalize(N), I);
   point q = transform("shader", P);

@@ -1,6 +1,6 @@
 #include "pool.h"
 
-/* A leaf or a bract: pale along its edges and towards its tip, with light that comes through from the other side. */
+/* A leaf or a bract lets a little light through from its other side. */
 surface leaf(color green = color(0.14, 0.24, 0.15)) {
   point q = transform("court", P);
   normal Nf = faceforward(normalize(N), I);

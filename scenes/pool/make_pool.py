@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes pool.rib: a courtyard pool in the afternoon, whose waves throw caustics onto its floor and, faintly, onto the loggia.
+"""Writes pool.rib: a courtyard pool in the afternoon. Its waves throw caustics onto its floor and, faintly, onto the loggia.
 
     make_pool.py > pool.rib
 
-Units are metres: x to the right, y up from the still water, z away from the eye.
+Units are metres. x points to the right, y up from the still water and z away from the eye.
 """
 import math
 import pathlib
@@ -14,19 +14,19 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from parts import box, head, lathe as spun, numbers, part, rounded, soft
 
 random.seed(21)
-DECK, FLOOR = 0.16, -1.35              # heights of the stone around the water and of the mosaic below it
-LEFT, RIGHT, NEAR, FAR = -3.3, 3.5, 0, 6.2  # the basin; a white wall stands on its right side
-WALL = 8.7                             # z of the rear wall
+DECK, FLOOR = 0.16, -1.35              # These are the heights of the stone around the water and of the mosaic below it.
+LEFT, RIGHT, NEAR, FAR = -3.3, 3.5, 0, 6.2  # These are the sides of the basin. A white wall stands on its right side.
+WALL = 8.7                             # The rear wall stands at this z.
 
 
 def lathe(profile):
-    """Quadric bands, so that a profile of (radius, height) from below to above becomes a surface of revolution."""
+    """Returns a surface of revolution made of quadric bands. The profile is a list of (radius, height) from the bottom to the top."""
     bands = [f"Hyperboloid {r0:.4g} 0 {y0:.4g}  {r1:.4g} 0 {y1:.4g} 360" for (r0, y0), (r1, y1) in zip(profile, profile[1:])]
     return "TransformBegin Rotate -90 1 0 0 " + " ".join(bands) + " TransformEnd"
 
 
 def agave(leaves, size):
-    """Stiff leaves in a rosette: each a bicubic patch, broad below its middle, hollow above, with a tip."""
+    """Returns stiff leaves in a rosette. Each is a bicubic patch that is broadest below its middle, hollow on its upper side, and pointed."""
     out = []
     for k in range(leaves):
         angle, rise = 2.39996 * k, math.radians(18 + 62 * (k / leaves) ** 0.8 + random.uniform(-6, 6))
@@ -42,7 +42,7 @@ def agave(leaves, size):
 
 
 def sprig(name, count, size):
-    """Leaves that float in a ball of 30 cm: small quadrilaterals, turned anyhow."""
+    """Prints an object of leaves, which are small quadrilaterals at random angles within a ball of about 30 cm."""
     points = []
     for _ in range(count):
         at = [random.gauss(0, 0.13) for _ in range(3)]
@@ -57,7 +57,7 @@ def sprigs(name, places):
 
 
 def bougainvillea(count, flowers):
-    """Sprigs that hang over the rear wall on the left: what lies outwards flowers."""
+    """Yields places of sprigs that hang over the rear wall on the left. Sprigs with flowers hang further out than sprigs with leaves."""
     for _ in range(count):
         x = random.triangular(-9.0, -4.5, -7.6)
         bough, hang = 0.5 + 0.5 * math.sin(2.1 * x + 1) * math.sin(3.7 * x), random.random() ** 1.4
@@ -84,7 +84,7 @@ print(f'''WorldBegin
 part("sky", 'Attribute "visibility" "int diffuse" [0] "int transmission" [0] "int photon" [0]', 'Surface "summersky"',
      "Rotate -90 1 0 0", "Sphere 200 -200 200 360")
 
-# The water: a flat sheet that "waves" raises, for rays and photons too.
+# The water is a flat sheet. The shader "waves" raises it, for rays and photons too.
 part("water", 'Attribute "photon" "string globalmap" ["rest"]', 'Attribute "photon" "string shadingmodel" ["water"]', 'Attribute "displacementbound" "float sphere" [0.06]',
      'Attribute "trace" "int displacements" [1] "int maxspeculardepth" [4] "float tessellation" [2]', 'Displacement "waves"', 'Surface "water"', 'Interior "depths"',
      f'PatchMesh "bilinear" 15 "nonperiodic" 14 "nonperiodic" "P" [{numbers(c for j in range(14) for i in range(14, -1, -1) for c in (LEFT - 0.05 + i * (RIGHT - LEFT + 0.1) / 14, 0, NEAR - 0.05 + j * (FAR - NEAR + 0.1) / 13))}]')
@@ -98,10 +98,10 @@ for k in range(3):
     top = -0.28 - 0.32 * k
     part(f"step {k + 1}", WET, MOSAIC + ' "color deep" [0.42 0.66 0.64] "color pale" [0.62 0.78 0.74]', box(LEFT, -1.75, FLOOR, top, FAR - 0.42 * (k + 1), FAR - 0.42 * k))
 
-# Stone around the water, with a rounded edge.
-UNLIT = 'Attribute "visibility" "int photon" [0]'  # no photons need to go there
+# The stone around the water has a rounded edge.
+UNLIT = 'Attribute "visibility" "int photon" [0]'  # Photons need not reach these objects.
 STONE = 'Surface "travertine"'
-print("  ShadingRate 0.25")  # The sun's shadows are sharp on what is dry, and steps of a micropolygon would show.
+print("  ShadingRate 0.25")  # The shadows of the sun are sharp on dry surfaces, so steps between micropolygons would show.
 part("near deck", UNLIT, STONE, box(-9, RIGHT, -0.3, DECK, -4.5, NEAR - 0.04))
 part("left deck", UNLIT, STONE, box(-9, LEFT - 0.04, -0.3, DECK, NEAR - 0.04, WALL))
 part("far deck", UNLIT, STONE, box(LEFT - 0.04, RIGHT, -0.3, DECK, FAR + 0.04, WALL + 0.3))
@@ -109,7 +109,7 @@ for name, (x0, x1, z0, z1) in {"near edge": (LEFT - 0.3, RIGHT, NEAR - 0.3, NEAR
                                "left edge": (LEFT - 0.3, LEFT + 0.03, NEAR - 0.1, FAR + 0.1)}.items():
     part(name, 'Surface "travertine" "float slab" [0.45]', soft(x0, x1, DECK - 0.07, DECK + 0.025, z0, z1))
 
-# Walls, and the loggia.
+# Walls surround the court, and a loggia stands at its rear.
 WHITE = 'Surface "stucco" "color paint" [0.80 0.77 0.71]'
 part("right wall", UNLIT, WHITE, box(RIGHT, RIGHT + 0.35, 0.1, 3.05, -1.2, 9.1))
 part("rear wall", 'Surface "stucco" "color paint" [0.66 0.27 0.17]' + PHOTONS, box(-9, 1.0, 0, 3.3, WALL, WALL + 0.3), box(2.1, RIGHT, 0, 3.3, WALL, WALL + 0.3),
@@ -122,7 +122,7 @@ part("bench", 'Surface "shutter" "color paint" [0.30 0.17 0.085] "float slat" [0
 part("cushions", UNLIT, 'Surface "stucco" "color paint" [0.82 0.78 0.68]', soft(-3.38, -2.22, 0.56, 0.74, 7.78, 8.48), soft(-2.2, -1.02, 0.56, 0.74, 7.78, 8.48))
 part("pillow", 'Surface "stucco" "color paint" [0.80 0.47 0.10]', "Translate -2.95 0.93 8.42 Rotate -14 1 0 0 Rotate 9 0 0 1", soft(-0.27, 0.27, -0.24, 0.24, -0.09, 0.09))
 
-# Plants.
+# Plants stand in pots and hang over the wall.
 POT = 'Surface "stucco" "color paint" [0.50 0.22 0.12]'
 for name, x, z, size, leaves in (("agave by the loggia", 2.75, 7.3, 0.72, 30), ("agave on the left", -4.2, 4.5, 0.95, 34)):
     part(f"pot of the {name}", UNLIT, POT, f"Translate {x} {DECK} {z}", lathe(rounded([(0.001, 0), (0.2, 0), (0.27, 0.2), (0.31, 0.42), (0.36, 0.44), (0.36, 0.52), (0.31, 0.53), (0.29, 0.46), (0.001, 0.46)])))
@@ -133,7 +133,7 @@ part("bougainvillea, bracts", UNLIT, 'Surface "leaf" "color green" [0.66 0.05 0.
 part("bougainvillea, leaves", UNLIT, 'Surface "leaf" "color green" [0.10 0.19 0.045]', *sprigs("leaves", bougainvillea(75, False)))
 part("cypresses", UNLIT, 'Surface "leaf" "color green" [0.045 0.085 0.04]', *(p for tree in ((-2.6, 15.5, 4.6, 0.55), (-1.0, 17, 5.4, 0.6), (0.4, 15.2, 4.2, 0.5)) for p in sprigs("leaves", cypress(*tree))))
 
-# What people have left.
+# People have left a few things.
 part("swim ring", 'Surface "vinyl"', "Translate 1.55 0.045 2.35 Rotate 3 0 0 1 Rotate 20 0 1 0 Rotate -88 1 0 0", "Torus 0.40 0.135 0 360 360")
 part("handrail", 'Surface "steel"', 'Attribute "photon" "string shadingmodel" ["chrome"]', 'Color 0.75 0.76 0.78', 'Attribute "dice" "int roundcurve" [1] Basis "bezier" 3 "bezier" 3',
      *(f'Curves "cubic" [10] "nonperiodic" "P" [{numbers(c for y, z in ((-0.6, 5.05), (-0.1, 5.05), (0.2, 5.05), (0.75, 5.15), (1.05, 5.25), (1.05, 5.7), (1.05, 6.2), (1.05, 6.5), (0.8, 6.6), (0.15, 6.6)) for c in (x, y, z))}] "constant float constantwidth" [0.042]' for x in (-1.72, -2.35)))

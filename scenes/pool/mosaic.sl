@@ -1,7 +1,7 @@
 #include "pool.h"
 
-/* Glass tiles of 4 cm, of which no two have the same blue, in pale joints. All light comes by the water: the sun
- * by photons, and what the water scatters, which is less the deeper it is.
+/* Glass tiles of 4 cm lie in pale joints, and no two tiles have quite the same blue. All light comes through the water.
+ * Photons bring the sunlight. The water adds scattered light, and it adds less the deeper the tile lies.
  */
 surface mosaic(color deep = color(0.05, 0.34, 0.42), pale = color(0.20, 0.55, 0.58), joint = color(0.62, 0.70, 0.68), scattered = color(0.10, 0.20, 0.22); float size = 0.04; string photons = "";) {
   point q = transform("court", P);

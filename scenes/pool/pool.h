@@ -1,5 +1,5 @@
-/* What the shaders of this scene share: the sky, the light at a matte point, and what a polished one mirrors. Places are
- * in the coordinate system "court": metres, y up from the still water.
+/* The shaders of this scene share the sky, the light at a matte point, and the reflections of polished surfaces. Points
+ * are in the coordinate system "court". Its units are metres, and y points up from the still water.
  */
 #ifndef POOL_H
 #define POOL_H
@@ -8,7 +8,7 @@
 
 #define SUN normalize(vector(-0.62, 0.66, -0.50))
 
-/* Two coordinates in metres on a wall or floor, whichever way it faces. */
+/* Sets a and b to two coordinates in metres on a wall or a floor, whichever way it faces. */
 void onplane(output float a, b;) {
   point q = transform("court", P);
   normal n = ntransform("court", normalize(Ng));
@@ -17,7 +17,7 @@ void onplane(output float a, b;) {
   b = (y > x && y > z) ? zcomp(q) : ycomp(q);
 }
 
-/* The radiance of the sky: deep blue above, pale at the horizon and towards the sun. */
+/* Returns the radiance of the sky. It is deep blue above, and pale at the horizon and towards the sun. */
 color skycolor(vector direction) {
   vector d = normalize(direction);
   float near = pow(0.5 + 0.5 * (d . SUN), 3), up = max(ycomp(d), 0);
@@ -26,14 +26,17 @@ color skycolor(vector direction) {
   return mix(horizon, above, pow(min(1, 1.6 * up), 0.6));
 }
 
-/* What comes to a matte point besides the sun, where nothing covers it: the sky from above, sunlit stone and water from below. */
+/* Returns the light besides the sun that an uncovered matte point receives. It comes from the sky above, and from
+ * sunlit stone and water below.
+ */
 color around(normal n) {
   float facing = 0.5 + 0.5 * ycomp(n);
   return mix(color(0.34, 0.30, 0.24), color(0.20, 0.28, 0.42), facing);
 }
 
-/* Sunlight that has come by the water: E/pi, from the photons that were stored before this frame. Photons ask shaders too,
- * as indirect rays do, and have no map yet.
+/* Returns the sunlight that has come through the water, as irradiance divided by pi. It is estimated from the photons
+ * that were stored before this frame. Shaders also run while photons are traced, as for indirect rays. The map does not
+ * exist yet then, so the result is 0.
  */
 color caustics(string map; normal Nf) {
   color sum = 0;
@@ -41,7 +44,9 @@ color caustics(string map; normal Nf) {
   return sum;
 }
 
-/* The light at a matte point. What one sees in a mirror or in the water does not ask how much is covered. */
+/* Returns the light at a matte point. Points that are seen in a mirror or through the water take a mean occlusion,
+ * because rays would multiply otherwise.
+ */
 color received(normal Nf) {
   normal n = normalize(ntransform("court", Nf));
   float open = 0.55;
@@ -49,7 +54,7 @@ color received(normal Nf) {
   return diffuse(Nf) + open * around(n);
 }
 
-/* What a polished surface adds: Fresnel's share of what lies in the mirrored direction. */
+/* Returns what a polished surface reflects by Fresnel's equations. */
 color gloss(normal Nf; float eta, cone, samples) {
   float Kr, Kt;
   vector In = normalize(I);

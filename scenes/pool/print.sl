@@ -1,4 +1,6 @@
-/* The print: a soft shoulder for the lights, contrast, and darker corners. */
+/* This imager grades the picture like a photographic print. Bright parts run out softly, contrast grows, and the
+ * corners become darker.
+ */
 imager print(float exposure = 1.3, contrast = 1.12, vignette = 0.25) {
   color c = exposure * Ci;
   c = c * (1 + c / 12) / (1 + 0.6 * c);

@@ -1,6 +1,6 @@
 #include "pool.h"
 
-/* Painted or oiled boards, which stand upright and have dark joints. */
+/* These are painted or oiled boards, which stand upright and have dark joints. */
 surface shutter(color paint = color(0.03, 0.07, 0.24); float slat = 0.16;) {
   point q = transform("court", P);
   float x = xcomp(q) / slat, width = filterwidthp(q);

@@ -1,4 +1,4 @@
-/* Polished steel. */
+/* This is polished steel. */
 surface steel() {
   vector In = normalize(I);
   normal Nf = faceforward(normalize(N), In);

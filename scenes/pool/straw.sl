@@ -1,6 +1,6 @@
 #include "pool.h"
 
-/* Plaited straw: rings of the plait, and strands across them. */
+/* This is plaited straw. The plait forms rings, and strands cross them. */
 surface straw(color pale = color(0.66, 0.50, 0.26), dark = color(0.36, 0.23, 0.09)) {
   point q = transform("shader", P);
   float ring = sqrt(xcomp(q) * xcomp(q) + zcomp(q) * zcomp(q)) + ycomp(q);

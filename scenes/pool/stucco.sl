@@ -1,7 +1,7 @@
 #include "pool.h"
 
-/* Painted plaster, brushed by hand: broad strokes, and a paler bloom where rain has washed it. `photons`: a map of what
- * comes by the water.
+/* Painted plaster shows broad strokes of the brush, and pale clouds where rain has washed it. `photons` names a photon
+ * map of the sunlight that the water throws on the wall.
  */
 surface stucco(color paint = color(0.8, 0.77, 0.7); string photons = "";) {
   point q = transform("court", P);

@@ -1,6 +1,6 @@
 #include "pool.h"
 
-/* The sky, with a few thin clouds. */
+/* The sky has a few thin clouds. */
 surface summersky() {
   vector d = normalize(vtransform("court", I));
   float up = max(ycomp(d), 0);

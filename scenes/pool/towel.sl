@@ -1,6 +1,6 @@
 #include "pool.h"
 
-/* Terry cloth with stripes. */
+/* The towel is terry cloth with stripes. */
 surface towel(color ground = color(0.80, 0.76, 0.68), stripe = color(0.07, 0.20, 0.42)) {
   point q = transform("shader", P);
   float x = mod(xcomp(q) / 0.12 + 0.5, 1), width = filterwidthp(q);

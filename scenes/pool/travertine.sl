@@ -1,6 +1,6 @@
 #include "pool.h"
 
-/* Slabs of travertine: layers, small holes along them, and joints that are nearly as pale. */
+/* Slabs of travertine have layers and small holes along them. The joints are darker. */
 surface travertine(color pale = color(0.66, 0.58, 0.46), dark = color(0.50, 0.40, 0.29); float slab = 0.62;) {
   point q = transform("court", P);
   float a, b;

@@ -1,6 +1,6 @@
 #include "pool.h"
 
-/* Blown-up vinyl, white with coral stripes, which mirrors the court. */
+/* This is inflated vinyl, white with coral stripes, which reflects the courtyard. */
 surface vinyl(color stripe = color(0.80, 0.11, 0.06), ground = color(0.82, 0.80, 0.76); float stripes = 6;) {
   float wide = mod(u * stripes, 1);
   float band = filterstep(0.25, wide) - filterstep(0.75, wide);

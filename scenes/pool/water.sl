@@ -1,4 +1,6 @@
-/* The surface of water: what Fresnel's equations mirror and refract. It is opaque to shadow rays, because photons bring what it lets through. */
+/* The surface of water reflects and refracts light by Fresnel's equations. It is opaque to shadow rays, because photons
+ * bring the light that it lets through.
+ */
 surface water(float eta = 1.333) {
   vector In = normalize(I);
   normal Nn = normalize(N);

@@ -1,4 +1,6 @@
-/* Raises still water to small waves of all directions, from a hand to a metre long, that have the same slope. */
+/* This displacement raises still water to small waves in all directions. Their lengths range from a hand's width to a
+ * metre, and all have the same slope.
+ */
 displacement waves(float slope = 0.02, shortest = 0.16, longest = 1.1) {
   point q = transform("court", P);
   vector up = vtransform("court", "current", vector(0, 1, 0));

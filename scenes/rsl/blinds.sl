@@ -1,5 +1,6 @@
-/* A spotlight through a window with slats. The beam is a square of half angle `angle`; `slats` of them keep back the
-   share `closed` of it. Light shaders have no derivatives, so edges are as soft as `soft` says. */
+/* This spotlight shines through a window with blinds. The beam is a square of half angle `angle`. It has `slats`
+   slats, which together block the share `closed` of it. Light shaders have no derivatives, so `soft` sets how soft
+   the edges are. */
 light blinds(float intensity = 1; color lightcolor = 1;
              point from = point "shader" (0, 0, 0), to = point "shader" (0, 0, 1);
              vector up = vector "shader" (0, 1, 0);
@@ -9,7 +10,7 @@ light blinds(float intensity = 1; color lightcolor = 1;
   illuminate (from, axis, 1.5 * angle) {
     float ahead = L . axis;
     float x = (L . right) / (ahead * tan(angle)), y = (L . above) / (ahead * tan(angle));
-    /* The frame of the window, and a bar in the middle. */
+    /* The window has a frame, and a bar in the middle. */
     float frame = (1 - smoothstep(1 - soft, 1 + soft, abs(x))) * (1 - smoothstep(1 - soft, 1 + soft, abs(y)));
     frame *= smoothstep(0.03, 0.03 + soft, abs(x));
     float slat = mod(0.5 * slats * (y + 1), 1);

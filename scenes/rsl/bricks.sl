@@ -1,8 +1,8 @@
 #include "noises.h"
 #include "patterns.h"
 
-/* A wall in running bond. Edges are filtered over what a sample covers, so that a wall far away is its mean and does not
-   flicker. */
+/* This is a brick wall in running bond. Edges are filtered over the area of a sample. A distant wall therefore shows
+   its mean colour and does not flicker. */
 surface bricks(float Ka = 1, Kd = 0.85;
                float brickwidth = 0.25, brickheight = 0.08, mortar = 0.012;
                float depth = 0.02, rough = 0.35;
@@ -19,8 +19,8 @@ surface bricks(float Ka = 1, Kd = 0.85;
   color clay = varyEach(brickcolor, column + 57 * row, 0.03, 0.15, 0.12) * (1 + rough * spots);
   color base = mix(mortarcolor * (1 + 0.3 * spots), clay, brick);
 
-  /* Only the normal knows that the joints lie deeper and that clay is rough. The height has edges of a fixed softness:
-     one that depended on a filter width would ask for the derivative of a derivative. */
+  /* The joints lie deeper and the clay is rough, but only the normal shows it. The edges of the height have a fixed
+     softness. An edge that depended on a filter width would need the derivative of a derivative. */
   float edge(float x, gap) { return smoothpulse(0, gap, 1 - gap, 1, x); }
   float height = depth * edge(across, gaps) * edge(along, gapt) + 0.01 * snoise(20 * q) + 0.004 * snoise(55 * q);
   normal Nf = faceforward(calculatenormal(P + height * normalize(N)), I, Ng);

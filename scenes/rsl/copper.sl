@@ -1,4 +1,4 @@
-/* Metal that mirrors the scene a little, the more the flatter one looks at it. */
+/* This metal reflects the scene a little. It reflects more at grazing angles. */
 surface copper(float Ka = 1, Kd = 0.25, Ks = 0.9, roughness = 0.12, Kr = 0.5, blur = 0.1) {
   normal Nf = faceforward(normalize(N), I);
   vector In = normalize(I);

@@ -1,7 +1,7 @@
 #include "noises.h"
 
-/* Dents as a hammer leaves them: where the nearest of scattered points is, the metal is driven in. Km is measured in the
-   space of the object. */
+/* A hammer has left dents. The metal is driven in around scattered points. Km is measured in the space of the
+   object. */
 displacement hammered(float Km = 0.03, frequency = 5, jitter = 0.9) {
   float nearest = 0;
   point centre = 0, q = transform("shader", P);

@@ -1,15 +1,15 @@
 #include "noises.h"
 
-/* White stone with dark veins, polished. */
+/* This is white polished stone with dark veins. */
 surface marble(float Ka = 1, Kd = 0.75, Ks = 0.5, roughness = 0.06;
                float frequency = 1.3, veins = 3, swirl = 1.6;
                color veincolor = color(0.12, 0.13, 0.2);
                output varying float vein = 0) {
-  /* The pattern is fixed to the object, whatever moves it. */
+  /* The pattern moves with the object. */
   point q = frequency * transform("shader", P);
   float width = filterwidthp(q);
   float bend = fBm(q, width, 5, 2, 0.5);
-  /* A wave through the stone, bent by noise: its zeros are the veins. */
+  /* Noise bends a wave that runs through the stone. The zeros of the wave are the veins. */
   float wave = sin(veins * (xcomp(q) + 0.6 * ycomp(q)) + 2 * PI * swirl * bend);
   vein = pow(1 - abs(wave), 4);
   vein *= 0.35 + 0.65 * smoothstep(-0.3, 0.3, snoise(1.7 * q));

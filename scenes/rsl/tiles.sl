@@ -1,9 +1,9 @@
 #include "filterwidth.h"
 
-/* Two colours of tiles in turn, with joints. The pattern is integrated over what a sample covers (the difference of an
-   integral at its two ends), so that tiles near the horizon melt into grey. */
+/* Tiles of two colours alternate, with joints between them. The pattern is averaged over the area of a sample, as
+   the difference of an integral at its two ends. Tiles near the horizon therefore melt into grey. */
 float stripes(float x, width) {
-  /* The integral of a wave that is 1 for x in 0..1, 0 in 1..2, and so on. */
+  /* Returns the integral of a wave that is 1 for x in 0..1, 0 in 1..2, and so on. */
   float integral(float y) { return floor(y / 2) + min(mod(y, 2), 1); }
   return (integral(x + width / 2) - integral(x - width / 2)) / width;
 }
@@ -16,7 +16,7 @@ surface tiles(float Ka = 1, Kd = 0.8, Ks = 0.3, roughness = 0.04, Kr = 0.25;
   float dx = filterwidth(x), dy = filterwidth(y);
   float a = stripes(x, dx), b = stripes(y, dy);
   color pattern = mix(first, second, a + b - 2 * a * b);
-  /* How much of the sample is not in a joint. */
+  /* Returns how much of the sample lies outside the joints. */
   float whole(float z, dz) {
     extern float joint;
     uniform float open = 1 - joint;

@@ -1,6 +1,6 @@
 #include "noises.h"
 
-/* Rings around a trunk along z, and the fine grain of its fibres. */
+/* The wood has rings around a trunk along z, and the fine grain of its fibres. */
 surface wood(float Ka = 1, Kd = 0.9, Ks = 0.25, roughness = 0.12;
              float rings = 9, wobble = 0.12, grain = 0.35;
              color light = color(0.62, 0.36, 0.16), dark = color(0.28, 0.12, 0.045)) {
@@ -9,8 +9,8 @@ surface wood(float Ka = 1, Kd = 0.9, Ks = 0.25, roughness = 0.12;
   float radius = rings * sqrt(xcomp(q) * xcomp(q) + ycomp(q) * ycomp(q));
   float width = filterwidth(radius);
 
-  /* A year: slow, light growth in spring and a sharp dark edge in autumn. Rings that are finer than a sample are their
-     mean. */
+  /* Each year adds light growth in spring and a sharp dark edge in autumn. Rings that are finer than a sample take
+     their mean. */
   float year = mod(radius, 1);
   float late = smoothstep(0.35, 0.95, year) * (1 - smoothstep(0.95, 1, year));
   late = mix(late, 0.34, smoothstep(0.4, 1, width));

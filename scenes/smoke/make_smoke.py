@@ -1,8 +1,8 @@
-"""Writes smoke.vdb, a puff of smoke by noise, which smoke.rib beside it renders.
+"""Writes smoke.vdb, a puff of smoke that noise shapes. The file smoke.rib beside this one renders it.
 
     make_smoke.py [POINTS [FILE]]
 
-POINTS is the number of points of the lattice along each axis (64). FILE is written in place of smoke.vdb.
+POINTS is the number of points of the lattice along each axis; the default is 64. FILE is the file to write instead of smoke.vdb.
 """
 import math
 import pathlib
@@ -23,7 +23,7 @@ def smooth(t):
 
 
 def noise(x, y, z):
-    """Between 0 and 1, smooth, by numbers at whole coordinates."""
+    """Returns smooth noise between 0 and 1, which interpolates random numbers at whole coordinates."""
     i, j, k = math.floor(x), math.floor(y), math.floor(z)
     u, v, w = smooth(x - i), smooth(y - j), smooth(z - k)
     total = 0
@@ -40,12 +40,13 @@ def clouds(x, y, z):
 
 
 def density(i, j, k):
-    """A ball whose surface boils, and a stalk below it."""
+    """Returns the density at a point of the lattice. The smoke is a ball with a ragged surface and a stalk below it."""
     x, y, z = (2 * c / (SIDE - 1) - 1 for c in (i, j, k))
     ball = 0.62 - math.hypot(x, y - 0.25, z)
     stalk = 0.16 + 0.1 * y - math.hypot(x + 0.1 * math.sin(5 * y), z) if y < 0.1 else -1
     edge = max(ball, stalk) + 1.3 * (clouds(2.2 * x + 9, 2.2 * y + 9, 2.2 * z + 9) - 0.5)
-    inside = smooth(min(1.0, 3.5 * (1 - max(abs(x), abs(y), abs(z)))))  # no edge of the box shows
+    # The density falls to 0 towards the faces of the box, so that no edge shows.
+    inside = smooth(min(1.0, 3.5 * (1 - max(abs(x), abs(y), abs(z)))))
     return max(0.0, min(1.0, 5 * (edge + inside - 1)))
 
 

@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* Old brass: polished where hands touch it, dull and brown in its hollows. */
+/* This old brass has patches of dull, brown tarnish and is polished elsewhere. */
 surface brass() {
   point q = transform("shader", P);
   float tarnish = smoothstep(-0.2, 0.55, fBm(q * 2.4, 2.4 * filterwidthp(q), 5, 2.1, 0.55));

@@ -1,4 +1,6 @@
-/* Clear glass or wine: what Fresnel's equations mirror and refract. Shadow rays lose the tint, and little more at the rims. */
+/* Clear glass or wine reflects and refracts light by Fresnel's equations. Shadow rays go straight on instead. They take
+ * the tint, and lose more of their light near the rim.
+ */
 surface crystal(float eta = 1.52; color tint = color(0.985, 0.99, 0.985);) {
   vector In = normalize(I);
   normal Nn = normalize(N);
@@ -17,7 +19,9 @@ surface crystal(float eta = 1.52; color tint = color(0.985, 0.99, 0.985);) {
     color through = 0;
     if (Kr < 0.999) through = (1 - Kr) * trace(P, normalize(T));
     color mirrored = 0;
-    /* Rays would double at every surface: behind the first, only what mirrors much does. */
+    /* Two rays at every surface would double the number of rays each time. Behind the first surface, only directions
+     * that reflect much get a ray of their own.
+     */
     if (Kr > (raydepth() == 0 ? 0 : 0.3)) mirrored = Kr * trace(P, normalize(R));
     Oi = 1;
     Ci = (inside == 1 ? tint : color(1)) * through + mirrored;

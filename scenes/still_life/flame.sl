@@ -1,4 +1,4 @@
-/* A candle's flame: blue and clear at the wick, yellow and white above, thin at its rim. */
+/* A candle's flame is blue and clear at the wick, and yellow and white above. It is thin at its rim. */
 surface flame(float brightness = 1.9) {
   point q = transform("shader", P);
   float y = ycomp(q) / 0.56, core = abs(normalize(N) . normalize(I));

@@ -1,13 +1,15 @@
 #include "room.h"
 
-/* Stoneware: a glaze that has run down over the body, speckled with iron, under a clear coat that mirrors the room. */
+/* Stoneware has a body and a second glaze that has run down over it, speckled with iron. A clear coat over both
+ * reflects the room.
+ */
 surface glaze(float top = 4, dripheight = 0.42; color drip = color(0.74, 0.66, 0.50);) {
   point q = transform("shader", P);
   float width = filterwidthp(q), y = ycomp(q) / top;
   normal Nf = faceforward(normalize(N), I);
   vector V = -normalize(I);
 
-  /* Where the second glaze has stopped running; thin at its edge, so the body shows through. */
+  /* The second glaze has stopped running here. It is thin at its edge, so the body shows through. */
   float angle = atan(xcomp(q), zcomp(q));
   float edge = dripheight + 0.09 * snoise(point(3 * sin(angle), 3 * cos(angle), 2)) + 0.05 * snoise(point(9 * sin(angle), 9 * cos(angle), 0.6 * y));
   float covered = smoothstep(-0.012, 0.03, y - edge), thin = 1 - smoothstep(0.0, 0.16, abs(y - edge));

@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* A waxy peel, greener at its ends; light wraps a little around it, because it goes in and comes out again. */
+/* The peel is waxy, and greener at its ends. */
 surface lemon(color ripe = color(0.88, 0.56, 0.035), unripe = color(0.58, 0.50, 0.05)) {
   point q = transform("shader", P);
   normal Nf = faceforward(normalize(N), I);

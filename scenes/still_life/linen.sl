@@ -1,6 +1,8 @@
 #include "room.h"
 
-/* Unbleached linen: threads that cross, thicker here and thinner there, with a blue stripe along two of its sides. */
+/* This is unbleached linen. Its threads cross, and are thicker in some places than in others. A blue stripe runs along
+ * two of its sides.
+ */
 surface linen(color flax = color(0.62, 0.57, 0.48), stripe = color(0.10, 0.16, 0.27); float threads = 260;) {
   normal Nf = faceforward(normalize(N), I);
   float warp = 0.5 + 0.5 * sin(2 * PI * threads * u), weft = 0.5 + 0.5 * sin(2 * PI * threads * v);

@@ -3,7 +3,7 @@
 
     make_still_life.py > still_life.rib
 
-Units are decimetres: x to the right, y up from the table, z away from the eye.
+Units are decimetres. x points to the right, y up from the table and z away from the eye.
 """
 import math
 import pathlib
@@ -12,11 +12,12 @@ import sys
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from parts import head, lathe, numbers
 
-STANDS = {"jug": (-2.2, 1.5), "bowl": (0.35, 0.4), "glass": (2.55, -0.6), "bottle": (1.75, 2.4), "candle": (4.05, 1.5)}  # x and z of what stands on the table
+# These are the x and z of the things on the table.
+STANDS = {"jug": (-2.2, 1.5), "bowl": (0.35, 0.4), "glass": (2.55, -0.6), "bottle": (1.75, 2.4), "candle": (4.05, 1.5)}
 
 
 def place(name, x, z, *requests, y=0.0):
-    """An object with a name on the table; requests are its shaders and geometry."""
+    """Prints an object with a name on the table. The requests are its shaders and geometry."""
     print(f'  AttributeBegin\n    Attribute "identifier" "string name" ["{name}"]\n    Translate {x} {y} {z}')
     for request in requests:
         print("    " + request)
@@ -29,7 +30,7 @@ def smooth(low, high, x):
 
 
 def wave(x):
-    """Phase of the cloth's folds, which are not all equally wide."""
+    """Returns the phase of the folds of the cloth. It is not linear, so the folds differ in width."""
     return 6.0 * x + 0.7 * math.sin(2.3 * x)
 
 
@@ -69,7 +70,7 @@ JUG = [(0, 0), (0.75, 0), (0.80, 0), (0.82, 0.08), (0.95, 0.35), (1.45, 1.0), (1
        (0.62, 4.2), (0.80, 4.45), (0.80, 4.5), (0.74, 4.5), (0.56, 4.2), (0.48, 3.8), (0.55, 3.4), (0.6, 3.0), (0, 2.9)]
 BOWL = [(0, 0), (0.55, 0), (0.6, 0), (0.6, 0.12), (0.55, 0.2), (0.9, 0.28), (1.5, 0.6), (1.85, 1.1), (1.92, 1.24), (1.88, 1.27), (1.78, 1.1), (1.42, 0.66),
         (0.85, 0.36), (0, 0.32)]
-# The glass ends inside where the wine begins. The wine's side lies between wine and glass, its top between wine and air.
+# The inner side of the glass ends where the wine begins. The side of the wine lies between wine and glass, its top between wine and air.
 GLASS = [(0, 0.02), (0.6, 0.02), (0.78, 0.0), (0.80, 0.03), (0.6, 0.07), (0.16, 0.16), (0.085, 0.35), (0.075, 0.8), (0.1, 1.15), (0.45, 1.38), (0.74, 1.85),
          (0.76, 2.4), (0.66, 2.95), (0.655, 2.99), (0.642, 2.98), (0.712, 2.6), (0.733, 2.35), (0.735, 2.2)]
 WINE_SIDE = [(0, 1.43), (0.2, 1.45), (0.46, 1.53), (0.70, 1.87), (0.73, 2.05), (0.735, 2.2)]
@@ -138,7 +139,7 @@ for k, (x, y, z, turns) in enumerate(((-0.25, 0.93, 0.35, "Rotate 78 0.2 0 1"), 
                                       (0.3, 1.5, 0.5, "Rotate 70 -0.4 0 1"), (-1.15, 0.44, -1.5, "Rotate 40 0 1 0 Rotate 86 0 0 1"))):
     place(f"lemon {k + 1}", x, z, turns, 'Attribute "displacementbound" "float sphere" [0.02]', 'Displacement "peel"', 'Surface "lemon"', 'ObjectInstance "lemon"', y=y)
 place("cloth", 0, 0, 'Sides 2 Surface "linen"', cloth(0.35, 3.9, 0.7, -3.2, 2.0))
-# Half a lemon on the cloth, with its cut towards the eye and the window.
+# Half a lemon lies on the cloth. Its cut side faces the eye and the window.
 place("half lemon", 1.25, -1.75, 'Rotate 24 0 1 0 Rotate -62 1 0 0', 'Surface "lemon"', lathe(HALF), 'Rotate -90 1 0 0 Surface "pulp"', 'Disk 0.001 0.447 360', y=0.42)
 CLEAR = 'Attribute "trace" "int maxspeculardepth" [8] ShadingRate 0.6 Attribute "visibility" "int diffuse" [0]'
 RED = '"color tint" [0.42 0.03 0.035]'

@@ -1,6 +1,8 @@
 #include "room.h"
 
-/* Oiled oak: boards along x, each with its own tone and grain, worn to a different shine from place to place. */
+/* Boards of oiled oak lie along x. Each has its own tone and grain, and wear has given it a different shine from place
+ * to place.
+ */
 surface oak(color pale = color(0.36, 0.20, 0.095), dark = color(0.13, 0.06, 0.026); float boards = 0.55, shine = 0.5;) {
   point q = transform("room", P);
   float row = floor(boards * zcomp(q)), across = mod(boards * zcomp(q), 1);
@@ -8,7 +10,7 @@ surface oak(color pale = color(0.36, 0.20, 0.095), dark = color(0.13, 0.06, 0.02
   point g = point(0.09 * xcomp(q) + 7 * tone, ycomp(q), zcomp(q) + 3 * tone);
   g += vector(0, 0, 0.25 * snoise(g * 1.5));
   float width = filterwidthp(q);
-  /* Years are stretched along the board; pores are short dark strokes in them. */
+  /* Growth rings are stretched along the board. Pores are short dark strokes in them. */
   float year = 0.5 + 0.5 * sin(2 * PI * (5 * zcomp(g) + 2.5 * snoise(g * 1.1)));
   float fibre = fBm(point(3 * xcomp(g), 0, 22 * zcomp(g)), 22 * width, 4, 2, 0.55);
   float pores = smoothstep(0.62, 0.85, float noise(point(28 * xcomp(g), 0, 75 * zcomp(g)))) * noisefade(40 * width);

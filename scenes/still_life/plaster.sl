@@ -1,6 +1,6 @@
 #include "room.h"
 
-/* An old plastered wall: strokes of the trowel, and stains that years have left. */
+/* An old plastered wall shows the strokes of the trowel, and stains that years have left. */
 surface plaster(color light = color(0.34, 0.31, 0.25), dark = color(0.20, 0.17, 0.13)) {
   point q = transform("room", P);
   float width = filterwidthp(q);

@@ -1,4 +1,6 @@
-/* The print: a soft shoulder for the lights, more contrast, and darker corners. */
+/* This imager grades the picture like a photographic print. Bright parts run out softly, contrast grows, and the
+ * corners become darker.
+ */
 imager print(float exposure = 1.15, contrast = 1.17, vignette = 0.45) {
   color c = exposure * Ci;
   c = c * (1 + c / 16) / (1 + 0.55 * c);

@@ -1,11 +1,11 @@
 #include "room.h"
 
-/* A cut lemon: peel, white pith, and ten wedges of pulp, whose cells point to the middle. */
+/* A cut lemon shows its peel, its white pith, and ten wedges of pulp. The cells of the pulp point to the middle. */
 surface pulp(float radius = 0.447, wedges = 10; color juice = color(0.86, 0.66, 0.16), pith = color(0.86, 0.82, 0.62), peel = color(0.85, 0.55, 0.04);) {
   point q = transform("shader", P);
   float r = sqrt(xcomp(q) * xcomp(q) + ycomp(q) * ycomp(q)) / radius, angle = atan(ycomp(q), xcomp(q)) / (2 * PI) + 0.5;
   float wedge = wedges * angle + 0.12 * snoise(point(3 * xcomp(q), 3 * ycomp(q), 1)), across = abs(mod(wedge, 1) - 0.5);
-  /* How far from the skin between two wedges, in radii. */
+  /* This is the distance to the skin between two wedges, in radii. */
   float skin = (0.5 - across) * 2 * PI * r / wedges;
   float ragged = 0.012 * snoise(q * 14);
   float inside = smoothstep(0.012, 0.03, skin + 0.4 * ragged) * (1 - smoothstep(0.82, 0.85, r + ragged)) * smoothstep(0.09, 0.13, r + ragged);

@@ -1,4 +1,4 @@
-/* What the shaders of this scene share: how a surface mirrors the room. */
+/* The shaders of this scene share these functions for reflections of the room and for the light at a matte point. */
 #ifndef ROOM_H
 #define ROOM_H
 
@@ -16,9 +16,9 @@ color mirror(point from; vector R; float cone, samples) {
   return seen;
 }
 
-/* Returns the light at a matte point: that of the lamps, and what the room sends back where it is not covered, which is
- * cooler and paler from above than from the table below. Points that the eye sees ask how much is covered; points in
- * mirrors take a mean.
+/* Returns the light at a matte point. It is the light of the lamps, and the light that the room sends back where
+ * nothing covers the point. The latter is cooler and paler from above than from the table below. Points that the eye
+ * sees compute how much is covered, and points in mirrors take a mean.
  */
 color received(normal Nf) {
   float up = 0.5 + 0.5 * ycomp(normalize(ntransform("room", Nf)));
@@ -28,7 +28,7 @@ color received(normal Nf) {
   return diffuse(Nf) + open * room;
 }
 
-/* The share that a polished surface of index eta mirrors towards the eye. */
+/* Returns the share of light that a polished surface of index eta reflects towards the eye. */
 float polish(vector In; normal Nf; float eta) {
   float Kr, Kt;
   fresnel(In, Nf, 1 / eta, Kr, Kt);

@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* filteredpulsetrain: the stripes of a sailor's shirt. */
+/* filteredpulsetrain draws the stripes of a sailor's shirt. */
 surface breton(color white = color(0.76, 0.73, 0.66), indigo = color(0.035, 0.065, 0.16)) {
   point q = potpoint();
   float z = zcomp(q) + 0.012 * snoise(2 * q);

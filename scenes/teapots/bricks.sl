@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* tilepattern and varyEach: small tiles with grout, each a little different. */
+/* tilepattern draws small tiles with grout, and varyEach makes each a little different. */
 surface bricks(color tile = color(0.10, 0.27, 0.34), grout = color(0.58, 0.54, 0.47); float around = 22, rows = 3.6;) {
   point q = potpoint();
   float ss = around * turns(q), tt = rows * zcomp(q), ds = min(filterwidth(ss), 0.3), dt = filterwidth(tt);

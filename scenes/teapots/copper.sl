@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* Beaten copper, brown where it has been touched less. */
+/* This is beaten copper, which is brown where it has been touched less. */
 surface copper(color metal = color(0.93, 0.50, 0.32)) {
   point q = potpoint();
   normal Nf = faceforward(normalize(N), I);

@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* voronoi_f1f2_3d: a celadon glaze that has crackled, with ink in its cracks. */
+/* voronoi_f1f2_3d draws the cracks of a celadon glaze, which have ink in them. */
 surface crackle(color celadon = color(0.40, 0.53, 0.44), ink = color(0.10, 0.085, 0.06)) {
   point q = potpoint();
   float f1 = 0, f2 = 0;

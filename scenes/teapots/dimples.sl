@@ -2,7 +2,7 @@
 
 #include "displace.h"
 
-/* Displace and voronoi_f1_3d: a hammer has been here. */
+/* Displace and voronoi_f1_3d make the dents of a hammer. */
 displacement dimples(float depth = 0.05) {
   point q = potpoint();
   float f1 = 0;

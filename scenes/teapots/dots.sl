@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* repeat, whichtile and topolar2d: dots, every other row moved by half. */
+/* repeat, whichtile and topolar2d draw dots. Every other row is moved by half the distance between dots. */
 surface dots(color ground = color(0.56, 0.30, 0.27), dot = color(0.80, 0.75, 0.68)) {
   point q = potpoint();
   float row = whichtile(zcomp(q), 2.4), y = repeat(zcomp(q), 2.4), x = mod(18 * turns(q) + (odd(row) ? 0.5 : 0), 1);

@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* rotate2d, pulse, even and odd: lozenges with a line between them. */
+/* rotate2d, pulse, even and odd draw lozenges with lines between them. */
 surface harlequin(color dark = color(0.055, 0.055, 0.06), ochre = color(0.60, 0.39, 0.10), line = color(0.78, 0.72, 0.60)) {
   point q = potpoint();
   float x = 0, y = 0;

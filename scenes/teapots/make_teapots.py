@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes teapots.rib: twelve teapots on three steps, each painted by another pattern of shaders/include.
+"""Writes teapots.rib: twelve teapots on three steps. Each is painted by another pattern of shaders/include.
 
     make_teapots.py > teapots.rib
 
-Units are those of the teapot, which is 3.15 high: x to the right, y up, z away from the eye.
+Units are those of the teapot, which is 3.15 high. x points to the right, y up and z away from the eye.
 """
 import pathlib
 import sys
@@ -11,13 +11,13 @@ import sys
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from parts import head
 
-ACROSS, RISE, TREAD = 6.8, 3.1, 5.2  # from pot to pot, and from step to step
+ACROSS, RISE, TREAD = 6.8, 3.1, 5.2  # These are the distance between pots, and the height and depth of a step.
 STEPS = (("marble", "harlequin", "crackle", "terrazzo"), ("copper", "breton", "walnut", "bricks"), ("gingham", "malachite", "stoneware", "dots"))
 WIDE = 60
 
 
 def box(y0, y1, z0, z1):
-    """The riser and the tread of one step, with an edge that is rounded off."""
+    """Returns the riser and the tread of one step, with a rounded edge between them."""
     edge = 0.12
     rows = [(y0, z0), (y1 - edge, z0), (y1 - 0.3 * edge, z0 + 0.3 * edge), (y1, z0 + edge), (y1, z1)]
     points = " ".join(f"{x:g} {y:g} {z:g}" for y, z in rows for x in (-WIDE, WIDE))

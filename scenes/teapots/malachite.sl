@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* turbulence: the rings of malachite. */
+/* turbulence draws the rings of malachite. */
 surface malachite(color dark = color(0.012, 0.085, 0.055), light = color(0.16, 0.46, 0.30)) {
   point q = potpoint();
   float width = filterwidthp(q);

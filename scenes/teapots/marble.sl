@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* VLNoise: grey veins in white marble, where noise moves noise. */
+/* VLNoise draws grey veins in white marble. It is noise that is shifted by noise. */
 surface marble(color white = color(0.78, 0.76, 0.73), vein = color(0.17, 0.18, 0.20)) {
   point q = potpoint();
   float width = filterwidthp(q);

@@ -1,4 +1,6 @@
-/* The print: a soft shoulder, a little contrast, and darker corners. */
+/* This imager grades the picture like a photographic print. Bright parts run out softly, contrast grows a little, and
+ * the corners become darker.
+ */
 imager print(float exposure = 1.25, contrast = 1.18, vignette = 0.25) {
   color c = exposure * Ci;
   c = c * (1 + c / 16) / (1 + 0.45 * c);

@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* udn and union: raw clay below, a glaze with iron specks that has run above. */
+/* udn varies the raw clay below. union joins two sizes of iron specks in the glaze that has run down from above. */
 surface stoneware(color clay = color(0.34, 0.20, 0.13), glaze = color(0.70, 0.66, 0.57), iron = color(0.13, 0.07, 0.04)) {
   point q = potpoint();
   float width = filterwidthp(q);

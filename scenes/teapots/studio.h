@@ -1,4 +1,6 @@
-/* What the twelve teapots share: where a point is on the pot, and how a fired glaze takes the light of the studio. */
+/* The twelve teapots share these functions for a point's place on the pot and for the way in which a fired glaze takes
+ * the light of the studio.
+ */
 #ifndef STUDIO_H
 #define STUDIO_H
 
@@ -6,20 +8,22 @@
 #include "patterns.h"
 #include "rmannotes.h"
 
-/* Coordinates on the pot: turns around its axis, height over its foot, and the point itself. Units are those of the
- * teapot, which is 3.15 high.
+/* These return the point itself, and turns around the axis of the pot. Units are those of the teapot, which is 3.15
+ * high.
  */
 point potpoint() { return transform("object", P); }
 float turns(point q) { return atan(ycomp(q), xcomp(q)) / (2 * PI) + 0.5; }
 
-/* What the studio mirrors along R: the eye's points take rays in a cone, what is seen in a mirror takes a mean. */
+/* Returns what is seen of the studio along R. Points that the eye sees take rays in a cone, and points that are seen in
+ * a mirror take a mean.
+ */
 color studio(point from; vector R; float cone) {
   color seen = color(0.22, 0.21, 0.20);
   if (raydepth() == 0 && isindirectray() == 0) seen = trace(from, normalize(R), "samplecone", cone, "samples", 4);
   return seen;
 }
 
-/* Paint under a clear glaze of index 1.5; gloss 1 has the whole coat, 0 none. */
+/* Returns the light of paint under a clear glaze of index 1.5. A gloss of 1 is the whole coat, and 0 is none. */
 color glazed(color paint; normal Nf; float gloss, cone) {
   vector V = -normalize(I);
   float Kr, Kt;

@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* voronoi_f1_3d and varyEach: chips of stone in cement. */
+/* voronoi_f1_3d draws chips of stone in cement, and varyEach gives each chip its own colour. */
 surface terrazzo(color cement = color(0.62, 0.58, 0.53), chip = color(0.45, 0.20, 0.13)) {
   point q = potpoint();
   float f1 = 0, g1 = 0;

@@ -1,6 +1,6 @@
 #include "studio.h"
 
-/* fBm: rings and pores of walnut. */
+/* fBm draws the rings and pores of walnut. */
 surface walnut(color pale = color(0.36, 0.20, 0.10), dark = color(0.11, 0.05, 0.025)) {
   point q = potpoint() + vector(1.1, 0.4, 0);
   float width = filterwidthp(q);

@@ -1,6 +1,6 @@
 #include "movement.h"
 
-/* Gilt brass: circles of the lathe on it, or polished. */
+/* This gilt brass shows circles of the lathe. It is polished instead if shine is 1. */
 surface gilt(color metal = color(0.95, 0.68, 0.32); float shine = 0;) {
   point q = transform("shader", P);
   float width = filterwidthp(q), r = sqrt(xcomp(q) * xcomp(q) + zcomp(q) * zcomp(q));

@@ -1,6 +1,6 @@
 #include "movement.h"
 
-/* Gilt brass that a file has drawn along x: its scratches are long and fine. */
+/* A file has been drawn along x over this gilt brass, so its scratches are long and fine. */
 surface grained(color metal = color(0.93, 0.70, 0.39)) {
   point q = transform("movement", P);
   float x = xcomp(q), z = zcomp(q), width = filterwidthp(q);

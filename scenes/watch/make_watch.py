@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes watch.rib: the movement of a watch from so near that little of it is in focus.
+"""Writes watch.rib: the movement of a watch. The camera is so near that little of it is in focus.
 
     make_watch.py > watch.rib
 
-Units are millimetres: x to the right, y up from the main plate, z away from the eye.
+Units are millimetres. x points to the right, y up from the main plate and z away from the eye.
 """
 import math
 import pathlib
@@ -16,7 +16,7 @@ from parts import head, numbers, part
 random.seed(12)
 
 
-# Outlines are closed lists of (x, z), counterclockwise as seen from above with z up the page.
+# An outline is a closed list of (x, z). It runs counterclockwise as seen from above with z up the page.
 def circle(radius, count=96, x=0.0, z=0.0):
     return [(x + radius * math.cos(2 * math.pi * k / count), z + radius * math.sin(2 * math.pi * k / count)) for k in range(count)]
 
@@ -26,7 +26,7 @@ def arc(radius, a0, a1, count=20):
 
 
 def curve(points, steps=14):
-    """A closed Catmull-Rom curve."""
+    """Returns a closed Catmull-Rom curve through points."""
     out = []
     for k in range(len(points)):
         p, q, r, s = (points[(k + n) % len(points)] for n in (-1, 0, 1, 2))
@@ -37,7 +37,7 @@ def curve(points, steps=14):
 
 
 def outwards(outline):
-    """Unit normals of an outline, on its right hand side."""
+    """Returns the unit normals of an outline on its right-hand side."""
     normals = []
     for k in range(len(outline)):
         (ax, az), (bx, bz) = outline[k - 1], outline[(k + 1) % len(outline)]
@@ -51,7 +51,7 @@ def inset(outline, by):
 
 
 def band(below, above, y0, y1, lean):
-    """A strip between two outlines, with normals that lean upwards by `lean`."""
+    """Returns a strip between two outlines. Its normals lean upwards: their y is `lean`."""
     count, normals = len(below), outwards(below)
     faces = " ".join(f"{k} {(k + 1) % count} {count + (k + 1) % count} {count + k}" for k in range(count))
     points = [c for outline, y in ((below, y0), (above, y1)) for x, z in outline for c in (x, y, z)]
@@ -61,7 +61,7 @@ def band(below, above, y0, y1, lean):
 
 
 def plate(outline, holes, y0, y1, chamfer):
-    """Top, chamfers and sides of what has been cut out of sheet metal. Holes run clockwise."""
+    """Returns the top, the chamfers and the sides of a part that is cut out of sheet metal. Holes run clockwise."""
     loops = [outline, *holes]
     tops = [inset(loop, chamfer) for loop in loops]
     points = [c for loop in tops for x, z in loop for c in (x, y1, z)]
@@ -82,7 +82,7 @@ def backwards(outline):
 
 
 def teeth(count, root, tip):
-    """The outline of a wheel: each tooth is rounded towards its tip."""
+    """Returns the outline of a wheel, whose teeth are rounded towards their tips."""
     out, step = [], 2 * math.pi / count
     for k in range(count):
         for share, radius in ((-0.5, root), (-0.36, root), (-0.24, root + 0.35 * (tip - root)), (-0.17, root + 0.75 * (tip - root)), (-0.07, tip),
@@ -93,7 +93,7 @@ def teeth(count, root, tip):
 
 
 def spaces(count, inner, outer, spoke, turn=0.0):
-    """The openings between spokes, clockwise."""
+    """Returns the outlines of the openings between spokes. They run clockwise."""
     out = []
     for k in range(count):
         a0, a1 = 2 * math.pi * k / count + turn, 2 * math.pi * (k + 1) / count + turn
@@ -104,7 +104,7 @@ def spaces(count, inner, outer, spoke, turn=0.0):
 
 
 def turned(profile):
-    """Quadrics around the vertical axis, through (radius, height) from below to above."""
+    """Returns quadrics around the vertical axis. The profile is a list of (radius, height) from the bottom to the top."""
     return "TransformBegin Rotate -90 1 0 0 " + " ".join(
         f"Disk {y0:.4g} {max(r0, r1):.4g} 360" if abs(y0 - y1) < 1e-6 and min(r0, r1) < 1e-6 else f"Hyperboloid {r0:.4g} 0 {y0:.4g}  {r1:.4g} 0 {y1:.4g} 360"
         for (r0, y0), (r1, y1) in zip(profile, profile[1:])) + " TransformEnd"
@@ -115,7 +115,7 @@ POLISHED = '"bevel"'
 
 
 def wheel(name, x, z, y, count, tip, spokes, pinion=0.55, turn=0.0):
-    """A wheel of brass on an arbor of steel, with the pinion below it."""
+    """Prints a wheel of brass on an arbor of steel, with a pinion below it."""
     root = tip - 2.0 * tip / count * 1.15
     place = f"Translate {x} 0 {z} Rotate {turn} 0 1 0"
     cut(name, teeth(count, root, tip), spaces(spokes, 0.26 * tip, root - 0.14 * tip, 0.11 * tip), y, y + 0.34, 0.05, GILT, POLISHED, place)
@@ -125,7 +125,7 @@ def wheel(name, x, z, y, count, tip, spokes, pinion=0.55, turn=0.0):
 
 
 def screw(name, x, z, y, radius, turn):
-    """A blued screw: two halves of a head with a slot between them."""
+    """Prints a blued screw. Its head is two halves with a slot between them."""
     gap = math.asin(0.16)
     half = arc(radius, gap, math.pi - gap, 30)
     place = f"Translate {x} {y} {z} Rotate {turn} 0 1 0"
@@ -135,7 +135,7 @@ def screw(name, x, z, y, radius, turn):
 
 
 def jewel(name, x, z, y, radius):
-    """A pierced ruby in a ring of gold."""
+    """Prints a pierced ruby in a ring of gold."""
     place = f"Translate {x} {y} {z}"
     part(f"setting of the {name}", 'Surface "gilt" "float shine" [1]', place, turned([(1.62 * radius, -0.2), (1.62 * radius, 0.06), (1.55 * radius, 0.12), (1.2 * radius, 0.12), (1.02 * radius, 0.0), (1.0 * radius, -0.12)]),
          turned([(1.02 * radius, -0.42), (0, -0.42)]))
@@ -151,11 +151,11 @@ print('''WorldBegin
 ''')
 part("studio", 'Attribute "visibility" "int camera" [0]', 'Surface "studio"', "Rotate -90 1 0 0", "Sphere 150 -150 150 360")
 
-# The main plate, with a ring around it.
+# The main plate has a ring around it.
 part("main plate", 'Surface "perlage"', turned([(20.4, -0.4), (0, -0.4)]))
 part("case", 'Surface "steel"', turned([(20.4, -0.4), (20.4, 2.6), (20.9, 3.1), (22.0, 3.1), (22.6, 2.5), (22.6, -4)]))
 
-# The train: wheels that mesh, from the barrel to the escape wheel.
+# The train is the row of meshing wheels from the barrel to the escape wheel.
 wheel("centre wheel", -2.3, 1.6, 1.5, 80, 6.2, 5, 0.9, 7)
 wheel("third wheel", 5.6, -0.4, 0.75, 72, 4.5, 5, 0.7, 20)
 wheel("fourth wheel", 3.4, -6.6, 1.75, 64, 3.9, 4, 0.6, 31)
@@ -164,7 +164,7 @@ escape = [(r * math.cos(a), r * math.sin(a)) for k in range(15) for r, a in ((1.
 cut("escape wheel", escape, spaces(4, 0.5, 1.3, 0.26), 0.9, 1.12, 0.035, STEEL, POLISHED, "Translate 9.4 0 -5.2 Rotate 13 0 1 0")
 part("arbor of the escape wheel", f"Surface {STEEL}", "Translate 9.4 0 -5.2", turned([(0.2, -0.3), (0.2, 1.8), (0.1, 1.9), (0.1, 2.2), (0, 2.2)]))
 
-# Bridges: each with stripes, polished bevels, jewels and screws.
+# Each bridge has stripes, polished bevels, jewels and screws.
 BRIDGES = {"barrel bridge": ([(-19.2, 2.6), (-13.8, -0.2), (-8.2, 2.3), (-4.9, 6.4), (-1.8, 9.4), (-0.9, 14.0), (-3.6, 18.6), (-10.5, 16.8), (-16.2, 11.2)], 2.9),
            "train bridge": ([(0.4, 17.6), (0.6, 11.2), (-0.9, 6.0), (-3.5, 3.4), (-3.9, 0.6), (-1.6, -0.3), (1.4, 2.0), (4.4, 2.0), (5.0, -1.3), (6.8, -1.4), (8.6, 1.0), (12.6, 2.6), (18.2, 1.6), (18.6, 6.4), (14.2, 13.0), (7.4, 17.8)], 3.0),
            "escape bridge": ([(7.7, -5.7), (9.3, -7.4), (11.2, -6.9), (13.0, -8.6), (15.2, -10.4), (17.4, -9.6), (19.2, -5.2), (18.4, -3.2), (13.8, -3.9), (11.0, -4.4), (9.3, -4.0)], 2.3)}
@@ -179,12 +179,12 @@ screw("screw of the ratchet wheel", -10.6, 7.2, 3.42, 1.25, 24)
 for k, (x, z, y, r) in enumerate(((-16.4, 3.6, 2.88, 1.05), (-4.6, 15.6, 2.88, 1.05), (-5.4, 9.2, 2.88, 0.75), (3.0, 14.6, 2.98, 1.05), (15.9, 4.0, 2.98, 1.05), (2.0, 5.6, 2.98, 0.75), (16.6, -6.2, 2.28, 1.0), (9.4, 10.2, 2.98, 0.75))):
     screw(f"screw {k + 1}", x, z, y, r, random.uniform(0, 180))
 
-# On the main plate, nearer to the eye.
+# These parts stand on the main plate, nearer to the eye.
 for name, x, z, r in (("jewel of the fourth wheel", 1.3, -11.9, 0.75), ("jewel of the lever", 6.6, -10.6, 0.62)):
     jewel(name, x, z, -0.38, r)
 cut("lever", curve([(4.6, -10.0), (6.2, -11.4), (7.2, -11.2), (9.6, -9.0), (10.4, -8.2), (9.9, -7.6), (8.6, -8.6), (7.0, -9.8), (6.0, -9.6), (5.0, -9.2)]), [], 0.5, 0.85, 0.08, STEEL, POLISHED)
 
-# The balance with its spring, and the cock that holds it.
+# The balance has a spring, and a cock holds it.
 BX, BZ, BY = -5.0, -7.6, 2.5
 place = f"Translate {BX} 0 {BZ}"
 cut("balance", circle(5.4, 160), spaces(3, 0.75, 4.75, 0.6, 0.5), BY, BY + 0.62, 0.08, '"gilt" "float shine" [1]', POLISHED, place)

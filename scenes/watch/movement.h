@@ -1,11 +1,12 @@
-/* What the shaders of this watch share: the studio around it, and how metals mirror it. */
+/* The shaders of this watch share the studio around it and the ways in which metals reflect it. */
 #ifndef MOVEMENT_H
 #define MOVEMENT_H
 
 #include "noises.h"
 
-/* One lamp of the studio, a box of cloth: degrees to the right of straight ahead and above the horizon, how far it reaches
- * to each side, and over how many degrees it fades.
+/* Returns the brightness of one softbox, a lamp behind cloth, in direction d. Its azimuth counts in degrees to the
+ * right of straight ahead, and its elevation in degrees above the horizon. `wide` and `tall` are its half sizes in
+ * degrees, and its edges fade over `fade` degrees.
  */
 float softbox(vector d; float azimuth, elevation, wide, tall, fade) {
   float a = mod(degrees(atan(xcomp(d), zcomp(d))) - azimuth + 180, 360) - 180;
@@ -13,8 +14,9 @@ float softbox(vector d; float azimuth, elevation, wide, tall, fade) {
   return (1 - smoothstep(wide - fade, wide + fade, abs(a))) * (1 - smoothstep(tall - fade, tall + fade, abs(e)));
 }
 
-/* What the studio sends from a direction, in the space of the movement: a warm window, a cool strip, a cloth above. All of
- * it fades so softly that a mirror shows no edge and few rays show no noise.
+/* Returns the light that the studio sends from a direction in the space of the movement. A warm window, a cool strip
+ * and a cloth above light the watch. All of them fade so softly that mirrors show no edges, and a few rays give little
+ * noise.
  */
 color studiolight(vector d) {
   color sum = mix(color(0.010, 0.011, 0.014), color(0.05, 0.05, 0.055), smoothstep(-0.1, 1, ycomp(d)));
@@ -25,8 +27,8 @@ color studiolight(vector d) {
   return sum;
 }
 
-/* What lies in a direction. Points that the eye sees send one ray, and what these meet sends one more; what lies still
- * further is taken for the studio, because rays would not end otherwise.
+/* Returns what lies in a direction. Points that the eye sees send one ray, and the points that it meets send one more.
+ * Further points take the light of the studio without a ray, because rays would not end otherwise.
  */
 color seen(vector d; float cone) {
   color c;
@@ -37,7 +39,9 @@ color seen(vector d; float cone) {
   return c;
 }
 
-/* Metal of a colour whose scratches all run along one direction: it mirrors a fan of directions across them. */
+/* Returns the light of coloured metal whose scratches all run along one direction. It reflects a fan of directions
+ * across them.
+ */
 color brushed(normal Nf; vector across; color metal; float spread, samples) {
   vector In = normalize(I);
   float count = raydepth() == 0 ? samples : 1, k;
@@ -49,7 +53,7 @@ color brushed(normal Nf; vector across; color metal; float spread, samples) {
   return mix(metal, color(1), pow(1 - abs(In . Nf), 5)) * sum / count;
 }
 
-/* Polished metal of a colour. */
+/* Returns the light of polished metal of a colour. */
 color polished(normal Nf; color metal; float cone, samples) {
   vector In = normalize(I), R = normalize(reflect(In, Nf));
   color sum = 0;

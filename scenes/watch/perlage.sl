@@ -1,6 +1,8 @@
 #include "movement.h"
 
-/* Perlage: overlapping spots, each of circles that a turning peg has ground. Later spots lie over earlier ones. */
+/* Perlage is a finish of overlapping spots. A turning peg has ground each of them in circles. Later spots lie over
+ * earlier ones.
+ */
 surface perlage(color metal = color(0.62, 0.58, 0.52); float size = 1.5;) {
   point q = transform("movement", P);
   float width = filterwidthp(q) / size, x = xcomp(q) / size, z = zcomp(q) / size;

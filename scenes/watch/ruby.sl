@@ -1,4 +1,4 @@
-/* Ruby: what Fresnel's equations mirror and refract, and a colour that it takes. */
+/* Ruby reflects and refracts light by Fresnel's equations, and tints the light that it refracts. */
 surface ruby(float eta = 1.77; color tint = color(0.88, 0.09, 0.19);) {
   vector In = normalize(I);
   normal Nn = normalize(N);

@@ -1,6 +1,6 @@
 #include "movement.h"
 
-/* What rays meet that leave the watch. The eye itself does not look there. */
+/* Rays that leave the watch meet this surface. The eye does not look there directly. */
 surface studio() {
   Oi = 1;
   Ci = studiolight(normalize(vtransform("movement", I)));

@@ -1,6 +1,6 @@
 #include "movement.h"
 
-/* Scratches that run from the middle outwards in spirals. */
+/* These scratches run outwards from the middle in spirals. */
 surface sunray(color metal = color(0.92, 0.70, 0.38)) {
   point q = transform("shader", P);
   float x = xcomp(q), z = zcomp(q), r = sqrt(x * x + z * z), angle = atan(z, x) + 0.09 * r;
