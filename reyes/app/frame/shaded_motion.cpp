@@ -10,6 +10,9 @@ namespace {
 
 constexpr int kAcross = 8;     ///< Points along each edge of a patch, all in all over the patches of an object.
 constexpr float kOff = 0.15f;  ///< Mean relative error that is told.
+/// Greatest product of the numbers of lights and of groups that are looked at: a warning may not cost as much as a
+/// frame.
+constexpr size_t kMostPairs = 4096;
 
 struct Place {
   vec3 P, N;
@@ -97,6 +100,17 @@ std::vector<Place> placesOn(const Scene& scene, int object) {
   return out;
 }
 
+/// Returns some of the groups that move before the eye, from all over the scene.
+std::vector<const ShadeGroup*> movingGroups(const Scene& scene) {
+  std::vector<const ShadeGroup*> all, out;
+  if (!scene.shutterIsOpen() || scene.lights.empty()) return out;
+  for (const ShadeGroup& g : scene.groups)
+    if (g.currentFromOpen.moving() && g.exampleObject >= 0 && g.attributes->visibility.camera) all.push_back(&g);
+  const size_t stride = 1 + all.size() * scene.lights.size() / kMostPairs;
+  for (size_t k = 0; k < all.size(); k += stride) out.push_back(all[k]);
+  return out;
+}
+
 }  // namespace
 
 void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const ShadingSystem& shading, Log& log) {
@@ -105,19 +119,16 @@ void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const Shadin
   float most = 2 * kOff;
   const Object* worst = nullptr;
   vec3 where(0);
-  for (const ShadeGroup& g : scene.groups) {
-    if (!scene.shutterIsOpen() || !g.currentFromOpen.moving() || g.exampleObject < 0 ||
-        !g.attributes->visibility.camera)
-      continue;
-    const std::vector<Place> first = placesOn(scene, g.exampleObject);
-    const mat4 moved = g.currentFromOpen.at(scene.options.shutterClose);
+  for (const ShadeGroup* g : movingGroups(scene)) {
+    const std::vector<Place> first = placesOn(scene, g->exampleObject);
+    const mat4 moved = g->currentFromOpen.at(scene.options.shutterClose);
     std::vector<Place> last;
     for (const Place& p : first)
       last.push_back({transformPoint(moved, p.P), normalizeOr(glm::transpose(glm::inverse(mat3(moved))) * p.N, p.N)});
     const float change = light.change(first, last);
     if (!(change > most)) continue;
     most = change;
-    worst = &scene.objects[static_cast<size_t>(g.exampleObject)];
+    worst = &scene.objects[static_cast<size_t>(g->exampleObject)];
     where = first.front().P;
   }
   if (!worst) return;
