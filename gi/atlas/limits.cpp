@@ -52,10 +52,10 @@ void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vecto
       "have fewer photons in reach than they ask for: light is smeared and noisy");
   report(
       "photon-bent", [](const EstimateFigures& f) { return f.bent; }, kMost,
-      "reach round what is curved: light is smeared over it");
+      "are averages over an area that bends with the surface: light is smeared over it");
   report(
       "photon-boundary", [](const EstimateFigures& f) { return f.clumps; }, kClumped,
-      "reach over surfaces that are smaller, and take in what is between: too dark");
+      "are averages over an area that is larger than the surface: they are too dark");
 }
 
 }  // namespace tomales

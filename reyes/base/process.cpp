@@ -42,6 +42,15 @@ std::string timeNow() {
   return out;
 }
 
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  // glibc raises its limits as far as this by itself, but only once blocks of such a size have been freed.
+  constexpr int kMmapped_bytes = 32 << 20;
+  mallopt(M_MMAP_THRESHOLD, kMmapped_bytes);
+  mallopt(M_TRIM_THRESHOLD, 2 * kMmapped_bytes);
+#endif
+}
+
 void returnFreeMemory() {
 #ifdef __GLIBC__
   malloc_trim(0);

@@ -13,6 +13,9 @@ int64_t peakResidentBytes();
 /// Lets the peak begin again at the present amount, where the system can.
 void restartPeak();
 
+/// Lets the allocator keep what is freed for what comes next (docs/decisions/0189); later threads have its settings
+/// too.
+void keepFreedMemory();
 /// Gives freed memory back to the system; else the allocator keeps most of it. It takes milliseconds.
 void returnFreeMemory();
 

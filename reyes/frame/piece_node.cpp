@@ -174,11 +174,13 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
 std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
   // A vertex without motion and primitive variables takes a dozen floats; each further key takes six and a box and a
   // third, and a grid about as much as here without vertices.
-  constexpr size_t kVertex_bytes = 48, kKey_bytes = 72, kGrid_bytes = 768;
-  const size_t keys = context_.scene.objects[static_cast<size_t>(stack.object)].keyTimes.size();
+  constexpr size_t kVertex_bytes = 44, kKey_bytes = 72, kGrid_bytes = 1088;
+  const Object& o = context_.scene.objects[static_cast<size_t>(stack.object)];
+  size_t vertex_bytes = kVertex_bytes + kKey_bytes * (o.keyTimes.size() - 1);
+  for (const Primvar& p : o.shape().primvars()) vertex_bytes += static_cast<size_t>(p.width) * sizeof(float);
   const auto vertices =
       static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
-  const size_t bytes = kGrid_bytes + (kVertex_bytes + kKey_bytes * (keys - 1)) * vertices;
+  const size_t bytes = kGrid_bytes + vertex_bytes * vertices;
   return {new Pool(bytes), [&live = context_.liveGrids_bytes](const Pool* pool) {
             live -= static_cast<int64_t>(pool->bytes());
             delete pool;

@@ -82,8 +82,8 @@ struct DisplayFile::Impl {
                                        : std::vector<std::string>{"R", "G", "B", "A", "Z", "ZBack"};
     if (PixelFilter(options.filter, 2, 2).hasNegativeLobes())
       log.report(Severity::Warning, "display-deep-filter", display.where,
-                 "Display \"" + display.name + "\": no deep pixel holds the negative lobes of " + options.filter +
-                     "; a box of one pixel is used");
+                 "Display \"" + display.name + "\": deep pixels cannot have a filter with negative lobes, such as " +
+                     options.filter + "; a box of one pixel is used");
   }
 
   /// Fits the type of an integer format to Quantize. Returns false if the format cannot hold it.

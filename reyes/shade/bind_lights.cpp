@@ -75,8 +75,8 @@ void setLighting(BoundLight& light, Log& log) {
   light.indirect = lighting != "direct";
   if (lighting != "both" && light.direct && light.indirect)
     log.report(Severity::Warning, "light-lighting", light.bound->where,
-               fmt::format("{}: lighting \"{}\" is none of both, direct, indirect; both is used", light.bound->user,
-                           lighting));
+               fmt::format("{}: lighting \"{}\" is not one of \"both\", \"direct\" and \"indirect\"; \"both\" is used",
+                           light.bound->user, lighting));
 }
 
 /// Turns shadow rays off if the shader reads a shadow map that can be read.

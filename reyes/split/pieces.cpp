@@ -9,10 +9,11 @@ namespace {
 void report(const Splitter::GivenUp& givenUp, const Object& o, Stats& stats, Log& log) {
   stats.geometry.eyeSplitsGivenUp += givenUp.atEye;
   if (givenUp.atEye > 0)
-    log.report(Severity::Warning, "split-eye-plane", o.where,
-               fmt::format("{} passes through the eye: what lies too near there, at any time, is not drawn; set "
-                           "Clipping near by hand if it shows",
-                           objectName(o)));
+    log.report(
+        Severity::Warning, "split-eye-plane", o.where,
+        fmt::format("{} passes through the plane of the eye: parts that come too near to it while the shutter is "
+                    "open are not drawn; set the near distance of Clipping if it shows",
+                    objectName(o)));
   if (givenUp.tooMany > 0)
     log.report(
         Severity::Missing, "split-too-many", o.where,

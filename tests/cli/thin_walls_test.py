@@ -21,7 +21,7 @@ def told(*shells):
     """Returns (name, line, share in %, how many more) of each message."""
     t.write("bowls.rib", bowls(*shells))
     said = t.run("bowls.rib", "--gi", "gather", "--max-error", "0.5").stderr
-    found = re.findall(r'rib:(\d+): warning: "(\w+)": (\d+) % of the rays.*?come through(?:; so do (\d+) more of that name)? \(.*\[offset-thin\]', said)
+    found = re.findall(r'rib:(\d+): warning: "(\w+)": (\d+) % of the rays.*?leak through(?:; so do (\d+) more of that name)? \(.*\[offset-thin\]', said)
     t.expect(len(found) == said.count("[offset-thin]"), "every message can be read")
     return [(name, int(line), int(share), int(more or 0)) for line, name, share, more in found]
 

@@ -11,6 +11,7 @@
 #include "reyes/base/crash_note.h"
 #include "reyes/base/deep_stack.h"
 #include "reyes/base/nursery.h"
+#include "reyes/base/process.h"
 
 namespace tomales {
 namespace {
@@ -79,6 +80,7 @@ int runTexts(const std::vector<std::string>& arguments) {
 
 int run(int argc, char** argv) {
   openStandardFiles();
+  keepFreedMemory();
   if (argc > 1 && std::string(argv[1]) == "batch") openNursery(runTexts);  // this comes before there are threads
   endWithMessages();
   reportCrashes();

@@ -20,11 +20,13 @@ const GiMethod* giOrUsageError(const std::string& text) {
 void addConventions(CLI::App& app, RenderSettings& s) {
   app.add_option("--specular", s.specular,
                  "Exponent of specular(): 8/roughness as PRMan has it, or 1/roughness as RISpec and BMRT have it "
-                 "(default: as the scene says, or shows)")
+                 "(default: what the scene states or, if it states nothing, what its requests suggest)")
       ->check(CLI::IsMember({"prman", "rispec"}))
       ->type_name("prman|rispec");
-  app.add_option("--arealight", s.arealight,
-                 "intensity of arealight: radiance, or what BMRT had: intensity / distance^2 (default: likewise)")
+  app.add_option(
+         "--arealight", s.arealight,
+         "Meaning of intensity of arealight: radiance, or intensity / distance^2 as BMRT had it (default: found as "
+         "for --specular)")
       ->check(CLI::IsMember({"radiance", "bmrt"}))
       ->type_name("radiance|bmrt");
   app.add_option_function<std::string>(
@@ -93,7 +95,7 @@ void addFrameSize(CLI::App& app, RenderSettings& s) {
             fmt::format("Samples of a pixel (default: the scene's, or {}x{})", unasked.xSamples, unasked.ySamples));
   app.add_option("--shading-rate", s.shadingRate, "Area of a micropolygon in pixels (default: as objects ask, or 1)")
       ->check(between(1e-3, 1e6));
-  app.add_option("--seed", s.seed, fmt::format("Of all random numbers (default {})", s.seed));
+  app.add_option("--seed", s.seed, fmt::format("Seed of all random numbers (default {})", s.seed));
   app.add_option("--bucket-size", s.bucketSize,
                  fmt::format("Edge of a bucket in pixels (default: the scene's, or {})", unasked.bucketWidth))
       ->check(CLI::Range(1, 4096));
@@ -113,8 +115,8 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
 
 void addFramesApart(CLI::App& app, RenderSettings& s) {
   app.add_flag("--frames-apart", s.framesApart,
-               "Nothing in a frame of the RIB, such as Declare, concerns later ones: other frames are passed over "
-               "unread");
+               "Promise that no request in a frame of the RIB, such as Declare, concerns later frames: frames that are "
+               "not asked for are then skipped unread");
 }
 
 void addLightOptions(CLI::App& app, RenderSettings& s) {
@@ -138,7 +140,7 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--light-samples", s.lightSamples,
                  "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")
       ->check(CLI::Range(1, 4096));
-  app.add_option("--light-seed", s.lightSeed, "Of the random numbers of light alone (default: that of --seed)");
+  app.add_option("--light-seed", s.lightSeed, "Seed of the random numbers of light alone (default: that of --seed)");
   app.add_option("--photons", s.photons,
                  fmt::format("Photons to emit for --gi atlas, progressive and the caustics of reference (default {})",
                              s.photons))
@@ -276,7 +278,8 @@ void addShotTarget(CLI::App& app, RenderSettings& s) {
             "(default: the first, the middle and the last)");
   app.add_option(
          "--shot-settings", s.shotSettings,
-         "Keep those settings in this file, or use them from there: for runs that make other frames of the shot")
+         "Store the settings that were found for the shot in this file; if it exists, use its settings: runs that make "
+         "other frames of the shot then light them alike")
       ->type_name("FILE.json");
   app.add_option("--audit-every", s.auditEvery,
                  "Audit the frames whose number N divides, with the settings of the shot; 0: none (default 10)")

@@ -40,7 +40,8 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
       ->check(between(1e-3, 1e3));
   bricks
       ->add_option("--coarseness", in.brickmake.settings.coarseness,
-                   "Widths of the finest voxels, over what the radii ask: 2 for irradiance of photons")
+                   "Width of the finest voxels as a multiple of the one that the points' radii imply; 2 for irradiance "
+                   "of photons")
       ->check(between(0.1, 100.0));
   bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
   bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
@@ -64,7 +65,8 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
       "Point clouds from and to PLY, for other programs; the records of an irradiance cache as a point cloud");
   convert->add_option("IN", in.convert.input, "FILE.ptc, FILE.ply or SHOT.icf")->required();
   convert->add_option("OUT", in.convert.output, "FILE.ply or FILE.ptc")->required();
-  convert->add_option("--radius", in.convert.radius, "Of points that name none (default: 0)")->check(between(0.0, 1e9));
+  convert->add_option("--radius", in.convert.radius, "Radius of points that have none (default: 0)")
+      ->check(between(0.0, 1e9));
   convert->callback([&] { code = convertCommand(in.convert); });
 }
 

@@ -89,7 +89,7 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
       "Points along u and v (default 64x64)");
   addParsed(*c, "-o", in.shadetest.output, parseOutput, pictureNames(), "Picture of Ci");
   c->add_flag("--check", in.shadetest.check,
-              "Does the shader, or do all of the file, what they declare? Exit code 3 if not");
+              "Check that the shader, or each of the file, does what it declares; exit code 3 if not");
   c->callback([&] { code = shadetestCommand(in.shadetest); });
 }
 

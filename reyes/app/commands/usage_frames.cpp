@@ -98,7 +98,7 @@ void addShotOptions(CLI::App& app, RenderSettings& s, const char* what = "A deep
 }
 
 void buildGather(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("gather", "A shot's irradiance cache, and all else that its rays say");
+  CLI::App* c = app.add_subcommand("gather", "Compute the irradiance cache of a shot, and what else its rays find");
   addParsed(*c, "-o", in.render.output, parseNamed(".icf"), "SHOT.icf", "Write here")->required();
   c->add_option("--irradiance", in.render.irradiance,
                 "Start from these records and add where they leave points uncovered or disagree; with --crop "
@@ -106,7 +106,8 @@ void buildGather(CLI::App& app, Invocation& in, int& code) {
       ->type_name("OTHER.icf");
   c->add_flag_callback(
       "--no-answers", [&in] { in.render.keepsAnswers = false; },
-      "Keep records alone, and not what the rays of shading say: shade traces these itself, with the same bits");
+      "Store irradiance records alone, and not what rays of shaders and lights find: shade traces these itself, with "
+      "the same bits");
   c->add_flag("--by-light", in.render.byLight,
               "Keep what each light brings, so that shade and relight dim and colour lights with all that they bounce");
   addCrop(*c, in.render);
@@ -140,7 +141,7 @@ void buildRelight(CLI::App& app, Invocation& in, int& code) {
   c->add_option("--irradiance", r.render.irradiance,
                 "Indirect light and shadows of tomales gather --by-light (default: they are gathered first)")
       ->type_name("SHOT.icf");
-  c->add_option("--port", r.port, "Of the address that the page is at (default: any that is free)")
+  c->add_option("--port", r.port, "Port of the page's address (default: any that is free)")
       ->check(CLI::Range(1, 65535));
   c->add_option("--folder", r.folder, "Edits are saved and loaded here (default: the working folder)")
       ->check(CLI::ExistingDirectory)
@@ -209,7 +210,7 @@ void buildBatch(CLI::App& app, Invocation& in, int& code) {
   c->add_option("-j", b.processes, "Most tasks at a time (default: one on each processor; slurm: no limit)")
       ->check(CLI::Range(1, 100000));
   c->add_option("-t", b.slurm.cpus, "Threads of each task (default 1)")->check(CLI::Range(1, 4096));
-  c->add_option("--partition", b.slurm.partition, "Of Slurm (default: the cluster's)");
+  c->add_option("--partition", b.slurm.partition, "Partition of Slurm (default: the cluster's)");
   c->add_option("--time", b.slurm.time, "Most time of a task, as sbatch takes it (default: the partition's)");
   c->add_option("--mem", b.slurm.memory, "Memory of a task, as sbatch takes it (default: the partition's)");
   c->add_flag("--json", b.json, "Report as JSON");

@@ -45,7 +45,7 @@ RenderSettings asGranted(RenderSettings settings, Log& log) {
     settings.memoryIsGranted = true;
     said += fmt::format("{}--memory-limit {}M", said.empty() ? "" : " and ", *settings.memoryLimit / kMegabyte);
   }
-  if (!said.empty()) log.report(Severity::Info, "slurm-grant", {}, "Slurm has granted what makes " + said);
+  if (!said.empty()) log.report(Severity::Info, "slurm-grant", {}, "what Slurm has granted sets " + said);
   return settings;
 }
 

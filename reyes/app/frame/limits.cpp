@@ -108,11 +108,12 @@ void warnOfThinWalls(const RayScene& rays, Log& log) {
     }
   }
   for (const auto& [name, t] : thin)
-    log.report(Severity::Warning, "offset-thin", t.worst->where,
-               fmt::format("{}: {:.0f} % of the rays that leave it start where two surfaces are nearer to each other "
-                           "than rays know them to lie; light may come through{} (Attribute \"trace\" "
-                           "\"tessellationmode\" \"fixed\" and \"tessellation\" above 1, or \"offset\")",
-                           name, 100 * t.share, t.others ? fmt::format("; so do {} more of that name", t.others) : ""));
+    log.report(
+        Severity::Warning, "offset-thin", t.worst->where,
+        fmt::format("{}: {:.0f} % of the rays that leave it start between two surfaces that are closer together "
+                    "than the error of the polygons that rays meet; light may leak through{} (Attribute \"trace\" "
+                    "\"tessellationmode\" \"fixed\" and \"tessellation\" above 1, or \"offset\")",
+                    name, 100 * t.share, t.others ? fmt::format("; so do {} more of that name", t.others) : ""));
 }
 
 }  // namespace tomales

@@ -153,8 +153,9 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
   fs::path folder = std::filesystem::path(file).parent_path();
   if (folder.empty()) folder = ".";
   if (::access(folder.c_str(), W_OK | X_OK) == 0) return true;
-  log.report(Severity::Output, "output-folder", where,
-             "\"" + file + "\" cannot be written: its folder is missing or closed to us; the frame was not rendered");
+  log.report(
+      Severity::Output, "output-folder", where,
+      "\"" + file + "\" cannot be written: its folder is missing or cannot be written to; the frame was not rendered");
   return false;
 }
 
