@@ -2,15 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-
-#include "reyes/base/temporary_folder.h"
+#include <filesystem>
 
 // ctest runs the tests of one program at the same time. Each process has a folder for temporary files of its own, so
-// that two tests of a fixture may write files of the same name.
+// that two tests of a fixture may write files of the same name. It is no TemporaryFolder (reyes/base), which child
+// processes that a test ends abruptly would remove.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  const tomales::TemporaryFolder folder(std::filesystem::temp_directory_path());
-  ::setenv("TMPDIR", folder.path().c_str(), 1);
-  ::setenv("TEST_TMPDIR", folder.path().c_str(), 1);
-  return RUN_ALL_TESTS();
+  std::string folder = (std::filesystem::temp_directory_path() / "tomales_unit_XXXXXX").string();
+  if (!::mkdtemp(folder.data())) return EXIT_FAILURE;
+  ::setenv("TMPDIR", folder.c_str(), 1);
+  ::setenv("TEST_TMPDIR", folder.c_str(), 1);
+  const int result = RUN_ALL_TESTS();
+  std::filesystem::remove_all(folder);
+  return result;
 }
