@@ -100,7 +100,7 @@ class ShadingSystem {
   bool needsRays() const;  ///< True if a light or shader will trace rays.
   /// Tells whether its surface shader asks for rays, for more than occlusion() or highlights.
   bool tracesRays(int group) const;
-  /// Tells whether a shader of the group may call occlusion() so that answers may be interpolated.
+  /// Tells whether a shader of the group may call occlusion() or indirectdiffuse() so that answers may be interpolated.
   bool asksHemispheres(int group) const;
 
   /// Returns LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.

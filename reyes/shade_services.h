@@ -161,7 +161,7 @@ struct HemisphereQuery {
   float maxDistance = 1e30f, bias = -1;
   float falloff = 0;
   int falloffMode = 0;
-  float maxVariation = 0;       ///< Greatest error of the answers: absolute, but for radiance relative to it.
+  float maxVariation = 0;       ///< Greatest error of the answers: absolute for coverage, relative for radiance.
   bool radiance = false;        ///< Asks for the mean radiance from the hemisphere, not for the share that is covered.
   std::optional<HitMode> mode;  ///< As RayQuery::mode; for radiance alone.
   int diffuseLimit = 0;         ///< Greatest depth at which the shaders of hits ask for radiance in turn; likewise.

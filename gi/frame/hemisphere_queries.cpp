@@ -2,6 +2,7 @@
 // uncovered share of the hemisphere instead of light.
 #include "gi/frame/state.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -48,6 +49,15 @@ std::vector<std::vector<Example>> examplesOf(const GiState& state, const DeepFra
       if (state.shading.asksHemispheres(batch.group())) add(examples[static_cast<size_t>(batch.group())], batch);
   });
   return examples;
+}
+
+/// Finds the cache of a plan. Records that were given serve even where they were gathered with another error or seed.
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
+  const auto prepared =
+      std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  if (prepared != state.caches.end() || !state.cachesGiven) return prepared;
+  return std::find_if(state.caches.begin(), state.caches.end(),
+                      [&](const PreparedCache& c) { return c.plan.gather.asked == plan.gather.asked; });
 }
 
 }  // namespace
@@ -99,10 +109,12 @@ bool interpolateHemisphere(const GiState& state, const ShadePoints& points, cons
     if (std::find(asked.begin(), asked.end(), query) == asked.end()) asked.push_back(query);
     return true;
   }
-  const GatherPlan plan = planFor(state, points.group(), query);
-  const auto prepared =
-      std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
+  // Records without shares do not know whose light they hold.
+  if (query.radiance && context.lights && state.groups.empty()) return false;
+  GatherPlan plan = planFor(state, points.group(), query);
+  const auto prepared = preparedFor(state, plan);
   if (prepared == state.caches.end()) return false;
+  if (context.redrawn) plan.gather.seed = hashCombine(plan.gather.seed, randomStream("alon"));
   const GatherPlaces places(state, points);
   const BatchLookup found = lookUp(state, &*prepared, places, points, active, N, context);
   for (size_t k = 0; k < found.points.size(); ++k) {

@@ -48,7 +48,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
     int group, samples;
     float maxDistance, time;
     vec3 drift;
-    uint32_t light, indirect, subset, radiosity, occlusion;
+    uint32_t light, indirect, subset, radiosity, question;
   } asked{point.position,
           point.normal,
           point.key,

@@ -128,10 +128,6 @@ class PathBatches {
   std::vector<vec3> directions_;  ///< The direction of each of those paths.
 };
 
-}  // namespace
-
-namespace {
-
 ShadeContext contextOfPaths(const GiState& state, const ShadeContext& context, int bounces) {
   const int depth = context.depth + 1;
   ShadeContext out{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};

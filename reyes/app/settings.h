@@ -27,7 +27,6 @@ struct RenderSettings {
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
   std::optional<float> shadingRate;
   bool draft = false;                      ///< Coarse and fast, to place lights by.
-  bool namesOnly = false;                  ///< The frame is asked for methods and names of files, and makes no light.
   std::optional<std::vector<int>> frames;  ///< Sorted. If not given, all are rendered.
   bool framesApart = false;                ///< Frames that --frames leaves out need not be read.
   std::optional<std::vector<int>> makes;   ///< Sorted places of the Make requests to perform. If not given, all are.

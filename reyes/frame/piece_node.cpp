@@ -172,7 +172,7 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
 }
 
 std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
-  // A vertex without motion and primitive variables takes a dozen floats; each further key takes six and a box and a
+  // A vertex without motion and primitive variables takes eleven floats; each further key takes six and a box and a
   // third, and a grid about as much as here without vertices.
   constexpr size_t kVertex_bytes = 44, kKey_bytes = 72, kGrid_bytes = 1088;
   const Object& o = context_.scene.objects[static_cast<size_t>(stack.object)];

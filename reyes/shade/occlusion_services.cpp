@@ -43,7 +43,11 @@ const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConst
                            const RayQuery& rays, const TmOcclusion& out) {
   const bool plain = batch.context.kind == RayKind::Camera && !o.uniform && o.coneAngle >= kWholeCone &&
                      o.sampleBase == 0 && !o.environment && !out.environmentColor.x && !out.environmentDirection.x;
-  if (!plain || (out.radiance.x && !rays.label.empty())) return g->active;
+  ShadeContext traced = batch.context;
+  traced.rehearsal = false;  // nothing is traced then
+  if (!plain || (out.radiance.x && !rays.label.empty()) ||
+      !batch.scene.services->tracesFrom(*batch.points, rays, traced))
+    return g->active;
   uint8_t *own = batch.arena.bytes(g->count), *moved = batch.arena.bytes(g->count);
   for (int i = 0; i < g->count; ++i) {
     own[i] = g->active[i] && get(P, i) == batch.points->position(i);

@@ -72,8 +72,8 @@ typedef enum TmCapability {
   TM_INTERPOLATED = 1 << 16, /* surface, light, with TM_TRACES: answers of occlusion() and indirectdiffuse() may be
                                 interpolated as with TM_OCCLUDED where Attribute "irradiance" "maxerror" is above 0,
                                 whatever else it asks of rays */
-  TM_INTERPOLATED_UNASKED = 1 << 17 /* with TM_INTERPOLATED: and where that attribute is not given, because it asks for
-                                       radiance, or names a TmOcclusion::maxVariation */
+  TM_INTERPOLATED_UNASKED = 1 << 17 /* with TM_INTERPOLATED: they may be interpolated without that attribute, too, since
+                                       the shader asks for radiance, or names a TmOcclusion::maxVariation */
 } TmCapability;
 
 /* What the host understands of a parameter, whatever its name: how a shader says which of its parameters is the number

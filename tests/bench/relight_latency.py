@@ -16,13 +16,13 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "browser"))
 import chromium as driver  # noqa: E402
 from chromium import Page  # noqa: E402
 
-driver.PATIENCE_S = 600  # This light moves in a film frame.
+driver.PATIENCE_S = 600  # A whole film frame may be shaded between two answers.
 
 SLIDE = """(async (to) => { const s = document.querySelector("#lights .light:has(button[title=solo]) input[type=range]");
 s.value = to; s.dispatchEvent(new Event("input")); const start = performance.getEntriesByName("changed").at(-1).startTime;
 while (!performance.getEntriesByName("painted").some((m) => m.startTime > start)) await new Promise(requestAnimationFrame);
 const took = performance.getEntriesByName("painted").find((m) => m.startTime > start).startTime - start; performance.clearMarks(); return took; })(%s)"""
-# This is the first picture after blocks of the light have come, and the last one.
+# Returns the times of the first picture after blocks of the light have come, and of the last one.
 MOVE = """(async () => { const inputs = () => [...document.querySelectorAll("#lights .light")].find((l) => l.querySelector("strong").textContent === "%s")
 .querySelectorAll(".vector"); const row = [...inputs()].find((r) => r.querySelector("span").textContent === "%s"), input = row.querySelector("input");
 performance.clearMarks(); input.value = Number(input.value) + %s; input.dispatchEvent(new Event("change"));

@@ -84,6 +84,21 @@ expect("and forbids it", *render("  with maxvariation 0", 'Ci = occlusion(P, n, 
 expect("a cone is not the hemisphere", *render("  of a cone", 'Ci = occlusion(P, n, 300, "coneangle", 1.55, "maxvariation", .02);'), False, 0.01, 0.08)
 moved = render("  from another place", 'Ci = indirectdiffuse(P + .001 * n, n, 300);')
 expect("elsewhere than P is traced", *moved, False, 0.01, 0.08)
+black, _ = render("  past the limit of depth", BOUNCED, 'Attribute "trace" "int maxdiffusedepth" [0]')
+t.expect(max(p[0] for p in black.values()) == 0, "  records are as dark as rays")
+
+# A shot keeps the records, and says where an edit has made them old.
+LIT = 'LightSource "pointlight" "bulb" "from" [0 0 -1] "intensity" [1]'
+WALL = ('AttributeBegin\nAttribute "visibility" "int camera" [0]\nSurface "matte"\n'
+        'Patch "bilinear" "P" [2 -2 0  2 2 0  2 -2 -3  2 2 -3]\nAttributeEnd\n')
+t.write("floor.sl", f"surface floor() {{ normal n = faceforward(normalize(N), I); {BOUNCED} Oi = 1; }}\n")
+t.write("shot.rib", SCENE.replace("AttributeBegin", WALL + "AttributeBegin", 1) % (24, 24, LIT + '\nSurface "floor"', *[HEIGHT] * 4))
+t.write("brighter.rib", 'LightSource "pointlight" "bulb" "from" [0 0 -1] "intensity" [9]\n')
+t.expect_run("hide", ["hide", "shot.rib", "-o", "shot.dfb"], 0)
+t.expect_run("gather", ["gather", "shot.dfb", "-o", "shot.icf", "--max-error", "2"], 0)
+said = t.expect_run("shade", ["shade", "shot.dfb", "--irradiance", "shot.icf", "-o", "shot.exr", "--stats", "stats.json"], 0).stderr
+t.expect("icf-without-light" not in said and json.loads((t.folder / "stats.json").read_text())["rays"]["gather"] == 0, f"  takes the records as they were gathered ({said[:200]})")
+t.expect_run("an edited light", ["shade", "shot.dfb", "--irradiance", "shot.icf", "--edit", "brighter.rib", "-o", "shot.exr"], 0, "light-stale", "bulb")
 
 one, _ = render("on one thread", BOUNCED, "", "-t", "1", "--bucket-size", "16")
 two, _ = render("on two", BOUNCED, "", "-t", "2", "--bucket-size", "13")

@@ -82,7 +82,7 @@ bool FrameJob::hide(const DeepFrame& layout, const TileSink& sink) {
 }
 
 void FrameJob::checkRecords(const GiSettings& gathered, const std::string& file) const {
-  if (gathers_ && gathered.mode == GiMode::None)
+  if (method_->caches && gathered.mode == GiMode::None)
     log_.report(
         Severity::Warning, "icf-without-light", {std::make_shared<std::string>(file), 0},
         "was gathered with --gi none: all indirect light is gathered while shading (with --gi none it is left out)");

@@ -24,11 +24,11 @@ class MovedLight {
 
   /// Returns by how much the light at both ends of the way differs, as a share of its mean; half of it is what the
   /// picture is off on the average, because it shows the first.
-  float change(const std::vector<Place>& first, const std::vector<Place>& last) const {
+  float change(std::span<const int> lights, const std::vector<Place>& first, const std::vector<Place>& last) const {
     std::vector<float> a(first.size(), 0), b(first.size(), 0);
-    for (size_t l = 0; l < rays_.scene().lights.size(); ++l) {
-      add(static_cast<int>(l), first, a);
-      add(static_cast<int>(l), last, b);
+    for (const int l : lights) {
+      add(l, first, a);
+      add(l, last, b);
     }
     float differs = 0, sum = 0;
     for (size_t i = 0; i < a.size(); ++i) {
@@ -105,10 +105,23 @@ std::vector<const ShadeGroup*> movingGroups(const Scene& scene) {
   std::vector<const ShadeGroup*> all, out;
   if (!scene.shutterIsOpen() || scene.lights.empty()) return out;
   for (const ShadeGroup& g : scene.groups)
-    if (g.currentFromOpen.moving() && g.exampleObject >= 0 && g.attributes->visibility.camera) all.push_back(&g);
+    if (g.currentFromOpen.moving() && g.exampleObject >= 0 && g.attributes->visibility.camera && !g.attributes->matte &&
+        !g.attributes->volume)
+      all.push_back(&g);
   const size_t stride = 1 + all.size() * scene.lights.size() / kMostPairs;
   for (size_t k = 0; k < all.size(); k += stride) out.push_back(all[k]);
   return out;
+}
+
+/// Returns the pixel of the first of these places that is in the picture; none if none is.
+std::optional<vec2> pixelOf(const std::vector<Place>& places, const Camera& camera) {
+  for (const Place& p : places)
+    if (camera.seeable(p.P))
+      if (const vec2 at = camera.raster(p.P); at.x >= 0 && at.y >= 0 &&
+                                              at.x < static_cast<float>(camera.xResolution()) &&
+                                              at.y < static_cast<float>(camera.yResolution()))
+        return at;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -118,26 +131,27 @@ void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const Shadin
   const MovedLight light(rays, shading);
   float most = 2 * kOff;
   const Object* worst = nullptr;
-  vec3 where(0);
+  vec2 pixel(0);
   for (const ShadeGroup* g : movingGroups(scene)) {
     const std::vector<Place> first = placesOn(scene, g->exampleObject);
     const mat4 moved = g->currentFromOpen.at(scene.options.shutterClose);
     std::vector<Place> last;
     for (const Place& p : first)
       last.push_back({transformPoint(moved, p.P), normalizeOr(glm::transpose(glm::inverse(mat3(moved))) * p.N, p.N)});
-    const float change = light.change(first, last);
+    const std::optional<vec2> begins = pixelOf(first, camera), ends = pixelOf(last, camera);
+    const float change = begins || ends ? light.change(g->attributes->lights, first, last) : 0;
     if (!(change > most)) continue;
     most = change;
     worst = &scene.objects[static_cast<size_t>(g->exampleObject)];
-    where = first.front().P;
+    pixel = begins ? *begins : *ends;
   }
   if (!worst) return;
-  const vec2 pixel = camera.seeable(where) ? camera.raster(where) : vec2(0);
-  log.report(Severity::Warning, "motion-light", worst->where,
-             fmt::format("{}: light on it changes by {:.0f} % as it moves, and all of its blur, which begins at pixel "
-                         "{:.0f},{:.0f}, has that of shutter open; parts are off by half as much: shorten Shutter, or "
-                         "render parts of it and average the pictures",
-                         objectName(*worst), 100 * most, pixel.x, pixel.y));
+  log.report(
+      Severity::Warning, "motion-light", worst->where,
+      fmt::format("{}: light on it changes by {:.0f} % as it moves, and all of its blur, as at pixel {:.0f},{:.0f}, "
+                  "has that of shutter open; parts are off by half as much: shorten Shutter, or "
+                  "render parts of it and average the pictures",
+                  objectName(*worst), 100 * most, pixel.x, pixel.y));
 }
 
 }  // namespace tomales

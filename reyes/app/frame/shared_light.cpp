@@ -49,7 +49,6 @@ std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& set
   if (!makesMaps(methodOfLights(scene, *shaders, settings, log))) return std::nullopt;
   Stats stats;
   RenderSettings asking = settings;
-  asking.namesOnly = true;
   const FrameJob job(scene, *shaders, asking, stats, log);
   SharedLight out;
   out.folder = atlasFolder(settings, job.shading());

@@ -111,7 +111,9 @@ void ShotJob::prepareLight() {
 void ShotJob::prepareShares() {
   const bool given = files_->hasIrradiance();
   std::vector<std::string> groups = given ? files_->irradiance().groups : std::vector<std::string>();
-  if (settings_.byLight && (given ? groups.empty() : job_->giSettings().mode != GiMode::Gather))
+  const GiMode mode = job_->giSettings().mode;
+  const bool shared = mode == GiMode::Gather || (mode == GiMode::None && job_->gathers());
+  if (settings_.byLight && (given ? groups.empty() : !shared))
     return log_.report(Severity::Warning, "light-shares", {},
                        given ? "--by-light: the records of --irradiance have no shares; new ones get none either"
                              : "--by-light: only --gi gather knows which light has bounced");
@@ -122,7 +124,12 @@ void ShotJob::prepareShares() {
 }
 
 std::vector<std::string> ShotJob::staleLight() const {
-  if (!files_->hasIrradiance() || files_->irradiance().settings.mode == GiMode::None) return {};
+  // Records of occlusion() do not depend on lights.
+  const bool holdLight =
+      files_->hasIrradiance() &&
+      (files_->irradiance().settings.mode != GiMode::None ||
+       std::ranges::any_of(job_->services()->caches(), [](const PreparedCache& c) { return !c.plan.gather.covers(); }));
+  if (!holdLight) return {};
   std::set<std::string> changed;
   for (const std::string& handle : lightEdits_.stale) changed.insert("light \"" + handle + "\"");
   for (size_t g = 0; g < attributesOfFile_.size(); ++g) {

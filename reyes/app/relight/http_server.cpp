@@ -84,6 +84,7 @@ struct HttpServer::Impl {
   const std::string token = newToken();
   int port = 0;
   Routes gets, posts;
+  int listening = -1;  ///< The socket.
   std::thread thread;
   std::atomic<bool> ended{false};  ///< The thread has, or could not listen.
 
@@ -144,16 +145,15 @@ HttpServer::HttpServer(int port) : impl_(std::make_unique<Impl>()) {
       [](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) { response.status = 500; });
   server.Get(".*", [this](const httplib::Request& q, httplib::Response& a) { impl_->answer(q, a, impl_->gets); });
   server.Post(".*", [this](const httplib::Request& q, httplib::Response& a) { impl_->answer(q, a, impl_->posts); });
-  int listening = -1;
-  server.set_socket_options([&](int socket) {  // the library's would let another process share the port
+  server.set_socket_options([this](int socket) {  // the library's would let another process share the port
     const int on = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    listening = socket;
+    impl_->listening = socket;
   });
   impl_->port = port > 0 ? (server.bind_to_port(kAddress, port) ? port : -1) : server.bind_to_any_port(kAddress);
   if (impl_->port <= 0) throw std::runtime_error(fmt::format("no port of {} can be listened on", kAddress));
   // The library listens already, and listening again only lengthens the queue.
-  ::listen(listening, kMostWaiting);
+  ::listen(impl_->listening, kMostWaiting);
 }
 
 HttpServer::~HttpServer() { stop(); }

@@ -77,7 +77,7 @@ const view = () => {
     transform: $("transform").selectedIndex, falseColor, range: $("shown").value ? range ?? [0, 1] : null };
 };
 
-let asked = false, hasNews = false, shownNews_ms = -kNews_ms, later = null;
+let asked = false, hasNews = false, isFirst = true, shownNews_ms = -kNews_ms, later = null;
 const paint = () => {
   if (asked) return;
   asked = true;
@@ -95,9 +95,12 @@ const paint = () => {
   });
 };
 
-/** Paints what has come: the first of an edit and the last at once. */
-const paintNews = (isLast) => {
-  const wait_ms = isLast ? 0 : shownNews_ms + kNews_ms - performance.now();
+/** What comes next is painted at once. */
+const expectFirst = () => { isFirst = true; };
+/** Paints what has come: the first of the present edit and the last at once. */
+const paintNews = (isPresent, isLast) => {
+  const wait_ms = isLast || (isFirst && isPresent) ? 0 : shownNews_ms + kNews_ms - performance.now();
+  if (isPresent) isFirst = false;
   if (wait_ms <= 0) return paint();
   later ??= setTimeout(() => { later = null; paint(); }, wait_ms);
 };
@@ -137,7 +140,7 @@ const send = async () => {
 };
 
 const refresh = () => { for (const shown of [lights, objects, imager]) shown.refresh(); handles.place(); };
-const show = () => { whole(); paint(); refresh(); send(); };
+const show = () => { expectFirst(); hasNews = false; whole(); paint(); refresh(); send(); };
 const follow = async (present) => {
   if (nameOf(present) === nameOf(state)) return;
   await prepare(present);
@@ -146,7 +149,7 @@ const follow = async (present) => {
   paint();
   refresh();
 };
-const changed = (what) => { performance.mark("changed"); shownNews_ms = -kNews_ms; history.keep(state, what); show(); };
+const changed = (what) => { performance.mark("changed"); history.keep(state, what); show(); };
 const become = (next) => { state = wholeOf(next); changed(); };
 const step = (by) => {
   if (watches()) return;
@@ -183,6 +186,7 @@ if (mixer.isPlain) note("This browser has no GPU for WebGL2: the picture is mixe
 const setExact = (on) => {
   exact = on;
   $("exact").classList.toggle("on", on);
+  expectFirst();
   if (on) post("ask");
   else { whole(); paint(); }
 };
@@ -193,7 +197,7 @@ const setStops = () => {
   $("gammaText").textContent = gamma === 2.2 ? "sRGB" : gamma.toFixed(2);
   paint();
 };
-const showVariable = guarded(async () => { await post(`variable?name=${encodeURIComponent($("shown").value)}`); paint(); });
+const showVariable = guarded(async () => { expectFirst(); await post(`variable?name=${encodeURIComponent($("shown").value)}`); paint(); });
 
 const asQuestion = ({ x, y, width, height }) => `&x=${x}&y=${y}&width=${width}&height=${height}`;
 const setRegion = guarded(async (chosen, isDone) => {
@@ -210,7 +214,7 @@ const toggleRegion = () => {
   $("region").classList.add("on");
   stage.askForRegion(setRegion);
 };
-const gather = guarded(async () => { await post(`gather?page=${page}${asQuestion(region ?? stage.inView())}`); });
+const gather = guarded(async () => { expectFirst(); await post(`gather?page=${page}${asQuestion(region ?? stage.inView())}`); });
 
 const listEdits = async () => $("edits").replaceChildren(...(await get("edits")).map((name) => new Option(name)));
 $("save").onclick = guarded(async () => {
@@ -281,7 +285,7 @@ const showNews = async (news, blocks) => {
   for (const name of news.notLinear) note(`${name}: light does not add up there; Exact shows it right.`);
   for (const message of news.messages) note(message);
   hasNews ||= blocks.length > 0;
-  if (hasNews) paintNews(!news.doing);
+  if (hasNews) paintNews(isPresent, !news.doing);
   else work.show(news);
 };
 try {
