@@ -51,15 +51,6 @@ std::vector<std::vector<Example>> examplesOf(const GiState& state, const DeepFra
   return examples;
 }
 
-/// Finds the cache of a plan. Records that were given serve even where they were gathered with another error or seed.
-std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
-  const auto prepared =
-      std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
-  if (prepared != state.caches.end() || !state.cachesGiven) return prepared;
-  return std::find_if(state.caches.begin(), state.caches.end(),
-                      [&](const PreparedCache& c) { return c.plan.gather.asked == plan.gather.asked; });
-}
-
 }  // namespace
 
 bool keepsHemispheres(const GiSettings& settings) {

@@ -25,23 +25,6 @@ vec3 causticAt(const GiState& state, int group, const vec3& P, const vec3& n, fl
   return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
 }
 
-/// Finds the cache of a plan. Records that were given serve even where a light has since been edited to ask for others:
-/// first those that were gathered with other rays alone.
-std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
-  const auto prepared =
-      std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) { return c.plan == plan; });
-  if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
-  const auto withOtherRays = std::find_if(state.caches.begin(), state.caches.end(), [&](const PreparedCache& c) {
-    GatherPlan same = c.plan;
-    same.gather.samples = plan.gather.samples;
-    same.gather.seed = plan.gather.seed;
-    return same == plan;
-  });
-  if (withOtherRays != state.caches.end()) return withOtherRays;
-  return std::find_if(state.caches.begin(), state.caches.end(),
-                      [](const PreparedCache& c) { return !c.plan.gather.asked; });
-}
-
 /// Returns the light of the records under the gains, or drawn anew; empty if that is their own.
 std::span<const LightShare> lightOf(const GiState& state, const PreparedCache& prepared, const ShadeContext& context) {
   const auto index = static_cast<size_t>(&prepared - state.caches.data());
@@ -68,6 +51,21 @@ CacheSettings cacheSettings(ErrorFunction function, float maxError) {
     out.enough /= std::max(1.0f, maxError);
   }
   return out;
+}
+
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
+  const auto find = [&](const auto& serves) { return std::ranges::find_if(state.caches, serves); };
+  const auto prepared = find([&](const PreparedCache& c) { return c.plan == plan; });
+  if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
+  const auto withOtherRays = find([&](const PreparedCache& c) {
+    GatherPlan same = c.plan;
+    same.gather.samples = plan.gather.samples;
+    same.gather.seed = plan.gather.seed;
+    return same == plan;
+  });
+  return withOtherRays != state.caches.end()
+             ? withOtherRays
+             : find([&](const PreparedCache& c) { return c.plan.gather.asked == plan.gather.asked; });
 }
 
 std::span<const LightShare> mixedLight(const GiState& state, size_t cache) {

@@ -58,6 +58,10 @@ GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
 
 GatherPlan planFor(const GiState&, int group, const HemisphereQuery&);
 
+/// Finds the cache that serves a plan, if there is one. Records that were given serve even where a light or an option
+/// has since been changed: first those that were gathered with other rays alone, then those for the same question.
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState&, const GatherPlan&);
+
 /// Returns what a cache with this error function has at `maxError`.
 CacheSettings cacheSettings(ErrorFunction, float maxError);
 

@@ -14,7 +14,7 @@ namespace {
 constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Slightly less than pi/2, which shaders give with few digits.
 /// The maxerror of the cache if nobody says one. Shading the hits of rays costs much, so that radiance is interpolated
 /// as that of an indirect light is, and with it the occlusion that the same call asks for.
-constexpr float kErrorOfCoverage = 0, kErrorOfRadiance = 1;
+const float kErrorOfCoverage = 0, kErrorOfRadiance = IndirectQuery().maxError;
 
 /// Returns what a call of occlusion() or indirectdiffuse() asks.
 HemisphereQuery queryOf(const TmRayOptions& o, const TmOcclusion& asked, const RayQuery& rays, const Attributes& a,

@@ -68,7 +68,7 @@ typedef enum TmCapability {
    * point runs only some of them */
   TM_LIGHT_BOUNDED = 1 << 15,
 
-  /* --- Rays again */
+  /* --- Rays whose answers come from records */
   TM_INTERPOLATED = 1 << 16, /* surface, light, with TM_TRACES: answers of occlusion() and indirectdiffuse() may be
                                 interpolated as with TM_OCCLUDED where Attribute "irradiance" "maxerror" is above 0,
                                 whatever else it asks of rays */

@@ -6,10 +6,10 @@ from program import Suite
 t = Suite()
 
 
-def said(motion, light):
+def said(motion, light, depth=4):
     t.write("ball.rib", f"""Format 32 32 1 PixelSamples 2 2 Projection "perspective" "fov" [40] Shutter 0 1 Display "ball.exr" "openexr" "rgb" WorldBegin
 Attribute "light" "shadows" "on" {light}
-AttributeBegin Attribute "identifier" "name" ["ball"] MotionBegin [0 1] Translate -0.6 0 4 Translate {motion} 0 4 MotionEnd
+AttributeBegin Attribute "identifier" "name" ["ball"] MotionBegin [0 1] Translate -0.6 0 {depth} Translate {motion} 0 {depth} MotionEnd
 Surface "matte" Sphere 0.4 -0.4 0.4 360 AttributeEnd
 WorldEnd
 """)
@@ -23,4 +23,6 @@ t.expect(re.search(r'"ball": light on it changes by \d+ % as it moves.*at pixel 
 t.expect("motion-light" not in said(-0.6, LAMP), "a ball that stands still")
 t.expect("motion-light" not in said(-0.55, LAMP), "a ball that hardly moves")
 t.expect("motion-light" not in said(0.6, SUN), "a ball in the sun")
+t.expect("motion-light" not in said(0.6, LAMP + ' Illuminate "bulb" 0 ' + SUN), "a lamp that is switched off for the ball")
+t.expect("motion-light" not in said(0.6, LAMP, depth=-4), "a ball behind the eye")
 t.finish()

@@ -118,6 +118,15 @@ for address in ("127.0.0.2", socket.gethostbyname(socket.gethostname())):
         with socket.socket() as other:
             suite.expect(other.connect_ex((address, int(server.port))) != 0, "it listens at the loopback address alone")
 
+with socket.socket() as other:
+    other.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+    try:
+        other.bind(("127.0.0.1", int(server.port)))
+        shares = True
+    except OSError:
+        shares = False
+suite.expect(not shares, "no other process can listen at its port")
+
 # One client makes no sense, and one says nothing.
 silent = [socket.create_connection(("127.0.0.1", int(server.port))) for _ in range(8)]
 random.seed(36)
