@@ -71,7 +71,7 @@ def render(name, surface, *arguments):
     """Returns the colours of the ball, and CPU seconds."""
     rib, out, stats = folder / f"{name}.rib", folder / f"{name}.exr", folder / f"{name}.json"
     rib.write_text(f'Option "searchpath" "string shader" ["{folder}:@"]\n' + SCENE.replace(PLASTIC, surface))
-    subprocess.run([options.tomales.resolve(), "render", rib, "-q", "-t", "1", "--format", f"{options.size}x{options.size}", "--crop", CROP, "-o", out, "--stats", stats,
+    subprocess.run([options.tomales.resolve(), "render", rib, "-q", "--plugin-path", folder, "-t", "1", "--format", f"{options.size}x{options.size}", "--crop", CROP, "-o", out, "--stats", stats,
                     *map(str, arguments)], check=True)
     return {xy: c[:3] for xy, c in pixels(out).items() if on_ball(*xy)}, json.loads(stats.read_text())["cpu_s"]
 
