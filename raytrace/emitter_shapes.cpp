@@ -180,8 +180,8 @@ struct PlanePoint {
   double u = 0, v = 0;
   bool seen = false;
 };
-/// Points of the emitter itself, above all on its back, lie on either side of its plane by rounding: they must not see
-/// half of their sky shine.
+/// Points of the emitter itself lie on either side of its plane, by rounding. They count as behind it: otherwise the
+/// emitter could fill half of the sky of points on its own back.
 bool behind(const EmitterShape& flat, const vec3& from) {
   constexpr double kRounding = 5e-6;
   const dvec3 center = flat.center;

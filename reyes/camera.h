@@ -66,10 +66,10 @@ class Camera {
   /// the box.
   bool outsideWindow(const Bound3& b, const PixelRect& window) const;
 
-  /// Returns the width in camera space of one pixel's footprint at p, seen face on; `size / |cos|` of the viewing angle
-  /// along the slope gives the projected area of approximate-gi section 4.5.
+  /// Returns the width in camera space of one pixel's footprint at p, on a surface that faces the eye. The footprint on
+  /// a slanted surface is longer by 1 / |cos| of the angle (Tabellion and Lamorlette 2004, section 4.5).
   float pixelSize(const vec3& p) const { return perspective_ ? glm::length(p) * pixelSizeAtUnit_ : pixelSizeAtUnit_; }
-  /// Returns the unit direction from the eye to p (orthographic: +z). RSL's I is not normalised; see `incident`.
+  /// Returns RSL's I: the vector from the eye to p, not normalised (orthographic: +z).
   vec3 incident(const vec3& p) const { return perspective_ ? p : vec3(0, 0, 1); }
   /// Returns the ray through raster position r: origin and unit direction in camera space.
   void ray(const vec2& r, vec3& origin, vec3& direction) const;

@@ -28,9 +28,8 @@ class SamplePattern {
   /// Returns positions in the unit disk, over the aperture.
   const float* lensX(int pattern) const { return of(lensX_, pattern); }
   const float* lensY(int pattern) const { return of(lensY_, pattern); }
-  const float* detail(int pattern) const {
-    return of(detail_, pattern);
-  }  ///< Returns numbers in [0,1), compared with DetailShare; those of a pixel are stratified.
+  /// Returns numbers in [0,1), compared with DetailShare; those of a pixel are stratified.
+  const float* detail(int pattern) const { return of(detail_, pattern); }
 
  private:
   const float* of(const AlignedVector<float>& values, int pattern) const {
@@ -90,10 +89,12 @@ struct RasterGrid : RasterExtent {
   const Prim* trim = nullptr;  ///< The shape whose trim curves cut Kept::Part cells (Grid::kept); null: nothing is cut.
   float trimReach_px = 0;      ///< Trimmed surfaces reach this much farther, to meet their neighbours.
 };
-/// Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; a grid of several pieces is still, in focus
-/// and not part of a solid. zMin: the z before which nothing hides the grid, if its object is visited whole: that
-/// of its solid, or -infinity. pool: provides the memory.
-/// opaque: true if its shaders make it so; with the midpoint filter it hides nothing all the same.
+/// Takes a grid to raster space. Pre: every vertex of a cell that Grid::kept keeps is Camera::seeable; a grid of
+/// several pieces is still, in focus and not part of a solid.
+///   opaque  true if its shaders make it so; with the midpoint filter it hides nothing all the same
+///   zMin    counts as its nearest z if it is part of a solid or keeps unseen micropolygons, so that no bucket skips it
+///           too early: the nearest z of the solid, or -infinity, which nothing hides
+///   pool    provides the memory; may be null
 std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, const Scene& scene, const Camera& camera,
                                           bool opaque, float zMin = kInfinity,
                                           const std::shared_ptr<Pool>& pool = nullptr);

@@ -84,8 +84,9 @@ class ShadePoints {
   int add(SampleName name);
   int add(uint32_t key) { return add(SampleName{key, 0}); }
   void reserve(int count);
-  void assign(const ShadePoints& from, int begin,
-              int end);  ///< Pre: it is of the same group, and has steps or not, like this.
+  /// Replaces all points by those from `begin` to `end` of another batch. Pre: both are of the same group, and both
+  /// have steps or neither has.
+  void assign(const ShadePoints& from, int begin, int end);
   void clear();
   void rename(int i, SampleName name) { names_[static_cast<size_t>(i)] = name; }
   /// Points of the air before a surface do not move with it, and rays leave them without an offset.

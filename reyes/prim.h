@@ -30,8 +30,8 @@ struct UvRect {
 /// Bits for the four edges of a patch, in the order of PatchInfo::openEdges.
 enum PatchEdge : uint8_t { kEdgeU0 = 1, kEdgeU1 = 2, kEdgeV0 = 4, kEdgeV1 = 8, kAllEdges = 15 };
 
-/// Returns those two of the values at four corners (in RISpec's order) that lie at the ends of an edge, in the
-/// direction of u or v.
+/// Returns the values at the two ends of an edge, in the direction of u or v, from the values at the four corners of a
+/// patch, which are in RISpec's order.
 template <class T>
 std::array<T, 2> endsOf(const std::array<T, 4>& corners, PatchEdge edge) {
   const size_t from = edge == kEdgeU1 ? 1 : edge == kEdgeV1 ? 2 : 0, to = edge == kEdgeU0 ? 2 : edge == kEdgeV0 ? 1 : 3;
@@ -88,6 +88,7 @@ class Prim {
   /// is conservative.
   virtual Bound3 bound(uint32_t patch, const UvRect& rect) const = 0;
 
+  /// Fills all arrays of `out` for the n points (u[i], v[i]) of a patch.
   virtual void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const = 0;
 
   /// Writes the vertices of a lattice of nu x nv over a whole patch, rows along u. It is like evaluate(), except that a
@@ -97,7 +98,8 @@ class Prim {
     evaluate(patch, (nu + 1) * (nv + 1), u, v, out);
   }
 
-  /// Surface parameters u,v as shaders see them: over the whole primitive, 0..1 (a polygon: object-space x,y).
+  /// Gives the u and v that shaders see. They run from 0 to 1 over the whole primitive, not over one patch. Those of a
+  /// polygon are its x and y in object space.
   virtual void surfaceParameters(uint32_t patch, int n, const float* u, const float* v, float* su, float* sv) const;
 
   /// Interpolates primvars()[index]: component c of point i goes to out[c * stride + i].
@@ -153,11 +155,13 @@ struct PrimError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Turns a RIB parameter list into primvars for `counts` elements of each storage. Values of a wrong count are an error
-/// for P/Pw/Pz; for all other variables they are dropped with a sentence in `problems`.
+/// The number of elements of a variable, by its storage class. A constant variable has one.
 struct PrimvarCounts {
   size_t uniform = 1, varying = 4, vertex = 4, faceVarying = 4;
 };
+/// Turns a RIB parameter list into primvars. It leaves out positions (P, Pw, Pz), which the factories take by
+/// themselves. A variable that has another number of values than `counts` asks for is dropped, with a sentence in
+/// `problems`.
 std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& counts,
                                   std::vector<std::string>& problems);
 
@@ -172,17 +176,17 @@ PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const Param
 PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees, float thetaMax_degrees,
                   const ParamList&, Problems&);
 
-/// The facts that RIB must know of a quadric: its request, the numbers before its parameter list, and the numbers that
-/// leave nothing of it (which is no error while they move). A new one needs one entry of quadrics() in
-/// reyes/prim/quadrics.cpp and nothing else in RIB; plugins call it by reyes/ri.h.
+/// What reading RIB needs to know of a quadric. A new quadric needs one entry of quadrics() in reyes/prim/quadrics.cpp
+/// and nothing else in RIB; plugins call it by reyes/ri.h.
 struct Quadric {
   std::string_view name;
   int numberCount;
   PrimPtr (*make)(const float* numbers, const ParamList&, Problems&);
-  std::vector<int> sizes;  ///< Indices of the numbers that must not be 0.
-  int from = 0, to = 0,
-      extentCount = 0;  ///< The `extentCount` numbers from index `from` on must differ from those from `to` on.
+  std::vector<int> sizes;  ///< Indices of the numbers that must not be 0, such as a radius.
+  /// The `extentCount` numbers from index `from` on must differ from those from `to` on, as zmin and zmax must.
+  int from = 0, to = 0, extentCount = 0;
 
+  /// Tells whether these numbers leave nothing of the surface. That is no error at a key of a motion.
   bool hasNoArea(const float* numbers) const;
 };
 const std::vector<Quadric>& quadrics();
@@ -278,14 +282,15 @@ PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vecto
 PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
                       const GroundReader&, const ParamList&, Problems&);
 
-/// Makes schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface. Tags are as in
-/// HierarchicalSubdivisionMesh: per tag a name and {number of ints, number of floats, number of strings}.
+/// The tags of a mesh as HierarchicalSubdivisionMesh has them. `argCounts` has three numbers for each name: how many of
+/// the ints, floats and strings belong to the tag.
 struct SubdivisionTags {
   std::vector<std::string> names;
   std::vector<int> argCounts, ints;
   std::vector<float> floats;
   std::vector<std::string> strings;
 };
+/// Makes schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface.
 PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& vertexCounts,
                             const std::vector<int>& vertices, const SubdivisionTags& tags, const ParamList&, Problems&);
 

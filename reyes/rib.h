@@ -30,8 +30,8 @@ struct Request {
   std::vector<RibArg> args;
   ParamList params;
   SourceLoc where;
-  /// Parameters of type string that name outputs of Patterns ("handle:output"), and the type that they stand in for
-  /// ("reference color c").
+  /// Parameters whose value is the output of a Pattern. Such a parameter is a string "handle:output". Each entry has
+  /// its name and the type of the value: "reference color c" gives {"c", ValueType::Color}.
   std::vector<std::pair<std::string, ValueType>> references{};
 };
 
@@ -60,11 +60,14 @@ struct RibSettings {
   /// Called for MakeTexture, MakeShadow and similar requests, which make maps for later worlds of what earlier ones
   /// have written. If it is empty, they do nothing.
   std::function<void(const Request&)> onMake;
-  /// Frames of these numbers are passed over without being parsed, where the stream itself has them; onSkipped gets the
-  /// number of their worlds. What a request in them would change beyond their end is lost.
+  /// Asked at each FrameBegin of the stream's own files; those in archives are read. If it returns true, the frame is
+  /// passed over without being parsed, and onSkipped gets the number of its worlds. Requests of the frame whose effect
+  /// would outlive it then have none.
   std::function<bool(int frame)> skipsFrame{};
   std::function<void(int worlds)> onSkipped{};
-  /// Called with such requests, other than Make: a stream without any has frames that may be skipped.
+  /// Called with each request in a frame because of which frames must not be skipped: one whose effect outlives the
+  /// frame, such as Declare, or a WorldBegin in an archive, which skipping would not count. Make requests are left out:
+  /// onMake gets them.
   std::function<void(const Request&)> onOutliving{};
   /// Called with every file that is read, or would be if it were there.
   std::function<void(const FileUse&)> onFile{};

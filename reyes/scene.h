@@ -82,8 +82,8 @@ struct Expansion {
   std::vector<Solid> solids{};  ///< Object::solid is an index in this list.
 };
 
-/// Spaces of this name and a number, from 1, are openings to the sky that the program has found
-/// (docs/decisions/0185). No list of portals can name them, as names there have no spaces.
+/// Coordinate systems of this name and a number, from 1, are openings to the sky that the program has found
+/// (docs/decisions/0185). No list of portals can name them, because names in a list hold no blanks.
 constexpr const char* kSkyOpening = "opening to the sky ";
 
 struct Scene {

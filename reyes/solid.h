@@ -21,9 +21,8 @@ class Solid {
   int blockCount() const { return static_cast<int>(blocks_.size()); }
   SolidOperation operation(int block) const { return at(block).operation; }
   int parent(int block) const { return at(block).parent; }
-  int depth(int block) const {
-    return block < 0 ? 0 : 1 + depth(at(block).parent);
-  }  ///< Number of blocks around this one, and itself.
+  /// Returns the number of blocks around this one, and itself.
+  int depth(int block) const { return block < 0 ? 0 : 1 + depth(at(block).parent); }
   /// Tells whether the solid lies on the other side of this primitive's surface, because an odd number of differences
   /// subtracts it.
   bool subtracted(int block) const;

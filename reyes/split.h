@@ -33,9 +33,10 @@ struct Placement {
   float zMin;  ///< Depth in camera space.
 };
 
-/// Places a box in the space of `cameraFromObject`, at `keyTimes`. Displacement may leave the box by `margin` (camera
-/// space). `window`: raster pixels that have samples. Returns nothing if no point of it can be seen there or, if not
-/// `clipped`, no line of sight meets it there.
+/// Bounds a box of object space as the camera sees it at all of `keyTimes`. Displacement may leave the box by `margin`
+/// (camera space). `window`: raster pixels that have samples. Returns nothing if no point of the box can be seen in the
+/// window. Without `clipped` the far plane and clipping planes hide nothing: all surfaces of a solid are needed, those
+/// too.
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 

@@ -68,8 +68,8 @@ void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evalua
   out.blend(next, t);
 }
 
-/// The cofactor matrix transforms normals. It is right for any scale, and mirrored exactly when cross products of
-/// transformed derivatives are, which Object::flipsNormal undoes.
+/// Returns the matrix that transforms normals: the cofactors of m, negated if the object flips its normals. Cofactors
+/// are right at any scale. Under a mirror they change sides, as the cross product of transformed derivatives does.
 mat3 normalMatrix(const Object& o, const mat4& m);
 /// Transforms a primitive variable from object space to current space.
 void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride);

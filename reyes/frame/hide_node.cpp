@@ -11,12 +11,12 @@
 namespace tomales {
 namespace {
 
-/// If so many patches lie in a pixel, every bucket opens small nodes anew: else far more of them than can be seen would
-/// wait for the next row of buckets.
+/// Every bucket opens anew a node of at most kSmall_px with kDense patches or more in a pixel. If buckets shared such
+/// nodes, far more than can be seen would wait for the next row of buckets.
 constexpr float kDense = 4, kSmall_px = 32;
-/// A box of particles of this level or below opens into all their pieces at once: then each bucket has enough of them
-/// to fill grids, while those of a leaf alone are scattered over several. In a pixel there must be at least and at most
-/// so many: of fewer each is large, and more hide each other, so that not all need be opened.
+/// A box of particles of this level or below opens into all their pieces at once. Then each bucket has enough pieces to
+/// fill grids; those of a leaf alone are scattered over several buckets. The number of particles in a pixel must lie
+/// between the two: if there are fewer, each is large, and if more, they hide each other and not all need be opened.
 constexpr uint32_t kLevelOfParticles = 2;
 constexpr float kFewParticles = 1.0f / 64, kManyParticles = 1;
 
@@ -120,8 +120,8 @@ class PatchesNode : public OpeningNode {
  public:
   using Tree = std::shared_ptr<const PatchTree>;
 
-  /// nearest: the z that counts for all pieces of an object that is visited whole, so that none is skipped before all
-  /// are hidden: that of its solid; -infinity, which nothing hides, where unseen micropolygons are kept.
+  /// nearest: counts as the z of all pieces of an object that is visited whole, so that none is skipped before all are
+  /// hidden. It is the nearest z of its solid, or -infinity, which nothing hides, where unseen micropolygons are kept.
   static std::unique_ptr<HideNode> make(HideContext& context, int object, Tree tree, uint32_t level, uint32_t index,
                                         const BucketRange& outer, float nearest) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];

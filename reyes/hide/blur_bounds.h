@@ -6,9 +6,11 @@
 
 namespace tomales {
 
-/// At fraction t between two motion keys, through lens shift l (SampleBuffer::lensX, lensY), the micropolygons lie
-/// around center + t * step, moved by l * (d + t * dStep - Camera::focusKey()): their distances from it, as x + slant.x
-/// * y and y + slant.y * x, are within `reach`.
+/// A box around micropolygons between two motion keys. At fraction t of the way between the keys, seen through lens
+/// shift l (SampleBuffer::lensX, lensY), its centre is at
+///   (x, y) + t * (xStep, yStep) + l * (d + t * dStep - Camera::focusKey()).
+/// Let (a, b) lead from there to any point of the micropolygons. Then |a + slant.x * b| <= xReach and
+/// |b + slant.y * a| <= yReach, where the slant is that of the segment.
 struct BlurBox {
   float x, y, d;              ///< Centre at the first key. The depth keys are used if RasterGrid::defocused.
   float xStep, yStep, dStep;  ///< Motion from the first key to the second.

@@ -13,8 +13,8 @@ constexpr float kReach = 4;
 constexpr float kReachOpen = 1.5f;
 /// Greatest share of a cell by which an open border reaches out, so that small shapes do not grow.
 constexpr float kShareOfCell = 1 / 128.0f;
-// Factor on how far displaced borders reach out, for those that turn away from the eye, and the same share of a pixel:
-// past the horizon more would show as a dark line around the body.
+// Displaced borders that turn away from the eye reach out by this share of what others do, or of a pixel if that is
+// more. Past the horizon more would show as a dark line around the body.
 constexpr float kShareAway = 0.1f;
 /// Raster coordinates up to this are on the lattice.
 constexpr float kFarthest_px = 4096;

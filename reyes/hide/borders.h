@@ -11,9 +11,9 @@ constexpr float kLeastReach_px = 2 / kLattice;  ///< Least distance by which a b
 /// RasterGrid::lines and RasterGrid::reaching. Pre: `grid` and `inSolid` are set.
 void planBorders(RasterGrid& raster, const Object& object, const Camera& camera);
 
-/// Pushes the borders that reach out, at one motion key. A displaced border that joins a neighbour, which samples it at
-/// other places, may be anywhere within a micropolygon: `mostOfDisplaced_px` limits the reach; 0: it is not displaced.
-/// facing: RasterGrid::facing of a one-sided surface.
+/// Pushes the borders that reach out, at one motion key. A displaced border may lie anywhere within a micropolygon,
+/// because the neighbour that it joins samples the displacement at other places: `mostOfDisplaced_px` limits how far it
+/// reaches. 0: the grid is not displaced. facing: RasterGrid::facing of a one-sided surface.
 void pushBorders(const RasterGrid& raster, float mostOfDisplaced_px, float facing, float* x, float* y);
 
 /// Returns how far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a

@@ -10,7 +10,7 @@ namespace tomales {
 /// Appends the opaque cells that the samples of a pixel see.
 void collectOpaque(const SampleBuffer& samples, size_t pixel, std::vector<CellCoverage>& coverages);
 
-/// A coverage among the first 64 samples of a pixel, none of which is seen by another one.
+/// The samples among the first 64 of a pixel that see one cell. No two coverages of a pixel share a sample.
 struct RankedCoverage {
   uint64_t samples;
   uint32_t cell;

@@ -13,9 +13,10 @@ class FacetTable {
              DeepTile& tile);
   /// Marks a cell that some sample sees.
   void see(uint32_t cell) { seen_[cell] = 1; }
-  /// Makes the facets of all cells that are marked and of `unseen`, and their points; the tile has none before. They
-  /// depend on the grid alone, and on the side that is seen; what may be seen from both is unseen from the front. The
-  /// tile's fragments name cells instead of facets until then, each one marked. diagnostics: may be null.
+  /// Makes the facets of all marked cells and of the cells `unseen`, and the points to shade. Before the call the tile
+  /// has no facets, and its fragments name cells, each of them marked; after it they name facets. A facet depends on
+  /// its grid and on the side that is seen. A cell that may be seen from both sides has a facet for each side that a
+  /// fragment sees; if no fragment sees it, one for the front. diagnostics: may be null.
   void make(std::span<const uint32_t> unseen, HideDiagnostics* diagnostics);
 
  private:

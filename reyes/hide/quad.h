@@ -27,9 +27,8 @@ HWY_INLINE Ints products(Ints a, Ints b) {
 /// kLanes micropolygons abcd that follow each other in the vertex order of a grid.
 struct alignas(64) Corners {
   float x[4][kLanes], y[4][kLanes], d[4][kLanes];
-  int32_t latticeX[4][kLanes],
-      /// Lattice coordinates from SampleBuffer::origin; meaningless for corners that are too far for these.
-      latticeY[4][kLanes];
+  /// Lattice coordinates from SampleBuffer::origin; meaningless for corners that are too far for these.
+  int32_t latticeX[4][kLanes], latticeY[4][kLanes];
   float xMin[kLanes], xMax[kLanes], yMin[kLanes], yMax[kLanes], dMin[kLanes], dMax[kLanes];
   int32_t cell[kLanes];                                    ///< Numbers of the cells.
   int32_t x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];  ///< Pixels of the bucket that they touch.

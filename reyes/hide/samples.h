@@ -24,9 +24,8 @@ class GridTable {
   const Entry& add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes);
   const Entry& of(uint32_t cell) const { return entries_[entryOfPage_[cell / kPage]]; }
   const std::vector<Entry>& entries() const { return entries_; }
-  uint32_t cellCount() const {
-    return static_cast<uint32_t>(entryOfPage_.size()) * kPage;
-  }  ///< Number of names in use, gaps included.
+  /// Returns the number of names in use, gaps included.
+  uint32_t cellCount() const { return static_cast<uint32_t>(entryOfPage_.size()) * kPage; }
   /// Frees every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }          ///< Number of grids that are not freed.

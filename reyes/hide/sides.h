@@ -5,9 +5,9 @@
 
 namespace tomales {
 
-/// Returns the sign of the raster area, u before v, of a micropolygon whose dP/du x dP/dv faces the eye. The side
-/// depends on the shape alone, which is closed where a body is: shading normals of a micropolygon at a fold may point
-/// either way, and leave a hole (docs/decisions/0003).
+/// Returns the sign of the raster area, u before v, of a micropolygon whose dP/du x dP/dv faces the eye. The shape
+/// alone decides the side. Shading normals must not: at a fold those of a micropolygon may point either way, which
+/// would leave holes in a closed body (docs/decisions/0003).
 float facingSign(const Camera& camera);
 
 enum class Side : uint8_t {

@@ -36,8 +36,8 @@ void evaluateRational(const RationalNet& net, double degenerate, int n, const fl
                       const SurfacePoints& out);
 
 /// Interpolates a vertex variable, weighted like the positions, so that values stay where they are on the surface.
-/// `convert` appends the Bezier controls of the patch to its second argument; its first gives homogeneous controls by
-/// their number.
+/// convert(controlOf, out) appends the Bezier controls of the patch to `out`. It calls controlOf(number) for the
+/// homogeneous control of that number.
 template <class Convert>
 void interpolateRational(const Primvar& var, const std::vector<vec4>& controls, int uOrder, int vOrder,
                          const Convert& convert, int n, const float* u, const float* v, float* out, int stride) {

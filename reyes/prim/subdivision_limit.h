@@ -55,7 +55,8 @@ using FaceAt = std::function<vec3(const vec2& at, vec3* ds, vec3* dt)>;
 
 void evaluateFace(const FaceAt& face, const FaceMap& map, int n, const float* u, const float* v, SurfacePoints out);
 
-/// A piece lies in the box of its samples, and in `hull`, that of control points with positive weights.
+/// Returns the bound of a piece of a face: the box around its samples (boundOfSamples()), as far as it lies in `hull`,
+/// a box around control points with positive weights.
 Bound3 boundFace(const FaceAt& face, const FaceMap& map, const UvRect& rect, const Bound3& hull);
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// Makes arguments of requests, of values in C++ and of those that the calls of ri.h get.
+// Makes arguments of requests from C++ values, and from the values that calls of reyes/ri.h pass.
 #pragma once
 #include "reyes/ri.h"
 #include "reyes/rib.h"

@@ -13,8 +13,9 @@ bool hasNoArea(const Request& r);
 /// Interpolates the arguments of a request at two keys. Pre: they have as many numbers.
 Request between(Request a, const Request& b, float t);
 
-/// Changes the keys of a motion block at which an object has no extent, while it has at others: they move a millionth
-/// of the way towards the nearest of these, as the object grows from nothing, and has no normals there.
+/// Returns the keys of a motion block with an extent at each, if there is one at any. An object that grows from nothing
+/// has no extent at its first key, and so no normals there. Such a key is moved a millionth of the way towards the
+/// nearest key at which the object has an extent.
 std::vector<Request> grown(std::vector<Request> keys);
 
 }  // namespace tomales::rib

@@ -46,8 +46,8 @@ struct Master {
     std::vector<float> times;
     Basis uBasis, vBasis;
     bool roundCurves;
-    std::shared_ptr<const TrimLoops>
-        trim;           ///< It was built with this and the fields above; the rest follows from the request.
+    /// The shape was built with this, roundCurves and the bases; all else follows from the request.
+    std::shared_ptr<const TrimLoops> trim;
     float reach;        ///< The result of reachOf() for the requests.
     uint64_t contents;  ///< The result of contentsOf() for them.
   };
@@ -64,8 +64,9 @@ struct Globals {
   std::map<std::string, std::shared_ptr<Master>> masters;
   std::vector<std::map<std::string, Scope>> resources{1};  ///< Outermost ResourceBegin first.
   DirMap dirMap;
-  std::map<std::string, std::string>
-      unmappedPaths;  ///< Options::searchPaths before dirMap: headers of frames set both again.
+  /// Options::searchPaths before `dirMap` was applied. A new map applies to these, and so does `&` in a new path:
+  /// headers of frames set both again, and no path may be mapped twice.
+  std::map<std::string, std::string> unmappedPaths;
   Patterns patterns;
   std::map<std::string, ParamList> quantized;  ///< Parameters of Quantize by variable, for Displays that show it.
 };

@@ -20,18 +20,20 @@ const HandlerTable& resourceHandlers();
 const HandlerTable& detailHandlers();
 const HandlerTable& transformHandlers();  ///< Handlers of CoordinateSystem and its relatives.
 
-/// Transform, Translate, ... The keys are one request for each time, all with the same name.
+/// Tells whether the request is Transform, Translate, ...
 bool isTransformation(std::string_view name);
+/// Changes the CTM. The keys are one request for each time, all with the same name.
 void applyTransformation(GraphicsState& state, const std::vector<const Request*>& keys,
                          const std::vector<float>& times);
 
-/// Sphere, Polygon, ... The builder throws PrimError if there is nothing to draw.
+/// Tells whether the request is Sphere, Polygon, ...
 bool isGeometry(std::string_view name);
 /// The motion that a request is a key of.
 struct MotionKeys {
   const std::vector<const Request*>& requests;  ///< Sorted by time; the request alone if it does not move.
   const Prim* first;                            ///< The shape at the first key; null if this is the first key.
 };
+/// Makes the shape of such a request. Throws PrimError if there is nothing to draw.
 PrimPtr buildPrim(const Request& request, const Scope& scope, const MotionKeys& motion, const GroundReader& grounds,
                   Problems& problems);
 /// Reads a file that a Display of depth has written. Throws PrimError.

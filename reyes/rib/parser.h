@@ -22,8 +22,7 @@ class Parser {
   std::optional<Request> next();
   /// Moves to the end of the frame, without looking at its requests. Returns the number of worlds that begin there.
   int skipFrame();
-  /// Mutes messages in a branch of a condition that is not
-  /// read: it may be for other renderers, and right for them.
+  /// Mutes messages in a branch of a condition that is not read: it may be for other renderers, and right for them.
   void mute(bool muted) { muted_ = muted; }
 
  private:

@@ -1,5 +1,4 @@
-// Counts the values of each storage class that the primitives of the C binding take (RISpec 3.2 section 5): the callers
-// of reyes/ri.h pass arrays without their lengths.
+// Counts the values that primitives of the C binding take: the callers of reyes/ri.h pass arrays without their lengths.
 #pragma once
 #include <array>
 

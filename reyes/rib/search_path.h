@@ -12,8 +12,8 @@ constexpr size_t kLongestSearchPath = 1 << 16;
 
 /// Turns a search path as written into folders with colons between. `&` is the previous value, `@` the built-in one
 /// (which is searched anyway, so it becomes nothing); $NAME, ${NAME} and a leading ~ come from the environment.
-/// Variables that are not set are appended to `unset`. If the result would be longer than kLongestSearchPath, it is
-/// only its beginning, which is longer, too.
+/// Variables that are not set are appended to `unset`. If the result exceeds kLongestSearchPath, its end is left out;
+/// by its length the caller can tell.
 std::string expandSearchPath(const std::string& written, const std::string& previous, std::string& unset);
 
 /// Entries of zone, from, to. Only the zone "NFS", that of Unix, applies here.
@@ -23,7 +23,8 @@ DirMap readDirMap(const std::vector<std::string>& written);
 /// Returns the name with its beginning replaced by the first entry that fits.
 std::string mapped(const std::string& name, const DirMap& map);
 
-/// Does the same for each folder of a search path; the result is as long as that may be.
+/// Maps each folder of a search path. A result that exceeds kLongestSearchPath lacks its end, like that of
+/// expandSearchPath().
 std::string mappedPath(const std::string& path, const DirMap& map);
 
 }  // namespace tomales::rib

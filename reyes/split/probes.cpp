@@ -38,7 +38,7 @@ template <class L>
       const float dx = at.rasterX[b][i] - at.rasterX[a][i], dy = at.rasterY[b][i] - at.rasterY[a][i];
       length_px[i] += std::sqrt(dx * dx + dy * dy);
     }
-    // Without rasterorient a micropolygon is as large as if it faced the camera (rispec-table 4, dice:rasterorient).
+    // With PRMan's Attribute "dice" "rasterorient" 0 a micropolygon is as large as if it faced the camera.
     for (int i = 0; !asSeen && i < n; ++i)
       length_px[i] += chord[i] / camera.pixelSize({at.x[a][i], at.y[a][i], at.z[a][i]});
     if (k == 0) continue;

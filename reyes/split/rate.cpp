@@ -10,8 +10,9 @@ constexpr size_t kMostKeys = 5;
 
 // The lines of a flat patch are straight, and the longest is one of its edges.
 constexpr int kFlatProbes = 1, kCurvedProbes = 4;
-/// Length of a triangle along u (its edge v = 1 has no length), as the root mean square, over that of its foot: its
-/// cells are smaller on average than the rate asks, and the largest, at its foot, have 1.4 times the area.
+/// Length of a triangle along u over that of its foot: the root of the mean square over its area, since its edge v = 1
+/// has no length. Its cells are smaller on average than the rate asks, and the largest, at its foot, have 1.4 times the
+/// area.
 constexpr float kTriangle = 0.70710678f;
 
 /// An object at a time: its shape, interpolated between `before` and `after` unless `after` is null, and its
