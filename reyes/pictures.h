@@ -86,7 +86,7 @@ struct TextureFigures {
 
 /// Pictures by name, for one frame. A picture that is rewritten while no cache is open is read anew by the next cache.
 /// One that is not a tiled MIP file yet becomes one at its first use, in a folder where files are named by content, so
-/// that none is converted twice. Coordinates: s runs right, t down the picture, 0..1 (rispec-table section 10).
+/// that none is converted twice. Coordinates: s runs right, t down the picture, 0..1 (RISpec 15.7).
 class TextureCache {
  public:
   virtual ~TextureCache() = default;

@@ -1,6 +1,6 @@
-// A verb that runs shaders over batches of points. It owns the bound shaders of a scene (parameters resolved, spaces
-// transformed) and the lights, and asks ShadeServices for all that needs rays or global illumination. All light is in
-// the RSL convention, E/pi. Threads: after construction, every const member may be called concurrently.
+// Verb: points -> colours. It runs shaders over batches of points. It owns the bound shaders of a scene (parameters
+// resolved, spaces transformed) and the lights, and asks ShadeServices for all that needs rays or global illumination.
+// All light is in the RSL convention, E/pi. Threads: after construction, every const member may be called concurrently.
 #pragma once
 #include <span>
 
@@ -80,16 +80,16 @@ class ShadingSystem {
   void atmosphere(const ShadePoints& points, ShadedPoints& out, const ShadeContext& context = {}) const;
   /// Tells whether a volume shader stands inside (Interior) or outside (Exterior) of the group's surfaces.
   bool hasVolume(int group, bool inside) const;
-  /// Runs the volume shader over what rays bring through the volume to the surface that they leave, in place. The
-  /// points are those of the surface, but for kP, which is where each ray ends, and kI, the way there. Returns false
-  /// and leaves `out` alone if there is no volume shader or it has failed.
+  /// Runs the volume shader, in place, over the colours that rays bring through the volume to the surface that they
+  /// leave. The points are those of the surface, except that P is where each ray ends and I leads there from the
+  /// surface. Returns false and leaves `out` alone if there is no volume shader or it has failed.
   bool crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const;
   bool hasImager() const;
   /// Runs the imager shader, if there is one, in place.
   void image(ShadedPixels& pixels) const;
 
   /// Gives the radiance that each point of a batch adds for camera and specular rays if its object is an emitter: what
-  /// the area light's shader sends from there to where kI begins, on the front. Empty if nothing shines.
+  /// the area light's shader sends from there, on the front, to the origin of the ray. Empty if nothing shines.
   void emission(const ShadePoints& points, std::vector<vec3>& radiance, const ShadeContext& context = {}) const;
   /// Returns the indirect light switched on for a group, if any: the gather pass must prepare it.
   const IndirectQuery* indirectQuery(int group) const;

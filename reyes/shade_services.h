@@ -1,6 +1,5 @@
-// The interfaces of shading: how a batch of points is to be shaded, and what
-// it may ask of units that know more than the points (ray tracing, global
-// illumination, point clouds). All light is in the RSL convention, E/pi.
+// The interfaces of shading: how a batch of points is to be shaded, and what it may ask of units that know more than
+// the points (ray tracing, global illumination, point clouds). All light is in the RSL convention, E/pi.
 #pragma once
 #include <optional>
 #include <span>
@@ -15,9 +14,10 @@
 namespace tomales {
 
 enum class RayKind : uint8_t {
-  Camera,        ///< Visible micropolygons run the whole shader.
-  Diffuse,       ///< Hits of gather rays get direct light and the diffuse component only, and no emission of area
-                 ///< lights (approximate-gi 4.1, 4.2).
+  Camera,  ///< Visible micropolygons run the whole shader.
+  /// Hits of gather rays get direct light and the diffuse component only, and no emission of area lights (Tabellion and
+  /// Lamorlette 2004, sections 4.1 and 4.2).
+  Diffuse,
   Specular,      ///< Hits of reflected and refracted rays run the whole shader, and get the emission of area lights.
   Transmission,  ///< Surfaces that shadow rays pass through give opacity alone, without light.
 };
@@ -46,7 +46,7 @@ struct ShadeContext {
   uint32_t seed = 0;
   int lightSamples = 0;  ///< Samples of each area light and of the sky; 0 for the number that the light asks for.
   bool indirect = true;  ///< Indirect lights run.
-  bool direct = true;    ///< The other lights run where the eye looks.
+  bool direct = true;    ///< The other lights run where the eye looks. At hits of rays they run in any case.
   /// If not null, of all lights but indirect ones only those of this LightGroup shine, everywhere; empty for none of
   /// them.
   const std::string* lights = nullptr;
@@ -61,12 +61,12 @@ struct ShadeContext {
   bool lampsGlow = true;        ///< True if that ray sees area lights.
   /// Specular rays bring lamps and skies. False where photons have brought that light by mirrors.
   bool mirrored = true;
-  /// Indexed by group: 1 if `mirrored` is false for specular rays from it, and for its highlights. Null: for none.
+  /// Indexed by group: 1 if `mirrored` is false for specular rays from the group and for its highlights. Null: for
+  /// none.
   const std::vector<uint8_t>* focusing = nullptr;
   bool highlights = false;  ///< Diffuse rays bring highlights too, as those of the reference path tracer do.
-  RayAnswers* answers =
-      /// Answers of this batch, asked before shadow and gather rays are traced. Null: all rays are traced.
-      nullptr;
+  /// Answers of this batch, asked before shadow and gather rays are traced. Null: all rays are traced.
+  RayAnswers* answers = nullptr;
   bool sketch = false;     ///< Shaders run for no picture that is kept: nothing is baked, printed or counted.
   bool rehearsal = false;  ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
   float importance = 1;    ///< The weight of what is seen here in the eye's picture.
@@ -91,13 +91,14 @@ struct ShadeContext {
   bool mirrorsLamps(int group) const { return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]); }
 };
 
-/// Returns the number of samples or rays that bring light to a point, of which one that the eye sees has `count`. All
-/// points on the branches of one path together then have as much noise as one point. At least `least`.
+/// Returns the number of samples or rays that bring light to a point. A point that the eye sees gets `count`. Points on
+/// the branches of one path share that number, so that together they have as much noise as one point. Each gets `least`
+/// or more, unless `count` is less.
 inline int shareOfBranch(int count, int least, const ShadeContext& context) {
   return std::max(std::min(count, least), count / context.branches);
 }
-/// Returns the same for rays that a shader asks for. A point that gather rays meet is one of the hundreds that one
-/// record has.
+/// Returns the same for rays that a shader asks for. A point that gather rays meet gets no more than `least`, because
+/// it is one of the hundreds that make one record.
 inline int raysOfBranch(int count, int least, const ShadeContext& context) {
   return context.depth > 0 ? std::min(count, least) : shareOfBranch(count, least, context);
 }
@@ -164,7 +165,7 @@ struct HemisphereQuery {
   float maxVariation = 0;       ///< Greatest error of the answers: absolute for coverage, relative for radiance.
   bool radiance = false;        ///< Asks for the mean radiance from the hemisphere, not for the share that is covered.
   std::optional<HitMode> mode;  ///< As RayQuery::mode; for radiance alone.
-  int diffuseLimit = 0;         ///< Greatest depth at which the shaders of hits ask for radiance in turn; likewise.
+  int diffuseLimit = 0;         ///< For radiance alone: greatest depth at which shaders of hits ask for it in turn.
   std::string subset, excludeSubset;
   HitSides sides = HitSides::Both;
   bool operator==(const HemisphereQuery&) const = default;

@@ -47,8 +47,7 @@ inline bool isMeant(const BoundLight& light, const ShadeContext& context) {
   return !context.lights || light.group == *context.lights;
 }
 
-/// A primitive variable that takes the place of a shader
-/// parameter. The points hold it in current space already.
+/// A primitive variable that takes the place of a shader parameter. The points hold it in current space already.
 struct Override {
   int param, primvarOffset, width;
 };

@@ -1,5 +1,4 @@
-// A shader with its parameters resolved from defaults and
-// RIB, and with points moved from shader to current space.
+// A shader with its parameters resolved from defaults and RIB, and with points moved from shader to current space.
 #pragma once
 #include "reyes/shader_api.h"
 #include "reyes/shader_registry.h"
@@ -49,9 +48,8 @@ inline bool isOutput(const TmParamDecl& decl) { return (decl.type & TM_OUTPUT) !
 inline bool isUniform(const TmParamDecl& decl) { return (decl.type & TM_UNIFORM) != 0; }
 inline int32_t typeOf(const TmParamDecl& decl) { return TM_TYPE_OF(decl.type); }
 
-/// A null `call` gives all defaults. Reports parameters that neither the
-/// shader has nor every shader of its kind (standardParams()), and values of
-/// another type or length than declared (parameter_values.h converts those).
+/// A null `call` gives all defaults. Reports parameters that neither this shader has nor every shader of its kind
+/// (standardParams()), and values of another type or length than declared (parameter_values.h converts those).
 BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
                           const std::string& user, const mat4& currentFromShader, Log& log);
 

@@ -1,5 +1,4 @@
-// Estimates how uncertain the samples of lights with an extent
-// leave the picture, from sums that shading makes anyway.
+// Estimates how uncertain the samples of lights with an extent leave the picture, from sums that shading makes anyway.
 #pragma once
 #include <atomic>
 #include <deque>

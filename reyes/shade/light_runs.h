@@ -14,7 +14,8 @@ inline bool bringsStored(Illumination light) {
 
 /// Tells whether the light counts for rays of the batch's kind.
 bool isOn(const BoundLight& light, const Batch& batch);
-/// Tells the same where lights light the batch.
+/// Tells the same for a batch that the scene's lights light. It is false while displacing, for shadow rays, and where
+/// stored or unit light takes the place of lights.
 bool applies(const BoundLight& light, const Batch& batch);
 
 /// Returns the grid of the points for a light shader, without neighbours; its results have room for those.

@@ -90,7 +90,7 @@ const uint8_t* litPoints(Batch& place, const TmGrid* g, const TmIlluminance& con
   return lit;
 }
 
-/// Is illuminance(P, N, PI/2) of RISpec 15.6.
+/// RISpec 15.6 defines diffuse() by illuminance(P, N, PI/2).
 void diffuse(void* host, const TmGrid* all, int32_t which, TmConstVec3 N, TmVec3 out) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);

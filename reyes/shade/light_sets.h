@@ -14,8 +14,9 @@ namespace tomales {
 struct BoundLight;
 struct BoundScene;
 
-/// A set is larger than so many times the number that a point draws; what is fewer runs as a whole. A drawn light takes
-/// as long as three that cast shadows, or thirty that do not: docs/measured/rays.md.
+/// A set has more lights than so many times the number that a point draws; fewer lights run as a whole. The second
+/// number holds for lights without shadows: a drawn light takes as long as three that cast shadows, or thirty that do
+/// not (docs/measured/rays.md).
 constexpr size_t kFewLights = 4, kFewWithoutShadows = 32;
 
 struct LightSet {

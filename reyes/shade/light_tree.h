@@ -33,8 +33,9 @@ class LightTree {
  public:
   explicit LightTree(std::vector<TreeLamp> lamps);
 
-  /// Divides the lamps into clusters that have `most` samples together, and one lamp at most `perLamp` of them; fewer
-  /// where no cluster can hold more than kClusterShare of the light that is expected. `out` is overwritten.
+  /// Divides the lamps into clusters. Together these have at most `most` samples, and a cluster of one lamp has at most
+  /// `perLamp`. Dividing ends earlier if no sample stands for more than kClusterShare of the light that is expected.
+  /// `out` is overwritten.
   void cut(const LampReceiver& at, int most, int perLamp, std::vector<LampCluster>& out) const;
   /// Draws a lamp of a cluster by a number in [0, 1).
   uint32_t draw(const LampReceiver& at, uint32_t node, double xi, float& probability) const;
@@ -43,7 +44,8 @@ class LightTree {
   /// Adds the lamps whose bounds a ray from P along the unit direction meets, in the order of the tree.
   void meet(const vec3& P, const vec3& direction, std::vector<uint32_t>& lamps) const;
 
-  /// Coarser clusters of less than this share of a point's light save samples and show as no noise.
+  /// A sample that stands for no more than this share of a point's light shows as no noise, so that finer clusters
+  /// would only cost samples.
   static constexpr float kClusterShare = 0.005f;
 
  private:

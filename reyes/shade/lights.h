@@ -86,8 +86,9 @@ class Lights {
   /// variance is already exact enough.
   void shadow(Batch& batch, LightSample& sample, const uint8_t* want) const;
 
-  /// Adds what lights with an extent send along the given directions, shadowed, weighted by the power heuristic: with a
-  /// the density of the light's own samples there and b that of those given, radiance / pi * b / (a^2 + b^2).
+  /// Adds what lights with an extent send along the given directions, shadowed. The power heuristic weights each
+  /// direction, which adds radiance / pi * b / (a^2 + b^2): a is the density of the light's own samples there, and b
+  /// that of the given directions.
   void along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl);
   /// Adds the radiance of skies to rays that have left the scene along unit directions, less what the opacity of the
   /// things on the way blocks.

@@ -8,8 +8,8 @@
 namespace tomales {
 namespace {
 
-constexpr float kSpecularCone =
-    10 * kPi / 180;  ///< trace:specularthreshold of rispec-table 3.2: wider cones are diffuse.
+/// The default of PRMan's Option "trace" "specularthreshold": rays of wider cones are diffuse.
+constexpr float kSpecularCone = 10 * kPi / 180;
 constexpr uint32_t kConeStream = randomStream("cone"), kBaseStream = randomStream("base");
 
 }  // namespace

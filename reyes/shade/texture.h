@@ -12,9 +12,10 @@ class Textures {
  public:
   Textures(const TextureSettings& settings, Log& log, Stats& stats);
   ~Textures();
-  /// Fills out.x (and y, z for three channels). False if it is unreadable: that is reported, and `out` is magenta.
+  /// Fills out.x (and y, z for three channels). Returns false if the picture is unreadable: that is reported, and `out`
+  /// is magenta.
   bool lookup(const TextureQuery& query, const SourceLoc& where, const std::string& user, TmVec3 out) const;
-  /// Is TextureCache::info, and reports nothing.
+  /// Does what TextureCache::info() does, and reports nothing.
   bool info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) const;
 
  private:

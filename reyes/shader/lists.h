@@ -1,6 +1,6 @@
 // The names of RSL's optional parameter lists, such as trace(P, R, "samples", 16, "samplecone", 0.1), and what they set
-// (rispec-table 9.6, 10): one table for reyes/sl.h and for compiled shaders. Part of reyes/shader.h's house; header
-// only.
+// (RISpec 15.6, 15.7, and what PRMan added): one table for reyes/sl.h and for compiled shaders. It is installed beside
+// reyes/shader.h; header only.
 #pragma once
 #include <algorithm>
 #include <initializer_list>

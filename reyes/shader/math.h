@@ -58,7 +58,7 @@ RSL_INLINE void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
 /// RISpec faceforward with Nref = Ng: returns N on the side of the surface from which I arrives.
 RSL_INLINE Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
 RSL_INLINE Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
-/// Returns the refracted direction, or zero for total reflection (RISpec 15.3). I and N have unit length, and N points
+/// Returns the refracted direction, or zero for total reflection (RISpec 15.2). I and N have unit length, and N points
 /// against I. eta is the index of refraction before the surface over that behind it.
 RSL_INLINE Vec3 refract(Vec3 I, Vec3 N, float eta) {
   const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);

@@ -1,5 +1,5 @@
-// RSL's noise, pnoise and cellnoise of one to four dimensions, and spline with all its bases and their inverses
-// (rispec-table 9.1). The same bits on every machine: integer hashes and IEEE arithmetic alone.
+// RSL's noise, pnoise and cellnoise of one to four dimensions, and spline with all its bases and their inverses (RISpec
+// 15.1). The same bits on every machine: integer hashes and IEEE arithmetic alone.
 #pragma once
 #include <cstdint>
 #include <initializer_list>
@@ -52,12 +52,11 @@ RSL_INLINE LatticePlace latticePlace(Vec3 p) {
   const Vec3 cell{wholeBelow(p.x), wholeBelow(p.y), wholeBelow(p.z)};
   return {latticeCoordinate(cell.x), latticeCoordinate(cell.y), latticeCoordinate(cell.z), p - cell};
 }
-/// Does the same as latticePlace() within kNearLattice of the origin for a quarter of the work, but for the sign of a
-/// zero.
-constexpr float kNearLattice = 0x1p19f;
+constexpr float kNearLattice = 0x1p19f;  ///< The distance from the origin up to which nearLatticePlace() works.
 RSL_INLINE bool isNearLattice(Vec3 p) {
   return (std::abs(p.x) < kNearLattice) & (std::abs(p.y) < kNearLattice) & (std::abs(p.z) < kNearLattice);
 }
+/// Does the same as latticePlace() for a quarter of the work, but for the sign of a zero. Pre: isNearLattice(p).
 RSL_INLINE LatticePlace nearLatticePlace(Vec3 p) {
   const int32_t x = static_cast<int32_t>(p.x), y = static_cast<int32_t>(p.y), z = static_cast<int32_t>(p.z);
   const int32_t dx = static_cast<float>(x) > p.x, dy = static_cast<float>(y) > p.y, dz = static_cast<float>(z) > p.z;

@@ -39,7 +39,7 @@ typedef enum TmWhom {
   TM_OF_INCIDENT = 3,   /* the volume shader on the side of the surface that I arrives at (Exterior, Interior) */
   TM_OF_OPPOSITE = 4,   /* the volume shader on the other side */
   TM_OF_LIGHT = 5,      /* a light: TmIlluminance::light */
-  TM_OF_ATTRIBUTES = 6, /* "Ri:ShadingRate", "user:name", "category:name" (rispec-table section 4) */
+  TM_OF_ATTRIBUTES = 6, /* "Ri:ShadingRate", "user:name", "category:name" (RISpec 15.8, attribute()) */
   TM_OF_OPTIONS = 7,    /* "Format", "Shutter", "Clipping", "Frame", "user:name", "category:name" */
   TM_OF_RENDERER = 8    /* "renderer", "version" (four numbers), "versionstring" */
 } TmWhom;
@@ -109,7 +109,7 @@ static inline TmOcclusion tmOcclusionDefaults(void) {
   return o;
 }
 
-/* How texture() and environment() look up (rispec-table section 10). */
+/* How texture() and environment() look up (RISpec 15.7). */
 typedef struct TmTextureOptions {
   uint32_t structBytes;
   int32_t channel;      /* the first of the one or three channels that are read */

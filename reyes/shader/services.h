@@ -39,8 +39,8 @@ typedef struct TmServices {
    * messages or run again, they live only until four more such samples have been asked for. */
   int32_t (*illuminance)(void* host, const TmGrid*, TmIlluminance*);
   /* Indirect light at P on the side of N: E/pi, unclamped, and one unit dominant direction for each of red, green and
-   * blue (approximate-gi eq. 7). `dominant` is NULL or an array of three vectors. A light with TM_LIGHT_INDIRECT gets
-   * it by its own parameters, other shaders by those of the scene's. */
+   * blue (Tabellion and Lamorlette 2004, eq. 7). `dominant` is NULL or an array of three vectors. A light with
+   * TM_LIGHT_INDIRECT gets it by its own parameters, other shaders by those of the scene's. */
   void (*indirectDiffuse)(void* host, const TmGrid*, TmConstVec3 N, TmVec3 out, TmVec3* dominant);
   /* RISpec shadow(): the share of light at P that shadow map `name` blocks (1: all), a colour for deep maps. It is 0
    * outside the map, for "raytrace", and where the map cannot be read (the renderer traces those shadows itself). */

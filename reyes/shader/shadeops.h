@@ -1,4 +1,4 @@
-// RSL's shadeops as functions of one point: mathematics, geometry, colour, matrices, splines (rispec-table section 9).
+// RSL's shadeops as functions of one point: mathematics, geometry, colour, matrices, splines (RISpec 15.1 to 15.4).
 // Plain C++17 over reyes/shader.h; the same bits on every machine but for the C library's transcendental functions.
 // reyes/sl.h applies them to batches.
 #pragma once

@@ -1,4 +1,4 @@
-// Point clouds, brick maps and photons, on values of a batch (rispec-table 9.6). Part of reyes/sl.h.
+// Point clouds, brick maps and photons, on values of a batch, as PRMan has them. Part of reyes/sl.h.
 #pragma once
 #include "reyes/shader/sl_services.h"
 

@@ -1,4 +1,4 @@
-// Light and rays, on values of a batch (rispec-table 9.4, 9.6). Part of reyes/sl.h.
+// Light (RISpec 15.6), and the rays that PRMan added, on values of a batch. Part of reyes/sl.h.
 #pragma once
 #include "reyes/shader/sl_services.h"
 

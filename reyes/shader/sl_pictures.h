@@ -1,4 +1,4 @@
-// Textures, environments and shadow maps, on values of a batch (rispec-table 9.5, 10). Part of reyes/sl.h.
+// Textures, environments and shadow maps, on values of a batch (RISpec 15.7). Part of reyes/sl.h.
 #pragma once
 #include "reyes/shader/sl_services.h"
 

@@ -1,5 +1,5 @@
 // Questions that shaders ask of the renderer, on values of a batch: spaces, derivatives, random numbers, the ray that
-// came, messages (rispec-table 9.1 to 9.4). Part of reyes/sl.h.
+// came, messages (RISpec 15.1, 15.2, 15.8). Part of reyes/sl.h.
 #pragma once
 #include "reyes/shader/sl_lists.h"
 #include "reyes/shader/sl_shadeops.h"

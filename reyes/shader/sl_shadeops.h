@@ -1,5 +1,5 @@
 // RSL's shadeops on values of a batch that ask nothing of the renderer: those of reyes/shader/shadeops.h and
-// reyes/shader/noise.h point by point (rispec-table 9.1 to 9.3). Part of reyes/sl.h.
+// reyes/shader/noise.h point by point (RISpec 15.1 to 15.5). Part of reyes/sl.h.
 #pragma once
 #include <array>
 

@@ -1,4 +1,4 @@
-// RSL's shadeops on strings (rispec-table 9.3): concat, format, match. Strings are uniform.
+// RSL's shadeops on strings (RISpec 15.5): concat, format, match. Strings are uniform.
 #pragma once
 #include <regex.h>
 

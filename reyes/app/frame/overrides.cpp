@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// Sets the low quality of approximate-gi 5.2; other options of the command line override it.
+/// Sets the low quality of Tabellion and Lamorlette 2004, section 5.2; other options of the command line override it.
 void makeDraft(Scene& scene) {
   constexpr float kCoarser = 16;
   constexpr int kSamples = 2, kRays = 50;

@@ -1,4 +1,4 @@
-// Point clouds, brick maps and photons (rispec-table 9.6).
+// Point clouds, brick maps and photons: bake3d(), texture3d(), photonmap() and their kin, which PRMan added to RSL.
 #include "reyes/rsl/machine/lists.h"
 
 namespace tomales::compiler {

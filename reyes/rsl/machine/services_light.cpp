@@ -1,4 +1,4 @@
-// Light (RISpec 15.6, rispec-table 9.4).
+// Light (RISpec 15.6).
 #include <cmath>
 #include <cstring>
 #include <numbers>

@@ -1,4 +1,4 @@
-// Questions of shaders about each other, about attributes and options, and about the ray that came (rispec-table 9.1).
+// Questions of shaders about each other, about attributes and options, and about the ray that came (RISpec 15.8).
 #include "reyes/rsl/machine/call.h"
 
 namespace tomales::compiler {

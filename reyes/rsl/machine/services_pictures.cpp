@@ -1,4 +1,4 @@
-// Textures and environments (rispec-table 9.5, 10).
+// Textures and environments (RISpec 15.7).
 #include "reyes/rsl/machine/lists.h"
 
 namespace tomales::compiler {

@@ -1,4 +1,4 @@
-// Rays (rispec-table 9.6).
+// Rays: trace(), transmission(), gather(), occlusion() and indirectdiffuse().
 #include "reyes/base/stop.h"
 #include "reyes/rsl/machine/lists.h"
 

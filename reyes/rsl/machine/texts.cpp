@@ -1,4 +1,4 @@
-// Texts: comparison, concat(), match(), format(), printf() (rispec-table 9.3). A value that differs from point to point
+// Texts: comparison, concat(), match(), format(), printf() (RISpec 15.5). A value that differs from point to point
 // counts as that of the first active point, except in printf().
 #include "reyes/rsl/machine/call.h"
 #include "reyes/shader/text.h"
@@ -52,7 +52,7 @@ std::string formatted(const Run& run, const Instruction& of, int32_t i) {
 
 void format(Run& run, const Step& s) { run.variableText(s.of->out[0]) = formatted(run, *s.of, run.firstActive()); }
 
-/// Prints a line for each active point (RISpec 15.7).
+/// Prints a line for each active point (RISpec 15.5).
 void print(Run& run, const Step& s) {
   const TmGrid* const g = run.asking();
   for (int32_t i = 0; i < run.count; ++i)
