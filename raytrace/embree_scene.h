@@ -22,8 +22,8 @@ class EmbreeScene {
  public:
   /// Makes the scene of all groups but parts of solids, of the instances and of the chunks; at most about `chunkBytes`
   /// of these are kept. The meshes, `shapes` and `chunks` must outlive this. Where groups fade between levels of
-  /// detail, a ray sees those whose share holds its number: a hash of the ray, within the share of the surface that it
-  /// leaves, so that one level of detail does not shadow another in its place.
+  /// detail, a ray sees those whose share holds the ray's number. The number is a hash of the ray within the share of
+  /// the surface that it leaves, so that one level of detail does not shadow another in its place.
   EmbreeScene(const RayGroups& groups, const SharedShapes& shapes, const Chunks& chunks, size_t chunkBytes, Log& log);
   /// Makes the scene of parts of solids alone.
   EmbreeScene(const RayGroups& groups, Log& log);

@@ -1,8 +1,8 @@
 // Points on area lights. Rectangles, disks and spheres are sampled by solid angle (emitter_shapes.h), all other
-// emitters by area. Points of these lie on the true surface: the coarse quads of all objects that emit for a light are
-// chosen in proportion to area, and the points are weighted so that the light has the power of the surface and not of
-// its polygons. Where rays see displacement the polygons are the surface. Directions meet the simple shapes, and meshes
-// of few flat polygons. Space: current. Threads: const members may be called concurrently.
+// emitters by area. Points of these lie on the true surface. The coarse quads of all objects that emit for a light are
+// chosen in proportion to area. The points are weighted so that the light has the power of the surface and not of its
+// polygons. Where rays see displacement the polygons are the surface. Directions meet the simple shapes, and meshes of
+// few flat polygons. Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include "raytrace/emitter_facets.h"
 #include "raytrace/emitter_shapes.h"
@@ -51,9 +51,9 @@ class Emitters {
   /// Implements ShadeServices::meetEmitter.
   void meet(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const;
 
-  /// Samples points of the whole light, wherever they are seen from. xi0 chooses the lattice, xi1 its row and v, the
-  /// rest of xi0 the column and u, all by area: a continuous warp of the unit square over each lattice, so that
-  /// stratified points stay stratified. `area` is the Jacobian over the probability of the quad: the total area
+  /// Samples points of the whole light, wherever they are seen from. xi0 chooses the lattice, xi1 its row and v, and
+  /// the rest of xi0 the column and u, all by area. Over each lattice this is a continuous warp of the unit square, so
+  /// that stratified points stay stratified. `area` is the Jacobian over the probability of the quad: the total area
   /// wherever quads are parallelograms. `group`: as EmitterShape::group; may be null.
   bool sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area,
               int* group = nullptr) const;

@@ -31,8 +31,8 @@ struct RayScene::Impl {
   vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
   Level levelOf(const Ray& ray, const vec3& P) const;
-  /// Returns the least radius of rays that leave a point which a ray has met at this level: they must see no finer
-  /// polygons, because the point lies on polygons of that level. 0 for groups without levels.
+  /// Returns the least radius of rays that leave a point which a ray has met at this level. They must see no finer
+  /// polygons, because the point lies on polygons of that level. The result is 0 for groups without levels.
   float leastRadius(uint32_t group, Level met, const vec3& P) const;
 
   const Scene& scene;

@@ -3,9 +3,9 @@
 //   out    vertices in current space at the motion keys of raytrace/ray_times.h, quads, and the object, patch
 //          and (u,v) of every quad
 //   never  depends on threads: the order is that of objects and patches
-// Rate: polygons of about 16 pixels (x sqrt(ShadingRate) / trace:tessellation) where the camera can see the object, and
-// a turn of the normal of at most 15 degrees (/ trace:tessellation) everywhere, as long as polygons are larger than 1.5
-// pixels; flat patches are one exact quad.
+// Rate: where the camera can see the object, polygons are about 16 pixels long, times sqrt(ShadingRate) /
+// trace:tessellation. Everywhere the normal turns by at most 15 degrees / trace:tessellation along a polygon, as long
+// as that is longer than 1.5 pixels. Flat patches are one exact quad.
 #pragma once
 #include <array>
 

@@ -100,6 +100,7 @@ class RayScene {
 
   void report(Stats& stats) const;  ///< Adds statistics; called after the last ray.
 
+  /// Returns what the ray meets first, by the hit list if its offset is above 0; Hit::object is -1 if it meets nothing.
   Hit closest(const Ray& ray, RayMask mask) const;
   /// Returns the fraction of light that passes from each origin to tMax. Opaque surfaces are searched first and end the
   /// ray. The opacity of the others is that of the object and its primitive variable, or of its shader (Attribute
@@ -147,8 +148,9 @@ class RayScene {
   void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                  const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const;
 
-  /// Changes the answers by the volume between each hit and the surface that its ray has come through (`left`, met by
-  /// `came`): Interior or Exterior of that surface's group, by the side on which the ray leaves it.
+  /// Changes the answers by the volume between each hit and the surface from which its ray starts. That surface is the
+  /// hit `left` of an earlier ray `came`. The volume is the Interior or Exterior of its group, by the side on which the
+  /// ray leaves it.
   void crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>& left, const std::vector<Ray>& rays,
                     const std::vector<Hit>& hits, const std::vector<SampleName>& names, const ShadingSystem& shading,
                     const ShadeContext& context, HitAnswers& answers) const;

@@ -75,6 +75,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
 bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const Scene& scene,
                 const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control);
 
+/// Runs the imager shader, if there is one, over all pixels of the image, in place.
 void runImager(Image& image, const ShadingSystem& shading);
 
 /// Takes a shaded tile for the picture; called from any thread.

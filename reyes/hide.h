@@ -121,6 +121,7 @@ class Hider {
   bool hidden(const Bound2& raster, float zMin) const;
   /// Tells the same of a projected grid. If it is hidden, insert() would find nothing to do.
   bool hidden(const RasterExtent& extent) const;
+  /// Lets the micropolygons of a grid compete for the samples that they cover.
   void insert(const std::shared_ptr<const RasterGrid>& grid);
   /// Collects visible micropolygons into points to shade. The Hider cannot be used after it.
   DeepTile resolve(HideDiagnostics* diagnostics = nullptr);

@@ -97,6 +97,7 @@ class FrameFilter {
   /// Takes the contributions of a tile, which may be dropped then unless needsTiles(). Any thread may call it, each for
   /// another tile.
   void resolve(size_t index, const DeepTile& tile);
+  /// Tells whether tiles must stay in the frame until their rows are read: Cryptomatte and deep pixels read fragments.
   bool needsTiles() const;
   PixelNoise noise() const;  ///< Noise of the tiles that have been resolved.
   /// Returns raster rows [y0, y1) of the crop window. Calls must go from the top down. Tiles that are not resolved are

@@ -1,6 +1,6 @@
-// Noun: pictures that are read, as a library behind a door sees them. OpenImageIO brings 260 shared libraries along,
-// which cost 0.15 to 0.25 s to link and are not needed to render a scene without textures. So it lives in a module of
-// its own (reyes/pictures/module.cpp), which is loaded when something is first asked of it. Pictures are written by
+// Noun: pictures that are read, through the interface of a module over OpenImageIO. That library brings 260 shared
+// libraries along, which cost 0.15 to 0.25 s to link and are not needed to render a scene without textures. So the
+// module (reyes/pictures/module.cpp) is loaded when something is first asked of it. Pictures are written by
 // reyes/image. Threads: calls may be concurrent, except for those of one reader.
 #pragma once
 #include <cstdint>

@@ -109,8 +109,9 @@ class Prim {
   /// Returns the shape as a whole, if it is a sphere or a disk.
   virtual std::optional<RoundShape> round() const { return std::nullopt; }
 
-  /// Turns points and curves towards an eye that they face: `eye` is a position if `perspective`, else only the
-  /// direction `forward`, in which it looks, counts. Returns null if the shape looks the same to every eye.
+  /// Returns points and curves turned towards an eye that they face. With `perspective` they face the position `eye`;
+  /// without it only `forward` counts, the direction in which the eye looks. Returns null if the shape looks the same
+  /// to every eye.
   virtual std::shared_ptr<const Prim> facing(const vec3& /*eye*/, const vec3& /*forward*/, bool /*perspective*/) const {
     return nullptr;
   }

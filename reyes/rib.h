@@ -91,15 +91,17 @@ bool parseRibText(const std::string& text, const std::string& name, RiSink& sink
 /// pipes and files that cannot be read give none.
 std::set<std::string> makeSources(const std::vector<std::string>& files);
 
-/// Returns the request table, a line for each request: its name, the letters of its arguments
+/// Returns the request table, a line for each request. A line has the name of the request, the letters of its arguments
 /// (reyes/rib/request_table.h) or -, "parameters" or -, and its treatment: "works", "draws" (works, and the picture
 /// needs it), "ignored", or "missing" (ignored, though the picture needs it).
 std::string ribRequests();
 
-/// Changes a scene that is hidden already: Surface, Atmosphere, Color, Illuminate and Attribute go to the objects that
-/// the last Attribute "identifier" "name" has named (without one, to all), LightSource to the light of that handle,
-/// Exposure, Imager and Quantize to the frame. A shader that stays the same keeps the parameters that are not given.
-/// Other requests are ignored with a warning. Returns as readRib.
+/// Changes a scene that is hidden already. A shader that stays the same keeps the parameters that are not given. Other
+/// requests than these are ignored with a warning. Returns as readRib.
+///   Surface, Atmosphere, Color, Illuminate, Attribute   change the objects that the last Attribute "identifier" "name"
+///                                                       has named; all objects if there was none
+///   LightSource                                         changes the light of that handle
+///   Exposure, Imager, Quantize                          change the frame
 bool editScene(const std::vector<std::string>& files, Scene& scene, Log& log);
 
 struct RibWriterSettings {

@@ -43,13 +43,16 @@ class ShaderRegistry {
   bool loadPlugin(const std::string& path);
   /// Adds the shaders of a compiled .sl file, which then come before others of their names.
   bool addText(const std::shared_ptr<const RslFile>& file, const std::string& path);
-  /// Finds a shader by name and kind. Shaders that have been loaded come first, and built-in ones whose look RISpec
-  /// fixes (but with standardFromFiles); then NAME.so in the trusted folders; then NAME.sl along `searchPath` (the
-  /// scene's; folders separated by colons, empty: the working folder), in the trusted folders and in `beside`, the
-  /// folder of the file that names it; then other built-in ones; then NAME.so along `searchPath`. A plugin in a folder
-  /// that is not trusted is reported, once, and not loaded; so is one outside of a trusted folder that a name with ".."
-  /// or an absolute name leads to. A .sl that has errors is reported with all of them. If a .sl has a name of RISpec's,
-  /// a message says whose shader is used.
+  /// Finds a shader by name and kind, in this order:
+  ///   1 shaders that have been loaded and, unless standardFromFiles, built-in ones whose look RISpec fixes
+  ///   2 NAME.so in the trusted folders
+  ///   3 NAME.sl along `searchPath`, in the trusted folders, and in `beside`, the folder of the file that names it
+  ///   4 other built-in ones
+  ///   5 NAME.so along `searchPath`
+  /// `searchPath` is the scene's: folders separated by colons; if it is empty, the working folder. A plugin in a folder
+  /// that is not trusted is reported, once, and not loaded. So is one that a name with ".." or an absolute name leads
+  /// to, outside of the trusted folders. A .sl that has errors is reported with all of them. If a .sl has a name of
+  /// RISpec's, a message says whose shader is used.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
   /// Compiles the texts of these shaders at once, on all threads, so that find() only has to look. It reports nothing:

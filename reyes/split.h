@@ -62,8 +62,8 @@ std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, con
                                  const PixelRect& window, Stats& stats, Log& log, StopFlag stop = nullptr);
 
 /// A tree of boxes in object space around all of an object's shapes over time. Patches are sorted along a space-filling
-/// curve, so that a run of them is compact in any model: level 0 has a box for each run of kLeaf patches, a level above
-/// one for kFan boxes below, the last a single one. Instances share it.
+/// curve, so that a run of them is compact in any model. Level 0 has a box for each run of kLeaf patches. Each level
+/// above has one box for kFan boxes of the level below, and the last level has a single box. Instances share the tree.
 class PatchTree {
  public:
   static constexpr uint32_t kLeaf = 64, kFan = 16;

@@ -73,9 +73,9 @@ struct ChannelCall {
   SourceLoc where;
 };
 
-/// The way in which a pixel's depth is made from its samples that see something opaque: the least, the greatest, the
-/// mean; or the least mean of a sample's two nearest surfaces (Woo 1992), where the far clipping plane replaces a
-/// missing second one.
+/// The way in which a pixel's depth is made from its samples that see something opaque: the least, the greatest or the
+/// mean depth. Midpoint takes the mean depth of each sample's two nearest surfaces, and of these means the least (Woo
+/// 1992); the far clipping plane stands for a missing second surface.
 enum class DepthFilter { Min, Max, Average, Midpoint };
 
 enum class ProjectionKind { Orthographic, Perspective, Null };

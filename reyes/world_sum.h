@@ -5,10 +5,10 @@
 
 namespace tomales {
 
-/// Sums the objects that photons may meet, their attributes, transformations and shaders, the lights, named spaces and
-/// the files that shaders name and that have their names (by size and time of change), but not limits of memory and the
-/// order of buckets. It does not depend on the camera and the frame, on line numbers, or on the order of objects. Pre:
-/// procedurals that photons meet are open. Without `photonsOnly` it sums all objects.
+/// Sums the objects that photons may meet, their attributes, transformations and shaders, the lights and named spaces.
+/// Files that shaders name, and the files of shaders, count by size and time of change. Limits of memory and the order
+/// of buckets do not count. The sum does not depend on the camera and the frame, on line numbers, or on the order of
+/// objects. Pre: procedurals that photons meet are open. Without `photonsOnly` it sums all objects.
 uint64_t worldSum(const Scene& scene, bool photonsOnly = true);
 
 }  // namespace tomales

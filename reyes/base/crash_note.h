@@ -4,9 +4,10 @@
 
 namespace tomales {
 
-/// While it lives, a crash of this thread is said to be that of `kind` `name` ("surface shader", "dots"), which serves
-/// `user` (an object) and, unless null, `other`; `file`, null if there is none, and `line` say where the scene asks for
-/// it. The texts belong to the caller and must outlive the note. Notes nest: the latest is told.
+/// While it lives, a crash of this thread is said to be that of `kind` `name` ("surface shader", "dots"). `user` is the
+/// object that it serves, and `other` a second one, or null. `file` and `line` say where the scene asks for it; `file`
+/// is null if there is no place. The texts belong to the caller and must outlive the note. Notes nest: the latest is
+/// told.
 class CrashNote {
  public:
   struct Text {

@@ -1,7 +1,7 @@
 // The maths vocabulary: GLM under our names, bounds, and the few helpers that every unit needs.
-// Matrices act on column vectors and are named destination-from-source (cameraFromObject * p).
-// RenderMan writes matrices for row vectors; sixteen RIB floats, read in order into a column-major
-// mat4, are that same transformation for column vectors, and RIB's pre-concatenation is `ctm * m`.
+// Matrices act on column vectors and are named destination-from-source (cameraFromObject * p). RenderMan writes
+// matrices for row vectors. Sixteen RIB floats, read in order into a column-major mat4, are that same transformation
+// for column vectors, and RIB's pre-concatenation is `ctm * m`.
 #pragma once
 #define GLM_FORCE_XYZW_ONLY
 #include <algorithm>

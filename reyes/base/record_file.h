@@ -51,7 +51,7 @@ class RecordWriter {
   bool write(RecordName name, BytesView content);
   /// Puts records in the order of their names, writes the directory and gives the file its name. Where records were
   /// written in another order they are copied, which takes room for a second file meanwhile. Returns false on failure,
-  /// and error() says why; a file that may stay does, as it was.
+  /// and error() says why; the file NAME.part, if there is one, stays as it was.
   bool finish();
   /// Removes all records from the file.
   bool restart();

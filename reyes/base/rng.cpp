@@ -18,9 +18,9 @@ inline uint32_t laineKarras(uint32_t x, uint32_t seed) {
   return x;
 }
 
-// Second Sobol dimension, bits reversed. Its direction numbers are the rows of Pascal's triangle modulo 2, so
-// (Lucas) bit i of the result is the sum of all bits of the index whose number contains the bits of i: a sum
-// over supersets, one step for each of the five bits of a bit's number.
+// Second Sobol dimension, bits reversed. Its direction numbers are the rows of Pascal's triangle modulo 2. By Lucas's
+// theorem bit i of the result is therefore the sum of those bits k of the index for which k has all bits of i. That is
+// a sum over supersets, which takes one step for each of the five bits of k.
 inline uint32_t sobolSecondReversed(uint32_t x) {
   x ^= (x >> 1) & 0x55555555U;
   x ^= (x >> 2) & 0x33333333U;

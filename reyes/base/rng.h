@@ -1,6 +1,5 @@
-// Counter-based random numbers: every number is a pure function of its
-// purpose (pixel, point, sample, dimension, seed), so results never depend
-// on the schedule of threads or buckets. Threads: everything here is pure.
+// Counter-based random numbers: every number is a pure function of its purpose (pixel, point, sample, dimension, seed),
+// so results never depend on the schedule of threads or buckets. Threads: everything here is pure.
 #pragma once
 #include <span>
 #include <vector>

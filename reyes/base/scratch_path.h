@@ -2,7 +2,7 @@
 //
 // Its name, `.STEM.RANDOM.part`, cannot be guessed, and an existing file of that name is never opened: neither another
 // process of the same number, as containers have, nor a link that somebody has put there can interfere. It is locked
-// (flock) while its owner lives, so that a file that a killed process has left can be told from one in use: the next
+// (flock) while its owner lives. So a file that a killed process has left can be told from one in use, and the next
 // ScratchPath of the same stem in the same folder removes it. Where there are no locks, nothing is removed. Threads:
 // plain object.
 #pragma once

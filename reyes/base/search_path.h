@@ -26,9 +26,10 @@ std::string findFile(const std::string& name, const std::string& searchPath);
 /// Returns the last part of a name that has folders of Unix or Windows before it. Empty if it has none.
 std::string lastPartOf(const std::string& name);
 
-/// Returns the files that a name may mean, best first: that of findFile(); those of its name but for the ending, which
-/// is one of `endings` (the picture that a texture was made of lies beside it); then the same for the last part of the
-/// name, since scenes of other machines name files where they lay there.
+/// Returns the files that a name may mean, best first:
+///   1 that of findFile()
+///   2 those of its name but with one of `endings`: the picture that a texture was made of lies beside it
+///   3 the same two for the last part of the name: scenes of other machines name files where they lay there
 std::vector<std::string> candidateFiles(const std::string& name, const std::string& searchPath,
                                         const std::vector<std::string>& endings = {});
 

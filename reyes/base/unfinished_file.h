@@ -1,12 +1,11 @@
 // A file that is written before it gets its name. Every file that this program leaves is made here, so that a file with
 // its name is whole.
 //
-// It is written under another name in the same folder and renamed when it is complete. Of two processes that
-// write the same file, the last one to finish wins as a whole. A target that is a link stays one: what it
-// leads to is replaced, as with `>` of the shell. Another hard link to the old file keeps the old contents.
-// So whoever reads the old file goes on reading it, and a program's input may be its output. finish() calls
-// fsync() before the rename: else a name could stand for an empty file after the machine has lost power.
-// Threads: plain object.
+// It is written under another name in the same folder and renamed when it is complete. Of two processes that write the
+// same file, the last one to finish wins as a whole. A target that is a link stays one: what it leads to is replaced,
+// as with `>` of the shell. Another hard link to the old file keeps the old contents. So whoever reads the old file
+// goes on reading it, and a program's input may be its output. finish() calls fsync() before the rename: else a name
+// could stand for an empty file after the machine has lost power. Threads: plain object.
 #pragma once
 #include <cstdio>
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The nodes that a bucket visits from the nearest to the farthest: geometry that the first bucket which does not hide
-// it opens into smaller nodes (a procedural, an object, a run of its patches), and pieces, which are diced instead.
+// The nodes that a bucket visits from the nearest to the farthest. A node is a procedural, an object, a run of its
+// patches, or pieces. The first bucket that does not hide a node opens it into smaller nodes; pieces are diced instead.
 // Each node is dropped when the last bucket that its bound touches is done, whether or not that bucket visited it
 // (docs/decisions/0008). Threads: visit and release of different buckets are concurrent.
 #pragma once

@@ -27,8 +27,8 @@ float within(int i, int n, float inside) {
   return std::min((static_cast<float>(i) + inside) / count, std::nextafter(static_cast<float>(i + 1) / count, 0.0f));
 }
 
-/// The part of the shutter that a cell samples: a shuffled Latin square, so that not only the pixel but each of its
-/// rows and columns samples the whole shutter, and motion along x or y is blurred evenly.
+/// The part of the shutter that a cell samples, as a shuffled Latin square. Not only the pixel but each of its rows and
+/// columns then samples the whole shutter, so that motion along x or y is blurred evenly.
 class Times {
  public:
   Times(int xSamples, int ySamples, uint32_t name)

@@ -1,10 +1,11 @@
 // Private to the hider: coverage of samples by micropolygons.
 // A micropolygon abcd (a b over c d in (u,v)) is the triangles abc and bdc: the diagonal bc is fixed. A sample is
 // inside a triangle if it lies on the inner side of each edge. Every edge is evaluated from its lexicographically
-// smaller end, so both neighbours get the same value with opposite signs, and the value zero belongs to the right of
-// the edge seen from that end: as if every sample were moved by (e^2, -e) for an infinitesimal e. Vertices of still
-// grids and samples lie on a lattice (kLattice), on which the values of micropolygons up to 3.5 px are whole numbers
-// (reyes/hide/quad.h) and exact in float too, so that a fan around a vertex neither misses a sample nor hits it twice.
+// smaller end, so both neighbours get the same value with opposite signs. The value zero belongs to the right of the
+// edge seen from that end: as if every sample were moved by (e^2, -e) for an infinitesimal e. Vertices of still grids
+// and samples lie on a lattice (kLattice). There the values of micropolygons up to 3.5 px are whole numbers
+// (reyes/hide/quad.h), which floats hold exactly, so that a fan around a vertex neither misses a sample nor hits it
+// twice.
 #pragma once
 #include "reyes/hide/lattice.h"
 #include "reyes/hide/samples.h"

@@ -110,10 +110,10 @@ std::array<ComparedPlane, 3> seenPlanes(const Image& image) {
   return {plane(0), plane(1), plane(2)};
 }
 
-// Returns the colour half of FLIP (Andersson et al. 2020) in its simplest form: clamped to the display, blurred by a
-// Gaussian of one pixel where FLIP has contrast sensitivity, HyAB distance in L*a*b*, compressed by the power 0.7 and
-// scaled so that green against blue is 1. It has none of FLIP's edge and point detection, so its numbers are not to be
-// held against FLIP's.
+// Returns the colour half of FLIP (Andersson et al. 2020) in its simplest form. Colours are clamped to the display, and
+// blurred by a Gaussian of one pixel where FLIP has contrast sensitivity. Their HyAB distance in L*a*b* is compressed
+// by the power 0.7 and scaled so that green against blue is 1. It has none of FLIP's edge and point detection, so its
+// numbers are not to be held against FLIP's.
 double flipLike(const Image& test, const Image& reference) {
   const std::array<ComparedPlane, 3> a = seenPlanes(test), b = seenPlanes(reference);
   const float scale = std::pow(hyab(lab({0, 1, 0}), lab({0, 0, 1})), 0.7f);

@@ -65,8 +65,9 @@ float disk(float x, float y, float xWidth, float yWidth) {
   return u * u + v * v <= 1 ? 1.0f : 0.0f;
 }
 
-// Returns the transform of a disk (Airy's amplitude 2 J1(x) / x), with the first zero at 1.22 pixels, that of the
-// finest circle that pixels represent; it is windowed like sinc's lobes by that of the whole width.
+// Returns the transform of a disk, Airy's amplitude 2 J1(x) / x. Its first zero is at 1.22 pixels: it passes the
+// frequencies in the largest circle that pixels represent. Its window is the first lobe of the same function, as wide
+// as the filter.
 float airy(float r) { return r < 1e-3f ? 1.0f : 2 * std::cyl_bessel_jf(1, kPi * r) / (kPi * r); }
 float bessel(float x, float y, float xWidth, float yWidth) {
   const float u = 2 * x / xWidth, v = 2 * y / yWidth, edge = std::sqrt(u * u + v * v);

@@ -56,8 +56,8 @@ struct Picture {
 };
 
 /// OpenImageIO's texture system, one for the process and never destroyed. Threads keep tiles of a system for longer
-/// than it lives, under its address, and OpenImageIO 2.4 hands them to the next system that lies there
-/// (boost::thread_specific_ptr, which it keeps them in, knows of the thread that destroys it alone).
+/// than it lives, under its address, and OpenImageIO 2.4 hands them to the next system at that address. (It keeps them
+/// in a boost::thread_specific_ptr, which frees those of the thread that destroys it, and of no other.)
 class SharedSystem {
  public:
   OIIO::TextureSystem* const textures = OIIO::TextureSystem::create(false);

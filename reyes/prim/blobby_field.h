@@ -23,8 +23,8 @@ struct Box {
 class BlobGround;
 
 /// A leaf's value is (1 - d^2)^3 for d < 1, else 0. d is the distance over `radius` from a segment, or from a point if
-/// its ends are equal, in the leaf's own space. Or the leaf is a ground, which has no values to blend and moves
-/// nothing.
+/// its ends are equal, in the leaf's own space. A leaf may be a ground instead (blobby_ground.h), which has no values
+/// to blend and moves nothing.
 struct BlobLeaf {
   glm::dmat3 axes;  ///< Transforms from object space to leaf space, with `origin`.
   dvec3 origin;

@@ -11,8 +11,8 @@ namespace tomales {
 /// space (M. Newell).
 glm::dvec3 newellNormal(const std::vector<vec3>& points);
 
-/// Returns the same for the triangle of the first point, the point farthest from it and the point farthest from the
-/// line through these: a bow tie, whose halves cancel each other in newellNormal(), has a plane too.
+/// Returns the same for one triangle: the first point, the point farthest from it, and the point farthest from the line
+/// through these two. It gives a plane to a bow tie, whose halves cancel each other in newellNormal().
 glm::dvec3 normalOfWidestTriangle(const std::vector<vec3>& points);
 
 /// A convex part of a polygon, as positions in its list of points; edges that are not the polygon's own are diagonals.

@@ -153,9 +153,9 @@ class Disks : public FlatPoints<Disks> {
   }
 };
 
-/// PRMan's "patch": pictures on cards. v runs down against the object's y, projected onto the card's plane, and u to
-/// the right for a viewer of its front in a left-handed space; "patchangle" turns it, "patchaspectratio" is width over
-/// height.
+/// PRMan's "patch": pictures on cards. v runs down, against the object's y as projected onto the card's plane. u runs
+/// to the right for a viewer of the front in a left-handed space. "patchangle" turns the card, and "patchaspectratio"
+/// is width over height.
 class Squares : public FlatPoints<Squares> {
  public:
   Squares(std::vector<vec3> points, std::vector<Primvar> primvars)

@@ -1,6 +1,6 @@
 // Private to polygons: cuts faces of polygons into bilinear patches. A convex quadrilateral is one patch, and so is a
-// triangle, with an edge of no length; every other face becomes triangles and quadrilaterals around the centres of its
-// convex pieces, which meet at the midpoints of the edges (docs/decisions/0041).
+// triangle, with an edge of no length. Every other face is cut into convex pieces first. Each piece becomes triangles
+// and quadrilaterals around its centre, which meet the neighbours at the midpoints of the edges (docs/decisions/0041).
 #pragma once
 #include <span>
 
@@ -16,8 +16,8 @@ struct QuadPatch {
   PatchInfo info;
 };
 
-/// While all faces are quadrilaterals of one patch, two bytes for each patch are kept: the corners of patch k are
-/// the four face-vertices of face k.
+/// While all faces are quadrilaterals of one patch, only the PatchInfo of each patch is kept: the corners of patch k
+/// are the four face-vertices of face k.
 class QuadPatches {
  public:
   size_t size() const { return patches_.empty() ? plain_.size() : patches_.size(); }

@@ -16,8 +16,8 @@ struct Meridian {
   float nx[kChunk], ny[kChunk], nz[kChunk];
 };
 
-/// sin and cos of whole turns * 2 pi, turn = offset + frac(scale * t): a closed sweep ends on the very bits
-/// it began with, and quarter turns are exact.
+/// Computes sin and cos of 2 pi (offset + frac(scale * t)). The angle is counted in turns, so that a closed sweep ends
+/// on the very bits that it began with, and quarter turns are exact.
 void sinCosTurns(float offset, float scale, int n, const float* t, float* sine, float* cosine);
 
 class Revolution : public Prim {

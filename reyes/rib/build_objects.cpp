@@ -267,8 +267,7 @@ void SceneBuilder::endObject() {
   state_.globals.masters[done.begin.args[0].strings[0]] = done.master;
 }
 
-// The instance's attributes apply, unless the master sets
-// its own; changes by the master end with the instance.
+// The instance's attributes apply, unless the master sets its own; changes by the master end with the instance.
 void SceneBuilder::instance(const Request& r) {
   const auto it = state_.globals.masters.find(r.args[0].strings[0]);
   if (it == state_.globals.masters.end()) {

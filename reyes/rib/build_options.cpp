@@ -103,8 +103,7 @@ void clipping(GraphicsState& s, const Request& r) {
   s.globals.options.farClip = std::min(a[1], 1e30f);
 }
 
-// RISpec 3.2 section 4.1.2: the side that the normal points
-// to is clipped. The plane is in the space of the request.
+// RISpec 3.2 section 4.1.2: the side that the normal points to is clipped. The plane is in the space of the request.
 void clippingPlane(GraphicsState& s, const Request& r) {
   const RibArg& a = r.args[0];
   const mat4 m = s.cameraFromObject().at(s.globals.options.shutterOpen);

@@ -29,8 +29,8 @@ int toInt(double d);
 
 class Lexer {
  public:
-  /// Longer tokens become Junk: an unclosed quote must not swallow a gigabyte. A defined string costs two
-  /// bytes wherever it is used, so it must not be long either.
+  /// Longer tokens become Junk: an unclosed quote must not swallow a gigabyte. A defined string costs two bytes
+  /// wherever it is used, so it must not be long either.
   static constexpr size_t kLongestString = 1 << 20, kLongestWord = 4096, kLongestDefinition = 1024;
 
   Lexer(ByteStream& stream, std::string file) : stream_(stream), file_(std::make_shared<std::string>(std::move(file))) {

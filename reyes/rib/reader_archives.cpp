@@ -39,8 +39,7 @@ void Reader::record(const Request& r) {
     recording = Recording{r, {}};
     return;
   }
-  // Names that parameters had when the archive was recorded
-  // are resolved already; later ones need Declare too.
+  // Names that parameters had when the archive was recorded are resolved already; later ones need Declare too.
   declare(r, dictionary_, log_);
   recording->depth += (r.name == "ArchiveBegin") - (r.name == "ArchiveEnd");
   if (recording->depth == 0)

@@ -20,7 +20,7 @@ std::string textParam(const ParamList& params, const char* name) {
   return p && !p->strings.empty() ? p->strings[0] : "";
 }
 
-// An infinite box is one, and means "now"; anything that is no box is reported.
+// An infinite box is a box too, and means "read it now".
 bool isBox(const std::vector<float>& b) { return b.size() == 6 && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5]; }
 
 }  // namespace

@@ -184,8 +184,8 @@ Type Checker::typeOfCast(Expr& e) {
   return e.written;
 }
 
-// The wanted type goes down through arithmetic to the functions that have results of several types: in `point Q = P +
-// .1 * noise(P)` noise gives a point (RISpec 15 chooses the function by the wanted type).
+// RISpec 15 chooses among functions of one name by the type of result that is wanted. That type goes down through
+// arithmetic to such functions: in `point Q = P + .1 * noise(P)` noise gives a point.
 void Checker::retarget(Expr& e, const Type& wanted) {
   if (e.type == kUnknown || wanted == kUnknown) return;
   switch (e.kind) {

@@ -23,7 +23,8 @@ struct Token {
   std::string text{};
   float number = 0;
   Place place{};
-  std::shared_ptr<const std::string> comment{};  ///< Directly before a word that may begin a shader; null if none is.
+  std::shared_ptr<const std::string>
+      comment{};  ///< The comment directly before a word that may begin a shader, or null.
   bool is(std::string_view punctuator) const { return kind == TokenKind::Punctuator && text == punctuator; }
   bool isName(std::string_view name) const { return kind == TokenKind::Name && text == name; }
 };

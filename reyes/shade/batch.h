@@ -31,8 +31,8 @@ class Batch {
   /// Sets the inputs and outputs of a displacement shader to motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
 
-  /// Makes it a copy of a batch whose shader asks for light at `moved`, its own points at other positions: lights then
-  /// see that surface and its shader. `g` has the mask.
+  /// Makes this a copy of the batch `asking`, whose shader asks for light at `moved`: its own points at other
+  /// positions. Lights then see the surface and the shader of `asking`. `g` has the mask.
   void setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved);
   /// Sets the inputs of a light shader to points that nothing shades.
   void setLit(const LightProbe& probe, const BoundShader& shader);

@@ -1,8 +1,8 @@
 // The places where light arrives that a shader asks for: the points of its batch, or other positions, for example of a
 // volume that marches along a ray. Behind TmServices::illuminance. The light at a point does not depend on the others
 // of its batch: points of a surface that have not moved keep their samples, and a volume that names positions is in the
-// air at all of them. (Lights with "shadowvariance" are the exception: it is known only at the batch's own points
-// whether their samples are settled.)
+// air at all of them. Lights with "shadowvariance" are the exception, because only at the batch's own points it is
+// known whether enough shadow rays have been traced.
 #pragma once
 #include "reyes/shade/batch.h"
 

@@ -1,8 +1,8 @@
 // Noun: a binary tree over many lamps, each of a place and a power, from which few are drawn that stand for all at a
-// point. A cut through the tree (Walter et al. 2005, "Lightcuts") divides the lamps into clusters; from each cluster
-// one lamp is drawn by its importance (Estevez and Kulla 2018), so that light over probability has the right mean
-// whatever the importance is. It knows no shadows, and of the surface its normal alone. Space: current. Threads: const
-// members may be called concurrently.
+// point. A cut through the tree (Walter et al. 2005, "Lightcuts") divides the lamps into clusters. From each cluster
+// one lamp is drawn by its importance (Estevez and Kulla 2018). Its light is divided by its probability, so that the
+// mean is right whatever the importance is. It knows no shadows, and of the surface its normal alone. Space: current.
+// Threads: const members may be called concurrently.
 #pragma once
 #include <cstdint>
 #include <span>

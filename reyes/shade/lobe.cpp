@@ -1,6 +1,6 @@
 // Glossy surfaces under lights that have an extent. A highlight is a sum over samples of the light and over samples of
-// the surface's own lobe, weighted by the power heuristic (Veach and Guibas 1995, "Optimally Combining Sampling
-// Techniques for Monte Carlo Rendering"): small lights are found by their own samples, narrow lobes by theirs.
+// the surface's own lobe. Small lights are found by their own samples, and narrow lobes by theirs. The power heuristic
+// weights both (Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering").
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/elsewhere.h"
@@ -70,8 +70,8 @@ struct BlinnLobe {
     const vec3 H = normalizeOr(L + V, N);
     return dot(N, H) > 0 ? 8 * dot(V, H) / (exponent + 1) : 0.0f;
   }
-  /// Returns the share of even light that the lobe sends to the viewer: 1 / pi times its integral over the hemisphere,
-  /// which is exact for `facing`, the cosine between N and V, of 1, and within 8 per cent from 0.3 on.
+  /// Returns the share of even light that the lobe sends to the viewer: 1 / pi times its integral over the hemisphere.
+  /// `facing` is the cosine between N and V. The result is exact if that is 1, and within 8 per cent from 0.3 on.
   float reflectance(float facing) const {
     return 8 * facing / (exponent + 2) * (1 - std::exp2(-0.5f * (exponent + 2)));
   }
@@ -139,9 +139,9 @@ class Highlight {
   }
 
  private:
-  /// Indirect light comes from all around. Its samples tell E/pi and the mean direction alone, so it is taken for light
-  /// that changes evenly from one side of the hemisphere to the other, with that mean; the lobe sees what it sends from
-  /// the mirrored direction.
+  /// Indirect light comes from all around. Its samples tell only E/pi and the mean direction. So it is taken for light
+  /// that changes evenly from one side of the hemisphere to the other and has that mean direction. The lobe sees what
+  /// such light sends from the mirrored direction.
   void addIndirectSample(const LightSample& sample) {
     constexpr float kTilt = 8.0f / 3;  // A radiance of 1 + b.w has a mean direction that leans by 3 b / 8.
     constexpr float kSteepest = 2;

@@ -15,10 +15,10 @@ struct ParameterValue {
   std::string remark;                ///< Says how the given value had to be changed; empty if it was not.
 };
 
-/// Returns the value for a parameter, or its default if `given` is null. Conversions are those of RISpec 3.2 section 11
-/// (a float becomes any other number: the same in each component, or the diagonal of a matrix) and between triples,
-/// whose numbers are taken as they stand; an hpoint is divided by its w, an integer is a float. A value that is too
-/// long is cut; one that is too short is filled up from the default.
+/// Returns the value for a parameter, or its default if `given` is null. By RISpec 3.2 section 11 a float becomes a
+/// triple of equal components, or the diagonal of a matrix. Besides, the numbers of a triple are taken as they stand
+/// for another kind of triple, an hpoint is divided by its w, and an integer is a float. A value that is too long is
+/// cut; one that is too short is filled up from the default.
 ParameterValue parameterValue(const TmParamDecl& declared, const Param* given);
 
 /// Returns the floats in one value of a TmType; 0 for strings.

@@ -3,7 +3,8 @@
 namespace tomales {
 namespace {
 
-/// The rest of the samples go by the sky: just so many that none of them brings more than four times its share.
+/// The largest share of samples that go to portals. The others go by the sky: they are a quarter at least, so that none
+/// brings more than four times what it would bring without portals.
 constexpr float kShare = 0.75f;
 
 /// Returns the portal's solid angle, taken at its middle, and at most half of all directions. 0 behind the horizon.

@@ -93,7 +93,7 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
   return found.shader;
 }
 
-/// A user whose folder has a "plastic" of its own is told whose it is.
+/// Tells a user whose folder has a shader with a name of RISpec's, such as "plastic", which of the two is used.
 void ShaderRegistry::Impl::tellOfStandardName(const TmShader& used, const std::string& searchPath,
                                               const std::string& beside) {
   if (!isOfSpecification(used.name)) return;

@@ -16,8 +16,9 @@
 
 namespace tomales {
 
-/// Returns the picture coordinates of a direction in a latitude-longitude picture (RISpec 3.2, MakeLatLongEnvironment):
-/// +z of the world at the top, +x at the left edge, +y a quarter to the right. s and t in 0..1, t downwards.
+/// Returns the picture coordinates of a direction in a latitude-longitude picture (RISpec 3.2, MakeLatLongEnvironment).
+/// +z of the world is at the top, +x at the left edge, and +y a quarter of the width to the right. s and t are in 0..1,
+/// and t runs down.
 vec2 latLong(const vec3& worldDirection);
 vec3 latLongDirection(const vec2& st);
 

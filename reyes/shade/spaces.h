@@ -24,8 +24,8 @@ mat3 environmentDirections(const Batch& batch, const char* space);
 
 /// Transforms points, and nothing else, to spaces that are projected.
 vec3 projectedFromCurrent(const Batch& batch, Space::Kind kind, const vec3& p);
-/// A depth of 0 means the near clipping plane, as in RISpec: transform("NDC", "screen", point (x, y, 0)) is a common
-/// way to ask for the corners of the picture, and no position in the picture has the depth of the eye.
+/// A depth of 0 means the near clipping plane, as in RISpec. Shaders often ask for the corners of the picture by
+/// transform("NDC", "screen", point (x, y, 0)), and no position in the picture has the depth of the eye.
 vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p);
 
 }  // namespace tomales

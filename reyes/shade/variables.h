@@ -30,9 +30,9 @@ std::vector<BoundVariable> bindOutputs(const std::vector<RayOutput>& told, const
 
 /// Makes room, filled with the values of variables that nothing writes.
 void allocateVariables(const std::vector<BoundVariable>& variables, int count, ShadedPoints& out);
-/// Stores everything else once the shader has run. It runs the shader again for light groups, on the same light
-/// samples: a group's share is the result with its lights alone, less the result with no lights, so that all groups and
-/// "" add up to Ci wherever Ci is linear in light.
+/// Stores everything else once the shader has run. For light groups it runs the shader again, on the same light
+/// samples. A group's share is the result with its lights alone, less the result with no lights. So all groups and ""
+/// add up to Ci wherever Ci is linear in light.
 void storeVariables(const std::vector<BoundVariable>& variables, Batch& batch, const BoundShader& shader,
                     ShadedPoints& out, int begin);
 

@@ -272,9 +272,9 @@ inline Entry set(TmSubsurfaceOptions& o, std::string_view name, const Setting& v
   return {};
 }
 
-/// The list of illuminance(). Its names are "lightcache" (the value "refresh" makes lights run again),
-/// "send:light:NAME" (sets a parameter of the lights that have one of that name) and "light:NAME" (a variable that each
-/// sample fills with a parameter or output of its light).
+/// The list of illuminance(). "lightcache" "refresh" makes lights run again. "send:light:NAME" sets a parameter of the
+/// lights that have one of that name. "light:NAME" names a variable that each sample fills with a parameter or output
+/// of its light.
 struct LightList {
   /// A value to send. It is a copy, since the caller's variables may change before the last light has run.
   struct Sent {

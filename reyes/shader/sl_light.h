@@ -115,9 +115,9 @@ TmRayOptions rays(const List&... list) {
   return listed(even, list...);
 }
 /// RSL's gather(). category "illuminance" (or "") traces rays; "samplepattern" only makes directions, which all count
-/// as misses. "environment:NAME" traces none either: all are misses whose directions follow the light of that picture,
-/// whatever the direction and angle given, with "environment:color", "environment:direction" and
-/// "environment:solidangle" (the sum of color times solid angle over all rays is the light of the whole picture).
+/// as misses. "environment:NAME" traces none either. All rays are misses then, and their directions follow the light of
+/// that picture, whatever direction and angle are given. They have "environment:color", "environment:direction" and
+/// "environment:solidangle"; the sum of color times solid angle over all rays is the light of the whole picture.
 template <class Hit, class Miss>
 void gather(const char* category, const Point& p, const Vector& direction, float angle, int samples,
             const TmRayOptions& list, std::initializer_list<Gathered> wanted, const Hit& hit, const Miss& miss) {

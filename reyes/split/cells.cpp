@@ -41,8 +41,8 @@ Cells fewest(float alongU, float alongV, int leastU, int leastV) {
   return best;
 }
 
-/// Turn of an arc in radians. If it turns by t over its length r t, a quarter of it leaves it by 2 r (1 - cos(t / 4))
-/// as a second difference; the result is the inverse of that within 3 % up to a full circle.
+/// Returns the turn of an arc in radians. An arc of radius r that turns by t has a length of r t, and the second
+/// difference of its quarters is 2 r (1 - cos(t / 4)). The result solves that for t, within 3 % up to a full circle.
 float turnOf(const LineSize& line) {
   const float bend = line.px > 0 ? line.bend_px / line.px : 0.0f;
   return 16 * bend * (1 + 2.3f * bend * bend);

@@ -20,8 +20,9 @@ class ObjectView {
   bool isOfOneScale(const Bound3& bare) const;
   /// Returns the raster bound of the part beyond the near plane.
   Bound2 rasterOf(Bound3 bound, float reach_px) const;
-  /// Returns the factor on the edges that the shading rate asks for: the width of a micropolygon may be up to a quarter
-  /// of the circle of confusion, and its area up to a quarter of its path, by the factors of GeometricApproximation.
+  /// Returns the factor, at least 1, by which blur lets edges be longer than the shading rate asks for. A micropolygon
+  /// may be as wide as a quarter of the circle of confusion, and its area may be a quarter of the length of its path,
+  /// both times the factors of GeometricApproximation.
   float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const;
   /// Tells whether the patch is a whole disk that one cell without corners or neighbours represents.
   bool canBeRound(uint32_t patch) const {

@@ -179,7 +179,8 @@ class PlanMaker {
   std::string shotOf(int frame) const { return plan_.workOf(frame, ".dfb").string(); }
   std::string recordsOf(int frame) const { return plan_.workOf(frame, ".icf").string(); }
 
-  /// `before`: the frame whose records it begins with, or itself; `place`: in its group, as a part of stages.
+  /// `before`: the frame whose records it begins with; its own number if there is none. `place`: its place in the
+  /// group, with which the names of its stages end.
   void addGather(int number, int before, const std::string& place, const std::vector<std::string>& maps) {
     const LightOfFrame shared = lightOf(number);
     const std::string hide = taskName(number, "hide");

@@ -15,7 +15,7 @@ struct BatchTask {
   int frame = 0;
   std::vector<std::string> arguments;  ///< The arguments that this program gets.
   std::vector<std::string> needs;      ///< Names of tasks that come before.
-  std::vector<std::string> makes;      ///< Files that exist when the task is finished; they are gone with `removes`.
+  std::vector<std::string> makes;      ///< Files that exist when the task is finished, until a task `removes` them.
   std::vector<std::string> removes;    ///< Files that nobody needs after the task.
 };
 

@@ -91,7 +91,8 @@ std::vector<std::string> commonNeeds(const std::vector<const BatchTask*>& tasks)
   return out;
 }
 
-/// Returns the arrays whose tasks these need one by one, besides what all of them need; none if it is not so.
+/// Returns the arrays of which each of these tasks needs the one of its own number, besides what all of them need.
+/// Returns nothing if the needs are not of this form.
 std::optional<std::vector<const JobArray*>> leadersOf(const std::vector<const BatchTask*>& tasks,
                                                       const Arrays& arrays) {
   const std::vector<std::string> common = commonNeeds(tasks);

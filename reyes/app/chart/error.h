@@ -42,9 +42,9 @@ class ChartReference {
   bool isBlack() const;  ///< True if no pixel has light that is a number.
   /// Returns the mean error of the reference itself, from the spread of its batches; infinite with fewer than two.
   double noiseFloor() const;
-  /// Takes the reference's own noise out of the error by the jackknife (Efron and Stein 1981): the square of an error
-  /// is taken to grow by the variance of the reference, which is that of one batch over their number. For differences
-  /// that are distributed as a Gaussian is, this holds exactly.
+  /// Takes the reference's own noise out of the error by the jackknife (Efron and Stein 1981). The square of an error
+  /// is taken to grow by the variance of the reference, which is the variance of one batch over the number of batches.
+  /// For Gaussian differences this holds exactly.
   ErrorFigures errorOf(const Image& test) const;
   /// Shows the sign of the error, which grey levels would hide: red is too bright, blue too dark, white is right; the
   /// colour is full at `range`. Green is not finite.

@@ -27,8 +27,8 @@ struct LabSettings {
   double budget_s = 600;
 };
 
-/// A measurement is named by the contents of the program, the scene and the files that it names, and by the arguments,
-/// so that an interrupted chart finds what it has done, and a changed scene finds nothing. Threads: one.
+/// A measurement is named by the contents of the program, of the scene and of the files that the scene names, and by
+/// the arguments. So an interrupted chart finds what it has done, and a changed scene finds nothing. Threads: one.
 class Lab {
  public:
   explicit Lab(LabSettings settings);

@@ -29,9 +29,9 @@ struct AuditReport {
   ErrorEstimate picture;  ///< Error of all light together. All errors are shares of the picture's colour.
   /// Errors of one kind of light. They too are shares of the picture's colour.
   std::optional<ErrorEstimate> indirect, direct;
-  /// Mean error, about, that too few samples in pixels add to those errors, as if samples were independent. They are
-  /// stratified, and filters are wider than a pixel, so it is mostly less. Details that no sample sees can make it
-  /// more.
+  /// An estimate of the mean error that too few samples in pixels add to those errors. It takes samples as independent.
+  /// They are stratified, and filters are wider than a pixel, so that the true error is mostly less. Details that no
+  /// sample sees can make it more.
   double pixelSamples = 0;
   std::vector<SmudgeEstimate> smudges;  ///< One for each size of blocks of which there are enough smooth ones.
 

@@ -68,8 +68,9 @@ class CostLine {
   CostLine() = default;
   CostLine(double x0, double cost0, double x1, double cost1);
   double at(double x) const;
-  /// Goes through what was seen at x, if that is far from what it knows and costs more than expected. Otherwise it is
-  /// only scaled: a line that is too flat would find any setting cheap.
+  /// Takes in a cost that was seen at x. If x is far from what the line knows, and the cost is more than expected, the
+  /// line goes through it from now on: a line that is too flat would find any setting cheap. Otherwise it is only
+  /// scaled.
   void learn(double x, double cost);
 
  private:
@@ -107,8 +108,8 @@ class ErrorModel {
   /// Returns the quality that reaches the target at the least cost. If none does within the range in which the model
   /// may be believed, the one that comes nearest.
   LightQuality cheapest(const ErrorTarget& target) const;
-  /// Returns the quality that costs no more and of which the worse of mean error and smudges is least, with as many
-  /// rays as that leaves room for. If none does, the cheapest one.
+  /// Returns the best quality that costs no more than `most`: the worse of mean error and smudges is least, and it has
+  /// as many rays as the cost then leaves room for. If every quality costs more, the cheapest one.
   LightQuality best(double most) const;
   /// Returns the same with records as wide as those of `given`.
   LightQuality bestAsWide(const LightQuality& given, double most) const;

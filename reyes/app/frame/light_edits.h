@@ -5,16 +5,16 @@
 namespace tomales {
 
 struct LightEdits {
-  /// The gain of each of IrradianceShot::groups (GiServices::mixShares); empty if all are 1 or there are no shares. A
-  /// light that has moved, too, and is half as bright, bounces half of what it bounced from its old place.
+  /// The gain of each of IrradianceShot::groups (GiServices::mixShares); empty if all are 1 or there are no shares.
+  /// *Example:* a light that is moved and made half as bright bounces half of what it bounced from its old place.
   std::vector<vec3> gains;
   /// Handles of changed lights whose bounced light does not follow: the records have no shares, or more is changed than
   /// parameters that are factors (isFactor()), or the gain differs from that of another light of the group.
   std::vector<std::string> stale;
 };
 
-/// Compares the lights by which records were gathered with those of the scene now, which has the same ones unless it is
-/// another scene: then nothing is known of edits.
+/// Compares the lights by which records were gathered with the lights of the scene now. If these are not the same
+/// lights, it is another scene, and nothing is known of edits.
 LightEdits editsSince(const IrradianceShot& gathered, const Scene& now, const ShadingSystem& shading);
 
 /// Returns the groups of lights that bounce, for GiServices::keepShares: empty first, then by name.

@@ -17,9 +17,9 @@ void warnOfFloatRange(const Scene& scene, Log& log);
 /// have corners.
 void warnOfCoarseDicing(const Scene& scene, Log& log);
 
-/// Warns if more than half of the irradiance records are uncertain by a tenth or more (standard errors of their
-/// luminance, against a tenth of the mean where they are darker); or if their light is, by a quarter, because few rays
-/// bring it.
+/// Warns if more than half of the irradiance records are uncertain by a tenth or more. That is the standard error of
+/// their luminance; for records darker than a tenth of the mean, against that tenth. Also warns if their light as a
+/// whole is uncertain by a quarter, because few rays bring it.
 void warnOfNoise(std::span<const PreparedCache> caches, Log& log);
 
 /// Warns once for each group that rays leave by guesses (RayScene::starts): its walls are thinner than rays can tell.

@@ -27,9 +27,9 @@ class ShotJob {
   /// Prepares for show(): the picture is R G B A Z, and what `more` names as DisplayCall::mode does; it goes to no
   /// file.
   void prepareToShow(const std::string& more = "");
-  /// Chooses what show() shows from now on: the light of one group alone with all that it bounces (without shares: its
-  /// direct light, and the bounced light of all lights if `indirect`), or of all lights if it is null. `lights` must
-  /// outlive that.
+  /// Chooses what show() shows from now on: the light of one group alone with all that it bounces, or of all lights if
+  /// `lights` is null. Records without shares cannot tell what a group bounces: then it is the group's direct light,
+  /// and the bounced light of all lights if `indirect`. `lights` must outlive that.
   void choose(const std::string* lights, bool indirect);
   /// Shades tiles that are no picture as show() would.
   void shadeApart(std::span<DeepTile> tiles);

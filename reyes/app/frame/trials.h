@@ -17,9 +17,9 @@ struct TrialPlan {
   CostUnit unit = CostUnit::Rays;
   bool isBrief = false;  ///< A quarter of the rays, and fewer pixels: the frame has little time.
   uint32_t seed = 0;     ///< Decides which buckets and pixels.
-  /// Returns the quality that would be chosen from the first trials. If it has much narrower records than those had, a
-  /// trial of such records follows, unless that is likely to cost more than mostOfNarrow(), because trials with wide
-  /// records do not tell how many there are.
+  /// Returns the quality that would be chosen from the first trials. If its records are much narrower than those of the
+  /// trials, a trial of such records follows, because wide records do not tell how many narrow ones there are. The
+  /// trial is left out if it is likely to cost more than mostOfNarrow().
   std::function<LightQuality(const ErrorModel&)> likely;
   std::function<double()> mostOfNarrow = [] { return std::numeric_limits<double>::infinity(); };
 };

@@ -1,7 +1,8 @@
-// A server of one page on the loopback address. It answers nobody who does not know the token, and no page of another
-// origin: each request's path begins with the token, Host is the address that the server listens on (else a name of
-// somebody else could be made to lead here: DNS rebinding), and Origin, if there is one, is the page's own. No file is
-// read. Threads: handlers are called from several.
+// A server of one page on the loopback address. It reads no file, and answers only requests of that page:
+//   path    begins with the token, so that nobody is answered who does not know it
+//   Host    is the address that the server listens on; else a name of somebody else could lead here (DNS rebinding)
+//   Origin  is the page's own, if there is one
+// Threads: handlers are called from several.
 #pragma once
 #include <functional>
 #include <map>

@@ -10,8 +10,8 @@
 
 namespace tomales {
 
-/// Bytes of one block: kBlockHeader numbers of 32 bits (little endian): layer, x, y, width, height, version, serial,
-/// step; then red, green and blue as half floats, row by row, and zeros up to a multiple of four bytes. There is one
+/// A block begins with kBlockHeader numbers of 32 bits (little endian): layer, x, y, width, height, version, serial,
+/// step. Red, green and blue follow as half floats, row by row, and zeros up to a multiple of four bytes. There is one
 /// colour for each square of `step` pixels, cut off at the right and below.
 constexpr size_t kBlockHeader = 8;
 

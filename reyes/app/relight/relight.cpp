@@ -202,8 +202,9 @@ class Relight {
     return out;
   }
 
-  /// Returns the status as JSON after its length in 32 bits, and new blocks of the layers: all of them in so many
-  /// bytes, or with "last" as many at full size as there are up to that one.
+  /// Returns the status as JSON after its length in 32 bits, and then new blocks of the layers. Without "last" these
+  /// are all new blocks, reduced to so many bytes. With it they are at full size, as many as the bytes hold, up to that
+  /// block.
   HttpReply news(const HttpQuestion& q) {
     uint64_t after = numberOf(q, "after");
     const size_t bytes =

@@ -20,11 +20,13 @@ bool isNotGiven(float value);
 /// gets what the shader had so far. 0 means no limit. The default ends after seconds, not hours.
 void setLoopLimit(int64_t iterations);
 
-/// `grid.params` are those of code.parameters, in their order, and grid.count must be
-/// greater than 0. For active points the grid gets: Ci and Oi of a surface; those of
-/// Ci, Oi and alpha that a volume or imager assigns, of P and N that a displacement
-/// assigns, of L and Cl that a light assigns; and wanted outputs. Problems are reported
-/// by TmServices::report. Loops end when the process is to stop (reyes/base/stop.h).
+/// `grid.params` are those of code.parameters, in their order, and grid.count must be greater than 0. Problems are
+/// reported by TmServices::report. Loops end when the process is to stop (reyes/base/stop.h). For active points the
+/// grid gets wanted outputs, and of
+///   a surface           Ci and Oi
+///   a volume or imager  those of Ci, Oi and alpha that it assigns
+///   a displacement      those of P and N that it assigns
+///   a light             those of L and Cl that it assigns
 void run(const Program& program, const TmGrid& grid);
 
 }  // namespace tomales::compiler

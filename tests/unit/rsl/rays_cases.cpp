@@ -1,4 +1,4 @@
-// Rays, pictures and clouds of points (rispec-table 9.5 and 9.6).
+// Rays, pictures and clouds of points.
 #include <cmath>
 
 #include "tests/unit/rsl/cases.h"

@@ -1,5 +1,5 @@
-// Every shadeop of rispec-table 9.1 to 9.3 on values of a batch, against values computed here by other means: varying
-// and uniform, and under a mask, which must leave the other points alone.
+// Every shadeop of RISpec 15.1 to 15.5 on values of a batch, against values computed here by other means: varying and
+// uniform, and under a mask, which must leave the other points alone.
 #include <cmath>
 #include <complex>
 
