@@ -1,8 +1,8 @@
 // Surfaces that rays see at several levels of detail, at all but the coarse level. Patches are cut into tiles; near
 // tiles of one level form a chunk, diced when a ray first comes there (docs/decisions/0036-geometry-cache.md). The
 // coarse polygons are those of raytrace/tessellate.h. Patches belong here where Attribute "trace" "tessellationmode"
-// asks for it, if they do not move, emit or belong to a solid and are not trimmed; flat patches without displacement
-// are exact as they are and stay out. Space: current. Threads: const members may be called concurrently.
+// asks for it. Patches that move, emit, are trimmed or belong to a solid stay out, and so do flat ones without
+// displacement, which are exact as they are. Space: current. Threads: const members may be called concurrently.
 #pragma once
 #include <array>
 

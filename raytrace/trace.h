@@ -114,10 +114,10 @@ class RayScene {
   /// valid.
   const std::vector<uint8_t>* groupsIn(const std::string& subset, const std::string& exclude) const;
 
-  /// Sets group, level, offset and bias of a ray of known spread and radius that leaves P on a micropolygon of this
-  /// group with edges no longer than `edgeLength` (0: a point of the true surface). The offset is trace:offset, and the
-  /// bias trace:bias; by default they exceed the largest distance between the coarse surface, the true one
-  /// (displacement bound included) and the micropolygon.
+  /// Prepares a ray to leave P: sets its group, level, offset and bias. Its spread and radius must be set already. P
+  /// lies on a micropolygon of this group with edges no longer than `edgeLength`; 0: on the true surface. The offset is
+  /// trace:offset, and the bias trace:bias; by default they exceed the largest distance between the coarse surface, the
+  /// true one (displacement bound included) and the micropolygon.
   void prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ray) const;
 
   /// The rays that left a group: how many there were, and how many had Hit::crowded.

@@ -84,9 +84,9 @@ using TilePlace = std::function<void(size_t index, DeepTile&& tile)>;
 using TileFill = std::function<void(std::span<const uint32_t> tiles, const TilePlace& place)>;
 /// Receives the rows that go to the Displays. May be empty.
 using RowViewer = std::function<void(const Image& rows)>;
-/// Writes the picture. It asks for the tiles that the next rows need, each once, in bands of rows from the top and
-/// there column by column, and drops tiles that no row needs any more. A Display that cannot be written is reported;
-/// the other Displays are written all the same.
+/// Writes the picture in bands of rows, from the top. For each band it asks for the tiles that are needed and not there
+/// yet, column by column. Each tile is asked for once, and dropped when no lower row needs it. A Display that cannot be
+/// written is reported; the other Displays are written all the same.
 void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene,
                 const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
 /// Makes the same rows for the viewer alone, before exposure and imager, and writes no files.

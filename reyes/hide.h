@@ -13,7 +13,8 @@
 
 namespace tomales {
 
-/// Positions of the samples of every pixel: one of 256 precomputed stratified patterns, chosen by a hash of the pixel.
+/// Positions of the samples of every pixel: one of up to 256 precomputed stratified patterns, chosen by a hash of the
+/// pixel.
 class SamplePattern {
  public:
   SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture = {});
@@ -101,8 +102,9 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
 
 /// Counts of samples whose result is uncertain or badly shown, from which warnings are made.
 struct HideDiagnostics {
-  /// Pixels in which chance decides which of two objects is seen, the first with the lower number: in a quarter of the
-  /// samples or more their depths differ by less than their error. Only opaque, still surfaces in focus count.
+  /// Numbers of pixels in which chance decides which of two objects is seen: in a quarter of the samples or more their
+  /// depths differ by less than their error. The first object of a pair has the lower number. Only opaque, still
+  /// surfaces in focus count.
   std::map<std::pair<int, int>, int> samePlaces;
   /// Visible micropolygons by object: `turned` counts those that are still and in focus and turn so far that a round
   /// outline has corners; `all` counts all.

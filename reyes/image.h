@@ -168,9 +168,9 @@ class DisplayFile {
 };
 /// Serves MakeShadow: the file of a Display needs no change, so it is checked and copied.
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log);
-/// Puts OpenEXR pictures of crop windows of one frame together, to the file that would have been written of the whole
-/// frame, whose own crop window is `crop`: parts, channels, deep pixels and headers. Throws FileError if they are not
-/// of one frame, leave pixels out or differ where they overlap, and WriteError.
+/// Joins OpenEXR pictures of crop windows of one frame to the file that the whole frame would have written, with its
+/// parts, channels, deep pixels and headers. `crop` is the frame's own crop window. Throws FileError if they are not of
+/// one frame, leave pixels out or differ where they overlap, and WriteError.
 void joinPictures(const std::vector<std::string>& tiles, const std::string& output,
                   const std::optional<std::array<float, 4>>& crop);
 /// Reads the channels of all parts of an OpenEXR file, which have the window of the first. Throws FileError.

@@ -24,9 +24,9 @@ struct SurfacePoint {
 
 /// The fate of a point whose way does not meet the surface.
 enum class Lost {
-  Stays,  ///< It is on the mesh of this surface, and so near to it.
-  /// It goes as far as its way reaches: the mesh is of another key time, and its reach ends where vertices are lost, so
-  /// that no point jumps from there to the surface.
+  Stays,  ///< It stays on the mesh, which belongs to this surface and so lies near it.
+  /// It goes to the end of its way, since the mesh belongs to another key time. Points that meet the surface lie within
+  /// the same reach, so that the shape does not jump where points begin to be lost.
   GoesOn,
 };
 

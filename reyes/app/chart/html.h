@@ -24,8 +24,9 @@ class Markup {
   std::string out_;
 };
 
-/// Markup for pictures of class "picture", whose names are in `data-name`: all get the exposure that a slider asks, in
-/// linear light, and two that are chosen take turns in one place. `white` is the value that is white in the files.
+/// Returns markup with tools for the pictures of class "picture", whose names are in `data-name`. A slider sets the
+/// exposure of all of them, in linear light. Two that are chosen take turns in one place. `white` is the value that is
+/// white in the files.
 std::string pictureTools(float white);
 
 /// Returns a file of reyes/app/chart/page, or Chart.js.

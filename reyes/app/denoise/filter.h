@@ -3,9 +3,9 @@
 // "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo Renderings"). Weights are those of non-local
 // means by the other half's colours and variance (Rousselle, Knaus and Zwicker 2012, "Adaptive Rendering with Non-Local
 // Means Filtering"). Of several widths of the filter, and none, each pixel takes the one with the least error around
-// it, which the other half tells. What a half says of a pixel has no part in its weights and hardly any in its choice,
-// so that it can tell the error there (Batson and Royer 2019, "Noise2Self"). Threads: pure; the result has the same
-// bits for any number of them.
+// it, which the other half tells. The colour that a half has at a pixel has no part in the weights for it, and hardly
+// any in the choice. So that half can tell the error at the pixel (Batson and Royer 2019, "Noise2Self"). Threads: pure;
+// the result has the same bits for any number of them.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -10,8 +10,8 @@ namespace tomales {
 namespace {
 
 constexpr float kAuditFloor = 0.01f;  ///< Added to the colour that errors are shares of, as in `tomales chart`.
-/// Paths at each point, of which a pixel sees several, in each of the two sets: so many at first, then as many again
-/// until their noise is a third of the error.
+/// Numbers of paths at each point in each of the two sets; a pixel sees several points. There are kFewestPaths at
+/// first, and then as many again until their noise is a third of the error.
 constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 1.0 / 3;
 constexpr int kTimesLightSamples = 16, kTimesLightSamplesOfBlocks = 4;

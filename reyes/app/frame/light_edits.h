@@ -8,8 +8,9 @@ struct LightEdits {
   /// The gain of each of IrradianceShot::groups (GiServices::mixShares); empty if all are 1 or there are no shares.
   /// *Example:* a light that is moved and made half as bright bounces half of what it bounced from its old place.
   std::vector<vec3> gains;
-  /// Handles of changed lights whose bounced light does not follow: the records have no shares, or more is changed than
-  /// parameters that are factors (isFactor()), or the gain differs from that of another light of the group.
+  /// Handles of changed lights whose bounced light does not follow the edit. That is so if the records have no shares,
+  /// if more is changed than parameters that are factors (isFactor()), or if the gain differs from that of another
+  /// light of the group.
   std::vector<std::string> stale;
 };
 

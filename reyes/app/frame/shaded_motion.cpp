@@ -22,8 +22,8 @@ class MovedLight {
  public:
   MovedLight(const RayScene& rays, const ShadingSystem& shading) : rays_(rays), shading_(shading) {}
 
-  /// Returns by how much the light at both ends of the way differs, as a share of its mean; half of it is what the
-  /// picture is off on the average, because it shows the first.
+  /// Returns how much the light differs between the two ends of the way, as a share of its mean. The picture shows the
+  /// light at the first end, so on average it is off by half of that.
   float change(std::span<const int> lights, const std::vector<Place>& first, const std::vector<Place>& last) const {
     std::vector<float> a(first.size(), 0), b(first.size(), 0);
     for (const int l : lights) {

@@ -1,6 +1,6 @@
 // A shot that is lit again and again: the picture's share by each group of lights, and the whole under the present
-// edit. It shades what an edit makes old in a thread of its own: first coarse, then near the pointer, and gives an edit
-// that makes the running work useless precedence over it. Threads: any may call the members.
+// edit. A thread of its own shades what an edit makes old: first coarse, then near the pointer. An edit that makes the
+// running work useless ends that work. Threads: any may call the members.
 #pragma once
 #include <atomic>
 #include <chrono>

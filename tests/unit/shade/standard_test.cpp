@@ -1,5 +1,6 @@
 // The standard surfaces under all standard lights at once, at random points, against the formulas of RISpec 3.2,
-// appendix A, written out in double precision. Imagers, volumes and displacements have tests beside those of their stage.
+// appendix A, written out in double precision. Imagers, volumes and displacements have tests beside those of their
+// stage.
 #include <array>
 #include <random>
 
