@@ -46,7 +46,7 @@ const page = 1 + Math.floor(Math.random() * 999999998);
 const watches = () => Boolean(status.editor) && status.editor !== page;
 addEventListener("pagehide", () => navigator.sendBeacon(`leave?page=${page}`));
 const postEdit = (more = "") => post(`edit?page=${page}${more}`, state);
-/** Lights that are heard alone, or not: a way of looking, and no part of the edit. */
+/** Lights that are shown alone, and lights that are hidden. They change the view and are no part of the edit. */
 const solo = new Set(), mute = new Set();
 
 const notes = new Set();
@@ -60,7 +60,7 @@ const note = (text, warns = true) => {
 };
 const guarded = (action) => async (...given) => { try { await action(...given); } catch (e) { note(e.message); } };
 
-/** How much of each layer is in the picture: what its light sends now over what it was shaded with. */
+/** Returns the factor on each layer in the picture: the colour that its light sends now over the one it was shaded with. */
 const weights = () => scene.layers.map((layer, i) => {
   if (i === 0) return [1, 1, 1];
   if ((solo.size > 0 && !solo.has(layer.name)) || mute.has(layer.name)) return [0, 0, 0];
@@ -95,7 +95,7 @@ const paint = () => {
   });
 };
 
-/** What comes next is painted at once. */
+/** Lets what comes next be painted at once. */
 const expectFirst = () => { isFirst = true; };
 /** Paints what has come: the first of the present edit and the last at once. */
 const paintNews = (isPresent, isLast) => {

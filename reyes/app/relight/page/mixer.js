@@ -28,7 +28,7 @@ export class Mixer {
     if (width === this.width && height === this.height) this.parts[layer].clear();
     this.parts[layer].set(`${x},${y}`, { x, y, width, height, step, version, time: performance.now() });
   }
-  /** Says whether layer 0 is the picture there. */
+  /** Sets whether layer 0 is the whole picture in a rectangle, in place of the sum of the layers. */
   fresh(x, y, width, height, value) {
     if (!value && !this.hasFresh) return;
     this.hasFresh = value || width < this.width || height < this.height;

@@ -22,11 +22,11 @@ const blocksOf = (buffer, from) => {
   return out;
 };
 
-const kCoarse = 16;  // squares of a coarse picture, which finer blocks follow of themselves
-const kWait_s = 0.4;  // what is new may take so long to come; what does not fit comes coarser first
+const kCoarse = 16;  // kCoarseStep (layers.h): the step of a coarse picture. Its finer blocks come later, as news.
+const kWait_s = 0.4;  // news may take so long to come; what does not fit comes coarser first
 const kLeast_bytes = 50e3, kMost_bytes = 3e6, kTelling_bytes = 32e3;
 
-/** What is known of the way to the program. */
+/** The connection to the program: its rate in bytes per second, and the bytes received so far. */
 export const link = { rate: 2e7, received: 0 };
 
 /** Calls `tell(status, blocks)` with all that is new, until the program ends: coarse where the link is slow, and at full size
