@@ -1,9 +1,10 @@
 // Noun: diced pieces of one object, all of (nu+1) x (nv+1) vertices and nu x nv micropolygons, structure of arrays in
 // one aligned block. A large piece has a grid of its own; small ones share a grid, so that the cost of a grid is paid
-// once for dozens of pieces (docs/decisions/0040). They are stacked: vertex (i, j) of piece p has index (p * (nv+1) +
-// j) * (nu+1) + i, and micropolygon (i, j) has number (p * (nv+1) + j) * nu + i. Numbers between the last row of a
-// piece and the next piece name nothing. A grid is diced once, shared by the buckets that its bound touches, and
-// freed after the last of them.
+// once for dozens of pieces (docs/decisions/0040). They are stacked:
+//   vertex (i, j) of piece p         has index  (p * (nv+1) + j) * (nu+1) + i
+//   micropolygon (i, j) of piece p   has number (p * (nv+1) + j) * nu + i
+// Numbers between the last row of a piece and the next piece name nothing. A grid is diced once, shared by the buckets
+// that its bound touches, and freed after the last of them.
 #pragma once
 #include "reyes/base/pool.h"
 #include "reyes/scene.h"
