@@ -23,8 +23,8 @@ constexpr int kChunkPolygons = 64 * 64;  ///< A chunk is full at so many: docs/d
 /// Tiles of a chunk. Embree would build a larger scene with several threads, and the bits would depend on their
 /// number.
 constexpr size_t kChunkTiles = 1024;
-constexpr int kTileProbes =
-    8;  ///< Cells along u and v of the lattice over a tile that shows where its bound is too small.
+/// Cells along u and v of the lattice over a tile that shows where its bound is too small.
+constexpr int kTileProbes = 8;
 constexpr int kSampled = 4;  ///< Polygons along u and v of the part of a tile whose deviation is measured.
 constexpr size_t index(Level level) { return static_cast<size_t>(level); }
 

@@ -85,8 +85,8 @@ inline bool leaves(const vec3& direction, const vec3& normal, bool flips) {
 
 // Filters of traversals: Embree calls the context's filter after the geometry's.
 void rejectUnseen(const RTCFilterFunctionNArguments* args);  ///< Rejects hits that the ray's RayFilter rejects.
-void recordNear(
-    const RTCFilterFunctionNArguments* args);  ///< Records and rejects hits in the window, accepts those beyond.
+/// Records and rejects hits in the window, accepts those beyond.
+void recordNear(const RTCFilterFunctionNArguments* args);
 /// Accepts opaque hits beyond the window, which ends the traversal; records and rejects all others.
 void recordShadow(const RTCFilterFunctionNArguments* args);
 void recordAll(const RTCFilterFunctionNArguments* args);  ///< Records and rejects every hit.

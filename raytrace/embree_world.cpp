@@ -11,8 +11,8 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kManyQuads =
-    4096;  ///< A geometry of its own costs less than copies of so many quads (Geometry in raytrace/embree_filters.h).
+/// A geometry of its own costs less than copies of so many quads (Geometry in raytrace/embree_filters.h).
+constexpr size_t kManyQuads = 4096;
 
 /// Embree tells by returning no device where memory does not suffice.
 RTCDevice newDevice() {

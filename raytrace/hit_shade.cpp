@@ -8,8 +8,8 @@
 namespace tomales {
 namespace {
 
-constexpr float kLeastSpread =
-    5e-4f;  ///< Radius of the footprint of a ray without one, for each unit of its length: about a pixel.
+/// Radius of the footprint of a ray without one, for each unit of its length: about a pixel.
+constexpr float kLeastSpread = 5e-4f;
 
 int primvarFloats(const ShadeGroup& group) {
   return std::accumulate(group.primvars.begin(), group.primvars.end(), 0,

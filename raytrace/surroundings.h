@@ -10,8 +10,8 @@ namespace tomales {
 
 class Surroundings {
  public:
-  static constexpr size_t kMost =
-      32;  ///< Greatest number of polygons; testing more would cost a ray more than a filter does.
+  /// Greatest number of polygons; testing more would cost a ray more than a filter does.
+  static constexpr size_t kMost = 32;
 
   /// Removes all polygons; those within `reach` of the origin are to be added.
   void reset(const vec3& origin, float reach);

@@ -42,8 +42,8 @@ struct CoarseGroup {
   bool flipsNormal = false;  ///< The RISpec side is opposite to dP/du x dP/dv.
   /// The number of quads at the end that have finer levels (raytrace/chunks.h): only coarse rays see them.
   size_t onlyCoarse = 0;
-  float deviation =
-      0;  ///< Largest distance between a polygon and the surface that it stands for, without `onlyCoarse`.
+  /// Largest distance between a polygon and the surface that it stands for, without `onlyCoarse`.
+  float deviation = 0;
   float coarseDeviation = 0;  ///< The same for `onlyCoarse`.
   float size = 0;             ///< Diagonal of the largest object's bound.
 

@@ -84,9 +84,9 @@ class Emitters;
 
 struct RaySettings {
   bool hitList = true;
-  size_t geometryCacheBytes =
-      kDefaultGeometryCache;  ///< Budget for surfaces of several levels (docs/decisions/0036-geometry-cache.md).
-  size_t coarseBytes = 0;     ///< Memory for coarse polygons, which are larger if they need more; 0: no limit.
+  /// Budget for surfaces of several levels (docs/decisions/0036-geometry-cache.md).
+  size_t geometryCacheBytes = kDefaultGeometryCache;
+  size_t coarseBytes = 0;  ///< Memory for coarse polygons, which are larger if they need more; 0: no limit.
 
   static constexpr size_t kDefaultGeometryCache = 30 << 20;
 };

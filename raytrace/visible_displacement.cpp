@@ -22,8 +22,8 @@ constexpr double kAlwaysQuads = 1 << 17;
 constexpr size_t kProbedPoints = 4096, kProbedPatches = 64;
 constexpr int kFewestCells = 4, kMostCells = 32;  ///< A probed patch has so many along u and v.
 constexpr float kLongest_px = 32;  ///< Longer polygons are no picture of the surface, and rays would start within it.
-constexpr float kNearPart_px =
-    256;                           ///< The near part of a patch is no larger, so that probes lie close together there.
+/// The near part of a patch is no larger, so that probes lie close together there.
+constexpr float kNearPart_px = 256;
 constexpr int kMostHalvings = 64;  ///< Ground at the eye plane is never that small.
 
 bool isUndecided(const Attributes& a) { return leavesDisplacementOpen(a) && raysNeed(a); }

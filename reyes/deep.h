@@ -86,8 +86,8 @@ struct DeepFrame {
   int bucketWidth = 32, bucketHeight = 32, columns = 0, rows = 0;
   int samplesPerPixel = 1;
   bool complete = true;  ///< False if the frame was interrupted, so that some tiles are empty.
-  std::vector<DeepTile>
-      tiles;  ///< Tiles of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.
+  /// Tiles of some rows of buckets, from the top: all of them, a band that moves down the frame, or none.
+  std::vector<DeepTile> tiles;
   int firstRow = 0;  ///< Row of the first of `tiles`.
 
   /// Tiles are numbered by rows from the top, whether they are in memory or not.

@@ -60,8 +60,8 @@ struct TextureSettings {
   std::string cacheFolder{};  ///< Where converted pictures are kept; if empty: $TOMALES_TEXTURE_CACHE or the user's
                               ///< cache folder.
   int64_t memory_bytes = int64_t{1} << 30;
-  std::function<void(const std::string& what)>
-      note{};  ///< Told what was damaged in the folder and is made anew; it is called by any thread.
+  /// Told what was damaged in the folder and is made anew; it is called by any thread.
+  std::function<void(const std::string& what)> note{};
 };
 
 /// Endings of names of textures, those of other renderers among them; the best to read first.

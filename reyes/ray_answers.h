@@ -50,8 +50,8 @@ struct RayAnswers {
   bool recordsStay = false;
   std::map<ShadowQuestion, ShadowAnswer> shadows;
   std::map<uint64_t, IndirectAnswer> indirect;  ///< Answers at points that the irradiance cache does not serve.
-  std::map<uint64_t, std::optional<IndirectAnswer>>
-      interpolated;  ///< Answers of the irradiance cache elsewhere; empty: it serves nothing.
+  /// Answers of the irradiance cache elsewhere; empty: it serves nothing.
+  std::map<uint64_t, std::optional<IndirectAnswer>> interpolated;
 };
 
 }  // namespace tomales

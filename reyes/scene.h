@@ -32,8 +32,8 @@ struct Object {
   // Filled by Scene::freeze().
   Motion cameraFromObject;   ///< Over the shutter; one key when nothing moves.
   Motion currentFromObject;  ///< The same with the camera held at its place of shutter open: the motion that rays see.
-  std::vector<float>
-      keyTimes;  ///< Union of transformation and deformation keys inside the shutter; front() is its opening.
+  /// Union of transformation and deformation keys inside the shutter; front() is its opening.
+  std::vector<float> keyTimes;
   float displacementBound = 0;  ///< Radius in camera space.
   bool flipsNormal = false;     ///< True if either cameraFromObject mirrors or Orientation is inside, but not both.
   bool subtracted = false;      ///< Its solid lies on the side of its normals, which are turned for shading.

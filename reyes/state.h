@@ -20,8 +20,8 @@ namespace tomales {
 /// (the shorter one), and position, scale and shear are linear. If a mirror or a projection lies between two keys, the
 /// matrix is linear.
 struct Motion {
-  static constexpr float kLargestTurn =
-      0.17453293f;  ///< 10 degrees: a chord then leaves its circle by 0.4 % of the radius.
+  /// 10 degrees: a chord then leaves its circle by 0.4 % of the radius.
+  static constexpr float kLargestTurn = 0.17453293f;
 
   std::vector<float> times{0.0f};
   std::vector<mat4> keys{mat4(1.0f)};

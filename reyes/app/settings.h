@@ -43,8 +43,8 @@ struct RenderSettings {
                                       ///< --gi progressive.
   double photonNoise = 0;             ///< Counted photons end when their noise is less than this share of their light.
   bool atlasDirect = false;  ///< Maps of --gi atlas hold direct light; else gather rays sample lights where they hit.
-  float brickMaxError =
-      0.03f;  ///< Brick maps of --gi atlas leave out bricks whose voxels vary by less of the map's mean.
+  /// Brick maps of --gi atlas leave out bricks whose voxels vary by less of the map's mean.
+  float brickMaxError = 0.03f;
   float radiosityTexels = 1;    ///< Factor on the texels along each edge of a radiosity map.
   std::string radiosityFolder;  ///< Radiosity maps are written there too, unless it is empty.
   std::string atlasFolder;      ///< Brick maps to use or to make, in a temporary folder if empty. For --gi points:

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kSmall_cells = 256;     ///< Pieces with fewer cells share a node if they begin in the same bucket.
 constexpr int kStack_vertices = 512;  ///< Grids of a node are stacked up to about so many vertices.
-constexpr int kStacked_vertices =
-    64;  ///< A piece with more vertices is not stacked: too many would be diced for one that is visible.
+/// A piece with more vertices is not stacked: too many would be diced for one that is visible.
+constexpr int kStacked_vertices = 64;
 
 TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
   const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);

@@ -76,8 +76,8 @@ struct SampleBuffer {
   TransparentLayers layers;
   TransparentLayers crossings;        ///< All surfaces of solids that cover a sample, however deep.
   std::vector<PixelTest> pixelTests;  ///< Memory for the rasterisers.
-  std::vector<DepthConflict>
-      depthConflicts;  ///< Conflicts of opaque, still surfaces in focus; some may be hidden later.
+  /// Conflicts of opaque, still surfaces in focus; some may be hidden later.
+  std::vector<DepthConflict> depthConflicts;
 
   /// Tells whether 16 bits hold the positions on the lattice.
   bool fitsLattice() const {

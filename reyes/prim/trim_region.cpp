@@ -7,8 +7,8 @@
 namespace tomales {
 namespace {
 
-constexpr double kFlatness =
-    1.0 / (1 << 19);  ///< Relative to the parameter square: a tenth of a pixel for 50,000 px of surface.
+/// Relative to the parameter square: a tenth of a pixel for 50,000 px of surface.
+constexpr double kFlatness = 1.0 / (1 << 19);
 constexpr int kMostHalvings = 16;
 constexpr double kGap = 1e-4;  ///< Ends of curves no farther apart are closed without a warning.
 constexpr size_t kMostSlabs = 256;

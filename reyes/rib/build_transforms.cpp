@@ -23,8 +23,8 @@ std::optional<mat4> perspective(float fov_degrees) {
 }
 
 // Shifts points along b so that a turns by `angle` towards b. Let theta be the angle between a and b, and n the unit
-// vector in their plane that is perpendicular to b. Then a + k (n.a) b is at angle theta - `angle` to b if k =
-// cot(theta - angle) - cot(theta).
+// vector in their plane that is perpendicular to b. Then a + k (n.a) b is at the angle theta - `angle` to b with
+//   k = cot(theta - angle) - cot(theta).
 std::optional<mat4> skew(const RibArg& r) {
   const vec3 a = normalizeOr(asVec3(r, 1), vec3(0)), b = normalizeOr(asVec3(r, 4), vec3(0));
   const vec3 n = normalizeOr(a - dot(a, b) * b, vec3(0));

@@ -36,8 +36,8 @@ struct Register {
   int32_t depth = 0;  ///< The number of control structures around its declaration.
   Detail declared = Detail::Unstated;
   Place place{};  ///< Place of its declaration.
-  int32_t slot =
-      -1;  ///< Place in the machine, in floats for each point (varying) or value (uniform): passes/allocate.h.
+  /// Place in the machine, in floats for each point (varying) or value (uniform): passes/allocate.h.
+  int32_t slot = -1;
 };
 
 /// An entry of an optional list: trace(P, R, "samples", 16).

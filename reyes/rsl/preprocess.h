@@ -23,8 +23,8 @@ struct Token {
   std::string text{};
   float number = 0;
   Place place{};
-  std::shared_ptr<const std::string>
-      comment{};  ///< The comment directly before a word that may begin a shader, or null.
+  /// The comment directly before a word that may begin a shader, or null.
+  std::shared_ptr<const std::string> comment{};
   bool is(std::string_view punctuator) const { return kind == TokenKind::Punctuator && text == punctuator; }
   bool isName(std::string_view name) const { return kind == TokenKind::Name && text == name; }
 };

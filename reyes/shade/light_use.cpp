@@ -12,8 +12,8 @@ namespace {
 constexpr size_t kMostNamed = 3;       ///< One message names no more surfaces.
 constexpr int64_t kFewLitPoints = 10;  ///< Fewer counted points say nothing about a picture.
 constexpr double kShareOfLitPoints = 0.5;
-constexpr int kCounted =
-    16;  ///< One point of so many is counted, which tells a share of the picture as well as all do.
+/// One point of so many is counted, which tells a share of the picture as well as all do.
+constexpr int kCounted = 16;
 constexpr int kGlare_stops = 4;  ///< No film of any time shows white paper at sixteen times its white.
 
 bool isDirect(const BoundLight& light) { return !light.can(TM_LIGHT_INDIRECT); }

@@ -36,8 +36,8 @@ class LightUse {
     std::atomic<bool> bright{false};  ///< Its shader sends light to some point.
     std::atomic<bool> faces{false};   ///< Some such point faces it.
     std::atomic<bool> comes{false};   ///< No shadow covers some point that faces it.
-    std::array<std::atomic<int64_t>, kStops>
-        stops{};  ///< Numbers of points that it makes 2^k to 2^(k+1) times as bright as white.
+    /// Numbers of points that it makes 2^k to 2^(k+1) times as bright as white.
+    std::array<std::atomic<int64_t>, kStops> stops{};
   };
   void follow(const Batch& batch, const LightSample& sample, Lamp& lamp);
   void countStops(const Batch& batch);

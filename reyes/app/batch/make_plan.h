@@ -8,8 +8,8 @@ namespace tomales {
 struct PlanOptions {
   RenderSettings render;           ///< Settings of `render`; `frames` are those of the batch.
   std::array<int, 2> tiles{1, 1};  ///< Columns and rows of tiles of each frame.
-  int sharedRecords =
-      1;  ///< Frames in a row that share irradiance records, each beginning with those of the one before.
+  /// Frames in a row that share irradiance records, each beginning with those of the one before.
+  int sharedRecords = 1;
   /// Tasks that trace the photons of one world; 0: their number follows from that of the photons.
   int photonParts = 0;
   /// Words of the user for options of pictures, for the passes that take them.

@@ -17,8 +17,8 @@ struct BatchReport {
   std::vector<BatchFailure> failures;
   double cpu_s = 0;
   int64_t peak_bytes = 0;
-  double left_s =
-      -1;  ///< Estimated from the tasks that are done, by as many at a time as run now; negative: not known.
+  /// Estimated from the tasks that are done, by as many at a time as run now; negative: not known.
+  double left_s = -1;
 
   size_t frames() const { return finished.size() + running.size() + failed.size() + blocked.size() + waiting.size(); }
 };

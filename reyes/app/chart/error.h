@@ -17,10 +17,10 @@ struct ErrorFigures {
   double p99 = 0;       ///< The 99th percentile, with that noise.
   double bias = 0;      ///< The sums of all pixels: test / reference - 1.
   double rms = 0;       ///< Root mean square of (test - reference), over the mean of the reference; without its noise.
-  int64_t notFinite =
-      0;  ///< Pixels that are infinite or no numbers: in the test they count as black, in the reference not at all.
-  double confidence =
-      0;  ///< Half the 95 % interval of `mean` that the noise of the reference leaves (jackknife over its batches).
+  /// Pixels that are infinite or no numbers: in the test they count as black, in the reference not at all.
+  int64_t notFinite = 0;
+  /// Half the 95 % interval of `mean` that the noise of the reference leaves (jackknife over its batches).
+  double confidence = 0;
   std::vector<double> without{};  ///< Indexed by batch of the reference: the value of `measured` without that batch.
 };
 

@@ -15,8 +15,8 @@
 namespace tomales {
 namespace {
 
-constexpr const char* kDenoised =
-    "tomales:denoised";  ///< The header that says what was done, and the error that is left.
+/// The header that says what was done, and the error that is left.
+constexpr const char* kDenoised = "tomales:denoised";
 constexpr std::array<const char*, 3> kColor{"R", "G", "B"};
 
 /// A guide by the names of its channels, of which the first set that is there counts.
