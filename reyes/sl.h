@@ -5,8 +5,9 @@
 //     void main() { Normal Nf = faceforward(normalize(N), I);  Oi = Os;  Ci = Os * Cs * diffuse(Nf); }
 //   };
 //   const rsl::Shader shader(TM_SURFACE, "matte", "doc", TM_KEEPS_OPACITY, sl::shade<matte>, {});
-// Declarations take all points; assignments (=, +=) only those of the conditionals and loops around them, and so do
-// services. Threads: a value belongs to the thread and the run of a shader that made it.
+// A declaration sets the value at all points. An assignment (=, +=) changes it only at the points for which the
+// conditionals and loops around it run, and services too take only those. Threads: a value belongs to the thread and
+// the run of a shader that made it.
 #pragma once
 #include <type_traits>
 
@@ -62,9 +63,9 @@ struct Lit : Globals {
   Color Cl;
   int lightNumber = -1;  ///< The light's number, for ask(TM_OF_LIGHT, ...).
 
-  /// RSL illuminance(): runs `body` once for each sample of each light, for the points that it reaches at p and whose
-  /// cone of half angle `angle` around the axis holds it (the angle is a number, or one for each point). Without an
-  /// axis light counts from all sides. lights() makes lists.
+  /// RSL illuminance(): runs `body` once for each sample of each light. It runs for the points whose p the light
+  /// reaches from within a cone around the axis. `angle` is half the angle of the cone: a number, or one for each
+  /// point. Without an axis light counts from all sides. lights() makes lists.
   template <class Angle, class Body>
   void illuminance(const char* category, const Point& p, const Vector& axis, const Angle& angle, const LightList& list,
                    const Body& body) {
@@ -171,8 +172,9 @@ struct Light : Globals {
     }
   }
   Point Ps{rsl::view(grid()->P)};
-  Vector L{-Vector(rsl::view(grid()->L))};  ///< The vector from the light to Ps. It counts in illuminate() and solar();
-                                            ///< for area lights and skies, where the renderer sets it, everywhere.
+  /// The vector from the light to Ps. It counts in illuminate() and solar(). For area lights and skies the renderer
+  /// sets it, and it counts everywhere.
+  Vector L{-Vector(rsl::view(grid()->L))};
   Color Cl;
 
   /// RSL illuminate(): runs `body` for the points in the cone (half angle). The others get no light.

@@ -39,8 +39,8 @@ inline Float snoise(const Triple& p) { return 2 * noise(p) - 1; }
 inline Float filteredsnoise(const Triple& p, const Float& width) {
   return snoise(p) * (1 - smoothstep(0.2f, 0.75f, width));
 }
-/// Returns a sum of octaves, each `lacunarity` times as fine and `gain` times as strong as the one before; `each` makes
-/// of an octave what is added.
+/// Returns a sum of octaves, each `lacunarity` times as fine and `gain` times as strong as the one before. The function
+/// `each` changes the noise of an octave before it is added.
 template <class Each>
 Float octaves(const Point& p, const Float& width, int most, float lacunarity, float gain, const Each& each) {
   Float sum = 0;

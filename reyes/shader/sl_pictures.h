@@ -28,8 +28,8 @@ Float ftexture(const char* name, int channel, const Float& s, const Float& t, co
   grid()->call->texture(grid()->host, grid(), name, &one, s.data(), t.data(), {out.data(), nullptr, nullptr});
   return out;
 }
-/// RSL's texture(name, s1, t1, ... s4, t4): over the quadrilateral whose corners go round as a bilinear patch's, s1 and
-/// s4 opposite.
+/// RSL's texture(name, s1, t1, ... s4, t4): averages over the quadrilateral with these corners. They have the order of
+/// a bilinear patch's corners, so that s1 and s4 lie opposite each other.
 inline Triple texture(const char* name, const Float (&s)[4], const Float (&t)[4],
                       TmTextureOptions options = tmTextureDefaults()) {
   const auto middle = [](const Float(&x)[4]) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); };

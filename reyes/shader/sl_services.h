@@ -35,8 +35,8 @@ inline Triple Deriv(const Triple& a, const Float& b) { return Du(a) / Du(b) + Dv
 inline Float filterstep(const Float& edge, const Float& x) {
   return filterstep(edge, x, abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv)));
 }
-/// Gives another number in [0, 1) at every call. A hash of the point makes it, whose key is the 48 bits of the point's
-/// first stratified sample, and which differs from the hash that gives directions to its lobes.
+/// Returns a number in [0, 1), another one at every call. It is a hash of 48 bits that name the point (those of its
+/// first stratified sample) and of the number of the call. Directions for lobes come from another hash.
 inline Float randomNumber() {
   const int call = Run::now().randoms++;
   Float x, y;
