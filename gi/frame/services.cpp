@@ -8,7 +8,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kTimesOfLight = 16;  ///< Least number of times that the shadows of one light see, over all its samples.
+constexpr int kTimesOfLight =
+    16;  ///< The shadow rays of one light see at least so many times of the shutter, over all its samples.
 
 }  // namespace
 
