@@ -91,7 +91,7 @@ class Glossy {
     return std::any_of(lobes_.begin(), lobes_.end(), [](const Lobes& l) { return l.material.matte > 0; });
   }
 
-  /// Adds the part of one sample of the lights; addLobeSamples() adds the rest.
+  /// Adds the part of one sample of the lights, weighted by the power heuristic. addLobeSamples() adds the rest.
   void addLightSample(const TmIlluminance& sample, rsl::Vec3Array& sum) {
     g_->call->lightDensity(g_->host, g_, sample.light, density_.data());
     for (int i : b_) {
@@ -132,8 +132,8 @@ class Glossy {
     }
   }
 
-  /// A mirrored scene has more detail than lights have, so it takes twice the directions that those want. Rays would
-  /// multiply in repeated reflections.
+  /// Returns the number of directions. A mirrored scene has more detail than lights have, so it takes twice the
+  /// directions that lights want, but not in repeated reflections, where rays would multiply.
   int directions() const {
     const int ofLights = static_cast<int>(g_->call->lobeSamples(g_->host, g_));
     return std::max(least_, mirrors_ && b_.rayDepth() == 0 ? 2 * ofLights : ofLights);

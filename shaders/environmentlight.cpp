@@ -13,10 +13,12 @@ rsl::StringParam portals("portals", "",
                          "CoordinateSystems, the unit squares of which are windows that the sky shines through",
                          TM_ROLE_SKY_PORTALS);
 
-// Angle in radians of the filter of map lookups: that of the cells by which the map's brightness is known.
+// Angle in radians over which the map is filtered: that of one of the 1024 columns of cells by which its brightness is
+// known.
 constexpr float kCell = 0.00614f;
 
-/// environment() takes world directions: those with the coordinates in world space that L has in the map's space.
+/// environment() takes world directions. For a map in shader space, a direction is returned that has the coordinates in
+/// world space which L has in shader space.
 rsl::Vec3Array directions(const TmGrid* g) {
   rsl::Vec3Array out(g);
   for (int i : rsl::Batch(g)) out.set(i, rsl::get(g->L, i));

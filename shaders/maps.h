@@ -83,7 +83,8 @@ inline rsl::Color linearOfSrgb(rsl::Color c) {
 }
 
 /// The colours of a picture at the points of a batch; white where there is none. The renderer multiplies colours by the
-/// picture's alpha as it reads them. That of sRGB is divided out again, as such pictures keep colours and alpha apart.
+/// picture's alpha as it reads them. For sRGB that is divided out again before the colours are made linear, because
+/// such pictures keep colours and alpha apart.
 class ColorPicture {
  public:
   ColorPicture(const rsl::Batch& b, Coordinates::Pair at, const char* map, bool isSrgb) {

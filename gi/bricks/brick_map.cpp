@@ -108,8 +108,8 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
   const float voxel = tree().cube.voxelSize(level);
   const int end = kBrickWidth << level;
   const vec3 p = (P - tree().cube.lo) / voxel;
-  const float h =
-      std::min(halfWidth / voxel, 1.0f);  // more than 1 only if the lookup is wider than the voxels of the root
+  // The quotient is more than 1 only if the lookup is wider than the voxels of the root.
+  const float h = std::min(halfWidth / voxel, 1.0f);
   if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2))))
     return;
   const VoxelOverlap xs(p.x, h, end), ys(p.y, h, end), zs(p.z, h, end);

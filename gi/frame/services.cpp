@@ -8,8 +8,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kTimesOfLight =
-    16;  ///< The shadow rays of one light see at least so many times of the shutter, over all its samples.
+/// The shadow rays of one light see at least so many times of the shutter, over all its samples.
+constexpr int kTimesOfLight = 16;
 
 }  // namespace
 

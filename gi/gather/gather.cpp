@@ -16,13 +16,13 @@ constexpr float kHessianTolerance = 4;
 constexpr int kMostSplit = 8;
 constexpr float kMostAimed = 0.5f;  ///< Greatest number of rays at bright spots, for each ray of the hemisphere.
 constexpr size_t kLeastAimed = 8;
-constexpr size_t kRaysOfProbe =
-    8;  ///< For each so many rays of the hemisphere, one more finds out whether a spot can be seen.
+/// For each so many rays of the hemisphere, one more finds out whether a spot can be seen.
+constexpr size_t kRaysOfProbe = 8;
 /// Least number of rays of the hemisphere for each spot. With fewer, probes would cost too much.
 constexpr size_t kLeastPerSpot = 4;
 constexpr float kLeastShare = 0.05f;  ///< Share of a spot's light that is assumed when its few probes have seen none.
-constexpr float kFoundByChance =
-    160;  ///< No rays are aimed if the hemisphere alone is expected to send so many to the spots.
+/// No rays are aimed if the hemisphere alone is expected to send so many to the spots.
+constexpr float kFoundByChance = 160;
 constexpr float kUnhidden = 1.5f;  ///< Below this many times kFoundByChance, probes find out whether spots are hidden.
 /// Above it, probes are traced only where less than this share of the spots' light is seen.
 constexpr float kHidden = 0.25f;
