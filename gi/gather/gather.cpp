@@ -123,7 +123,8 @@ class Hemisphere {
   }
 
   /// Finds the share of each spot's light that arrives: something may be in between, or the spot shines elsewhere.
-  /// These rays do not count for the estimate, which stays unbiased because no ray that counts decides where others go.
+  /// These rays do not count for the estimate: rays that follow the finds of others that count make it too dark
+  /// (docs/decisions/0092).
   void probe(Stats& stats) {
     const size_t targets = aim_.targets();
     if (targets == 0 || count_ < kLeastPerSpot * targets) return;
