@@ -1,7 +1,7 @@
 // Composer: implements ShadeServices with ray tracing and global illumination (injected by reyes/app), and the gather
 // pass that fills the irradiance cache from the deep frame buffer before anything is shaded. Space: current.
 // Irradiance: E/pi, except in files. Threads: the members of ShadeServices may be called concurrently; all others
-// belong to one thread, which calls none of them while something is shaded.
+// belong to one thread, and what they set stays as it is while something is shaded.
 #pragma once
 #include "gi/atlas.h"
 #include "gi/gather.h"
