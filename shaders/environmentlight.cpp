@@ -6,7 +6,8 @@ namespace {
 rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of the sky, or what multiplies its map", TM_ROLE_TINT);
 rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform", TM_ROLE_SKY_MAP);
-rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader", TM_ROLE_SKY_SPACE);
+rsl::StringParam mapspace("mapspace", "world", "space whose +z is the top of the map: world or shader",
+                          TM_ROLE_SKY_SPACE);
 rsl::FloatParam samples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: specular rays do not see it", TM_ROLE_VISIBLE);
 rsl::StringParam portals("portals", "",

@@ -14,7 +14,7 @@ struct SecondSet {
     using FloatParam::FloatParam;
     const float* values(const TmGrid* g) const { return value(g).step == 1 ? value(g).c[0] : nullptr; }
   };
-  Coordinate s{"s1", 0, "second texture coordinate across"}, t{"t1", 0, "and down"};
+  Coordinate s{"s1", 0, "second texture coordinate across"}, t{"t1", 0, "second texture coordinate down"};
   rsl::StringParam maps{"secondset", "", "which pictures, as in \"normalmap roughnessmap\", are looked up at s1, t1"};
 };
 

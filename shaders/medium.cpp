@@ -9,11 +9,12 @@
 namespace {
 rsl::ColorParam scattering("scattering", {0.1f, 0.1f, 0.1f}, "for each unit of the world (in a Volume: and of density)",
                            TM_ROLE_SCATTERING);
-rsl::ColorParam absorption("absorption", {0, 0, 0}, "likewise", TM_ROLE_ABSORPTION);
-rsl::FloatParam anisotropy("anisotropy", 0, "mean cosine of the angle of scattering: above 0 onwards, below 0 back");
+rsl::ColorParam absorption("absorption", {0, 0, 0}, "for each unit of the world (in a Volume: and of density)",
+                           TM_ROLE_ABSORPTION);
+rsl::FloatParam anisotropy("anisotropy", 0, "mean cosine of the scattering angle: above 0 forwards, below 0 back");
 rsl::UniformFloatParam steps("steps", 32, "places of each ray that are lit; powers of two are the least noisy");
 rsl::FloatParam lightway("lightway", 0,
-                         "light is dimmed on its way here, from its lamp or for at most this far; 0: not at all");
+                         "greatest length of the way from a lamp over which its light is dimmed; 0: not dimmed");
 rsl::StringParam map(
     "map", "",
     "brick map of the fluence, as FOLDER/scene.volume.bkm of --gi atlas --atlas FOLDER: light that was "
