@@ -24,7 +24,7 @@ struct Screen {
 };
 
 /// Ward et al. 1988: the greatest gradient of light from a sphere around the point that is half bright and half dark.
-/// Their weight is used less 1, so that it falls to 0 where the record ends.
+/// One is subtracted from their weight, so that it falls to 0 where the record ends.
 struct SplitSphere {
   float kappa;
 

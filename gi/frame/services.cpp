@@ -14,7 +14,7 @@ constexpr int kTimesOfLight = 16;
 }  // namespace
 
 struct GiServices::Impl : GiState {
-  /// Null: neither a file nor the geometry holds emitters.
+  /// Returns null if neither a file nor the geometry holds emitters.
   const Emitters* knownEmitters() const {
     if (emitters) return &*emitters;
     const RayTools* tools = rays();
