@@ -1,5 +1,5 @@
-# Writes OUTPUT with the commit of the sources, and leaves it alone if that is what it says already. An archive made by
-# `git archive` has the commit here instead of the first line (.gitattributes).
+# Writes the commit of the sources to OUTPUT, unless it is there already. `git archive` puts the commit in the place of
+# the pattern of `set(commit ...)` (.gitattributes).
 cmake_minimum_required(VERSION 3.25)
 set(commit "$Format:%H$")
 if(commit MATCHES "Format")

@@ -1,4 +1,4 @@
-# What Debian 12 packages, with the five places where its packaging needs help.
+# The libraries, as Debian 12 packages them. Comments mark where the packages need help.
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
@@ -32,7 +32,7 @@ else()
   find_package(OpenSubdiv CONFIG REQUIRED)
 endif()
 
-# libopenvdb-dev has no configuration of its own, and does not depend on the headers of Boost that its own include.
+# libopenvdb-dev has no CMake configuration, and does not depend on the headers of Boost that its own headers include.
 find_library(OPENVDB_LIBRARY openvdb)
 find_path(OPENVDB_INCLUDE_DIR openvdb/version.h)
 find_path(BOOST_INCLUDE_DIR boost/numeric/conversion/conversion_traits.hpp)
@@ -47,7 +47,8 @@ set_target_properties(OpenVDB::openvdb PROPERTIES IMPORTED_LOCATION ${OPENVDB_LI
                       INTERFACE_INCLUDE_DIRECTORIES "${OPENVDB_INCLUDE_DIR};${BOOST_INCLUDE_DIR}"
                       INTERFACE_LINK_LIBRARIES "TBB::tbb;Imath::Imath")
 
-# The CMake package of libopenimageio-dev wants the programs of openimageio-tools and the headers of OpenCV (1 GB).
+# OpenImageIO is found by pkg-config, because the CMake package of libopenimageio-dev wants the programs of
+# openimageio-tools and the headers of OpenCV (1 GB).
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
 
 # Chart.js draws the pages of `tomales chart`, which have it in themselves.

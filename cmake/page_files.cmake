@@ -1,5 +1,5 @@
-# tomales_page(FUNCTION FILE...): makes FUNCTION.cpp in the build folder, whose FUNCTION() of reyes/app/page_files.h has
-# these files: pages are part of the program.
+# tomales_page(FUNCTION FILE...): makes FUNCTION.cpp in the build folder. Its FUNCTION(), which reyes/app/page_files.h
+# declares, returns the text of these files, so that pages are part of the program.
 function(tomales_page function)
   set(texts "")
   foreach(file IN LISTS ARGN)

@@ -1,11 +1,12 @@
-// Composer: the irradiance atlas (irradiance-atlas 4). Photons, irradiance points and brick maps of a scene lie in a
-// folder, one file for each group of objects; gather rays look them up.
+// Composer: the irradiance atlas (irradiance-atlas 4). A folder holds the photons, irradiance points and brick maps of
+// a scene, one file of each kind for each map. Gather rays look the brick maps up.
 //   FOLDER/photons/NAME.ptc  ->  FOLDER/irradiance/NAME.ptc  ->  FOLDER/NAME.bkm
-// The files NAME.caustic hold the part that came by mirrors and glass, which is looked up where the eye sees it: in the
-// photons themselves where the folder has them, as bricks would fill the dark beside what is bright. The files
-// scene.volume hold the fluence in media. Attribute "photon" "globalmap" names the groups; unnamed objects are shared
-// out by size among "scene0", "scene1", ... Files are in world space, so that another camera can use them. Irradiance
-// in files is E in W/m2. Each file names what it was made from (MadeFrom), so that only what has changed since is made
+// Attribute "photon" "globalmap" names the map of an object. Objects without a name are shared out by size among the
+// maps "scene0", "scene1", ... A map NAME.caustic holds light that came by mirrors and glass alone. It is looked up
+// where the eye sees it, and in its photons where the folder has them, because bricks would spread bright lines into
+// the dark beside them. The map scene.volume holds the fluence in media.
+// Space: files are in world space, so that another camera can use them. Irradiance: E in W/m2 in files, E/pi from
+// IrradianceAtlas. Each file has checksums of what it was made from (MadeFrom), so that only what has changed is made
 // again.
 #pragma once
 #include <filesystem>
@@ -24,15 +25,16 @@ struct AtlasSettings {
   PhotonSettings photons;
   PhotonIrradianceSettings irradiance;
   PhotonIrradianceSettings caustics{50, 1};  ///< Caustics are sharp, so every photon gets an estimate.
-  /// maxError is a share of the map's mean irradiance (the paper's is absolute). An estimate is a mean over 50 photons,
-  /// and every fourth has one: voxels as wide as the disks hold all of their detail, in a quarter of the bricks.
+  /// maxError is a share of the map's mean irradiance; the paper's is absolute. An estimate averages 50 photons and
+  /// stands for four, so voxels as wide as the disks (coarseness 2) hold all of their detail in a quarter of the
+  /// bricks.
   BrickSettings bricks{.maxError = 0.03f, .coarseness = 2};
-  size_t mostPhotonBytes = 256 << 20;  ///< Bytes that the photons of one unnamed group are expected to take, at most.
+  size_t mostPhotonBytes = 256 << 20;  ///< The most bytes that the photons of one unnamed map are expected to take.
   uint64_t world = 0;                  ///< worldSum() of the scene.
 };
 
-/// The names of the maps of each of Scene::groups, and the number of its surface there. Surfaces that touch do not
-/// share light.
+/// The names of the maps of each of Scene::groups, and the number of the group's surface in its map. By these numbers,
+/// surfaces that touch do not share light.
 struct MapNames {
   std::vector<std::string> global;
   std::vector<std::string> caustic;  ///< Ends in kCaustic; empty: the group has none.
@@ -41,8 +43,8 @@ struct MapNames {
   std::vector<int> surface;
   uint64_t world = 0;  ///< AtlasSettings::world of the groups.
   std::set<std::string> all() const;
-  std::set<std::string> ofReflectors()
-      const;                    ///< The maps that gather rays look up: all but that of media, which shaders read.
+  /// Returns the maps that gather rays look up: all but that of media, which shaders read.
+  std::set<std::string> ofReflectors() const;
   MapNames ofSurfaces() const;  ///< The same without caustics and media: baked light has no maps of these.
 };
 MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasSettings& settings);
@@ -64,8 +66,8 @@ PhotonFigures writePhotonPart(const std::filesystem::path& file, WorkPart part, 
 /// Makes the files of writePhotons() of all its parts. Throws FileError, also where a part is of another scene.
 void joinPhotonParts(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                      const MapNames& names, const AtlasSettings& settings, Stats& stats, Log& log);
-/// Makes irradiance points from a photon map, in cubes of about `most` photons where there are more. `sight`: as in
-/// estimateIrradiance(), in world space. Throws FileError.
+/// Makes irradiance points from a photon map. A map of more than `most` photons is processed in cubes of about so many.
+/// `sight`: as in estimateIrradiance(), in world space. Throws FileError.
 void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out,
                      const PhotonIrradianceSettings& settings, uint64_t most = kPointsInMemory,
                      EstimateFigures* figures = nullptr, const SightAlongSurface& sight = {});
@@ -73,7 +75,8 @@ void writeIrradiance(const std::filesystem::path& photons, const std::filesystem
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                                   BrickSettings settings);
 
-/// Makes the map again if its points or settings have changed. Returns false if it is kept. Throws FileError.
+/// Makes the brick map again if its points or settings have changed. Returns false if the old one is kept. Throws
+/// FileError.
 bool renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                            const BrickSettings& settings, Stats& stats);
 /// Reads the MadeFrom of a point cloud; zeros for a file that is missing or damaged.

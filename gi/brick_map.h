@@ -24,12 +24,12 @@ class BrickMap {
     return surface > 0 && surface <= kMostSurfaces && tree().surfaces[static_cast<size_t>(surface)];
   }
 
-  /// Averages data around P on surfaces that face as N does (N zero: on all) over a cube of half width `radius`:
-  /// linearly between voxels and between levels (3.3). Where the finest voxels there are empty, coarser ones answer.
-  /// Returns false where there is no data near; `out` (width() floats) is zero then. `surface`: data of other surfaces
-  /// do not count where the map knows() this one. `acrossWalls`, if not null: voxels that hold light from two sides of
-  /// a wall give way to finer ones, and it says whether the finest do not tell the sides apart either. Throws FileError
-  /// where the file is damaged.
+  /// Averages the data in a cube of half width `radius` around P, linearly between voxels and between levels (3.3).
+  /// Only data of surfaces that face as N does count; N zero: all. Where the finest voxels are empty, coarser ones
+  /// answer. Returns false where there is no data near; `out` (width() floats) is zero then.
+  /// `surface`: if the map knows() it, data of other surfaces do not count. `acrossWalls`: if not null, voxels that
+  /// hold light from both sides of a wall give way to finer ones, and it becomes true where even the finest hold both.
+  /// Throws FileError where the file is damaged.
   bool lookup(const vec3& P, const vec3& N, float radius, float* out, int surface = 0,
               bool* acrossWalls = nullptr) const;
 

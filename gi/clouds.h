@@ -1,6 +1,7 @@
 // Composer: point clouds and brick maps of shaders, bake3d() and texture3d(). Baked points stay in memory until they
-// are written. A file that is looked up is opened once: brick maps (.bkm) brick by brick, point clouds (.ptc) whole, as
-// bricks. Threads: bake() and lookUp() may be called concurrently; write() after the last of them.
+// are written. A file that is looked up is opened once. A brick map (.bkm) is then read brick by brick; a point cloud
+// (.ptc) is read whole and turned into bricks. Threads: bake() and lookUp() may be called concurrently; write() is
+// called after the last of them.
 #pragma once
 #include <map>
 #include <mutex>
@@ -41,8 +42,8 @@ class CloudFiles final : public CloudServices {
     std::unique_ptr<const Data> data;  ///< Null: it could not be opened.
     std::string problem;
   };
-  /// Opens a file. If `photons` is not null it is a photon map, opened as the irradiance of the nearest photons. Brick
-  /// maps hold irradiance already.
+  /// Opens a file. If `photons` is not null, a point cloud is a photon map, and what is opened is the irradiance of its
+  /// nearest photons. Brick maps hold irradiance already.
   const Opened<BrickMap>& opened(const std::string& file, const TmPhotonOptions* photons = nullptr);
   /// Opens what `make` makes of all points of a file.
   template <class Data, class Key, class Make>
@@ -52,8 +53,8 @@ class CloudFiles final : public CloudServices {
   const std::string searchPath_, outputRoot_;
   mutable std::mutex mutex_;
   std::map<std::string, Baked> baked_;
-  std::map<std::tuple<std::string, int, float>, Opened<BrickMap>>
-      opened_;  ///< The keys are file, estimator and greatest distance.
+  /// The keys are file, estimator and greatest distance.
+  std::map<std::tuple<std::string, int, float>, Opened<BrickMap>> opened_;
   std::map<std::string, Opened<Diffusion>> diffusing_;
   std::map<std::pair<std::string, std::string>, Opened<Disks>> disks_;  ///< The keys are file and channel.
   BrickCache cache_;

@@ -26,7 +26,7 @@ enum class Amendment { SecondOrder, Disputes, Reach, Behind, Occluders, Slopes }
 
 constexpr uint32_t bitOf(Amendment amendment) { return uint32_t{1} << static_cast<uint32_t>(amendment); }
 
-/// The kappa with which Ward's split sphere has the error that the function of approximate-gi has with 1
+/// With this kappa, Ward's split sphere makes as large an error as the function of approximate-gi does with kappa 1
 /// (docs/measured/irradiance_cache.md).
 inline constexpr float kSplitSphereKappa = 4;
 inline constexpr float kNoLimit = std::numeric_limits<float>::infinity();
@@ -40,11 +40,11 @@ struct ErrorFunctionInfo {
   const char* name;
   PublishedEquations equations = PublishedEquations::Screen;
   uint32_t without = 0;  ///< Bits of the amendments that records of this function do without.
-  /// The CacheSettings of records for `maxerror` 1, which means the same for all functions: the Hessian, which knows
-  /// where light is even, has about as many records as the others.
+  /// The values of CacheSettings for `maxerror` 1. They are chosen so that one `maxerror` means the same for all
+  /// functions. The Hessian, which knows where light is even, makes about as many records as the others.
   float kappa = 1, maxPixels = 10, minPixels = 1.5f, enough = 0.05f;
-  /// True if minPixels grows with the allowed error, and `enough` falls. Records then lie less close to edges, so that
-  /// some are left for other places, and fewer overlap, because their error is no noise (docs/decisions/0106).
+  /// True if minPixels grows with `maxerror`, and `enough` falls with it. Then fewer records lie close to edges, and
+  /// fewer overlap: their error is no noise, which overlapping would average (docs/decisions/0106).
   bool limitsFollowError = false;
 
   bool needsCurvature() const { return equations == PublishedEquations::Hessian; }

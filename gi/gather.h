@@ -14,7 +14,7 @@ struct GatherSettings {
   float maxDistance = 1e30f;
   uint32_t seed = 0;
   Illumination light = Illumination::Lights;  ///< The light that shades the hits.
-  bool curvature = false;                     ///< Fill smoothRadius and the second derivatives, with occlusion.
+  bool curvature = false;                     ///< Fill smoothRadius and hessian of the record (gi/gather/hessian.h).
   float maxError = 1;                         ///< Factor on the error that smoothRadius allows.
   int depth = 1;                              ///< Diffuse bounces between the eye and the hits.
   bool indirect = false;                      ///< The shaders of the hits ask for indirect light in turn.

@@ -19,9 +19,9 @@ using IrradianceRecords = BlockVector<IrradianceRecord>;
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
   float kappa =
-      infoOf(ErrorFunction::Screen).kappa;  ///< The divisor of radii in eq. 2. If it is infinite, no record is reused.
-  /// R+ of eq. 3, in roots of the projected pixel area (Attribute "irradiance" "maxpixeldist"), and R- in the same
-  /// unit.
+      infoOf(ErrorFunction::Screen)
+          .kappa;  ///< kappa of eq. 2: it divides the radii of records. If it is infinite, no record is reused.
+  /// R+ (Attribute "irradiance" "maxpixeldist") and R- of eq. 3, in roots of the projected pixel area.
   float maxPixels = infoOf(ErrorFunction::Screen).maxPixels, minPixels = infoOf(ErrorFunction::Screen).minPixels;
   /// Sum of weights that a point needs to be interpolated; with less it gets its own record.
   float enough = infoOf(ErrorFunction::Screen).enough;
@@ -35,7 +35,8 @@ struct IrradianceEstimate {
   bool inconsistent = false;  ///< The records used differ by more than their noise explains.
   bool hasRecord = false;     ///< A record lies at this very place.
   float closest = kInfinity;  ///< Least closest distance of the records used.
-  /// No occluder over any record used is lower than this, though some records may have met its edge.
+  /// A lower bound of the heights of the occluders over the records used. `closest` may be less: a record beside an
+  /// occluder has met its edge.
   float occluderHeight = kInfinity;
 };
 
@@ -67,16 +68,18 @@ class IrradianceCache {
     return lookup(x, normal, normal, pixelSize);
   }
   /// Looks up many places and writes to out[0] and on. It is several times as fast as single lookups where successive
-  /// places lie close together. Validity radii are multiplied by `wider`, but by less where light is steep, and never
-  /// beyond a disagreement (Amendment::Reach). `light`, if not empty, has an element for each record and replaces its E
-  /// and derivatives. The records still decide where they are used, and the dominant directions stay. E is linear in
-  /// `light` then.
+  /// places lie close together.
+  /// `wider`: factor on validity radii. It is less where light is steep, and no radius grows beyond a disagreement
+  /// (Amendment::Reach).
+  /// `light`: if not empty, it has an element for each record, which replaces E and the derivatives of that record. The
+  /// records themselves still decide where they are used, and the dominant directions stay. So the E that is found is
+  /// linear in `light`.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider = 1,
               std::span<const LightShare> light = {}) const;
   /// Returns the light of each record where each share is multiplied by its gain. Pre: every record has as many shares.
   std::vector<LightShare> mixed(std::span<const vec3> gains) const;
-  /// Returns the same, which the cache keeps until it is asked for other gains or has more records: a frame that is
-  /// shaded again and again asks for the same. Threads: one at a time.
+  /// Returns the same. The cache keeps it until it is asked for other gains or has more records, because a frame that
+  /// is shaded again and again asks for the same. Threads: one at a time.
   std::span<const LightShare> keptMix(std::span<const vec3> gains) const;
   const IrradianceRecords& records() const;
   const Bound3& bound() const;

@@ -8,7 +8,7 @@ namespace tomales {
 
 enum class GiMode {
   None,       ///< Direct light only: indirect lights give nothing.
-  Gather,     ///< One bounce, shaded hits, irradiance caching.
+  Gather,     ///< Hits are shaded, further bounces have caches of their own; irradiance caching.
   Atlas,      ///< All bounces: gather rays look up the irradiance of photons in brick maps; irradiance caching.
   Radiosity,  ///< One bounce from baked direct light, in textures or brick maps; irradiance caching.
   Baked,      ///< All light from brick maps that were gathered for earlier frames (irradiance-atlas 6.3): no rays.
@@ -20,9 +20,9 @@ enum class GiMode {
 struct GiMethod {
   const char* name;                ///< The name for --gi.
   GiMode mode;                     ///< The mode that carries it out.
-  const char* radiance = nullptr;  ///< The "radiance" of an indirect light that asks for it; null: no light can.
+  const char* radiance = nullptr;  ///< The "radiance" by which an indirect light asks for it; null: no light can.
   bool caches = false;             ///< Light is gathered in irradiance records before the frame is shaded.
-  bool hitsHoldAll = false;        ///< The surfaces that gather rays meet hold the light of all bounces.
+  bool hitsHoldAll = false;        ///< Hits look up all light that the method follows: no further bounces.
   bool makesMaps = false;          ///< It makes maps of all objects first, which takes memory.
   bool byPointClouds = false;      ///< The maps come from the point clouds of --atlas.
   bool usesBaked = false;          ///< Light comes from the maps of --baked.

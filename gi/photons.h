@@ -1,7 +1,8 @@
 // Verb: photons from the lights through the scene (irradiance-atlas 4). Each photon that arrives on a diffuse surface
-// is stored; Russian roulette decides which go on, so that powers stay even. In a medium (gi/photons/medium.h: the
-// Interior or Exterior of the surface that a photon flies to says what fills that side of it) photons are stored where
-// they collide. Power: W. Space: current. Threads: uses the pool; the photons are the same for any number of threads.
+// is stored; Russian roulette decides which go on, so that powers stay even. In a medium photons are stored where they
+// collide (gi/photons/medium.h). What a photon flies through is the Interior or Exterior of the surface that it flies
+// to, whichever lies on the side that it comes from. Power: W. Space: current. Threads: uses the pool; the photons are
+// the same for any number of threads.
 #pragma once
 #include <functional>
 #include <optional>
@@ -33,7 +34,7 @@ struct PhotonSettings {
 struct StoredPhoton {
   /// Unit normal of the polygon that P lies on, towards the side that the photon came from; zero in a medium.
   vec3 P, N;
-  vec3 power;  ///< Power in W; in a medium it is multiplied by the free path in lengths of the world: W m.
+  vec3 power;  ///< Power in W. In a medium it is the power times the free path, in W m (lengths of the world).
   int group;   ///< Index into Scene::groups; -1: in a medium.
   int depth;   ///< 0: straight from a light.
   /// The diffuse surfaces and collisions on its path, and one more if mirrors or glass come before the first of them. A
@@ -53,13 +54,14 @@ struct WorkPart {
 
 struct PhotonFigures {
   int64_t emitted = 0, stored = 0;
-  /// The share of what surfaces send each other that comes after the last bounce and is missing, as the powers of the
-  /// last two arrivals tell. It is reported as "photons-bounces".
+  /// The share of the light between surfaces that is missing, because it comes after the last bounce. It is estimated
+  /// from the powers of the last two arrivals, and reported as "photons-bounces".
   double left = 0;
 };
 
-/// One thread at a time calls `store`, in an order that does not depend on threads. A scene without light gives no
-/// photons, with a warning. The photons of all parts, one part after the other, are those of the whole.
+/// Traces photons and hands those that arrive to `store`. One thread at a time calls it, in an order that does not
+/// depend on threads. The photons of all parts, one part after the other, are those of the whole. `progress` gets the
+/// share that is done. A scene without light gives no photons, with a warning.
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const PhotonSettings& settings,
                            const std::function<void(std::span<const StoredPhoton>)>& store,
@@ -70,8 +72,8 @@ enum class PhotonModel {
   Matte,        ///< Diffuse, by the surface shader; photons are stored.
   Translucent,  ///< Diffuse; half of the scattered light goes through. Photons are stored.
   Chrome,       ///< Mirrors, tinted by the object's colour.
-  Glass,
-  Water,        ///< Reflects and refracts by Fresnel's law (index 1.5, 1.33).
+  Glass,        ///< Reflects and refracts by Fresnel's law, with index 1.5.
+  Water,        ///< The same with index 1.33.
   Transparent,  ///< Passes straight on, tinted.
 };
 /// Returns nothing if there is no model of this name.

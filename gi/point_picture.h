@@ -1,5 +1,5 @@
 // Verb: a picture of a point cloud, to look at: disks in their planes, seen by a camera or from above a corner. The
-// nearest disk is in front; nothing is shaded.
+// nearest disk is in front; nothing is shaded. Space: that of the cloud. Threads: pure.
 #pragma once
 #include <optional>
 

@@ -3,7 +3,7 @@
 // points answer gather rays.
 //   FOLDER/radiosity/NAME.ptc  ->  FOLDER/radiosity/NAME.bkm      NAME as in gi/atlas.h
 // The channel "radiosity" holds pi L in W/m2, in world space. The camera of the frame that first bakes decides how fine
-// the points are.
+// the points are. Threads: lookup() may be called concurrently.
 #pragma once
 #include "gi/atlas.h"
 #include "gi/radiosity/maps.h"

@@ -1,6 +1,6 @@
-// Verb: radiosity maps -> pictures, to look at and for shaders. Charts are packed so that each lies at a multiple of
-// its own width and height: down to the level of a chart's shorter edge, no texel of the picture's MIP map mixes two
-// patches.
+// Verb: radiosity maps -> pictures of radiance, to look at and for shaders. Charts are packed so that each lies at a
+// multiple of its own width and height: down to the level of a chart's shorter edge, no texel of the picture's MIP map
+// mixes two patches.
 #pragma once
 #include "gi/radiosity/maps.h"
 #include "reyes/image.h"

@@ -1,5 +1,7 @@
 // Composer: implements ShadeServices with ray tracing and global illumination (injected by reyes/app), and the gather
-// pass that fills the irradiance cache from the deep frame buffer before anything is shaded.
+// pass that fills the irradiance cache from the deep frame buffer before anything is shaded. Space: current.
+// Irradiance: E/pi, except in files. Threads: the members of ShadeServices may be called concurrently; all others
+// belong to one thread, and what they set stays as it is while something is shaded.
 #pragma once
 #include "gi/atlas.h"
 #include "gi/gather.h"
@@ -18,12 +20,11 @@ namespace tomales {
 struct GiSettings {
   GiMode mode = GiMode::Gather;
   int samples = 0;      ///< Rays per record, or paths per point of the reference; 0: the indirect light decides.
-  int bounces = 0;      ///< 0 if the indirect light decides (1 by default).
+  int bounces = 0;      ///< Diffuse bounces; 0: the indirect light decides, and where it does not say, the method.
   float maxError = -1;  ///< The `maxerror` of indirectlight; < 0: the light decides.
   uint32_t seed = 0;
   std::optional<ErrorFunction> errorFunction{};  ///< Empty: the light decides.
-  /// GiMode::Atlas: its maps hold light that comes straight from lights; without it gather rays sample that where they
-  /// hit.
+  /// GiMode::Atlas: the maps hold direct light too. Without it gather rays sample direct light where they hit.
   bool storesDirect = true;
 };
 
@@ -37,7 +38,7 @@ struct GatherPlan {
 struct PreparedCache {
   GatherPlan plan;
   IrradianceCache cache;
-  /// Checksums of what the pixels of those frames see for which the cache has been refined.
+  /// A checksum of what the pixels see, for each frame for which the cache has been refined.
   std::vector<uint64_t> frames{};
 };
 
@@ -47,9 +48,10 @@ struct PhotonPasses {
   double noise = 0;             ///< The noise at which no more are sent (PhotonMeasurement::noise).
   uint32_t seed = 0;
   bool focusedOnly = false;  ///< Count only the light that comes from lamps by mirrors or glass first.
-  bool shrinks = false;      ///< Disks on which photons count shrink from pass to pass; else they are micropolygons.
+  bool shrinks = false;  ///< The disks on which photons count shrink from pass to pass. Otherwise each has the area of
+                         ///< its micropolygon.
   Log* log = nullptr;
-  /// Gets the number of photons sent, that of the points, and their noise.
+  /// Is told, at the end, how many photons were sent, how many points there are, and their noise.
   std::function<void(int64_t sent, size_t points, double noise)> tell;
 };
 
@@ -109,8 +111,8 @@ class GiServices final : public ShadeServices {
   /// must be the same, and records are not kept for a later run.
   void startAgain(const GiSettings& settings);
 
-  /// The cost of the records of further bounces in the last gatherPass(). There are about as many of them for a small
-  /// part of the frame as for all of it.
+  /// The cost of the bounce caches in the last gatherPass(). They have about as many records for a small part of the
+  /// frame as for all of it.
   struct BounceCost {
     double rays = 0, time_s = 0;
   };
@@ -134,13 +136,12 @@ class GiServices final : public ShadeServices {
   /// whose records have these shares. It costs the shading of hits once for each group.
   void keepShares(std::vector<std::string> groups);
   const std::vector<std::string>& shareGroups() const;
-  /// Multiplies the shares of records and answers that were given by `gains` from now on, and those of light that is
-  /// gathered anew by `ofNew`, until they are set again; empty for all of 1. Indirect light is then that of lights
-  /// which are so much brighter, but for the dominant directions, which stay. While it is called, nothing may be
-  /// shaded.
+  /// Sets the gains of the groups of lights, until they are set again: `gains` for the shares of records and answers
+  /// that were given, `ofNew` for light that is gathered anew. Empty: all are 1. Indirect light is then that of lights
+  /// which are so much brighter, except that the dominant directions stay. Nothing may be shaded during the call.
   void mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew = {});
-  /// Draws the noise of each record anew, for points that are shaded with ShadeContext::redrawn. While it is called,
-  /// nothing may be shaded.
+  /// Draws the noise of each record anew, for points that are shaded with ShadeContext::redrawn. Nothing may be shaded
+  /// during the call.
   void redrawRecords();
   /// Sets emitters, so that area lights can be sampled without geometry.
   void useEmitters(EmitterTable emitters);

@@ -7,11 +7,11 @@ rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance that the geometry 
                            TM_ROLE_TINT);
 rsl::FloatParam area(
     "area", 0,
-    "0: intensity is a scale of radiance. Else the area of the geometry, and a point at the distance d "
-    "gets intensity / d^2, as BMRT has it, however large that is",
+    "0: intensity is a scale of radiance. Else the area of the geometry: a point at the distance d gets "
+    "intensity / d^2, however large the geometry is (BMRT)",
     TM_ROLE_AREA);
 rsl::FloatParam coneangle("coneangle", rsl::kPi, "half angle of the cone that it shines into, radians; pi: everywhere");
-rsl::VectorParam axis("axis", {0, 0, 1}, "of that cone");
+rsl::VectorParam axis("axis", {0, 0, 1}, "axis of the cone");
 rsl::FloatParam conedeltaangle("conedeltaangle", 0, "width of the soft edge inside the cone, radians");
 rsl::FloatParam beamdistribution("beamdistribution", 0, "exponent of the falloff from the axis of the cone");
 rsl::FloatParam samples("samples", 16, "points on the emitter for each shaded point", TM_ROLE_SAMPLES);

@@ -13,7 +13,7 @@ inline float fresnelWeight(float cosine) {
   const float m = rsl::clamp(1 - cosine, 0, 1);
   return m * m * m * m * m;
 }
-/// Returns the generalised Trowbridge-Reitz distribution with gamma 1, of the coat; that with gamma 2 is GGX.
+/// Returns the coat's distribution: generalised Trowbridge-Reitz with gamma 1 (GTR1). With gamma 2 it would be GGX.
 inline float gtr1(float nh, float alpha) {
   if (alpha >= 1) return 1 / rsl::kPi;
   const float a2 = alpha * alpha, t = 1 + (a2 - 1) * nh * nh;
@@ -59,15 +59,15 @@ struct Material {
   }
 };
 
-/// A viewer who stands below a surface whose normals a picture has turned looks along it.
+/// Returns V, or a direction just above the surface if V lies below it, as where a normal map has turned N.
 inline Vec3 aboveSurface(Vec3 N, Vec3 V) {
   constexpr float kLeast = 1e-4f;
   const float nv = rsl::dot(N, V);
   return nv >= kLeast ? V : rsl::normalize(V + (kLeast - nv) * N);
 }
 
-/// The two lobes of one point, from which directions are drawn: the half vector H of the base by what the viewer sees
-/// of its facets, and that of the coat by its distribution times N.H.
+/// The two lobes of one point, from which directions are drawn. The half vector H of the base is drawn by what the
+/// viewer sees of its facets (visible normals), that of the coat by its distribution times N.H.
 struct Lobes {
   Vec3 N, V;
   Material material;

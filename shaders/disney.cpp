@@ -17,24 +17,26 @@ using rsl::Vec3;
 
 MappedFloat metallic("metallic", 0, "0: dielectric, 1: metal", "metallicmap", "metallicchannel"),
     specular("specular", 0.5f, "reflection at normal incidence; 0.5: index 1.5", "specularmap", "specularchannel"),
-    speculartint("speculartint", 0, "tint of that towards the base colour", "speculartintmap", "speculartintchannel"),
-    roughness("roughness", 0.5f, "of both lobes", "roughnessmap", "roughnesschannel"),
+    speculartint("speculartint", 0, "tint of the specular reflection towards the base colour", "speculartintmap",
+                 "speculartintchannel"),
+    roughness("roughness", 0.5f, "roughness of the diffuse and the specular lobe", "roughnessmap", "roughnesschannel"),
     sheen("sheen", 0, "grazing reflection of cloth", "sheenmap", "sheenchannel"),
-    sheentint("sheentint", 0.5f, "its tint", "sheentintmap", "sheentintchannel"),
-    clearcoat("clearcoat", 0, "a second lobe", "clearcoatmap", "clearcoatchannel"),
-    clearcoatgloss("clearcoatgloss", 1, "1: glossy, 0: satin", "clearcoatglossmap", "clearcoatglosschannel");
+    sheentint("sheentint", 0.5f, "tint of the sheen towards the base colour", "sheentintmap", "sheentintchannel"),
+    clearcoat("clearcoat", 0, "weight of a second specular lobe, that of a coat", "clearcoatmap", "clearcoatchannel"),
+    clearcoatgloss("clearcoatgloss", 1, "gloss of the coat, 1: glossy, 0: satin", "clearcoatglossmap",
+                   "clearcoatglosschannel");
 rsl::UniformFloatParam reflections("reflections", 0,
-                                   "rays that mirror the scene, a point that the camera sees; more if lights "
-                                   "have many samples; 0: lights alone");
+                                   "rays that mirror the scene, for each point that the camera sees; more if "
+                                   "lights have many samples; 0: lights alone");
 rsl::ColorParam emission("emission", {0, 0, 0}, "radiance that it adds");
 rsl::StringParam texturename("texturename", "", "picture that multiplies Cs, the base colour"),
     emissionmap("emissionmap", "", "picture that multiplies the emission");
-rsl::UniformFloatParam linearize("linearize", 0, "1: those two pictures are sRGB, and are made linear");
+rsl::UniformFloatParam linearize("linearize", 0, "1: texturename and emissionmap are sRGB, and are made linear");
 NormalMap normalmap;
 SecondSet secondSet;
 MappedFloat opacity("opacity", 1, "multiplies Os", "opacitymap", "opacitychannel");
 rsl::UniformFloatParam opacitycutoff("opacitycutoff", 0,
-                                     "above 0: what is at least as opaque is there, the rest is cut away");
+                                     "above 0: what is less opaque than this is cut away, and the rest is opaque");
 rsl::ColorOutput diffusePart("diffuse", "share of diffuse light and sheen"),
     specularPart("specular", "share of highlights"), reflectionPart("reflection", "share of the mirrored scene"),
     albedo("albedo", "base colour");
@@ -91,7 +93,7 @@ class Glossy {
     return std::any_of(lobes_.begin(), lobes_.end(), [](const Lobes& l) { return l.material.matte > 0; });
   }
 
-  /// Adds the part of one sample of the lights; addLobeSamples() adds the rest.
+  /// Adds the part of one sample of the lights, weighted by the power heuristic. addLobeSamples() adds the rest.
   void addLightSample(const TmIlluminance& sample, rsl::Vec3Array& sum) {
     g_->call->lightDensity(g_->host, g_, sample.light, density_.data());
     for (int i : b_) {
@@ -132,8 +134,8 @@ class Glossy {
     }
   }
 
-  /// A mirrored scene has more detail than lights have, so it takes twice the directions that those want. Rays would
-  /// multiply in repeated reflections.
+  /// Returns the number of directions. A mirrored scene has more detail than lights have, so it takes twice the
+  /// directions that lights want, but not in repeated reflections, where rays would multiply.
   int directions() const {
     const int ofLights = static_cast<int>(g_->call->lobeSamples(g_->host, g_));
     return std::max(least_, mirrors_ && b_.rayDepth() == 0 ? 2 * ofLights : ofLights);

@@ -6,17 +6,20 @@ namespace {
 rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of the sky, or what multiplies its map", TM_ROLE_TINT);
 rsl::StringParam map("map", "", "latitude-longitude picture, +z at its top; none: uniform", TM_ROLE_SKY_MAP);
-rsl::StringParam mapspace("mapspace", "world", "the space whose +z that is: world or shader", TM_ROLE_SKY_SPACE);
+rsl::StringParam mapspace("mapspace", "world", "space whose +z is the top of the map: world or shader",
+                          TM_ROLE_SKY_SPACE);
 rsl::FloatParam samples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: specular rays do not see it", TM_ROLE_VISIBLE);
 rsl::StringParam portals("portals", "",
                          "CoordinateSystems, the unit squares of which are windows that the sky shines through",
                          TM_ROLE_SKY_PORTALS);
 
-// Angle in radians of the filter of map lookups: that of the cells by which the map's brightness is known.
+// Angle in radians over which the map is filtered: that of one of the 1024 columns of cells by which its brightness is
+// known.
 constexpr float kCell = 0.00614f;
 
-/// environment() takes world directions: those with the coordinates in world space that L has in the map's space.
+/// environment() takes world directions. For a map in shader space, a direction is returned that has the coordinates in
+/// world space which L has in shader space.
 rsl::Vec3Array directions(const TmGrid* g) {
   rsl::Vec3Array out(g);
   for (int i : rsl::Batch(g)) out.set(i, rsl::get(g->L, i));

@@ -12,8 +12,8 @@ float etaAt(const rsl::Batch& b, int i) {
   return enters ? 1 / eta(b.g, i) : eta(b.g, i);
 }
 
-// Reflections weaker than this are left out if seen through other glass or in mirrors, and their share is seen through
-// the glass too: otherwise rays would double at every surface.
+// Reflections weaker than this are left out if they are seen through other glass or in mirrors, because rays would
+// double at every surface. Their share goes to what is seen through the glass.
 constexpr float kLeastMirroring = 0.2f;
 
 void shade(const TmGrid* g) {

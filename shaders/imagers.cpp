@@ -4,7 +4,7 @@
 namespace {
 rsl::ColorParam background("background", {1, 1, 1}, "colour behind everything");
 rsl::ColorParam bgcolor("bgcolor", {1, 1, 1}, "other name of background; all multiply");
-rsl::ColorParam color("color", {1, 1, 1}, "the same");
+rsl::ColorParam color("color", {1, 1, 1}, "other name of background; all multiply");
 
 void shadeBackground(const TmGrid* g) {
   for (int i : rsl::Batch(g)) {

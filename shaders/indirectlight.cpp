@@ -4,7 +4,8 @@ namespace {
 rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "tint", TM_ROLE_TINT);
 rsl::FloatParam samples("samples", 600, "rays for each irradiance sample", TM_ROLE_SAMPLES);
-rsl::FloatParam maxerror("maxerror", 1, "kappa of the error function; 0 computes every point", TM_ROLE_MAX_ERROR);
+rsl::FloatParam maxerror("maxerror", 1, "scale of the error that interpolation may have; 0 computes every point",
+                         TM_ROLE_MAX_ERROR);
 rsl::StringParam errorfunction("errorfunction", "screen",
                                "screen, ward, hessian; split and plain: ward and screen as published, to compare with",
                                TM_ROLE_ERROR_FUNCTION);

@@ -14,7 +14,7 @@ struct SecondSet {
     using FloatParam::FloatParam;
     const float* values(const TmGrid* g) const { return value(g).step == 1 ? value(g).c[0] : nullptr; }
   };
-  Coordinate s{"s1", 0, "second texture coordinate across"}, t{"t1", 0, "and down"};
+  Coordinate s{"s1", 0, "second texture coordinate across"}, t{"t1", 0, "second texture coordinate down"};
   rsl::StringParam maps{"secondset", "", "which pictures, as in \"normalmap roughnessmap\", are looked up at s1, t1"};
 };
 
@@ -83,7 +83,8 @@ inline rsl::Color linearOfSrgb(rsl::Color c) {
 }
 
 /// The colours of a picture at the points of a batch; white where there is none. The renderer multiplies colours by the
-/// picture's alpha as it reads them. That of sRGB is divided out again, as such pictures keep colours and alpha apart.
+/// picture's alpha as it reads them. For sRGB that is divided out again before the colours are made linear, because
+/// such pictures keep colours and alpha apart.
 class ColorPicture {
  public:
   ColorPicture(const rsl::Batch& b, Coordinates::Pair at, const char* map, bool isSrgb) {

@@ -1,6 +1,6 @@
-// A medium that absorbs and scatters light, the same everywhere or as dense as a Volume says. Instead of the way that a
-// ray has come, its amount counts, which is the density times the way. The radiance that a ray brings is the integral
-// of M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th edition, section 14.1. Phase function: L.
+// A medium that absorbs and scatters light, the same everywhere or as dense as a Volume says. What counts along a ray
+// is the amount of medium that it has crossed: density times length. The radiance that a ray brings is the integral of
+// M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th edition, section 14.1. Phase function: L.
 // Henyey and J. Greenstein, "Diffuse radiation in the galaxy", 1941.
 #include <vector>
 
@@ -9,11 +9,12 @@
 namespace {
 rsl::ColorParam scattering("scattering", {0.1f, 0.1f, 0.1f}, "for each unit of the world (in a Volume: and of density)",
                            TM_ROLE_SCATTERING);
-rsl::ColorParam absorption("absorption", {0, 0, 0}, "likewise", TM_ROLE_ABSORPTION);
-rsl::FloatParam anisotropy("anisotropy", 0, "mean cosine of the angle of scattering: above 0 onwards, below 0 back");
+rsl::ColorParam absorption("absorption", {0, 0, 0}, "for each unit of the world (in a Volume: and of density)",
+                           TM_ROLE_ABSORPTION);
+rsl::FloatParam anisotropy("anisotropy", 0, "mean cosine of the scattering angle: above 0 forwards, below 0 back");
 rsl::UniformFloatParam steps("steps", 32, "places of each ray that are lit; powers of two are the least noisy");
 rsl::FloatParam lightway("lightway", 0,
-                         "light is dimmed on its way here, from its lamp or for at most this far; 0: not at all");
+                         "greatest length of the way from a lamp over which its light is dimmed; 0: not dimmed");
 rsl::StringParam map(
     "map", "",
     "brick map of the fluence, as FOLDER/scene.volume.bkm of --gi atlas --atlas FOLDER: light that was "
@@ -31,7 +32,7 @@ float phase(float g, float cosine) {
   return (1 - g * g) / (4 * bend * std::sqrt(bend));
 }
 
-/// Amounts along a ray in proportion to what passes of the channel that is dimmed least.
+/// Draws amounts along a ray, in proportion to the light that passes in the channel that is dimmed least.
 struct ByPassing {
   float way, rate;
 
@@ -44,9 +45,9 @@ struct ByPassing {
   }
 };
 
-/// Places along a ray in proportion to the inverse square of the distance to a lamp, which is `beside` the ray at the
-/// distance `nearest` from the eye: C. Kulla and M. Fajardo, "Importance Sampling Techniques for Path Tracing in
-/// Participating Media", 2012. Lengths: units of the world.
+/// Draws places along a ray, in proportion to the inverse square of their distance to a lamp. The lamp is `beside` away
+/// from the ray, and nearest to it at the distance `nearest` from the eye: C. Kulla and M. Fajardo, "Importance
+/// Sampling Techniques for Path Tracing in Participating Media", 2012. Lengths: units of the world.
 struct ByLamp {
   float beside = 0, nearest = 0, from = 0, to = 0;
 
@@ -124,7 +125,7 @@ struct Place {
   }
 };
 
-/// Chooses places along each ray in several ways, and weighs them all by the balance heuristic of E. Veach.
+/// Chooses places along each ray in several ways, which are weighted by the balance heuristic (Veach and Guibas 1995).
 class Places {
  public:
   /// `whole`: the ends of the rays.
@@ -176,7 +177,7 @@ class Places {
   std::vector<std::vector<ByLamp>> lamps_;  ///< Indexed by kind - 1 and by point.
 };
 
-/// Diffuse rays come in hundreds and need little each.
+/// Returns the number of lit places of each ray: one for diffuse rays, which come in hundreds and need little each.
 int stepsFor(const rsl::Batch& b) {
   rsl::Vec3Array type(b.g);
   constexpr float kDiffuse = 1;

@@ -6,9 +6,11 @@ rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "colour", TM_ROLE_TINT);
 rsl::PointParam from("from", {0, 0, 0}, "position", TM_ROLE_POSITION);
 ShadowParams shadow;
 rsl::StringParam sfpx("sfpx", "", "shadow map towards +x", TM_ROLE_SHADOW_MAP),
-    sfnx("sfnx", "", "towards -x", TM_ROLE_SHADOW_MAP), sfpy("sfpy", "", "towards +y", TM_ROLE_SHADOW_MAP),
-    sfny("sfny", "", "towards -y", TM_ROLE_SHADOW_MAP), sfpz("sfpz", "", "towards +z", TM_ROLE_SHADOW_MAP),
-    sfnz("sfnz", "", "towards -z", TM_ROLE_SHADOW_MAP);
+    sfnx("sfnx", "", "shadow map towards -x", TM_ROLE_SHADOW_MAP),
+    sfpy("sfpy", "", "shadow map towards +y", TM_ROLE_SHADOW_MAP),
+    sfny("sfny", "", "shadow map towards -y", TM_ROLE_SHADOW_MAP),
+    sfpz("sfpz", "", "shadow map towards +z", TM_ROLE_SHADOW_MAP),
+    sfnz("sfnz", "", "shadow map towards -z", TM_ROLE_SHADOW_MAP);
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);

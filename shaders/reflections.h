@@ -1,7 +1,8 @@
 // The light that a glossy surface mirrors. It is cheap to follow a direction of its lobes, and expensive to shade what
-// is met there. So a point shades all that it meets where half of the light comes back, and a hundredth where a
-// twentieth does (dielectrics). The others are left out by chance and weighted for, so that the sum stays unbiased:
-// systematic sampling with probabilities by weight (Madow 1949, "On the Theory of Systematic Sampling, II").
+// is met there. So a point that reflects half of the light shades all that its directions meet, and one that reflects a
+// twentieth (dielectrics) shades a hundredth. The others are left out by chance, and those that are shaded weigh more
+// for it, so that the sum stays unbiased: systematic sampling with probabilities by weight (Madow 1949, "On the Theory
+// of Systematic Sampling, II").
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,8 @@ class Reflections {
       place |= (column >> bit & 1) << (2 * bit + 1) | (row >> bit & 1) << (2 * bit);
     return place;
   }
-  /// Noise of what is mirrored counts by the square of its weight, so the rays that keep it below a limit do too.
+  /// Returns how many directions are shaded. The variance of what is mirrored grows with the square of its weight, and
+  /// so does the number of rays that keeps it below a limit.
   size_t shareOf(const Point& p) const {
     float reflected = 0;
     for (const Direction& d : p.drawn) reflected += 2 * d.brightness();
@@ -101,7 +103,8 @@ class Reflections {
       L_.set(i, d ? d->L : rsl::Vec3{});
     }
   }
-  /// Leaves directions that meet something. Those are numbered without gaps, so that samples at hits are even too.
+  /// Drops the directions that meet nothing. The others are numbered without gaps, so that samples at hits are even
+  /// too.
   void forgetMisses() {
     size_t most = 0;
     for (const Point& p : points_) most = std::max(most, p.drawn.size());
@@ -114,7 +117,7 @@ class Reflections {
     }
     for (Point& p : points_) std::erase_if(p.drawn, [](const Direction& d) { return !(d.brightness() > 0); });
   }
-  /// Leaves as many directions as are shaded, evenly along the curve and by weight.
+  /// Keeps as many directions as are shaded, evenly along the curve and by weight.
   static void thinOut(Point& p) {
     float all = 0;
     for (const Direction& d : p.drawn) all += d.brightness();

@@ -22,8 +22,8 @@ constexpr std::string_view kCaustic = ".caustic";  ///< Ending of the names of c
 constexpr const char* kVolume = "scene.volume";
 /// Bytes of one emitted photon: the mean number of its surfaces times bytes of a stored photon.
 constexpr double kStoredBytes = 2.5 * 36;
-constexpr double kLeastOfMap =
-    1e-3;  ///< Share of its map's area that a surface needs to have a number: leaves share their photons.
+/// Share of its map's area that a surface needs to have a number. Smaller ones, such as leaves, share their photons.
+constexpr double kLeastOfMap = 1e-3;
 
 /// Returns the area of the boxes of each group's objects in world space, so that every camera finds the same maps.
 std::vector<double> boxAreas(const Scene& scene) {
@@ -58,9 +58,8 @@ std::vector<int> numbered(const std::vector<std::string>& maps, const std::vecto
   std::vector<int> out;
   for (size_t g = 0; g < maps.size(); ++g) {
     Map& map = byName[maps[g]];
-    const int number =
-        // Small surfaces are counted too, so that the numbers do not depend on which surfaces are small.
-        1 + map.groups++ % kMostSurfaces;
+    // Small surfaces are counted too, so that the numbers do not depend on which surfaces are small.
+    const int number = 1 + map.groups++ % kMostSurfaces;
     out.push_back(areas[g] >= kLeastOfMap * map.area ? number : 0);
   }
   return out;
@@ -185,7 +184,8 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
                const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeAtlasFolder(irradiance);
-  // If photons hold direct light too, hits have no other source of it: they take whatever is stored near them.
+  // If photons hold direct light too, hits have no other source of it. So they take whatever is stored near them, walls
+  // or not.
   const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(rays);
   size_t finished = 0;
   std::vector<MapFigures> made;

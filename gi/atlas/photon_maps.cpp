@@ -18,8 +18,8 @@ size_t numberOf(const std::set<std::string>& maps, const std::string& name) {
 }
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
-  const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] =
-      settings.photons;  // focusedOnly keeps its default here.
+  // focusedOnly keeps its default here.
+  const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] = settings.photons;
   return contentSum(kAtlasMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth,
                     mostBounces, seed, direct);
 }
@@ -28,7 +28,8 @@ uint64_t partInputs(const MapNames& names, const AtlasSettings& settings, WorkPa
   return contentSum(photonInputs(names, settings), part.index, part.count);
 }
 
-/// Channels of a file of photons of all maps. Normals are whole, since packing them twice may change them.
+/// Channels of a file of photons of all maps. Normals are a channel of three floats, because packing them twice may
+/// change them.
 const std::vector<CloudChannel> kPartChannels = {{"power", 3}, {"photonnormal", 3}, {"map", 1}, kSurfaceChannel};
 
 template <class Put>

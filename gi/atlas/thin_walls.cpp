@@ -19,7 +19,7 @@ constexpr int kDirections = 8;
 /// fifty photons and stands for the place of four, with disks that overlap.
 constexpr float kReach = 2.2f;
 constexpr float kLift = 0.1f;  ///< Height of the rays over the surface, in reaches.
-/// A place leaks if there is so many times as much light behind the wall; less makes a smudge at an edge.
+/// A place leaks if there is at least so many times as much light behind the wall. Less makes a smudge at an edge.
 constexpr float kMuchMore = 8;
 constexpr float kStands = 0.5f;      ///< Cosine between the normals of a wall and of what it stands on, at most.
 constexpr double kMostArea = 0.002;  ///< The share of all area that may leak without a warning.
@@ -130,7 +130,8 @@ SightAlongSurface sightAlongSurfaces(const RayScene& rays) {
       const Hit wall = hitOf(start, along, reach);
       if (wall.object < 0 || std::abs(dot(wall.geometricNormal, N)) > kStands) continue;
       const auto goesOnAt = [&](float t) { return here >= 0 && groupBelow(start + t * along) == here; };
-      // The underside of a solid wall may lie on the surface, and be met instead of it.
+      // Two places behind the wall are tried, because the underside of a solid wall may lie on the surface and be met
+      // instead of it.
       if (goesOnAt(0.5f * (wall.t + reach)) || goesOnAt(reach)) out[k] = wall.t * world.scale;
     }
     return out;

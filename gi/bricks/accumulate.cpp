@@ -8,10 +8,10 @@
 namespace tomales {
 namespace {
 
-/// The six sides of a box and a few directions between: more than that in one voxel are foliage or noise.
+/// The six sides of a box and a few directions between. More than that in one voxel are foliage or noise.
 constexpr int kMostLayers = 12;
-/// Number of layers from which on surfaces that face alike share one. Coarse voxels meet many surfaces, and finer
-/// voxels keep them apart.
+/// In a voxel of so many layers, surfaces that face alike share one. Coarse voxels meet many surfaces, and finer voxels
+/// keep them apart.
 constexpr int kSharedFrom = 6;
 /// Bricks hold no more than this, so that the differences of their values are floats too.
 constexpr float kLargestMean = std::numeric_limits<float>::max() / 4;

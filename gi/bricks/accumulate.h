@@ -25,7 +25,7 @@ class BrickAccumulator {
     if (l < 0 || layers_[static_cast<size_t>(l)].next >= 0 ||
         !continues(layers_[static_cast<size_t>(l)], normal, surface))
       return addToOneOfMany(voxel, normal, weight, surface, data, share);
-    addTo(l, normal, weight, data, share);  // this is nearly always so
+    addTo(l, normal, weight, data, share);  // nearly every point goes this way
     return l;
   }
 

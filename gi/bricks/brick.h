@@ -32,10 +32,11 @@ inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBri
 
 /// The direction and the surface of a layer's data, in 32 bits.
 struct BrickLayer {
-  int8_t x = 0, y = 0,
-         z = 0;  ///< The mean normal in 127ths of its length, off by less than half a degree. Zero for volume data.
+  /// The mean normal in 127ths of its length, off by less than half a degree. Zero for volume data.
+  int8_t x = 0, y = 0, z = 0;
   uint8_t incoherent : 1 = 0;  ///< Different layers had to be merged: finer bricks tell them apart.
   uint8_t surface : 7 = 0;     ///< PointCloud::surface() of the data; 0: not known, or several.
+  /// The mask of the bits of `surface`, the largest number of which is kAcrossWalls.
   static constexpr int kSurfaceBits = kAcrossWalls;
 
   BrickLayer() = default;

@@ -48,7 +48,7 @@ bool BrickMap::lookup(const vec3& P, const vec3& N, float radius, float* out, in
   Sum sum;
   sum.data = out;
   sum.surface = knows(surface) ? surface : 0;
-  // The level whose voxels are as wide as the lookup volume; it lies between two levels unless at either end.
+  // The level whose voxels are as wide as the lookup volume. It lies between two levels, or at either end.
   const float ideal = std::log2(tree().cube.voxelSize(0) / std::max(2 * radius, 1e-30f));
   float level = std::clamp(ideal, 0.0f, static_cast<float>(tree().deepest));
   addBetween(level, P, N, radius, sum);
@@ -108,7 +108,8 @@ void BrickMap::addLevel(int level, const vec3& P, const vec3& N, float halfWidth
   const float voxel = tree().cube.voxelSize(level);
   const int end = kBrickWidth << level;
   const vec3 p = (P - tree().cube.lo) / voxel;
-  const float h = std::min(halfWidth / voxel, 1.0f);  // farther than two voxels only where the root is still too fine
+  // The quotient is more than 1 only if the lookup is wider than the voxels of the root.
+  const float h = std::min(halfWidth / voxel, 1.0f);
   if (glm::any(glm::lessThan(p, vec3(-2.0f))) || glm::any(glm::greaterThan(p, vec3(static_cast<float>(end) + 2))))
     return;
   const VoxelOverlap xs(p.x, h, end), ys(p.y, h, end), zs(p.z, h, end);

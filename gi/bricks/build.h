@@ -1,7 +1,8 @@
 // Verb: point cloud -> bricks and their octree (irradiance-atlas 3.2), with one brick of each level in memory at a time
-// (6.1). Two things differ from the paper: a point is its disk's box, cut by its plane, and weighted by its area, so
-// that a voxel holds the mean over the surface in it; and coarse voxels keep a layer for every direction, too
-// (docs/decisions/0021). The result depends on the order of points, not on threads.
+// (6.1). Two things differ from the paper. A point goes to the voxels that both the box and the plane of its disk
+// cross, weighted by its area, so that a voxel holds the mean over the surface in it. And coarse voxels keep a layer
+// for every direction, as fine ones do (docs/decisions/0021). The result depends on the order of points, not on
+// threads.
 #pragma once
 #include <functional>
 
@@ -11,7 +12,7 @@
 namespace tomales {
 
 constexpr uint64_t kPointsInMemory = 1'500'000;
-/// Radius of a point's disk over the edge of the square that it stands for: neighbours meet.
+/// Radius of a point's disk over the edge of the square that it stands for. With this factor neighbours meet.
 constexpr float kDiskOfSquare = 0.8f;
 
 struct BrickSettings {

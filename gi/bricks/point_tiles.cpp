@@ -52,10 +52,8 @@ glm::ivec3 PointTiles::cellOf(const vec3& P) const {
   glm::ivec3 cell(0);
   for (int k = 0; k < 3; ++k) {
     const float at = (P[k] - cube_.lo[k]) / cube_.size * static_cast<float>(kSide);
-    if (at > 0)
-      cell[k] =
-          // where the cube is too large for floats, NaN goes to the first cell
-          at < kSide ? static_cast<int>(at) : kSide - 1;
+    // Where the cube is too large for floats, `at` is NaN and the point goes to the first cell.
+    if (at > 0) cell[k] = at < kSide ? static_cast<int>(at) : kSide - 1;
   }
   return cell;
 }

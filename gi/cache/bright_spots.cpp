@@ -7,7 +7,7 @@ namespace tomales {
 namespace {
 
 constexpr size_t kMostSpots = 64, kMostHits = 1 << 15;
-constexpr size_t kLeastHits = 4;  ///< A spot needs so many hits: a single one may be a mirror's, or chance.
+constexpr size_t kLeastHits = 4;  ///< A spot needs so many hits. A single one may be chance, or seen in a mirror.
 constexpr size_t kHitsToSplit = 16;
 /// Least distance to a spot, in its radii. The rays of the hemisphere find nearer spots.
 constexpr float kNearest = 3;
@@ -15,8 +15,8 @@ constexpr float kRounding = 1e-3f;
 /// A cluster becomes a rectangle if its hits lie this close to a plane, in radii, and its mean normal is this close to
 /// unit length.
 constexpr float kFlat = 0.02f;
-/// The hits may end so many mean distances between hits before the border. A smaller value leaves noise, a larger one
-/// wastes rays.
+/// How far the hits may end before the border of the bright surface, in mean distances between hits. A smaller value
+/// leaves noise, a larger one wastes rays.
 constexpr float kGap = 1.4f;
 constexpr float kNarrowest = 0.05f;  ///< The shorter edge of a rectangle over its longer one, at least.
 

@@ -26,7 +26,7 @@ class BrightSpots {
     vec3 center;
     float radius, radiance;
     vec3 normal;              ///< Unit normal of a rectangle, which shines to that side; zero means a sphere.
-    vec2 found{1};            ///< Share of the extents that held hits; a margin surrounds it.
+    vec2 found{1};            ///< Share of the extents that held hits. A margin surrounds it.
     vec3 halfU{0}, halfV{0};  ///< Perpendicular vectors from the rectangle's centre to the middles of two edges.
   };
   BrightSpots() = default;
@@ -77,7 +77,7 @@ class SpotAim {
     vec3 path, axis;    ///< path leads to the centre; axis is its unit vector.
     vec3 normal, u, v;  ///< The members of Spot; a zero normal means a cone.
     vec2 found;
-    float versine;         ///< One less the cosine of the cone's half angle.
+    float versine;         ///< 1 - cos of the cone's half angle.
     float share, covered;  ///< Parts of irradiance() and of coverage().
     float upTo = 0;        ///< The shares of the targets up to this one, summed; a choice below it takes one of them.
     /// Probability density of choosing the target and the place: over solid angle for a cone, over area for a

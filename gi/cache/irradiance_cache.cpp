@@ -58,8 +58,8 @@ struct IrradianceCache::Impl {
     tree.insert(index, r.position, size(r), reach(size(r), r.pixelSize));
   }
 
-  // The new record knows E at its place, which older records have extrapolated, and they know E at theirs. Where the
-  // two disagree, each ends before the other.
+  // The new record knows E at its place, to which older records are extrapolated, and the other way round. Where the
+  // two values disagree, each record ends before the other.
   void limitDisagreeing(uint32_t index) {
     IrradianceRecord& fresh = records[index];
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
@@ -86,8 +86,8 @@ struct IrradianceCache::Impl {
             fadesBehind};
   }
 
-  /// Makes all records that may serve a place in this region search.vicinity, in the order of the records: sums must
-  /// not depend on the shape of the tree.
+  /// Fills search.vicinity with all records that may serve a place in this region. They are in the order of the
+  /// records, so that sums do not depend on the shape of the tree.
   void findNear(const Bound3& region, const Range& farthest, Search& search) const {
     const auto reachOf = [&](float recordSize) {
       return (1 + kSlack) * farthest.wider * farthest.radiusOf(recordSize);

@@ -9,8 +9,8 @@
 
 namespace tomales {
 
-/// The part of a record's light that some lights bring, by any number of bounces. Its fields are those of the record,
-/// and all shares add up to them.
+/// The part of a record's light that one group of lights brings, by any number of bounces. Its fields are those of the
+/// record, and the fields of all shares add up to those of the record.
 struct LightShare {
   vec3 E{0.0f};
   vec3 rotationGradient[3] = {vec3(0), vec3(0), vec3(0)};
@@ -41,7 +41,7 @@ struct IrradianceRecord {
   float closest;       ///< Least distance to a hit; the paper's R_i.
   float smoothRadius;  ///< E is nearly linear within it (ErrorFunction::Hessian alone)
   float noise;         ///< Upper bound of the standard error of the luminance of E.
-  /// Greatest validity radius: neighbours disagree beyond it, or an occluder over the record ends there.
+  /// Greatest validity radius: beyond it a neighbour disagrees, or it is the height of an occluder over the record.
   float limit = kInfinity;
   float pixelSize;                 ///< Root of the projected pixel area at the record, for R+ and R- (eq. 3).
   float unseenDisplacement = 0;    ///< Greatest distance from the surface that its rays see to the displaced one.

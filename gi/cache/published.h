@@ -10,7 +10,8 @@
 
 namespace tomales {
 
-/// approximate-gi eq. 2 to 5: the error of a surface that is seen in the distance R_i, on the screen.
+/// approximate-gi eq. 2 to 5: the radius is half of the least distance R_i to a hit, between limits that follow from
+/// the size of a pixel.
 struct Screen {
   static constexpr float kMaxAngleTerm = 0.0151922470f;  ///< 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4).
   float kappa;
@@ -22,8 +23,8 @@ struct Screen {
   float leastCosine() const { return 1 - kMaxAngleTerm / (kappa * kappa); }
 };
 
-/// Ward et al. 1988: a sphere around the point that is half bright and half dark. The weight is less 1, so that it
-/// falls to 0 where the record ends.
+/// Ward et al. 1988: the greatest gradient of light from a sphere around the point that is half bright and half dark.
+/// One is subtracted from their weight, so that it falls to 0 where the record ends.
 struct SplitSphere {
   float kappa;
 
@@ -34,7 +35,8 @@ struct SplitSphere {
   float leastCosine() const { return 1 - 1 / (kappa * kappa); }
 };
 
-/// Schwarzhaupt et al. 2012: the radius follows from the second derivatives, and the rest is that of Screen.
+/// Schwarzhaupt et al. 2012: the radius follows from the second derivatives (gi/gather/hessian.h). All else is as in
+/// Screen.
 struct Hessian : Screen {
   float size(const IrradianceRecord& r) const { return std::min(r.smoothRadius, r.closest * kappa); }
 };

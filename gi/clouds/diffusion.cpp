@@ -31,9 +31,8 @@ uint32_t Diffusion::build(uint32_t begin, uint32_t end) {
   }
   group.all.P = weights > 0 ? group.all.P / weights : group.bound.center();
   const vec3 size = group.bound.size();
-  group.seen = std::max(group.all.area,
-                        // the area of a flat square equals half its squared diagonal, however few points it has
-                        0.5f * dot(size, size));
+  // The area of a flat square equals half its squared diagonal, however few points it has.
+  group.seen = std::max(group.all.area, 0.5f * dot(size, size));
   groups_.push_back(group);
   const auto middle = halve(entries_, begin, end, size);
   if (!middle) return node;

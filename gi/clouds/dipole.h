@@ -1,7 +1,6 @@
 // Private to gi: light that diffuses under the surface of a translucent material. Sources: the dipole of Jensen,
-// Marschner, Levoy, Hanrahan 2001 ("A practical model for subsurface light transport"), and its inverse for artists of
-// Jensen and Buhler 2002 ("A rapid hierarchical rendering technique for translucent materials"). Lengths are in
-// millimetres.
+// Marschner, Levoy, Hanrahan 2001 ("A practical model for subsurface light transport"), and the inverse of it by Jensen
+// and Buhler 2002 ("A rapid hierarchical rendering technique for translucent materials"). Lengths are in millimetres.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -17,7 +16,7 @@ struct Translucency {
 
 /// Returns measured coefficients by name (Jensen et al. 2001, figure 5); empty if there is no such material.
 std::optional<Translucency> translucencyOf(std::string_view material);
-/// Returns the material that reflects `albedo` of diffuse light, with a mean free path of `meanFreePath` mm.
+/// Returns the material with this diffuse albedo and this diffuse mean free path (1 / sigma_tr) in mm.
 Translucency translucencyOf(const vec3& albedo, const vec3& meanFreePath, float ior);
 
 class Dipole {

@@ -8,8 +8,9 @@ namespace {
 constexpr int kDirections = 1024;
 // Turn between successive directions of a spiral, whose points are evenly spread.
 constexpr float kGoldenAngle = 2.399963f;
+// The squared radius of the disk that stands for a group, over the area that the group covers (LineOfSight::meet).
 constexpr float kReach = 0.625f;
-// Share of its radius; a disk that is nearer belongs to the point itself or to its neighbours.
+// A disk nearer than this share of its radius belongs to the point itself or to its neighbours.
 constexpr float kOwnPlane = 0.3f;
 
 }  // namespace
@@ -64,7 +65,7 @@ uint32_t Disks::build(uint32_t begin, uint32_t end) {
   }
   group.sum.P /= group.sum.area;
   const vec3 size = group.bound.size();
-  group.seen = std::max(group.sum.area, 0.5f * dot(size, size));  // this holds however sparse the group is
+  group.seen = std::max(group.sum.area, 0.5f * dot(size, size));  // as in Diffusion::build()
   groups_.push_back(group);
   const auto middle = halve(disks_, begin, end, size);
   if (!middle) return node;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr float kMostRadius_px = 64;  ///< A disk at the eye must not cover the picture a million times.
 
-/// Returns three floats for every point, by name of a channel.
+/// Returns three floats of each point: the values of a channel, its normal or its radius.
 std::vector<vec3> valuesOf(const PointCloud& cloud, const std::string& name) {
   std::vector<vec3> out;
   if (name == "normal") {

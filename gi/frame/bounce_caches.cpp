@@ -14,7 +14,7 @@ namespace {
 constexpr int kRaysOfPoint = 48;  ///< Rays from each point that look for places where records are needed.
 constexpr size_t kMostPoints = 1024, kMostRecords = 1 << 14;
 constexpr int kPhases = 8;        ///< Number of phases; each has twice the candidates of the one before.
-constexpr int kSearchPhases = 3;  ///< Bright spots are learnt at the places of these phases, of few records.
+constexpr int kSearchPhases = 3;  ///< Bright spots are learnt in these first phases, which have few records.
 constexpr CacheSettings kCoarse{};
 constexpr float kPixelsAcross = 64;  ///< Records are as dense as for a picture of so many pixels.
 constexpr int kSamplesShare = 2, kLeastSamples = 48, kMostSamples = 256;
@@ -30,8 +30,8 @@ int phaseOf(uint32_t key) {
   return phase;
 }
 
-/// Gives a record of a further level the radii of the first level's record, whose distances are known best as it has
-/// the most rays. Its own gradients are noise, of which clamping at 0 would keep the bright half, so they are cleared.
+/// Gives a record of a further level the distances of the first level's record, which has the most rays and knows them
+/// best. The record's own gradients are noise. Clamping at 0 would keep the bright half of it, so they are cleared.
 void copyRadii(const IrradianceRecord& first, IrradianceRecord& record) {
   record.closest = first.closest;
   record.harmonicMean = first.harmonicMean;

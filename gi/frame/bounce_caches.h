@@ -22,7 +22,7 @@ class BounceCaches {
   };
   /// Fills levels for `bounces` of light. `gather` gives the settings of the points that look them up. Records lie
   /// where rays from `from` end, and where the rays of these records do. It ends early when another level would add
-  /// nothing.
+  /// next to nothing.
   void fill(const RayTools& tools, const Camera& camera, const std::vector<GatherPoint>& from,
             const GatherSettings& gather, int bounces, const Run& run);
   /// The members that lookup() needs, for files.
@@ -55,8 +55,8 @@ class BounceCaches {
 
   std::vector<IrradianceCache> levels_;  ///< levels_[k] holds the light after k + 1 bounces.
   std::vector<std::string> groups_;
-  std::vector<std::vector<std::vector<LightShare>>>
-      alone_;                        ///< alone_[k][g]: the same with the lights of a group alone.
+  /// alone_[k][g]: the light of the records of level k with the lights of group g alone.
+  std::vector<std::vector<std::vector<LightShare>>> alone_;
   std::vector<double> light_;        ///< Sum of the records of each level.
   std::vector<GatherPoint> points_;  ///< The points of the records, the same on all levels.
   BrightSpots spots_;                ///< Some rays of each record are aimed at these.

@@ -1,4 +1,4 @@
-// The facts about a frame that a gather pass needs before its first phase.
+// Private to gi: the facts about a frame that a gather pass needs before its first phase.
 #pragma once
 #include <atomic>
 #include <vector>

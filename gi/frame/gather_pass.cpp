@@ -19,10 +19,10 @@ namespace tomales {
 namespace {
 
 constexpr int kPilotPhases = 3;  // Bright spots are learnt from the records of these phases.
-// Number of rays from which on all records have the same directions. The light that those miss changes little between
-// records, and is no more than other directions miss (docs/decisions/0095).
+// Records of so many rays or more all have the same directions. Their errors are then a smooth function of the place,
+// and no greater than those of other directions (docs/decisions/0095).
 constexpr int kManyRays = 512;
-// The first records that look for bright spots have so many times fewer rays, of their own.
+// The first records, which look for bright spots, have so many times fewer rays, with directions of their own.
 constexpr int kRaysPerPilotRay = 4;
 
 /// Returns the stride of the lattice that this phase completes; 0: it completes none.
@@ -98,8 +98,8 @@ class GatherPass {
     for (const Site& s : sites)
       if (isIndirect(s.cache)) points.push_back(s.point);
     if (bounces == 1 || points.empty()) return;
-    // Every gather point may look the bounce caches up, so they have as many rays, as long, as any plan asks for,
-    // whatever pixel comes first.
+    // Every gather point may look the bounce caches up. So their rays are as many and as long as any plan asks for,
+    // whichever pixel comes first.
     size_t first = 0;
     while (!isIndirect(first)) ++first;
     GatherSettings gather = state_.caches[first].plan.gather;

@@ -13,7 +13,7 @@ constexpr int kGatherPhases = kLatticePhases + kLastPhases;
 
 class GatherTile {
  public:
-  /// gathers: for each group, is anything gathered at its points?
+  /// gathers: for each group, whether anything is gathered at its points.
   GatherTile(const GiState&, const DeepTile&, const std::vector<uint8_t>& gathers);
 
   /// Calls f(point, x, y) for each point of a phase and the pixel that sees it, in the order of pixels. In the lattice

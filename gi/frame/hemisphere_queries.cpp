@@ -1,5 +1,5 @@
-// occlusion() and indirectdiffuse() of shaders from records as in the irradiance cache. For occlusion() they hold the
-// uncovered share of the hemisphere instead of light.
+// Answers occlusion() and indirectdiffuse() of shaders from records, as the irradiance cache does. For occlusion()
+// these hold the uncovered share of the hemisphere instead of light.
 #include "gi/frame/state.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/random_streams.h"

@@ -9,11 +9,11 @@
 namespace tomales {
 namespace {
 
-// Factor on the radii of records at lookups: with the second-order correction, further records add less error than they
-// remove noise (docs/decisions/0103).
+// Factor on the radii of records when points are shaded. With the second-order correction, the further records remove
+// more noise than they add error (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
-/// Surfaces on a photon's path, if nobody limits them. A hundredth of the light is left after so many of reflectance
-/// 0.75.
+/// Bounces of an audit's paths that stand for photons whose bounces nobody limits. After so many, at a reflectance of
+/// 0.75, a hundredth of the light is left.
 constexpr int kAuditBounces = 16;
 
 /// Returns E/pi of light that came by mirrors and glass, which gather rays do not find.

@@ -11,19 +11,20 @@
 namespace tomales {
 namespace {
 
-/// Photons of one pass: the fewer, the more often radii shrink, and the more often the grid is built.
+/// Photons of one pass. The fewer there are, the more often radii shrink, and the more often the grid is built.
 constexpr int64_t kPhotonsOfPass = 1 << 17;
-/// Disks of the first pass over a micropolygon; alpha = 2/3 makes noise and bias fall equally fast (Knaus and Zwicker
-/// 2011, section 4.3).
+/// The radius of a disk in the first pass, over that of its micropolygon; and alpha. 2/3 makes noise and bias fall
+/// equally fast (Knaus and Zwicker 2011, section 4.3).
 constexpr double kFirstScale = 4, kAlpha = 2.0 / 3;
 
-/// The noise is looked at when the number of passes has doubled, so that it is not looked at until it is low by chance.
+/// The noise is looked at only when the number of passes has doubled. If it were looked at after each pass, it would at
+/// some time be low by chance.
 bool isTimeToAsk(int64_t passes) { return passes >= 4 && (passes & (passes - 1)) == 0; }
 
 MeasurementPoint pointAt(const RayScene& rays, const GatherPlaces& places, const ShadePoints& points, TmConstVec3 N,
                          int i, int bounces) {
   const GatherPoint at = places.at(i);
-  // A hair may have its light from its root, whose pixel stands for it then.
+  // A hair may have the light of its root. Then the area of a pixel at the root stands for that of the micropolygon.
   const bool own = at.position == points.position(i);
   const float area = own ? points.channel(kArea)[i] : at.pixelSize * at.pixelSize;
   Ray leaving{at.position, at.normal};

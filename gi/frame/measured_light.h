@@ -1,6 +1,7 @@
-// Private to gi: light that photons bring to the points at which the frame's shaders ask for indirect light, by which
-// they are found: the frame is shaded once without light to note these places, and asks at the same places again when
-// it is shaded. Places where rays of mirrors and glass arrive are among them. Irradiance: E/pi. Space: current.
+// Private to gi: the light that photons bring to the points at which the frame's shaders ask for indirect light. The
+// frame is first shaded without light, to note these points; where rays of mirrors and glass arrive, shaders ask too.
+// Then photons are counted at the points. When the frame is shaded, its shaders ask at the same points again.
+// Irradiance: E/pi. Space: current.
 #pragma once
 #include <mutex>
 #include <unordered_map>

@@ -123,7 +123,7 @@ void clearResult(const ShadePoints& points, const uint8_t* active, const RayResu
 
 }  // namespace
 
-// An object's limit counts from its own depth, and never lifts an earlier one.
+// The limits of an object count from the depth of its own point, and never raise those that the ray came with.
 std::optional<ShadeContext> contextOfHits(const GiState& state, const ShadePoints& points, const RayQuery& query,
                                           const ShadeContext& context) {
   const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;

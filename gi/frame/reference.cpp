@@ -11,7 +11,8 @@ namespace tomales {
 namespace {
 
 constexpr size_t kRaysPerBatch = 4096;  // Paths that are shaded together.
-// The share of paths that go on from places that no map knows: those that never come to another place end.
+// The share of paths that go on from a place that no map knows. Paths that never come to a place which a map knows end
+// by it.
 constexpr float kGoesOn = 2.0f / 3;
 
 // Sums of one point over its paths.
@@ -131,8 +132,8 @@ class PathBatches {
 ShadeContext contextOfPaths(const GiState& state, const ShadeContext& context, int bounces) {
   const int depth = context.depth + 1;
   ShadeContext out{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
-  out.diffuseLimit =
-      bounces;  // the depth also limits wide lobes that shaders follow; mirrors reflect as deep as their objects allow
+  // The depth also limits wide lobes that shaders follow. Mirrors reflect as deep as their objects allow.
+  out.diffuseLimit = bounces;
   out.highlights = true;
   out.lights = context.lights;
   if (!state.focusing.empty()) out.focusing = &state.focusing;

@@ -8,12 +8,13 @@
 namespace tomales {
 namespace {
 
-constexpr int kTimesOfLight = 16;  ///< Least number of times that the shadows of one light see, over all its samples.
+/// The shadow rays of one light see at least so many times of the shutter, over all its samples.
+constexpr int kTimesOfLight = 16;
 
 }  // namespace
 
 struct GiServices::Impl : GiState {
-  /// Null: neither a file nor the geometry holds emitters.
+  /// Returns null if neither a file nor the geometry holds emitters.
   const Emitters* knownEmitters() const {
     if (emitters) return &*emitters;
     const RayTools* tools = rays();

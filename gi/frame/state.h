@@ -34,7 +34,7 @@ struct GiState {
   HitRadianceSource hitRadianceSource{};                     ///< May be empty.
   mutable std::unique_ptr<const HitRadiance> hitRadiance{};  ///< Set in GiMode::Radiosity alone.
   mutable std::once_flag sourcesOnce{};
-  GiServices::BounceCost bounceCost{};        ///< The cost of the last gather pass.
+  GiServices::BounceCost bounceCost{};        ///< That of the last gather pass.
   std::optional<PhotonPasses> passes{};       ///< Empty: no photons are counted.
   std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.
   /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.
@@ -59,7 +59,7 @@ GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
 GatherPlan planFor(const GiState&, int group, const HemisphereQuery&);
 
 /// Finds the cache that serves a plan, if there is one. Records that were given serve even where a light or an option
-/// has since been changed: first those that were gathered with other rays alone, then those for the same question.
+/// has since been changed: preferably those whose plan differs in its rays alone, else those for the same question.
 std::vector<PreparedCache>::const_iterator preparedFor(const GiState&, const GatherPlan&);
 
 /// Returns what a cache with this error function has at `maxError`.
@@ -73,7 +73,8 @@ void learnHemisphereQueries(GiState&, const DeepFrame& layout, const TileReader&
 
 /// Returns the number of diffuse bounces of a light.
 int bouncesFor(const GiState&, const IndirectQuery&);
-/// Returns the same for paths that stand for all light that the method brings, by maps or otherwise.
+/// Returns the same for the paths of an audit (ShadeContext::auditPaths), which stand for all light that the method
+/// brings, by maps or otherwise.
 int auditBouncesFor(const GiState&, const IndirectQuery&);
 
 /// Root of the area that a pixel projects onto the plane through P with unit normal n (approximate-gi
@@ -125,8 +126,9 @@ BatchLookup recallOrLookUp(const GiState&, const PreparedCache&, const GatherPla
 /// Returns the light of a cache's records under the gains; empty if that is their own.
 std::span<const LightShare> mixedLight(const GiState&, size_t cache);
 
-/// Returns the light of a cache's records as it would be with other random numbers: each is brighter or darker by a
-/// draw of its noise, times the root of 2, by which two independent pictures differ. mixed: mixedLight() of the cache.
+/// Returns the light of a cache's records as it would be with other random numbers. Each record is made brighter or
+/// darker by a draw of its noise, times the root of 2: so much do two independent pictures differ. mixed: mixedLight()
+/// of the cache.
 std::vector<LightShare> redrawn(const IrradianceCache&, std::span<const LightShare> mixed);
 
 /// Phase of the gather pass in which the nearest point of a pixel is considered: 0 is a lattice of stride 16,

@@ -1,4 +1,5 @@
-// Noun: the light that surfaces would still send each other after the last bounce that is followed.
+// Private to gi: the light that surfaces would still send each other after the last bounce that is followed. Threads:
+// pure.
 #pragma once
 #include "reyes/base/log.h"
 

@@ -8,8 +8,8 @@ namespace tomales {
 inline constexpr float kContrast = 4;
 
 /// Returns the cells where light changes fast: those whose neighbours differ by more than kContrast times the mean. The
-/// cell's own ray is not considered, so that choosing cells for more rays leaves the estimate unbiased. `radiance`: one
-/// ray of each cell.
+/// cell's own ray counts in the mean alone, so that the estimate is nearly unbiased. Where little of the hemisphere is
+/// bright some bias is left (docs/measured/choices.md). `radiance`: one ray of each cell.
 std::vector<int> contrastCells(const HemisphereCells& cells, std::span<const vec3> radiance);
 
 }  // namespace tomales

@@ -16,13 +16,15 @@ constexpr float kHessianTolerance = 4;
 constexpr int kMostSplit = 8;
 constexpr float kMostAimed = 0.5f;  ///< Greatest number of rays at bright spots, for each ray of the hemisphere.
 constexpr size_t kLeastAimed = 8;
-constexpr size_t kRaysOfProbe = 8;  ///< One ray in so many of the hemisphere's finds out whether a spot can be seen.
-/// Least rays of the hemisphere for each spot; with fewer, probes would cost too much.
+/// For each so many rays of the hemisphere, one more finds out whether a spot can be seen.
+constexpr size_t kRaysOfProbe = 8;
+/// Least number of rays of the hemisphere for each spot. With fewer, probes would cost too much.
 constexpr size_t kLeastPerSpot = 4;
-constexpr float kLeastShare = 0.05f;   ///< Share of a spot's light that is assumed when its few probes have seen none.
-constexpr float kFoundByChance = 160;  ///< If so many rays of the hemisphere are expected on spots, none are aimed.
-constexpr float kUnhidden = 1.5f;  ///< Factor on kFoundByChance below which probes find out whether spots are hidden.
-/// Above that number of rays, probes are traced only where less than this share of the spots' light is seen.
+constexpr float kLeastShare = 0.05f;  ///< Share of a spot's light that is assumed when its few probes have seen none.
+/// No rays are aimed if the hemisphere alone is expected to send so many to the spots.
+constexpr float kFoundByChance = 160;
+constexpr float kUnhidden = 1.5f;  ///< Below this many times kFoundByChance, probes find out whether spots are hidden.
+/// Above it, probes are traced only where less than this share of the spots' light is seen.
 constexpr float kHidden = 0.25f;
 
 const BrightSpots kNoSpots;
@@ -121,7 +123,8 @@ class Hemisphere {
   }
 
   /// Finds the share of each spot's light that arrives: something may be in between, or the spot shines elsewhere.
-  /// These rays do not count for the estimate, so that the choice of directions does not depend on rays that count.
+  /// These rays do not count for the estimate: rays that follow the finds of others that count make it too dark
+  /// (docs/decisions/0092).
   void probe(Stats& stats) {
     const size_t targets = aim_.targets();
     if (targets == 0 || count_ < kLeastPerSpot * targets) return;
@@ -140,8 +143,9 @@ class Hemisphere {
     aim_.dim(scratch_.shares);
   }
 
-  /// Aims the more rays, the more light is expected from the spots. The rays of this hemisphere do not decide it,
-  /// except for whether to probe for hidden spots: chance does not lose three quarters of so much light.
+  /// The more light is expected from the spots, the more rays are aimed at them. The rays of this hemisphere have no
+  /// say in it, except that they may ask for probes: if they see less than a quarter of so much light, that is not
+  /// chance, and spots are hidden.
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear();
     scratch_.aimedCells.clear();

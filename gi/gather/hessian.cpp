@@ -7,7 +7,7 @@ constexpr double kFar = 1e3;  ///< A ray that misses counts as a hit at so many 
 
 using dvec3 = glm::dvec3;
 
-/// Integrals over a segment r(t), t in [0, 1], that appear in the derivatives of its term.
+/// Integrals over a segment r(t) = r1 + t d, t in [0, 1], that appear in the derivatives of its term (Mesh::edge).
 struct EdgeIntegrals {
   dvec3 r4;           ///< Integral of r / |r|^4.
   double i4;          ///< Integral of 1 / |r|^4.
@@ -15,8 +15,8 @@ struct EdgeIntegrals {
   dvec3 foot, along;
 };
 
-/// phi is the angle from the foot of the perpendicular and h its length, so that |r| = h / cos(phi) and dt = h / (|d|
-/// cos^2) dphi. Returns false where the segment points at the origin and has no term.
+/// h is the length of the perpendicular from the origin to the line, and phi the angle from its foot, so that |r| = h /
+/// cos(phi) and dt = h / (|d| cos^2(phi)) dphi. Returns false where the segment points at the origin and has no term.
 bool integrate(const dvec3& r1, const dvec3& d, EdgeIntegrals& out) {
   const double dd = dot(d, d), length = std::sqrt(dd);
   if (!(dd > 0)) return false;

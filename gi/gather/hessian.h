@@ -1,10 +1,10 @@
-// Private to gi: how irradiance changes as a point moves in its tangent plane, to the second order, with occlusion.
-// Source: Schwarzhaupt, Jensen, Jarosz 2012, "Practical Hessian-Based Error Control for Irradiance Caching". The hits
-// of neighbouring rays are joined by triangles, each with the radiance of its farthest corner: a nearer surface ends at
-// its own hit, and the surface behind it appears. The irradiance of such a mesh is a sum over its edges, and so are its
-// derivatives.
-// Limit: the surface that appears behind an edge is taken to have one radiance. Where the edge of a far surface passes
-// behind that of a near one, the mixed derivative is up to a half too small, however many rays there are.
+// Private to gi: the second derivatives of irradiance as a point moves in its tangent plane. They take account of
+// occlusion. Source: Schwarzhaupt, Jensen, Jarosz 2012, "Practical Hessian-Based Error Control for Irradiance Caching".
+// The hits of neighbouring rays are joined by triangles, each with the radiance of its farthest corner: a nearer
+// surface ends at its own hit, and the surface behind it appears. The irradiance of such a mesh is a sum over its
+// edges, and so are its derivatives. Limit: the surface that appears behind an edge is taken to have one radiance.
+// Where the edge of a far surface passes behind that of a near one, the mixed derivative is up to a half too small,
+// however many rays there are.
 #pragma once
 #include "gi/gather/hemisphere.h"
 

@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kOccluderPixels = 2;  // Length of the rays in pixels; records have met occluders that are farther away.
+constexpr float kOccluderPixels = 2;  // Length of the rays in pixels. Records have met occluders that are farther away.
 constexpr float kUnmet = 0.9f;        // Share of a record's closest distance below which it has met nothing.
 constexpr float kSlant = 0.70710678f;
 
@@ -25,9 +25,10 @@ float radiusUnderOccluder(const HemisphereSamples& samples, float pixelSize, std
   return std::max(*height, kFinestPixels * pixelSize);
 }
 
-// Records in front of a slot that is narrower than their radius see the occluder over it edge-on, if at all. One of two
-// rays that leave upwards and aside meets it, even below its very edge. Records beside that edge have met it, and it
-// may be as near as it is high: a ray straight up tells the points that lie under it from those that do not.
+// A record in front of a slot that is narrower than the record's radius sees the occluder over the slot edge-on, if at
+// all. From a point in the slot, one of two rays that leave upwards and aside meets the occluder, even below its very
+// edge. A record beside that edge has met it, and the edge may be as near as it is high; then a ray straight up tells
+// the points under the occluder from the others.
 bool OccluderSearch::isUnderOccluder(const GatherPoint& p, float closest, float occluderHeight) {
   const float farthest = std::min(kOccluderPixels * p.pixelSize, gather_.maxDistance),
               met = std::min(farthest, kUnmet * closest);
@@ -36,7 +37,7 @@ bool OccluderSearch::isUnderOccluder(const GatherPoint& p, float closest, float 
   ray.spread = spreadOfRays(gather_.samples);
   rays_.prepareOrigin(p.group, p.position, p.edgeLength, ray);
   const float slanted = slantedOffset(ray.offset, kSlant);
-  if (slanted >= ray.tMax) return false;  // rays cannot tell surfaces so near from the one that they leave
+  if (slanted >= ray.tMax) return false;  // Rays cannot tell a surface so near from the one that they leave.
   if (p.group != group_) filter_.groups = groupsSeenFrom(rays_, group_ = p.group, gather_);
   if (!filter_.passesAll()) ray.filter = &filter_;
   if (ray.tMax > met && meetsOccluder(p, ray)) return true;

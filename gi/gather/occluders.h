@@ -1,16 +1,17 @@
 // Private to gi: an amendment of the irradiance cache (gi/cache/amendments/switches.h). Under a surface that lies close
-// over a point, light changes over the height of that surface, whatever the size of a pixel. So a record ends where an
-// occluder over it is low, and points under occluders that no record in use has met get records of their own. Without
-// this, slots narrower than a pixel get the light in front of them: a tenth of the error of all scenes is there, a
-// third at a lamp's slot. It costs a tenth more records, and as much time (docs/decisions/0061).
+// over a point, light changes over the height of that surface, whatever the size of a pixel. So a record reaches no
+// farther than an occluder over it is high, and a point under an occluder that no record in use has met gets a record
+// of its own. Without this amendment, slots narrower than a pixel get the light in front of them: a tenth of the error
+// of all scenes comes from there, and a third of the error at a lamp's slot. It costs a tenth more records, and as much
+// more time (docs/decisions/0061).
 #pragma once
 #include "gi/gather.h"
 #include "gi/gather/hemisphere.h"
 
 namespace tomales {
 
-/// Returns the validity radius under a nearby occluder: the height that a tenth of the nearly upright rays do not
-/// reach, so that a hair does not count, but at least a quarter of a pixel. `upright`: memory that may be used.
+/// Returns the validity radius under a nearby occluder: the height below which a tenth of the nearly upright rays end,
+/// so that a hair does not count. It is at least a quarter of a pixel. `upright`: memory that may be used.
 float radiusUnderOccluder(const HemisphereSamples& samples, float pixelSize, std::vector<float>& upright);
 
 /// Searches for occluders. Points are asked one after the other; those of a group should follow each other.

@@ -1,6 +1,6 @@
-// The points where rays of a hemisphere start. A concave surface lies behind its coarse polygons: flat rays that leave
-// it would pass behind all of them and miss what is there, as inside a sphere. Such rays start on the polygon in front,
-// and those that would dive into it leave it at the mirrored angle. Space: current. Threads: pure.
+// Private to gi: the points where rays of a hemisphere start. A concave surface lies behind its coarse polygons: flat
+// rays that leave it would pass behind all of them and miss what is there, as inside a sphere. Such rays start on the
+// polygon in front, and those that would dive into it leave it at the mirrored angle. Space: current. Threads: pure.
 #pragma once
 #include "raytrace/trace.h"
 

@@ -6,9 +6,10 @@
 
 namespace tomales {
 
-/// Places of the rays in their cells: correlated multi-jitter (Kensler 2013). The columns of a ring take different
-/// heights in their cells and the rings of a sector different angles, so both projections are stratified as finely as
-/// there are rays. Plain jitter needs more rays for the same error (docs/measured/indirect.md).
+/// Places of the rays in their cells: correlated multi-jitter (Kensler 2013). The rays of a ring have different heights
+/// within their cells, and the rays of a sector different angles. So the projection of all rays to heights, or to
+/// angles, is stratified as finely as there are rays. Plain jitter needs more rays for the same error
+/// (docs/measured/indirect.md).
 class CellJitter {
  public:
   CellJitter(const HemisphereCells& cells, uint32_t key)

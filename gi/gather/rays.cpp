@@ -100,7 +100,7 @@ void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
   context.light = settings_.light;
   context.mirrored = settings_.mirrored;
-  // direct light counts by the diffuse component alone; mirrors and glass show their reflections
+  // Direct light counts by the diffuse component alone. Mirrors and glass show their reflections.
   context.diffuseLimit = settings_.asked ? settings_.asked->diffuseLimit : 0;
   scratch_.answers.mode = settings_.asked ? settings_.asked->mode : HitMode::Shader;
   for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
@@ -113,8 +113,9 @@ void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   }
 }
 
-// Shades the same hits under each group of lights alone. The last group is not shaded: its share is the rest of the
-// whole. Each shading includes what shines by itself, which is subtracted.
+// Shades the same hits under each group of lights alone. Each shading includes the light of surfaces that shine by
+// themselves, which is the share of the first group and is subtracted from the others. The last group is not shaded:
+// its share is the rest of the whole.
 void GatherRays::shadeShares(const ShadeContext& context, SeenLight& seen) {
   if (groups_.empty()) return;
   ShadeContext alone = context;

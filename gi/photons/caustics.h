@@ -1,8 +1,8 @@
 // Private to gi: the irradiance of photons that lie in bright lines and spots, with darkness beside them. Each photon
-// sheds its power on a disk as wide as its own nearest neighbours lie, less towards the rim, so that the light of all
-// is the power of all (a density estimate with a width for each sample and Epanechnikov's kernel; Silverman 1986,
-// sections 4.2 and 5.3). An estimate by the photons nearest to the place that is lit would find light wherever it has
-// to look far. Space: that of the photons. Threads: lookups are concurrent.
+// sheds its power on a disk that reaches as far as its own nearest neighbours, and sheds less towards the rim. So the
+// light of all photons is their power (a density estimate with a width for each sample and Epanechnikov's kernel;
+// Silverman 1986, sections 4.2 and 5.3). An estimate by the photons nearest to the place that is lit would find light
+// in the dark too, because there it looks far. Space: that of the photons. Threads: lookups are concurrent.
 #pragma once
 #include "gi/photons/irradiance.h"
 #include "gi/photons/tree.h"
@@ -14,8 +14,8 @@ class CausticPhotons {
   /// photons: as for estimateIrradiance(), on surfaces.
   CausticPhotons(PointCloud photons, const PhotonIrradianceSettings& settings);
 
-  /// Returns W/m2 around P on the side of N (unit), in the mean over a square of edges 2 `radius` or so. surface: that
-  /// of P, as in PhotonTree::nearest().
+  /// Returns E in W/m2 on the side of N (unit), averaged over a square around P whose edges are about 2 `radius`.
+  /// surface: that of P, as in PhotonTree::nearest().
   vec3 irradiance(const vec3& P, const vec3& N, int surface, float radius) const;
 
  private:

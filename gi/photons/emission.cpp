@@ -15,14 +15,14 @@ constexpr int kProbes = 4;  ///< Number of probes in each cell of a cone.
 constexpr int kGrid = 128;  ///< Cells along the side of a distant light's square.
 /// Cells where no probe saw light get this share of the brightest cell, so that a beam between the probes is not lost.
 constexpr double kFloor = 1e-3;
-/// Bias of photons from a point light, relative to the size of the scene and the distance of its origin: such lights
-/// may lie on surfaces.
+/// Bias of photons from a point light, which may lie on a surface. It is relative to the radius of the scene plus the
+/// distance of its origin from the eye.
 constexpr float kPointBias = 1e-5f;
-/// Least cosine in the offset of photons that leave area lights. Flatter ones, one in 256, may still meet the lamp's
-/// own polygons.
+/// Least cosine in the offset of photons that leave area lights. One in 256 leaves flatter, and may still meet the
+/// lamp's own polygons.
 constexpr float kLeastCosine = 1.0f / 16;
-constexpr uint32_t kFewSamples = 64;    ///< Number of samples of a distant light by which its angular width is known.
-constexpr float kSampledMargin = 1.2f;  ///< Factor on that width: none of the samples is the outermost direction.
+constexpr uint32_t kFewSamples = 64;    ///< Samples of a light by which its extent is known.
+constexpr float kSampledMargin = 1.2f;  ///< Factor on that extent, since no sample is the outermost one.
 
 /// Returns the place of a probe in its cell. The four places are the corners of a smaller square.
 vec2 probePlace(int probe) { return {probe & 1 ? 0.75f : 0.25f, probe & 2 ? 0.75f : 0.25f}; }
@@ -42,7 +42,8 @@ std::vector<vec2> fewSamples() {
 
 }  // namespace
 
-// The disk map needs sines and cosines of at most an eighth of a turn.
+// The map from square to disk is that of Shirley and Chiu (1997). It needs sines and cosines of at most an eighth of a
+// turn, for which short series do.
 TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out) {
   for (size_t i = 0; i < out.size(); ++i) {
     const float a = 2 * xi[i].x - 1, b = 2 * xi[i].y - 1;
@@ -131,7 +132,8 @@ vec3 LightPhotons::intensity(const LightProbe& probe, size_t i) const {
 void LightPhotons::surveyDistant(const PhotonTarget& target) {
   const LightProbe probe = askedFromMiddle(fewSamples());
   direction_ = normalizeOr(-std::accumulate(probe.L.begin(), probe.L.end(), vec3(0)), vec3(0, 0, 1));
-  // Shadows along any of its directions lie near those along the middle one (emitFromDistance).
+  // The shadow of a box along any direction of the light lies within `spread` of its shadow along the middle direction
+  // (emitFromDistance).
   float spread = 0, brightness = 0;
   for (size_t i = 0; i < kFewSamples; ++i) {
     spread = std::max(spread, kSampledMargin * radius_ * glm::length(probe.L[i] + direction_));
@@ -140,7 +142,7 @@ void LightPhotons::surveyDistant(const PhotonTarget& target) {
   }
   vec3 tangent, bitangent;
   orthonormalBasis(direction_, tangent, bitangent);
-  // The shadow of every object's box on the square: no photons are sent to where there is nothing.
+  // Cells in the shadow of some object's box get photons. No photons are sent to where there is nothing.
   std::vector<double> weights(kGrid * kGrid, 0.0);
   const auto cellAt = [&](float along) {
     return std::clamp(static_cast<int>((along / radius_ + 1) * 0.5f * kGrid), 0, kGrid - 1);
@@ -219,7 +221,8 @@ void LightPhotons::emitFromDistance(const std::vector<vec2>& a, const std::vecto
     const vec2 at = side * vec2(static_cast<float>(cell % kGrid) + static_cast<float>(x),
                                 static_cast<float>(cell / kGrid) + a[i].y) -
                     vec2(radius_);
-    // The square turns with the direction by the least rotation: each shadow moves by less than the direction does.
+    // The square turns with the direction, by the least rotation, so that each shadow moves by less than the direction
+    // does.
     const vec3 d = isDrawn_ ? -sun.L[i] : direction_, across = at.x * tangent + at.y * bitangent;
     const vec3 turned = across - dot(across, d) / std::max(1 + dot(direction_, d), 1e-6f) * (direction_ + d);
     out[i].ray = {center_ + turned - kOutside * radius_ * d, d};

@@ -12,7 +12,7 @@
 namespace tomales {
 namespace {
 
-/// Places that are asked how bright they are: in all, and at least and at most on one side of an object.
+/// How many places are probed for their brightness: in all, and at least and at most on one side of an object.
 constexpr size_t kGlowProbes = 1 << 17, kFewestOfSide = 16, kMostOfSide = 8192;
 constexpr int kMostColumns = 32;
 /// Every cell counts as at least this share of the mean brightness, so that what the probes have missed still glows.

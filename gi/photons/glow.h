@@ -1,6 +1,6 @@
-// Private to gi: photons of surfaces that glow, by what their shaders add where no light is (TM_EMITS). Gather rays see
-// such surfaces themselves, so a photon counts as one that a surface sends on. Photons leave the coarse polygons, as
-// gather rays see them. Space: current. Power: W. Threads: const members may be called concurrently.
+// Private to gi: photons of surfaces that glow, because their shaders add light of their own (TM_EMITS). Gather rays
+// see the glow itself, so its photons count as light that a surface sends on. They leave the coarse polygons that
+// gather rays see. Space: current. Power: W. Threads: const members may be called concurrently.
 #pragma once
 #include "gi/photons/emission.h"
 #include "raytrace/tessellate.h"
@@ -13,7 +13,7 @@ std::vector<vec3> emittedRadiance(const RayScene& rays, const ShadingSystem& sha
 
 class GlowPhotons : public PhotonSource {
  public:
-  /// Samples of each object that may glow and that diffuse rays see tell where it is how bright. Warns of those on
+  /// Samples each object that may glow and that diffuse rays see, to learn where it is how bright. Warns of objects on
   /// which no photon can start.
   GlowPhotons(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log);
 

@@ -14,8 +14,9 @@ namespace {
 // Chance alone moves the centroid of 50 photons by 0.09 radii on average. Between these distances, in radii, the
 // correction for a border sets in gradually.
 constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
-constexpr float kOverlap =
-    1.6f;  ///< Radius of a disk over that of a disk with the area it stands for: random disks leave few gaps.
+/// Radius of a disk over that of a disk with the area that it stands for. With this factor, random disks leave few
+/// gaps.
+constexpr float kOverlap = 1.6f;
 constexpr size_t kFew = 8;  ///< Fewer photons do not show how far apart they are.
 /// Chance alone brings the nearest eight of 50 so much closer once in a thousand times. Radii that follow chance make
 /// bricks finer than the data.
@@ -115,7 +116,8 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
   const float wide = diskRadius(area, inside, settings.every), close = nearRadius(heap, settings.every);
   const float reach = std::sqrt(r2);
   const bool across = sight && isAcrossWalls(tree, power, at, std::span(heap).first(inside), reach, sight);
-  // Photons behind a wall do not tell how far apart those before it are, so the mark stands for all that was searched.
+  // Photons behind a wall do not tell how far apart those before it are. So an estimate across a wall marks all that
+  // was searched.
   return {sum / area,
           across                       ? reach
           : close < kMuchCloser * wide ? close
@@ -153,8 +155,8 @@ Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const 
 }  // namespace
 
 float coveredShareOfBall(float centroidDistance) {
-  float lo = -1, hi = 1,
-        share = 1;  // a: height of the plane over the centre; the centroid moves outwards as the plane comes nearer
+  // a: height of the plane over the centre, in radii. The centroid moves outwards as less of the ball is left.
+  float lo = -1, hi = 1, share = 1;
   for (int i = 0; i < 24; ++i) {
     const float a = 0.5f * (lo + hi), circle = 1 - a * a;
     share = 1 - 0.25f * (1 - a) * (1 - a) * (2 + a);

@@ -13,8 +13,8 @@ struct PhotonIrradianceSettings {
   int nearest = 50;  ///< The paper's number of photons in an estimate.
   /// One estimate is made for so many neighbouring photons (Christensen 1999, "Faster photon map global illumination").
   int every = 4;
-  float maxRadius =
-      0;  ///< Photons farther away do not count, however few there are; 0: a twentieth of the map's diagonal.
+  /// Photons farther away do not count, however few there are; 0: a twentieth of the map's diagonal.
+  float maxRadius = 0;
 };
 
 /// Channel of photons in media, in W m. It gives "fluence" (W/m2), 4 pi times the mean radiance from all sides (Jensen
@@ -28,11 +28,11 @@ inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = 
 /// Counts of estimates, and of the unreliable ones among them.
 struct EstimateFigures {
   int64_t made = 0;
-  /// Fewer photons were in reach than were asked for: light is smeared over the whole reach, and still noisy.
+  /// Estimates with fewer photons in reach than were asked for: light is smeared over the whole reach, and still noisy.
   int64_t few = 0;
-  int64_t bent = 0;  ///< The surface bends within the disk, which does not fit it then.
-  /// Density of the nearest few over that of the disk, summed. Each is 1 in the mean on even ground; photons lie in
-  /// clumps where surfaces are smaller than the disk.
+  int64_t bent = 0;  ///< Estimates whose surface bends within the disk, so that the disk does not fit it.
+  /// The density of the nearest few photons over that of the whole disk, summed over the estimates. Its mean is 1 on
+  /// even ground, and more where surfaces are smaller than the disk, because photons lie in clumps there.
   double clumps = 0;
   EstimateFigures& operator+=(const EstimateFigures& o) {
     made += o.made;

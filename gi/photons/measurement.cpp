@@ -8,9 +8,9 @@
 namespace tomales {
 namespace {
 
-/// Surfaces that face more differently than this are others.
+/// Photons that face a point's side by a smaller cosine lie on another surface.
 constexpr float kSameFacing = 0.7071f;
-/// Sums may become 2^23 times the power of a pass, and a photon in a million still has 20 bits.
+/// Sums of 63 bits hold 2^23 times the power of a pass, and a photon with a millionth of it still has 20 bits.
 constexpr double kUnitsOfPower = 0x1p40;
 constexpr size_t kNumbers = 6, kColors = 3;
 
@@ -43,8 +43,8 @@ void PhotonMeasurement::beginPass(float scale) {
   build();
 }
 
-/// A point lies in one cube, at least twice as wide as its reach: whatever it reaches lies in that cube or nearer to it
-/// than half its width.
+/// Puts each point into one cube that is at least twice as wide as the point's reach. So all that the point reaches
+/// lies in that cube or within half its width of it.
 void PhotonMeasurement::build() {
   const size_t count = points_.size();
   std::vector<uint64_t> cube(count);

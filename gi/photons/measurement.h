@@ -23,7 +23,7 @@ class PhotonMeasurement {
   /// `power`: of all photons of a pass together; it fixes the unit of the sums.
   PhotonMeasurement(std::vector<MeasurementPoint> points, double power);
 
-  /// Begins the next pass, of which disks have `scale` times their radius. One thread calls it.
+  /// Begins the next pass, in which each disk has `scale` times its radius. One thread calls it.
   void beginPass(float scale);
   void count(std::span<const StoredPhoton> photons);
 

@@ -7,8 +7,8 @@ namespace tomales {
 namespace {
 
 constexpr int kCorners = SkyCells::kRows + 1;  ///< Rows of corners from pole to pole.
-constexpr float kEven =
-    1.0f / 64;  ///< Share of photons that fall anywhere: light that no corner of a cell has seen is not lost.
+/// Share of photons that fall anywhere, so that light which no corner of a cell has seen is not lost.
+constexpr float kEven = 1.0f / 64;
 constexpr float kThroughPortals = 0.75f;  ///< Share of photons through portals, where there are portals.
 constexpr uint32_t kRays = 256;           ///< Number of rays that find on which side of a portal the sky is.
 /// Least share of the sky that counts as free on a side of a portal: glass may have been in the way of all those rays.
@@ -107,7 +107,7 @@ SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& 
   through_ = SkyCells(radiance, [&](const vec3& toSky) { return across(toSky); });
   if (!(through_.integral() > 0)) return;
   share_ = kThroughPortals;
-  // photons are not spent on the light that meets the outside of the house
+  // The light that meets the outside of the house does not count, so that no photons are spent on it.
   power_ = through_.integral() / double{share_};
 }
 
@@ -148,8 +148,8 @@ vec3 SkyPhotons::onDisk(const vec3& toSky, const vec2& xi) const {
   return center_ + r * std::cos(phi) * tangent + r * std::sin(phi) * bitangent;
 }
 
-/// Photons by disk and by portals are weighted by the balance heuristic (Veach 1997), over directions and area across
-/// them.
+/// Photons start on a disk before the scene or on a portal. Both kinds are weighted by the balance heuristic (Veach
+/// 1997), over direction and the area across it.
 void SkyPhotons::emit(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
   LightProbe probe;
   std::vector<float> density;

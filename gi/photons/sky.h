@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// A distribution of directions: weighted cells of a sphere, each as large as the area of its picture that a sky
-/// filters at once.
+/// A distribution of directions over weighted cells of the sphere. A sky that has a picture filters it over about one
+/// cell for each direction.
 class SkyCells {
  public:
   static constexpr int kRows = 512, kColumns = 1024;

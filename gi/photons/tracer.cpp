@@ -45,7 +45,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
     paths.push_back({e.ray, e.power * share, number, source.light()});
     paths.back().ray.time = timeOf(number, stream);
     paths.back().lift = liftOf(e.ray, e.normal);
-    // Gather rays see what glows themselves: its photons have left a surface, as all others do once they have arrived.
+    // Gather rays see the glow itself, so its photons begin as photons that have been scattered by a surface.
     if (source.light() < 0) {
       paths.back().depth = paths.back().bounces = 1;
       paths.back().specular = false;
@@ -86,7 +86,8 @@ void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
   s.hits.resize(s.flying.size());
   size_t kept = 0;
   for (const uint32_t i : s.flying) {
-    // Copying a hit that has just been written in smaller pieces would stall, so it is made in place.
+    // The hit is made in place: a copy would stall, because it reads in large pieces what has just been written in
+    // small ones.
     const Hit& hit = *::new (&s.hits[kept]) Hit(firstHit(paths[i]));
     if (hit.object >= 0) s.flying[kept++] = i;
   }
@@ -94,8 +95,8 @@ void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
   s.hits.resize(kept);
 }
 
-/// Returns the first hit of a photon. Photons leave polygons, not the surfaces that those stand for. If a ray that
-/// starts just before the polygon meets nothing near, the hit list would not change its hit.
+/// Returns the first hit of a photon. Photons leave polygons, not the true surfaces, so a ray may start just before its
+/// polygon. If that ray meets nothing near, its hit is the one that the hit list would find, at less cost.
 Hit PhotonTracer::firstHit(Path& path) const {
   Ray free = path.ray;
   const bool hasList = free.offset > 0;

@@ -6,10 +6,10 @@
 namespace tomales {
 namespace {
 
-/// The spread of a gather ray of about a hundred; irradiance is estimated over more.
+/// The spread of one of about a hundred gather rays. Irradiance is estimated over a wider area than that.
 constexpr float kDiffuseSpread = 0.1f;
-constexpr uint32_t kMostPasses =
-    1000;  ///< Limit for one path: layers of leaves and smoke end somewhere, faults of geometry may not.
+/// Limit for one path: layers of leaves and smoke end somewhere, faults of geometry may not.
+constexpr uint32_t kMostPasses = 1000;
 
 /// Reflection or refraction at a smooth dielectric.
 vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
@@ -40,7 +40,7 @@ bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const
     return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
   if (!surfaces_.isDiffuse(group))
     return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
-  // The transparent part, as the rest of a leaf's card, stores no light.
+  // A transparent part stores no light. Example: the card around the picture of a leaf.
   const vec3 transmitted = 1.0f - answer.opacity;
   const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
   const bool lands = passing < 1 && landsOn(path, group);
@@ -63,7 +63,8 @@ bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, f
 
 bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const {
   if (++path.depth >= settings_.maxDepth || !scatters(path) || !survives(path, reflected, xi.survival)) return false;
-  // Around the interpolated normal some photons would start into the polygon, and be caught in the body that it bounds.
+  // The hemisphere is that of the polygon. Around the interpolated normal some photons would start into the polygon,
+  // and be caught in the body that it bounds.
   const bool through = surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
   const vec3 axis =
       (dot(path.ray.direction, hit.geometricNormal) < 0) != through ? hit.geometricNormal : -hit.geometricNormal;

@@ -14,8 +14,8 @@ constexpr uint32_t kLeaf = 16;
 constexpr float kSameSide = 0.5f;      ///< Photons on surfaces turned away by more than 60 degrees do not count.
 constexpr float kAlongNormal = 15.0f;  ///< A photon off the plane counts as if it were four times as far off.
 /// A photon of another surface counts as if it were four hundred times as far off the plane: tiles of one floor
-/// continue each other, a ball does not continue the floor it lies on. On one sphere or plane a chord makes the same
-/// angle with both normals; of two parallel surfaces, one sees the back of the other.
+/// continue each other, a ball does not continue the floor it lies on. The height is measured along the mean of both
+/// normals, so two places of one sphere or plane have none, and two parallel surfaces have.
 constexpr float kOffSheet = 160e3f;
 
 /// Puts photons into this order in place, cycle by cycle, with one photon held aside. A copy of all would be the peak

@@ -5,7 +5,7 @@
 namespace tomales {
 
 struct NearPhoton {
-  float distance2;  ///< The same as PhotonTree::distance2().
+  float distance2;  ///< What PhotonTree::distance2() returns.
   uint32_t photon;  ///< Index in the order of the tree.
   bool operator<(const NearPhoton& o) const {
     return distance2 != o.distance2 ? distance2 < o.distance2 : photon < o.photon;
@@ -25,9 +25,9 @@ class PhotonTree {
 
   int surface(uint32_t i) const { return surface_[i]; }  ///< 0: not known.
 
-  /// Returns the squared distance; along the normal it counts four times, and more to another surface, so that a search
-  /// covers a disk and not a sphere. Infinite for photons that do not face as N does; N and surface are as in
-  /// nearest().
+  /// Returns the squared distance by which photons are compared. Distance along the normal counts four times, and much
+  /// more to a photon of another surface, so that a search covers a disk and not a ball. It is infinite for photons
+  /// that do not face as N does. N and surface: as in nearest().
   float distance2(uint32_t photon, const vec3& P, const vec3& N, int surface) const;
   /// Finds the `most` nearest photons within `radius` that face as `N` does (zero: all, in a ball), as a heap with the
   /// farthest in front. Photons of another surface than `surface` (0: all are of this one) count only if they continue

@@ -19,8 +19,8 @@ class Samples {
     answers_.mode = HitMode::Shader;
   }
 
-  /// Adds a view of a point from `radius` in front of it. Its share of the colour goes to `sum`, and its share of the
-  /// texel if it has a colour.
+  /// Adds a sample: a ray that sees a point of the texel. If the colour that it brings is finite, its share goes to
+  /// `sum`.
   void add(const Ray& ray, const Hit& hit, SampleName name, BakedTexel& sum) {
     rays_.push_back(ray);
     hits_.push_back(hit);

@@ -47,7 +47,8 @@ void RadiosityChart::allocate() {
   coverage.assign(texels.size(), 0.0f);
 }
 
-// The method is push and pull (Gortler et al. 1996), so that trimmed parts do not darken the texels along their edge.
+// The method is "push-pull" (Gortler et al. 1996, "The Lumigraph"). With it, trimmed parts do not darken the texels
+// along their edge.
 void RadiosityChart::makeLevels() {
   struct Step {
     size_t from;  ///< Offset of the finer level; the coarser one follows it.

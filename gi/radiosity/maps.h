@@ -1,9 +1,9 @@
 // Noun: radiosity maps (approximate-gi 4.4), a texture for each surface with its radiance by direct light, so that
 // gather rays run no shader. Every patch has a chart of its own, a power of two wide and high, so that MIP levels never
 // mix patches; its parameters are the patch's (u, v), which every surface has. A surface that shows both sides has
-// charts for both. Hits on surfaces without maps are shaded: points and curves that turn to the eye, transparent
-// objects, shaders that trace rays, and surfaces that displacement moves for rays. Values are radiance, the same
-// towards all directions, as hits of gather rays are shaded. Threads: const members may be called concurrently.
+// charts for both. Hits on surfaces without maps are shaded: points and curves that turn to the eye, parts of solids,
+// transparent objects, shaders that trace rays, and surfaces that displacement moves for rays. Values are radiance as
+// hits of gather rays have it, the same towards all directions. Threads: const members may be called concurrently.
 #pragma once
 #include <functional>
 
@@ -16,7 +16,7 @@ namespace tomales {
 struct RadiositySettings {
   float texels = 1;  ///< Factor on the texels along each edge that Attribute "radiosity" asks for.
   uint32_t seed = 0;
-  /// Limit for all maps together, about 20 bytes a texel. The maps are halved until they keep it. It is lower for small
+  /// Limit for all maps together, about 20 bytes a texel. All maps are halved until they keep it. It is lower for small
   /// pictures (layout.cpp).
   int64_t mostTexels = int64_t{1} << 25;
   std::function<void(float)> progress{};  ///< Is told how far baking is, by any thread.
@@ -41,7 +41,8 @@ struct RadiosityChart {
   /// Makes the coarser levels from level 0, weighted by the known share of each texel, and fills unknown texels from
   /// the coarser levels.
   void makeLevels();
-  /// Looks up radiance: bilinear inside the chart, linear between levels. `width`: that of the footprint.
+  /// Looks up radiance: bilinear inside the chart, linear between levels. `width`: that of the footprint, in current
+  /// space.
   vec3 lookup(float u, float v, float width) const;
 
  private:

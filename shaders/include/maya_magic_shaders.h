@@ -1,6 +1,6 @@
-/* What shaders that MayaMan has written from a network of Maya's nodes call. A node is two macros, NODE_SETUP(v) and
- * NODE_SIM(v), where v is the beginning of the names of its attributes: of v_0_ the colour is v_0_color. The models are
- * those that Maya's documentation names.
+/* What shaders call that MayaMan has written from networks of Maya's nodes. A node is two macros, NODE_SETUP(v) and
+ * NODE_SIM(v). v is the beginning of the names of the node's attributes: the colour of v_0_ is v_0_color. The models
+ * are those that Maya's documentation names.
  */
 #ifndef MAYA_MAGIC_SHADERS_H
 #define MAYA_MAGIC_SHADERS_H
@@ -41,7 +41,7 @@
   v##outColor +=     \
       v##specularColor * (phong(v##normalCamera, mayaView, v##cosinePower) + v##reflectivity * v##reflectedColor)
 
-/* Is J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977: ellipsoids of an eccentricity. */
+/* Highlights of J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977, by eccentricity. */
 color mayaBlinn(normal n; vector view; float eccentricity, rolloff) {
   extern point P;
   color sum = 0;

@@ -21,7 +21,7 @@
 #define vsnoise(p) (2 * (vector noise(p)) - 1)
 #endif
 
-/* The share of a noise whose waves are one unit long that is left in a sample of that width. */
+/* The share of noise with waves one unit long that is left in a sample of that width. */
 #define noisefade(width) (1 - smoothstep(0.2, 0.75, width))
 #ifndef filteredsnoise
 #define filteredsnoise(p, width) (snoise(p) * noisefade(width))
@@ -84,7 +84,7 @@ float turbulence(point p; float filtwidth; uniform float maxoctaves, lacunarity,
 #define filteredVLNoise(p, width, scale) filteredsnoise((p) + (scale)*filteredvsnoise(p, width), width)
 #endif
 
-/* The nearest two of points of which there is one in each cell of a lattice; jitter 0 has them in the middles. */
+/* The nearest two of random points, one in each cell of a lattice. With jitter 0 they are the middles of cells. */
 void voronoi_f1f2_3d(point p; float jitter; output float f1; output point pos1; output float f2; output point pos2) {
   point middle = point(floor(xcomp(p)) + 0.5, floor(ycomp(p)) + 0.5, floor(zcomp(p)) + 0.5);
   uniform float i, j, k;

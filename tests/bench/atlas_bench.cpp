@@ -21,7 +21,7 @@ double cpuSeconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// `what` done `count` times so many seconds.
+/// Prints the CPU seconds that `work` takes, which does `what` `count` times, and the millions a second.
 template <class Work>
 void measure(const char* what, double count, const Work& work) {
   const double start = cpuSeconds();
@@ -30,7 +30,7 @@ void measure(const char* what, double count, const Work& work) {
   fmt::print("{:24} {:7.3f} s {:8.2f} M/s\n", what, seconds, 1e-6 * count / seconds);
 }
 
-/// On the inside of a cube and on a ball in it.
+/// Returns photons on the inside of a cube and on a ball in it.
 PointCloud photonsInARoom(uint32_t count) {
   PointCloud cloud;
   cloud.channels = {{"power", 3}};

@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     model::importModel(settings, log);
   } catch (const std::exception&) {
-    // The program says what it was, as that a file could not be written.
+    // The program would tell the user, for example that a file could not be written.
   }
   return 0;
 }

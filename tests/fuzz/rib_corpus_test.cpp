@@ -50,7 +50,7 @@ std::string binaryOf(const std::string& text) {
   return out;
 }
 
-/// Located complaints; what it makes of it is its own affair.
+/// Expects that every complaint has a place. What the reader makes of the bytes does not matter here.
 void expectRead(const std::string& bytes) {
   Log log(Log::Verbosity::Quiet);
   RibSettings settings;

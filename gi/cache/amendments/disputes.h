@@ -1,7 +1,8 @@
-// Private to gi/irradiance_cache: records that disagree about a place by more than their noise explains end before each
-// other, and points at which they do get records. What lies between them is an edge of light, or something thinner than
-// both are wide: half of the dark pixels behind thin walls that get light without this get none, and the worst windows
-// have a quarter less error. It costs a twentieth more records, and as much time.
+// Private to gi/irradiance_cache: two records that disagree about a place, by more than their noise explains, end
+// before each other. A point at which its records disagree gets a record of its own. Between such records lies an edge
+// of light, or something thinner than they are wide. Without this amendment, twice as many dark pixels behind thin
+// walls get light, and the worst windows have a third more error. It costs a twentieth more records, and as much more
+// time.
 #pragma once
 #include "gi/cache/irradiance_record.h"
 #include "gi/error_function.h"
@@ -33,9 +34,10 @@ class Disputes {
     return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
   }
 
-  /// Returns how far a record may reach that disagrees at this distance. Where light is steep, no record is needed
-  /// nearer than a pixel: such records would follow the noise of single pixels, each at the cost of a hemisphere. Where
-  /// points see different surfaces, something thinner than a pixel may lie between them.
+  /// Returns how far a record may reach that disagrees at this distance. Where light is merely steep, it reaches a
+  /// pixel at least: records closer than that would follow the noise of single pixels, each at the cost of a
+  /// hemisphere. Where two points see different surfaces there is no such limit, since something thinner than a pixel
+  /// may lie between them.
   float limit(Disagreement disagreement, float distance, float pixelSize) const {
     if (disagreement == Disagreement::None) return kInfinity;
     return disagreement == Disagreement::Discontinuous ? distance
@@ -50,7 +52,7 @@ class Disputes {
   // Relative difference at kappa 1; 5 % makes more records, no less error.
   static constexpr float kDisagreement = 0.1f;
   static constexpr float kDiscontinuous = 0.5f;  // The same between points that see different surfaces.
-  static constexpr float kNoiseMargin = 3;       // Number of standard errors.
+  static constexpr float kNoiseMargin = 3;       // Standard errors by which values may differ.
   static constexpr float kDark = 0.1f;           // Share of the mean E; darker values are compared with this.
   static constexpr float kFinestPixels = 1;      // Number of pixels at kappa 1.
 

@@ -1,7 +1,7 @@
-// Private to gi/irradiance_cache: when points are shaded, records serve farther than they did when records were placed,
-// where light is even. More records then overlap at each point, and their noise and their seams are averaged: light
-// along grazing views has a tenth less error. It costs a fiftieth of the time of a gathered picture and no record. The
-// radius does not grow where light is steep, because a shadow's edge may lie beyond (docs/decisions/0103).
+// Private to gi/irradiance_cache: where light is even, records serve farther when points are shaded than they did when
+// records were placed. More records then overlap at each point, which averages their noise and their seams: light along
+// grazing views has a tenth less error. It costs a fiftieth of the time of a gathered picture, and no further records.
+// The radius does not grow where light is steep, because a shadow's edge may lie beyond (docs/decisions/0103).
 #pragma once
 #include "gi/cache/irradiance_record.h"
 

@@ -1,14 +1,14 @@
-// Private to gi/irradiance_cache: the mean of records that are extrapolated by their own gradients is off by what these
-// gradients differ. Here it is corrected to the second order, for which no derivative is needed that records do not
-// have. A fortieth of the error of all scenes goes, and an eighth at thin walls. It costs nothing that was measured
-// (docs/decisions/0096, docs/decisions/0105).
+// Private to gi/irradiance_cache: each record is extrapolated by its own gradient. Where light bends, their mean is
+// off, and how much the gradients differ tells by how much. Here the mean is corrected to the second order, without any
+// derivative that records do not have. The error of all scenes falls by a fortieth, that at thin walls by an eighth. No
+// cost was measured (docs/decisions/0096, docs/decisions/0105).
 #pragma once
 #include "gi/cache/extrapolation.h"
 
 namespace tomales {
 
-/// Returns step^T H step of each channel. The step may be the mean step of records that are valid farther; it is
-/// shortened to `reach`, beyond which this record's H is not known. H is that of the record or of a share.
+/// Returns step^T H step of each channel. H is that of the record or of a share. It is not known beyond `reach`, so a
+/// longer step, such as the mean step of records that are valid farther, is shortened to it.
 template <class Light>
 vec3 bentBy(const IrradianceRecord& r, const Light& light, const vec3& step, float reach) {
   const vec3 known = step * std::min(1.0f, reach / std::max(glm::length(step), 1e-30f));

@@ -1,6 +1,6 @@
 // Private to gi/irradiance_cache: derivatives hold near the record alone, so each may at most double or extinguish E
 // over the validity radius. A ray that meets a surface at a tiny distance gives a gradient of any size: without this,
-// corners are millions of times too bright. It costs nothing that was measured.
+// corners are millions of times too bright. No cost was measured.
 #pragma once
 #include "gi/cache/irradiance_record.h"
 

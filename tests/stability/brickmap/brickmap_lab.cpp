@@ -33,7 +33,7 @@ struct LabScene {
   std::vector<Surface> surfaces;
 };
 
-constexpr float kWall = 0.02f;  ///< Thickness, of a room of 1.
+constexpr float kWall = 0.02f;  ///< Thickness of the wall; the room has edges of 1.
 
 const std::vector<LabScene>& labScenes() {
   const float w = 0.5f - 0.5f * kWall;
@@ -47,7 +47,7 @@ const std::vector<LabScene>& labScenes() {
       {"corner",
        {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.05f}}},
       {"leaf", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.05f}}},
-      // Rounded by its normals, so that 45 degrees are between neighbours.
+      // An edge that is rounded by its normals, so that 45 degrees are between neighbours.
       {"bevel",
        {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1},
         {{-0.02f, 0, 0.02f}, {0.02f, 0, -0.02f}, {0, 1, 0}, {0.70710678f, 0, 0.70710678f}, 0.5f},
@@ -60,7 +60,7 @@ const std::vector<LabScene>& labScenes() {
   return scenes;
 }
 
-/// As even as photons are: every one has the same power, so a dark surface has few.
+/// Returns photons as even as traced ones: every one has about the same power, so a dark surface has few.
 PointCloud photonsOf(const LabScene& scene, int count) {
   double total = 0;
   for (const Surface& s : scene.surfaces) total += double{s.E * s.area()};
@@ -78,8 +78,8 @@ PointCloud photonsOf(const LabScene& scene, int count) {
   return cloud;
 }
 
-/// The irradiance of the nearest point that faces alike: what the photon map gave gather rays before there were brick
-/// maps.
+/// Returns the irradiance of the nearest point that faces alike. This is what a photon map gives gather rays without
+/// brick maps.
 float nearestOf(const PointCloud& points, const vec3& P, const vec3& N) {
   float best = kInfinity, E = 0;
   for (size_t i = 0; i < points.count(); ++i) {
@@ -92,9 +92,10 @@ float nearestOf(const PointCloud& points, const vec3& P, const vec3& N) {
 }
 
 struct Errors {
-  double mean = 0;  ///< Of |E - truth| over the brightest, on all surfaces.
-  double leak =
-      0;  ///< Mean of what is above the truth, within two walls of where surfaces meet, on all but the brightest.
+  double mean = 0;  ///< Mean of |E - truth| over all surfaces, the brightest of which has E = 1.
+  /// Mean of what E is above the truth, on all surfaces but the brightest, within two thicknesses of the wall of where
+  /// surfaces meet.
+  double leak = 0;
 };
 
 template <class Lookup>

@@ -27,7 +27,7 @@ constexpr float kOffset = 0.01f, kBias_units = 1e-4f;
 struct Row {
   std::string name;
   double wrong[3] = {0, 0, 0};
-  double limit = 1;  ///< Of the hit list.
+  double limit = 1;  ///< The share of wrong rays that the hit list may have.
 };
 
 Ray rayBy(Method method, const vec3& origin, const vec3& direction, float cosine, float offset, float bias, int group) {
@@ -55,7 +55,7 @@ Row run(const FlatCase& c, int rays) {
   world.add(parallelogram({start, -3, 0}, {3 - start, 0, 0}, {0, 6, 0}));
   for (const auto& [o, u, v] : c.others) world.add(parallelogram(o, u, v));
   world.build();
-  // What is right: rays from the sheet itself, which they cannot meet.
+  // Right is what rays from the sheet itself meet in a world without the sheet.
   World truth;
   for (const auto& [o, u, v] : c.others) truth.add(parallelogram(o, u, v));
   truth.build();
@@ -78,8 +78,9 @@ Row run(const FlatCase& c, int rays) {
   return row;
 }
 
-/// Rays from the places of an object's micropolygons, at the times of the shutter if it moves, to the outer side or
-/// inwards. Wrong is a hit with the object: outwards any, inwards one before `inside` times the cosine.
+/// Rays leave the places of an object's micropolygons to the outer side or inwards, at all times of the shutter if it
+/// moves. Outwards any hit with the object is wrong. Inwards a miss is, and a hit nearer than `inside` times the
+/// cosine.
 struct ObjectCase {
   std::string name;
   double limit = 1;
@@ -114,7 +115,7 @@ Row run(const ObjectCase& c, const World& world, int rays) {
   return row;
 }
 
-/// Five radii away from the eye; both stand at `away` in the world.
+/// Tests a sphere five radii away from the eye. Both stand at `away` in the world.
 Row runSphere(const std::string& name, float radius, float away, int rays, double limit) {
   World world;
   world.scene.cameraFromWorld = Motion::still(translation({-away, -away, -away}));

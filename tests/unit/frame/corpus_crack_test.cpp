@@ -132,7 +132,7 @@ bool isNoCrack(const Object& o, const View& view) {
 
 class CrackOfFile : public testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(CrackOfFile, NoneAtAnyRateDisplacedOrBlurred) {
+TEST_P(CrackOfFile, AppearsAtNoRateDisplacedOrBlurred) {
   for (const Scene& scene : scenesOf(GetParam().string(), GetParam().string(), true))
     for (size_t k = 0; k < scene.objects.size(); ++k) {
       const Object& o = scene.objects[k];

@@ -82,7 +82,7 @@ struct Body {
 };
 class Crack : public testing::TestWithParam<Body> {};
 
-TEST_P(Crack, NoneInAClosedBodyAtAnyShadingRate) {
+TEST_P(Crack, AppearsInNoClosedBodyAtAnyShadingRate) {
   for (const char* rate : {"0.25", "1", "4"})
     for (const char* turn : {"", "Rotate 70 0 1 0.2 ", "Rotate 130 1 0.4 0 "}) {
       const Holes found = holes(hide("ShadingRate " + std::string(rate) + " " + turn + GetParam().rib));
@@ -91,7 +91,7 @@ TEST_P(Crack, NoneInAClosedBodyAtAnyShadingRate) {
     }
 }
 
-TEST_P(Crack, NoneWhenGridsAreSmall) {
+TEST_P(Crack, AppearsInNoneWhenGridsAreSmall) {
   for (const char* size : {"4", "23"}) {
     const Holes found = holes(hide(GetParam().rib, "Option \"limits\" \"gridsize\" [" + std::string(size) + "]"));
     EXPECT_GT(found.inside_px, 1500);
@@ -99,7 +99,7 @@ TEST_P(Crack, NoneWhenGridsAreSmall) {
   }
 }
 
-TEST_P(Crack, NoneWhenItMovesOrIsOutOfFocus) {
+TEST_P(Crack, AppearsInNoneThatMovesOrIsOutOfFocus) {
   // 8 degrees at radius 1 are 8 px between the extremes; the circle of confusion at z = 3.2 is 176 / 8 * 0.19
   // = 4 px.
   constexpr int kBlur_px = 6;
@@ -116,7 +116,7 @@ TEST_P(Crack, NoneWhenItMovesOrIsOutOfFocus) {
 /// Bumps finer than a micropolygon, at rates from far too fine to far too coarse.
 class DisplacedCrack : public testing::TestWithParam<Body> {};
 
-TEST_P(DisplacedCrack, NoneHoweverFarMicropolygonsMissTheBumps) {
+TEST_P(DisplacedCrack, IsSmallHoweverFarMicropolygonsMissTheBumps) {
   const std::string shader =
       "Attribute \"displacementbound\" \"float sphere\" [0.2] Displacement \"noisybump\" \"float Km\" [0.12] \"float "
       "frequency\" [3] "

@@ -18,7 +18,7 @@ double shareOf(const DeepFrame& frame, int x, int y) {
   return static_cast<double>(covered(frame, x, y)) / frame.samplesPerPixel;
 }
 
-TEST(MotionOfFrames, AnyNumberOfUnequalKeysSomeOfThemOutsideTheShutter) {
+TEST(MotionOfFrames, MayHaveAnyNumberOfUnequalKeysSomeOfThemOutsideTheShutter) {
   const double times[] = {-1, 0.2, 0.5, 0.55, 0.9, 3}, places[] = {-2, 0.4, -1.1, 1.9, 1.9, 0};
   const DeepFrame frame = moved(
       "MotionBegin [-1 0.2 0.5 0.55 0.9 3] Translate -2 0 0 Translate 0.4 0 0 Translate -1.1 0 0 Translate 1.9 0 0 "

@@ -174,7 +174,8 @@ TEST_P(Seam, LetsNoSampleThrough) {
   EXPECT_GT(inside, 200'000);
 }
 
-/// The most samples of a pixel inside the outline that see no layer, or as many more as one.
+/// Returns by how much the layers that all samples of a pixel see differ from one each, at the worst pixel inside the
+/// outline.
 int mostOff(const DeepFrame& frame) {
   const int all = frame.samplesPerPixel;
   int most = 0, inside = 0;

@@ -80,7 +80,7 @@ TEST(Trim, WhatIsCutAwayIsNotDiced) {
   EXPECT_EQ(coveredArea_px2(hideFlat(kKeepInside + circle(1.8f, 1.8f, 0.1f) + kSquare)), 0);
 }
 
-/// RISpec's circle times a meridian of (radius, height, weight).
+/// Returns a surface of revolution: RISpec's circle times a meridian of points (radius, height, weight).
 std::string revolved(const std::string& vLine, std::initializer_list<vec3> meridian) {
   const float h = std::sqrt(0.5f);
   const vec3 ring[9] = {{1, 0, 1},   {1, 1, h},  {0, 1, 1},  {-1, 1, h}, {-1, 0, 1},
@@ -99,7 +99,7 @@ std::string sphere() {
   return revolved("5 3 [0 0 0 1 1 2 2 2] 0 2", {{0, -1, 1}, {1, -1, h}, {1, 0, 1}, {1, 1, h}, {0, 1, 1}});
 }
 
-/// A tube, too long at both ends, cut there and closed by squares cut round.
+/// A can: a tube that is too long and is trimmed at both ends, and two squares trimmed to circles that close it.
 std::string can() {
   const std::string tube = revolved("2 2 [-1 -1 1 1] -1 1", {{0.8f, -1, 1}, {0.8f, 1, 1}});
   const std::string band =
@@ -109,7 +109,7 @@ std::string can() {
          "AttributeEnd ReverseOrientation Translate 0 0 -0.7 " + cap;
 }
 
-TEST(Trim, NoCrackWhereTrimmedPiecesOfDifferentRatesMeet) {
+TEST(Trim, LeavesNoCrackWherePiecesOfDifferentRatesMeet) {
   const std::string cut = circle(1.8f, 1.1f, 0.6f);
   for (const auto& rates : {std::pair{1.0, 1.0}, {0.25, 2.0}, {4.0, 0.5}})
     for (const char* turn : {"", "Rotate 70 0 1 0.2 ", "Rotate 130 1 0.4 0 "}) {
@@ -122,7 +122,7 @@ TEST(Trim, NoCrackWhereTrimmedPiecesOfDifferentRatesMeet) {
     }
 }
 
-TEST(Trim, NoCrackAtTheRimOfACan) {
+TEST(Trim, LeavesNoCrackAtTheRimOfACan) {
   for (const char* rate : {"0.25", "1", "4"})
     for (const char* turn : {"", "Rotate 70 0 1 0.2 ", "Rotate 130 1 0.4 0 "}) {
       const Holes found = holes(hide(fmt::format("ShadingRate {} {}", rate, turn) + can()));

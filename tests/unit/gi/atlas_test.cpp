@@ -28,8 +28,8 @@ std::string contentsOf(const fs::path& file) {
   return out.str();
 }
 
-/// What the atlas has of the media of a scene, in the mean over places at this distance from the middle of
-/// the ball.
+/// Writes an atlas and returns the mean radiance in the medium of a scene, averaged over places at this distance from
+/// the middle of the ball.
 vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& photons, float distance) {
   AtlasSettings settings;
   settings.photons = photons;
@@ -91,7 +91,7 @@ TEST_F(Atlas, GivesTheSameWhereRaysSampleDirectLight) {
   EXPECT_FALSE(holdsDirect(folder));
 }
 
-/// Writes an atlas into `folder`; which stages had work to do.
+/// Writes an atlas into `folder`. Returns the names of the stages that had work to do.
 std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, float wall, int64_t* kept = nullptr) {
   // Two closed rooms, so that what happens in one changes nothing in the other.
   SceneBuilder b;

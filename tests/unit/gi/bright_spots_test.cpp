@@ -68,7 +68,7 @@ TEST(SpotAim, WhatIsHiddenIsAimedAtLess) {
   SpotAim aim(twoDisks(), vec3(0), {0, 0, 1});
   ASSERT_GT(aim.targets(), 1u);
   const float all = aim.irradiance();
-  std::vector<float> shares(aim.targets(), 0.05f);  // but for what lies straight ahead
+  std::vector<float> shares(aim.targets(), 0.05f);  // all but the target straight ahead are dimmed
   float left = 0;
   for (size_t t = 0; t < aim.targets(); ++t)
     if (aim.probe(t, {0.5f, 0.5f}).x < 0.1f) shares[t] = 1;
@@ -76,7 +76,7 @@ TEST(SpotAim, WhatIsHiddenIsAimedAtLess) {
   for (uint32_t i = 0; i < 1024; ++i)
     left += aim.direction((static_cast<float>(i) + 0.5f) / 1024, sobol2(i, 2)).x < 0.2f ? 1.0f / 1024 : 0.0f;
   EXPECT_LT(aim.irradiance(), all);
-  EXPECT_GT(left, 0.95f);  // the other gives a fifth of the light, undimmed
+  EXPECT_GT(left, 0.95f);  // undimmed, the other target has a fifth of the light
 }
 
 TEST(Gather, SpotsBehindAScreenTakeNoRaysFromWhatCanBeSeen) {

@@ -18,7 +18,7 @@ PointCloud cloudOf(int count, float radius, const std::function<void(int i, vec3
   return cloud;
 }
 
-/// Evenly over a unit sphere around `center`, by a spiral.
+/// Points evenly over a unit sphere around `center`, on a spiral.
 PointCloud sphere(int count, const vec3& center) {
   return cloudOf(count, std::sqrt(2 * kPi / static_cast<float>(count)), [&](int i, vec3& P, vec3& N, vec3& light) {
     const float z = 1 - 2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count), r = std::sqrt(1 - z * z),

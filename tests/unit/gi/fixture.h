@@ -128,14 +128,14 @@ inline std::vector<StoredPhoton> traced(World& world, const PhotonSettings& sett
   return out;
 }
 
-/// Green
+/// Returns the power of all photons, in green.
 inline double powerOf(const std::vector<StoredPhoton>& photons) {
   double sum = 0;
   for (const StoredPhoton& p : photons) sum += double{p.power.y};
   return sum;
 }
 
-/// Makes by rays what a hider would make of the frame with one sample a pixel; a facet for each pixel.
+/// Makes by rays what a hider would make of the frame with one sample a pixel. Each pixel has a facet of its own.
 inline DeepFrame frameOf(const World& world, int bucket) {
   DeepFrame frame;
   frame.crop = frame.padded = {0, 0, world.camera.xResolution(), world.camera.yResolution()};

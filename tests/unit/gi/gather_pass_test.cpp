@@ -93,7 +93,7 @@ TEST(GatherPass, TheCacheDoesNotDependOnThreadsOrBuckets) {
     }
 }
 
-/// How many records a frame adds to those given.
+/// Returns how many records a frame adds to those given.
 int64_t added(World& world, std::vector<PreparedCache>& caches, const DeepFrame& frame) {
   const auto records = [&] { return static_cast<int64_t>(caches[0].cache.records().size()); };
   const auto services = world.use({});
@@ -121,7 +121,7 @@ TEST(GatherPass, AFrameAddsRecordsOnceAndIsKnownByWhatItsPixelsSee) {
   EXPECT_GT(added(world, caches, frameOf(world, 16)), 0) << "what disagrees is refined in frames that are new";
 }
 
-/// E of the records of a floor over which light from far away is the same everywhere.
+/// Returns E of all records of a floor, sorted. Light comes from far away, so the true E is the same everywhere.
 std::vector<double> recordsUnderAFarCeiling(float samples, uint32_t seed = 0) {
   SceneBuilder b(64);
   b.light("distantlight", {pointParam("from", {0, 0, 0}), pointParam("to", {0, 1, 0})});
@@ -139,7 +139,7 @@ std::vector<double> recordsUnderAFarCeiling(float samples, uint32_t seed = 0) {
   return E;
 }
 
-/// docs/decisions/0095
+/// Records of 512 rays or more share their directions (docs/decisions/0095).
 TEST(GatherPass, RecordsOfManyRaysMissTheSameAndAreRightInTheMean) {
   const auto quantile = [](const std::vector<double>& E, double q) {
     return E[static_cast<size_t>(q * static_cast<double>(E.size() - 1))];

@@ -8,7 +8,8 @@
 namespace tomales {
 namespace {
 
-/// What a record says of a place and a normal does not depend on the scale and the handedness of the camera that asks.
+/// A record gives the same light at a place and a normal, whatever the scale and the handedness of the camera that
+/// asks.
 TEST(Records, SayTheSameToEveryCamera) {
   const mat4 turn = glm::rotate(glm::translate(mat4(1.0f), vec3(1, -2, 3)), 0.7f, normalizeOr(vec3(1, 2, -1), vec3(1)));
   const vec3 x(0.04f, -0.03f, 0), n = normalizeOr(vec3(0.05f, 0.02f, 1), vec3(0));

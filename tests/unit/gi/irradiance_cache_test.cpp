@@ -201,7 +201,7 @@ TEST(IrradianceCache, NoGradientMakesLightNegativeOrMoreThanDoublesIt) {
   }
 }
 
-// What the tree must agree with: the weights of all records, one cache each.
+// The tree must find the records that have a weight. Each record has a cache of its own here, which tells its weight.
 TEST(IrradianceCache, TheOctreeFindsEveryUsableRecordInsideAndOutsideItsBound) {
   for (const auto function : {ErrorFunction::Screen, ErrorFunction::Ward}) {
     const CacheSettings settings{function, 1};

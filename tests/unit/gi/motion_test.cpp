@@ -93,7 +93,8 @@ TEST(MotionInShadows, WhatMovesDoesNotShadowItself) {
   }
   int checked = 0;
   for (int i = 0; i < 200; ++i) {
-    // Its place turns with the sphere, so the side it is on is known only for those that face the light all the time.
+    // A point turns with the sphere, so only of a point that faces the light all the time is it known that it is always
+    // lit.
     const Motion& m = world.scene.groups[0].currentFromOpen;
     bool always = true;
     for (int k = 0; k <= 8; ++k)

@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-/// Changes what the latest object of a scene is.
+/// Returns the attributes of the object that was added last, to be changed.
 Attributes& latest(SceneBuilder& b) {
   auto attributes = std::make_shared<Attributes>(*b.scene.objects.back().attributes);
   b.scene.objects[b.scene.objects.size() - 1].attributes = attributes;
@@ -79,7 +79,7 @@ struct PhotonFiles : ::testing::Test {
   const fs::path folder = fs::temp_directory_path() / "tomales_photon_files";
   ~PhotonFiles() override { fs::remove_all(folder); }
 
-  /// Green, of all that is in the file of a map.
+  /// Returns the power of all photons in the file of a map, in green.
   double powerIn(const Scene& scene, const std::string& map) {
     World world(scene);
     const auto services = world.use({.mode = GiMode::None});

@@ -129,7 +129,7 @@ TEST(Photons, NoneComesIntoAClosedBody) {
 }
 
 TEST(Photons, NoneLeavesAClosedBoxByItsEdges) {
-  // However flat they leave a wall, whose edge is another's.
+  // Even photons that leave a wall flat, near the edge that it shares with another wall, stay in the box.
   SceneBuilder b;
   b.light("pointlight", {floatParam("intensity", 3), pointParam("from", {0.1f, 0.2f, 3})});
   const auto box = [&](float r) {

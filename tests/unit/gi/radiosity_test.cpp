@@ -110,7 +110,7 @@ TEST(RadiosityMaps, HoldWhatAHitSendsBack) {
   EXPECT_LT(off / sum, 0.02) << "the edges of shadows alone";
 }
 
-/// Its shader lights the side that is seen, of which maps of one-sided surfaces know nothing.
+/// A shader lights the side that is seen. The map of a one-sided surface knows nothing of its back.
 TEST(RadiosityMaps, DoNotAnswerForTheBackOfWhatIsOneSided) {
   for (const int sides : {1, 2}) {
     SceneBuilder b;

@@ -233,7 +233,7 @@ TEST(RayCalls, LightPassesLayersByTheProductOfTheirClearness) {
   }
 }
 
-TEST(RayCalls, OcclusionOfASphereOnAPlane) {
+TEST(RayCalls, OcclusionOfASphereOnAPlaneIsItsFormFactor) {
   SceneBuilder b;
   b.light("occlusionlight", {floatParam("samples", 4096)});
   b.quad({-90, 0, -90}, {90, 0, -90}, {90, 0, 90}, {-90, 0, 90}, vec3(1));
@@ -253,7 +253,7 @@ TEST(RayCalls, OcclusionOfASphereOnAPlane) {
   for (size_t k = 0; k < is.size(); ++k) EXPECT_NEAR(is[k].x / expected[k], 1, 0.005f) << k;
 }
 
-TEST(RayCalls, OcclusionInARightAngledCorner) {
+TEST(RayCalls, OcclusionInARightAngledCornerIsThatOfAnEndlessWall) {
   SceneBuilder b;
   b.light("occlusionlight", {floatParam("samples", 4096)});
   b.quad({0, 0, -2000}, {2000, 0, -2000}, {2000, 0, 2000}, {0, 0, 2000}, vec3(1));

@@ -85,8 +85,7 @@ TEST(GiServices, ReferenceBouncesAddUpAsAGeometricSeries) {
     const int64_t before = world.stats.rays.reference;
     for (const vec3& E : indirectAt(*services, pointsInside(), query))
       EXPECT_NEAR(E.x, expected, 0.025f * expected) << bounces;
-    // Paths do not branch: one ray a path and bounce, but for the few that slip out where the coarse sphere
-    // is pierced.
+    // Paths do not branch: each has one ray a bounce, except for the few that slip out through the coarse sphere.
     EXPECT_LE(world.stats.rays.reference - before, 4 * 256 * bounces);
     EXPECT_GT(world.stats.rays.reference - before, 4 * 250 * bounces);
   }

@@ -1,4 +1,4 @@
-// The share of each light in irradiance: what is kept for it adds up, and follows gains.
+// The share of each group of lights in irradiance: shares add up to the whole, and follow gains.
 #include <gtest/gtest.h>
 
 #include "reyes/base/rng.h"

@@ -63,7 +63,7 @@ struct Equations {
   static double noiseAt(const IrradianceRecord& r, const vec3& x) {
     return r.noise * (1 + glm::length(Triple(x) - Triple(r.position)) / r.harmonicMean);
   }
-  /// 0: none, 1: light is steep, 2: different surfaces are seen.
+  /// Returns 0 if there is none, 1 if light is steep, 2 if different surfaces are seen.
   int disagreement(const Triple& a, const Triple& b, double noise) const {
     double sum = 0;
     for (const IrradianceRecord& r : records) sum += luminanceOf(r.E);

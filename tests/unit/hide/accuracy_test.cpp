@@ -60,7 +60,7 @@ World still() {
   return w;
 }
 
-TEST(Accuracy, OfAHalfPlane) {
+TEST(Accuracy, ErrorAtAHalfPlaneFallsFasterThanThatOfRandomSamples) {
   const World w = still();
   const auto edge = [](double y) { return 20.3 + 0.27 * y; };
   const auto g = makeGrid(0, 1, 30, 60, [&](float u, float v, int) {
@@ -72,7 +72,7 @@ TEST(Accuracy, OfAHalfPlane) {
       [&](int x, int y) { return mean(512, [&](double v) { return std::clamp(edge(y + v) - x, 0.0, 1.0); }); }, 0.7);
 }
 
-TEST(Accuracy, OfADisk) {
+TEST(Accuracy, ErrorAtADiskFallsFasterThanThatOfRandomSamples) {
   const World w = still();
   const auto g = makeGrid(0, 1, 600, 12, [](float u, float v, int) {
     return at(32.2f + 25 * v * std::cos(2 * kPi * u), 31.7f + 25 * v * std::sin(2 * kPi * u));
@@ -88,7 +88,7 @@ TEST(Accuracy, OfADisk) {
       0.7);
 }
 
-TEST(Accuracy, OfAThinTriangle) {
+TEST(Accuracy, ErrorAtAThinTriangleFallsFasterThanThatOfRandomSamples) {
   const World w = still();
   // 0.7 px wide at its foot.
   const auto left = [](double y) { return 20.3 + 0.11 * y; };
@@ -106,7 +106,7 @@ TEST(Accuracy, OfAThinTriangle) {
       0.65);
 }
 
-TEST(Accuracy, OfAMovingEdge) {
+TEST(Accuracy, ErrorAtAMovingEdgeFallsFasterThanThatOfRandomSamples) {
   World w;
   w.scene.options.shutterClose = 1;
   w.add();
@@ -131,7 +131,7 @@ TEST(Accuracy, OfAMovingEdge) {
       0.5);
 }
 
-TEST(Accuracy, OfADefocusedEdge) {
+TEST(Accuracy, ErrorAtADefocusedEdgeFallsFasterThanThatOfRandomSamples) {
   constexpr float kFocus = 5, kLens = 1.5f, kFar = 10, kScale_px = 32;
   Options o;
   o.xResolution = o.yResolution = 64;

@@ -179,7 +179,7 @@ TEST(FilterFrame, DepthFiltersLookAtWhatIsOpaque) {
   EXPECT_EQ(depth(DepthFilter::Midpoint, 1), 2.5f);  // of 2 and 3; the other sample's is 4
 }
 
-TEST(FilterFrame, TheMidpointOfASingleSurfaceAndTheFarPlane) {
+TEST(FilterFrame, TheMidpointOfASingleSurfaceIsHalfWayToTheFarPlane) {
   Options o = filtered("box", 1);
   o.depthFilter = DepthFilter::Midpoint;
   o.farClip = 100;

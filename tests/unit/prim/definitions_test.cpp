@@ -39,7 +39,7 @@ constexpr double kTurn = M_PI / 180;
 glm::dvec3 turned(double theta, double r, double z) { return {r * std::cos(theta), r * std::sin(theta), z}; }
 
 // RISpec 3.2 section 5.4.
-TEST(Definition, OfEveryQuadricWholeAndPartial) {
+TEST(Definition, IsFollowedByEveryQuadricWholeAndPartial) {
   Problems none;
   for (const double sweep : {360.0, 200.0, -77.0, 1.0}) {
     const float s = static_cast<float>(sweep);
@@ -117,7 +117,7 @@ struct Direction {
 };
 
 /// RISpec 3.2 section 5.3: (u^3 u^2 u 1) M G N (v^3 v^2 v 1), M as the specification prints it.
-TEST(Definition, OfBicubicMeshesInEveryBasisStepAndWrap) {
+TEST(Definition, IsFollowedByBicubicMeshesInEveryBasisStepAndWrap) {
   const Direction directions[] = {{"bezier", bezierBasis(), 7, 2, false},
                                   {"bezier", bezierBasis(), 6, 2, true},
                                   {"b-spline", bsplineBasis(), 6, 3, false},
@@ -171,7 +171,7 @@ TEST(Definition, OfBicubicMeshesInEveryBasisStepAndWrap) {
   }
 }
 
-TEST(Definition, OfBilinearMeshes) {
+TEST(Definition, IsFollowedByBilinearMeshes) {
   for (const bool rational : {false, true}) {
     const std::vector<glm::dvec4> c = randomControls(4, 3, rational, 3);
     Problems problems;
@@ -202,7 +202,7 @@ std::vector<double> coxDeBoor(const std::vector<float>& knots, int order, double
   return n;
 }
 
-TEST(Definition, OfRationalBSplinesOfOrdersTwoToTen) {
+TEST(Definition, IsFollowedByRationalBSplinesOfOrdersTwoToTen) {
   for (int order = 2; order <= 10; ++order) {
     SCOPED_TRACE(order);
     const auto direction = [](int n, int controls) {
@@ -238,7 +238,7 @@ TEST(Definition, OfRationalBSplinesOfOrdersTwoToTen) {
   }
 }
 
-TEST(Definition, OfFlatPolygons) {
+TEST(Definition, IsFollowedByFlatPolygons) {
   Problems none;
   const glm::dvec3 a(0, 0, 1), b(2, 0.5, 2), c(2.5, 2, 2.25), d(0.5, 1.5, 1.25);  // a + c = b + d: flat
   const auto corners = [](const std::vector<glm::dvec3>& p) {
@@ -263,7 +263,7 @@ struct Circle {
   }
 };
 
-TEST(Definition, OfPointsThatAreDisks) {
+TEST(Definition, IsFollowedByPointsThatAreDisks) {
   Problems none;
   const PrimPtr disk =
       makePoints({positions({1, 2, 3}), floats("constantwidth", Storage::Constant, ValueType::Float, {3}),
@@ -283,7 +283,7 @@ TEST(Definition, OfPointsThatAreDisks) {
       1000);
 }
 
-TEST(Definition, OfPointsThatAreSpheres) {
+TEST(Definition, IsFollowedByPointsThatAreSpheres) {
   Problems none;
   Param type = floats("type", Storage::Uniform, ValueType::String, {});
   type.strings = {"sphere"};
@@ -301,7 +301,7 @@ TEST(Definition, OfPointsThatAreSpheres) {
       1000);
 }
 
-TEST(Definition, OfStraightCurves) {
+TEST(Definition, IsFollowedByStraightCurves) {
   Problems none;
   const Param line = positions({1, 2, 0, 1, 2, 4}),
               wide = floats("constantwidth", Storage::Constant, ValueType::Float, {0.5f});

@@ -103,13 +103,13 @@ TEST(PolygonWithHoles, AreaIsExactForRandomHoles) {
   }
 }
 
-TEST(PolygonWithHoles, AHoleThatTouchesTheOutlineOrAnotherHole) {
+TEST(PolygonWithHoles, AHoleMayTouchTheOutlineOrAnotherHole) {
   expectHolesAreOut({kSquare, {{2, 1}, {4, 2}, {2, 3}}});                            // a corner on an edge
   expectHolesAreOut({kSquare, {{2, 1}, {4, 4}, {1, 3}}});                            // on a corner
   expectHolesAreOut({kSquare, {{1, 1}, {2, 2}, {1, 3}}, {{2, 2}, {3, 1}, {3, 3}}});  // two holes at a corner
 }
 
-TEST(PolygonWithHoles, HolesThatTouchTheOutlineAtCorners) {
+TEST(PolygonWithHoles, HolesMayTouchTheOutlineAtCorners) {
   const Loop spike = {{0, 0}, {2, 3.25f}, {3.25f, 3.25f}};  // widens from a corner of the outline
   expectHolesAreOut({kSquare, spike});
   expectHolesAreOut({kSquare, spike, {{0, 0}, {1, 0.5f}, {0.5f, 0.25f}}, {{0, 0}, {0.5f, 3}, {0.25f, 3}}});

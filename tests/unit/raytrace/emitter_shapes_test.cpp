@@ -105,7 +105,7 @@ TEST_P(EveryShape, SendsAsMuchLightAsItsArea) {
   }
 }
 
-/// The steps of a disk's table are all that differs.
+/// For a disk they are equal but for the steps of its table.
 TEST_P(EveryShape, SamplesStandForEqualSolidAngles) {
   const EmitterShape s = tilted(GetParam());
   for (const float distance : {1.5f, 4.0f}) {

@@ -134,7 +134,8 @@ TEST(Emitters, DirectionsMeetFlatMeshesWithTheDensityByWhichSamplesWeighThem) {
   EXPECT_GT(same + nearer, 1500);
 }
 
-// Over all directions the density of one that is met is the share of samples that are seen.
+// The density of a direction that meets the light, integrated over all directions, is the share of samples that are
+// seen.
 TEST(Emitters, WhatDirectionsMeetAddsUpToTheWholeLight) {
   World world;
   world.attributes.areaLight = world.addAreaLight();

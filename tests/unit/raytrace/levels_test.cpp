@@ -124,8 +124,8 @@ TEST(GeometryCache, ASmallOneGivesTheSameHitsForAnyNumberOfThreads) {
   EXPECT_GT(large.stats.geometryCache.bytes, 700000);
 }
 
-/// A wavy field over -1..1 in x and y of n x n patches, of which the first may reach farther than what is twice as
-/// large can say.
+/// A wavy field over -1..1 in x and y, of n x n patches. With `far` the first patch reaches so far that twice its size
+/// is no float.
 PrimPtr field(int n, bool far) {
   std::vector<float> P;
   for (int j = 0; j <= n; ++j)

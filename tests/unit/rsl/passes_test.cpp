@@ -218,7 +218,7 @@ std::string saidOf(const std::string& body, const std::string& before = "") {
   return out;
 }
 
-TEST(Said, OfWhatIsLegalAndDoubtful) {
+TEST(Said, IsWhatIsLegalAndDoubtful) {
   EXPECT_EQ(saidOf("uniform float k = s; Ci = k;"),
             "\"k\" is declared uniform and is given values that vary; it varies\n");
   EXPECT_EQ(saidOf("uniform float k = 2, i; for (i = 0; i < k; i += 1) Ci *= k;"), "");
@@ -228,7 +228,7 @@ TEST(Said, OfWhatIsLegalAndDoubtful) {
             "\"f\" gives a float, and has no 'return': it gives 0\n");
 }
 
-TEST(Said, OfWhatIsWrong) {
+TEST(Said, IsWhatIsWrong) {
   EXPECT_EQ(saidOf("Ci = Oss; Oi = OS;"),
             "there is no variable \"Oss\"; did you mean \"Os\"?\nthere is no variable \"OS\"; did you mean \"Os\"?\n");
   EXPECT_EQ(saidOf("break;"), "'break' stands in no loop\n");
@@ -240,7 +240,7 @@ TEST(Said, OfWhatIsWrong) {
             "there is no function \"Color\" (did you mean \"color\"?): its value is a loud one\n");
 }
 
-TEST(Said, OfMoreMemoryThanThereMayBe) {
+TEST(Said, IsThatAShaderNeedsMoreMemoryThanItMay) {
   EXPECT_EQ(saidOf("float a[131072]; a[0] = s; Ci = a[s];"),
             "what varies of this shader needs 129 MB for 256 points, \"a\" most of it; 128 MB are the limit\n");
   EXPECT_EQ(saidOf("uniform float a[200000]; a[0] = 3; Ci = a[1];"), "") << "one for all points";

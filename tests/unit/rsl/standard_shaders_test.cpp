@@ -84,7 +84,7 @@ displacement bumpy(float Km = 1; string texturename = "") {
 }
 )RSL";
 
-/// A file of this process, since ctest runs several of these tests at once.
+/// Returns the name of a file of this process, since ctest runs several of these tests at once.
 std::string ownFile(const char* ending) { return ::testing::TempDir() + "tomales_standard_shaders" + ending; }
 
 /// A stage that stands by itself, so that a test may have two.

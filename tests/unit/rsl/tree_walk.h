@@ -33,7 +33,7 @@ class TreeWalk {
   Value valueOf(const Variable& v) const { return stored_.at(&v)[0]; }
 
  private:
-  /// What leaves a statement: that many loops, by break or continue; or the function.
+  /// How a statement is left: it goes on, leaves or continues so many loops, or returns from the function.
   struct Way {
     enum Kind { GoesOn, Breaks, Continues, Returns } kind = GoesOn;
     int32_t loops = 0;

@@ -21,7 +21,7 @@ void expectInBody(std::initializer_list<Case> cases) {
   }
 }
 
-TEST(Errors, OfWords) {
+TEST(Errors, OfWordsAreToldWithTheirPlace) {
   expectErrors(
       {{"surface a() {} \"b",
         "1:16: this string is not closed on its line\n1:16: expected a shader or a function before the string 'b'"},
@@ -32,7 +32,7 @@ TEST(Errors, OfWords) {
        {"surface a() {} 'b'", "1:16: ''b'' is not of the language: strings stand in double quotes"}});
 }
 
-TEST(Errors, OfMacros) {
+TEST(Errors, OfMacrosAreToldWithTheirPlace) {
   expectErrors(
       {{"#define", "1:1: '#define' needs a name"},
        {"#define 1 2", "1:9: '#define' needs a name"},
@@ -52,7 +52,7 @@ TEST(Errors, OfMacros) {
        {"#undef", "1:1: '#undef' needs the name of a macro"}});
 }
 
-TEST(Errors, OfConditions) {
+TEST(Errors, OfConditionsAreToldWithTheirPlace) {
   expectErrors(
       {{"\n#if 1\n#if 0\n#endif", "2:1: this condition is not closed: there is no '#endif' after it"},
        {"#endif", "1:1: '#endif' without an '#if' before it"},
@@ -78,7 +78,7 @@ TEST(Errors, OfConditions) {
         "1:10: cannot include 'none.h': there is no such file beside the file or in the folders for headers"}});
 }
 
-TEST(Errors, OfDefinitions) {
+TEST(Errors, OfDefinitionsAreToldWithTheirPlace) {
   expectErrors(
       {{"surfce a() {}", "1:1: expected a shader or a function before 'surfce'; did you mean 'surface'?"},
        {"dispalcement a() {}",
@@ -100,7 +100,7 @@ TEST(Errors, OfDefinitions) {
        {"uniform x() {}", "1:9: expected a type before 'x'"}});
 }
 
-TEST(Errors, OfStatements) {
+TEST(Errors, OfStatementsAreToldWithTheirPlace) {
   expectInBody({{"a = 1\nb = 2;", "2:6: expected ';' before 'b'"},
                 {"a = 1 b = 2;", "2:7: expected ';' before 'b'"},
                 {"flaot a;", "2:1: 'flaot' is no type; did you mean 'float'?"},
@@ -131,7 +131,7 @@ TEST(Errors, OfStatements) {
                 {"float a, ;", "2:10: expected a name before ';'"}});
 }
 
-TEST(Errors, OfExpressions) {
+TEST(Errors, OfExpressionsAreToldWithTheirPlace) {
   expectInBody({{"a = ;", "2:5: expected an expression before ';'"},
                 {"a = (1, 2);", "2:5: 2 values in brackets; a triple has 3, and a matrix 16"},
                 {"a = (1 + 2;", "2:11: expected ')' before ';'\n2:5: note: to match this '('"},

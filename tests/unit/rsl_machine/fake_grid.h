@@ -126,14 +126,14 @@ class FakeGrid {
   std::vector<TmValue> params;
   TmServices services{};
   std::vector<FakeLight> lights;
-  std::map<std::string, Answer> answers;  ///< By "whom:name", or of gather() by the name.
+  std::map<std::string, Answer> answers;  ///< The key is "whom:name", or for gather() the name alone.
   std::vector<std::string> reports, printed;
-  std::vector<std::vector<uint8_t>> masks;  ///< Of each call of illuminance, ambient, texture and gather.
+  std::vector<std::vector<uint8_t>> masks;  ///< The mask of each call of illuminance, ambient, texture and gather.
   TmTextureOptions textureOptions{};
-  std::string filter;  ///< Of those; what they point at has gone with the program.
+  std::string filter;  ///< Their filter: the text that they point at is gone when the program has ended.
   TmRayOptions rayOptions{};
   TmOcclusion occlusionOptions{};
-  std::string asked;  ///< Of the last file that was asked for.
+  std::string asked;  ///< The name of the last file that was asked for.
   std::vector<std::string> channels;
   std::vector<std::pair<std::string, float>> sent;
   bool hasP = false;

@@ -33,7 +33,7 @@ TEST_F(Services, AskFillsWhatFitsAndLeavesTheRest) {
   EXPECT_EQ(fake.output(6)[3], 1);
 }
 
-TEST_F(Services, TheRayThatCame) {
+TEST_F(Services, TellOfTheRayThatCame) {
   const int32_t told = number(), type = number(), origin = triple(), kind = b.variable(Shape::Text),
                 label = b.variable(Shape::Text), no = number();
   b.emit(Op::RayInfo, {told}, {b.text("type")}).settings = {setting("", type, true)};
@@ -50,7 +50,7 @@ TEST_F(Services, TheRayThatCame) {
   EXPECT_EQ(fake.printed.at(0), "specular mirror");
 }
 
-TEST_F(Services, TheNameOfAnotherShader) {
+TEST_F(Services, TellTheNameOfAnotherShader) {
   fake.answers["1:__shadername"] = {TM_STRING, {}, "bumpy"};
   const int32_t name = b.variable(Shape::Text), none = b.variable(Shape::Text);
   b.emit(Op::ShaderName, {name}, {b.text("displacement")});

@@ -105,7 +105,7 @@ TEST_F(Services, CloudsTakeChannelsByTheNamesThatAreNoOptions) {
   EXPECT_TRUE(reported("\"interpolate\" has no effect"));
 }
 
-TEST_F(Services, PhotonsCausticsAndSubsurface) {
+TEST_F(Services, FindPhotonsCausticsAndLightUnderTheSurface) {
   const int32_t map = triple(), caustic = triple(), below = triple(), P = b.global("P", Shape::Triple),
                 N = b.global("N", Shape::Triple);
   b.emit(Op::PhotonMap, {map}, {b.text("p.ptc"), P, N}).settings = {setting("estimator", b.number(7))};

@@ -60,7 +60,7 @@ TEST_F(Services, StepsAreDerivativesTimesTheSizeOfAMicropolygon) {
   EXPECT_EQ(fake.output(2)[5], 0);
 }
 
-TEST_F(Services, SpacesAndTheirMatrices) {
+TEST_F(Services, TransformBetweenSpacesAndGiveTheirMatrices) {
   const int32_t out = triple(), by = triple(), normal = triple();
   const int32_t P = b.global("P", Shape::Triple), current = b.text("current"), world = b.text("world");
   b.copy(out, b.value(Op::TransformSpace, {current, world, P}, Shape::Triple));
@@ -108,7 +108,7 @@ TEST_F(Services, TexturesHaveAChannelARegionAndAList) {
   EXPECT_TRUE(reported("\"width\" that has a value of another type"));
 }
 
-TEST_F(Services, TexturesOfOneChannelOverARegion) {
+TEST_F(Services, LookUpOneChannelOfATextureOverARegion) {
   const int32_t one = number(), u = b.global("u", Shape::Number);
   b.emit(Op::TextureF, {one}, {b.text("a.tex"), b.number(1), u, u, u, b.number(2), u, u});
   bool right = false;
@@ -123,7 +123,7 @@ TEST_F(Services, TexturesOfOneChannelOverARegion) {
   EXPECT_TRUE(right);
 }
 
-TEST_F(Services, EnvironmentsAndWhatIsKnownOfPictures) {
+TEST_F(Services, LookUpEnvironmentsAndTellOfPictures) {
   const int32_t out = triple(), told = number(), size = b.variable(Shape::Number, false, 2), second = number(),
                 wrong = number();
   b.emit(Op::EnvironmentT, {out}, {b.text("sky"), b.number(0), b.triple(1, 2, 3), b.number(0.5f)});

@@ -41,7 +41,7 @@ TEST_F(Values, OfASurfacesNAreItsOwn) {
   expect(rsl::get(fake.grid.N, 4), {0, 0, -1});
 }
 
-TEST_F(Values, GlobalsThatAreTheSameForAllPoints) {
+TEST_F(Values, OfSomeGlobalsAreTheSameForAllPoints) {
   fake.grid.E[1] = 4;
   b.emit(Op::Print, {},
          {b.text("%f %f %f %p %f %f"), b.global("time", Shape::Number, false), b.global("dtime", Shape::Number, false),
@@ -173,7 +173,7 @@ TEST_F(Values, OutputsThatNobodyWantsAreNotStored) {
   run();
 }
 
-TEST_F(Values, ArraysAndMatricesAndTextsOfParameters) {
+TEST_F(Values, OfParametersMayBeArraysMatricesAndTexts) {
   std::vector<float> m(16);
   for (size_t k = 0; k < 16; ++k) m[k] = static_cast<float>(k);
   const int32_t f = b.parameter("f", Base::Float, {1, 2, 3}), c = b.parameter("c", Base::Color, {1, 2, 3, 4, 5, 6}),
@@ -236,7 +236,7 @@ TEST_F(Values, ArraysVaryAndAreCopiedWhole) {
   expect({out(0, 10), out(0, 10, 1), out(0, 10, 2)}, {0, 0, 0});
 }
 
-TEST_F(Values, MatricesOfAnArray) {
+TEST_F(Values, OfAnArrayMayBeMatrices) {
   const int32_t a = b.variable(Shape::Matrix, true, 2), o = output(), s = b.global("s", Shape::Number);
   b.emit(Op::SetElement, {a}, {b.number(1), b.value(Op::MatrixOf, {s}, Shape::Matrix)});
   b.copy(o, b.value(Op::MatrixElement,
@@ -299,7 +299,7 @@ TEST_F(Values, SplinesGoThroughTheirKnots) {
 
 // --- Batches
 
-TEST_P(Values, BatchesOfAnySizeAndSlotsThatTheCodeGives) {
+TEST_P(Values, AreTheSameInBatchesOfAnySizeAndInSlotsThatTheCodeGives) {
   FakeGrid grid(GetParam());
   Builder v;
   const int32_t o = v.parameter("o", Base::Color, {0, 0, 0}, true), P = v.global("P", Shape::Triple),

@@ -20,7 +20,7 @@ std::vector<TreeLamp> lampsIn(int count, float radius) {
   return out;
 }
 
-/// Something that lamps bring of which the tree knows nothing.
+/// Light that lamps bring and of which the tree knows nothing.
 double lightOf(const TreeLamp& lamp, uint32_t number) {
   return double{lamp.power} * (1 + std::sin(static_cast<double>(number)));
 }

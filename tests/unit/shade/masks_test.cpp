@@ -81,7 +81,7 @@ const std::vector<Asked>& calls() {
   return all;
 }
 
-/// Those that give nothing to single points; the mask of bake3d has tests with the clouds.
+/// Services that give nothing to single points. The mask of bake3d is tested with the clouds.
 const std::set<std::string> kOfTheWholeBatch{"report",      "rayLabel", "lobeSamples", "ask",
                                              "textureInfo", "bake3d",   "print"};
 

@@ -94,7 +94,7 @@ class Standard : public Stage {
   std::vector<Point> at;
 };
 
-TEST_F(Standard, Constant) {
+TEST_F(Standard, ConstantIsItsFormula) {
   surface("constant");
   expect([&](const Point&) { return Cs; });
 }
@@ -104,17 +104,17 @@ TEST_F(Standard, DefaultsurfaceNeedsNoLight) {
   expect([&](const Point& p) { return Cs * (0.3 + 0.6 * std::fabs(dot(glm::normalize(p.N), glm::normalize(p.I)))); });
 }
 
-TEST_F(Standard, Matte) {
+TEST_F(Standard, MatteIsItsFormula) {
   surface("matte", {number("Ka", 0.4f), number("Kd", 0.9f)});
   expect([&](const Point& p) { return Cs * (0.4 * kAmbient + 0.9 * diffuse(p, facing(p))); });
 }
 
-TEST_F(Standard, Metal) {
+TEST_F(Standard, MetalIsItsFormula) {
   surface("metal", {number("Ka", 0.4f), number("Ks", 0.9f), number("roughness", 0.5f)});
   expect([&](const Point& p) { return Cs * (0.4 * kAmbient + 0.9 * specular(p, facing(p), 0.5)); });
 }
 
-TEST_F(Standard, ShinymetalOfTheSceneItself) {
+TEST_F(Standard, ShinymetalMayMirrorTheSceneItself) {
   surface("shinymetal", {number("Ka", 0.4f), number("Ks", 0.9f), number("Kr", 0.7f), number("roughness", 0.5f),
                          text("texturename", "raytrace")});
   expect([&](const Point& p) {
@@ -128,7 +128,7 @@ TEST_F(Standard, ShinymetalWithoutAMapIsMetal) {
   expect([&](const Point& p) { return Cs * (0.4 * kAmbient + specular(p, facing(p), 0.5)); });
 }
 
-TEST_F(Standard, Plastic) {
+TEST_F(Standard, PlasticIsItsFormula) {
   surface("plastic", {number("Ka", 0.4f), number("Kd", 0.9f), number("Ks", 0.6f), number("roughness", 0.3f),
                       tint("specularcolor", {0.2, 1, 0.7})});
   expect([&](const Point& p) {
