@@ -1,10 +1,13 @@
-// Writes the light of the gather pass as brick maps that another camera reads (irradiance-atlas 6.3).
+// Writes the light of the gather pass as brick maps that another camera reads (Christensen and Batali 2004,
+// section 6.3).
 #include <array>
 #include <map>
 #include <tuple>
 
 #include "gi/atlas/world_from_current.h"
-#include "gi/frame/state.h"
+#include "gi/frame/answers.h"
+#include "gi/frame/passes.h"
+#include "gi/frame/record_lookup.h"
 #include "gi/point_file.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/stop.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "gi/frame/frame_survey.h"
+#include "gi/frame/passes.h"
+#include "gi/frame/plans.h"
 
 namespace tomales {
 namespace {

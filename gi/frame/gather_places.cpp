@@ -1,6 +1,8 @@
+#include "gi/frame/gather_places.h"
+
 #include <bit>
 
-#include "gi/frame/state.h"
+#include "gi/frame/ray_start.h"
 #include "reyes/base/rng.h"
 
 namespace tomales {
@@ -73,11 +75,15 @@ IrradiancePlace GatherPlaces::lookupAt(int i, const vec3& normal) const {
   return p;
 }
 
-void GatherPlaces::aim(const RayScene& rays, int i, float time, Ray& ray) const {
+void GatherPlaces::startRay(const RayScene& rays, int i, float time, Ray& ray) const {
   ray.origin = points_.position(i);
-  tomales::aim(rays, points_, i, time, ray);
+  tomales::startRay(rays, points_, i, time, ray);
   if (positions_ < 0) return;
   ray.origin = rays.placeAt(points_.group(), named(positions_, i), vec3(0), time);
+}
+
+vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
+  return normalizeOr({N.x[i], N.y[i], N.z[i]}, points.facingNormal(i));
 }
 
 }  // namespace tomales

@@ -3,7 +3,7 @@
 #pragma once
 #include <atomic>
 
-#include "gi/frame/state.h"
+#include "gi/frame/gather_places.h"
 
 namespace tomales {
 

@@ -1,6 +1,9 @@
 // Answers occlusion() and indirectdiffuse() of shaders from records, as the irradiance cache does. For occlusion()
 // these hold the uncovered share of the hemisphere instead of light.
-#include "gi/frame/state.h"
+#include "gi/frame/answers.h"
+#include "gi/frame/passes.h"
+#include "gi/frame/plans.h"
+#include "gi/frame/recall.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"

@@ -239,7 +239,7 @@ PointCloud recordsOf(const IrradianceShot& shot) {
   out.channels = {{"record", 1}, {"irradiance", 3}, {"closest", 1}, {"harmonicmean", 1}, {"noise", 1}};
   const mat4 worldFromCamera = glm::inverse(shot.cameraFromWorld);
   const mat3 normalsFromCamera = glm::transpose(mat3(shot.cameraFromWorld));
-  const float scale = std::cbrt(std::abs(glm::determinant(mat3(worldFromCamera))));
+  const float scale = lengthScale(worldFromCamera);
   for (const PreparedCache& c : shot.caches)
     for (const IrradianceRecord& r : c.cache.records()) {
       const float data[] = {

@@ -9,9 +9,7 @@ namespace {
 class RecordMove {
  public:
   explicit RecordMove(const mat4& to)
-      : to_(to),
-        scale_(std::cbrt(std::abs(glm::determinant(mat3(to))))),
-        hand_(glm::determinant(mat3(to)) < 0 ? -1.0f : 1.0f) {
+      : to_(to), scale_(lengthScale(to)), hand_(glm::determinant(mat3(to)) < 0 ? -1.0f : 1.0f) {
     if (std::abs(scale_ - 1) < 1e-5f) scale_ = 1;  // the transformation is rigid, except for rounding
   }
 

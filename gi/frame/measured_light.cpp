@@ -1,6 +1,8 @@
 #include "gi/frame/measured_light.h"
 
-#include "gi/frame/state.h"
+#include "gi/frame/answers.h"
+#include "gi/frame/gather_places.h"
+#include "gi/frame/passes.h"
 #include "gi/photons/stream.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/parallel.h"

@@ -17,10 +17,6 @@ class MeasuredLight {
   bool isNoting() const { return !measurement_; }
   void note(const MeasurementPoint& point);
 
-  struct Pass {
-    float scale;  ///< Factor on the radii.
-    uint32_t seed;
-  };
   /// Counts passes of photons at what has been noted, until as many as asked for have been sent or the noise is low
   /// enough.
   void measure(const RayTools& tools, const PhotonPasses& passes, const std::function<void(float)>& progress,

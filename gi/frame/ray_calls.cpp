@@ -1,5 +1,7 @@
 // Rays that shaders ask for: one from each point of a batch, their hits shaded together.
-#include "gi/frame/state.h"
+#include "gi/frame/ray_calls.h"
+
+#include "gi/frame/ray_start.h"
 #include "gi/gather/layers.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
@@ -178,7 +180,7 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
       ray.radius = query.radius[i];
       ray.spread = query.spread[i];
     }
-    aim(*tools->rays, points, i, rayTime(*tools->rays, points, i, query.number, query.count, context.seed), ray);
+    startRay(*tools->rays, points, i, rayTime(*tools->rays, points, i, query.number, query.count, context.seed), ray);
     ray.tMax = query.maxDistance;
     ray.offset = slantedOffset(ray.offset, std::abs(dot(d, points.get3(kNgx, i))));
     setBias(query, ray);

@@ -1,5 +1,5 @@
-// Origins and times of rays that leave points which may move.
-#include "gi/frame/state.h"
+#include "gi/frame/ray_start.h"
+
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
@@ -14,7 +14,7 @@ float rayTime(const RayScene& rays, const ShadePoints& points, int i, int number
   return sobol1(index, hashCombine(name.key, randomStream("time"), seed));
 }
 
-void aim(const RayScene& rays, const ShadePoints& points, int i, float time, Ray& ray) {
+void startRay(const RayScene& rays, const ShadePoints& points, int i, float time, Ray& ray) {
   const vec3 end = ray.origin + ray.tMax * ray.direction;
   ray.time = time;
   if (time > 0 && !points.inAir()) ray.origin = rays.placeAt(points.group(), ray.origin, points.get3(kDriftX, i), time);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "gi/frame/state.h"
+#include "gi/frame/recall.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/rng.h"
 

@@ -1,6 +1,9 @@
 // Indirect light by path tracing: for the reference, and for hits that no cache of their bounce serves; and paths from
 // hits where the atlas cannot tell.
-#include "gi/frame/state.h"
+#include "gi/frame/answers.h"
+#include "gi/frame/gather_places.h"
+#include "gi/frame/plans.h"
+#include "gi/frame/ray_start.h"
 #include "gi/gather/layers.h"
 #include "gi/gather/polygon_start.h"
 #include "reyes/base/random_streams.h"
@@ -96,7 +99,7 @@ class PathBatches {
   };
   void send(PathSum& sum, const PolygonStart& polygon, const Start& start, uint32_t name) {
     Ray ray;
-    places_.aim(*tools_.rays, sum.point, start.time, ray);
+    places_.startRay(*tools_.rays, sum.point, start.time, ray);
     ray.tMax = maxDistance_;
     if (!filter_.passesAll()) ray.filter = &filter_;
     ray.origin += polygon.lift;
@@ -111,7 +114,7 @@ class PathBatches {
   PolygonStart startOn(int i, const vec3& normal) const {
     Ray first;
     first.direction = normal;
-    places_.aim(*tools_.rays, i, 0, first);
+    places_.startRay(*tools_.rays, i, 0, first);
     return polygonStart(*tools_.rays, first, kMaskDiffuse);
   }
 

@@ -3,7 +3,12 @@
 #include <numeric>
 #include <utility>
 
-#include "gi/frame/state.h"
+#include "gi/frame/answers.h"
+#include "gi/frame/passes.h"
+#include "gi/frame/plans.h"
+#include "gi/frame/ray_calls.h"
+#include "gi/frame/ray_start.h"
+#include "gi/frame/record_lookup.h"
 
 namespace tomales {
 namespace {
@@ -12,6 +17,16 @@ namespace {
 constexpr int kTimesOfLight = 16;
 
 }  // namespace
+
+const RayTools* gatherTools(const GiState& state) {
+  const RayTools* tools = state.rays();
+  if (tools)
+    std::call_once(state.sourcesOnce, [&] {
+      if (state.atlasSource) state.atlas = state.atlasSource();
+      if (state.hitRadianceSource) state.hitRadiance = state.hitRadianceSource();
+    });
+  return tools;
+}
 
 struct GiServices::Impl : GiState {
   /// Returns null if neither a file nor the geometry holds emitters.
@@ -123,7 +138,7 @@ void GiServices::transmission(const ShadePoints& points, const uint8_t* active, 
     for (int k = 0; k < times; ++k) {
       const int strata = rays.samples * times, stratum = rays.sample * times + k;
       Ray ray = atOpen;
-      aim(scene, points, i, rayTime(scene, points, i, stratum, strata, context.seed), ray);
+      startRay(scene, points, i, rayTime(scene, points, i, stratum, strata, context.seed), ray);
       ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
       if (rays.query) setBias(*rays.query, ray);
       ray.filter = filter.passesAll() ? nullptr : &filter;

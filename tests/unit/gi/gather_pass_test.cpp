@@ -3,6 +3,7 @@
 #include <map>
 #include <numeric>
 
+#include "gi/frame/gather_places.h"
 #include "gi/gather/occluders.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/rng.h"

@@ -1,0 +1,30 @@
+// Private to gi: which settings an indirect light or a question about a hemisphere is gathered with, and which cache
+// answers it.
+#pragma once
+#include "gi/frame/state.h"
+
+namespace tomales {
+
+/// Returns the settings of an indirect light as this group sees them: the command line wins over the group's
+/// attributes, and those over the light.
+GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
+
+GatherPlan planFor(const GiState&, int group, const HemisphereQuery&);
+
+/// Finds the cache that serves a plan, if there is one. Records that were given serve even where a light or an option
+/// has since been changed: preferably those whose plan differs in its rays alone, else those for the same question.
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState&, const GatherPlan&);
+
+/// Returns what a cache with this error function has at `maxError`.
+CacheSettings cacheSettings(ErrorFunction, float maxError);
+
+/// Tells whether indirect light comes from an irradiance cache.
+bool interpolatesIndirect(const GiState&);
+
+/// Returns the number of diffuse bounces of a light.
+int bouncesFor(const GiState&, const IndirectQuery&);
+/// Returns the same for the paths of an audit (ShadeContext::auditPaths), which stand for all light that the method
+/// brings, by maps or otherwise.
+int auditBouncesFor(const GiState&, const IndirectQuery&);
+
+}  // namespace tomales
