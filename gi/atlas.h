@@ -1,5 +1,5 @@
-// Composer: the irradiance atlas (irradiance-atlas 4). A folder holds the photons, irradiance points and brick maps of
-// a scene, one file of each kind for each map. Gather rays look the brick maps up.
+// Composer: the irradiance atlas (Christensen and Batali 2004, section 4). A folder holds the photons, irradiance
+// points and brick maps of a scene, one file of each kind for each map. Gather rays look the brick maps up.
 //   FOLDER/photons/NAME.ptc  ->  FOLDER/irradiance/NAME.ptc  ->  FOLDER/NAME.bkm
 // Attribute "photon" "globalmap" names the map of an object. Objects without a name are shared out by size among the
 // maps "scene0", "scene1", ... A map NAME.caustic holds light that came by mirrors and glass alone. It is looked up
@@ -21,10 +21,12 @@
 
 namespace tomales {
 
+/// Caustics are sharp, so every photon gets an estimate.
+constexpr PhotonIrradianceSettings kCausticIrradiance{50, 1};
+
 struct AtlasSettings {
   PhotonSettings photons;
   PhotonIrradianceSettings irradiance;
-  PhotonIrradianceSettings caustics{50, 1};  ///< Caustics are sharp, so every photon gets an estimate.
   /// maxError is a share of the map's mean irradiance; the paper's is absolute. An estimate averages 50 photons and
   /// stands for four, so voxels as wide as the disks (coarseness 2) hold all of their detail in a quarter of the
   /// bricks.

@@ -1,7 +1,7 @@
-// Noun: a brick map (irradiance-atlas 3) on disk, .bkm: a tiled 3D MIP map of data on surfaces or in volumes. It is a
-// file of chunks (reyes/base/chunk_file.h), one for each brick; its header has the channels, the octree, and what the
-// map was made from. Space: that of the points it was made from (world). Threads: const members may be called
-// concurrently; a writer belongs to one thread.
+// Noun: a brick map (Christensen and Batali 2004, section 3) on disk, .bkm: a tiled 3D MIP map of data on surfaces or
+// in volumes. It is a file of chunks (reyes/base/chunk_file.h), one for each brick; its header has the channels, the
+// octree, and what the map was made from. Space: that of the points it was made from (world). Threads: const members
+// may be called concurrently; a writer belongs to one thread.
 #pragma once
 #include <string>
 

@@ -1,5 +1,6 @@
-// Verb: lookups in a brick map (irradiance-atlas 3.3). The octree is in memory, and bricks come through a cache. Space:
-// that of the points it was made from (world). Threads: const members may be called concurrently.
+// Verb: lookups in a brick map (Christensen and Batali 2004, section 3.3). The octree is in memory, and bricks come
+// through a cache. Space: that of the points it was made from (world). Threads: const members may be called
+// concurrently.
 #pragma once
 #include <memory>
 

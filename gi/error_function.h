@@ -22,18 +22,18 @@ enum class PublishedEquations { Screen, SplitSphere, Hessian };
 
 /// The amendments that this renderer adds to the published equations; gi/cache/amendments/switches.h says where each
 /// is.
-enum class Amendment { SecondOrder, Disputes, Reach, Behind, Occluders, Slopes };
+enum class Amendment { SecondOrder, Disagreements, Reach, Behind, Occluders, Slopes };
 
 constexpr uint32_t bitOf(Amendment amendment) { return uint32_t{1} << static_cast<uint32_t>(amendment); }
 
-/// With this kappa, Ward's split sphere makes as large an error as the function of approximate-gi does with kappa 1
-/// (docs/measured/irradiance_cache.md).
+/// With this kappa, Ward's split sphere makes as large an error as the function of Tabellion and Lamorlette 2004 does
+/// with kappa 1 (docs/measured/irradiance_cache.md).
 inline constexpr float kSplitSphereKappa = 4;
 inline constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 /// The amendments that are left out for comparison with what was published: records do not check each other, each is
 /// extrapolated by its own gradients alone, and none serves farther in shading than where records are placed.
 inline constexpr uint32_t kAsPublished =
-    bitOf(Amendment::SecondOrder) | bitOf(Amendment::Disputes) | bitOf(Amendment::Reach);
+    bitOf(Amendment::SecondOrder) | bitOf(Amendment::Disagreements) | bitOf(Amendment::Reach);
 
 struct ErrorFunctionInfo {
   ErrorFunction function;

@@ -11,7 +11,8 @@ enum class GiMode {
   Gather,     ///< Hits are shaded, further bounces have caches of their own; irradiance caching.
   Atlas,      ///< All bounces: gather rays look up the irradiance of photons in brick maps; irradiance caching.
   Radiosity,  ///< One bounce from baked direct light, in textures or brick maps; irradiance caching.
-  Baked,      ///< All light from brick maps that were gathered for earlier frames (irradiance-atlas 6.3): no rays.
+  Baked,      ///< All light from brick maps that were gathered for earlier frames (Christensen and Batali 2004,
+              ///< section 6.3): no rays.
   /// Brute-force path tracing of the same transport: unbiased for diffuse surfaces. Photons bring caustics.
   Reference,
   Progressive,  ///< All bounces: photons are counted where the eye looks, on disks that shrink.

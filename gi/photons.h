@@ -1,8 +1,8 @@
-// Verb: photons from the lights through the scene (irradiance-atlas 4). Each photon that arrives on a diffuse surface
-// is stored; Russian roulette decides which go on, so that powers stay even. In a medium photons are stored where they
-// collide (gi/photons/medium.h). What a photon flies through is the Interior or Exterior of the surface that it flies
-// to, whichever lies on the side that it comes from. Power: W. Space: current. Threads: uses the pool; the photons are
-// the same for any number of threads.
+// Verb: photons from the lights through the scene (Christensen and Batali 2004, section 4). Each photon that arrives on
+// a diffuse surface is stored; Russian roulette decides which go on, so that powers stay even. In a medium photons are
+// stored where they collide (gi/photons/medium.h). What a photon flies through is the Interior or Exterior of the
+// surface that it flies to, whichever lies on the side that it comes from. Power: W. Space: current. Threads: uses the
+// pool; the photons are the same for any number of threads.
 #pragma once
 #include <functional>
 #include <optional>

@@ -1,5 +1,5 @@
 // Art direction of indirect light: the light of another indirect light, with the falloffs of a spotlight, a preferred
-// direction and a colour correction (approximate-gi section 5.3).
+// direction and a colour correction (Tabellion and Lamorlette 2004, section 5.3).
 #include "shaders/indirect.h"
 
 namespace {

@@ -1,5 +1,5 @@
-// Turns indirect light into light samples, so that existing surface shaders receive it unchanged (approximate-gi
-// sections 4.6 and 5.1): three samples, one for each colour channel, from its own dominant direction.
+// Turns indirect light into light samples, so that existing surface shaders receive it unchanged (Tabellion and
+// Lamorlette 2004 sections 4.6 and 5.1): three samples, one for each colour channel, from its own dominant direction.
 #pragma once
 #include "reyes/shader.h"
 

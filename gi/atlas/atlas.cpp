@@ -196,7 +196,7 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
                    bricks = atlasFile(folder, name, ".bkm");
     const bool caustic = name.ends_with(kCaustic),
                others = finished % static_cast<size_t>(part.count) != static_cast<size_t>(part.index);
-    const PhotonIrradianceSettings& estimate = caustic ? settings.caustics : settings.irradiance;
+    const PhotonIrradianceSettings& estimate = caustic ? kCausticIrradiance : settings.irradiance;
     const SightAlongSurface seen = caustic || name == names.volume ? nullptr : sight;
     if (others) {
       if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), {}});

@@ -33,7 +33,7 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
                                  Log& log)
     : cache_(cacheBytes),
       worldFromCurrent_(glm::inverse(scene.cameraFromWorldAtOpen())),
-      worldFromCurrentScale_(std::cbrt(std::abs(glm::determinant(mat3(worldFromCurrent_))))),
+      worldFromCurrentScale_(lengthScale(worldFromCurrent_)),
       log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
   openCaustics(folder / "photons", names);
@@ -50,7 +50,7 @@ void IrradianceAtlas::openCaustics(const fs::path& folder, const MapNames& names
     const fs::path path = atlasFile(folder, name, ".ptc");
     if (!name.empty() && fs::exists(path)) try {
         const PointFile file(path.string());
-        caustics_.try_emplace(name, Photons{file.madeFrom(), CausticPhotons(file.readAll(), AtlasSettings{}.caustics)});
+        caustics_.try_emplace(name, Photons{file.madeFrom(), CausticPhotons(file.readAll(), kCausticIrradiance)});
       } catch (const FileError& e) {
         log_.report(Severity::Missing, "atlas-damaged", {},
                     fmt::format("{}: caustics come from its brick map", e.what()));

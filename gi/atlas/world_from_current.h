@@ -11,7 +11,7 @@ struct WorldFromCurrent {
   explicit WorldFromCurrent(const Scene& scene)
       : points(glm::inverse(scene.cameraFromWorldAtOpen())),
         normals(glm::transpose(mat3(scene.cameraFromWorldAtOpen()))),
-        scale(std::cbrt(std::abs(glm::determinant(mat3(points))))) {}
+        scale(lengthScale(points)) {}
 };
 
 }  // namespace tomales

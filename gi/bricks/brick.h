@@ -1,6 +1,6 @@
-// Noun: a brick, the tile of a brick map (irradiance-atlas 3.1): 8^3 voxels, few of which are filled. A voxel has a
-// layer for every surface and direction in it, each with the mean of the data there. It needs point clouds and
-// reyes/base alone. Threads: plain data.
+// Noun: a brick, the tile of a brick map (Christensen and Batali 2004, section 3.1): 8^3 voxels, few of which are
+// filled. A voxel has a layer for every surface and direction in it, each with the mean of the data there. It needs
+// point clouds and reyes/base alone. Threads: plain data.
 #pragma once
 #include <array>
 #include <bit>
@@ -19,7 +19,7 @@ constexpr int kBrickVoxels = kBrickWidth * kBrickWidth * kBrickWidth;
 constexpr int kMostLevels = 24;  ///< Voxel coordinates of a map of so many levels stay exact in int.
 
 /// Normals farther apart than this do not share a layer, and do not answer each other's lookups.
-constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (irradiance-atlas 3.2, 3.3)
+constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (Christensen and Batali 2004, sections 3.2 and 3.3)
 
 /// Calls work for channels 0 .. width - 1. Three channels, as most data have, need no loop.
 template <class Work>
@@ -37,7 +37,7 @@ struct BrickLayer {
   uint8_t incoherent : 1 = 0;  ///< Different layers had to be merged: finer bricks tell them apart.
   uint8_t surface : 7 = 0;     ///< PointCloud::surface() of the data; 0: not known, or several.
   /// The mask of the bits of `surface`, the largest number of which is kAcrossWalls.
-  static constexpr int kSurfaceBits = kAcrossWalls;
+  static constexpr int kSurfaceMask = kAcrossWalls;
 
   BrickLayer() = default;
   BrickLayer(const vec3& unitNormal, bool isIncoherent, int of = 0)
@@ -45,7 +45,7 @@ struct BrickLayer {
         y(part(unitNormal.y)),
         z(part(unitNormal.z)),
         incoherent(isIncoherent),
-        surface(static_cast<uint8_t>(of & kSurfaceBits)) {}
+        surface(static_cast<uint8_t>(of & kSurfaceMask)) {}
   vec3 normal() const { return normalizeOr(vec3(x, y, z), vec3(0.0f)); }
   /// Tells whether the layer matches a lookup. N: unit; zero matches any direction. of: a surface; 0 matches any.
   bool answers(const vec3& N, int of = 0) const { return (of == 0 || surface == 0 || of == surface) && faces(N); }
@@ -161,7 +161,7 @@ struct BrickTree {
   BrickCube cube;
   std::vector<BrickNode> nodes;
   int deepest = 0;                                       ///< Level of the finest node; the root's is 0.
-  std::bitset<BrickLayer::kSurfaceBits + 1> surfaces{};  ///< The surfaces that the points name; bit 0: some name none.
+  std::bitset<BrickLayer::kSurfaceMask + 1> surfaces{};  ///< The surfaces that the points name; bit 0: some name none.
   int32_t root() const { return static_cast<int32_t>(nodes.size()) - 1; }
 };
 

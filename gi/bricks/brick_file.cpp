@@ -27,7 +27,7 @@ BrickFile::BrickFile(const std::string& path) : file_(path, kBrickKind, kBrickVe
   tree_.cube = r.get<BrickCube>();
   tree_.deepest = r.get<int32_t>();
   tree_.nodes = r.getVector<BrickNode>();
-  for (const uint8_t surface : r.getVector<uint8_t>()) tree_.surfaces.set(surface & BrickLayer::kSurfaceBits);
+  for (const uint8_t surface : r.getVector<uint8_t>()) tree_.surfaces.set(surface & BrickLayer::kSurfaceMask);
   madeFrom_ = r.get<MadeFrom>();
   if (!sound(tree_) || tree_.nodes.size() != file_.count())
     throw DamageError(path, fmt::format("\"{}\" is damaged: its octree does not add up", path));

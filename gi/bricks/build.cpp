@@ -106,7 +106,7 @@ class Builder {
     return out_.tree.root();
   }
 
-  /// Is no point of the cube smaller than half the diagonal of its voxels (irradiance-atlas 3.2)?
+  /// Is no point of the cube smaller than half the diagonal of its voxels (Christensen and Batali 2004, section 3.2)?
   bool fineEnough(int level, const vec3& lo, const Members& members) const {
     if (level >= settings_.maxDepth || members.size() <= 1) return true;
     const float half = 0.5f * std::sqrt(3.0f) * out_.tree.cube.voxelSize(level) / settings_.coarseness;

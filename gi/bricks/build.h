@@ -1,8 +1,8 @@
-// Verb: point cloud -> bricks and their octree (irradiance-atlas 3.2), with one brick of each level in memory at a time
-// (6.1). Two things differ from the paper. A point goes to the voxels that both the box and the plane of its disk
-// cross, weighted by its area, so that a voxel holds the mean over the surface in it. And coarse voxels keep a layer
-// for every direction, as fine ones do (docs/decisions/0021). The result depends on the order of points, not on
-// threads.
+// Verb: point cloud -> bricks and their octree (Christensen and Batali 2004, section 3.2), with one brick of each level
+// in memory at a time (6.1). Two things differ from the paper. A point goes to the voxels that both the box and the
+// plane of its disk cross, weighted by its area, so that a voxel holds the mean over the surface in it. And coarse
+// voxels keep a layer for every direction, as fine ones do (docs/decisions/0021). The result depends on the order of
+// points, not on threads.
 #pragma once
 #include <functional>
 

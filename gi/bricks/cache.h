@@ -1,6 +1,6 @@
 // Verb: bricks on demand, the least recently used dropped first under one byte budget for all maps
-// (irradiance-atlas 3.4). Threads: every member may be called concurrently; a brick is read once, however many threads
-// ask.
+// (Christensen and Batali 2004, section 3.4). Threads: every member may be called concurrently; a brick is read once,
+// however many threads ask.
 #pragma once
 #include <functional>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "gi/cache/amendments/disputes.h"
+#include "gi/cache/amendments/disagreements.h"
 #include "gi/cache/amendments/second_order.h"
 #include "gi/cache/amendments/slopes.h"
 #include "gi/cache/amendments/switches.h"
@@ -42,7 +42,7 @@ struct IrradianceCache::Impl {
   IrradianceRecords records{};
   const ErrorFunctionInfo& info = infoOf(settings.errorFunction);
   const Published published = publishedBy(info.equations, settings.kappa);
-  Disputes disputes{has(Amendment::Disputes), info.equations, settings.kappa};
+  Disagreements disagreements{has(Amendment::Disagreements), info.equations, settings.kappa};
   std::vector<vec3> gainsOfMix{};
   std::vector<LightShare> mix{};
   const bool correctsMean = has(Amendment::SecondOrder), fadesBehind = has(Amendment::Behind);
@@ -64,14 +64,14 @@ struct IrradianceCache::Impl {
     IrradianceRecord& fresh = records[index];
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
       IrradianceRecord& old = records[candidate.record];
-      const float distance = glm::length(fresh.position - old.position), fromOld = Disputes::noiseAt(old, distance),
-                  fromFresh = Disputes::noiseAt(fresh, distance);
+      const float distance = glm::length(fresh.position - old.position),
+                  fromOld = Disagreements::noiseAt(old, distance), fromFresh = Disagreements::noiseAt(fresh, distance);
       const Disagreement ofOld =
-          disputes.of(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
+          disagreements.of(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
       const Disagreement ofFresh =
-          disputes.of(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
-      old.limit = std::min(old.limit, disputes.limit(ofOld, distance, old.pixelSize));
-      fresh.limit = std::min(fresh.limit, disputes.limit(ofFresh, distance, fresh.pixelSize));
+          disagreements.of(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
+      old.limit = std::min(old.limit, disagreements.limit(ofOld, distance, old.pixelSize));
+      fresh.limit = std::min(fresh.limit, disagreements.limit(ofFresh, distance, fresh.pixelSize));
     }
   }
 
@@ -181,7 +181,7 @@ struct IrradianceCache::Impl {
       if (!light.empty()) otherE += candidate.weight * other.addShare(r, light[candidate.record], candidate.weight, E);
       const float distance = glm::length(x - r.position);
       if (&candidate != &candidates.front())
-        worst = std::max(worst, disputes.of(E, out.E / out.weight, 2 * Disputes::noiseAt(r, distance)));
+        worst = std::max(worst, disagreements.of(E, out.E / out.weight, 2 * Disagreements::noiseAt(r, distance)));
       nearest = std::min(nearest, distance);
       out.closest = std::min(out.closest, r.closest);
       out.occluderHeight = std::min(out.occluderHeight, std::max(r.closest, r.limit));
@@ -197,7 +197,7 @@ struct IrradianceCache::Impl {
       out.E = glm::max(vec3(0.0f), corrected(out.E, mean, {}));
       if (!light.empty()) out.E = vec3(glm::greaterThan(out.E, vec3(0.0f))) * corrected(otherE, other, light);
     }
-    out.inconsistent = disputes.limit(worst, nearest, pixelSize) <= nearest;
+    out.inconsistent = disagreements.limit(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
   }
@@ -213,7 +213,7 @@ IrradianceCache::~IrradianceCache() = default;
 void IrradianceCache::insert(const IrradianceRecord& record) {
   Impl& impl = *impl_;
   impl.records.push_back(record);
-  impl.disputes.add(luminance(record.E));
+  impl.disagreements.add(luminance(record.E));
   if (!(impl.settings.kappa < kInfinity)) return;
   if (impl.has(Amendment::Slopes))
     limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
@@ -223,7 +223,7 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
 
 void IrradianceCache::restore(const IrradianceRecord& record) {
   impl_->records.push_back(record);
-  impl_->disputes.add(luminance(record.E));
+  impl_->disagreements.add(luminance(record.E));
   if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
 }
 

@@ -28,7 +28,7 @@ struct LightShare {
 };
 
 struct IrradianceRecord {
-  vec3 position, normal;  ///< normal is a unit vector without bumps (approximate-gi section 4.5).
+  vec3 position, normal;  ///< normal is a unit vector without bumps (Tabellion and Lamorlette 2004, section 4.5).
   vec3 E;                 ///< E/pi per channel
   /// One for each channel; E(n) ~ E + dot(cross(ni, n), gradient) (Ward and Heckbert 1992).
   vec3 rotationGradient[3];

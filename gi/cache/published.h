@@ -10,8 +10,8 @@
 
 namespace tomales {
 
-/// approximate-gi eq. 2 to 5: the radius is half of the least distance R_i to a hit, between limits that follow from
-/// the size of a pixel.
+/// Tabellion and Lamorlette 2004, eq. 2 to 5: the radius is half of the least distance R_i to a hit, between limits
+/// that follow from the size of a pixel.
 struct Screen {
   static constexpr float kMaxAngleTerm = 0.0151922470f;  ///< 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4).
   float kappa;

@@ -1,6 +1,6 @@
 // Private to gi/irradiance_cache: an octree of numbered records. Each lies in the node that matches its radius (Ward et
-// al. 1988). The radius within which a record is valid depends on the lookup (approximate-gi eq. 3) and grows with the
-// record's size, so each node knows the size of its largest record.
+// al. 1988). The radius within which a record is valid depends on the lookup (Tabellion and Lamorlette 2004, eq. 3) and
+// grows with the record's size, so each node knows the size of its largest record.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -12,7 +12,7 @@ namespace tomales {
 
 /// The limits of how far records serve, for places of one pixel size.
 struct Range {
-  float least, most;  ///< The clamps R- and R+ of approximate-gi eq. 3.
+  float least, most;  ///< The clamps R- and R+ of Tabellion and Lamorlette 2004, eq. 3.
   float kappa;        ///< The divisor of radii in eq. 2.
   float pixel;        ///< Root of the projected pixel area at kappa 1.
   float wider;        ///< Greatest factor on a radius (Amendment::Reach).

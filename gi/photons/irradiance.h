@@ -1,6 +1,6 @@
-// Verb: photons -> irradiance disks (irradiance-atlas 4). The nearest photons on the same surface give the irradiance
-// at a photon, and the same search gives the area that it stands for. Irradiance: `irradiance` of the result is E in
-// W/m2, not E/pi. Threads: uses the pool; the result does not depend on it.
+// Verb: photons -> irradiance disks (Christensen and Batali 2004, section 4). The nearest photons on the same surface
+// give the irradiance at a photon, and the same search gives the area that it stands for. Irradiance: `irradiance` of
+// the result is E in W/m2, not E/pi. Threads: uses the pool; the result does not depend on it.
 #pragma once
 #include <array>
 #include <functional>

@@ -19,7 +19,7 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
       rays_(rays),
       surfaces_(rays, shading, settings.seed, log),
       settings_(settings),
-      worldUnit_(std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))))) {
+      worldUnit_(lengthScale(scene.cameraFromWorldAtOpen())) {
   for (const Object& o : scene.objects) groups_.push_back(o.group);
   for (int g = 0; g < static_cast<int>(scene.groups.size()); ++g) {
     media_.push_back({mediumOf(shading.medium(g, true), worldUnit_), mediumOf(shading.medium(g, false), worldUnit_)});

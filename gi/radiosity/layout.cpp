@@ -54,8 +54,8 @@ RadiosityChart chartOf(const Scene& scene, const Camera& camera, int object, uin
   }
   const Attributes::Radiosity& asked = scene.objects[static_cast<size_t>(object)].attributes->radiosity;
   // The size depends on the distance alone, so that hidden surfaces are no coarser than visible ones as far away.
-  const float unit = asked.screen ? camera.pixelSize({0, 0, glm::length(middle)})
-                                  : std::cbrt(std::abs(glm::determinant(mat3(scene.cameraFromWorldAtOpen()))));
+  const float unit =
+      asked.screen ? camera.pixelSize({0, 0, glm::length(middle)}) : lengthScale(scene.cameraFromWorldAtOpen());
   const float texel = std::max(asked.texelSize * unit / texels, 1e-12f);
   RadiosityChart chart;
   chart.width = powerOfTwoNear(alongU / texel);

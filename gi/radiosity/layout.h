@@ -1,5 +1,5 @@
-// Private to gi: decides which surfaces have radiosity maps (approximate-gi 4.4, irradiance-atlas 6.3), and how fine
-// these are.
+// Private to gi: decides which surfaces have radiosity maps (Tabellion and Lamorlette 2004, section 4.4, Christensen
+// and Batali 2004, section 6.3), and how fine these are.
 #pragma once
 #include <span>
 

@@ -1,9 +1,10 @@
-// Noun: radiosity maps (approximate-gi 4.4), a texture for each surface with its radiance by direct light, so that
-// gather rays run no shader. Every patch has a chart of its own, a power of two wide and high, so that MIP levels never
-// mix patches; its parameters are the patch's (u, v), which every surface has. A surface that shows both sides has
-// charts for both. Hits on surfaces without maps are shaded: points and curves that turn to the eye, parts of solids,
-// transparent objects, shaders that trace rays, and surfaces that displacement moves for rays. Values are radiance as
-// hits of gather rays have it, the same towards all directions. Threads: const members may be called concurrently.
+// Noun: radiosity maps (Tabellion and Lamorlette 2004, section 4.4), a texture for each surface with its radiance by
+// direct light, so that gather rays run no shader. Every patch has a chart of its own, a power of two wide and high, so
+// that MIP levels never mix patches; its parameters are the patch's (u, v), which every surface has. A surface that
+// shows both sides has charts for both. Hits on surfaces without maps are shaded: points and curves that turn to the
+// eye, parts of solids, transparent objects, shaders that trace rays, and surfaces that displacement moves for rays.
+// Values are radiance as hits of gather rays have it, the same towards all directions. Threads: const members may be
+// called concurrently.
 #pragma once
 #include <functional>
 
@@ -41,9 +42,8 @@ struct RadiosityChart {
   /// Makes the coarser levels from level 0, weighted by the known share of each texel, and fills unknown texels from
   /// the coarser levels.
   void makeLevels();
-  /// Looks up radiance: bilinear inside the chart, linear between levels. `width`: that of the footprint, in current
-  /// space.
-  vec3 lookup(float u, float v, float width) const;
+  /// Looks up radiance: bilinear inside the chart, linear between levels. `footprint`: its width, in current space.
+  vec3 lookup(float u, float v, float footprint) const;
 
  private:
   vec3 atLevel(int level, float u, float v) const;

@@ -30,6 +30,8 @@ inline vec3 transformPoint(const mat4& m, const vec3& p) {
   return h.w == 1.0f ? vec3(h) : vec3(h) / h.w;
 }
 inline vec3 transformVector(const mat4& m, const vec3& v) { return mat3(m) * v; }
+/// Returns the mean factor by which a transformation scales lengths: the cube root of that of volumes.
+inline float lengthScale(const mat4& m) { return std::cbrt(std::abs(glm::determinant(mat3(m)))); }
 
 /// Returns the unit vector, or `fallback` where v has no direction (zero, NaN or infinite).
 inline vec3 normalizeOr(const vec3& v, const vec3& fallback) {

@@ -25,9 +25,6 @@ bool refuse(const Batch& batch, const char* file, const std::string& problem) {
   return false;
 }
 
-/// Returns the mean factor by which it scales lengths.
-float scaleOf(const mat4& m) { return std::cbrt(std::abs(glm::determinant(mat3(m)))); }
-
 /// Converts points and their radii to the space of the file. Returns false, after a report, if the space is unknown.
 bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N,
             const TmCloudOptions& options, CloudQuery& query) {
@@ -36,7 +33,7 @@ bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmCo
   if (!space || space->kind != Space::Linear)
     return refuse(batch, file, fmt::format("there is no coordinate system \"{}\"", name));
   const mat4 fileFromCurrent = glm::inverse(space->currentFromSpace);
-  const float scale = scaleOf(fileFromCurrent) * options.radiusScale;
+  const float scale = lengthScale(fileFromCurrent) * options.radiusScale;
   const TmVec3 p = batch.arena.vec3(g->count), n = batch.arena.vec3(g->count);
   float* radius = batch.arena.floats(g->count);
   forActive(g, [&](int i) {
@@ -125,7 +122,7 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   CloudQuery query;
   if (!toFile(batch, g, file, P, N, tmCloudDefaults(), query)) return false;
   DisksQuery inFile = disks;
-  const float scale = 1 / scaleOf(batch.scene.cameraFromWorld);
+  const float scale = 1 / lengthScale(batch.scene.cameraFromWorld);
   HemisphereQuery& far = inFile.falloff;
   if (far.maxDistance < 1e30f) far.maxDistance *= scale;
   if (far.bias > 0) far.bias *= scale;

@@ -1,4 +1,4 @@
-"""Compares equation 8 of approximate-gi, on its bumped, glossy ball (scenes/cornell_ball), with a gather at every point that knows the whole plastic.
+"""Compares equation 8 of Tabellion and Lamorlette 2004, on its bumped, glossy ball (scenes/cornell_ball), with a gather at every point that knows the whole plastic.
 
     equation8.py TOMALES FOLDER [--size 128] [--truth 4096]
 

@@ -1,4 +1,4 @@
-"""Shows where irradiance records lie in scenes/cornell_ball (figure 5 of approximate-gi), with pictures of (d), (e), (f) and counts by place.
+"""Shows where irradiance records lie in scenes/cornell_ball (figure 5 of Tabellion and Lamorlette 2004), with pictures of (d), (e), (f) and counts by place.
 
     figure5.py TOMALES FOLDER [--size 512] [--samples 1000] [-t 2]
 

@@ -146,7 +146,7 @@ t.run("thin.rib", "--gi", "gather", "--samples", "256", "--bounces", "8", "-o", 
 dim, right = (json.loads(t.run("info", "--json", name).stdout)["channels"][0]["mean"] for name in ("rooms.exr", "gathered.exr"))
 t.expect("photon-walls" not in said and abs(dim / right - 1) < 0.2, f"where hits sample lamps the dim room keeps its light: {dim / right:.3f} of what is right")
 
-# Light that was gathered into brick maps shades the view of another camera at the cost of direct light (irradiance-atlas 6.3).
+# Light that was gathered into brick maps shades the view of another camera at the cost of direct light (Christensen and Batali 2004, section 6.3).
 def lit(scene, *arguments):
     """Returns the exit code, the number of gather rays, and the messages."""
     result = t.run(scene, *arguments, "--stats", "stats.json", "--samples", "64")

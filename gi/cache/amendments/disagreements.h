@@ -11,9 +11,9 @@ namespace tomales {
 
 enum class Disagreement { None, Steep, Discontinuous };
 
-class Disputes {
+class Disagreements {
  public:
-  Disputes(bool on, PublishedEquations equations, float kappa)
+  Disagreements(bool on, PublishedEquations equations, float kappa)
       : on_(on),
         tolerance_((equations == PublishedEquations::SplitSphere ? kSplitSphereKappa * kDisagreement : kDisagreement) /
                    kappa),

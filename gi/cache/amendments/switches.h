@@ -11,12 +11,12 @@ namespace tomales {
 
 /// The names, in the order of Amendment.
 inline constexpr std::array kAmendments = {
-    "second-order",  // gi/cache/amendments/second_order.h
-    "disputes",      // gi/cache/amendments/disputes.h
-    "reach",         // gi/cache/amendments/reach.h
-    "behind",        // gi/cache/amendments/behind.h
-    "occluders",     // gi/gather/occluders.h
-    "slopes",        // gi/cache/amendments/slopes.h
+    "second-order",   // gi/cache/amendments/second_order.h
+    "disagreements",  // gi/cache/amendments/disagreements.h
+    "reach",          // gi/cache/amendments/reach.h
+    "behind",         // gi/cache/amendments/behind.h
+    "occluders",      // gi/gather/occluders.h
+    "slopes",         // gi/cache/amendments/slopes.h
 };
 
 /// Returns false where the bench has switched it off.

@@ -1,4 +1,5 @@
-// The hair rule (approximate-gi 4.5): geometry names the place where its indirect light is gathered.
+// The hair rule (Tabellion and Lamorlette 2004, section 4.5): geometry names the place where its indirect light is
+// gathered.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -261,7 +261,7 @@ TEST(IrradianceCache, ARecordThatIsWrongAtANewOneEndsBeforeIt) {
   EXPECT_NEAR(cache.lookup({0.051f, 0, 0}, kUp, 0.01f).E.x, 2, 1e-5f);
 }
 
-TEST(IrradianceCache, RecordsServeWiderThanTheyCoverButNotBeyondDisputesNorWhereLightIsSteep) {
+TEST(IrradianceCache, RecordsServeWiderThanTheyCoverButNotBeyondDisagreementsNorWhereLightIsSteep) {
   const auto served = [](const IrradianceCache& cache, float x) {
     const IrradiancePlace place{{x, 0, 0}, kUp, kUp, 0.01f};
     IrradianceEstimate found;
@@ -286,7 +286,7 @@ TEST(IrradianceCache, RecordsServeWiderThanTheyCoverButNotBeyondDisputesNorWhere
   EXPECT_NEAR(served(inconsistent, 0.051f).E.x, 2, 1e-5f);
 }
 
-TEST(IrradianceCache, DisputesShortenNoRecordBelowAPixelOverKappa) {
+TEST(IrradianceCache, DisagreementsShortenNoRecordBelowAPixelOverKappa) {
   for (const float kappa : {1.0f, 2.0f}) {
     IrradianceCache cache(kBox, {ErrorFunction::Screen, kappa});
     const float pixel = 0.01f, least = pixel / kappa;
@@ -307,7 +307,7 @@ TEST(IrradianceCache, LightIsTornByWallsThinnerThanAPixel) {
   EXPECT_EQ(cache.lookup({0.003f, 0, 0}, kUp, 0.01f).E, vec3(0));
 }
 
-TEST(IrradianceCache, WhatIsDarkerThanATenthOfTheMeanIsNotDisputedByFractionsOfItself) {
+TEST(IrradianceCache, WhatIsDarkerThanATenthOfTheMeanDisagreesByNoFractionOfItself) {
   IrradianceCache cache(kBox, {});
   cache.insert(recordAt({0.5f, 0, 0}, vec3(1)));
   cache.insert(recordAt(vec3(0), vec3(1e-4f)));
@@ -316,7 +316,7 @@ TEST(IrradianceCache, WhatIsDarkerThanATenthOfTheMeanIsNotDisputedByFractionsOfI
   EXPECT_FALSE(cache.lookup({0.02f, 0, 0}, kUp, 0.01f).inconsistent);
 }
 
-TEST(IrradianceCache, NoiseIsNoDispute) {
+TEST(IrradianceCache, NoiseIsNoDisagreement) {
   IrradianceCache cache(kBox, {});
   IrradianceRecord a = recordAt(vec3(0), vec3(1)), b = recordAt({0.05f, 0, 0}, vec3(1.5f));
   a.noise = b.noise = 0.1f;
@@ -421,7 +421,7 @@ TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
   }
 }
 
-TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisputes) {
+TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisagreements) {
   const CacheSettings split{ErrorFunction::Split, 4, kInfinity, 0};
   IrradianceRecord far = recordAt(vec3(0), vec3(1), 9), near = recordAt(vec3(0), vec3(1), 0.01f);
   far.harmonicMean = 2;

@@ -1,4 +1,4 @@
-// Radiosity maps (approximate-gi 4.4).
+// Radiosity maps (Tabellion and Lamorlette 2004, section 4.4).
 #include <gtest/gtest.h>
 
 #include "fixture.h"

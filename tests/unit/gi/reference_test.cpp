@@ -79,7 +79,8 @@ TEST(Reference, HighlightsOfWhatAPathMeetsCount) {
     return highlight * double{V.z} * double{V.z} / (double{kPi} * double{dot(toward, toward)});
   });
   EXPECT_NEAR(floor.arrives(GiMode::Reference) / expected, 1, 0.005);
-  EXPECT_EQ(floor.arrives(GiMode::Gather), 0) << "gather rays leave them out (approximate-gi 4.2)";
+  EXPECT_EQ(floor.arrives(GiMode::Gather), 0)
+      << "gather rays leave them out (Tabellion and Lamorlette 2004, section 4.2)";
 }
 
 TEST(Reference, AMirrorShowsTheLampAsItsImageBehindIt) {

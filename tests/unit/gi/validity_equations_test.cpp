@@ -1,5 +1,5 @@
 // The irradiance cache against its equations, written down once more in double precision and without a tree: what of
-// approximate-gi (eq. 2 to 7) and Ward et al. (1988) is used, and what docs/gi.md says was added.
+// Tabellion and Lamorlette 2004 (eq. 2 to 7) and Ward et al. (1988) is used, and what docs/gi.md says was added.
 #include <gtest/gtest.h>
 
 #include "gi/irradiance_cache.h"
