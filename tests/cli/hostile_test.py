@@ -23,7 +23,7 @@ objects = f"ObjectBegin 0 {DOT} ObjectEnd\n" + doubling("ObjectBegin %d", "Objec
 limited("2^20 instances of instances", "objects.rib", objects + "ObjectInstance 20\nWorldEnd\n", 3, "objects.rib:", "objects within objects")
 wide = f"ObjectBegin 0 {DOT} ObjectEnd\n" + "".join(
     f"ObjectBegin {k} {f'ObjectInstance {k - 1} ' * 128} ObjectEnd\n" for k in (1, 2, 3))
-limited("2^21 instances three deep", "wide.rib", wide + "ObjectInstance 3\nWorldEnd\n", 3, "wide.rib:6", "stands for more than")
+limited("2^21 instances three deep", "wide.rib", wide + "Translate 0 0 -50 ObjectInstance 3\nWorldEnd\n", 3, "wide.rib:6", "stands for more than")
 t.write("a.rib", 'ReadArchive "b.rib" Sphere 1 -1 1 360\n')
 t.write("b.rib", 'ReadArchive "a.rib"\n')
 limited("archives that read each other", "cycle.rib", 'ReadArchive "a.rib"\nWorldEnd\n', 3, "b.rib:1", "reads itself")

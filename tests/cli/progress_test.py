@@ -51,8 +51,8 @@ shadows = 'Attribute "light" "shadows" "on"\nLightSource "distantlight" 1'
 t.write("procedural.rib", GOOD.replace("Sphere 1 -1 1 360", slow).replace('LightSource "distantlight" 1', shadows))
 master, process = start("procedural.rib", "-o", "procedural.exr", "--allow-system")
 shown = shown_until(master, process, "100%")
-seconds = set(re.findall(r"opening procedurals 0:0(\d)", shown))  # A busy machine may skip one.
-t.expect(len(seconds) >= 3, f"procedurals: {shown!r}")
+seconds = set(re.findall(r"opening procedurals 0:0(\d)", shown))  # A busy machine may skip some.
+t.expect(len(seconds) >= 2, f"procedurals: {shown!r}")
 t.expect(process.wait(timeout=60) == 0, "and goes on to the end")
 
 # The shares of a frame need no clock.

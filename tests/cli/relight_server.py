@@ -67,7 +67,10 @@ class Server:
         return json.loads(self.get(path)[2])
 
     def news(self, after=0, told=0):
-        data = self.get(f"news?after={after}&told={told}")[2]
+        code, _, data = self.get(f"news?after={after}&told={told}")
+        while code == 429:  # Who asks too often is told so.
+            time.sleep(0.1)
+            code, _, data = self.get(f"news?after={after}&told={told}")
         length = struct.unpack_from("<I", data)[0]
         return json.loads(data[4:4 + length]), data[4 + length:]
 
