@@ -30,6 +30,8 @@ Cases parameterCases() {
       {"a default of a global", "c = p;", Vec3{0.25f, 0.5f, 1}, {.parameters = "color p = Cs;"}},
       {"a default of another parameter", "x = q;", 6, {.parameters = "float p = 3; float q = 2 * p;"}},
       {"a default that varies", "x = p;", [](float i) { return i + 1; }, {.parameters = "varying float p = s + 1;"}},
+      {"evalparam assigns a parameter and is 1", "float y; x = evalparam(\"p\", y); x += 10 * y;", 31,
+       {.parameters = "float p = 3;"}},
       {"a text", "if (p == \"a\") x = 1;", 1, {.parameters = "string p = \"a\";"}},
       {"a text that is computed", "if (p == \"ab\") x = 1;", 1, {.parameters = "string p = concat(\"a\", \"b\");"}},
       {"an array", "x = p[0] + p[1] * 10;", 21, {.parameters = "float p[2] = {1, 2};"}},
