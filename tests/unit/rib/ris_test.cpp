@@ -231,8 +231,9 @@ TEST(Ris, PxrCameraHasALens) {
 }
 
 TEST(Ris, IntegratorsOfGlobalLightLackNothing) {
-  EXPECT_EQ(Reading("Integrator \"PxrVCM\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity,
-            Severity::Warning);
+  for (const std::string name : {"PxrVCM", "PxrDefault"})
+    EXPECT_EQ(Reading("Integrator \"" + name + "\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity,
+              Severity::Warning);
   EXPECT_EQ(Reading("Integrator \"PxrVisualizer\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity,
             Severity::Missing);
 }
