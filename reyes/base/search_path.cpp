@@ -56,6 +56,39 @@ std::string lastPartOf(const std::string& name) {
   return slash == std::string::npos ? "" : name.substr(slash + 1);
 }
 
+namespace {
+
+std::vector<std::string> partsOf(const std::string& name) {
+  std::vector<std::string> out(1);
+  for (const char c : name)
+    if (c != '/' && c != '\\')
+      out.back() += c;
+    else if (!out.back().empty())
+      out.emplace_back();
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> endsOf(const std::string& name, const std::vector<std::string>& folders) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> out;
+  std::error_code none;
+  const std::vector<std::string> parts = partsOf(name);
+  for (size_t first = fs::path(name).is_absolute() ? 1 : 0; first + 1 < parts.size(); ++first) {
+    fs::path end;
+    for (size_t i = first; i < parts.size(); ++i) end /= parts[i];
+    if (std::find(end.begin(), end.end(), "..") != end.end()) continue;
+    for (const std::string& folder : folders)
+      for (fs::path up = fs::weakly_canonical(folder, none); up.has_relative_path(); up = up.parent_path())
+        if ((first == 0 || up.filename() == parts[first - 1]) && fs::is_directory((up / end).parent_path(), none))
+          out.push_back((up / end).string());
+    if (first > 0) out.push_back(end.string());
+  }
+  if (const std::string last = lastPartOf(name); !last.empty()) out.push_back(last);
+  return out;
+}
+
 std::vector<std::string> candidateFiles(const std::string& name, const std::string& searchPath,
                                         const std::vector<std::string>& endings) {
   std::vector<std::string> out;
@@ -63,8 +96,9 @@ std::vector<std::string> candidateFiles(const std::string& name, const std::stri
     const std::string file = findFile(meant, searchPath);
     if (!file.empty() && std::find(out.begin(), out.end(), file) == out.end()) out.push_back(file);
   };
-  for (const std::string& place : {name, lastPartOf(name)}) {
-    if (place.empty()) continue;
+  std::vector<std::string> places = endsOf(name, foldersOf(searchPath));
+  places.insert(places.begin(), name);
+  for (const std::string& place : places) {
     add(place);
     const std::string stem = std::filesystem::path(place).replace_extension().string();
     for (const std::string& ending : endings) add(stem.ends_with(ending) ? stem : stem + ending);

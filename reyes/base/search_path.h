@@ -26,10 +26,16 @@ std::string findFile(const std::string& name, const std::string& searchPath);
 /// Returns the last part of a name that has folders of Unix or Windows before it. Empty if it has none.
 std::string lastPartOf(const std::string& name);
 
+/// Returns what a name may mean that has folders before it and is not there, the likeliest first. Scenes name files
+/// where they lay on another machine, or as seen from a folder above. For "/home/ann/bowl/maps/a.tx" these are
+/// "bowl/maps/a.tx" and "maps/a.tx", both also in each folder above `folders` that has the name of the part before, and
+/// at last "a.tx". "maps/a.tx" may lie in any folder above.
+std::vector<std::string> endsOf(const std::string& name, const std::vector<std::string>& folders);
+
 /// Returns the files that a name may mean, best first:
 ///   1 that of findFile()
 ///   2 those of its name but with one of `endings`: the picture that a texture was made of lies beside it
-///   3 the same two for the last part of the name: scenes of other machines name files where they lay there
+///   3 the same two for each of endsOf() the name
 std::vector<std::string> candidateFiles(const std::string& name, const std::string& searchPath,
                                         const std::vector<std::string>& endings = {});
 

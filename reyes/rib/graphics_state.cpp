@@ -104,6 +104,28 @@ void GraphicsState::switchOnEverywhere(int light) {
   };
   switchOn(scope);
   for (Saved& saved : stack_) switchOn(saved.scope);
+  if (world && !world->objects.empty()) world->lateLights.emplace_back(light, world->objects.size());
+}
+
+// Objects share attributes, so those that lack the same lights get them once.
+void GraphicsState::lightEarlierObjects() {
+  const auto& late = world->lateLights;
+  std::map<std::pair<const Attributes*, size_t>, std::shared_ptr<const Attributes>> lit;
+  size_t first = 0;  // of the lights that come after the object
+  for (size_t i = 0; i < world->objects.size(); ++i) {
+    while (first < late.size() && late[first].second <= i) ++first;
+    if (first == late.size()) return;
+    std::shared_ptr<const Attributes>& attributes = world->objects[i].attributes;
+    auto& known = lit[{attributes.get(), first}];
+    if (!known) {
+      const auto copy = std::make_shared<Attributes>(*attributes);
+      for (size_t k = first; k < late.size(); ++k)
+        if (std::find(copy->lights.begin(), copy->lights.end(), late[k].first) == copy->lights.end())
+          copy->lights.push_back(late[k].first);
+      known = copy;
+    }
+    attributes = known;
+  }
 }
 
 void GraphicsState::warn(const Request& request, const char* code, const std::string& message) const {

@@ -1,8 +1,11 @@
 // The graphics state of RISpec 3.2 section 4, with its stacks. Spaces: the CTM, shader calls and named
 // coordinate systems are relative to camera space before WorldBegin, and to world space after it.
 #pragma once
+#include <map>
 #include <mutex>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "reyes/rib.h"
 #include "reyes/rib/intern.h"
@@ -81,6 +84,8 @@ struct World {
   std::vector<Procedural> procedurals;
   std::vector<Solid> solids;
   SourceLoc where;
+  /// Lights of the RIS era that have objects before them, and the number of these.
+  std::vector<std::pair<int, size_t>> lateLights{};
 };
 
 class GraphicsState {
@@ -105,6 +110,8 @@ class GraphicsState {
 
   /// Switches the light on here and after the blocks around have ended, as lights of the RIS era are.
   void switchOnEverywhere(int light);
+  /// Switches the lights of the RIS era on for objects that the world had before them. Call it when the world is whole.
+  void lightEarlierObjects();
   /// Turns the CTM into the camera: what was relative to the camera is now relative to the world.
   void enterWorld(const SourceLoc& where);
   Motion cameraFromObject() const { return world ? world->cameraFromWorld * scope.ctm : scope.ctm; }

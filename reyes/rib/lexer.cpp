@@ -198,6 +198,7 @@ void Lexer::readEscape() {
   }
 }
 
+// RISpec has no 'string', but scenes have: a word in such quotes is one.
 void Lexer::readWord() {
   bool tooLong = false;
   while (isWord(stream_.peek())) {
@@ -207,6 +208,11 @@ void Lexer::readWord() {
     stream_.skipTo(last);
   }
   if (tooLong) return junk(fmt::format("a word longer than {} characters", kLongestWord));
+  if (token_.text.size() > 2 && token_.text.front() == '\'' && token_.text.back() == '\'') {
+    token_.kind = Token::Kind::String;
+    token_.text = token_.text.substr(1, token_.text.size() - 2);
+    return;
+  }
   const char *const first = token_.text.data(), *const last = first + token_.text.size();
   if (scanNumber(first, last, token_.number) == last)
     token_.kind = Token::Kind::Number;

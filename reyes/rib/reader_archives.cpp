@@ -75,8 +75,9 @@ void Reader::replay(const Request& r, const std::string& name, const Requests& a
 
 void Reader::readArchiveFile(const Request& r, const std::string& name) {
   std::string path = findFile(name, "archive");
-  if (const std::string last = lastPartOf(name); path.empty() && !last.empty())
-    if (path = findFile(last, "archive"); !path.empty())
+  const std::vector<std::string> ends = path.empty() ? endsOf(name, foldersFor("archive")) : std::vector<std::string>();
+  for (size_t i = 0; i < ends.size() && path.empty(); ++i)
+    if (path = findFile(ends[i], "archive"); !path.empty())
       report(Severity::Warning, "rib-elsewhere", r,
              "\"" + name.substr(0, 200) + "\" is not there; " + path + " is read, which has its name");
   tellOfFile(r, "archive", name, path);

@@ -20,7 +20,7 @@ Translation integrator(const Request& r, Patterns&) {
   const Param *bounces = findParam(r.params, "maxIndirectBounces"), *length = findParam(r.params, "maxPathLength");
   const float most = bounces ? bounces->number(1) : length ? length->number(2) - 1 : 1;
   if (bounces || length) params.push_back(param("bounces", ValueType::Float, {most}));
-  static const std::set<std::string_view> global = {"PxrPathTracer", "PxrVCM", "PxrUPBP", "PxrUnified"};
+  static const std::set<std::string_view> global = {"PxrPathTracer", "PxrDefault", "PxrVCM", "PxrUPBP", "PxrUnified"};
   const Severity severity = global.contains(name) ? Severity::Warning : Severity::Missing;
   if (most < 1) return {{}, {standsIn(r, "direct light alone", severity)}};
   return {Script(r).say("LightSource", {string("indirectlight"), string("Integrator " + name)}, params).list(),

@@ -220,6 +220,7 @@ void SceneBuilder::endWorld(const SourceLoc& where) {
     state_.log.report(Severity::Warning, "rib-unbalanced", where, "WorldEnd without WorldBegin, ignored");
     return;
   }
+  state_.lightEarlierObjects();
   Scene scene;
   scene.options = state_.globals.options;
   scene.cameraFromWorld = state_.world->cameraFromWorld;

@@ -135,6 +135,7 @@ Type Checker::typeOfCall(Expr& e) {
   if (chosen) return typeOfBuiltin(e, *chosen);
   if (best) return typeOfFunction(e, *best);
   if (rows.empty() && all.empty()) {
+    if (becomesParameter(e)) return type(e);
     unknownFunction(e);
     return Type{Base::Float};
   }
@@ -229,6 +230,30 @@ bool isFilled(std::string_view function, std::string_view name) {
 }
 
 // The function may be one of a library that other renderers load (DSO shadeops), so the shader runs and reports it.
+// evalparam("name", x) of PRMan 19 and 20 assigns a parameter of the shader, which a pattern may drive there, to x.
+bool Checker::becomesParameter(Expr& e) {
+  if (e.text != "evalparam" || e.args.size() != 2 || e.args[0]->kind != ExprKind::String) return false;
+  const Variable* parameter = find(e.args[0]->text);
+  if (!parameter || parameter->global >= 0) return false;
+  const auto make = [&](ExprKind kind, std::string text) {
+    auto out = std::make_unique<Expr>();
+    out->kind = kind;
+    out->place = e.place;
+    out->length = e.length;
+    out->text = std::move(text);
+    return out;
+  };
+  auto assignment = make(ExprKind::Assign, "="), yes = make(ExprKind::Number, "1");
+  yes->number = 1;
+  assignment->args.push_back(std::move(e.args[1]));
+  assignment->args.push_back(make(ExprKind::Name, e.args[0]->text));
+  e.kind = ExprKind::Comma;
+  e.args.clear();
+  e.args.push_back(std::move(assignment));
+  e.args.push_back(std::move(yes));
+  return true;
+}
+
 void Checker::unknownFunction(Expr& e) {
   e.missing = true;
   if (!told_.insert({1, e.text}).second) return;

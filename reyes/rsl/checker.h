@@ -59,6 +59,7 @@ class Checker {
   Type typeOfBuiltin(Expr& e, const Builtin& b);
   std::vector<const Builtin*> builtinsOf(const std::string& name);
   Type typeOfFunction(Expr& e, const Function& f);
+  bool becomesParameter(Expr& e);
   void unknownFunction(Expr& e);
   void noFit(Expr& e, const std::vector<const Function*>& functions);
   int fit(const Expr& call, const Function& f) const;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "reyes/rsl/lowering.h"
@@ -23,6 +24,21 @@ bool namesSpace(const Expr& e) {
   return std::any_of(e.args.begin(), e.args.end(), [](const ExprPtr& a) { return namesSpace(*a); });
 }
 
+/// Tells whether the register is copied to at all points before anything else reads or writes it.
+bool beginsWithCopy(const Block& block, int32_t reg) {
+  for (const Instruction& i : block) {
+    bool reads = false, writes = false;
+    const auto look = [&](const Instruction& inner) {
+      forEachRead(inner, [&](int32_t r) { reads |= r == reg; });
+      forEachWrite(inner, [&](int32_t r) { writes |= r == reg; });
+    };
+    look(i);
+    for (const Block& inner : i.blocks) forEach(inner, look);
+    if (reads || writes) return !reads && i.op == Op::Copy;
+  }
+  return false;
+}
+
 }  // namespace
 
 void Lowering::shader(const Shader& s) {
@@ -39,22 +55,29 @@ void Lowering::shader(const Shader& s) {
   } else {
     statement(*s.body);
   }
-  if (s.kind == ShaderKind::Surface) hideUncoloured();
+  if (s.kind == ShaderKind::Surface) beginColor();
 }
 
-// RISpec leaves open what Ci and Oi hold at first; they are Cs and Os here. Shaders of glows and rings assign Oi = 0
-// alone where nothing is to be seen (RenderMan Companion, listing 16.26), and Cs must not shine there.
+// RISpec leaves open what Ci and Oi hold at first. Here Oi is Os. Ci is Cs in shaders that never assign it, and black
+// in others, as it is in PRMan: many shaders begin with Ci +=.
+void Lowering::beginColor() {
+  const int32_t Ci = global(Global::Ci);
+  bool assigned = false;
+  forEach(code_.body, [&](const Instruction& i) { forEachWrite(i, [&](int32_t r) { assigned |= r == Ci; }); });
+  if (!assigned) return hideUncoloured();
+  if (beginsWithCopy(code_.body, Ci)) return;
+  Block body = std::exchange(code_.body, {});
+  initialise(Ci, number(0));
+  code_.body.insert(code_.body.end(), std::make_move_iterator(body.begin()), std::make_move_iterator(body.end()));
+}
+
+// Shaders of rings assign Oi = 0 alone where nothing is to be seen, and Cs must not shine there.
 void Lowering::hideUncoloured() {
-  const auto assigns = [](const Block& block, int32_t reg) {
-    return std::any_of(block.begin(), block.end(),
-                       [&](const Instruction& i) { return std::find(i.out.begin(), i.out.end(), reg) != i.out.end(); });
-  };
   const int32_t Ci = global(Global::Ci), Oi = global(Global::Oi);
   bool clears = false;
   forEach(code_.body, [&](const Instruction& i) { forEachWrite(i, [&](int32_t r) { clears |= r == Oi; }); });
-  if (!clears || assigns(code_.body, Ci)) return;
-  const int32_t black = number(0), uncoloured = compute(Op::TripleEqual, {Ci, global(Global::Cs)});
-  const int32_t hidden = compute(Op::And, {uncoloured, compute(Op::TripleEqual, {Oi, black})});
+  if (!clears) return;
+  const int32_t black = number(0), hidden = compute(Op::TripleEqual, {Oi, black});
   copy(Ci, compute(Op::Select, {hidden, black, Ci}, Shape::Triple));
 }
 

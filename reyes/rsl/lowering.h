@@ -41,6 +41,7 @@ class Lowering {
 
   // --- lower_shader.cpp: parameters, statements
   void parameter(const Variable& v);
+  void beginColor();
   void hideUncoloured();
   int32_t outputParameter(const Variable& v);
   void givenParameter(const Variable& v);

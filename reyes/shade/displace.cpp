@@ -74,7 +74,7 @@ void checkBound(const BoundScene& scene, const Object& object, float longest) {
                    fmt::format("{}: displaced by more than its bound allows; parts may be cut off: Attribute "
                                "\"displacementbound\" needs \"sphere\" {:.4g} or more in \"{}\" space",
                                objectName(object), needed, space),
-                   object.where.text());
+                   objectName(object));
 }
 
 /// Undoes displacements that are not finite, so that one bad vertex does not tear the mesh to infinity.

@@ -31,6 +31,12 @@ missing = lines_with(told, "[shader-missing]")
 t.expect(len(missing) == 2 and "is unknown" in missing[0] and missing[0].startswith("many.rib:1:"), "is one message: " + told.stderr)
 t.expect(missing[-1].startswith("tomales: 93 times:") and "many.rib:1, many.rib:2, many.rib:3, many.rib:4, ..." in missing[-1], "with its count and first places at the end: " + missing[-1])
 
+# Parts of one name that are displaced too far by different ways are one message.
+t.write("parts.rib", scene('Attribute "identifier" "name" ["deer"] Attribute "displacementbound" "sphere" [0.01] Displacement "noisybump" "Km" [0.5]\n'
+                           + "Sphere .3 -.3 .3 360\nTranslate .5 0 0\n" * 3))
+told = t.expect_run("parts that exceed their bound", ["parts.rib"], 0)
+t.expect(len(lines_with(told, "[displacement-bound]")) == 2 and lines_with(told, "tomales: 3 times:", '"deer"'), "are one message and its count: " + told.stderr)
+
 # Several frames write one picture.
 t.write("frames.rib", "\n".join(f"FrameBegin {n}\n{GOOD}FrameEnd" for n in range(1, 21)))
 told = t.expect_run("twenty frames over one picture", ["frames.rib", "--format", "4x4"], 0)

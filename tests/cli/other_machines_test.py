@@ -47,6 +47,20 @@ t.expect_run("an archive of another machine", [scene("archive", ball='ReadArchiv
 t.expect(same("archive", "ball_itself"), "is read")
 t.expect_run("an archive that is nowhere", [scene("no_archive", ball='ReadArchive "/net/job7/none.rib"')], 3, "none.rib")
 
+# A folder above has the file: the name is as seen from there, or its folders have the same names.
+picture("project/maps/green.tif", "0,1,0")
+for folder in ("parts", "scenes", "shaders"):
+    (t.folder / "project" / folder).mkdir()
+t.write("project/parts/ball.rib", "Sphere 1 -1 1 360\n")
+for name, where in (("from_above", "maps/green.tif"), ("project", "/home/ann/project/maps/green.tif")):
+    t.expect_run(f"a picture beside the scene's folder: {name}", [textured(name, where, folder="project/scenes")], 0, "texture-elsewhere")
+    t.expect(same(name, "beside"), "is found")
+t.expect_run("an archive as seen from a folder above", [scene("parts", ball='ReadArchive "parts/ball.rib"', folder="project/scenes")], 0, "rib-elsewhere")
+t.expect(same("parts", "ball_itself"), "is found")
+
+t.write("project/shaders/leaf.sl", "surface leaf() { Oi = 1; Ci = color (0, 1, 0); }")
+t.expect_run("a shader in a folder that is not here", [scene("leaf", 'Surface "untitled/shaders/leaf"', folder="project/scenes"), "--shaders", t.folder / "project/shaders"], 0)
+
 # A file has another ending: the texture of another renderer is missing or cannot be read, and its picture lies beside it.
 t.expect_run("a texture that is missing", [textured("missing_tx", "green.tx")], 0, "green.tif is taken")
 t.write("job/old.tx", b"\xce\xfa" + bytes(range(256)) * 8)  # An old texture of PRMan's begins like this.

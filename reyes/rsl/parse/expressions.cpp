@@ -26,6 +26,8 @@ bool isAssignment(const Token& t) {
   return t.kind == TokenKind::Punctuator && std::ranges::find(kAll, t.text) != std::end(kAll);
 }
 
+bool endsOperand(const Token& t) { return t.is(";") || t.is(")") || t.is(",") || t.is("]"); }
+
 bool hasSpaces(Base base) { return base >= Base::Color && base <= Base::Matrix; }
 
 bool beginsOperand(const Token& t) {
@@ -54,8 +56,48 @@ void Parser::adopt(Expr& parent, ExprPtr child) {
   parent.args.push_back(std::move(child));
 }
 
+bool Parser::isDoubledSign() const { return (here().is("+") || here().is("-")) && here(1).is(here().text); }
+
+// i++, which RISpec does not have, but some compilers do. Its value is that before.
+bool Parser::isIncrement() const { return isDoubledSign() && endsOperand(here(2)); }
+
+// ++i as a whole expression. Elsewhere, as in x = - -y, it is two signs.
+bool Parser::isEarlyIncrement() const {
+  return isDoubledSign() && here(2).kind == TokenKind::Name && endsOperand(here(3));
+}
+
+ExprPtr Parser::one(const Token& at) const {
+  ExprPtr out = make(ExprKind::Number, at);
+  out->number = 1;
+  return out;
+}
+
+ExprPtr Parser::added(const Token& sign, ExprPtr variable) {
+  ExprPtr out = make(ExprKind::Assign, sign);
+  out->text += "=";
+  adopt(*out, std::move(variable));
+  adopt(*out, one(sign));
+  return out;
+}
+
+ExprPtr Parser::increment(ExprPtr variable) {
+  const Token& sign = take();
+  take();
+  ExprPtr out = make(ExprKind::Binary, sign);
+  out->text = sign.is("+") ? "-" : "+";
+  adopt(*out, added(sign, std::move(variable)));
+  adopt(*out, one(sign));
+  return out;
+}
+
+ExprPtr Parser::earlyIncrement() {
+  const Token& sign = take();
+  take();
+  return added(sign, make(ExprKind::Name, take()));
+}
+
 ExprPtr Parser::expression() {
-  ExprPtr first = assignment();
+  ExprPtr first = isEarlyIncrement() ? earlyIncrement() : assignment();
   if (!here().is(",")) return first;
   ExprPtr all = make(ExprKind::Comma, here());
   adopt(*all, std::move(first));
@@ -65,9 +107,10 @@ ExprPtr Parser::expression() {
 
 ExprPtr Parser::assignment() {
   ExprPtr left = conditional();
-  if (!isAssignment(here())) return left;
+  if (!isAssignment(here()) && !isIncrement()) return left;
   if (left->kind != ExprKind::Name && left->kind != ExprKind::Index)
     failAt(here(), "only a variable or an element of an array can be assigned");
+  if (isIncrement()) return increment(std::move(left));
   const Level level(*this);
   ExprPtr out = make(ExprKind::Assign, take());
   adopt(*out, std::move(left));
@@ -90,7 +133,7 @@ ExprPtr Parser::conditional() {
 
 ExprPtr Parser::binary(int lowest) {
   ExprPtr left = unary();
-  for (const Operator* o = operatorOf(here()); o && o->level >= lowest; o = operatorOf(here())) {
+  for (const Operator* o = operatorOf(here()); o && o->level >= lowest && !isIncrement(); o = operatorOf(here())) {
     ExprPtr out = make(ExprKind::Binary, take());
     adopt(*out, std::move(left));
     adopt(*out, binary(o->level + 1));

@@ -86,6 +86,13 @@ class Parser {
   // expressions.cpp
   ExprPtr expression();  ///< Commas included.
   ExprPtr assignment();
+  bool isDoubledSign() const;
+  bool isIncrement() const;
+  bool isEarlyIncrement() const;
+  ExprPtr one(const Token& at) const;
+  ExprPtr added(const Token& sign, ExprPtr variable);  ///< variable += 1, or -= 1
+  ExprPtr increment(ExprPtr variable);
+  ExprPtr earlyIncrement();
   ExprPtr conditional();
   ExprPtr binary(int lowest);
   ExprPtr unary();

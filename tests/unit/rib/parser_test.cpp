@@ -21,6 +21,13 @@ TEST(Parser, TakesFixedSizeVectorsBareAndInBrackets) {
   EXPECT_TRUE(r.log.entries().empty());
 }
 
+TEST(Parser, AWordInSingleQuotesIsAString) {
+  const Requests r("Display \"a.tif\" 'file' ['rgba']\nSurface ' '");
+  ASSERT_EQ(r.list.size(), 1u) << "a lone quote is none";
+  EXPECT_EQ(r.list[0].args[1].strings[0], "file");
+  EXPECT_EQ(r.list[0].args[2].strings[0], "rgba");
+}
+
 TEST(Parser, SkipsARequestWithTooFewArgumentsAndSaysWhere) {
   const Requests r("Color 1 0 0\n\nTranslate 1 2\nScale 1 1 1");
   ASSERT_EQ(r.list.size(), 2u);

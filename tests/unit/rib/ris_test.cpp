@@ -45,6 +45,15 @@ TEST(Ris, LightsOutlastTheirBlock) {
   EXPECT_TRUE(r.attributes(2).lights.empty());
 }
 
+TEST(Ris, LightsShineOnObjectsBeforeThemToo) {
+  const Reading r(inWorld(kSphere + "AttributeBegin Light \"PxrDomeLight\" \"sky\" AttributeEnd\n" + kSphere +
+                          "Illuminate \"sky\" 0\n" + kSphere + "Light \"PxrDistantLight\" \"sun\"\n" + kSphere));
+  EXPECT_EQ(r.attributes(0).lights, (std::vector<int>{0, 1}));
+  EXPECT_EQ(r.attributes(1).lights, (std::vector<int>{0, 1}));
+  EXPECT_EQ(r.attributes(2).lights, std::vector<int>{1}) << "what Illuminate has switched off stays off";
+  EXPECT_EQ(r.attributes(3).lights, std::vector<int>{1});
+}
+
 TEST(Ris, IntegratorsTurnIndirectLightOn) {
   const auto bounces = [](const std::string& params) {
     const Reading r("Integrator \"PxrPathTracer\" \"i\" " + params + inWorld(kSphere));
@@ -222,8 +231,9 @@ TEST(Ris, PxrCameraHasALens) {
 }
 
 TEST(Ris, IntegratorsOfGlobalLightLackNothing) {
-  EXPECT_EQ(Reading("Integrator \"PxrVCM\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity,
-            Severity::Warning);
+  for (const std::string name : {"PxrVCM", "PxrDefault"})
+    EXPECT_EQ(Reading("Integrator \"" + name + "\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity,
+              Severity::Warning);
   EXPECT_EQ(Reading("Integrator \"PxrVisualizer\" \"i\"" + inWorld(kSphere)).message("rib-substitute").severity,
             Severity::Missing);
 }

@@ -42,7 +42,15 @@ Cases kindCases() {
        [](float i) {
          return Vec3{i / 4, i / 2, i};
        }},
-      {"a surface's Ci starts as Cs, and Oi as Os", "c = Ci * Oi;", Vec3{0.25f, 0.25f, 0.25f}},
+      {"a surface's Ci that is never assigned is Cs, and Oi starts as Os", "c = Ci * Oi;", Vec3{0.25f, 0.25f, 0.25f}},
+      {"a surface's Ci that is assigned starts as black", "Ci += s * Cs; c = Ci;",
+       [](float i) {
+         return Vec3{i / 4, i / 2, i};
+       }},
+      {"a surface's Ci is black where no branch assigns it", "if (s > 2) Ci = 4 * Cs; c = Ci;",
+       [](float i) {
+         return i > 2 ? Vec3{1, 2, 4} : Vec3{0, 0, 0};
+       }},
       {"a surface changes N for itself", "N = normal (0, 1, 0); w = N;", Vec3{0, 1, 0}},
       {"a light's Cl",
        "Cl = s * color (1, 2, 3); c = Cl;",

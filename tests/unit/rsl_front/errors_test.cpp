@@ -143,8 +143,8 @@ TEST(Errors, OfExpressionsAreToldWithTheirPlace) {
                 {"a = b % c;", "2:7: expected ';' before '%'"},
                 {"1 = a;", "2:3: only a variable or an element of an array can be assigned"},
                 {"f(a) = 1;", "2:6: only a variable or an element of an array can be assigned"},
-                {"i++;", "2:2: RSL has no '++'; '+= 1' does the same"},
-                {"for (;; i--) ;", "2:10: RSL has no '--'; '-= 1' does the same"},
+                {"a = i++ < 3;", "2:6: RSL has no '++'; '+= 1' does the same"},
+                {"a = 2--;", "2:6: only a variable or an element of an array can be assigned"},
                 {"a = {1, 2;", "2:10: expected '}' before ';'\n2:5: note: to match this '{'"},
                 {"a = color \"hsv\";", ""}});
 }
