@@ -69,10 +69,11 @@ PhotonFigures writePhotonPart(const std::filesystem::path& file, WorkPart part, 
 void joinPhotonParts(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                      const MapNames& names, const AtlasSettings& settings, Stats& stats, Log& log);
 /// Makes irradiance points from a photon map. A map of more than `most` photons is processed in cubes of about so many.
-/// `sight`: as in estimateIrradiance(), in world space. Throws FileError.
+/// `sight` and `shown`: as in estimateIrradiance(), in world space. Throws FileError.
 void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out,
                      const PhotonIrradianceSettings& settings, uint64_t most = kPointsInMemory,
-                     EstimateFigures* figures = nullptr, const SightAlongSurface& sight = {});
+                     EstimateFigures* figures = nullptr, const SightAlongSurface& sight = {},
+                     const ShownDisk& shown = {});
 /// Makes a brick map from irradiance points; its maxError is relative to their mean. Throws FileError.
 BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                                   BrickSettings settings);

@@ -15,8 +15,8 @@ namespace tomales {
 
 enum class RayKind : uint8_t {
   Camera,  ///< Visible micropolygons run the whole shader.
-  /// Hits of gather rays get direct light and the diffuse component only, and no emission of area lights (Tabellion and
-  /// Lamorlette 2004, sections 4.1 and 4.2).
+  /// Hits of gather rays get direct light, the diffuse component and the highlights that the context asks for, and no
+  /// emission of area lights (Tabellion and Lamorlette 2004, sections 4.1 and 4.2).
   Diffuse,
   Specular,      ///< Hits of reflected and refracted rays run the whole shader, and get the emission of area lights.
   Transmission,  ///< Surfaces that shadow rays pass through give opacity alone, without light.
@@ -37,6 +37,13 @@ struct RayOutput {
   std::string name;
   int floats = 1;
   float* c[3] = {nullptr, nullptr, nullptr};
+};
+
+/// The highlights that diffuse rays bring from what they meet.
+enum class HitHighlights : uint8_t {
+  None,
+  OfSpecular,  ///< Those of specular(), which sends at most Cl: no brighter than white is, so a few rays know them.
+  All,         ///< Shaders add their own too, and follow them by rays, as with the reference path tracer.
 };
 
 /// The purpose of shading a batch, and its settings.
@@ -64,7 +71,7 @@ struct ShadeContext {
   /// Indexed by group: 1 if `mirrored` is false for specular rays from the group and for its highlights. Null: for
   /// none.
   const std::vector<uint8_t>* focusing = nullptr;
-  bool highlights = false;  ///< Diffuse rays bring highlights too, as those of the reference path tracer do.
+  HitHighlights highlights = HitHighlights::None;
   /// Answers of this batch, asked before shadow and gather rays are traced. Null: all rays are traced.
   RayAnswers* answers = nullptr;
   bool sketch = false;     ///< Shaders run for no picture that is kept: nothing is baked, printed or counted.
@@ -85,7 +92,8 @@ struct ShadeContext {
 
   /// Tells whether lamps have highlights on surfaces of a group.
   bool highlightsLamps(int group) const {
-    return (kind != RayKind::Diffuse || highlights) && !(focusing && (*focusing)[static_cast<size_t>(group)]);
+    return (kind != RayKind::Diffuse || highlights != HitHighlights::None) &&
+           !(focusing && (*focusing)[static_cast<size_t>(group)]);
   }
   /// Tells whether lamps and skies are seen in mirrors and glass of a group.
   bool mirrorsLamps(int group) const { return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]); }

@@ -133,12 +133,12 @@ MapNames MapNames::ofSurfaces() const {
 }
 
 void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonIrradianceSettings& given, uint64_t most,
-                     EstimateFigures* figures, const SightAlongSurface& sight) {
+                     EstimateFigures* figures, const SightAlongSurface& sight, const ShownDisk& shown) {
   const PointFile file(photons.string());
   if (offsetOf(file.channels(), kPathPower, 3) < 0) requirePhotons(file);
   const MadeFrom madeFrom{file.madeFrom().world, irradianceInputs(file, given, static_cast<bool>(sight))};
   if (file.count() <= most)
-    return writePointFile(estimateIrradiance(file.readAll(), given, {}, figures, sight), out.string(), madeFrom);
+    return writePointFile(estimateIrradiance(file.readAll(), given, {}, figures, sight, shown), out.string(), madeFrom);
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, file.bound());
   const TemporaryFolder temporary(out.parent_path().empty() ? "." : out.parent_path());
@@ -150,8 +150,8 @@ void writeIrradiance(const fs::path& photons, const fs::path& out, const PhotonI
   PointFileWriter writer(out.string(), irradianceChannels(sorted.channels()));
   forEachTile(tiles, most, [&](int level, const glm::ivec3& place) {
     const auto inside = [&](const vec3& P) { return tiles.contains(level, place, P); };
-    const PointCloud points =
-        estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings, inside, figures, sight);
+    const PointCloud points = estimateIrradiance(tiles.around(tiles.box(level, place), settings.maxRadius), settings,
+                                                 inside, figures, sight, shown);
     for (size_t i = 0; i < points.count(); ++i)
       writer.add(points.position[i], points.normal[i], points.radius[i], points.at(i));
   });
@@ -187,6 +187,7 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
   // If photons hold direct light too, hits have no other source of it. So they take whatever is stored near them, walls
   // or not.
   const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(rays);
+  const ShownDisk shown = settings.photons.direct ? nullptr : shownBy(rays);  // few photons may then be a shadow
   size_t finished = 0;
   std::vector<MapFigures> made;
   int64_t kept = 0;
@@ -205,7 +206,7 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
           irradianceInputs(PointFile(from.string()), estimate, static_cast<bool>(seen))) {
         const StageTimer timer(stats, "irradiance");
         EstimateFigures figures;
-        writeIrradiance(from, points, estimate, kPointsInMemory, &figures, seen);
+        writeIrradiance(from, points, estimate, kPointsInMemory, &figures, seen, caustic ? ShownDisk() : shown);
         if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
       }
       if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;

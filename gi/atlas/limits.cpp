@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "gi/atlas/world_from_current.h"
+#include "reyes/camera.h"
+
 namespace tomales {
 namespace {
 
@@ -9,6 +12,7 @@ constexpr int64_t kFewEstimates = 32;  // A map with fewer estimates is not judg
 constexpr double kLeastOfPhotons = 0.01;
 constexpr double kMost = 0.5;  // Share of estimates that may be unreliable.
 constexpr double kClumped = 1.1;
+constexpr double kMostOfPicture = 0.25;
 
 /// Returns the first object whose light a map holds; null if there is none.
 const Object* objectOf(const Scene& scene, const MapNames& names, const std::string& map) {
@@ -19,7 +23,49 @@ const Object* objectOf(const Scene& scene, const MapNames& names, const std::str
   return nullptr;
 }
 
+/// Returns false if the picture says nothing.
+bool warnOfFewShown(const Scene& scene, const MapNames& names, const std::vector<MapFigures>& maps, Log& log) {
+  PictureShare shown, few;
+  const MapFigures* worst = nullptr;
+  for (const MapFigures& m : maps) {
+    shown += m.estimates.shown;
+    few += m.estimates.shownFew;
+    if (!worst || m.estimates.shownFew.pixels > worst->estimates.shownFew.pixels) worst = &m;
+  }
+  const Object* o = few.pixels > kMostOfPicture * shown.pixels ? objectOf(scene, names, worst->map) : nullptr;
+  if (!o) return false;
+  log.report(
+      Severity::Warning, "photon-few", o->where,
+      fmt::format("{}: {:.0f} % of the picture, about pixel {:.0f},{:.0f}, show where irradiance estimates have very "
+                  "few photons in reach: indirect light is smeared there, and may be wrong by factors "
+                  "(--gi gather, or more photons, --photons)",
+                  objectName(*o), 100 * few.pixels / shown.pixels, few.x / few.pixels, few.y / few.pixels));
+  return true;
+}
+
 }  // namespace
+
+ShownDisk shownBy(const RayScene& rays) {
+  const Scene& scene = rays.scene();
+  return [&rays, camera = Camera(scene.options), current = scene.cameraFromWorldAtOpen(),
+          scale = WorldFromCurrent(scene).scale](const vec3& worldP, const vec3& worldN, float worldRadius) {
+    constexpr float kLift = 0.1f;  // of the radius: coarse polygons are not where their surface is
+    const vec3 P = transformPoint(current, worldP), N = normalizeOr(transformVector(current, worldN), vec3(0));
+    const vec3 I = camera.incident(P);
+    const float radius = worldRadius / scale, cosine = -dot(normalizeOr(I, vec3(0)), N);
+    if (!(cosine > 0) || !camera.seeable(P)) return PictureShare{};
+    const vec2 at = camera.raster(P);
+    if (!(at.x >= 0 && at.y >= 0 && at.x < static_cast<float>(camera.xResolution()) &&
+          at.y < static_cast<float>(camera.yResolution())))
+      return PictureShare{};
+    const vec3 start = P + kLift * radius * N;
+    Ray ray{start, -normalizeOr(I, vec3(0))};
+    ray.tMax = glm::length(I);
+    if (rays.closest(ray, kMaskPhoton).object >= 0) return PictureShare{};
+    const double pixels = kPi * cosine * std::pow(double{radius / camera.pixelSize(P)}, 2);
+    return PictureShare{pixels, pixels * at.x, pixels * at.y};
+  };
+}
 
 void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vector<MapFigures>& maps, Log& log) {
   uint64_t photons = 0;
@@ -47,9 +93,10 @@ void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vecto
           fmt::format("{}: irradiance estimates of photon map \"{}\" {}{} (more photons, --photons)", objectName(*o),
                       worst->map, why, count > 1 ? fmt::format("; likewise {} other maps", count - 1) : ""));
   };
-  report(
-      "photon-few", [](const EstimateFigures& f) { return f.few; }, kMost,
-      "have fewer photons in reach than they ask for: light is smeared and noisy");
+  if (!warnOfFewShown(scene, names, maps, log))
+    report(
+        "photon-few", [](const EstimateFigures& f) { return f.few; }, kMost,
+        "have fewer photons in reach than they ask for: light is smeared and noisy");
   report(
       "photon-bent", [](const EstimateFigures& f) { return f.bent; }, kMost,
       "are averages over an area that bends with the surface: light is smeared over it");

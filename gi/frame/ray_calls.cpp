@@ -130,7 +130,8 @@ std::optional<ShadeContext> contextOfHits(const GiState& state, const ShadePoint
                                           const ShadeContext& context) {
   const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
   ShadeContext hit = context;
-  hit.highlights = state.settings.mode == GiMode::Reference || context.auditPaths > 0;
+  const bool byPaths = state.settings.mode == GiMode::Reference || context.auditPaths > 0;
+  hit.highlights = byPaths ? HitHighlights::All : HitHighlights::None;
   hit.kind = query.kind;
   hit.label = query.label;
   hit.lampsGlow = query.lampsGlow && context.mirrorsLamps(points.group());
@@ -140,7 +141,7 @@ std::optional<ShadeContext> contextOfHits(const GiState& state, const ShadePoint
   if (query.kind == RayKind::Diffuse) {
     ++hit.depth;
     hit.lightSamples = 1;
-    hit.indirect = hit.highlights;
+    hit.indirect = byPaths;
   } else {
     ++hit.specularDepth;
     hit.branches = std::min(hit.branches * query.count, kMostBranches);

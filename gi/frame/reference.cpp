@@ -137,7 +137,7 @@ ShadeContext contextOfPaths(const GiState& state, const ShadeContext& context, i
   ShadeContext out{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   // The depth also limits wide lobes that shaders follow. Mirrors reflect as deep as their objects allow.
   out.diffuseLimit = bounces;
-  out.highlights = true;
+  out.highlights = HitHighlights::All;
   out.lights = context.lights;
   if (!state.focusing.empty()) out.focusing = &state.focusing;
   out.auditPaths = context.auditPaths;
@@ -197,6 +197,7 @@ void traceToStored(const GiState& state, const ShadePoints& points, const std::v
   }
   ShadeContext context{RayKind::Diffuse, 1, state.settings.seed, 1, false};
   context.light = Illumination::LightsAndStored;
+  context.highlights = HitHighlights::OfSpecular;
   context.diffuseLimit = 0;
   PathBatches batches(state, *tools, points, {n[0], n[1], n[2]}, {}, context);
   for (PathSum& sum : sums) batches.add(sum, 1);

@@ -100,7 +100,8 @@ void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
   context.light = settings_.light;
   context.mirrored = settings_.mirrored;
-  // Direct light counts by the diffuse component alone. Mirrors and glass show their reflections.
+  context.highlights = HitHighlights::OfSpecular;
+  // Mirrors and glass show their reflections.
   context.diffuseLimit = settings_.asked ? settings_.asked->diffuseLimit : 0;
   scratch_.answers.mode = settings_.asked ? settings_.asked->mode : HitMode::Shader;
   for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {

@@ -17,11 +17,14 @@ constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
 /// Radius of a disk over that of a disk with the area that it stands for. With this factor, random disks leave few
 /// gaps.
 constexpr float kOverlap = 1.6f;
-constexpr size_t kFew = 8;  ///< Fewer photons do not show how far apart they are.
+constexpr size_t kVeryFew = 16;  ///< An estimate of fewer is uncertain by a quarter.
+constexpr size_t kFew = 8;       ///< Fewer photons do not show how far apart they are.
 /// Chance alone brings the nearest eight of 50 so much closer once in a thousand times. Radii that follow chance make
 /// bricks finer than the data.
 constexpr float kMuchCloser = 0.5f;
 constexpr float kMostOfMap = 0.05f;
+/// One estimate in so many is looked for in the picture, and all that have very few photons: a dark room has few.
+constexpr int kEstimatesPerShown = 16;
 
 /// Returns a circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
 vec2 segment(float theta) {
@@ -36,9 +39,12 @@ struct Estimate {
   vec3 irradiance{0.0f};
   float radius = 0;                ///< 0 if no estimate was made.
   bool few = false, bent = false;  ///< The same facts as in EstimateFigures.
+  bool veryFew = false;
   float clump = 1;
   bool acrossWalls = false;
 };
+
+PictureShare times(double factor, const PictureShare& s) { return {factor * s.pixels, factor * s.x, factor * s.y}; }
 
 /// Returns the radius of the disk that stands for `every` of `count` photons on an area.
 float diskRadius(float area, size_t count, int every) {
@@ -124,6 +130,7 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
                                        : wide,
           heap.size() < most,
           glm::length(normal) < kMuchBent * count,
+          heap.size() < std::min(kVeryFew, most),
           clumpOf(heap, area, inside),
           across};
 }
@@ -190,7 +197,7 @@ std::vector<CloudChannel> irradianceChannels(const std::vector<CloudChannel>& ph
 
 PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& given,
                               const std::function<bool(const vec3& P)>& wanted, EstimateFigures* figures,
-                              const SightAlongSurface& sight) {
+                              const SightAlongSurface& sight, const ShownDisk& shown) {
   PhotonIrradianceSettings settings = given;
   settings.maxRadius = reachOf(given, photons.bound());
   PointCloud out;
@@ -222,7 +229,12 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
     const vec3& E = e.irradiance;
     const std::array values{E.x, E.y, E.z, static_cast<float>(e.acrossWalls ? kAcrossWalls : tree.surface(at))};
     out.add(tree.position(at), tree.normal(at), e.radius, values.data());
-    if (figures && !inMedia) *figures += {1, e.few, e.bent, e.clump};
+    if (!figures || inMedia) continue;
+    PictureShare share;
+    if (shown && (e.veryFew || i % size_t{kEstimatesPerShown} == 0))
+      share = shown(tree.position(at), tree.normal(at), e.radius);
+    if (!e.veryFew) share = times(kEstimatesPerShown, share);
+    *figures += {1, e.few, e.bent, e.clump, share, e.veryFew ? share : PictureShare{}};
   }
   return out;
 }

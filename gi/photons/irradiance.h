@@ -25,6 +25,19 @@ inline constexpr const char* kPathPower = "pathpower";
 inline constexpr const char *kPower = "power", *kIndirectPower = "indirectpower";
 inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = "indirect";
 
+/// Sums over a part of the picture.
+struct PictureShare {
+  double pixels = 0, x = 0, y = 0;  ///< x and y: raster coordinates, weighed by pixels.
+  PictureShare& operator+=(const PictureShare& o) {
+    pixels += o.pixels;
+    x += o.x;
+    y += o.y;
+    return *this;
+  }
+};
+/// Returns how the picture shows a disk; nothing where it does not.
+using ShownDisk = std::function<PictureShare(const vec3& P, const vec3& N, float radius)>;
+
 /// Counts of estimates, and of the unreliable ones among them.
 struct EstimateFigures {
   int64_t made = 0;
@@ -34,11 +47,14 @@ struct EstimateFigures {
   /// The density of the nearest few photons over that of the whole disk, summed over the estimates. Its mean is 1 on
   /// even ground, and more where surfaces are smaller than the disk, because photons lie in clumps there.
   double clumps = 0;
+  PictureShare shown, shownFew;  ///< What the picture shows of the estimates, and of those of very few photons.
   EstimateFigures& operator+=(const EstimateFigures& o) {
     made += o.made;
     few += o.few;
     bent += o.bent;
     clumps += o.clumps;
+    shown += o.shown;
+    shownFew += o.shownFew;
     return *this;
   }
 };
@@ -54,10 +70,11 @@ using SightAlongSurface = std::function<SightLines(const vec3& P, const vec3& N,
 /// channels of irradianceChannels(); its disks, or balls, overlap enough to cover the surface, or fill the volume. No
 /// photons make an empty cloud. `wanted`: estimates are made only at photons that it accepts; empty: at all. `figures`:
 /// gains the counts of estimates on surfaces; may be null. `sight`: where walls on the surface part more light from
-/// less, the estimate has the surface number kAcrossWalls; empty: walls are not known.
+/// less, the estimate has the surface number kAcrossWalls; empty: walls are not known. `shown`: for the figures; empty:
+/// the picture is not known.
 PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& settings,
                               const std::function<bool(const vec3& P)>& wanted = {}, EstimateFigures* figures = nullptr,
-                              const SightAlongSurface& sight = {});
+                              const SightAlongSurface& sight = {}, const ShownDisk& shown = {});
 
 /// Returns the channels of the result: `irradiance`, `indirect` or `fluence`, and the surface number where the photons
 /// have it.

@@ -101,8 +101,9 @@ class Highlight {
     for (LightSample& sample :
          batch_.lights.samples(batch_, !follows_ || std::ranges::any_of(batch_.group.lights, filters))) {
       if (sample.light->nonspecular) continue;
-      if (sample.light->can(TM_LIGHT_INDIRECT)) {
-        if (!follows_ || sample.light->filters) addIndirectSample(sample);
+      const bool isStored = sample.light == &batch_.scene.stored;
+      if (isStored || sample.light->can(TM_LIGHT_INDIRECT)) {
+        if (isStored || !follows_ || sample.light->filters) addIndirectSample(sample);
         continue;
       }
       chooseSide(view(sample.L));

@@ -187,7 +187,7 @@ int32_t rayInfo(void* host, const TmGrid* g, const char* name, TmVec3 out) {
     return 1;
   };
   if (what == "type") return number(static_cast<int>(c.kind));
-  if (what == "highlights") return number(c.kind != RayKind::Diffuse || c.highlights);
+  if (what == "highlights") return number(c.kind != RayKind::Diffuse || c.highlights == HitHighlights::All);
   if (what == "depth") return number(c.depth + c.specularDepth);
   if (what == "diffusedepth") return number(c.depth);
   if (what == "speculardepth") return number(c.specularDepth);

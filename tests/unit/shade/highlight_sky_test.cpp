@@ -47,6 +47,17 @@ TEST_F(WideHighlight, OfAnEvenSkyHasItsClosedForm) {
   }
 }
 
+// The light of a photon map has no direction.
+TEST_F(WideHighlight, OfStoredLightIsThatOfAnEvenSky) {
+  surface("plastic", {number("Kd", 0), number("Ka", 0), number("Ks", 1), number("roughness", 8)});
+  services.stored = vec3(2);
+  ShadeContext gather;
+  gather.kind = RayKind::Diffuse;
+  gather.light = Illumination::LightsAndStored;
+  gather.highlights = HitHighlights::OfSpecular;
+  expectColor(shadeOne(gather), vec3(2 * 8.0f / 3 * (1 - std::pow(2.0f, -1.5f))));
+}
+
 TEST_F(WideHighlight, OfASkyIsItsIntegralFromTheSideToo) {
   light("environmentlight");
   const vec3 V = glm::normalize(vec3(0.6f, 0.3f, -0.5f));

@@ -61,13 +61,15 @@ TEST_F(Lights, HighlightsHaveThePrmanExponent) {
   EXPECT_NEAR(shadeOne().x, std::pow(std::cos(angle / 2), 8 / 0.2f), 1e-5f);
 }
 
-TEST_F(Lights, GatherRaysSeeNoHighlights) {
+TEST_F(Lights, DiffuseRaysSeeTheHighlightsThatTheyAskFor) {
   surface("plastic", {number("Kd", 0.5f), number("Ks", 1)});
   light("distantlight");
   expectColor(shadeOne(), vec3(1.5f));
   ShadeContext gather;
   gather.kind = RayKind::Diffuse;
   expectColor(shadeOne(gather), vec3(0.5f));
+  gather.highlights = HitHighlights::OfSpecular;
+  expectColor(shadeOne(gather), vec3(1.5f));
 }
 
 TEST_F(Lights, LightingChoosesBetweenDirectAndIndirect) {

@@ -135,6 +135,11 @@ class FakeServices final : public ShadeServices {
       }
     }
   }
+  vec3 stored{0.0f};  ///< E/pi
+  void storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 out) const override {
+    for (int i = 0; i < points.count(); ++i)
+      if (active[i]) set(out, i, stored);
+  }
   mutable bool lastSolar = false;
 };
 
