@@ -44,7 +44,7 @@ def sheet(near, far, columns):
     print(f'    PatchMesh "bilinear" {columns + 1} "nonperiodic" 2 "nonperiodic" "P" [{numbers(points, ".3g")}]')
 
 
-head("coast", "A headland by the sea in the evening", 31, "Clipping 0.3 40000", "Rotate 2.4 1 0 0", "Translate 0 -44 0", "ShadingInterpolation \"smooth\"", imager="grade")
+head("coast", "A headland by the sea in the evening", 31, "Clipping 0.3 40000", "Rotate 2.4 1 0 0", "Translate 0 -44 0", 'ShadingInterpolation "smooth"', imager="grade")
 print('''WorldBegin
   CoordinateSystem "coast"
   AttributeBegin

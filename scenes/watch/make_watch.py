@@ -144,7 +144,7 @@ def jewel(name, x, z, y, radius):
     part(f"pivot in the {name}", f"Surface {STEEL}", place, turned([(0.12 * radius, -0.4), (0.12 * radius, 0.0), (0.07 * radius, 0.06 * radius), (0, 0.07 * radius)]))
 
 
-head("watch", "The movement of a watch, seen through a lens that is wide open", 22.5, 'Hider "hidden" "float[4] aperture" [7 12 0.35 0]', "DepthOfField 1 1.7 34.5", "Clipping 1 400", "Rotate -32 1 0 0", "Rotate 3 0 1 0", "Translate -0.4 -22.0 37.4", "ShadingInterpolation \"smooth\"", samples=12, rate=1.6)
+head("watch", "The movement of a watch, seen through a lens that is wide open", 22.5, 'Hider "hidden" "float[4] aperture" [7 12 0.35 0]', "DepthOfField 1 1.7 34.5", "Clipping 1 400", "Rotate -32 1 0 0", "Rotate 3 0 1 0", "Translate -0.4 -22.0 37.4", 'ShadingInterpolation "smooth"', samples=12, rate=1.6)
 print('''WorldBegin
   CoordinateSystem "movement"
   Attribute "trace" "int maxspeculardepth" [3]
