@@ -113,8 +113,9 @@ class City:
             return [at[k] + right[k] * x * width + (y * height if k == 1 else 0) + out[k] * z for k in range(3)]
 
         def across(x0, y0, x1, y1, z, bulge):
+            """Returns a panel that bulges out of the wall. Its u x v points into the house, so it gets the bulge with a minus."""
             a = p(x0, y0, z)
-            return panel(a, [c - d for c, d in zip(p(x1, y0, z), a)], [c - d for c, d in zip(p(x0, y1, z), a)], bulge)
+            return panel(a, [c - d for c, d in zip(p(x1, y0, z), a)], [c - d for c, d in zip(p(x0, y1, z), a)], -bulge)
 
         def block(x0, y0, x1, y1, deep):
             a, b = p(x0, y0, -0.05), p(x1, y1, deep)
@@ -149,7 +150,7 @@ class City:
         far = x0 + depth * (1 if side else -1)
         lo, hi = min(x0, far), max(x0, far)
         parts += [panel((lo, 0, z0), (hi - lo, 0, 0), (0, tall, 0), 0.0), panel((hi, 0, z0 + length), (lo - hi, 0, 0), (0, tall, 0), 0.0),
-                  panel((lo, tall, z0), (hi - lo, 0, 0), (0, 0, length), 0.3), panel((far, 0, z0), (0, 0, length), (0, tall, 0), 0.0)]
+                  panel((lo, tall, z0), (hi - lo, 0, 0), (0, 0, length), -0.3), panel((far, 0, z0), (0, 0, length), (0, tall, 0), 0.0)]
         self.group(f"house{index:02}", parts)
 
     def car(self, index):

@@ -19,10 +19,11 @@ surface land(color straw = color(0.50, 0.36, 0.13), green = color(0.16, 0.17, 0.
   /* The rock has beds of several colours, stains that run down, and lichen on the parts that face the sky. */
   float bed = y / 5.2 + 0.5 * snoise(q / 40) + 0.018 * xcomp(q);
   float layer = float noise(3 * bed) + 0.5 * float noise(11 * bed);
-  point stretched = point(xcomp(q), 0.15 * y, zcomp(q));
-  float stain = fBm(stretched / 5, width / 5, 4, 2.1, 0.6);
+  point bare = q;
+  displacement("bare", bare);
+  float stain = fBm(point(xcomp(bare), 0.2 * y, zcomp(bare)) / 7, width / 7, 3, 2.1, 0.5) + 0.7 * fBm(q / 3.5, width / 3.5, 5, 2.1, 0.65);
   color rock = mix(darkrock, rockcolor, clamp(1.5 * layer - 0.6 + 0.6 * stain, 0, 1));
-  float cracks = 1 - abs(fBm(point(xcomp(q), 0.22 * y, zcomp(q)) / 3.1, width / 3.1, 3, 2.2, 0.6));
+  float cracks = 1 - abs(fBm(point(xcomp(bare), 0.5 * y, zcomp(bare)) / 4.3, width / 4.3, 4, 2.2, 0.6));
   rock *= 1 - 0.5 * smoothstep(0.88, 1, cracks);
   rock = mix(rock, color(0.30, 0.27, 0.16), 0.5 * smoothstep(0.55, 0.85, ycomp(n)));
 

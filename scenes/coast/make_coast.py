@@ -44,7 +44,7 @@ def sheet(near, far, columns):
     print(f'    PatchMesh "bilinear" {columns + 1} "nonperiodic" 2 "nonperiodic" "P" [{numbers(points, ".3g")}]')
 
 
-head("coast", "A headland by the sea in the evening", 31, "Clipping 0.3 40000", "Rotate 2.4 1 0 0", "Translate 0 -44 0", imager="grade")
+head("coast", "A headland by the sea in the evening", 31, "Clipping 0.3 40000", "Rotate 2.4 1 0 0", "Translate 0 -44 0", 'ShadingInterpolation "smooth"', imager="grade")
 print('''WorldBegin
   CoordinateSystem "coast"
   AttributeBegin
@@ -73,13 +73,12 @@ print('''WorldBegin
     Attribute "displacementbound" "float sphere" [170] "string coordinatesystem" ["coast"]
     Displacement "headland"
     Surface "land"
-    ShadingRate 2''')
-for near, far in ((90, 180), (180, 300)):
+    ShadingRate 1''')
+sheet(90, 180, 8)
+print("    ShadingRate 0.35")  # Cliffs stretch the sheet to several times its size, so that it needs smaller pieces there.
+for near, far in ((180, 300), (300, 450), (450, 600), (600, 900)):
     sheet(near, far, 8)
 print("    ShadingRate 1")
-for near, far in ((300, 450), (450, 600), (600, 900)):
-    sheet(near, far, 8)
-print("    ShadingRate 3")
 for near, far in ((900, 1500), (1500, 2600), (2600, 4500), (4500, 9000)):
     sheet(near, far, 8)
 print('''  AttributeEnd

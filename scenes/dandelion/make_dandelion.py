@@ -16,11 +16,17 @@ from parts import flat, head, numbers, part
 random.seed(5)
 HEAD = (-27, 6, 0)
 KINDS = 4  # Each seed is one of so many shapes.
+SOFT = 3   # Hairs that are out of focus are so many times wider and as much more transparent. They look the same and show less grain.
 WIND = (1, 0.12, 0.1)
 
 
 def curve(counts, points, widths, kind="cubic"):
     return f'Curves "{kind}" [{counts}] "nonperiodic" "P" [{numbers(flat(points), ".3f")}] "varying float width" [{numbers(widths)}]'
+
+
+def veil(soft):
+    """Returns the opacity of hairs that are `soft` times as wide as they should be."""
+    return f"Opacity [{numbers([1 / soft] * 3)}]"
 
 
 def moving(*keys):
@@ -34,7 +40,7 @@ def direction():
     return (r * math.cos(a), y, r * math.sin(a))
 
 
-def seed(name):
+def seed(name, soft=1):
     """Prints the object of a seed along +y: the fruit, its beak, and a parasol of hairs, which bear finer hairs."""
     hairs, widths, count = [], [], 0
     for k in range(46):
@@ -53,9 +59,9 @@ def seed(name):
             widths += [0.013, 0.008]
             count += 1
     print(f'ObjectBegin "{name}"')
-    print(f'  Surface "hair"\n  {curve("4 " * count, hairs, widths)}')
+    print(f'  Surface "hair"\n  {veil(soft)}\n  {curve("4 " * count, hairs, [soft * w for w in widths])}')
     beak = [(0.06 * math.sin(0.5 * y), y, 0.05 * math.cos(0.4 * y)) for y in (7.4, 10.5, 13.5, 16.4)]
-    print(f'  Surface "hair" "color tint" [0.75 0.62 0.45]\n  {curve("4", beak, [0.10, 0.06])}')
+    print(f'  Surface "hair" "color tint" [0.75 0.62 0.45]\n  {veil(soft)}\n  {curve("4", beak, [0.10 * soft, 0.06 * soft])}\n  {veil(1)}')
     print('  Surface "fruit"\n  Attribute "dice" "int roundcurve" [1]')
     print(f'  Curves "linear" [6] "nonperiodic" "P" [{numbers(flat((0, y, 0) for y in (4.0, 4.6, 5.6, 6.6, 7.1, 7.5)))}] "varying float width" [0.15 0.5 0.85 0.9 0.55 0.12]')
     print("ObjectEnd")
@@ -85,12 +91,12 @@ def clock():
     return out
 
 
-def flight(x, y, z, tilt, way, spin, size=1.0):
+def flight(x, y, z, tilt, way, spin, kind="soft"):
     """Returns a seed in the air at (x, y, z), whose parasol leads. It moves by `way` while the shutter is open."""
     places = [f"Translate {x + t * way[0]:.2f} {y + t * way[1]:.2f} {z + t * way[2]:.2f}" for t in (0, 1)]
     turns = [f"Rotate {tilt + t * spin:.1f} 0.25 0.1 -1" for t in (0, 1)]
-    return (f'TransformBegin {moving(*places)} {moving(*turns)} Rotate {random.uniform(0, 360):.0f} 0 1 0 Scale {size} {size} {size} Translate 0 -12 0 '
-            f'ObjectInstance "seed{random.randrange(KINDS)}" TransformEnd')
+    return (f'TransformBegin {moving(*places)} {moving(*turns)} Rotate {random.uniform(0, 360):.0f} 0 1 0 Translate 0 -12 0 '
+            f'ObjectInstance "{kind}{random.randrange(KINDS)}" TransformEnd')
 
 
 def blade(x, z, tall, wide, lean, sway, foot=-75):
@@ -123,13 +129,16 @@ def foxtail(x, z, tall, lean, sway, length, bristles):
             tip = [0.60 * o * reach + 0.75 * a * reach + 0.12 * w * reach for o, a, w in zip(out, along, WIND)]
             start = [c + 0.9 * full * o for c, o in zip(p, out)]
             points += [tuple(b + e * h + g * 0.35 * reach * h * (1 - h) for b, e, g in zip(start, tip, out)) for h in (0, 0.33, 0.67, 1)]
-            widths += [0.075, 0.02]
+            widths += [0.075 * SOFT, 0.02 * SOFT]
         brushes.append(curve("4 " * bristles, points, widths))
-    return ['Surface "hair" "color tint" [0.62 0.62 0.25]', moving(*stalks), 'Surface "hair" "color tint" [0.95 0.72 0.42] "float bristle" [1]', moving(*brushes)]
+    return ['Surface "hair" "color tint" [0.62 0.62 0.25]', moving(*stalks), 'Surface "hair" "color tint" [0.95 0.72 0.42] "float bristle" [1]', veil(SOFT), moving(*brushes)]
 
 
-head("dandelion", "A dandelion clock in a gust", 20.5, "Clipping 20 4000", "Shutter 0 1", "DepthOfField 1 15 230", "Translate 0 0 230", samples=16)
+head("dandelion", "A dandelion clock in a gust", 20.5, "Clipping 20 4000", "Shutter 0 1", "DepthOfField 1 15 230", "Translate 0 0 230", samples=20)
 for k in range(KINDS):
+    shape = random.getstate()
+    seed(f"soft{k}", SOFT)
+    random.setstate(shape)
     seed(f"seed{k}")
 print('''WorldBegin
   CoordinateSystem "meadow"
@@ -149,7 +158,7 @@ part("bracts", 'Surface "stalk"', f"Translate {numbers(HEAD)}", *(curve("4", [(1
                                         for k in range(13) for a in [2 * math.pi * k / 13]))
 part("clock", f"Translate {numbers(HEAD)}", *clock())
 part("seeds in the air", *(flight(*seed_) for seed_ in (
-    (6, 16, -4, 58, (0.3, 0.05, 0), 1.5), (21, 24, 2, 40, (0.9, 0.15, 0.1), 4), (36, 11, -2, 66, (0.5, 0.1, 0), 2), (44, 30, 10, 30, (1.6, 0.1, 0.2), 6),
+    (6, 16, -4, 58, (0.3, 0.05, 0), 1.5, "seed"), (21, 24, 2, 40, (0.9, 0.15, 0.1), 4, "seed"), (36, 11, -2, 66, (0.5, 0.1, 0), 2, "seed"), (44, 30, 10, 30, (1.6, 0.1, 0.2), 6),
     (58, 20, 2, 52, (1.2, 0.3, 0), 3), (64, 3, 24, 75, (1.2, -0.1, 0), 5), (26, 38, 40, 45, (2.4, 0.2, 0), 6), (73, 36, 34, 55, (2.8, 0.3, 0), 5),
     (88, 16, 60, 60, (2.6, 0.2, 0), 4), (49, -9, -34, 50, (2.4, 0.3, 0), 5))))
 part("blades before the eye", 'Surface "blade" "float far" [-1]', *(blade(x, z, tall, wide, lean, sway, foot=-45) for x, z, tall, wide, lean, sway in (

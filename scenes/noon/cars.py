@@ -58,4 +58,4 @@ def car(name, kind, paint, x, z, heading, flake=0.6, taxi=False):
                  "AttributeBegin", 'Surface "plain" "float uneven" [0]', "Color 0.75 0.74 0.68", box(-0.26, 0.26, 0.37, 0.48, plate - 0.004, plate + 0.004), "AttributeEnd"]
     if taxi:
         rows += ["AttributeBegin", 'Surface "plain" "float gloss" [0.6]', "Color 0.85 0.80 0.55", "Translate 0 1.52 -0.25", soft(-0.22, 0.22, -0.05, 0.10, -0.09, 0.09, hard=1), "AttributeEnd"]
-    part(name, "Sides 2", *rows)
+    part(name, "Sides 2", 'ShadingInterpolation "smooth"', *rows)

@@ -120,25 +120,30 @@ def lamp(name):
 
 
 def walker(name, seed):
-    """Prints a person who walks, with legs, a coat or a shirt, arms and a head."""
+    """Prints a person who walks, with legs, a coat or a shirt, arms, shoes, hands and a head."""
     rng = random.Random(seed)
     cloth, legs = rng.choice([(0.55, 0.12, 0.10), (0.12, 0.18, 0.30), (0.62, 0.58, 0.50), (0.10, 0.10, 0.11), (0.45, 0.42, 0.12), (0.20, 0.32, 0.26)]), rng.choice([(0.06, 0.07, 0.12), (0.05, 0.05, 0.05), (0.30, 0.26, 0.20)])
     def limb(points, radii):
-        rings = []
-        for (x, y, z), (a, b) in zip(points, radii):
-            rings.append([(x + a * math.cos(t), y, z + b * math.sin(t)) for t in (2 * math.pi * n / 8 for n in range(8))])
-        rings = [rings[0]] * 2 + rings + [rings[-1]] * 2
+        rings = [[(x + a * math.cos(t), y, z + b * math.sin(t)) for t in (2 * math.pi * n / 8 for n in range(8))] for (x, y, z), (a, b) in zip(points, radii)]
+        first, last = ([tuple(c + 0.02 * (d - c) for c, d in zip(at, p)) for p in ring] for at, ring in ((points[0], rings[0]), (points[-1], rings[-1])))  # Both ends are closed.
+        rings = [first] * 3 + rings + [last] * 3
         return f'Basis "b-spline" 1 "b-spline" 1 PatchMesh "bicubic" 8 "periodic" {len(rings)} "nonperiodic" "P" [{numbers(flat(flat(rings)))}]'
     stride = rng.uniform(0.16, 0.3)
+    skin = "Color 0.50 0.33 0.24 "
     rows = [f'Surface "plain" "float uneven" [0.25]\n  {colour(legs)}']
     for s in (-1, 1):
-        rows.append(limb([(0.09 * s, 0.92, 0), (0.10 * s, 0.5, 0.5 * stride * s + 0.04), (0.10 * s, 0.1, stride * s), (0.10 * s, 0.03, stride * s + 0.05), (0.10 * s, 0.0, stride * s + 0.05)], [(0.11, 0.12), (0.075, 0.08), (0.055, 0.06), (0.06, 0.13), (0.055, 0.13)]))
+        rows.append(limb([(0.05 * s, 0.95, 0), (0.085 * s, 0.84, 0), (0.10 * s, 0.5, 0.5 * stride * s + 0.03), (0.10 * s, 0.28, 0.8 * stride * s), (0.10 * s, 0.09, stride * s - 0.01)], [(0.07, 0.09), (0.09, 0.11), (0.07, 0.075), (0.06, 0.07), (0.06, 0.075)]))
     rows.append(colour(cloth))
-    rows.append(limb([(0, 0.82, 0), (0, 0.95, 0), (0, 1.15, 0), (0, 1.38, 0), (0, 1.48, 0), (0, 1.53, 0)], [(0.19, 0.14), (0.19, 0.14), (0.18, 0.13), (0.22, 0.13), (0.15, 0.09), (0.06, 0.06)]))
+    rows.append(limb([(0, 0.80, 0), (0, 0.92, 0), (0, 1.12, 0), (0, 1.33, 0), (0, 1.43, 0), (0, 1.49, 0), (0, 1.53, 0)], [(0.185, 0.14), (0.18, 0.135), (0.17, 0.12), (0.215, 0.13), (0.21, 0.11), (0.11, 0.08), (0.06, 0.06)]))
     for s in (-1, 1):
-        rows.append(limb([(0.22 * s, 1.42, 0), (0.27 * s, 1.15, -0.10 * s), (0.26 * s, 0.90, -0.2 * s + 0.06), (0.26 * s, 0.84, -0.2 * s + 0.08)], [(0.065, 0.07), (0.05, 0.055), (0.042, 0.045), (0.03, 0.035)]))
-    rows.append("Color 0.50 0.33 0.24 " + limb([(0, 1.50, 0.01), (0, 1.56, 0.02), (0, 1.62, 0.03), (0, 1.71, 0.02), (0, 1.79, 0.01), (0, 1.81, 0.0)], [(0.055, 0.055), (0.055, 0.06), (0.078, 0.095), (0.082, 0.10), (0.06, 0.08), (0.01, 0.01)]))
-    rows.append("Color 0.09 0.06 0.04 " + limb([(0, 1.68, -0.03), (0, 1.76, -0.02), (0, 1.82, -0.01), (0, 1.83, 0)], [(0.083, 0.085), (0.08, 0.10), (0.05, 0.06), (0.01, 0.01)]))
+        rows.append(limb([(0.14 * s, 1.46, 0), (0.20 * s, 1.38, 0), (0.235 * s, 1.15, -0.10 * s), (0.245 * s, 0.92, -0.2 * s + 0.05)], [(0.07, 0.07), (0.065, 0.07), (0.052, 0.057), (0.042, 0.045)]))
+    rows.append("Color 0.035 0.028 0.022")
+    for s in (-1, 1):
+        rows.append(limb([(0.10 * s, 0.11, stride * s), (0.10 * s, 0.06, stride * s + 0.03), (0.10 * s, 0.0, stride * s + 0.05)], [(0.05, 0.06), (0.055, 0.12), (0.055, 0.13)]))
+    rows.append(skin + limb([(0, 1.48, 0.0), (0, 1.55, 0.01), (0, 1.61, 0.02), (0, 1.71, 0.02), (0, 1.79, 0.01), (0, 1.81, 0.0)], [(0.055, 0.055), (0.052, 0.056), (0.072, 0.09), (0.078, 0.096), (0.06, 0.08), (0.01, 0.01)]))
+    for s in (-1, 1):
+        rows.append(limb([(0.25 * s, 0.93, -0.2 * s + 0.05), (0.25 * s, 0.86, -0.2 * s + 0.07), (0.25 * s, 0.79, -0.2 * s + 0.08)], [(0.035, 0.035), (0.03, 0.048), (0.02, 0.03)]))
+    rows.append("Color 0.09 0.06 0.04 " + limb([(0, 1.66, -0.035), (0, 1.75, -0.025), (0, 1.81, -0.01), (0, 1.835, 0)], [(0.08, 0.075), (0.085, 0.10), (0.06, 0.075), (0.01, 0.01)]))
     print(f'ObjectBegin "{name}"\n  ' + "\n  ".join(rows) + "\nObjectEnd")
 
 

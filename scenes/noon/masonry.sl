@@ -26,6 +26,10 @@ surface masonry(float bond = 0) {
       float joint = max(stroke(mod(row, 1), 0.5, 0.07, soft / 0.42), stroke(mod(shifted, 1), 0.5, 0.024, soft / 0.95));
       tint *= 1 + 0.14 * (float cellnoise(floor(shifted - 0.5), floor(row - 0.5)) - 0.5);
       tint *= 1 - 0.55 * joint * (1 - smoothstep(0.04, 0.15, soft));
+    } else if (bond == 3) {
+      /* A chisel has left fine upright furrows. No two pieces of stone have quite the same tone. */
+      tint *= 1 + 0.10 * (float noise(90 * along, 6 * y) - 0.5) * (1 - smoothstep(0.004, 0.015, soft));
+      tint *= 1 + 0.12 * (float cellnoise(floor(along / 0.8), floor(y / 0.6)) - 0.5) * (1 - smoothstep(0.1, 0.3, soft));
     }
     /* Dirt splashes onto the foot of a wall and settles on the tops of ledges. */
     tint *= mix(0.78, 1, smoothstep(0, 0.9, y + 0.3 * stain));

@@ -141,7 +141,7 @@ for k, (x, y, z, turns) in enumerate(((-0.25, 0.93, 0.35, "Rotate 78 0.2 0 1"), 
 place("cloth", 0, 0, 'Sides 2 Surface "linen"', cloth(0.35, 3.9, 0.7, -3.2, 2.0))
 # Half a lemon lies on the cloth. Its cut side faces the eye and the window.
 place("half lemon", 1.25, -1.75, 'Rotate 24 0 1 0 Rotate -62 1 0 0', 'Surface "lemon"', lathe(HALF), 'Rotate -90 1 0 0 Surface "pulp"', 'Disk 0.001 0.447 360', y=0.42)
-CLEAR = 'Attribute "trace" "int maxspeculardepth" [8] ShadingRate 0.6 Attribute "visibility" "int diffuse" [0]'
+CLEAR = 'Attribute "trace" "int maxspeculardepth" [8] ShadingRate 0.5 ShadingInterpolation "smooth" Attribute "visibility" "int diffuse" [0]'
 RED = '"color tint" [0.42 0.03 0.035]'
 place("glass", *STANDS["glass"], CLEAR, 'Surface "crystal"', lathe(GLASS))
 place("wine in glass", *STANDS["glass"], CLEAR, f'Surface "crystal" "float eta" [0.875] {RED}', lathe(WINE_SIDE))

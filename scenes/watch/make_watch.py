@@ -144,7 +144,7 @@ def jewel(name, x, z, y, radius):
     part(f"pivot in the {name}", f"Surface {STEEL}", place, turned([(0.12 * radius, -0.4), (0.12 * radius, 0.0), (0.07 * radius, 0.06 * radius), (0, 0.07 * radius)]))
 
 
-head("watch", "The movement of a watch, seen through a lens that is wide open", 22.5, 'Hider "hidden" "float[4] aperture" [7 12 0.35 0]', "DepthOfField 1 1.7 34.5", "Clipping 1 400", "Rotate -32 1 0 0", "Rotate 3 0 1 0", "Translate -0.4 -22.0 37.4", samples=12, rate=1.6)
+head("watch", "The movement of a watch, seen through a lens that is wide open", 22.5, 'Hider "hidden" "float[4] aperture" [7 12 0.35 0]', "DepthOfField 1 1.7 34.5", "Clipping 1 400", "Rotate -32 1 0 0", "Rotate 3 0 1 0", "Translate -0.4 -22.0 37.4", 'ShadingInterpolation "smooth"', samples=12, rate=1.6)
 print('''WorldBegin
   CoordinateSystem "movement"
   Attribute "trace" "int maxspeculardepth" [3]
@@ -166,8 +166,8 @@ part("arbor of the escape wheel", f"Surface {STEEL}", "Translate 9.4 0 -5.2", tu
 
 # Each bridge has stripes, polished bevels, jewels and screws.
 BRIDGES = {"barrel bridge": ([(-19.2, 2.6), (-13.8, -0.2), (-8.2, 2.3), (-4.9, 6.4), (-1.8, 9.4), (-0.9, 14.0), (-3.6, 18.6), (-10.5, 16.8), (-16.2, 11.2)], 2.9),
-           "train bridge": ([(0.4, 17.6), (0.6, 11.2), (-0.9, 6.0), (-3.5, 3.4), (-3.9, 0.6), (-1.6, -0.3), (1.4, 2.0), (4.4, 2.0), (5.0, -1.3), (6.8, -1.4), (8.6, 1.0), (12.6, 2.6), (18.2, 1.6), (18.6, 6.4), (14.2, 13.0), (7.4, 17.8)], 3.0),
-           "escape bridge": ([(7.7, -5.7), (9.3, -7.4), (11.2, -6.9), (13.0, -8.6), (15.2, -10.4), (17.4, -9.6), (19.2, -5.2), (18.4, -3.2), (13.8, -3.9), (11.0, -4.4), (9.3, -4.0)], 2.3)}
+           "train bridge": ([(0.4, 17.6), (0.6, 11.2), (-0.9, 6.0), (-4.2, 3.4), (-4.5, 1.2), (-3.6, -0.4), (-1.6, -0.7), (0.4, 0.6), (2.0, 2.0), (3.3, 1.3), (3.8, -0.6), (5.4, -1.7), (7.2, -1.3), (8.6, 1.0), (12.6, 2.6), (18.2, 1.6), (18.6, 6.4), (14.2, 13.0), (7.4, 17.8)], 3.0),
+           "escape bridge": ([(7.5, -5.7), (9.3, -7.6), (11.2, -7.0), (13.0, -8.6), (15.2, -10.4), (17.4, -9.6), (19.2, -5.2), (18.4, -3.2), (13.8, -3.9), (11.0, -4.2), (9.3, -3.8)], 2.3)}
 HOLES = {"barrel bridge": [(-10.6, 7.2, 1.5)], "train bridge": [(-2.3, 1.6, 0.85), (5.6, 0.5, 0.8)], "escape bridge": [(9.4, -5.7, 0.62)]}
 for name, (points, top) in BRIDGES.items():
     holes = [backwards(circle(1.66 * r if name != "barrel bridge" else r, 64, x, z)) for x, z, r in HOLES[name]]
@@ -194,7 +194,7 @@ spiral = [c for k in range(421) for a, r in [(2 * math.pi * (k - 6) / 36, 0.75 +
 part("hairspring", 'Surface "blued" "float bright" [1.3]', place, 'Attribute "dice" "int roundcurve" [1] Basis "catmull-rom" 1 "catmull-rom" 1', f'Curves "cubic" [421] "nonperiodic" "P" [{numbers(spiral)}] "constant float constantwidth" [0.085]')
 part("stud of the hairspring", f"Surface {STEEL}", f"Translate {BX - 3.3} 0 {BZ}", turned([(0, BY + 0.75), (0.22, BY + 0.75), (0.22, BY + 1.9)]))
 part("staff", f"Surface {STEEL}", place, turned([(0.3, -0.3), (0.3, BY + 0.9), (0.7, BY + 0.9), (0.7, BY + 1.3), (0.25, BY + 1.35), (0.25, BY + 2.0)]))
-COCK = curve([(-18.6, -6.0), (-16.6, -4.0), (-13.4, -4.8), (-10.4, -5.7), (-7.4, -5.5), (-5.2, -5.6), (-3.2, -6.6), (-3.0, -8.4), (-4.4, -9.6), (-6.4, -9.4), (-8.4, -8.9), (-11.4, -9.3), (-14.2, -11.4), (-16.4, -10.8)][::-1])
+COCK = curve([(-18.6, -6.0), (-16.6, -4.0), (-13.4, -4.8), (-10.4, -5.7), (-7.4, -5.4), (-5.2, -5.2), (-3.1, -6.0), (-2.6, -7.8), (-3.4, -9.5), (-5.2, -10.1), (-7.0, -9.7), (-8.8, -9.0), (-11.4, -9.3), (-14.2, -11.4), (-16.4, -10.8)][::-1])
 cut("balance cock", COCK, [backwards(circle(1.62, 64, BX, BZ))], BY + 1.75, BY + 2.55, 0.22, '"grained"', POLISHED)
 jewel("jewel of the balance", BX, BZ, BY + 2.55, 0.95)
 screw("screw of the cock", -15.4, -7.6, BY + 2.5, 1.25, 62)
