@@ -5,11 +5,11 @@
 namespace tomales {
 namespace {
 
-constexpr int kDirections = 1024;
+constexpr int kLinesOfSight = 1024;
 // Turn between successive directions of a spiral, whose points are evenly spread.
 constexpr float kGoldenAngle = 2.399963f;
 // The squared radius of the disk that stands for a group, over the area that the group covers (LineOfSight::meet).
-constexpr float kReach = 0.625f;
+constexpr float kSquaredReach = 0.625f;
 // A disk nearer than this share of its radius belongs to the point itself or to its neighbours.
 constexpr float kOwnPlane = 0.3f;
 
@@ -47,8 +47,8 @@ Disks::Disks(const PointCloud& cloud, const std::string& channel) {
     const vec3 L = light >= 0 ? vec3(values[light], values[light + 1], values[light + 2]) : vec3(0);
     disks_.push_back({cloud.position[i], cloud.normal[i], r > 0 ? r : std::sqrt(a / kPi), a, L});
   }
-  for (int k = 0; k < kDirections; ++k) {
-    const float r2 = (static_cast<float>(k) + 0.5f) / kDirections, r = std::sqrt(r2),
+  for (int k = 0; k < kLinesOfSight; ++k) {
+    const float r2 = (static_cast<float>(k) + 0.5f) / kLinesOfSight, r = std::sqrt(r2),
                 phi = kGoldenAngle * static_cast<float>(k);
     directions_.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r2)});
   }
@@ -120,8 +120,9 @@ class Disks::LineOfSight {
                 facing = std::clamp(-dot(sum.front, d_), -all, all);
     const float front = 0.5f * (all + facing), back = 0.5f * (all - facing),
                 across = std::max(front, back);  // on a closed surface the fronts hide the backs
-    if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > kReach * across) return;
-    add(t, 1 / (kPi * kReach), front / across, back / across,
+    if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > kSquaredReach * across)
+      return;
+    add(t, 1 / (kPi * kSquaredReach), front / across, back / across,
         glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
   }
 
@@ -167,8 +168,8 @@ HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& q
     const vec3 local(d, std::sqrt(std::max(0.0f, 1 - dot(d, d))));
     LineOfSight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
     sight.walk();
-    out.covered += sight.covered / kDirections;
-    out.radiance += sight.light / static_cast<float>(kDirections);
+    out.covered += sight.covered / kLinesOfSight;
+    out.radiance += sight.light / static_cast<float>(kLinesOfSight);
   }
   out.covered = std::min(1.0f, out.covered);
   return out;

@@ -4,7 +4,7 @@
 namespace tomales::test {
 namespace {
 
-constexpr float kUnit_px = 32;
+constexpr float kSide_px = 32;
 
 std::string world(const std::string& body, const std::string& options = {}) {
   return "Format 128 128 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 ScreenWindow -2 2 -2 2 Clipping 0.1 100 "
@@ -37,7 +37,7 @@ std::string box(float x0, float y0, float z0, float x1, float y1, float z1) {
     }
   return primitive(out);
 }
-const std::string kBall = primitive("Sphere 1 -1 1 360");
+const std::string kUnitBall = primitive("Sphere 1 -1 1 360");
 const std::string kCylinder = primitive("Cylinder 1 -1.8 1.8 360 Disk 1.8 1 360 Disk -1.8 1 360");
 
 struct Measured {
@@ -45,7 +45,7 @@ struct Measured {
 };
 Measured measure(const DeepFrame& frame) {
   Measured m;
-  const double cell = 1.0 / (kUnit_px * kUnit_px * static_cast<double>(frame.samplesPerPixel));
+  const double cell = 1.0 / (kSide_px * kSide_px * static_cast<double>(frame.samplesPerPixel));
   for (int y = frame.crop.y0; y < frame.crop.y1; ++y)
     for (int x = frame.crop.x0; x < frame.crop.x1; ++x)
       forFragments(frame, x, y, [&](const DeepTile&, const Fragment& f) {
@@ -57,17 +57,17 @@ Measured measure(const DeepFrame& frame) {
 
 /// Mean number of surfaces that the samples of a pixel see, one behind the other.
 double surfaces(const DeepFrame& frame, float x, float y) {
-  const int px = static_cast<int>((x + 2) * kUnit_px), py = static_cast<int>((2 - y) * kUnit_px);
+  const int px = static_cast<int>((x + 2) * kSide_px), py = static_cast<int>((2 - y) * kSide_px);
   return covered(frame, px, py) / static_cast<double>(frame.samplesPerPixel);
 }
 
 TEST(Solids, ALensHasTheAreaOfTwoCirclesThatOverlap) {
-  const DeepFrame f = hideRib(world(solid("intersection", moved("-0.5 0 0", kBall) + moved("0.5 0 0", kBall))));
+  const DeepFrame f = hideRib(world(solid("intersection", moved("-0.5 0 0", kUnitBall) + moved("0.5 0 0", kUnitBall))));
   EXPECT_NEAR(measure(f).area, 2 * std::acos(0.5) - 0.5 * std::sqrt(3.0), 0.004);
 }
 
 TEST(Solids, ASphereLosesTheSegmentThatABoxCutsOff) {
-  const DeepFrame f = hideRib(world(solid("difference", kBall + box(0.5f, -2, -2, 2, 2, 2))));
+  const DeepFrame f = hideRib(world(solid("difference", kUnitBall + box(0.5f, -2, -2, 2, 2, 2))));
   const double segment = std::acos(0.5) - 0.5 * std::sqrt(0.75);
   EXPECT_NEAR(measure(f).area, double{kPi} - segment, 0.004);
 }
@@ -86,8 +86,8 @@ TEST(Solids, TwoCrossedCylindersMakeTheSolidOfSteinmetz) {
 TEST(Solids, ADifferenceShowsTheFarSideOfWhatItTakesAway) {
   // A bowl: the upper half of what is seen is cut by a ball half as large, whose own surface shows.
   const DeepFrame f =
-      hideRib(world(solid("difference", kBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360")))));
-  const Measured whole = measure(hideRib(world(kBall)));
+      hideRib(world(solid("difference", kUnitBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360")))));
+  const Measured whole = measure(hideRib(world(kUnitBall)));
   EXPECT_NEAR(measure(f).area, whole.area, 1e-9);
   // What is gone: two caps that meet, of heights 1/8 of the ball and 3/8 of the cutter.
   const auto cap = [](double r, double h) { return double{kPi} * h * h * (3 * r - h) / 3; };
@@ -103,8 +103,8 @@ TEST(Solids, ADifferenceShowsTheFarSideOfWhatItTakesAway) {
 }
 
 TEST(Solids, AreWholeInProceduralsThatAreOpenedOnDemand) {
-  const std::string hollow = solid("difference", kBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360")));
-  const std::string lens = solid("intersection", moved("-0.5 0 0", kBall) + moved("0.5 0 0", kBall));
+  const std::string hollow = solid("difference", kUnitBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360")));
+  const std::string lens = solid("intersection", moved("-0.5 0 0", kUnitBall) + moved("0.5 0 0", kUnitBall));
   const auto scene = [&](const std::string& first, const std::string& second) {
     return measure(
         hideRib(world("ArchiveBegin \"hollow\" " + hollow + " ArchiveEnd ArchiveBegin \"lens\" " + lens +
@@ -119,10 +119,11 @@ TEST(Solids, AreWholeInProceduralsThatAreOpenedOnDemand) {
 }
 
 TEST(Solids, AUnionHasNoSurfacesInside) {
-  const DeepFrame f =
-      hideRib(world("Opacity 0.5 0.5 0.5 " + solid("union", moved("-0.4 0 0", kBall) + moved("0.4 0 0", kBall))));
+  const DeepFrame f = hideRib(
+      world("Opacity 0.5 0.5 0.5 " + solid("union", moved("-0.4 0 0", kUnitBall) + moved("0.4 0 0", kUnitBall))));
   EXPECT_EQ(surfaces(f, 0, 0), 2);
-  const DeepFrame apart = hideRib(world("Opacity 0.5 0.5 0.5 " + moved("-0.4 0 0", kBall) + moved("0.4 0 0", kBall)));
+  const DeepFrame apart =
+      hideRib(world("Opacity 0.5 0.5 0.5 " + moved("-0.4 0 0", kUnitBall) + moved("0.4 0 0", kUnitBall)));
   EXPECT_EQ(surfaces(apart, 0, 0), 4);
 }
 
@@ -132,7 +133,7 @@ TEST(Solids, OnlyTheWholeHidesWhatIsBehind) {
   // The hole is drilled along the view, so its middle shows the wall, at any order and bucket size.
   for (const int bucket : {16, 7, 64}) {
     const DeepFrame f = hideRib(world(
-        solid("difference", kBall + hole) + behind,
+        solid("difference", kUnitBall + hole) + behind,
         "Option \"limits\" \"integer[2] bucketsize\" [" + std::to_string(bucket) + " " + std::to_string(bucket) + "]"));
     forFragments(f, 64, 64, [&](const DeepTile&, const Fragment& g) { EXPECT_NEAR(g.z, 15, 1e-3); });
     EXPECT_NEAR(measure(f).area, 16, 1e-3);  // Nothing is missing, nothing shows through.
@@ -141,14 +142,14 @@ TEST(Solids, OnlyTheWholeHidesWhatIsBehind) {
 
 TEST(Solids, InFrontHideThemFromAllTheirParts) {
   const std::string wall = "TransformBegin Translate 0 0 -5 Polygon \"P\" [-2 -2 0 -2 2 0 2 2 0 2 -2 0] TransformEnd ";
-  const DeepFrame f = hideRib(world(solid("difference", kBall + moved("0 0 -1", kBall)) + wall));
+  const DeepFrame f = hideRib(world(solid("difference", kUnitBall + moved("0 0 -1", kUnitBall)) + wall));
   for (int y = 1; y < 127; ++y)
     for (int x = 1; x < 127; ++x)
       forFragments(f, x, y, [&](const DeepTile&, const Fragment& g) { ASSERT_NEAR(g.z, 5, 1e-3) << x << "," << y; });
 }
 
 TEST(Solids, SidesOneKeepsTheSurfaceThatTheSubtractedLeaves) {
-  const std::string parts = kBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360"));
+  const std::string parts = kUnitBall + moved("0 0 -1", primitive("Sphere 0.5 -0.5 0.5 360"));
   const Measured two = measure(hideRib(world(solid("difference", parts))));
   const Measured one = measure(hideRib(world("Sides 1 " + solid("difference", parts))));
   EXPECT_EQ(one.area, two.area);
@@ -168,14 +169,14 @@ TEST(Solids, MayHaveTheEyeInside) {
 }
 
 TEST(Solids, InvisiblePartsStillCut) {
-  const std::string cutter = "AttributeBegin Surface \"null\" " + moved("0 0 -1", kBall) + " AttributeEnd ";
-  const DeepFrame f = hideRib(world(solid("difference", kBall + cutter)));
+  const std::string cutter = "AttributeBegin Surface \"null\" " + moved("0 0 -1", kUnitBall) + " AttributeEnd ";
+  const DeepFrame f = hideRib(world(solid("difference", kUnitBall + cutter)));
   // The ring that the cutter leaves is seen from the front; through the hollow, the back of the ball.
   forFragments(f, 64, 64, [&](const DeepTile&, const Fragment& g) { EXPECT_NEAR(g.z, 11, 0.01f); });
 }
 
 TEST(Solids, MoveAsAWhole) {
-  const std::string lens = solid("intersection", moved("-0.5 0 0", kBall) + moved("0.5 0 0", kBall));
+  const std::string lens = solid("intersection", moved("-0.5 0 0", kUnitBall) + moved("0.5 0 0", kUnitBall));
   const Measured still = measure(hideRib(world(lens)));
   const Measured moving = measure(
       hideRib(world("MotionBegin [0 1] Translate -0.6 0 0 Translate 0.6 0.2 0 MotionEnd " + lens, "Shutter 0 1")));
@@ -184,7 +185,7 @@ TEST(Solids, MoveAsAWhole) {
 }
 
 TEST(Solids, AreOutOfFocusAsAWhole) {
-  const std::string parts = solid("difference", kBall + moved("0 0 -1", kBall));
+  const std::string parts = solid("difference", kUnitBall + moved("0 0 -1", kUnitBall));
   const std::string camera =
       "Format 64 64 1 PixelSamples 6 6 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 30 Clipping 1 100 ";
   const auto hide = [&](const std::string& lens) {

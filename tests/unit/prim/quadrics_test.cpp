@@ -5,7 +5,7 @@ namespace {
 using namespace test;
 
 Problems none;
-PrimPtr sphere() { return makeSphere(2, -2, 2, 360, {}, none); }
+PrimPtr ballOfTwo() { return makeSphere(2, -2, 2, 360, {}, none); }
 PrimPtr cone() { return makeCone(3, 2, 360, {}, none); }
 PrimPtr cylinder() { return makeCylinder(2, -1, 3, 360, {}, none); }
 PrimPtr hyperboloid() { return makeHyperboloid({1, -1, -1}, {1, 1, 1}, 360, {}, none); }
@@ -14,7 +14,7 @@ PrimPtr disk() { return makeDisk(0.5f, 2, 360, {}, none); }
 PrimPtr torus() { return makeTorus(3, 1, 0, 360, 360, {}, none); }
 
 std::vector<PrimPtr> manyQuadrics() {
-  return {sphere(),
+  return {ballOfTwo(),
           cone(),
           cylinder(),
           hyperboloid(),
@@ -35,7 +35,7 @@ std::vector<PrimPtr> manyQuadrics() {
           makeTorus(3, 1, 135, 495, 360, {}, none)};
 }
 
-TEST(Quadric, AreaOfADicedSphereTendsTo4PiRSquared) { expectAreaAtSecondOrder(*sphere(), 16 * M_PI); }
+TEST(Quadric, AreaOfADicedSphereTendsTo4PiRSquared) { expectAreaAtSecondOrder(*ballOfTwo(), 16 * M_PI); }
 TEST(Quadric, AreaOfADicedSphericalZoneTendsToArchimedes) {
   expectAreaAtSecondOrder(*makeSphere(2, -1, 1.5f, 90, {}, none), 2 * M_PI * 2 * 2.5 / 4);
 }
@@ -67,16 +67,16 @@ TEST(Quadric, IsSoundAtPolesAndSeams) {
 }
 
 TEST(Quadric, BoundsAreTight) {
-  const Bound3 b = sphere()->bound(0, {});
+  const Bound3 b = ballOfTwo()->bound(0, {});
   EXPECT_LT(glm::length(b.lo - vec3(-2)) + glm::length(b.hi - vec3(2)), 1e-4f);
-  const Bound3 quarter = sphere()->bound(0, {0, 0.25f, 0.5f, 1});
+  const Bound3 quarter = ballOfTwo()->bound(0, {0, 0.25f, 0.5f, 1});
   EXPECT_LT(glm::length(quarter.lo) + glm::length(quarter.hi - vec3(2)), 1e-4f);
 }
 
 TEST(Quadric, SphereNormalsPointOutwardPolesIncluded) {
   for (float u : {0.0f, 0.3f, 1.0f})
     for (float v : {0.0f, 0.2f, 0.9f, 1.0f}) {
-      const Sample s = sampleAt(*sphere(), 0, u, v);
+      const Sample s = sampleAt(*ballOfTwo(), 0, u, v);
       EXPECT_GT(dot(glm::normalize(s.n), s.p) / 2, 0.99999f) << u << ' ' << v;
     }
 }
@@ -98,9 +98,9 @@ TEST(Quadric, FollowsTheParametrisationOfRISpec) {
   const auto near = [](const Prim& prim, float u, float v, const vec3& p) {
     EXPECT_LT(glm::length(sampleAt(prim, 0, u, v).p - p), 1e-5f);
   };
-  near(*sphere(), 0, 0.5f, {2, 0, 0});
-  near(*sphere(), 0.25f, 0.5f, {0, 2, 0});
-  near(*sphere(), 0, 1, {0, 0, 2});
+  near(*ballOfTwo(), 0, 0.5f, {2, 0, 0});
+  near(*ballOfTwo(), 0.25f, 0.5f, {0, 2, 0});
+  near(*ballOfTwo(), 0, 1, {0, 0, 2});
   near(*cone(), 0.5f, 0, {-2, 0, 0});
   near(*cone(), 0.5f, 1, {0, 0, 3});
   near(*cylinder(), 0.75f, 1, {0, -2, 3});
@@ -113,7 +113,7 @@ TEST(Quadric, FollowsTheParametrisationOfRISpec) {
 
 TEST(Quadric, SeamsOfAClosedSweepHaveTheSameBits) {
   for (float v : {0.0f, 0.1f, 0.37f, 1.0f}) {
-    EXPECT_EQ(sampleAt(*sphere(), 0, 0, v).p, sampleAt(*sphere(), 0, 1, v).p);
+    EXPECT_EQ(sampleAt(*ballOfTwo(), 0, 0, v).p, sampleAt(*ballOfTwo(), 0, 1, v).p);
     EXPECT_EQ(sampleAt(*torus(), 0, 0, v).p, sampleAt(*torus(), 0, 1, v).p);
     EXPECT_EQ(sampleAt(*torus(), 0, v, 0).p, sampleAt(*torus(), 0, v, 1).p);
     EXPECT_EQ(sampleAt(*hyperboloid(), 0, 0, v).p, sampleAt(*hyperboloid(), 0, 1, v).p);
@@ -121,13 +121,13 @@ TEST(Quadric, SeamsOfAClosedSweepHaveTheSameBits) {
 }
 
 TEST(Quadric, PolesAreOnePoint) {
-  EXPECT_EQ(sampleAt(*sphere(), 0, 0.1f, 1).p, vec3(0, 0, 2));
-  EXPECT_EQ(sampleAt(*sphere(), 0, 0.7f, 0).p, vec3(0, 0, -2));
+  EXPECT_EQ(sampleAt(*ballOfTwo(), 0, 0.1f, 1).p, vec3(0, 0, 2));
+  EXPECT_EQ(sampleAt(*ballOfTwo(), 0, 0.7f, 0).p, vec3(0, 0, -2));
   EXPECT_EQ(sampleAt(*cone(), 0, 0.7f, 1).p, vec3(0, 0, 3));
 }
 
 TEST(Quadric, OnlyEdgesThatEndTheSurfaceAreOpen) {
-  EXPECT_EQ(sphere()->info(0).openEdges, 0);
+  EXPECT_EQ(ballOfTwo()->info(0).openEdges, 0);
   EXPECT_EQ(torus()->info(0).openEdges, 0);
   EXPECT_EQ(cone()->info(0).openEdges, kEdgeV0);
   EXPECT_EQ(disk()->info(0).openEdges, kEdgeV0);

@@ -6,7 +6,7 @@
 
 namespace tomales::compiler {
 namespace {
-float odd(float i) { return std::fmod(i, 2.0f); }
+float oddness(float i) { return std::fmod(i, 2.0f); }
 }  // namespace
 
 Cases lightCases() {
@@ -26,53 +26,54 @@ Cases lightCases() {
       {"phong", "c = phong(normalize(N), vector (0, 0, -1), 4);", Vec3{1, 2, 3}, {.tolerance = 1e-4f}},
       {"illuminance over the whole sphere", "illuminance (P) c += Cl;",
        [](float i) {
-         return Vec3{1, 2, 3} + 0.5f * odd(i) * Vec3{1, 1, 1};
+         return Vec3{1, 2, 3} + 0.5f * oddness(i) * Vec3{1, 1, 1};
        }},
       {"illuminance with an axis and an angle", "illuminance (P, N, PI / 2) c += Cl;",
        [](float i) {
-         return Vec3{1, 2, 3} + 0.5f * odd(i) * Vec3{1, 1, 1};
+         return Vec3{1, 2, 3} + 0.5f * oddness(i) * Vec3{1, 1, 1};
        }},
-      {"illuminance of a category", "illuminance (\"key\", P, N, PI / 2) x += 1;", [](float i) { return 1 + odd(i); }},
+      {"illuminance of a category", "illuminance (\"key\", P, N, PI / 2) x += 1;",
+       [](float i) { return 1 + oddness(i); }},
       {"illuminance of a category without an axis", "illuminance (\"key\", P) x += 1;",
-       [](float i) { return 1 + odd(i); }},
+       [](float i) { return 1 + oddness(i); }},
       {"illuminance with a list", "illuminance (P, N, PI / 2, \"lightcache\", \"refresh\") x += 1;",
-       [](float i) { return 1 + odd(i); }},
+       [](float i) { return 1 + oddness(i); }},
       {"L and Cl are the light's", "illuminance (P) w += L * comp(Cl, 0);",
        [](float i) {
-         return Vec3{0, -1.5f * odd(i), -2};
+         return Vec3{0, -1.5f * oddness(i), -2};
        }},
       {"diffuse light by hand", "normal n = normalize(N); illuminance (P, n, PI / 2) c += Cl * (normalize(L) . n);",
        Vec3{1, 2, 3}},
       {"lightsource", "illuminance (P) { float d = 0; if (lightsource(\"dimmed\", d) == 1) x += d; }",
-       [](float i) { return 0.25f + 0.75f * odd(i); }},
+       [](float i) { return 0.25f + 0.75f * oddness(i); }},
       {"lightsource of what there is not", "illuminance (P) { float d = 7; x += lightsource(\"other\", d) * 10 + d; }",
-       [](float i) { return 7 + 7 * odd(i); }},
+       [](float i) { return 7 + 7 * oddness(i); }},
       {"a list that asks for a light's value", "float d = 0; illuminance (P, \"light:dimmed\", d) x += d;",
-       [](float i) { return 0.25f + 0.75f * odd(i); }},
+       [](float i) { return 0.25f + 0.75f * oddness(i); }},
       {"break within illuminance", "illuminance (P) { x += 1; break; }", 1},
       {"break at some points", "illuminance (P) { x += 1; if (s > 4) break; }",
-       [](float i) { return i > 4 ? 1 : 1 + odd(i); }},
+       [](float i) { return i > 4 ? 1 : 1 + oddness(i); }},
       {"continue within illuminance", "illuminance (P) { if (comp(Cl, 0) == 1) continue; x += 1; }", odd},
       {"break 2 out of a loop within illuminance",
        "float k; illuminance (P) { for (k = 0; k < 3; k += 1) { if (k == 1) break 2; x += 1; } }", 1},
       {"break out of an inner loop leaves illuminance alone",
        "float k; illuminance (P) { for (k = 0; k < 3; k += 1) { if (k == 1) break; x += 1; } }",
-       [](float i) { return 1 + odd(i); }},
+       [](float i) { return 1 + oddness(i); }},
       {"return within illuminance", "illuminance (P) { x += 1; if (s > 4) return; } x += 100;",
-       [](float i) { return i > 4 ? 1 : 101 + odd(i); }},
+       [](float i) { return i > 4 ? 1 : 101 + oddness(i); }},
       {"return from a function within illuminance",
        "float f() { illuminance (P) { if (comp(Cl, 0) < 1) return 2; } return 3; } x = f();",
-       [](float i) { return odd(i) == 1 ? 2.0f : 3.0f; }},
+       [](float i) { return oddness(i) == 1 ? 2.0f : 3.0f; }},
       {"a branch around illuminance", "if (s > 4) illuminance (P) x += 1; else x = 7;",
-       [](float i) { return i > 4 ? 1 + odd(i) : 7; }},
+       [](float i) { return i > 4 ? 1 + oddness(i) : 7; }},
       {"illuminance within a loop", "float k; for (k = 0; k < 2; k += 1) illuminance (P) x += 1;",
-       [](float i) { return 2 + 2 * odd(i); }},
+       [](float i) { return 2 + 2 * oddness(i); }},
       {"a loop that varies around illuminance", "float k; for (k = 0; k < mod(s, 3); k += 1) illuminance (P) x += 1;",
-       [](float i) { return std::fmod(i, 3.0f) * (1 + odd(i)); }},
+       [](float i) { return std::fmod(i, 3.0f) * (1 + oddness(i)); }},
       {"variables within illuminance start anew", "illuminance (P) { float a = 0; a += 1; x = a; }", 1},
       {"illuminance within illuminance",
        "illuminance (P) { float a = comp(Cl, 0); illuminance (P) x += a * comp(Cl, 0); }",
-       [](float i) { return odd(i) == 1 ? 2.25f : 1; }},
+       [](float i) { return oddness(i) == 1 ? 2.25f : 1; }},
       {"an optional list of shadow", "c = shadow(\"a\", P, \"bias\", 0.25, \"blur\", 0.5);",
        [](float i) {
          return Vec3{i, 0.25f, 0.5f};

@@ -131,7 +131,7 @@ struct curious : sl::Surface {
 };
 
 const rsl::Shader conditionalShader(TM_SURFACE, "conditional", "", 0, sl::shade<conditional>, {&lift});
-const rsl::Shader loopingShader(TM_SURFACE, "looping", "", 0, sl::shade<looping>, {&rounds, &quotient});
+const rsl::Shader roundsShader(TM_SURFACE, "looping", "", 0, sl::shade<looping>, {&rounds, &quotient});
 const rsl::Shader askingShader(TM_SURFACE, "asking", "", TM_TRACES | TM_DERIVATIVES, sl::shade<asking>, {});
 const rsl::Shader differingShader(TM_SURFACE, "differing", "", TM_NEIGHBOURS, sl::shade<differing>, {});
 const rsl::Shader choosingShader(TM_SURFACE, "choosing", "", 0, sl::shade<choosing>, {&category});
@@ -144,7 +144,7 @@ class Sl : public Stage {
  protected:
   Sl() {
     static const TmShader* const shaders[] = {conditionalShader, askingShader, differingShader, choosingShader,
-                                              talkativeShader,   nanShader,    curiousShader,   loopingShader};
+                                              talkativeShader,   nanShader,    curiousShader,   roundsShader};
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
   }

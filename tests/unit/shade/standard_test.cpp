@@ -14,7 +14,7 @@ using D3 = glm::dvec3;
 struct Point {
   D3 P, N, I;
 };
-struct Lit {
+struct LightAt {
   D3 L, Cl;
 };
 
@@ -22,7 +22,7 @@ constexpr double kIntensity = 0.7;
 const D3 kTint{1, 0.6, 0.3}, kFrom{2, -1, 1}, kTo{0.5, 0.5, 6}, kAmbient{0.1, 0.2, 0.05};
 
 /// The lights of Standard below, as the table has them.
-std::vector<Lit> lights(const Point& p) {
+std::vector<LightAt> lights(const Point& p) {
   const D3 axis = glm::normalize(kTo - kFrom), L = kFrom - p.P;
   const double d2 = dot(L, L), c = dot(-L, axis) / std::sqrt(d2), outer = std::cos(0.6), inner = std::cos(0.6 - 0.2);
   const double t = std::clamp((c - outer) / (inner - outer), 0.0, 1.0),
@@ -31,12 +31,12 @@ std::vector<Lit> lights(const Point& p) {
 }
 D3 diffuse(const Point& p, const D3& N) {
   D3 sum(0);
-  for (const Lit& l : lights(p)) sum += l.Cl * std::max(0.0, dot(glm::normalize(l.L), N));
+  for (const LightAt& l : lights(p)) sum += l.Cl * std::max(0.0, dot(glm::normalize(l.L), N));
   return sum;
 }
 D3 specular(const Point& p, const D3& N, double roughness) {
   D3 sum(0);
-  for (const Lit& l : lights(p)) {
+  for (const LightAt& l : lights(p)) {
     const D3 L = glm::normalize(l.L), H = glm::normalize(L - glm::normalize(p.I));
     if (dot(L, N) > 0) sum += l.Cl * std::pow(std::max(0.0, dot(N, H)), 8 / roughness);
   }
