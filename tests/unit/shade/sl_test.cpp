@@ -37,7 +37,7 @@ struct conditional : sl::Surface {
 /// Each point goes round as often as its number says, 0 to 9; those that If leaves out do not.
 rsl::FloatOutput rounds("rounds", "");
 rsl::ColorOutput quotient("quotient", "");
-struct looping : sl::Surface {
+struct loopingRounds : sl::Surface {
   void main() {
     Float n = 0, sum = 0;
     If(u >= 0.25, [&] {
@@ -131,7 +131,7 @@ struct curious : sl::Surface {
 };
 
 const rsl::Shader conditionalShader(TM_SURFACE, "conditional", "", 0, sl::shade<conditional>, {&lift});
-const rsl::Shader roundsShader(TM_SURFACE, "looping", "", 0, sl::shade<looping>, {&rounds, &quotient});
+const rsl::Shader roundsShader(TM_SURFACE, "looping", "", 0, sl::shade<loopingRounds>, {&rounds, &quotient});
 const rsl::Shader askingShader(TM_SURFACE, "asking", "", TM_TRACES | TM_DERIVATIVES, sl::shade<asking>, {});
 const rsl::Shader differingShader(TM_SURFACE, "differing", "", TM_NEIGHBOURS, sl::shade<differing>, {});
 const rsl::Shader choosingShader(TM_SURFACE, "choosing", "", 0, sl::shade<choosing>, {&category});
