@@ -36,10 +36,11 @@ bool warnOfFewShown(const Scene& scene, const MapNames& names, const std::vector
   if (!o) return false;
   log.report(
       Severity::Warning, "photon-few", o->where,
-      fmt::format("{}: {:.0f} % of the picture, about pixel {:.0f},{:.0f}, show where irradiance estimates have very "
-                  "few photons in reach: indirect light is smeared there, and may be wrong by factors "
-                  "(--gi gather, or more photons, --photons)",
-                  objectName(*o), 100 * few.pixels / shown.pixels, few.x / few.pixels, few.y / few.pixels));
+      fmt::format(
+          "{}: {:.0f} % of the lit picture, about pixel {:.0f},{:.0f}, show where irradiance estimates have very "
+          "few photons in reach: indirect light is smeared there, and may be wrong by factors "
+          "(--gi gather, or more photons, --photons)",
+          objectName(*o), 100 * few.pixels / shown.pixels, few.x / few.pixels, few.y / few.pixels));
   return true;
 }
 
@@ -53,14 +54,14 @@ ShownDisk shownBy(const RayScene& rays) {
     const vec3 P = transformPoint(current, worldP), N = normalizeOr(transformVector(current, worldN), vec3(0));
     const vec3 I = camera.incident(P);
     const float radius = worldRadius / scale, cosine = -dot(normalizeOr(I, vec3(0)), N);
-    if (!(cosine > 0) || !camera.seeable(P)) return PictureShare{};
+    if (!(cosine > 0) || !camera.seeable(P) || camera.clips(P)) return PictureShare{};
     const vec2 at = camera.raster(P);
     if (!(at.x >= 0 && at.y >= 0 && at.x < static_cast<float>(camera.xResolution()) &&
           at.y < static_cast<float>(camera.yResolution())))
       return PictureShare{};
     const vec3 start = P + kLift * radius * N;
     Ray ray{start, -normalizeOr(I, vec3(0))};
-    ray.tMax = glm::length(I);
+    ray.tMax = camera.perspective() ? glm::length(I) : P.z - camera.nearClip();
     if (rays.closest(ray, kMaskPhoton).object >= 0) return PictureShare{};
     const double pixels = kPi * cosine * std::pow(double{radius / camera.pixelSize(P)}, 2);
     return PictureShare{pixels, pixels * at.x, pixels * at.y};

@@ -58,6 +58,9 @@ std::string lastPartOf(const std::string& name) {
 
 namespace {
 
+constexpr size_t kLongestName = 4096;  // No file of Linux has a longer one.
+constexpr size_t kMostParts = 16;      // Folders of a name of another machine that are tried.
+
 std::vector<std::string> partsOf(const std::string& name) {
   std::vector<std::string> out(1);
   for (const char c : name)
@@ -68,21 +71,35 @@ std::vector<std::string> partsOf(const std::string& name) {
   return out;
 }
 
+/// Returns the folders and all folders above them, each list from the inside.
+std::vector<std::filesystem::path> withFoldersAbove(const std::vector<std::string>& folders) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> out;
+  std::error_code none;
+  for (const std::string& folder : folders)
+    for (fs::path up = fs::weakly_canonical(folder, none); up.has_relative_path(); up = up.parent_path())
+      out.push_back(up);
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> endsOf(const std::string& name, const std::vector<std::string>& folders) {
   namespace fs = std::filesystem;
   std::vector<std::string> out;
+  if (name.size() > kLongestName) return out;
   std::error_code none;
+  const std::vector<fs::path> above = withFoldersAbove(folders);
   const std::vector<std::string> parts = partsOf(name);
-  for (size_t first = fs::path(name).is_absolute() ? 1 : 0; first + 1 < parts.size(); ++first) {
+  const size_t least = fs::path(name).is_absolute() ? 1 : 0;
+  for (size_t first = std::max(least, parts.size() - std::min(parts.size(), kMostParts)); first + 1 < parts.size();
+       ++first) {
     fs::path end;
     for (size_t i = first; i < parts.size(); ++i) end /= parts[i];
     if (std::find(end.begin(), end.end(), "..") != end.end()) continue;
-    for (const std::string& folder : folders)
-      for (fs::path up = fs::weakly_canonical(folder, none); up.has_relative_path(); up = up.parent_path())
-        if ((first == 0 || up.filename() == parts[first - 1]) && fs::is_directory((up / end).parent_path(), none))
-          out.push_back((up / end).string());
+    for (const fs::path& up : above)
+      if ((first == 0 || up.filename() == parts[first - 1]) && fs::is_directory((up / end).parent_path(), none))
+        out.push_back((up / end).string());
     if (first > 0) out.push_back(end.string());
   }
   if (const std::string last = lastPartOf(name); !last.empty()) out.push_back(last);
@@ -96,7 +113,9 @@ std::vector<std::string> candidateFiles(const std::string& name, const std::stri
     const std::string file = findFile(meant, searchPath);
     if (!file.empty() && std::find(out.begin(), out.end(), file) == out.end()) out.push_back(file);
   };
-  std::vector<std::string> places = endsOf(name, foldersOf(searchPath));
+  std::vector<std::string> folders = foldersOf(searchPath);
+  folders.push_back(".");
+  std::vector<std::string> places = endsOf(name, folders);
   places.insert(places.begin(), name);
   for (const std::string& place : places) {
     add(place);

@@ -28,8 +28,9 @@ std::string lastPartOf(const std::string& name);
 
 /// Returns what a name may mean that has folders before it and is not there, the likeliest first. Scenes name files
 /// where they lay on another machine, or as seen from a folder above. For "/home/ann/bowl/maps/a.tx" these are
-/// "bowl/maps/a.tx" and "maps/a.tx", both also in each folder above `folders` that has the name of the part before, and
-/// at last "a.tx". "maps/a.tx" may lie in any folder above.
+/// "ann/bowl/maps/a.tx", "bowl/maps/a.tx" and "maps/a.tx", and at last "a.tx". Each is also looked for in those of
+/// `folders`, and of the folders above them, that have the name of the part before: "maps/a.tx" in a folder "bowl". The
+/// relative name "maps/a.tx" may lie in any of these folders. Empty for a name that is too long for a file.
 std::vector<std::string> endsOf(const std::string& name, const std::vector<std::string>& folders);
 
 /// Returns the files that a name may mean, best first:

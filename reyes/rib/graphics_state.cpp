@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 namespace tomales::rib {
 
 Attributes& Scope::edit() {
@@ -104,27 +107,69 @@ void GraphicsState::switchOnEverywhere(int light) {
   };
   switchOn(scope);
   for (Saved& saved : stack_) switchOn(saved.scope);
-  if (world && !world->objects.empty()) world->lateLights.emplace_back(light, world->objects.size());
+  if (world && (!world->objects.empty() || !world->procedurals.empty()))
+    world->lateLights.push_back({light, world->objects.size(), world->procedurals.size()});
 }
 
-// Objects share attributes, so those that lack the same lights get them once.
+namespace {
+
+/// Returns attributes with further lights.
+std::shared_ptr<const Attributes> withLights(const std::shared_ptr<const Attributes>& attributes,
+                                             const std::vector<int>& lights) {
+  auto copy = std::make_shared<Attributes>(*attributes);
+  copy->lights.insert(copy->lights.end(), lights.begin(), lights.end());
+  return copy;
+}
+
+/// Returns the contents of a procedural with further lights.
+Expansion withLights(Expansion contents, const std::vector<int>& lights) {
+  std::map<const Attributes*, std::shared_ptr<const Attributes>> lit;
+  const auto light = [&](std::shared_ptr<const Attributes>& attributes) {
+    auto& known = lit[attributes.get()];
+    if (!known) known = withLights(attributes, lights);
+    attributes = known;
+  };
+  for (Object& o : contents.objects) light(o.attributes);
+  for (Procedural& p : contents.procedurals) {
+    light(p.attributes);
+    p.open = [open = std::move(p.open), lights] { return withLights(open(), lights); };
+  }
+  return contents;
+}
+
+/// Returns the lights of `late` from `first` on that these attributes lack.
+std::vector<int> lacking(const Attributes& attributes, const std::vector<World::LateLight>& late, size_t first) {
+  const std::set<int> has(attributes.lights.begin(), attributes.lights.end());
+  std::vector<int> out;
+  for (size_t k = first; k < late.size(); ++k)
+    if (!has.contains(late[k].light)) out.push_back(late[k].light);
+  return out;
+}
+
+}  // namespace
+
+// Objects share attributes, so those that lack the same lights get them once. The contents of a procedural are read
+// with the attributes of its place, and have their own copies: they get the lights when they come.
 void GraphicsState::lightEarlierObjects() {
   const auto& late = world->lateLights;
   std::map<std::pair<const Attributes*, size_t>, std::shared_ptr<const Attributes>> lit;
   size_t first = 0;  // of the lights that come after the object
   for (size_t i = 0; i < world->objects.size(); ++i) {
-    while (first < late.size() && late[first].second <= i) ++first;
-    if (first == late.size()) return;
-    std::shared_ptr<const Attributes>& attributes = world->objects[i].attributes;
-    auto& known = lit[{attributes.get(), first}];
-    if (!known) {
-      const auto copy = std::make_shared<Attributes>(*attributes);
-      for (size_t k = first; k < late.size(); ++k)
-        if (std::find(copy->lights.begin(), copy->lights.end(), late[k].first) == copy->lights.end())
-          copy->lights.push_back(late[k].first);
-      known = copy;
-    }
-    attributes = known;
+    while (first < late.size() && late[first].objects <= i) ++first;
+    if (first == late.size()) break;
+    std::shared_ptr<const Attributes>& own = world->objects[i].attributes;
+    auto& known = lit[{own.get(), first}];
+    if (!known) known = withLights(own, lacking(*own, late, first));
+    own = known;
+  }
+  first = 0;
+  for (size_t i = 0; i < world->procedurals.size(); ++i) {
+    while (first < late.size() && late[first].procedurals <= i) ++first;
+    if (first == late.size()) break;
+    Procedural& p = world->procedurals[i];
+    const std::vector<int> lights = lacking(*p.attributes, late, first);
+    p.attributes = withLights(p.attributes, lights);
+    p.open = [open = std::move(p.open), lights] { return withLights(open(), lights); };
   }
 }
 

@@ -84,8 +84,12 @@ struct World {
   std::vector<Procedural> procedurals;
   std::vector<Solid> solids;
   SourceLoc where;
-  /// Lights of the RIS era that have objects before them, and the number of these.
-  std::vector<std::pair<int, size_t>> lateLights{};
+  /// A light of the RIS era that has objects or procedurals before it, and the numbers of these.
+  struct LateLight {
+    int light;
+    size_t objects, procedurals;
+  };
+  std::vector<LateLight> lateLights{};
 };
 
 class GraphicsState {
@@ -110,7 +114,8 @@ class GraphicsState {
 
   /// Switches the light on here and after the blocks around have ended, as lights of the RIS era are.
   void switchOnEverywhere(int light);
-  /// Switches the lights of the RIS era on for objects that the world had before them. Call it when the world is whole.
+  /// Switches the lights of the RIS era on for objects and procedurals that the world had before them. Call it when the
+  /// world is whole.
   void lightEarlierObjects();
   /// Turns the CTM into the camera: what was relative to the camera is now relative to the world.
   void enterWorld(const SourceLoc& where);

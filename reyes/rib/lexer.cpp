@@ -208,7 +208,7 @@ void Lexer::readWord() {
     stream_.skipTo(last);
   }
   if (tooLong) return junk(fmt::format("a word longer than {} characters", kLongestWord));
-  if (token_.text.size() > 2 && token_.text.front() == '\'' && token_.text.back() == '\'') {
+  if (token_.text.size() >= 2 && token_.text.front() == '\'' && token_.text.back() == '\'') {
     token_.kind = Token::Kind::String;
     token_.text = token_.text.substr(1, token_.text.size() - 2);
     return;

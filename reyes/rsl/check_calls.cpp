@@ -229,10 +229,11 @@ bool isFilled(std::string_view function, std::string_view name) {
   return false;
 }
 
-// The function may be one of a library that other renderers load (DSO shadeops), so the shader runs and reports it.
 // evalparam("name", x) of PRMan 19 and 20 assigns a parameter of the shader, which a pattern may drive there, to x.
 bool Checker::becomesParameter(Expr& e) {
-  if (e.text != "evalparam" || e.args.size() != 2 || e.args[0]->kind != ExprKind::String) return false;
+  if (e.text != "evalparam" || e.args.size() != 2 || e.args[0]->kind != ExprKind::String ||
+      (e.args[1]->kind != ExprKind::Name && e.args[1]->kind != ExprKind::Index))
+    return false;
   const Variable* parameter = find(e.args[0]->text);
   if (!parameter || parameter->global >= 0) return false;
   const auto make = [&](ExprKind kind, std::string text) {
@@ -254,6 +255,7 @@ bool Checker::becomesParameter(Expr& e) {
   return true;
 }
 
+// The function may be one of a library that other renderers load (DSO shadeops), so the shader runs and reports it.
 void Checker::unknownFunction(Expr& e) {
   e.missing = true;
   if (!told_.insert({1, e.text}).second) return;

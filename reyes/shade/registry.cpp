@@ -88,9 +88,20 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
     if (!compiles) broken[{name, kind, searchPath, beside}] = found.file;
   }
   if (!found.remark.empty()) tell(name, found.remark);
-  if (found.shader) origins[found.shader] = found.file;
+  if (found.shader) {
+    origins[found.shader] = found.file;
+    tellOfOtherFolder(name, found);
+  }
   if (found.displacement) displacements[found.shader] = found.displacement;
   return found.shader;
+}
+
+/// Tells of a name with folders whose last part alone was found.
+void ShaderRegistry::Impl::tellOfOtherFolder(const std::string& name, const RslFound& found) {
+  const std::string written = withoutShaderEnding(name);
+  if (!fs::path(written).has_parent_path() || found.file.ends_with(written + ".sl")) return;
+  log.report(Severity::Note, "shader-elsewhere", {},
+             fmt::format("shader \"{}\" is not there; {} is taken, which has its name", name, found.file), name);
 }
 
 /// Tells a user whose folder has a shader with a name of RISpec's, such as "plastic", which of the two is used.

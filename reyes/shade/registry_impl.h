@@ -65,6 +65,7 @@ struct ShaderRegistry::Impl {
   bool comesBeforeTexts(const TmShader& s) const {
     return !builtIn.count(&s) || (!standardFromFiles && isOfSpecification(s.name));
   }
+  void tellOfOtherFolder(const std::string& name, const RslFound& found);
   void tellOfStandardName(const TmShader& used, const std::string& searchPath, const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});

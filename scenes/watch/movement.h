@@ -60,8 +60,9 @@ color polished(normal Nf; color metal; float cone, samples) {
   vector In = normalize(I), R = normalize(reflect(In, Nf));
   color sum = 0;
   if (raydepth() == 0) {
-    color one = trace(P, R, "samplecone", cone, "samples", samples / 2), other = trace(P, R, "samplecone", cone, "samples", samples / 2);
-    sum = 0.5 * (one + other);
+    /* Two bundles of as many rays would be the same rays. */
+    color one = trace(P, R, "samplecone", cone, "samples", 0.6 * samples), other = trace(P, R, "samplecone", cone, "samples", 0.4 * samples);
+    sum = mix(other, one, 0.6);
     if (abs(comp(one - other, 0)) > 0.03 + 0.08 * comp(sum, 0))
       sum = mix(trace(P, R, "samplecone", cone, "samples", 3 * samples), sum, 0.25);
   } else

@@ -47,6 +47,8 @@ SCENES = {
              'Attribute "photon" "shadingmodel" ["chrome"]\nSurface "mirror" "color specularcolor" [0.95 0.78 0.45]\nColor 0.95 0.78 0.45\n'
              "Translate 0 0.2 0\nRotate -90 1 0 0\nCylinder 0.6 0 0.25 360\nCylinder 0.65 0 0.25 360\nHyperboloid 0.6 0 0.25 0.65 0 0.25 360"),
 }
+# The highlights of this surface are the caustic. Its shader reflects no rays, so light that photons bring to the floor by it twice is not that of paths.
+SCENES["shining ring"] = (SCENES["ring"][0], SCENES["ring"][1].replace('"mirror" "color specularcolor" [0.95 0.78 0.45]', '"shinymetal" "Ks" [1] "Ka" [0] "roughness" [0.3]'))
 METHODS = {"reference": ("--samples", "16", "--photons", "300000"), "progressive": ("--photons", "400000"), "atlas": ("--photons", "150000")}
 SEEDS = 3
 # A share of the mean is allowed, because each method blurs: over a micropolygon, over four and less, or over 50 photons, where the ring's light is a
@@ -68,9 +70,9 @@ def means(name, method):
 
 for name, (light, thing) in SCENES.items():
     t.write(name + ".rib", ABOVE.format(name=name, light=light, thing=thing))
-    found = {method: means(name, method) for method in METHODS}
+    found = {method: means(name, method) for method in METHODS if method != "progressive" or name != "shining ring"}
     truth = [statistics.mean(m) for m in found["reference"]]
-    for method in ("progressive", "atlas"):
+    for method in sorted(set(found) - {"reference"}):
         for place, mine, theirs in zip(("left above", "left below", "right above", "right below", "all"), found[method], found["reference"]):
             # The noise is four standard errors of both means. The seeds of all places tell its size.
             noise = 4 * max(statistics.stdev(m) for m in (mine, theirs)) * (2 / SEEDS) ** 0.5

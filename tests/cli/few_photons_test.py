@@ -19,8 +19,8 @@ def box(x, y, z, X, Y, Z):
 ROOMS = box(-3, 0, -1.5, 3, 2.5, 1.5) + box(-0.05, 0, -1.5, 0.05, 1, 1.5) + box(-0.05, 1.02, -1.5, 0.05, 2.5, 1.5)
 
 
-def said(name, x, turn):
-    t.write(f"{name}.rib", f"""Format 24 24 1 PixelSamples 2 2 Projection "perspective" "fov" [80] Display "{name}.exr" "openexr" "rgb"
+def said(name, x, turn, projection='"perspective" "fov" [80]'):
+    t.write(f"{name}.rib", f"""Format 24 24 1 PixelSamples 2 2 Projection {projection} Display "{name}.exr" "openexr" "rgb"
 Rotate {turn} 0 1 0 Translate {-x} -1.2 0 WorldBegin
 Attribute "light" "shadows" "on" Attribute "identifier" "name" ["rooms"]
 LightSource "indirectlight" "bounce" "samples" [16] LightSource "pointlight" "bulb" "from" [-1.5 2 0] "intensity" [8]
@@ -31,7 +31,9 @@ Sides 2 Surface "matte" Color 0.7 0.7 0.7
 
 
 dark = said("dark", 2.6, 90)
-t.expect(re.search(r'"rooms": \d+ % of the picture, about pixel \d+,\d+, .*\[photon-few\]', dark) is not None, f"a room without a lamp: {dark}")
+t.expect(re.search(r'"rooms": \d+ % of the lit picture, about pixel \d+,\d+, .*\[photon-few\]', dark) is not None, f"a room without a lamp: {dark}")
 lit = said("lit", -2.6, -90)
 t.expect("photon-few" not in lit, f"the room with the lamp: {lit}")
+flat = said("flat", -2.6, -90, '"orthographic" ScreenWindow -1 1 -1 1')
+t.expect("photon-few" not in flat, f"nor by parallel rays, which end at the camera: {flat}")
 t.finish()

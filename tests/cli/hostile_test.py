@@ -24,6 +24,9 @@ limited("2^20 instances of instances", "objects.rib", objects + "ObjectInstance 
 wide = f"ObjectBegin 0 {DOT} ObjectEnd\n" + "".join(
     f"ObjectBegin {k} {f'ObjectInstance {k - 1} ' * 128} ObjectEnd\n" for k in (1, 2, 3))
 limited("2^21 instances three deep", "wide.rib", wide + "Translate 0 0 -50 ObjectInstance 3\nWorldEnd\n", 3, "wide.rib:6", "stands for more than")
+for what, of in (("an archive", 'ReadArchive "{}b.rib"'), ("a texture", 'Surface "paintedplastic" "texturename" "{}b.tif"' + DOT)):
+    t.write("folders.rib", HEAD + of.format("a/" * 100000) + "\nWorldEnd\n")
+    t.expect(t.run("folders.rib", cpu_s=3).returncode == 3, f"{what} in 100000 folders is given up at once")
 t.write("a.rib", 'ReadArchive "b.rib" Sphere 1 -1 1 360\n')
 t.write("b.rib", 'ReadArchive "a.rib"\n')
 limited("archives that read each other", "cycle.rib", 'ReadArchive "a.rib"\nWorldEnd\n', 3, "b.rib:1", "reads itself")

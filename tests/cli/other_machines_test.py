@@ -55,6 +55,10 @@ t.write("project/parts/ball.rib", "Sphere 1 -1 1 360\n")
 for name, where in (("from_above", "maps/green.tif"), ("project", "/home/ann/project/maps/green.tif")):
     t.expect_run(f"a picture beside the scene's folder: {name}", [textured(name, where, folder="project/scenes")], 0, "texture-elsewhere")
     t.expect(same(name, "beside"), "is found")
+here = subprocess.run([t.program, "from_above.rib", "-o", t.folder / "here.exr"], cwd=t.folder / "project/scenes", capture_output=True, text=True)
+t.expect(here.returncode == 0 and "texture-elsewhere" in here.stderr and same("here", "beside"), f"also where the working folder is that of the scene: {here.stderr}")
+t.write("job/leaf.sl", "surface leaf() { Ci = color(0, 1, 0); Oi = 1; }\n")
+t.expect_run("a shader of another project", [scene("leaf", 'Surface "other/project/leaf"')], 0, "shader-elsewhere", "which has its name")
 t.expect_run("an archive as seen from a folder above", [scene("parts", ball='ReadArchive "parts/ball.rib"', folder="project/scenes")], 0, "rib-elsewhere")
 t.expect(same("parts", "ball_itself"), "is found")
 

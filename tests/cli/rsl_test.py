@@ -88,7 +88,7 @@ render("a file with one shader of another name", "single")
 expect_all("single", BLUE, "is that shader")
 for compiled in ("green.slo", "green.sdr", "green.slx", "green.sl", "/home/somebody/shaders/green.slo"):
     scene("compiled", f'Surface "{compiled}"')
-    render(f'"{compiled}" stands for green.sl', "compiled")
+    render(f'"{compiled}" stands for green.sl', "compiled", 0, *(["shader-elsewhere"] if "/" in compiled else []))
     expect_all("compiled", GREEN, "which is rendered")
 t.write("lone.slo", b"\x00\x01")
 scene("lone", 'Surface "lone.slo"')

@@ -26,6 +26,11 @@ bool isAssignment(const Token& t) {
   return t.kind == TokenKind::Punctuator && std::ranges::find(kAll, t.text) != std::end(kAll);
 }
 
+/// Tells whether evaluating it changes a variable.
+bool assigns(const Expr& e) {
+  return e.kind == ExprKind::Assign || std::ranges::any_of(e.args, [](const ExprPtr& a) { return assigns(*a); });
+}
+
 bool endsOperand(const Token& t) { return t.is(";") || t.is(")") || t.is(",") || t.is("]"); }
 
 bool hasSpaces(Base base) { return base >= Base::Color && base <= Base::Matrix; }
@@ -61,7 +66,7 @@ bool Parser::isDoubledSign() const { return (here().is("+") || here().is("-")) &
 // i++, which RISpec does not have, but some compilers do. Its value is that before.
 bool Parser::isIncrement() const { return isDoubledSign() && endsOperand(here(2)); }
 
-// ++i as a whole expression. Elsewhere, as in x = - -y, it is two signs.
+// ++i as a whole expression, or as a part of a list. Elsewhere, as in x = - -y, it is two signs.
 bool Parser::isEarlyIncrement() const {
   return isDoubledSign() && here(2).kind == TokenKind::Name && endsOperand(here(3));
 }
@@ -97,11 +102,12 @@ ExprPtr Parser::earlyIncrement() {
 }
 
 ExprPtr Parser::expression() {
-  ExprPtr first = isEarlyIncrement() ? earlyIncrement() : assignment();
+  const auto part = [&] { return isEarlyIncrement() ? earlyIncrement() : assignment(); };
+  ExprPtr first = part();
   if (!here().is(",")) return first;
   ExprPtr all = make(ExprKind::Comma, here());
   adopt(*all, std::move(first));
-  while (takeIf(",")) adopt(*all, assignment());
+  while (takeIf(",")) adopt(*all, part());
   return all;
 }
 
@@ -110,6 +116,8 @@ ExprPtr Parser::assignment() {
   if (!isAssignment(here()) && !isIncrement()) return left;
   if (left->kind != ExprKind::Name && left->kind != ExprKind::Index)
     failAt(here(), "only a variable or an element of an array can be assigned");
+  if (left->kind == ExprKind::Index && !here().is("=") && assigns(*left->args[1]))  // it would be evaluated twice
+    failAt(here(), fmt::format("the index before '{}' changes a variable; do that before", here().text));
   if (isIncrement()) return increment(std::move(left));
   const Level level(*this);
   ExprPtr out = make(ExprKind::Assign, take());

@@ -19,7 +19,8 @@ constexpr std::array<uint8_t, 256> kClasses = [] {
 
 bool isClass(char c, uint8_t wanted) { return (kClasses[static_cast<unsigned char>(c)] & wanted) != 0; }
 
-/// Punctuators of several characters. '++' and '--' are missing because RSL has none: "a--b" is a - (-b).
+/// Punctuators of several characters. '++' and '--' are missing because "a--b" is a - (-b) in RSL: the parser
+/// knows where two signs are an increment.
 constexpr std::string_view kLongPunctuators[] = {"...", "->", "<<", ">>", "<=", ">=", "==", "!=", "&&",
                                                  "||",  "+=", "-=", "*=", "/=", "^=", ".=", "##"};
 constexpr std::string_view kPunctuators = "+-*/.^<>=!?:,;()[]{}&|~%#";

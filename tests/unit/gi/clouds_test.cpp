@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "gi/point_file.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -64,7 +65,7 @@ class Clouds : public ::testing::Test {
     return path("wall.ptc");
   }
 
-  const fs::path folder = fs::path(::testing::TempDir()) / "tomales_clouds";
+  const fs::path folder = test::temporary("tomales_clouds");
   Wall wall{32};
   Log log{Log::Verbosity::Quiet};
 };

@@ -6,6 +6,7 @@
 #include "gi/clouds.h"
 #include "gi/point_file.h"
 #include "reyes/base/rng.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -128,7 +129,7 @@ TEST(Diffusion, NegativeScatteringIsNone) {
 }
 
 TEST(Diffusion, FilesAreAskedThroughTheSeamOfShaders) {
-  const std::string file = ::testing::TempDir() + "tomales_diffusion.ptc";
+  const std::string file = test::temporary("tomales_diffusion.ptc");
   writePointFile(plane(161, vec3(1)), file);
   CloudFiles files("");
   const float x[] = {0, 0, 0}, z[] = {0, 0, 40}, none[] = {0, 0, 0};

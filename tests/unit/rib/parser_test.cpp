@@ -22,8 +22,8 @@ TEST(Parser, TakesFixedSizeVectorsBareAndInBrackets) {
 }
 
 TEST(Parser, AWordInSingleQuotesIsAString) {
-  const Requests r("Display \"a.tif\" 'file' ['rgba']\nSurface ' '");
-  ASSERT_EQ(r.list.size(), 1u) << "a lone quote is none";
+  const Requests r("Display \"a.tif\" 'file' ['rgba']\nDisplay '' 'file' 'rgba'\nSurface ' '");
+  ASSERT_EQ(r.list.size(), 2u) << "a lone quote is none";
   EXPECT_EQ(r.list[0].args[1].strings[0], "file");
   EXPECT_EQ(r.list[0].args[2].strings[0], "rgba");
 }

@@ -54,6 +54,15 @@ TEST(Ris, LightsShineOnObjectsBeforeThemToo) {
   EXPECT_EQ(r.attributes(3).lights, std::vector<int>{1});
 }
 
+TEST(Ris, LightsShineOnProceduralsBeforeThemToo) {
+  const Reading r("ArchiveBegin \"inner\" " + kSphere + "ArchiveEnd ArchiveBegin \"outer\" " + kSphere +
+                  "Procedural \"DelayedReadArchive\" [\"inner\"] [-1 1 -1 1 -1 1] ArchiveEnd\n" +
+                  inWorld("Procedural \"DelayedReadArchive\" [\"outer\"] [-1 1 -1 1 -1 1]\n"
+                          "Light \"PxrDistantLight\" \"sun\"\n"));
+  ASSERT_EQ(r.scene().objects.size(), 2u);
+  for (const size_t i : {0u, 1u}) EXPECT_EQ(r.attributes(i).lights, std::vector<int>{0}) << i;
+}
+
 TEST(Ris, IntegratorsTurnIndirectLightOn) {
   const auto bounces = [](const std::string& params) {
     const Reading r("Integrator \"PxrPathTracer\" \"i\" " + params + inWorld(kSphere));

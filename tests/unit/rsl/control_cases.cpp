@@ -44,6 +44,8 @@ Cases controlCases() {
       {"for whose step is ++", "float k; for (k = 0; k < 4; k++) x += s;", [](float i) { return 4 * i; }},
       {"for whose step is -- before the counter", "float k; for (k = 4; k > 0; --k) x += s;",
        [](float i) { return 4 * i; }},
+      {"a step of two parts", "float k, n = 0; for (k = 0; k < 4; n += 2, ++k) x += s; x += n;",
+       [](float i) { return 4 * i + 8; }},
       {"the value of ++ is that before", "float k = 3, before = k++; x = 10 * k + before;", 43},
       {"two signs between operands stay signs", "x = 7 - -s + +1;", [](float i) { return 8 + i; }},
       {"the counter is known behind the loop", "float k; for (k = 0; k < mod(s, 5); k += 1) x = k; x = k;",

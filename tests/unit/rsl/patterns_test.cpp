@@ -5,6 +5,7 @@
 
 #include "reyes/rsl.h"
 #include "tests/unit/shade/stage.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -57,7 +58,7 @@ class Patterns : public Stage {
     static const TmShader* const shaders[] = {pulsesShader, octavesShader, widthsShader};
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
-    const std::string path = ::testing::TempDir() + "tomales_patterns.sl";
+    const std::string path = test::temporary("tomales_patterns.sl");
     std::ofstream(path) << kWritten;
     const auto file = RslFile::compile(path, {});
     EXPECT_EQ(file->errors(), 0) << file->messages();

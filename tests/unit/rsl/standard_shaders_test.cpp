@@ -7,6 +7,7 @@
 #include "reyes/rsl.h"
 #include "tests/unit/shade/stage.h"
 #include "tests/unit/shade/written_picture.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -85,7 +86,7 @@ displacement bumpy(float Km = 1; string texturename = "") {
 )RSL";
 
 /// Returns the name of a file of this process, since ctest runs several of these tests at once.
-std::string ownFile(const char* ending) { return ::testing::TempDir() + "tomales_standard_shaders" + ending; }
+std::string ownFile(const char* ending) { return test::temporary(std::string("tomales_standard_shaders") + ending); }
 
 /// A stage that stands by itself, so that a test may have two.
 class Studio : public Stage {

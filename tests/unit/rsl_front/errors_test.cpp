@@ -145,6 +145,8 @@ TEST(Errors, OfExpressionsAreToldWithTheirPlace) {
                 {"f(a) = 1;", "2:6: only a variable or an element of an array can be assigned"},
                 {"a = i++ < 3;", "2:6: RSL has no '++'; '+= 1' does the same"},
                 {"a = 2--;", "2:6: only a variable or an element of an array can be assigned"},
+                {"a[i++] += 1;", "2:8: the index before '+=' changes a variable; do that before"},
+                {"a[b = 1]++;", "2:9: the index before '+' changes a variable; do that before"},
                 {"a = {1, 2;", "2:10: expected '}' before ';'\n2:5: note: to match this '{'"},
                 {"a = color \"hsv\";", ""}});
 }

@@ -3,6 +3,7 @@
 
 #include "tests/unit/shade/obedient.h"
 #include "tests/unit/shade/written_picture.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -13,7 +14,7 @@ class BatchPictures : public BatchServices {};
 
 /// Black, and white from its middle on.
 std::string stepPicture(const std::string& name) {
-  return writePicture(::testing::TempDir() + name, 256, 256, "Y",
+  return writePicture(test::temporary(name), 256, 256, "Y",
                       [](int x, int) { return std::array{x < 128 ? 0.0f : 1.0f}; });
 }
 
@@ -24,7 +25,7 @@ Float meanOver(const std::string& path, double from, double to) {
 }
 
 TEST_F(BatchPictures, ATextureOfFourCornersIsTheMeanBetweenThem) {
-  const std::string path = stepPicture("/tomales_corners.tif");
+  const std::string path = stepPicture("tomales_corners.tif");
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     const auto over = [&](double from, double to) { return meanOver(path, from, to); };
     s.Ci = Color(over(0.4, 0.6), over(0.45, 0.65), over(0.7, 0.8));
@@ -34,7 +35,7 @@ TEST_F(BatchPictures, ATextureOfFourCornersIsTheMeanBetweenThem) {
 }
 
 TEST_F(BatchPictures, PicturesAreLookedUpOverRegionsCornersAndChannels) {
-  const std::string path = writePicture(::testing::TempDir() + "/tomales_ramp.exr", 256, 128, "RGB", [](int x, int) {
+  const std::string path = writePicture(test::temporary("tomales_ramp.exr"), 256, 128, "RGB", [](int x, int) {
     const float s = (static_cast<float>(x) + 0.5f) / 256;
     return std::array{s < 0.5f ? 0.0f : 1.0f, s, 2.0f};
   });
@@ -63,7 +64,7 @@ TEST_F(BatchPictures, PicturesAreLookedUpOverRegionsCornersAndChannels) {
 }
 
 TEST_F(BatchPictures, AnEnvironmentIsFilteredOverTheAngleOfItsCorners) {
-  const std::string path = stepPicture("/tomales_around.tif");
+  const std::string path = stepPicture("tomales_around.tif");
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     // The step is at -x. This is 3.6 degrees beside it, on the dark side, and 33 degrees wide.
     const Vector wide[4] = {Vector(-1, 0.36, 0.1), Vector(-1, -0.24, 0.1), Vector(-1, 0.36, -0.1),
@@ -76,7 +77,7 @@ TEST_F(BatchPictures, AnEnvironmentIsFilteredOverTheAngleOfItsCorners) {
 
 // Every other column of texels is 1, and one in four so large that an average over it says nothing.
 TEST_F(BatchPictures, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) {
-  const std::string path = writePicture(::testing::TempDir() + "/tomales_columns.exr", 256, 256, "RGB", [](int x, int) {
+  const std::string path = writePicture(test::temporary("tomales_columns.exr"), 256, 256, "RGB", [](int x, int) {
     return std::array{static_cast<float>(x % 2), x % 4 == 0 ? 1e9f : 2.0f, 1e9f};
   });
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
@@ -100,7 +101,7 @@ TEST_F(BatchPictures, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) 
 
 // An orthographic map of -1..1: something at depth 1 hides its left half.
 TEST_F(BatchPictures, AShadowOfFourCornersIsTheMeanBetweenThem) {
-  const std::string path = writePicture(::testing::TempDir() + "/tomales_half.exr", 64, 64, "Z",
+  const std::string path = writePicture(test::temporary("tomales_half.exr"), 64, 64, "Z",
                                         [](int x, int) { return std::array{x < 32 ? 1.0f : 100.0f}; },
                                         {{"worldToCamera", mat4(1)}, {"worldToScreen", mat4(1)}});
   const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
@@ -115,7 +116,7 @@ TEST_F(BatchPictures, AShadowOfFourCornersIsTheMeanBetweenThem) {
 }
 
 TEST_F(BatchPictures, AnOptionScalesAllTextureFilters) {
-  const std::string path = stepPicture("/tomales_step.exr");
+  const std::string path = stepPicture("tomales_step.exr");
   scene.options.user["texture:width"] = number("width", 2);
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     const auto over = [&](double from, double to) { return meanOver(path, from, to); };
@@ -127,7 +128,7 @@ TEST_F(BatchPictures, AnOptionScalesAllTextureFilters) {
 // Three quarters of the way from a texel of 0 to one of 1: linear, and by the cubic B-spline of filters that are not
 // boxes.
 TEST_F(BatchPictures, AnOptionNamesTheFilterOfLookupsThatNameNone) {
-  const std::string path = stepPicture("/tomales_edge.tif");
+  const std::string path = stepPicture("tomales_edge.tif");
   scene.options.user["texture:filter"] = text("filter", "gaussian");
   const std::vector<vec3> c = asked(4, [&](sl::Surface& s) {
     FilterRegion spot;
@@ -141,7 +142,7 @@ TEST_F(BatchPictures, AnOptionNamesTheFilterOfLookupsThatNameNone) {
 }
 
 TEST_F(BatchPictures, PicturesAndLightsTellWhatTheyHold) {
-  const std::string path = writePicture(::testing::TempDir() + "/tomales_constant.exr", 64, 32, "RGB", [](int, int) {
+  const std::string path = writePicture(test::temporary("tomales_constant.exr"), 64, 32, "RGB", [](int, int) {
     return std::array{0.25f, 0.5f, 2.0f};
   });
   light("distantlight", {number("intensity", 0.625f)});

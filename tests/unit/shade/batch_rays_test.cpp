@@ -1,6 +1,7 @@
 // Rays of shaders in RSL's manner (reyes/shader/sl_light.h): what they are asked, what they tell, how wide they are.
 #include "tests/unit/shade/obedient.h"
 #include "tests/unit/shade/written_picture.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -11,7 +12,7 @@ class BatchRays : public BatchServices {};
 
 /// A latitude-longitude picture whose texels hold 1 + their direction.
 std::string pictureOfDirections(const std::string& name) {
-  return writePicture(::testing::TempDir() + name, 256, 128, "RGB", [](int x, int y) {
+  return writePicture(test::temporary(name), 256, 128, "RGB", [](int x, int y) {
     const float theta = kPi * (static_cast<float>(y) + 0.5f) / 128,
                 phi = 2 * kPi * (static_cast<float>(x) + 0.5f) / 256;
     return std::array{1 + std::sin(theta) * std::cos(phi), 1 + std::sin(theta) * std::sin(phi), 1 + std::cos(theta)};
@@ -39,7 +40,7 @@ TEST_F(BatchRays, PointsThatAShaderHasMovedAreTracedAndTheOthersInterpolated) {
 
 // Half of the sphere of directions leaves the scene, towards +x; the map is 1 + its own direction.
 TEST_F(BatchRays, OcclusionTellsOfTheEnvironmentWhereRaysLeave) {
-  const std::string path = pictureOfDirections("/tomales_open.exr");
+  const std::string path = pictureOfDirections("tomales_open.exr");
   services.met = [](const vec3&, const vec3& d) { return d.x > 0 ? kInfinity : 1.0f; };
   services.seen = [](const vec3& d) { return d.x > 0 ? vec3(0) : vec3(0, 0, 2); };
   const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
@@ -91,7 +92,7 @@ TEST_F(BatchRays, GatherHasCategoriesListsAndTheEffectiveDistance) {
 // A picture of 1 + its own direction holds 4 pi of light, and adds up to a direction of 4 pi / 3 along the axis of each
 // channel. It stands in a space whose x is the world's y.
 TEST_F(BatchRays, GatherDrawsTheLightOfAnEnvironment) {
-  const std::string path = pictureOfDirections("/tomales_gathered.exr");
+  const std::string path = pictureOfDirections("tomales_gathered.exr");
   worldFromObject = Motion::still(mat4(vec4(0, 1, 0, 0), vec4(-1, 0, 0, 0), vec4(0, 0, 1, 0), vec4(0, 0, 0, 1)));
   const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
     Color color, sum;

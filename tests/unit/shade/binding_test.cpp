@@ -4,6 +4,7 @@
 #include "reyes/shader.h"
 #include "tests/unit/shade/stage.h"
 #include "tests/unit/shade/written_picture.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -311,7 +312,7 @@ TEST_F(Binding, ASurfaceForIndirectRaysReplacesTheVisibleOne) {
 
 TEST_F(Binding, PaintedPlasticMultipliesByTheTextureAndAMissingOneIsMagenta) {
   const std::array top{1.0f, 0.5f, 0.25f}, bottom{0.0f, 0.0f, 1.0f};
-  const std::string path = writePicture(::testing::TempDir() + "/tomales_shade_texture.exr", 8, 8, "RGB",
+  const std::string path = writePicture(test::temporary("tomales_shade_texture.exr"), 8, 8, "RGB",
                                         [&](int, int y) { return y < 4 ? top : bottom; });
   surface("paintedplastic", {number("Ks", 0), number("Kd", 1), text("texturename", path)});
   light("distantlight");

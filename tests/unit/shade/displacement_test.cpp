@@ -4,6 +4,7 @@
 #include "reyes/sl.h"
 #include "tests/unit/shade/stage.h"
 #include "tests/unit/shade/written_picture.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -142,8 +143,8 @@ TEST_F(Displacement, BeyondItsBoundIsWarnedAboutOnceAnObject) {
 }
 
 TEST_F(Displacement, BumpyRaisesByItsTexture) {
-  const std::string path = writePicture(::testing::TempDir() + "/tomales_shade_heights.exr", 4, 4, "Y",
-                                        [](int, int) { return std::array{0.5f}; });
+  const std::string path =
+      writePicture(test::temporary("tomales_shade_heights.exr"), 4, 4, "Y", [](int, int) { return std::array{0.5f}; });
   displacement("bumpy", {number("Km", 0.5f), text("texturename", path)});
   Grid g = plane();
   system().displace(g);

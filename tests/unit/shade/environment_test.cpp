@@ -5,6 +5,7 @@
 
 #include "tests/unit/shade/stage.h"
 #include "tests/unit/shade/written_picture.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -19,7 +20,7 @@ class Environment : public Stage {
   std::string writeMap(const std::function<vec3(const vec3&)>& sky) {
     const int w = 256, h = 128;
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path = ::testing::TempDir() + "/tomales_sky_" + test->name() + ".exr";
+    path = test::temporary(std::string("tomales_sky_") + test->name() + ".exr");
     return writePicture(path, w, h, "RGB", [&](int x, int y) {
       const float theta = kPi * (static_cast<float>(y) + 0.5f) / h, phi = 2 * kPi * (static_cast<float>(x) + 0.5f) / w;
       const vec3 L = sky({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});

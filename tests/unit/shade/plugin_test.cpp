@@ -8,6 +8,7 @@
 #include "reyes/shader_registry.h"
 #include "tests/unit/shade/installed_headers.h"
 #include "tests/unit/shade/stage.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -200,7 +201,7 @@ TEST_F(Plugins, AFileThatIsNoPluginIsRefusedWithAReason) {
 
 // The example of the documentation, compiled as a user would: against the installed headers and nothing else.
 TEST_F(Plugins, TheExamplePluginCompilesOutOfTreeAndShades) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "tomales_example_plugin", source = TOMALES_SOURCE_DIR;
+  const fs::path folder = test::temporary("tomales_example_plugin"), source = TOMALES_SOURCE_DIR;
   fs::remove_all(folder);
   installHeaders(folder / "include/tomales");
   const std::string command = std::string(TOMALES_CXX) + " -std=c++17 -Wall -Wextra -Werror -shared -fPIC -I" +

@@ -6,6 +6,7 @@
 
 #include "tests/unit/shade/installed_headers.h"
 #include "tests/unit/shade/stage.h"
+#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -306,7 +307,7 @@ TEST_F(Sl, WhatRaysBringCrossesTheVolumeOfItsSide) {
 
 // Every example of the documentation, compiled as a user would: against the installed headers and nothing else.
 TEST_F(Sl, TheExamplesCompileOutOfTree) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "tomales_examples", source = TOMALES_SOURCE_DIR;
+  const fs::path folder = test::temporary("tomales_examples"), source = TOMALES_SOURCE_DIR;
   fs::remove_all(folder);
   installHeaders(folder / "include");
   std::vector<fs::path> examples = {source / "docs/example_plugin/kinds.cpp",

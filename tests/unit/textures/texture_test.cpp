@@ -1,4 +1,5 @@
 #include "reyes/shade/texture.h"
+#include "tests/unit/temporary.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
@@ -18,7 +19,7 @@ using Texel = std::function<std::array<float, 3>(int x, int y)>;
 class Pictures : public ::testing::Test {
  protected:
   Pictures()
-      : folder(fs::path(::testing::TempDir()) /
+      : folder(fs::path(test::temporary("")) /
                ("tomales_texture_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()))) {
     fs::remove_all(folder);
     fs::create_directories(folder);

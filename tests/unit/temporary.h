@@ -1,0 +1,14 @@
+// Where tests write files.
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace tomales::test {
+
+/// Returns the path of a file in the folder that this process has for itself (tests/unit_main.cpp). TempDir() of
+/// GoogleTest 1.12 is /tmp, where tests that run at the same time would write the same files.
+inline std::string temporary(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / name).string();
+}
+
+}  // namespace tomales::test
