@@ -16,8 +16,8 @@ struct MapFigures {
 /// Tells what the eye sees of disks in world space, in front of everything else. `rays` must outlive the result.
 ShownDisk shownBy(const RayScene& rays);
 
-/// Warns if a quarter of the picture shows where photons are few. Warns if most estimates of some map are unreliable.
-/// Maps with less than a per cent of all photons do not count.
+/// Warns if more than a quarter of the shown estimates has few photons. Warns if most estimates of some map are
+/// unreliable; maps with less than a per cent of all photons do not count there.
 void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vector<MapFigures>& maps, Log& log);
 
 }  // namespace tomales
