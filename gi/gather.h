@@ -45,6 +45,12 @@ struct KnownLight {
   const BrightSpots* spots = nullptr;  ///< Some further rays are aimed at these.
   const HitRadiance* hits = nullptr;   ///< The radiance at the hits of rays.
 };
+/// Returns the highlights that diffuse rays bring. Where photons bring the light of lamps by mirrors and glass,
+/// highlights of these would bring it again.
+inline HitHighlights highlightsOfHits(bool mirrored) {
+  return mirrored ? HitHighlights::OfSpecular : HitHighlights::None;
+}
+
 /// Gathers one record. `find`, if not null, gets the bright light that the rays of the hemisphere alone have met.
 /// `groups`: the groups of lights whose shares the record gets. The first has no lights: its share is what shines by
 /// itself, and belongs to no other.

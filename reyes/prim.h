@@ -177,8 +177,8 @@ PrimPtr makeDisk(float height, float radius, float thetaMax_degrees, const Param
 PrimPtr makeTorus(float major, float minor, float phiMin_degrees, float phiMax_degrees, float thetaMax_degrees,
                   const ParamList&, Problems&);
 
-/// What reading RIB needs to know of a quadric. A new quadric needs one entry of quadrics() in reyes/prim/quadrics.cpp
-/// and nothing else in RIB; plugins call it by reyes/ri.h.
+/// The facts of a quadric that reading RIB needs. A new quadric needs one entry of quadrics() in
+/// reyes/prim/quadrics.cpp and nothing else in RIB; plugins call it by reyes/ri.h.
 struct Quadric {
   std::string_view name;
   int numberCount;

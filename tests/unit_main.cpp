@@ -6,13 +6,14 @@
 
 // ctest runs the tests of one program at the same time. Each process has a folder for temporary files of its own, so
 // that two tests of a fixture may write files of the same name. It is no TemporaryFolder (reyes/base), which child
-// processes that a test ends abruptly would remove.
+// processes that a test ends abruptly would remove. It comes before GoogleTest, which makes the parameters of tests
+// when it starts: some of them are the names of files.
 int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
   std::string folder = (std::filesystem::temp_directory_path() / "tomales_unit_XXXXXX").string();
   if (!::mkdtemp(folder.data())) return EXIT_FAILURE;
   ::setenv("TMPDIR", folder.c_str(), 1);
   ::setenv("TEST_TMPDIR", folder.c_str(), 1);
+  testing::InitGoogleTest(&argc, argv);
   const int result = RUN_ALL_TESTS();
   std::filesystem::remove_all(folder);
   return result;

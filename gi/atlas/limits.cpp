@@ -12,7 +12,7 @@ constexpr int64_t kFewEstimates = 32;  // A map with fewer estimates is not judg
 constexpr double kLeastOfPhotons = 0.01;
 constexpr double kMost = 0.5;  // Share of estimates that may be unreliable.
 constexpr double kClumped = 1.1;
-constexpr double kMostOfPicture = 0.25;
+constexpr double kMostOfPicture = 0.25;  // Share of the lit picture that may rest on few photons.
 
 /// Returns the first object whose light a map holds; null if there is none.
 const Object* objectOf(const Scene& scene, const MapNames& names, const std::string& map) {
@@ -23,7 +23,7 @@ const Object* objectOf(const Scene& scene, const MapNames& names, const std::str
   return nullptr;
 }
 
-/// Returns false if the picture says nothing.
+/// Warns if estimates from few photons make much of the picture. Returns false if it did not warn.
 bool warnOfFewShown(const Scene& scene, const MapNames& names, const std::vector<MapFigures>& maps, Log& log) {
   PictureShare shown, few;
   const MapFigures* worst = nullptr;

@@ -198,7 +198,7 @@ void traceToStored(const GiState& state, const ShadePoints& points, const std::v
   ShadeContext context{RayKind::Diffuse, 1, state.settings.seed, 1, false};
   context.light = Illumination::LightsAndStored;
   context.mirrored = state.scene.groups[static_cast<size_t>(points.group())].attributes->photon.causticMap.empty();
-  context.highlights = context.mirrored ? HitHighlights::OfSpecular : HitHighlights::None;
+  context.highlights = highlightsOfHits(context.mirrored);
   context.diffuseLimit = 0;
   PathBatches batches(state, *tools, points, {n[0], n[1], n[2]}, {}, context);
   for (PathSum& sum : sums) batches.add(sum, 1);

@@ -100,8 +100,7 @@ void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
   context.light = settings_.light;
   context.mirrored = settings_.mirrored;
-  // Where photons bring the light of lamps by mirrors and glass, highlights of these would bring it again.
-  context.highlights = settings_.mirrored ? HitHighlights::OfSpecular : HitHighlights::None;
+  context.highlights = highlightsOfHits(settings_.mirrored);
   // Mirrors and glass show their reflections.
   context.diffuseLimit = settings_.asked ? settings_.asked->diffuseLimit : 0;
   scratch_.answers.mode = settings_.asked ? settings_.asked->mode : HitMode::Shader;

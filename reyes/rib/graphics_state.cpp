@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
+#include <utility>
 
 namespace tomales::rib {
 
@@ -116,6 +118,7 @@ namespace {
 /// Returns attributes with further lights.
 std::shared_ptr<const Attributes> withLights(const std::shared_ptr<const Attributes>& attributes,
                                              const std::vector<int>& lights) {
+  if (lights.empty()) return attributes;
   auto copy = std::make_shared<Attributes>(*attributes);
   copy->lights.insert(copy->lights.end(), lights.begin(), lights.end());
   return copy;
@@ -137,12 +140,11 @@ Expansion withLights(Expansion contents, const std::vector<int>& lights) {
   return contents;
 }
 
-/// Returns the lights of `late` from `first` on that these attributes lack.
-std::vector<int> lacking(const Attributes& attributes, const std::vector<World::LateLight>& late, size_t first) {
+std::vector<int> lacking(const Attributes& attributes, std::span<const World::LateLight> late) {
   const std::set<int> has(attributes.lights.begin(), attributes.lights.end());
   std::vector<int> out;
-  for (size_t k = first; k < late.size(); ++k)
-    if (!has.contains(late[k].light)) out.push_back(late[k].light);
+  for (const World::LateLight& l : late)
+    if (!has.contains(l.light)) out.push_back(l.light);
   return out;
 }
 
@@ -151,23 +153,24 @@ std::vector<int> lacking(const Attributes& attributes, const std::vector<World::
 // Objects share attributes, so those that lack the same lights get them once. The contents of a procedural are read
 // with the attributes of its place, and have their own copies: they get the lights when they come.
 void GraphicsState::lightEarlierObjects() {
-  const auto& late = world->lateLights;
+  const std::span<const World::LateLight> late = world->lateLights;
+  const auto after = [late](size_t number, size_t World::LateLight::*before) {
+    return std::span(std::ranges::upper_bound(late, number, {}, before), late.end());
+  };
   std::map<std::pair<const Attributes*, size_t>, std::shared_ptr<const Attributes>> lit;
-  size_t first = 0;  // of the lights that come after the object
   for (size_t i = 0; i < world->objects.size(); ++i) {
-    while (first < late.size() && late[first].objects <= i) ++first;
-    if (first == late.size()) break;
+    const auto lights = after(i, &World::LateLight::objects);
+    if (lights.empty()) break;
     std::shared_ptr<const Attributes>& own = world->objects[i].attributes;
-    auto& known = lit[{own.get(), first}];
-    if (!known) known = withLights(own, lacking(*own, late, first));
+    auto& known = lit[{own.get(), lights.size()}];
+    if (!known) known = withLights(own, lacking(*own, lights));
     own = known;
   }
-  first = 0;
   for (size_t i = 0; i < world->procedurals.size(); ++i) {
-    while (first < late.size() && late[first].procedurals <= i) ++first;
-    if (first == late.size()) break;
+    const auto later = after(i, &World::LateLight::procedurals);
+    if (later.empty()) break;
     Procedural& p = world->procedurals[i];
-    const std::vector<int> lights = lacking(*p.attributes, late, first);
+    const std::vector<int> lights = lacking(*p.attributes, later);
     p.attributes = withLights(p.attributes, lights);
     p.open = [open = std::move(p.open), lights] { return withLights(open(), lights); };
   }

@@ -70,13 +70,12 @@ void checkBound(const BoundScene& scene, const Object& object, float longest) {
   const bool given = a.displacementBound > 0 && object.displacementBound > 0;
   const float needed = given ? longest * a.displacementBound / object.displacementBound : longest;
   const std::string space = given ? a.displacementBoundSpace : "camera";
-  scene.log.report(
-      Severity::Warning, "displacement-bound", object.where,
-      fmt::format("{}: displaced by more than its bound allows; parts may be cut off: Attribute "
-                  "\"displacementbound\" needs \"sphere\" {:.4g} or more in \"{}\" space, and other parts of "
-                  "that name may need more",
-                  objectName(object), needed, space),
-      objectName(object));
+  scene.log.report(Severity::Warning, "displacement-bound", object.where,
+                   fmt::format("{}: displaced by more than its bound allows; parts may be cut off: Attribute "
+                               "\"displacementbound\" needs \"sphere\" {:.4g} or more in \"{}\" space{}",
+                               objectName(object), needed, space,
+                               object.attributes->name.empty() ? "" : ", and other parts of that name may need more"),
+                   objectName(object));
 }
 
 /// Undoes displacements that are not finite, so that one bad vertex does not tear the mesh to infinity.

@@ -47,7 +47,7 @@ SCENES = {
              'Attribute "photon" "shadingmodel" ["chrome"]\nSurface "mirror" "color specularcolor" [0.95 0.78 0.45]\nColor 0.95 0.78 0.45\n'
              "Translate 0 0.2 0\nRotate -90 1 0 0\nCylinder 0.6 0 0.25 360\nCylinder 0.65 0 0.25 360\nHyperboloid 0.6 0 0.25 0.65 0 0.25 360"),
 }
-# The highlights of this surface are the caustic. Its shader reflects no rays, so light that photons bring to the floor by it twice is not that of paths.
+# The caustic of this ring is its highlights, because its shader reflects no rays: photons and highlights would bring the same light to the floor twice.
 SCENES["shining ring"] = (SCENES["ring"][0], SCENES["ring"][1].replace('"mirror" "color specularcolor" [0.95 0.78 0.45]', '"shinymetal" "Ks" [1] "Ka" [0] "roughness" [0.3]'))
 METHODS = {"reference": ("--samples", "16", "--photons", "300000"), "progressive": ("--photons", "400000"), "atlas": ("--photons", "150000")}
 SEEDS = 3
