@@ -85,7 +85,10 @@ int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValu
   if (name == "DetailRange") return tell(batch, {a.detail.lo, a.detail.hi}, TM_FLOAT, type, out);
   if (name == "TextureCoordinates") {
     std::vector<float> st;
-    for (const vec2& c : a.textureCoordinates) st.insert(st.end(), {c.x, c.y});
+    for (const vec2& c : a.textureCoordinates) {
+      st.push_back(c.x);
+      st.push_back(c.y);
+    }
     return tell(batch, st, TM_FLOAT, type, out);
   }
   if (name == "displacementbound:sphere") return number(a.displacementBound);
