@@ -120,7 +120,7 @@ int64_t textureShare(int64_t memoryLimit) { return std::max(kLeastCache, memoryL
 
 int64_t rayShare(int64_t memoryLimit) { return textureShare(memoryLimit); }
 
-size_t brickCacheBytes(const RenderSettings& settings) {
+size_t brickCacheBytes(const ResourceSettings& settings) {
   if (!settings.memoryLimit) return settings.brickCacheBytes;
   return std::min(settings.brickCacheBytes, static_cast<size_t>(std::max(kLeastCache, *settings.memoryLimit / 8)));
 }

@@ -16,32 +16,54 @@ namespace tomales {
 
 struct LightQuality;
 
-struct RenderSettings {
-  std::vector<std::string> files;  ///< The files of one RIB stream; "-" is standard input.
-  std::string output;              ///< Empty for the scene's Displays.
-  bool onePicture = false;         ///< Displays other than `output` are left out.
-  std::set<std::string> sources;   ///< Pictures that Make requests of `files` read (reyes/rib.h:makeSources).
-  bool overwrite = false;          ///< A crop may take the place of a picture that holds more.
-  int threads = 0;                 ///< 0 for as many as the machine has.
-  std::optional<std::array<int, 2>> format, pixelSamples;
-  std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
-  std::optional<float> shadingRate;
-  bool draft = false;                      ///< Coarse and fast, to place lights by.
+/// The RIB to read, how much of it, and what it may do.
+struct InputSettings {
+  std::vector<std::string> files;          ///< The files of one RIB stream; "-" is standard input.
+  std::set<std::string> sources;           ///< Pictures that Make requests of `files` read (reyes/rib.h:makeSources).
+  std::vector<std::string> edits;          ///< RIB files of changes to a shot.
   std::optional<std::vector<int>> frames;  ///< Sorted. If not given, all are rendered.
   bool framesApart = false;                ///< Frames that --frames leaves out need not be read.
   std::optional<std::vector<int>> makes;   ///< Sorted places of the Make requests to perform. If not given, all are.
-  const GiMethod* gi = nullptr;            ///< Null for the method of the scene's indirect light.
-  int samples = 0, bounces = 0;            ///< 0 for the numbers of the scene's indirect light.
-  float maxError = -1;                     ///< Negative for the value of the scene's indirect light.
+  Trust trust;                             ///< Trust in the code that the RIB names.
+  bool standardFromFiles = false;          ///< A file that is called as a shader of RISpec's comes before that.
+};
+
+/// The pictures: where they go, and what takes the place of the scene's options.
+struct PictureSettings {
+  std::string output;         ///< Empty for the scene's Displays.
+  bool onePicture = false;    ///< Displays other than `output` are left out.
+  bool overwrite = false;     ///< A crop may take the place of a picture that holds more.
+  std::string outputRoot;     ///< Files that the RIB names are written below it; empty: anywhere.
+  bool resume = false;        ///< What an interrupted run has left is taken over.
+  bool skipFinished = false;  ///< Frames whose pictures hold what would be rendered are left as they are.
+  std::optional<std::array<int, 2>> format, pixelSamples;
+  std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
+  std::optional<float> shadingRate;
+  bool draft = false;  ///< Coarse and fast, to place lights by.
+  uint32_t seed = 0;
+  std::string specular;   ///< Option "shade" "specular"; empty: as the scene says.
+  std::string arealight;  ///< Option "shade" "arealight"; empty: as the scene says.
+};
+
+/// Light, direct and indirect, and the rays that find it.
+struct LightSettings {
+  const GiMethod* gi = nullptr;                ///< Null for the method of the scene's indirect light.
+  int samples = 0, bounces = 0;                ///< 0 for the numbers of the scene's indirect light.
+  float maxError = -1;                         ///< Negative for the value of the scene's indirect light.
   std::optional<ErrorFunction> errorFunction;  ///< If not given, that of the scene's indirect light.
   /// Samples of each area light and the sky, where the eye looks; 0 for as many as the light asks.
   int lightSamples = 0;
-  bool direct = true;  ///< If false, the picture shows what indirect lights bring, and nothing else.
-  uint32_t seed = 0;
-  std::optional<uint32_t> lightSeed;  ///< Seed of the random numbers of light alone; if not given, `seed`.
-  int64_t photons = 1'000'000;        ///< Number to emit for --gi atlas and the caustics of the reference; the most for
-                                      ///< --gi progressive.
-  double photonNoise = 0;             ///< Counted photons end when their noise is less than this share of their light.
+  bool direct = true;            ///< If false, the picture shows what indirect lights bring, and nothing else.
+  std::optional<uint32_t> seed;  ///< Seed of the random numbers of light alone; if not given, PictureSettings::seed.
+  int64_t photons = 1'000'000;   ///< Number to emit for --gi atlas and the caustics of the reference; the most for
+                                 ///< --gi progressive.
+  double photonNoise = 0;        ///< Counted photons end when their noise is less than this share of their light.
+  bool hitList = true;           ///< Rays leave coarse surfaces by lists of hits (GatherPoint::edgeLength).
+  std::optional<bool> fullGeometry;  ///< Rays see displaced micropolygons; if not given, for the reference alone.
+};
+
+/// Light that is kept in maps and files.
+struct StoredLightSettings {
   bool atlasDirect = false;  ///< Maps of --gi atlas hold direct light; else gather rays sample lights where they hit.
   /// Brick maps of --gi atlas leave out bricks whose voxels vary by less of the map's mean.
   float brickMaxError = 0.03f;
@@ -50,13 +72,14 @@ struct RenderSettings {
   std::string atlasFolder;      ///< Brick maps to use or to make, in a temporary folder if empty. For --gi points:
                                 ///< point clouds.
   std::string bakedFolder;      ///< Brick maps of gathered light to add to, or with --gi baked to use; empty for none.
-  size_t brickCacheBytes = BrickCache::kDefaultBytes;
-  std::optional<int> bucketSize;
-  std::vector<std::string> edits;  ///< RIB files of changes to a shot.
-  std::string irradiance;          ///< An .icf to shade with.
-  bool keepsAnswers = true;        ///< An .icf gets the answers of rays too.
-  bool byLight = false;            ///< Irradiance records keep the share of each group of lights.
-  bool appendIrradiance = false;   ///< True to gather too, where that has no records.
+  std::string irradiance;       ///< An .icf to shade with.
+  bool keepsAnswers = true;     ///< An .icf gets the answers of rays too.
+  bool byLight = false;         ///< Irradiance records keep the share of each group of lights.
+  bool appendIrradiance = false;  ///< True to gather too, where `irradiance` has no records.
+};
+
+/// The error to measure or to reach, or the time to keep; and settings that are found on some frames for all.
+struct QualitySettings {
   int audit = 0;  ///< Pixels at which the error of the picture is measured; 0: none, unless an error is to be reached.
   double targetError = 0;    ///< The mean relative error of light to reach; 0: settings are as they are given.
   double targetSmudges = 0;  ///< Deviation of smudges to reach with it; 0: as targetError.
@@ -64,21 +87,31 @@ struct RenderSettings {
   double reading_s = 0;      ///< Time that reading the frame has taken; it counts in timeBudget_s.
   std::optional<std::vector<int>> pilotFrames;  ///< Frames on which settings of light are found for all. Sorted.
   std::string shotSettings;                     ///< A file that keeps these settings for other runs; empty: none.
-  int auditEvery = 10;        ///< Frames with settings of pilots whose number this divides are audited; 0: none.
-  bool holdsQuality = false;  ///< This frame has settings that were found on others.
-  bool auditsHeld = false;    ///< It is audited nevertheless.
-  /// True if only settings are wanted of this frame, and no picture.
-  bool isPilot = false;
+  int auditEvery = 10;      ///< Frames with settings of pilots whose number this divides are audited; 0: none.
+  bool isHeld = false;      ///< This frame has settings that were found on others.
+  bool isPilot = false;     ///< Only settings are wanted of this frame, and no picture.
+  bool auditsHeld = false;  ///< The frame is audited though its settings are held.
   std::function<void(const LightQuality&)> onQuality;  ///< Gets the settings that a frame has chosen; may be empty.
-  bool resume = false;
-  bool skipFinished = false;             ///< Frames whose pictures hold what would be rendered are left as they are.
+
+  /// Tells whether the program chooses the settings of light, by trials that need the whole frame.
+  bool chooses() const { return (targetError > 0 || timeBudget_s > 0) && !isHeld; }
+  bool audits() const { return audit > 0 || (targetError > 0 && !isHeld) || auditsHeld; }
+};
+
+/// Threads, memory and caches.
+struct ResourceSettings {
+  int threads = 0;                       ///< 0 for as many as the machine has.
   std::optional<int64_t> memoryLimit;    ///< Limit in bytes.
   bool memoryIsGranted = false;          ///< The limit is what a cluster has granted, so it may not change pictures.
   std::optional<int64_t> textureMemory;  ///< Limit in bytes.
   std::string textureCache;
-  bool hitList = true;
+  size_t brickCacheBytes = BrickCache::kDefaultBytes;
   std::optional<int64_t> geometryCache;  ///< Limit in bytes.
-  std::optional<bool> fullGeometry;      ///< Rays see displaced micropolygons; if not given, for the reference alone.
+  std::optional<int> bucketSize;         ///< Edge in pixels.
+};
+
+/// What a run tells while it works and afterwards.
+struct ReportSettings {
   /// A name with '#' makes one file for each frame. A name ending in .jsonl gets a line for each.
   std::string statsFile;
   std::string logFile;          ///< Messages are appended there too; empty: none.
@@ -87,30 +120,31 @@ struct RenderSettings {
   std::function<void(const char* pass, float share)> watcher;  ///< See ProgressWatcher.
   std::string preview;                                         ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;                      ///< Pixels to explain.
-  Trust trust;                                                 ///< Trust in the code that the RIB names.
-  std::string outputRoot;          ///< Files that the RIB names are written below it; empty: anywhere.
-  bool strict = false;             ///< A warning ends with the exit code of what is missing.
-  std::string specular;            ///< Option "shade" "specular"; empty: as the scene says.
-  std::string arealight;           ///< Option "shade" "arealight"; empty: as the scene says.
-  bool standardFromFiles = false;  ///< A file that is called as a shader of RISpec's comes before that.
+  bool strict = false;  ///< A warning ends with the exit code of what is missing.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };
 
-/// Tells whether the program chooses the settings of light, by trials that need the whole frame.
-inline bool choosesQuality(const RenderSettings& s) {
-  return (s.targetError > 0 || s.timeBudget_s > 0) && !s.holdsQuality;
-}
-inline bool audits(const RenderSettings& s) {
-  return s.audit > 0 || (s.targetError > 0 && !s.holdsQuality) || s.auditsHeld;
-}
+/// The settings of a command that renders.
+struct RenderSettings {
+  InputSettings input;
+  PictureSettings picture;
+  LightSettings light;
+  StoredLightSettings stored;
+  QualitySettings quality;
+  ResourceSettings resources;
+  ReportSettings report;
+};
+
 inline PluginTrust pluginTrust(const Trust& t) {
   return {.folders = t.shaderFolders + ":" + standardPath("shader") + ":" + t.pluginFolders(),
           .chosen = t.shaderFolders,
           .sceneFolders = t.allowsPluginsOfScene()};
 }
-inline PluginTrust pluginTrust(const RenderSettings& settings) { return pluginTrust(settings.trust); }
-inline uint32_t lightSeedOf(const RenderSettings& settings) { return settings.lightSeed.value_or(settings.seed); }
+inline PluginTrust pluginTrust(const RenderSettings& settings) { return pluginTrust(settings.input.trust); }
+inline uint32_t lightSeedOf(const RenderSettings& settings) {
+  return settings.light.seed.value_or(settings.picture.seed);
+}
 
 // Each of these returns nothing when the text is not of its form.
 std::optional<std::array<int, 2>> parsePair(const std::string& text, int least, int most);  ///< "640x480"
@@ -128,7 +162,7 @@ std::optional<double> parseSeconds(const std::string& text);  ///< "90", "90s", 
 /// eighth, and each gets at least 1 MB.
 int64_t textureShare(int64_t memoryLimit);
 int64_t rayShare(int64_t memoryLimit);
-size_t brickCacheBytes(const RenderSettings& settings);
+size_t brickCacheBytes(const ResourceSettings& settings);
 
 /// Replaces runs of '#' by the frame number, padded to their length.
 std::string withFrameNumber(const std::string& path, int frame);

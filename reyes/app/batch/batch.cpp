@@ -93,7 +93,7 @@ class BatchRun {
   std::optional<BatchPlan> planned() {
     if (command_.folder.empty()) command_.folder = fs::path(command_.what.front()).stem().string() + ".batch";
     command_.plan.file = fs::path(command_.folder) / kPlanName;
-    command_.plan.render.files = command_.what;
+    command_.plan.render.input.files = command_.what;
     auto plan = makePlan(command_.plan, log_);
     if (!plan) return std::nullopt;
     if (command_.plan.tileCount() > 1 && !command_.onSlurm && static_cast<int>(plan->pictures.size()) >= processes())

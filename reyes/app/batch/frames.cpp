@@ -19,19 +19,19 @@ std::string tileEnd(int tile) { return fmt::format(".t{:03}.exr", tile); }
 class FrameReader {
  public:
   FrameReader(const PlanOptions& options, const BatchPlan& plan, Log& log) : options_(options), plan_(plan), log_(log) {
-    options_.render.sources = makeSources(options_.render.files);
+    options_.render.input.sources = makeSources(options_.render.input.files);
   }
 
   std::optional<BatchFrames> read() {
     RibSettings rib;
-    rib.trust = options_.render.trust;
+    rib.trust = options_.render.input.trust;
     rib.onScene = [this](Scene&& scene) { take(scene); };
     rib.onMake = [this](const Request&) {
       out_.events.push_back(BatchFrames::kMake);
       out_.hasMakes = true;
     };
     rib.onOutliving = [this](const Request&) { out_.apart = false; };
-    if (!readRib(options_.render.files, rib, log_)) return std::nullopt;
+    if (!readRib(options_.render.input.files, rib, log_)) return std::nullopt;
     if (out_.frames.empty())
       refuse("no-frame",
              "there is no frame to render: the scene has no world, or none of the frames that --frames names");
@@ -42,19 +42,19 @@ class FrameReader {
 
  private:
   void refuse(const char* code, const std::string& why) const {
-    log_.report(Severity::Error, code, {std::make_shared<std::string>(options_.render.files.front()), 0}, why);
+    log_.report(Severity::Error, code, {std::make_shared<std::string>(options_.render.input.files.front()), 0}, why);
   }
 
   void take(Scene& scene) {
     const int number = scene.options.frame;
-    const auto& wanted = options_.render.frames;
+    const auto& wanted = options_.render.input.frames;
     if (wanted && !std::binary_search(wanted->begin(), wanted->end(), number)) return;
     applyOverrides(scene, options_.render);
     FrameFiles& frame = out_.frames[number];
     out_.events.push_back(number);
     frame.maps = (frame.worlds == 0 || frame.maps) && writesMapsAlone(scene.options, options_.render);
     ++frame.worlds;
-    for (const std::string& file : filesOf(scene.options, options_.render.output)) frame.files.push_back(file);
+    for (const std::string& file : filesOf(scene.options, options_.render.picture.output)) frame.files.push_back(file);
     for (const DisplayCall& d : scene.options.displays)
       frame.joins = frame.joins && !writesMap(d) && driverOf(d, scene.options, pluginTrust(options_.render)).empty();
     frame.light.reset();  // worlds of one frame have no folder of their own
@@ -68,7 +68,7 @@ class FrameReader {
 
   std::vector<std::string> filesOf(Options options, const std::string& output) const {
     RenderSettings settings = options_.render;
-    settings.output = output;
+    settings.picture.output = output;
     Log quiet(Log::Verbosity::Quiet);
     nameOutputs(options, settings, quiet);
     std::vector<std::string> out;

@@ -39,7 +39,7 @@ class PlanMaker {
     for (const auto& [number, frame] : scene_.frames) {
       if (frame.maps) continue;
       plan_.pictures.push_back(frame.files.front());
-      if (!options_.inPasses()) addRender("render", number, frame, settings, options_.render.output);
+      if (!options_.inPasses()) addRender("render", number, frame, settings, options_.render.picture.output);
     }
     if (options_.inPasses()) addPasses(maps);
     checkPlan(plan_);
@@ -58,7 +58,7 @@ class PlanMaker {
       const std::string range = first + 1 == end ? std::to_string(first) : fmt::format("{}-{}", first, end - 1);
       std::vector<std::string> arguments{"render", "--frames", "none", "--makes", range};
       append(arguments, options_.lightArguments);
-      append(arguments, options_.render.files);
+      append(arguments, options_.render.input.files);
       plan_.tasks.push_back({name, name, scene_.frames.begin()->first, arguments, std::exchange(since, {}), {}, {}});
       needs = {name};
     };
@@ -88,7 +88,7 @@ class PlanMaker {
     append(arguments, {"--frames", std::to_string(frame), "--progress"});
     if (scene_.apart) arguments.push_back("--frames-apart");
     if (scene_.hasMakes) append(arguments, {"--makes", "none"});
-    append(arguments, options_.render.files);
+    append(arguments, options_.render.input.files);
     return arguments;
   }
 
@@ -124,20 +124,22 @@ class PlanMaker {
   std::vector<std::string> addSettings(const std::vector<std::string>& needs) {
     target_ = options_.targetArguments;
     const RenderSettings& render = options_.render;
-    const bool isOneFrame = scene_.frames.size() == 1 && render.shotSettings.empty() && !render.pilotFrames;
-    if (!choosesQuality(render) || isOneFrame) return needs;
+    const bool isOneFrame =
+        scene_.frames.size() == 1 && render.quality.shotSettings.empty() && !render.quality.pilotFrames;
+    if (!render.quality.chooses() || isOneFrame) return needs;
     std::vector<int> numbers;
     for (const auto& [number, frame] : scene_.frames) numbers.push_back(number);
-    const std::vector<int> pilots = render.pilotFrames.value_or(pilotsOf(render.frames.value_or(numbers)));
-    const std::string file =
-        render.shotSettings.empty() ? (plan_.folder() / "work" / "settings.json").string() : render.shotSettings;
-    if (render.shotSettings.empty()) append(target_, {"--shot-settings", file});
-    if (!render.pilotFrames) append(target_, {"--pilot-frames", fmt::format("{}", fmt::join(pilots, ","))});
+    const std::vector<int> pilots =
+        render.quality.pilotFrames.value_or(pilotsOf(render.input.frames.value_or(numbers)));
+    const std::string file = render.quality.shotSettings.empty() ? (plan_.folder() / "work" / "settings.json").string()
+                                                                 : render.quality.shotSettings;
+    if (render.quality.shotSettings.empty()) append(target_, {"--shot-settings", file});
+    if (!render.quality.pilotFrames) append(target_, {"--pilot-frames", fmt::format("{}", fmt::join(pilots, ","))});
     std::vector<std::string> arguments{"render", "--frames", "none", "--makes", "none"};
     append(arguments, options_.pictureArguments);
     append(arguments, options_.lightArguments);
     append(arguments, target_);
-    append(arguments, render.files);
+    append(arguments, render.input.files);
     const std::string name = "settings";
     plan_.tasks.push_back({name, name, numbers.front(), arguments, needs, {file}, {}});
     return {name};

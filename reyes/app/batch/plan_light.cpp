@@ -107,7 +107,7 @@ int partsOf(const SharedLight& light, const PlanOptions& options) {
   if (!light.photons) return 1;
   if (options.photonParts > 0) return options.photonParts;
   return static_cast<int>(
-      std::clamp<int64_t>((options.render.photons + kPhotonsOfPart - 1) / kPhotonsOfPart, 1, kMostParts));
+      std::clamp<int64_t>((options.render.light.photons + kPhotonsOfPart - 1) / kPhotonsOfPart, 1, kMostParts));
 }
 
 }  // namespace

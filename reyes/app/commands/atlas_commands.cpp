@@ -75,18 +75,18 @@ void joinPointFiles(const std::vector<fs::path>& files, const fs::path& out) {
 std::optional<Scene> firstScene(const RenderSettings& settings, Log& log) {
   std::optional<Scene> scene;
   RibSettings rib;
-  rib.trust = settings.trust;
+  rib.trust = settings.input.trust;
   rib.onScene = [&](Scene&& s) {
     if (!scene) scene = std::move(s);
   };
-  const bool read = readRib(settings.files, rib, log);
+  const bool read = readRib(settings.input.files, rib, log);
   if (read && !scene) log.report(Severity::Error, "no-world", {}, "no WorldBegin ... WorldEnd was found");
   if (!read) scene.reset();
   return scene;
 }
 
 void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, Log& log) {
-  ProgressMeter meter(settings.progress, "preparing");
+  ProgressMeter meter(settings.report.progress, "preparing");
   applyOverrides(scene, settings);
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
   measureAreaLights(scene, *shaders, log);
@@ -99,12 +99,13 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const StageTimer timer(stats, "photons");
   AtlasSettings atlas = atlasSettings(settings, scene, shading);
   atlas.photons.direct = true;  // so that the maps, which somebody may look into, have all light
-  const PhotonFigures figures = writePhotons(settings.output, scene, rays, shading, mapNames(scene, shading, atlas),
-                                             atlas, meter.pass("tracing photons", 0, 1), stats, log);
+  const PhotonFigures figures =
+      writePhotons(settings.picture.output, scene, rays, shading, mapNames(scene, shading, atlas), atlas,
+                   meter.pass("tracing photons", 0, 1), stats, log);
   meter.finish();
-  stats.addOutput(settings.output);
-  if (settings.verbosity != Log::Verbosity::Quiet)
-    fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.output);
+  stats.addOutput(settings.picture.output);
+  if (settings.report.verbosity != Log::Verbosity::Quiet)
+    fmt::print("{} photons emitted, {} stored in {}\n", figures.emitted, figures.stored, settings.picture.output);
 }
 
 /// Reads the points of a .ptc, or the records of an .icf.
@@ -119,8 +120,8 @@ PointCloud cloudOf(const std::string& path) {
 }  // namespace
 
 int photonsCommand(const RenderSettings& settings) {
-  const ThreadLimit threads(settings.threads);
-  Log log(settings.verbosity);
+  const ThreadLimit threads(settings.resources.threads);
+  Log log(settings.report.verbosity);
   RunReport report(settings, log);
   guarded(log, [&] {
     std::optional<Scene> scene = firstScene(settings, log);
@@ -195,7 +196,7 @@ int viewCommand(const ViewCommand& command) {
     std::optional<Camera> camera;
     if (!command.camera.empty()) {
       RenderSettings look;
-      look.files = {command.camera};
+      look.input.files = {command.camera};
       scene = firstScene(look, log);
       if (!scene) return;
       scene->options.xResolution = command.size[0];

@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// Traces settings.files to photon maps in settings.output, one file for each group.
+/// Traces InputSettings::files to photon maps in PictureSettings::output, one file for each group.
 int photonsCommand(const RenderSettings& settings);
 
 struct IrradianceCommand {

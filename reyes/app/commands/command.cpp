@@ -47,8 +47,8 @@ int parseAndRun(int argc, char** argv) {
   finishHelp(app);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
-  in.render.commandLine = "tomales";
-  for (const std::string& a : arguments) in.render.commandLine += " " + a;
+  in.render.report.commandLine = "tomales";
+  for (const std::string& a : arguments) in.render.report.commandLine += " " + a;
   if (!arguments.empty() && !namesCommand(app, arguments.front())) arguments.insert(arguments.begin(), "render");
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes a vector from its back
   try {

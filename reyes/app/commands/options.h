@@ -36,19 +36,19 @@ std::optional<std::string> parseOutput(const std::string& text);
 /// name begins with a dash is given as ./-name.
 void refuseOptionsAsValues(CLI::App& app);
 
-void addOutput(CLI::App& app, RenderSettings& s);
-void addCrop(CLI::App& app, RenderSettings& s);
+void addOutput(CLI::App& app, PictureSettings& s);
+void addCrop(CLI::App& app, PictureSettings& s);
 void addFrameSize(CLI::App& app, RenderSettings& s);  ///< Options of size, samples and seeds.
-void addFramesApart(CLI::App& app, RenderSettings& s);
+void addFramesApart(CLI::App& app, InputSettings& s);
 void addPictureOptions(CLI::App& app, RenderSettings& s);  ///< Options of the frame, --crop among them.
 void addLightOptions(CLI::App& app, RenderSettings& s);
 void addTrust(CLI::App& app, Trust& trust);                  ///< Options that say whose code may run.
 void addShaderFolders(CLI::App& app, std::string& folders);  ///< --shaders, which is one of them.
 void addRunOptions(CLI::App& app, RenderSettings& s);        ///< Threads, statistics, memory of textures, verbosity.
 /// --target-error, --time-budget. Pre: the options of the command that it excludes have been added.
-void addTarget(CLI::App& app, RenderSettings& s);
+void addTarget(CLI::App& app, QualitySettings& s);
 /// Adds the same options for a run that renders several frames.
-void addShotTarget(CLI::App& app, RenderSettings& s);
+void addShotTarget(CLI::App& app, QualitySettings& s);
 void addWatching(CLI::App& app, RenderSettings& s);  ///< --preview, --pixel
 
 }  // namespace tomales

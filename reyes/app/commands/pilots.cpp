@@ -30,13 +30,14 @@ class PilotRun {
   PilotRun(const RenderSettings& settings, Log& log) : settings_(settings), log_(log) {}
 
   std::optional<HeldQuality> run() {
-    held_.pilots = settings_.pilotFrames ? *settings_.pilotFrames : pilotsOf(frames());
-    if (held_.pilots.empty() || (held_.pilots.size() == 1 && settings_.shotSettings.empty() && !settings_.pilotFrames))
+    held_.pilots = settings_.quality.pilotFrames ? *settings_.quality.pilotFrames : pilotsOf(frames());
+    if (held_.pilots.empty() ||
+        (held_.pilots.size() == 1 && settings_.quality.shotSettings.empty() && !settings_.quality.pilotFrames))
       return std::nullopt;
     read([this](Scene&& scene) { take(scene); }, true);
     if (interrupted()) return std::nullopt;
     // A file that says that nothing was chosen keeps others from trying again.
-    if (held_.worlds.empty()) return settings_.shotSettings.empty() ? std::nullopt : std::optional(held_);
+    if (held_.worlds.empty()) return settings_.quality.shotSettings.empty() ? std::nullopt : std::optional(held_);
     std::vector<std::string> chosen;
     for (const LightQuality& q : held_.worlds) chosen.push_back(optionsOf(q));
     log_.report(Severity::Note, "shot-settings", {},
@@ -48,24 +49,24 @@ class PilotRun {
  private:
   void read(const std::function<void(Scene&&)>& onScene, bool makes) {
     RibSettings rib;
-    rib.trust = settings_.trust;
-    if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
+    rib.trust = settings_.input.trust;
+    if (!settings_.picture.outputRoot.empty()) rib.archivePath.push_back(settings_.picture.outputRoot);
     rib.onScene = onScene;
     // A pilot reads what Make requests before it have made.
     if (makes) rib.onMake = [this](const Request& request) { make(request); };
     Log quiet(Log::Verbosity::Quiet);  // what is wrong with the scene is said when it is rendered
-    readRib(settings_.files, rib, quiet);
+    readRib(settings_.input.files, rib, quiet);
   }
 
   void make(const Request& request) {
     const int place = makes_++;
-    if (!settings_.makes || std::ranges::binary_search(*settings_.makes, place))
-      performMake(request, settings_.outputRoot, log_);
+    if (!settings_.input.makes || std::ranges::binary_search(*settings_.input.makes, place))
+      performMake(request, settings_.picture.outputRoot, log_);
   }
 
   /// Returns the numbers of the frames to be rendered.
   std::vector<int> frames() {
-    if (settings_.frames) return *settings_.frames;
+    if (settings_.input.frames) return *settings_.input.frames;
     std::vector<int> out;
     read([&](Scene&& scene) { out.push_back(scene.options.frame); }, false);
     std::sort(out.begin(), out.end());
@@ -78,10 +79,10 @@ class PilotRun {
     ++world_;
     if (!isPilotFrame(held_.pilots, frame)) return;
     RenderSettings settings = settings_;
-    settings.skipFinished = settings.resume = settings.progress = false;
-    settings.preview.clear();
-    settings.bakedFolder.clear();
-    settings.pixels.clear();
+    settings.picture.skipFinished = settings.picture.resume = settings.report.progress = false;
+    settings.report.preview.clear();
+    settings.stored.bakedFolder.clear();
+    settings.report.pixels.clear();
     applyOverrides(scene, settings);
     Log quiet(Log::Verbosity::Quiet);  // the frame says it when it is rendered
     nameOutputs(scene.options, settings, quiet);
@@ -91,8 +92,8 @@ class PilotRun {
       return renderFrame(scene, *shaders, world_, settings, stats, quiet, [] {});
     if (frame != frame_) picture_ = 0;
     frame_ = frame;
-    settings.isPilot = true;
-    settings.onQuality = [&](const LightQuality& q) { mergeQuality(held_, picture_, q, settings_); };
+    settings.quality.isPilot = true;
+    settings.quality.onQuality = [&](const LightQuality& q) { mergeQuality(held_, picture_, q, settings_.quality); };
     try {
       renderFrame(scene, *shaders, world_, settings, stats, log_, [] {});
     } catch (const std::exception& e) {
@@ -112,24 +113,26 @@ class PilotRun {
 }  // namespace
 
 bool holdsForShot(const RenderSettings& s) {
-  return choosesQuality(s) && (!s.frames || s.frames->size() > 1 || s.pilotFrames || !s.shotSettings.empty());
+  return s.quality.chooses() &&
+         (!s.input.frames || s.input.frames->size() > 1 || s.quality.pilotFrames || !s.quality.shotSettings.empty());
 }
 
 std::optional<HeldQuality> findHeldQuality(const RenderSettings& settings, Log& log) {
-  const std::string& file = settings.shotSettings;
+  const std::string& file = settings.quality.shotSettings;
   if (!file.empty() && fs::exists(file)) {
     std::string error;
-    auto held = readHeldQuality(file, settings, error);
+    auto held = readHeldQuality(file, settings.quality, error);
     if (!held)
       log.report(Severity::Error, "shot-settings", {std::make_shared<std::string>(file), 0},
                  "cannot be used: " + error);
     return held;
   }
-  if (std::find(settings.files.begin(), settings.files.end(), "-") != settings.files.end()) return std::nullopt;
+  if (std::find(settings.input.files.begin(), settings.input.files.end(), "-") != settings.input.files.end())
+    return std::nullopt;
   auto held = PilotRun(settings, log).run();
   if (!held || file.empty()) return held;
   try {
-    writeHeldQuality(file, *held, settings);
+    writeHeldQuality(file, *held, settings.quality);
   } catch (const WriteError& e) {
     log.report(Severity::Output, "shot-settings", {std::make_shared<std::string>(file), 0}, e.what());
   }

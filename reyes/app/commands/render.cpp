@@ -35,7 +35,8 @@ namespace {
 /// Finds the pictures that Make requests read. They matter only where the command line may rename them or change their
 /// size.
 RenderSettings withSources(RenderSettings settings) {
-  if (namesPicture(settings.output) || settings.format || settings.crop) settings.sources = makeSources(settings.files);
+  if (namesPicture(settings.picture.output) || settings.picture.format || settings.picture.crop)
+    settings.input.sources = makeSources(settings.input.files);
   return settings;
 }
 
@@ -47,12 +48,12 @@ class RenderRun {
 
   /// `seen`: the job makes what is seen of a frame, so that nothing seen is worth a message.
   RenderRun(const RenderSettings& settings, Job job, bool seen = true)
-      : log_(settings.verbosity),
+      : log_(settings.report.verbosity),
         report_(settings, log_),
         settings_(withSources(asGranted(settings, log_))),
         job_(std::move(job)),
         seen_(seen),
-        threads_(settings_.threads) {}
+        threads_(settings_.resources.threads) {}
 
   int run() {
     RibSettings rib;
@@ -61,41 +62,42 @@ class RenderRun {
       if (!held_ && log_.worst() >= Severity::Error) return exitCodeOf(log_);
       report_.skip();
     }
-    rib.trust = settings_.trust;
-    if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
+    rib.trust = settings_.input.trust;
+    if (!settings_.picture.outputRoot.empty()) rib.archivePath.push_back(settings_.picture.outputRoot);
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
-    if (settings_.framesApart && settings_.frames) rib.skipsFrame = [this](int frame) { return !wants(frame); };
+    if (settings_.input.framesApart && settings_.input.frames)
+      rib.skipsFrame = [this](int frame) { return !wants(frame); };
     rib.onSkipped = [this](int worlds) { scenes_ += worlds; };
     rib.onMake = [this](const Request& request) {
-      const auto& makes = settings_.makes;
+      const auto& makes = settings_.input.makes;
       if (const int place = makes_++; makes && !std::binary_search(makes->begin(), makes->end(), place)) return;
       made_ = true;
-      performMake(request, settings_.outputRoot, log_);
+      performMake(request, settings_.picture.outputRoot, log_);
     };
     beginReading();
     const bool read = readAll(rib);
     endReading();
     if (read && scenes_ == 0 && !made_ && !interrupted())
-      log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.files.front()), 0},
+      log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.input.files.front()), 0},
                   "nothing to render: no WorldBegin ... WorldEnd was found");
-    if (scenes_ > 0 && rendered_ == 0 && settings_.frames && !settings_.frames->empty() && !interrupted())
-      log_.report(Severity::Error, "no-frame", {std::make_shared<std::string>(settings_.files.front()), 0},
+    if (scenes_ > 0 && rendered_ == 0 && settings_.input.frames && !settings_.input.frames->empty() && !interrupted())
+      log_.report(Severity::Error, "no-frame", {std::make_shared<std::string>(settings_.input.files.front()), 0},
                   "none of the frames that --frames names is in the scene");
-    if (rendered_ > 0 && namesPicture(settings_.output) && !outputUsed_)
-      log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.output), 0},
+    if (rendered_ > 0 && namesPicture(settings_.picture.output) && !outputUsed_)
+      log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.picture.output), 0},
                   "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
     report_.finish();
     if (const int code = interruptExitCode()) return code;
-    const ExitCode code = exitCodeOf(log_, settings_.strict);
+    const ExitCode code = exitCodeOf(log_, settings_.report.strict);
     return read ? code : std::max(code, kUnreadable);
   }
 
  private:
   /// Reads the frames. After one that is interrupted it reads no further.
   bool readAll(const RibSettings& rib) {
-    if (isAnyForeign(settings_.files, log_)) return false;
+    if (isAnyForeign(settings_.input.files, log_)) return false;
     try {
-      return readRib(settings_.files, rib, log_);
+      return readRib(settings_.input.files, rib, log_);
     } catch (const Stopped&) {
       return true;
     }
@@ -111,11 +113,11 @@ class RenderRun {
       nameOutputs(scene.options, settings_, log_);
       const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings_, log_);
       const std::string contents = contentsOf(scene, *shaders, settings_);
-      if (settings_.skipFinished && isFinished(scene.options, contents, settings_, log_)) return skip(scene);
+      if (settings_.picture.skipFinished && isFinished(scene.options, contents, settings_, log_)) return skip(scene);
       describeOutputs(scene.options, contents, settings_);
       warnAboutOverwriting(scene);
       warnOfFloatRange(scene, log_);
-      if (!settings_.draft) warnOfCoarseDicing(scene, log_);
+      if (!settings_.picture.draft) warnOfCoarseDicing(scene, log_);
       report_.begin(scene.options.frame);
       Stats& stats = report_.stats();
       const int64_t seenBefore = stats.geometry.micropolygonsVisible;
@@ -126,7 +128,7 @@ class RenderRun {
       } catch (const std::exception& e) {  // later frames may be smaller, and finished ones keep their statistics
         log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
       }
-      if (seen_ && stats.geometry.micropolygonsVisible == seenBefore && !settings_.resume && !interrupted() &&
+      if (seen_ && stats.geometry.micropolygonsVisible == seenBefore && !settings_.picture.resume && !interrupted() &&
           errors() == errorsBefore)  // else the file may have been refused
         explainEmptyFrame(scene, log_);
       report_.end(scene.where);
@@ -140,8 +142,8 @@ class RenderRun {
   /// Returns the settings of a frame, with those of light that hold for the shot.
   RenderSettings held(Scene& scene) {
     RenderSettings out = settings_;
-    out.reading_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - readingSince_).count();
-    if (!choosesQuality(settings_) || writesMapsAlone(scene.options, settings_)) return out;
+    out.quality.reading_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - readingSince_).count();
+    if (!settings_.quality.chooses() || writesMapsAlone(scene.options, settings_)) return out;
     const int frame = scene.options.frame;
     if (frame != pictureFrame_) picture_ = 0;
     pictureFrame_ = frame;
@@ -149,11 +151,12 @@ class RenderRun {
     if (held_ && world < held_->worlds.size()) {
       hold(held_->worlds[world], out);
       describeQuality(scene.options, optionsOf(held_->worlds[world]), out);
-      out.auditsHeld = out.targetError > 0 && out.auditEvery > 0 && frame % out.auditEvery == 0;
+      out.quality.auditsHeld =
+          out.quality.targetError > 0 && out.quality.auditEvery > 0 && frame % out.quality.auditEvery == 0;
     } else if (holdsForShot(settings_)) {  // of a stream that cannot be read twice, the first frame decides
-      out.onQuality = [this, world](const LightQuality& q) {
+      out.quality.onQuality = [this, world](const LightQuality& q) {
         if (!held_) held_.emplace();
-        mergeQuality(*held_, world, q, settings_);
+        mergeQuality(*held_, world, q, settings_.quality);
       };
     }
     return out;
@@ -163,7 +166,7 @@ class RenderRun {
     log_.report(Severity::Note, "frame-skipped", scene.where,
                 fmt::format("frame {} is finished: its pictures hold what would be rendered", scene.options.frame));
     for (const DisplayCall& display : scene.options.displays)
-      outputUsed_ |= display.name == withFrameNumber(settings_.output, scene.options.frame);
+      outputUsed_ |= display.name == withFrameNumber(settings_.picture.output, scene.options.frame);
     report_.skip();
     beginReading();
   }
@@ -171,7 +174,7 @@ class RenderRun {
   void beginReading() {
     readingSince_ = std::chrono::steady_clock::now();
     parse_.emplace(report_.stats(), "parse");
-    meter_.emplace(settings_.progress, "reading");
+    meter_.emplace(settings_.report.progress, "reading");
   }
   void endReading() {
     parse_.reset();
@@ -179,7 +182,8 @@ class RenderRun {
   }
 
   bool wants(int frame) const {
-    return !settings_.frames || std::binary_search(settings_.frames->begin(), settings_.frames->end(), frame);
+    return !settings_.input.frames ||
+           std::binary_search(settings_.input.frames->begin(), settings_.input.frames->end(), frame);
   }
 
   int errors() const {
@@ -189,11 +193,11 @@ class RenderRun {
   }
 
   void warnAboutOverwriting(const Scene& scene) {
-    if (!settings_.output.empty() && !namesPicture(settings_.output))
-      return warnAboutOverwriting(withFrameNumber(settings_.output, scene.options.frame), scene.where);
+    if (!settings_.picture.output.empty() && !namesPicture(settings_.picture.output))
+      return warnAboutOverwriting(withFrameNumber(settings_.picture.output, scene.options.frame), scene.where);
     for (const DisplayCall& display : scene.options.displays) {
       warnAboutOverwriting(display.name, display.where);
-      outputUsed_ |= display.name == withFrameNumber(settings_.output, scene.options.frame);
+      outputUsed_ |= display.name == withFrameNumber(settings_.picture.output, scene.options.frame);
     }
   }
 

@@ -15,10 +15,10 @@ namespace {
 
 int runOnShot(const RenderSettings& asked, void (ShotJob::*work)()) {
   const OrderlyEnd orderly;
-  Log log(asked.verbosity);
+  Log log(asked.report.verbosity);
   RunReport report(asked, log);
   const RenderSettings settings = asGranted(asked, log);
-  const ThreadLimit threads(settings.threads);
+  const ThreadLimit threads(settings.resources.threads);
   if (const auto job = ShotJob::open(settings, report.stats(), log)) {
     report.begin(job->frame());
     (job.get()->*work)();
@@ -26,7 +26,7 @@ int runOnShot(const RenderSettings& asked, void (ShotJob::*work)()) {
   }
   report.finish();
   const int code = interruptExitCode();
-  return code ? code : exitCodeOf(log, settings.strict);
+  return code ? code : exitCodeOf(log, settings.report.strict);
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ int shadeCommand(const RenderSettings& settings) { return runOnShot(settings, &S
 int gatherCommand(const RenderSettings& settings) { return runOnShot(settings, &ShotJob::gatherIrradiance); }
 
 int relightFirst(RelightCommand command) {
-  if (std::filesystem::path(command.render.files.front()).extension() != ".dfb") command.hide = hideCommand;
+  if (std::filesystem::path(command.render.input.files.front()).extension() != ".dfb") command.hide = hideCommand;
   return relightCommand(command);
 }
 

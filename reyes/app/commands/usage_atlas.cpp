@@ -8,14 +8,14 @@ namespace {
 
 void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   CLI::App* photons = app.add_subcommand("photons", "Photon maps of a scene, one file for each group of objects");
-  photons->add_option("-o", in.render.output, "Folder to write to")->required()->type_name("FOLDER");
-  photons->add_option("--photons", in.render.photons, "Photons to emit")
+  photons->add_option("-o", in.render.picture.output, "Folder to write to")->required()->type_name("FOLDER");
+  photons->add_option("--photons", in.render.light.photons, "Photons to emit")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
-  photons->add_option("--bounces", in.render.bounces, "Most surfaces that a photon may arrive at")
+  photons->add_option("--bounces", in.render.light.bounces, "Most surfaces that a photon may arrive at")
       ->check(CLI::Range(1, kMostBounces));
-  photons->add_option("--seed", in.render.seed, "Of all random numbers");
+  photons->add_option("--seed", in.render.picture.seed, "Of all random numbers");
   addRunOptions(*photons, in.render);
-  photons->add_option("SCENE", in.render.files, "RIB files")->required();
+  photons->add_option("SCENE", in.render.input.files, "RIB files")->required();
   photons->callback([&] { code = photonsCommand(in.render); });
 
   CLI::App* irradiance =

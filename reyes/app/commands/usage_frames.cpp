@@ -12,49 +12,51 @@ namespace tomales {
 namespace {
 
 void addMemoryLimit(CLI::App& app, RenderSettings& s, const std::string& otherwise) {
-  addParsed(app, "--memory-limit", s.memoryLimit, parseBytes, "600M",
+  addParsed(app, "--memory-limit", s.resources.memoryLimit, parseBytes, "600M",
             "Limits textures, bricks and the buckets of the frame; what exceeds it rests in a file " + otherwise);
 }
 
 void buildRender(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c =
       app.add_subcommand("render", "Render RIB files, taken as one stream; - is standard input (the default command)");
-  addOutput(*c, in.render);
+  addOutput(*c, in.render.picture);
   addPictureOptions(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
-  c->add_flag("--resume", in.render.resume,
+  c->add_flag("--resume", in.render.picture.resume,
               "Keep finished work beside the picture until it is written, and use that of a run before");
-  c->add_flag("--skip-finished", in.render.skipFinished,
+  c->add_flag("--skip-finished", in.render.picture.skipFinished,
               "Leave out frames whose pictures hold what would be rendered, by their OpenEXR headers");
-  c->add_option("--irradiance", in.render.irradiance, "Indirect light from these records instead of a gather pass")
+  c->add_option("--irradiance", in.render.stored.irradiance,
+                "Indirect light from these records instead of a gather pass")
       ->type_name("SHOT.icf");
-  c->add_flag("--irradiance-append", in.render.appendIrradiance,
+  c->add_flag("--irradiance-append", in.render.stored.appendIrradiance,
               "Gather where those records leave points uncovered or disagree");
   c->add_option(
-       "--baked", in.render.bakedFolder,
+       "--baked", in.render.stored.bakedFolder,
        "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")
       ->type_name("FOLDER");
-  c->add_option("--allow-program", in.render.trust.program,
+  c->add_option("--allow-program", in.render.input.trust.program,
                 "The RIB may start this program, by this very command, and no other")
       ->type_name("COMMAND");
   addMemoryLimit(*c, in.render, "(default: no limit)");
-  addTarget(*c, in.render);
-  addShotTarget(*c, in.render);
-  c->add_option("SCENE", in.render.files, "RIB files")->required();
+  addTarget(*c, in.render.quality);
+  addShotTarget(*c, in.render.quality);
+  c->add_option("SCENE", in.render.input.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
 
 void buildHide(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("hide", "Geometry to a deep frame buffer of visible micropolygons");
-  addParsed(*c, "-o", in.render.output, parseNamed(".dfb"), "SHOT.dfb", "Write here; # stands for the frame number")
+  addParsed(*c, "-o", in.render.picture.output, parseNamed(".dfb"), "SHOT.dfb",
+            "Write here; # stands for the frame number")
       ->required();
   addPictureOptions(*c, in.render);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
-  c->add_flag("--resume", in.render.resume, "Keep the buckets that an interrupted run has finished");
-  c->add_option("SCENE", in.render.files, "RIB files")->required();
+  c->add_flag("--resume", in.render.picture.resume, "Keep the buckets that an interrupted run has finished");
+  c->add_option("SCENE", in.render.input.files, "RIB files")->required();
   c->callback([&] { code = hideCommand(in.render); });
 }
 
@@ -83,54 +85,54 @@ void buildPrepare(CLI::App& app, Invocation& in, int& code) {
   addParsed(*c, "--part", in.prepare.part, parsePart, "3/8",
             "The part of the pass, for several processes; of join the number of all")
       ->needs("--pass");
-  c->add_option("SCENE", in.render.files, "RIB files")->required();
+  c->add_option("SCENE", in.render.input.files, "RIB files")->required();
   c->callback([&] { code = prepareCommand(in.render, in.prepare); });
 }
 
 void addShotOptions(CLI::App& app, RenderSettings& s, const char* what = "A deep frame buffer",
                     const char* named = "SHOT.dfb") {
-  app.add_option("--edit", s.edits,
+  app.add_option("--edit", s.input.edits,
                  "Changes to shaders, lights and attributes: RIB requests after Attribute \"identifier\" \"name\"")
       ->expected(1)
       ->take_all()
       ->type_name("EDIT.rib");
-  app.add_option("SHOT", s.files, what)->required()->expected(1)->type_name(named);
+  app.add_option("SHOT", s.input.files, what)->required()->expected(1)->type_name(named);
 }
 
 void buildGather(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("gather", "Compute the irradiance cache of a shot, and what else its rays find");
-  addParsed(*c, "-o", in.render.output, parseNamed(".icf"), "SHOT.icf", "Write here")->required();
-  c->add_option("--irradiance", in.render.irradiance,
+  addParsed(*c, "-o", in.render.picture.output, parseNamed(".icf"), "SHOT.icf", "Write here")->required();
+  c->add_option("--irradiance", in.render.stored.irradiance,
                 "Start from these records and add where they leave points uncovered or disagree; with --crop "
                 "those inside are gathered anew")
       ->type_name("OTHER.icf");
   c->add_flag_callback(
-      "--no-answers", [&in] { in.render.keepsAnswers = false; },
+      "--no-answers", [&in] { in.render.stored.keepsAnswers = false; },
       "Store irradiance records alone, and not what rays of shaders and lights find: shade traces these itself, with "
       "the same bits");
-  c->add_flag("--by-light", in.render.byLight,
+  c->add_flag("--by-light", in.render.stored.byLight,
               "Keep what each light brings, so that shade and relight dim and colour lights with all that they bounce");
-  addCrop(*c, in.render);
+  addCrop(*c, in.render.picture);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
-  c->add_flag("--resume", in.render.resume, "Keep what is gathered, and use that of an interrupted run");
-  addFramesApart(*c, in.render);
+  c->add_flag("--resume", in.render.picture.resume, "Keep what is gathered, and use that of an interrupted run");
+  addFramesApart(*c, in.render.input);
   addShotOptions(*c, in.render);
   c->callback([&] { code = gatherCommand(in.render); });
 }
 
 void buildShade(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("shade", "The picture of a shot, without hiding it again");
-  addOutput(*c, in.render);
-  c->add_option("--irradiance", in.render.irradiance,
+  addOutput(*c, in.render.picture);
+  c->add_option("--irradiance", in.render.stored.irradiance,
                 "Indirect light and shadows of tomales gather: no rays are traced")
       ->type_name("SHOT.icf");
-  addCrop(*c, in.render);
+  addCrop(*c, in.render.picture);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
-  addTarget(*c, in.render);
-  addFramesApart(*c, in.render);
+  addTarget(*c, in.render.quality);
+  addFramesApart(*c, in.render.input);
   addShotOptions(*c, in.render);
   c->callback([&] { code = shadeCommand(in.render); });
 }
@@ -138,7 +140,7 @@ void buildShade(CLI::App& app, Invocation& in, int& code) {
 void buildRelight(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("relight", "Change the lights of a shot in a browser, and see the frame");
   RelightCommand& r = in.relight;
-  c->add_option("--irradiance", r.render.irradiance,
+  c->add_option("--irradiance", r.render.stored.irradiance,
                 "Indirect light and shadows of tomales gather --by-light (default: they are gathered first)")
       ->type_name("SHOT.icf");
   c->add_option("--port", r.port, "Port of the page's address (default: any that is free)")
@@ -148,7 +150,7 @@ void buildRelight(CLI::App& app, Invocation& in, int& code) {
       ->type_name("FOLDER");
   c->add_flag_callback(
       "--no-browser", [&r] { r.opens = false; }, "Print the address alone");
-  addCrop(*c, r.render);
+  addCrop(*c, r.render.picture);
   addLightOptions(*c, r.render);
   addRunOptions(*c, r.render);
   addMemoryLimit(*c, r.render, "(default: 640 MB of buckets)");
@@ -185,8 +187,9 @@ void buildBatch(CLI::App& app, Invocation& in, int& code) {
   CLI::App* c = app.add_subcommand("batch", "Frames as tasks of a plan, by processes here or on a Slurm cluster");
   BatchCommand& b = in.batch;
   RenderSettings& s = b.plan.render;
-  addParsed(*c, "-o", s.output, parseOutput, pictureNames(), "As of render; # stands for the number of the frame");
-  addParsed(*c, "--frames", s.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
+  addParsed(*c, "-o", s.picture.output, parseOutput, pictureNames(),
+            "As of render; # stands for the number of the frame");
+  addParsed(*c, "--frames", s.input.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
   addParsed(
       *c, "--tiles", b.plan.tiles, [](const std::string& t) { return parsePair(t, 1, 64); }, "NxM",
       "Hide and gather each frame once, shade it in tiles, and join them")
@@ -218,11 +221,11 @@ void buildBatch(CLI::App& app, Invocation& in, int& code) {
   const auto picture = added(*c, [&] { addFrameSize(*c, s); });
   const auto light = added(*c, [&] {
     addLightOptions(*c, s);
-    addTrust(*c, s.trust);
+    addTrust(*c, s.input.trust);
   });
   const auto target = added(*c, [&] {
-    addTarget(*c, s);
-    addShotTarget(*c, s);
+    addTarget(*c, s.quality);
+    addShotTarget(*c, s.quality);
   });
   for (const char* passes : {"--tiles", "--share-records"})
     for (const char* chooses : {"--target-error", "--time-budget"})

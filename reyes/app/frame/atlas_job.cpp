@@ -51,21 +51,21 @@ void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
 }  // namespace
 
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading) {
-  if (!settings.atlasFolder.empty()) return settings.atlasFolder;
+  if (!settings.stored.atlasFolder.empty()) return settings.stored.atlasFolder;
   const std::string named = shading.indirectRequest().value_or(IndirectRequest{}).atlas;
   const bool onlyRead = named.empty() || asksPoints(settings, shading) || isMadeByHand(named);
-  return onlyRead ? named : placeBelow(settings.outputRoot, named);
+  return onlyRead ? named : placeBelow(settings.picture.outputRoot, named);
 }
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading) {
   AtlasSettings out;
   out.world = worldSum(scene);
-  out.photons.emit = settings.photons;
+  out.photons.emit = settings.light.photons;
   out.photons.seed = lightSeedOf(settings);
-  out.photons.direct = settings.atlasDirect;
-  out.bricks.maxError = settings.brickMaxError;
+  out.photons.direct = settings.stored.atlasDirect;
+  out.bricks.maxError = settings.stored.brickMaxError;
   std::optional<int> bounces = shading.indirectRequest().value_or(IndirectRequest{}).bounces;
-  if (settings.bounces > 0) bounces = settings.bounces;
+  if (settings.light.bounces > 0) bounces = settings.light.bounces;
   if (bounces) out.photons.mostBounces = std::max(1, *bounces) - 1;  // gather rays are the last one
   return out;
 }
@@ -73,7 +73,7 @@ AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, 
 bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading) {
   const std::string folder = atlasFolder(settings, shading);
   if (asksPoints(settings, shading)) return true;
-  return !folder.empty() && isMadeByHand(folder) ? holdsDirect(folder) : settings.atlasDirect;
+  return !folder.empty() && isMadeByHand(folder) ? holdsDirect(folder) : settings.stored.atlasDirect;
 }
 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
@@ -102,10 +102,10 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
       });
     const bool byHand = points || isMadeByHand(folder);
     if (byHand) requireFinished(points ? fs::path(given) : folder);
-    if (points) bricksOfPoints(given, folder, names, {.maxError = settings.brickMaxError}, log);
+    if (points) bricksOfPoints(given, folder, names, {.maxError = settings.stored.brickMaxError}, log);
     if (!byHand)
       makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, progress, stats, log); }, log);
-    auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings), log);
+    auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings.resources), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const Stopped&) {
@@ -146,15 +146,16 @@ void makeAtlasPass(AtlasPass pass, WorkPart part, const RayTools& tools, const R
 
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,
                                                  const RenderSettings& settings, Log& log) {
-  if (settings.bakedFolder.empty()) {
+  if (settings.stored.bakedFolder.empty()) {
     log.report(Severity::Missing, "baked-folder", {},
                "--gi baked needs --baked FOLDER: rendered without indirect light");
     return nullptr;
   }
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene, shading);
-    auto maps = std::make_unique<const IrradianceAtlas>(
-        settings.bakedFolder, scene, mapNames(scene, shading, atlas).ofSurfaces(), brickCacheBytes(settings), log);
+    auto maps = std::make_unique<const IrradianceAtlas>(settings.stored.bakedFolder, scene,
+                                                        mapNames(scene, shading, atlas).ofSurfaces(),
+                                                        brickCacheBytes(settings.resources), log);
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
   } catch (const std::runtime_error& e) {  // FileError, or an error of the file system
@@ -168,7 +169,7 @@ void bakeGathered(const GiServices& services, const DeepFrame& layout, const Til
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene, shading);
     const MapNames names = mapNames(scene, shading, atlas).ofSurfaces();
-    makeAnewWhatIsDamaged([&] { services.bake(layout, tiles, settings.bakedFolder, names, atlas.world); }, log);
+    makeAnewWhatIsDamaged([&] { services.bake(layout, tiles, settings.stored.bakedFolder, names, atlas.world); }, log);
   } catch (const Stopped&) {  // the records that were gathered before stay
   } catch (const std::runtime_error& e) {
     log.report(Severity::Output, "baked-write", {}, std::string(e.what()) + ": the gathered light is not kept");

@@ -9,10 +9,11 @@
 namespace tomales {
 
 BucketFile::BucketFile(const Scene& scene, const DeepFrame& layout, int world, const RenderSettings& settings, Log& log)
-    : picture_(scene.options.displays.front().name), layout_(layout), log_(log), resumes_(settings.resume) {
+    : picture_(scene.options.displays.front().name), layout_(layout), log_(log), resumes_(settings.picture.resume) {
   if (!resumes_) return;
-  const Shot shot{scene, layout_, settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
-                  world};
+  const Shot shot{
+      scene, layout_, settings.picture.seed, sourcesOf(settings.input.files), std::filesystem::current_path().string(),
+      world};
   std::string error;
   file_ = DfbWriter::create(picture_ + ".dfb", shot, Unfinished::Resumed, error);
   if (!file_)

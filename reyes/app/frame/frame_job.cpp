@@ -31,12 +31,12 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
       settings_(settings),
       stats_(stats),
       log_(log),
-      quality_{settings.samples, settings.maxError, settings.lightSamples},
+      quality_{settings.light.samples, settings.light.maxError, settings.light.lightSamples},
       camera_(scene.options),
-      meter_(settings.progress, "preparing", settings.watcher),
-      clouds_(pathOf(scene.options.searchPaths, "texture"), settings.outputRoot) {
+      meter_(settings.report.progress, "preparing", settings.report.watcher),
+      clouds_(pathOf(scene.options.searchPaths, "texture"), settings.picture.outputRoot) {
   measureAreaLights(scene, shaders, log);
-  if (!settings.draft) displaceByMovingSurfaces(scene, shaders, log);
+  if (!settings.picture.draft) displaceByMovingSurfaces(scene, shaders, log);
   shading_ = std::make_unique<ShadingSystem>(scene, shaders, nullptr, log, stats);
   shading_->setClouds(&clouds_);
   method_ = &methodOf(settings, *shading_);
@@ -53,10 +53,10 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
 }
 
 void FrameJob::warnAboutPixels() const {
-  if (settings_.pixels.empty()) return;
+  if (settings_.report.pixels.empty()) return;
   const PixelRect inside = layOutFrame(scene_).padded;
   std::string outside;
-  for (const auto& [x, y] : settings_.pixels)
+  for (const auto& [x, y] : settings_.report.pixels)
     if (!inside.contains(x, y)) outside += fmt::format("{}{},{}", outside.empty() ? "" : " and ", x, y);
   if (!outside.empty())
     log_.report(Severity::Warning, "pixel-outside", {},
@@ -129,27 +129,28 @@ void FrameJob::prepareRays(RaySource rays) {
 GiSettings FrameJob::giSettings() const {
   return {mode(),
           quality_.samples,
-          settings_.bounces,
+          settings_.light.bounces,
           quality_.maxError,
           lightSeedOf(settings_),
-          settings_.errorFunction,
+          settings_.light.errorFunction,
           mode() != GiMode::Atlas || storesDirect(settings_, *shading_)};
 }
 
 void FrameJob::light(const DeepFrame& layout, const TileReader& tiles, bool gathers) {
-  const bool steers = choosesQuality(settings_) && !interrupted() && steersLight();
-  if (settings_.isPilot && !steers) return;  // this pilot has nothing to choose
-  if (steers && settings_.targetError > 0) return reachTargetError(*this, layout, tiles, settings_, stats_, log_);
+  const bool steers = settings_.quality.chooses() && !interrupted() && steersLight();
+  if (settings_.quality.isPilot && !steers) return;  // this pilot has nothing to choose
+  if (steers && settings_.quality.targetError > 0)
+    return reachTargetError(*this, layout, tiles, settings_, stats_, log_);
   if (steers)
     useTimeBudget(*this, layout, tiles, settings_, stats_, log_);
   else if (gathers)
     gather(layout, tiles);
-  if (!audits(settings_) || interrupted()) return;
+  if (!settings_.quality.audits() || interrupted()) return;
   const AuditReport report = audit(layout, tiles, lightSeedOf(settings_));
   if (interrupted()) return;
   tellAudit(report);
-  if (settings_.holdsQuality && settings_.targetError > 0)
-    tellMissed(report, settings_, optionsOf(quality_) + ", which hold for the shot", log_);
+  if (settings_.quality.isHeld && settings_.quality.targetError > 0)
+    tellMissed(report, settings_.quality, optionsOf(quality_) + ", which hold for the shot", log_);
 }
 
 /// Tells whether rays and records decide the error of the light; says so if not.
@@ -166,7 +167,7 @@ bool FrameJob::steersLight() const {
 }
 
 double FrameJob::elapsed_s() const {
-  return settings_.reading_s + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return settings_.quality.reading_s + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void FrameJob::setQuality(const LightQuality& quality) {
@@ -201,7 +202,7 @@ void FrameJob::endGather(const DeepFrame& layout, const TileReader& tiles) {
   warnOfNoise(services_->caches(), log_);
   if (!interrupted()) services_->tellBouncesLeft(log_);
   if (rays_) warnOfThinWalls(*rays_, log_);
-  if (!settings_.bakedFolder.empty() && gathers() && !interrupted())
+  if (!settings_.stored.bakedFolder.empty() && gathers() && !interrupted())
     bakeGathered(*services_, layout, tiles, scene_, *shading_, settings_, log_);
 }
 
@@ -212,7 +213,7 @@ void FrameJob::gatherRecords(const DeepFrame& layout, const TileReader& tiles,
 
 AuditPlan FrameJob::auditPlan(uint32_t seed) const {
   AuditPlan plan;
-  if (settings_.audit > 0) plan.pixels = static_cast<size_t>(settings_.audit);
+  if (settings_.quality.audit > 0) plan.pixels = static_cast<size_t>(settings_.quality.audit);
   plan.seed = seed;
   plan.indirect = false;
   for (size_t g = 0; g < scene_.groups.size() && mode() != GiMode::None; ++g)
@@ -236,7 +237,7 @@ void FrameJob::tellAudit(const AuditReport& report) {
 ShadeContext FrameJob::shadeContext() const {
   ShadeContext context;
   context.seed = lightSeedOf(settings_);
-  context.direct = settings_.direct;
+  context.direct = settings_.light.direct;
   context.lightSamples = quality_.lightSamples > 0 ? quality_.lightSamples
                          : method_->isReference    ? referenceLightSamples()
                                                    : 0;
@@ -244,7 +245,7 @@ ShadeContext FrameJob::shadeContext() const {
 }
 
 FrameControl FrameJob::control(const char* pass, float begin, float end) {
-  return {meter_.pass(pass, begin, end), &interrupted(), settings_.seed};
+  return {meter_.pass(pass, begin, end), &interrupted(), settings_.picture.seed};
 }
 
 // The reference must not be noisier in direct light than in indirect.

@@ -80,7 +80,7 @@ void FrameJob::write(const DeepFrame& layout, const std::function<std::optional<
                              if (!cut) keepShaded(index, tile);
                              place(index, std::move(tile), put);
                            }};
-    const FrameControl control{tell, cut ? nullptr : &interrupted(), settings_.seed};
+    const FrameControl control{tell, cut ? nullptr : &interrupted(), settings_.picture.seed};
     complete = shadeTiles(tiles, steps, scene_, *shading_, context, control) && complete;
     shaded += tiles.size();
   });
@@ -127,7 +127,7 @@ void FrameJob::show(const DeepFrame& layout, const ShownTiles& tiles, const Show
   context.indirect = part.indirect;
   DeepFrame frame = layout;
   frame.crop = part.window;
-  const FrameControl control{{}, &cancelled, settings_.seed};
+  const FrameControl control{{}, &cancelled, settings_.picture.seed};
   const auto fill = [&](std::span<const uint32_t> asked, const TilePlace& put) {
     const auto take = [&](size_t index, DeepTile&& tile) {
       tiles.shaded(index, tile);
@@ -147,7 +147,7 @@ void FrameJob::shadeApart(std::span<DeepTile> tiles, const std::string* lights, 
 }
 
 void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const {
-  for (const auto& [x, y] : settings_.pixels)
+  for (const auto& [x, y] : settings_.report.pixels)
     if (tile.rect.contains(x, y))
       std::fputs(pixelReport(tile, x, y, layOutFrame(scene_).samplesPerPixel, scene_).c_str(), stdout);
   put(index, std::move(tile));
@@ -156,7 +156,8 @@ void FrameJob::place(size_t index, DeepTile&& tile, const TilePlace& put) const 
 void FrameJob::writeSketch(const DeepFrame& layout, const TileReader& tiles) {
   constexpr int kStride = 4;
   const DisplayCall& first = scene_.options.displays.front();
-  if (settings_.isPilot || first.type == "null" || !driverOf(first, scene_.options, pluginTrust(settings_)).empty())
+  if (settings_.quality.isPilot || first.type == "null" ||
+      !driverOf(first, scene_.options, pluginTrust(settings_)).empty())
     return;
   ShadeContext context = shadeContext();
   context.lightSamples = 1;
@@ -168,15 +169,15 @@ void FrameJob::writeSketch(const DeepFrame& layout, const TileReader& tiles) {
 }
 
 void FrameJob::openPreview(const DeepFrame& layout) {
-  if (!preview_ && !settings_.preview.empty())
-    preview_ = std::make_unique<Preview>(settings_.preview, scene_.options.displays.front().name, layout, log_);
+  if (!preview_ && !settings_.report.preview.empty())
+    preview_ = std::make_unique<Preview>(settings_.report.preview, scene_.options.displays.front().name, layout, log_);
 }
 
 void FrameJob::finish(DeepFrame& frame, const TileFill& fill) {
   openPreview(frame);
   const RowViewer viewer = preview_ ? [&](const Image& rows) { preview_->show(rows); } : RowViewer{};
-  writeFrame(frame, fill, viewer, scene_, *shading_, {{}, &interrupted(), settings_.seed, pluginTrust(settings_)},
-             stats_, log_);
+  writeFrame(frame, fill, viewer, scene_, *shading_,
+             {{}, &interrupted(), settings_.picture.seed, pluginTrust(settings_)}, stats_, log_);
   if (services_) services_->reportAtlas(stats_);
   if (rays_) rays_->report(stats_);
   preview_.reset();

@@ -36,14 +36,15 @@ int64_t grantedBytes() {
 RenderSettings asGranted(RenderSettings settings, Log& log) {
   if (!std::getenv("SLURM_JOB_ID")) return settings;
   std::string said;
-  if (const int64_t threads = grantedThreads(); settings.threads == 0 && threads > 0) {
-    settings.threads = static_cast<int>(std::min<int64_t>(threads, 4096));
-    said = fmt::format("-t {}", settings.threads);
+  if (const int64_t threads = grantedThreads(); settings.resources.threads == 0 && threads > 0) {
+    settings.resources.threads = static_cast<int>(std::min<int64_t>(threads, 4096));
+    said = fmt::format("-t {}", settings.resources.threads);
   }
-  if (const int64_t bytes = grantedBytes(); !settings.memoryLimit && bytes > 0) {
-    settings.memoryLimit = static_cast<int64_t>(kShareOfMemory * static_cast<double>(bytes));
-    settings.memoryIsGranted = true;
-    said += fmt::format("{}--memory-limit {}M", said.empty() ? "" : " and ", *settings.memoryLimit / kMegabyte);
+  if (const int64_t bytes = grantedBytes(); !settings.resources.memoryLimit && bytes > 0) {
+    settings.resources.memoryLimit = static_cast<int64_t>(kShareOfMemory * static_cast<double>(bytes));
+    settings.resources.memoryIsGranted = true;
+    said +=
+        fmt::format("{}--memory-limit {}M", said.empty() ? "" : " and ", *settings.resources.memoryLimit / kMegabyte);
   }
   if (!said.empty()) log.report(Severity::Info, "slurm-grant", {}, "what Slurm has granted sets " + said);
   return settings;

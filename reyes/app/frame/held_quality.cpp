@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Returns the targets that the settings were found for.
-Json purposeOf(const RenderSettings& s) {
+Json purposeOf(const QualitySettings& s) {
   return {{"target_error", s.targetError}, {"target_smudges", s.targetSmudges}, {"time_budget_s", s.timeBudget_s}};
 }
 
@@ -38,13 +38,13 @@ std::vector<int> pilotsOf(const std::vector<int>& frames) {
 }
 
 void hold(const LightQuality& quality, RenderSettings& settings) {
-  settings.holdsQuality = true;
-  if (quality.samples > 0) settings.samples = quality.samples;
-  if (quality.maxError >= 0) settings.maxError = quality.maxError;
-  if (quality.lightSamples > 0) settings.lightSamples = quality.lightSamples;
+  settings.quality.isHeld = true;
+  if (quality.samples > 0) settings.light.samples = quality.samples;
+  if (quality.maxError >= 0) settings.light.maxError = quality.maxError;
+  if (quality.lightSamples > 0) settings.light.lightSamples = quality.lightSamples;
 }
 
-void mergeQuality(HeldQuality& held, size_t world, const LightQuality& quality, const RenderSettings& settings) {
+void mergeQuality(HeldQuality& held, size_t world, const LightQuality& quality, const QualitySettings& settings) {
   if (world >= held.worlds.size()) {
     held.worlds.resize(world);
     held.worlds.push_back(quality);
@@ -57,7 +57,7 @@ void mergeQuality(HeldQuality& held, size_t world, const LightQuality& quality, 
   q.lightSamples = mergedSetting(q.lightSamples, quality.lightSamples, isFiner);
 }
 
-std::optional<HeldQuality> readHeldQuality(const std::string& file, const RenderSettings& settings,
+std::optional<HeldQuality> readHeldQuality(const std::string& file, const QualitySettings& settings,
                                            std::string& error) {
   error = inputProblem(file);
   if (!error.empty()) return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<HeldQuality> readHeldQuality(const std::string& file, const Render
   }
 }
 
-void writeHeldQuality(const std::string& file, const HeldQuality& held, const RenderSettings& settings) {
+void writeHeldQuality(const std::string& file, const HeldQuality& held, const QualitySettings& settings) {
   Json json{{"for", purposeOf(settings)}, {"pilots", held.pilots}, {"worlds", Json::array()}};
   for (const LightQuality& q : held.worlds)
     json["worlds"].push_back({{"samples", q.samples}, {"max_error", q.maxError}, {"light_samples", q.lightSamples}});

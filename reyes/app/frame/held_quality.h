@@ -23,12 +23,13 @@ void hold(const LightQuality& quality, RenderSettings& settings);
 
 /// Merges what another pilot has found for a world. With --target-error the finest of all hold, so that each frame
 /// reaches the target, and with --time-budget the coarsest, so that each ends in time.
-void mergeQuality(HeldQuality& held, size_t world, const LightQuality& quality, const RenderSettings& settings);
+void mergeQuality(HeldQuality& held, size_t world, const LightQuality& quality, const QualitySettings& settings);
 
 /// Reads what an earlier run has found for the same target. Returns nothing, and says why, if the file holds anything
 /// else.
-std::optional<HeldQuality> readHeldQuality(const std::string& file, const RenderSettings& settings, std::string& error);
+std::optional<HeldQuality> readHeldQuality(const std::string& file, const QualitySettings& settings,
+                                           std::string& error);
 /// Throws WriteError.
-void writeHeldQuality(const std::string& file, const HeldQuality& held, const RenderSettings& settings);
+void writeHeldQuality(const std::string& file, const HeldQuality& held, const QualitySettings& settings);
 
 }  // namespace tomales

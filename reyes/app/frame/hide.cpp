@@ -37,7 +37,7 @@ std::vector<SourceFile> sourcesOf(const std::vector<std::string>& files) {
 
 void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& settings, Stats& stats,
                 Log& log) {
-  const std::string path = withFrameNumber(settings.output, scene.options.frame);
+  const std::string path = withFrameNumber(settings.picture.output, scene.options.frame);
   const auto unwritten = [&](const std::string& why) {
     log.report(Severity::Output, "dfb-write", {}, "\"" + path + "\" could not be written: " + why);
   };
@@ -50,13 +50,17 @@ void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSe
   job.setShares(1, 1);
   job.openAll();
   job.findOpenings();
-  Shot shot{
-      scene, layOutFrame(scene), settings.seed, sourcesOf(settings.files), std::filesystem::current_path().string(),
-      world};
+  Shot shot{scene,
+            layOutFrame(scene),
+            settings.picture.seed,
+            sourcesOf(settings.input.files),
+            std::filesystem::current_path().string(),
+            world};
   std::string error;
-  const auto file = DfbWriter::create(path, shot, settings.resume ? Unfinished::Resumed : Unfinished::Kept, error);
+  const auto file =
+      DfbWriter::create(path, shot, settings.picture.resume ? Unfinished::Resumed : Unfinished::Kept, error);
   if (!file) return unwritten(error);
-  if (settings.resume)
+  if (settings.picture.resume)
     log.report(Severity::Info, "resume", {},
                fmt::format("{} of {} buckets were finished before", file->tilesKept(), shot.frame.tileCount()));
 

@@ -7,7 +7,8 @@
 
 namespace tomales {
 
-/// Writes to settings.output, bucket by bucket; with settings.resume, it hides those that an interrupted run left out.
+/// Writes to PictureSettings::output, bucket by bucket; with PictureSettings::resume, it hides those that an
+/// interrupted run left out.
 void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& settings, Stats& stats,
                 Log& log);
 

@@ -27,8 +27,8 @@ bool fits(const ShadedPoints& shaded, const ShadePoints& points) {
 
 std::unique_ptr<KeptWork> keptWorkOf(const Scene& scene, ShaderRegistry& shaders, const DeepFrame& layout,
                                      const RenderSettings& settings, Log& log) {
-  if (!settings.resume) return nullptr;
-  if (choosesQuality(settings)) {
+  if (!settings.picture.resume) return nullptr;
+  if (settings.quality.chooses()) {
     log.report(
         Severity::Note, "resume", {},
         "--resume keeps hidden buckets alone: light is gathered several times, with settings that the program finds");

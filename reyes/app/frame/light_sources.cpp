@@ -38,8 +38,8 @@ void setPhotons(GiServices& services, const FrameOfLight& frame) {
   if (!countsPhotons(methodOf(frame.settings, frame.shading), frame.scene)) return;
   const bool causticsAlone = methodOf(frame.settings, frame.shading).causticsAlone;
   PhotonPasses passes;
-  passes.photons = frame.settings.photons;
-  passes.noise = frame.settings.photonNoise;
+  passes.photons = frame.settings.light.photons;
+  passes.noise = frame.settings.light.photonNoise;
   passes.seed = lightSeedOf(frame.settings);
   passes.focusedOnly = causticsAlone;
   passes.shrinks = !causticsAlone;
@@ -65,7 +65,7 @@ constexpr Source kSources[] = {{GiMode::Atlas, setAtlas},
 }  // namespace
 
 const GiMethod& methodOf(const RenderSettings& settings, const ShadingSystem& shading) {
-  if (settings.gi) return *settings.gi;
+  if (settings.light.gi) return *settings.light.gi;
   const auto request = shading.indirectRequest();
   return request ? *request->method : giMethodOf(GiMode::None);
 }

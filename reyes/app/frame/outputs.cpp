@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 /// Tells whether a Display writes what later frames read, by its type or by a Make request.
 bool feedsFrames(const DisplayCall& d, const RenderSettings& settings) {
-  return writesMap(d) || settings.sources.contains(fs::path(d.name).lexically_normal().string());
+  return writesMap(d) || settings.input.sources.contains(fs::path(d.name).lexically_normal().string());
 }
 
 /// A picture to be looked at has no alpha, and is sRGB unless the scene's Exposure encodes already.
@@ -47,12 +47,12 @@ std::set<std::string> replaceByOutput(Options& options, const RenderSettings& se
   const auto isMap = [&](const DisplayCall& d) { return feedsFrames(d, settings); };
   const auto first = std::find_if_not(displays.begin(), displays.end(), isMap);
   if (first == displays.end()) return {};
-  if (settings.onePicture)
+  if (settings.picture.onePicture)
     displays.erase(std::remove_if(first + 1, displays.end(), std::not_fn(isMap)), displays.end());
-  const std::string output = withFrameNumber(settings.output, options.frame);
+  const std::string output = withFrameNumber(settings.picture.output, options.frame);
   std::set<std::string> names{output};
   const PluginTrust trust = pluginTrust(settings);
-  const bool staysBelowRoot = !settings.outputRoot.empty();  // what the RIB names does, by its own name
+  const bool staysBelowRoot = !settings.picture.outputRoot.empty();  // what the RIB names does, by its own name
   for (auto other = first + 1; other != displays.end() && !staysBelowRoot; ++other) {
     if (isMap(*other) || !driverOf(*other, options, trust).empty()) continue;
     other->name = beside(output, first->name, other->name);
@@ -60,15 +60,15 @@ std::set<std::string> replaceByOutput(Options& options, const RenderSettings& se
   }
   first->name = output;
   first->type = "file";
-  if (isForScreens(settings.output)) writeForScreens(*first, options);
+  if (isForScreens(settings.picture.output)) writeForScreens(*first, options);
   return names;
 }
 
 /// Keeps files that the scene writes below the root, and where they are read again, but not those that the user named.
 /// A .dfb or .icf as output stands for all Displays, and the scene writes none.
 void keepBelow(const RenderSettings& settings, const std::set<std::string>& named, Options& options) {
-  const std::string& root = settings.outputRoot;
-  const bool writesDisplays = settings.output.empty() || namesPicture(settings.output);
+  const std::string& root = settings.picture.outputRoot;
+  const bool writesDisplays = settings.picture.output.empty() || namesPicture(settings.picture.output);
   for (DisplayCall& d : options.displays)
     if (writesDisplays && !named.contains(d.name)) d.name = placeBelow(root, d.name);
   std::string& textures = options.searchPaths["texture"];
@@ -136,10 +136,10 @@ void nameOutputs(Options& options, const RenderSettings& settings, Log& log) {
   if (options.displays.empty()) options.displays.emplace_back();
   const PluginTrust trust = pluginTrust(settings);
   std::set<std::string> named;
-  if (namesPicture(settings.output)) named = replaceByOutput(options, settings);
-  if (!settings.outputRoot.empty()) keepBelow(settings, named, options);
+  if (namesPicture(settings.picture.output)) named = replaceByOutput(options, settings);
+  if (!settings.picture.outputRoot.empty()) keepBelow(settings, named, options);
   dropDisplays(options, named, trust, log);
-  if (settings.crop && !settings.overwrite && !writesMapsAlone(options, settings))
+  if (settings.picture.crop && !settings.picture.overwrite && !writesMapsAlone(options, settings))
     keepLargerFiles(options, named, trust, log);
 }
 

@@ -43,19 +43,19 @@ void limitTextures(Options& options, int64_t limit_bytes) {
 }
 
 RaySettings raySettings(const RenderSettings& settings, const Options& options) {
-  RaySettings out{settings.hitList};
+  RaySettings out{settings.light.hitList};
   const auto it = options.user.find("limits:geocachememory");
   if (it != options.user.end())
     out.geometryCacheBytes = static_cast<size_t>(std::clamp(it->second.number(0), 0.0f, 1e15f) * 1024);
   // Nodes of a cluster grant different sizes, and give the same bits.
-  if (settings.memoryLimit && !settings.memoryIsGranted)
-    out.coarseBytes = static_cast<size_t>(rayShare(*settings.memoryLimit));
-  if (settings.geometryCache) out.geometryCacheBytes = static_cast<size_t>(*settings.geometryCache);
+  if (settings.resources.memoryLimit && !settings.resources.memoryIsGranted)
+    out.coarseBytes = static_cast<size_t>(rayShare(*settings.resources.memoryLimit));
+  if (settings.resources.geometryCache) out.geometryCacheBytes = static_cast<size_t>(*settings.resources.geometryCache);
   return out;
 }
 
 bool tracesFullGeometry(const RenderSettings& settings) {
-  return settings.fullGeometry.value_or(settings.gi && settings.gi->fullGeometry);
+  return settings.light.fullGeometry.value_or(settings.light.gi && settings.light.gi->fullGeometry);
 }
 
 /// Sets an option as if the scene had given it that string.
@@ -70,39 +70,41 @@ void setWord(Options& options, const std::string& key, const std::string& value)
 
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
   raiseTextureMemory(scene.options);
-  setWord(scene.options, "shade:specular", settings.specular);
-  setWord(scene.options, "shade:arealight", settings.arealight);
-  if (settings.textureMemory) {
+  setWord(scene.options, "shade:specular", settings.picture.specular);
+  setWord(scene.options, "shade:arealight", settings.picture.arealight);
+  if (settings.resources.textureMemory) {
     Param kilobytes;
     kilobytes.name = "texturememory";
     kilobytes.type = ValueType::Float;
-    kilobytes.floats = {static_cast<float>(*settings.textureMemory >> 10)};
+    kilobytes.floats = {static_cast<float>(*settings.resources.textureMemory >> 10)};
     scene.options.user["limits:texturememory"] = kilobytes;
   }
-  if (!settings.textureCache.empty()) scene.options.searchPaths["texturecache"] = settings.textureCache;
+  if (!settings.resources.textureCache.empty())
+    scene.options.searchPaths["texturecache"] = settings.resources.textureCache;
   Options& o = scene.options;
-  if (settings.memoryLimit) limitTextures(o, *settings.memoryLimit);
+  if (settings.resources.memoryLimit) limitTextures(o, *settings.resources.memoryLimit);
   if (!writesMapsAlone(o, settings)) {
-    if (settings.format) {
-      o.xResolution = (*settings.format)[0];
-      o.yResolution = (*settings.format)[1];
+    if (settings.picture.format) {
+      o.xResolution = (*settings.picture.format)[0];
+      o.yResolution = (*settings.picture.format)[1];
     }
-    if (settings.crop) o.cropWindow = *settings.crop;
+    if (settings.picture.crop) o.cropWindow = *settings.picture.crop;
   }
-  if (settings.gi && settings.gi->mode != GiMode::None) o.wantsIndirect = true;
-  if (settings.draft) makeDraft(scene);
-  if (settings.pixelSamples) {
-    o.xSamples = (*settings.pixelSamples)[0];
-    o.ySamples = (*settings.pixelSamples)[1];
+  if (settings.light.gi && settings.light.gi->mode != GiMode::None) o.wantsIndirect = true;
+  if (settings.picture.draft) makeDraft(scene);
+  if (settings.picture.pixelSamples) {
+    o.xSamples = (*settings.picture.pixelSamples)[0];
+    o.ySamples = (*settings.picture.pixelSamples)[1];
   }
-  if (settings.bucketSize) o.bucketWidth = o.bucketHeight = *settings.bucketSize;
-  if (settings.shadingRate) changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.shadingRate; });
+  if (settings.resources.bucketSize) o.bucketWidth = o.bucketHeight = *settings.resources.bucketSize;
+  if (settings.picture.shadingRate)
+    changeAttributes(scene, [&](Attributes& a) { a.shadingRate = *settings.picture.shadingRate; });
   if (tracesFullGeometry(settings))
     changeAttributes(scene, [](Attributes& a) {
       a.trace.displacements = true;
       a.trace.rate = TessellationMode::Full;
     });
-  if (settings.gi && settings.gi->mode == GiMode::Reference && scene.shutterIsOpen())
+  if (settings.light.gi && settings.light.gi->mode == GiMode::Reference && scene.shutterIsOpen())
     changeAttributes(scene, [](Attributes& a) { a.trace.sampleMotion = true; });
 }
 

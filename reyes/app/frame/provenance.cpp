@@ -31,33 +31,34 @@ std::string settingsText(const RenderSettings& s) {
   const auto add = [&](const char* option, const auto& value, const auto& unasked) {
     if (value != unasked) out += fmt::format("{}{} {}", out.empty() ? "" : " ", option, value);
   };
-  add("--gi", std::string_view(s.gi ? s.gi->name : "scene"), std::string_view("scene"));
-  add("--samples", s.samples, usual.samples);
-  add("--bounces", s.bounces, usual.bounces);
-  add("--max-error", s.maxError, usual.maxError);
-  add("--error-function", s.errorFunction ? static_cast<int>(*s.errorFunction) : -1, -1);
-  add("--target-error", s.targetError, usual.targetError);
-  add("--target-smudges", s.targetSmudges, usual.targetSmudges);
-  add("--time-budget", s.timeBudget_s, usual.timeBudget_s);
-  add("--light-samples", s.lightSamples, usual.lightSamples);
-  add("--indirect-only", !s.direct, false);
-  add("--seed", s.seed, usual.seed);
-  add("--light-seed", lightSeedOf(s), s.seed);
-  add("--photons", s.photons, usual.photons);
-  add("--photon-noise", s.photonNoise, usual.photonNoise);
-  add("--atlas-direct", s.atlasDirect, usual.atlasDirect);
-  add("--brick-maxerror", s.brickMaxError, usual.brickMaxError);
-  add("--radiosity-texels", s.radiosityTexels, usual.radiosityTexels);
-  add("--irradiance-append", s.appendIrradiance, usual.appendIrradiance);
-  add("--no-hit-list", !s.hitList, false);
-  add("--ray-geometry full", s.fullGeometry.value_or(false), false);
-  add("--standard-shaders files", s.standardFromFiles, usual.standardFromFiles);
+  add("--gi", std::string_view(s.light.gi ? s.light.gi->name : "scene"), std::string_view("scene"));
+  add("--samples", s.light.samples, usual.light.samples);
+  add("--bounces", s.light.bounces, usual.light.bounces);
+  add("--max-error", s.light.maxError, usual.light.maxError);
+  add("--error-function", s.light.errorFunction ? static_cast<int>(*s.light.errorFunction) : -1, -1);
+  add("--target-error", s.quality.targetError, usual.quality.targetError);
+  add("--target-smudges", s.quality.targetSmudges, usual.quality.targetSmudges);
+  add("--time-budget", s.quality.timeBudget_s, usual.quality.timeBudget_s);
+  add("--light-samples", s.light.lightSamples, usual.light.lightSamples);
+  add("--indirect-only", !s.light.direct, false);
+  add("--seed", s.picture.seed, usual.picture.seed);
+  add("--light-seed", lightSeedOf(s), s.picture.seed);
+  add("--photons", s.light.photons, usual.light.photons);
+  add("--photon-noise", s.light.photonNoise, usual.light.photonNoise);
+  add("--atlas-direct", s.stored.atlasDirect, usual.stored.atlasDirect);
+  add("--brick-maxerror", s.stored.brickMaxError, usual.stored.brickMaxError);
+  add("--radiosity-texels", s.stored.radiosityTexels, usual.stored.radiosityTexels);
+  add("--irradiance-append", s.stored.appendIrradiance, usual.stored.appendIrradiance);
+  add("--no-hit-list", !s.light.hitList, false);
+  add("--ray-geometry full", s.light.fullGeometry.value_or(false), false);
+  add("--standard-shaders files", s.input.standardFromFiles, usual.input.standardFromFiles);
   return out;
 }
 
 std::string sceneText(const RenderSettings& settings) {
   std::string out;
-  for (const std::string& file : settings.files) out += (out.empty() ? "" : " ") + fs::path(file).filename().string();
+  for (const std::string& file : settings.input.files)
+    out += (out.empty() ? "" : " ") + fs::path(file).filename().string();
   return out;
 }
 
@@ -104,7 +105,7 @@ void addToPictures(Options& options, const char* name, const std::string& text, 
 }  // namespace
 
 std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings) {
-  const std::string given = settings.irradiance + settings.bakedFolder + settings.atlasFolder;
+  const std::string given = settings.stored.irradiance + settings.stored.bakedFolder + settings.stored.atlasFolder;
   if (!scene.procedurals.empty() || !given.empty()) return {};
   Options options = scene.options;
   const Options usual;
@@ -145,7 +146,7 @@ std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<S
 
 std::string contentsOfGather(const Shot& shot, uint64_t buckets, ShaderRegistry& shaders, const std::string& sum,
                              const RenderSettings& settings) {
-  if (!settings.atlasFolder.empty()) return {};
+  if (!settings.stored.atlasFolder.empty()) return {};
   const PixelRect& crop = shot.frame.crop;
   return fmt::format("{} {} {:016x} {:016x} {} {} {} {} {}", std::string(kVersion) + sourceCommit(), sum, buckets,
                      shaderSum(shot.scene, shaders), settingsText(settings), crop.x0, crop.y0, crop.x1, crop.y1);

@@ -56,7 +56,7 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
   try {
     AtlasSettings atlas = atlasSettings(settings, tools.rays->scene(), *tools.shading);
     atlas.world = worldSum(tools.rays->scene(), false);  // `false`, because gather rays meet what photons do not
-    if (!settings.radiosityFolder.empty())
+    if (!settings.stored.radiosityFolder.empty())
       log.report(Severity::Warning, "radiosity-maps", {},
                  "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
     const RadiosityBrickSettings bricks{.points = radiosity};
@@ -65,7 +65,7 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
     makeAnewWhatIsDamaged(
         [&] {
           out = std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, names, bricks,
-                                                        brickCacheBytes(settings), stats, log);
+                                                        brickCacheBytes(settings.resources), stats, log);
         },
         log);
     return out;
@@ -86,7 +86,7 @@ std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const
                                                     Stats& stats, Log& log) {
   const StageTimer timer(stats, "radiosity");
   const Scene& scene = tools.rays->scene();
-  RadiositySettings radiosity{settings.radiosityTexels, lightSeedOf(settings)};
+  RadiositySettings radiosity{settings.stored.radiosityTexels, lightSeedOf(settings)};
   radiosity.progress = progress;
   radiosity.kept = kept;
   if (const std::string folder = atlasFolder(settings, *tools.shading); !folder.empty())
@@ -94,7 +94,8 @@ std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const
   std::unique_ptr<const RadiosityMaps> maps;
   try {
     maps = std::make_unique<const RadiosityMaps>(*tools.rays, *tools.shading, camera, radiosity, log);
-    if (!settings.radiosityFolder.empty()) writeRadiosityMaps(*maps, scene, settings.radiosityFolder, log);
+    if (!settings.stored.radiosityFolder.empty())
+      writeRadiosityMaps(*maps, scene, settings.stored.radiosityFolder, log);
   } catch (const Stopped&) {               // the maps that exist may be used
   } catch (const std::runtime_error& e) {  // FileError, or an error of the file system
     log.report(severityOfLoss(e), "radiosity-maps", {},

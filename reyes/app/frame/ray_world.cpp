@@ -122,13 +122,13 @@ std::unique_ptr<RayGeometry> RayWorld::build() {
   int world = 0;
   RibSettings rib;
   rib.archivePath = {shot_.folder};
-  if (!settings_.outputRoot.empty()) rib.archivePath.push_back(settings_.outputRoot);
-  rib.trust = settings_.trust;
+  if (!settings_.picture.outputRoot.empty()) rib.archivePath.push_back(settings_.picture.outputRoot);
+  rib.trust = settings_.input.trust;
   rib.onScene = [&](Scene&& s) {
     if (world++ == shot_.world) scene = std::move(s);
   };
   rib.skipsFrame = [&](int frame) {
-    return scene.has_value() || (settings_.framesApart && frame != shot_.scene.options.frame);
+    return scene.has_value() || (settings_.input.framesApart && frame != shot_.scene.options.frame);
   };
   rib.onSkipped = [&](int worlds) { world += worlds; };
   std::vector<std::string> files;

@@ -49,9 +49,10 @@ bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
 /// Returns the memory for hidden buckets: what --memory-limit leaves beside what is in memory now, not counting `held`
 /// bytes of buckets, and beside the size that caches may grow to.
 int64_t tileBudget(const RenderSettings& settings, int64_t held) {
-  if (!settings.memoryLimit) return kUsualLimit;
-  const int64_t caches = textureShare(*settings.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings));
-  return std::max<int64_t>(0, *settings.memoryLimit - (residentBytes() - held) - caches);
+  if (!settings.resources.memoryLimit) return kUsualLimit;
+  const int64_t caches =
+      textureShare(*settings.resources.memoryLimit) + static_cast<int64_t>(brickCacheBytes(settings.resources));
+  return std::max<int64_t>(0, *settings.resources.memoryLimit - (residentBytes() - held) - caches);
 }
 
 void reportMemory(int64_t limit, const std::string& done, const Stats& stats, Log& log) {
@@ -75,15 +76,15 @@ bool mayStream(const Scene& scene) { return scene.procedurals.empty() && scene.o
 /// Returns false if the file cannot be read, which is reported.
 bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob& job, Log& log) {
   std::string error;
-  const auto file = IcfFile::open(settings.irradiance, error);
+  const auto file = IcfFile::open(settings.stored.irradiance, error);
   if (!file) {
-    log.report(Severity::Error, "icf-read", {std::make_shared<std::string>(settings.irradiance), 0},
+    log.report(Severity::Error, "icf-read", {std::make_shared<std::string>(settings.stored.irradiance), 0},
                "cannot be read as an irradiance cache: " + error);
     return false;
   }
   IrradianceShot given = file->takeShot();
   moveToCamera(given, scene.cameraFromWorldAtOpen());
-  if (!settings.appendIrradiance) job.checkRecords(given.settings, settings.irradiance);
+  if (!settings.stored.appendIrradiance) job.checkRecords(given.settings, settings.stored.irradiance);
   job.services()->useCaches(std::move(given.caches));
   return true;
 }
@@ -97,19 +98,20 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
   if (!displaysHaveFolders(scene.options, pluginTrust(settings), log) || !fitsMemory(scene, layout, log)) return;
   checkDisplays(scene.options, log);
   FrameJob job(scene, shaders, settings, stats, log);
-  const bool given = !settings.irradiance.empty(), gathers = job.gathersBeside(given && !settings.appendIrradiance);
+  const bool given = !settings.stored.irradiance.empty(),
+             gathers = job.gathersBeside(given && !settings.stored.appendIrradiance);
   if (gathers) describeGather(scene.options, settings);
-  if (!settings.bakedFolder.empty() && !(gathers && job.gathers()) && !job.method().usesBaked)
+  if (!settings.stored.bakedFolder.empty() && !(gathers && job.gathers()) && !job.method().usesBaked)
     log.report(Severity::Warning, "baked-unused", {},
                "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
   const int64_t budget_bytes = tileBudget(settings, 0);
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
   // A preview wants the first rows first. An audit looks at all rows before the first one is written, because the
   // pictures' headers tell what it has found.
-  const bool streams = !gathers && !audits(settings) && !choosesQuality(settings) &&
-                       (large || !settings.preview.empty() || mayStream(scene));
+  const bool streams = !gathers && !settings.quality.audits() && !settings.quality.chooses() &&
+                       (large || !settings.report.preview.empty() || mayStream(scene));
 
-  if (streams || given || settings.resume) job.openAll();
+  if (streams || given || settings.picture.resume) job.openAll();
   BucketFile file(scene, layout, world, settings, log);
   const std::unique_ptr<KeptWork> kept = keptWorkOf(scene, shaders, layout, settings, log);
   job.keepWork(kept.get());
@@ -120,32 +122,32 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
     job.hideAndWrite(layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
   } else {
     // The geometry that rays will meet needs room too, and nobody knows yet how much.
-    TileStore store(layout.tileCount(), settings.memoryLimit && gathers && !given ? budget_bytes / 2 : budget_bytes,
-                    find);
+    TileStore store(layout.tileCount(),
+                    settings.resources.memoryLimit && gathers && !given ? budget_bytes / 2 : budget_bytes, find);
     const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
     const TileSink sink{{},
                         [&](size_t i, DeepTile&& tile) {
                           file.keepForResume(i, tile);
                           if (!store.keep(i, tile)) spill(i, tile);
                         },
-                        settings.resume ? find : nullptr};
+                        settings.picture.resume ? find : nullptr};
     job.hide(layout, sink);
     returnFreeMemory();  // frees the grids
     afterStage();
-    if (settings.memoryLimit && job.method().makesMaps)
+    if (settings.resources.memoryLimit && job.method().makesMaps)
       store.shrinkTo(0, spill);  // photons need the room; buckets are loaded again when they are read
     if (!given) job.prepareRays();
-    if (settings.memoryLimit) {
+    if (settings.resources.memoryLimit) {
       store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);
       returnFreeMemory();
     }
     job.light(layout, store.reader(), gathers);
-    if (settings.isPilot) return file.forget();
+    if (settings.quality.isPilot) return file.forget();
     afterStage();
     job.write(layout, [&](size_t i) { return store.take(i); });
   }
-  if (settings.memoryLimit)
-    reportMemory(*settings.memoryLimit,
+  if (settings.resources.memoryLimit)
+    reportMemory(*settings.resources.memoryLimit,
                  streams ? "the picture was made row by row, and the buckets of earlier rows were dropped"
                          : fmt::format("{} of {} buckets rested in a file", file.spilled(), layout.tileCount()),
                  stats, log);

@@ -44,7 +44,7 @@ void makeSharedLight(Scene& scene, ShaderRegistry& shaders, const RenderSettings
 }
 
 std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& settings, Log& log) {
-  if (settings.gi && !makesMaps(*settings.gi)) return std::nullopt;
+  if (settings.light.gi && !makesMaps(*settings.light.gi)) return std::nullopt;
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
   if (!makesMaps(methodOfLights(scene, *shaders, settings, log))) return std::nullopt;
   Stats stats;

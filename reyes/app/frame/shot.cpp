@@ -45,7 +45,7 @@ std::unique_ptr<ShotJob> ShotJob::open(std::shared_ptr<ShotFiles> files, const R
 
 ShotJob::ShotJob(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats, Log& log)
     : files_(std::move(files)), settings_(settings), stats_(stats), log_(log), shot_(files_->dfb().shot()) {
-  settings_.seed = shot_.seed;
+  settings_.picture.seed = shot_.seed;
   searchFrom(shot_.folder, shot_.scene);
 }
 
@@ -55,11 +55,11 @@ ShotJob::~ShotJob() {
 
 bool ShotJob::edit() {
   for (const ShadeGroup& g : shot_.scene.groups) attributesOfFile_.push_back(g.attributes);
-  if (!settings_.edits.empty() && !editScene(settings_.edits, shot_.scene, log_)) return false;
+  if (!settings_.input.edits.empty() && !editScene(settings_.input.edits, shot_.scene, log_)) return false;
   applyOverrides(shot_.scene, settings_);
   nameOutputs(shot_.scene.options, settings_, log_);
   describeOutputs(shot_.scene.options, "", settings_);
-  if (settings_.crop) {
+  if (settings_.picture.crop) {
     const PixelRect asked = Camera(shot_.scene.options).crop(), &whole = shot_.frame.crop;
     shot_.frame.crop = {std::max(asked.x0, whole.x0), std::max(asked.y0, whole.y0), std::min(asked.x1, whole.x1),
                         std::min(asked.y1, whole.y1)};
@@ -70,11 +70,11 @@ bool ShotJob::edit() {
 }
 
 std::unique_ptr<KeptWork> ShotJob::keptGather() const {
-  if (!settings_.resume) return nullptr;
-  const std::string sum = sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.edits)),
+  if (!settings_.picture.resume) return nullptr;
+  const std::string sum = sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.input.edits)),
                     contents =
                         contentsOfGather(shot_, files_->dfb().shotSum(), *files_->kept().shaders, sum, settings_);
-  if (!contents.empty()) return KeptWork::create(settings_.output + ".kept", contents, log_);
+  if (!contents.empty()) return KeptWork::create(settings_.picture.output + ".kept", contents, log_);
   log_.report(Severity::Note, "resume", {},
               "--resume keeps nothing: the maps of --atlas are read while light is gathered and might change between "
               "runs");
@@ -94,7 +94,7 @@ void ShotJob::prepareLight() {
     IrradianceShot& given = files_->irradiance();
     lightEdits_ = editsSince(given, shot_.scene, job_->shading());
     if (given.emitters && files_->isOfShot()) job_->services()->useEmitters(*given.emitters);
-    if (given.learnt && files_->isOfShot() && settings_.edits.empty() && !gathers_)
+    if (given.learnt && files_->isOfShot() && settings_.input.edits.empty() && !gathers_)
       job_->services()->useLearnt(given.learnt);
     moveToCamera(given, shot_.scene.cameraFromWorldAtOpen());
     std::optional<PixelRect> anew;
@@ -113,11 +113,11 @@ void ShotJob::prepareShares() {
   std::vector<std::string> groups = given ? files_->irradiance().groups : std::vector<std::string>();
   const GiMode mode = job_->giSettings().mode;
   const bool shared = mode == GiMode::Gather || (mode == GiMode::None && job_->gathers());
-  if (settings_.byLight && (given ? groups.empty() : !shared))
+  if (settings_.stored.byLight && (given ? groups.empty() : !shared))
     return log_.report(Severity::Warning, "light-shares", {},
                        given ? "--by-light: the records of --irradiance have no shares; new ones get none either"
                              : "--by-light: only --gi gather knows which light has bounced");
-  if (settings_.byLight && !given) groups = groupsOfLights(shot_.scene, job_->shading());
+  if (settings_.stored.byLight && !given) groups = groupsOfLights(shot_.scene, job_->shading());
   if (!groups.empty()) job_->shading().runAllLights();
   job_->services()->keepShares(groups);
   if (given && !gathers_) job_->services()->mixShares(lightEdits_.gains);
@@ -144,7 +144,7 @@ void ShotJob::warnOfStaleLight() const {
   const std::vector<std::string> changed = staleLight();
   if (changed.empty()) return;
   log_.report(
-      Severity::Warning, "light-stale", wholeFile(settings_.irradiance),
+      Severity::Warning, "light-stale", wholeFile(settings_.stored.irradiance),
       fmt::format("keeps the bounced light of {} as it was when it was gathered: direct light is that of the edit; "
                   "gather again for the rest",
                   fmt::join(changed, ", ")));
@@ -158,13 +158,14 @@ std::shared_ptr<const DeepTile> ShotJob::read(size_t index) const {
 void ShotJob::shadePicture() {
   if (!displaysHaveFolders(shot_.scene.options, pluginTrust(settings_), log_)) return;
   checkDisplays(shot_.scene.options, log_);
-  describeShot(shot_.scene.options, sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.edits)), settings_);
+  describeShot(shot_.scene.options, sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.input.edits)),
+               settings_);
   prepareLight();
-  const bool gathers = job_->gathersBeside(files_->hasIrradiance() && !settings_.appendIrradiance);
+  const bool gathers = job_->gathersBeside(files_->hasIrradiance() && !settings_.stored.appendIrradiance);
   job_->setShares(0, gathers ? 0.6f : 0);
   if (!gathers) {
     warnOfStaleLight();
-    if (files_->hasIrradiance()) job_->checkRecords(files_->irradiance().settings, settings_.irradiance);
+    if (files_->hasIrradiance()) job_->checkRecords(files_->irradiance().settings, settings_.stored.irradiance);
   }
   job_->light(
       shot_.frame, [this](size_t index) { return read(index); }, gathers);
@@ -250,14 +251,14 @@ bool ShotJob::copyAnswers(const std::set<uint32_t>& except, IcfWriter& out) {
 
 void ShotJob::gatherIrradiance() {
   const auto unwritten = [&](const std::string& why) {
-    log_.report(Severity::Output, "icf-write", {}, "\"" + settings_.output + "\" could not be written: " + why);
+    log_.report(Severity::Output, "icf-write", {}, "\"" + settings_.picture.output + "\" could not be written: " + why);
   };
-  if (!hasFolder(settings_.output, {}, log_)) return;
+  if (!hasFolder(settings_.picture.output, {}, log_)) return;
   std::string error;
-  const auto out = IcfWriter::create(settings_.output, error);
+  const auto out = IcfWriter::create(settings_.picture.output, error);
   if (!out) return unwritten(error);
   gathers_ = true;
-  gathersAnew_ = settings_.crop.has_value();
+  gathersAnew_ = settings_.picture.crop.has_value();
   prepareLight();
   const RayTools* tools = world_->tools();
   if (!tools) return;
@@ -268,7 +269,7 @@ void ShotJob::gatherIrradiance() {
   job_->gather(shot_.frame, [&](size_t index) {
     return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? read(index) : nullptr;
   });
-  const bool written = !settings_.keepsAnswers || (recordAnswers(*out) && copyAnswers(inCrop, *out));
+  const bool written = !settings_.stored.keepsAnswers || (recordAnswers(*out) && copyAnswers(inCrop, *out));
   IrradianceShot shot{interrupted() ? 0 : files_->dfb().shotSum(),
                       job_->giSettings(),
                       shot_.scene.cameraFromWorldAtOpen(),
@@ -280,7 +281,7 @@ void ShotJob::gatherIrradiance() {
   shot.caches = job_->services()->takeCaches();
   world_->report();
   if (!written || !out->finish(shot)) return unwritten(out->error());
-  stats_.addOutput(settings_.output);
+  stats_.addOutput(settings_.picture.output);
   if (kept_ && !interrupted()) kept_->forget();
 }
 

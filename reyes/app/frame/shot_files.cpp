@@ -4,8 +4,8 @@ namespace tomales {
 
 std::shared_ptr<ShotFiles> ShotFiles::open(const RenderSettings& settings, Log& log) {
   std::shared_ptr<ShotFiles> out(new ShotFiles);
-  out->dfbPath_ = settings.files.front();
-  out->icfPath_ = settings.irradiance;
+  out->dfbPath_ = settings.input.files.front();
+  out->icfPath_ = settings.stored.irradiance;
   std::string error;
   out->dfb_ = DfbFile::open(out->dfbPath_, error);
   if (!out->dfb_) {

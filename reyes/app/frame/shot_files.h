@@ -12,7 +12,8 @@ inline SourceLoc wholeFile(const std::string& path) { return {std::make_shared<s
 
 class ShotFiles {
  public:
-  /// Opens RenderSettings::files and irradiance. Returns null if one of them cannot be read, which is reported.
+  /// Opens InputSettings::files and StoredLightSettings::irradiance. Returns null if one of them cannot be read, which
+  /// is reported.
   static std::shared_ptr<ShotFiles> open(const RenderSettings& settings, Log& log);
 
   const DfbFile& dfb() const { return *dfb_; }

@@ -16,7 +16,8 @@ namespace {
 constexpr int kMostAttempts = 3;
 constexpr double kMargin = 0.9;     ///< Share of the target that is aimed at: some pictures err more than a model says.
 constexpr double kTolerance = 1.1;  ///< A picture that errs by so many times the target is lit again.
-ErrorTarget targetOf(const RenderSettings& settings) {
+
+ErrorTarget targetOf(const QualitySettings& settings) {
   return {settings.targetError, settings.targetSmudges > 0 ? settings.targetSmudges : settings.targetError};
 }
 
@@ -37,7 +38,7 @@ class TargetSearch {
         layout_(layout),
         tiles_(tiles),
         settings_(settings),
-        target_(targetOf(settings)),
+        target_(targetOf(settings.quality)),
         stats_(stats),
         log_(log) {}
 
@@ -89,9 +90,9 @@ class TargetSearch {
   void finish(const LightQuality& quality, const AuditReport& report, int attempts) {
     job_.tellAudit(report);
     describeQuality(job_.scene().options, optionsOf(quality), settings_);
-    tellMissed(report, settings_,
+    tellMissed(report, settings_.quality,
                fmt::format("{}, after {} of at most {} attempts", optionsOf(quality), attempts, kMostAttempts), log_);
-    if (settings_.onQuality) settings_.onQuality(quality);
+    if (settings_.quality.onQuality) settings_.quality.onQuality(quality);
   }
 
   FrameJob& job_;
@@ -114,7 +115,7 @@ std::string wordsFor(const LightQuality& quality) {
   return options.empty() ? "the scene's own settings are kept" : "chose " + options;
 }
 
-void tellMissed(const AuditReport& report, const RenderSettings& settings, const std::string& with, Log& log) {
+void tellMissed(const AuditReport& report, const QualitySettings& settings, const std::string& with, Log& log) {
   const ErrorTarget target = targetOf(settings);
   const ErrorEstimate& error = report.picture;
   if (!error.tells() && error.noise > target.error)

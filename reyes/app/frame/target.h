@@ -18,6 +18,6 @@ uint32_t seedOfTrials(const RenderSettings& settings);
 std::string wordsFor(const LightQuality& quality);
 
 /// Warns where a picture errs more than was asked, or where nobody can tell. `with`: the settings that it has.
-void tellMissed(const AuditReport& report, const RenderSettings& settings, const std::string& with, Log& log);
+void tellMissed(const AuditReport& report, const QualitySettings& settings, const std::string& with, Log& log);
 
 }  // namespace tomales

@@ -53,7 +53,7 @@ class BudgetedFrame {
  private:
   TrialsResult makeTrials(Stats& stats) {
     job_.writeSketch(layout_, tiles_);
-    const auto remaining_s = [&] { return std::max(0.0, settings_.timeBudget_s - job_.elapsed_s()); };
+    const auto remaining_s = [&] { return std::max(0.0, settings_.quality.timeBudget_s - job_.elapsed_s()); };
     const TrialPlan plan{CostUnit::Seconds, remaining_s() < kBrief_s, seedOfTrials(settings_),
                          [=](const ErrorModel& m) { return m.best(kShareToPlan * remaining_s()); },
                          [=] { return kShareOfNarrowTrial * remaining_s(); }};
@@ -64,8 +64,8 @@ class BudgetedFrame {
   double left_s() const {
     // An audit takes many times as many light samples as the picture.
     const double audit_s =
-        settings_.audit > 0 ? trials_.audit_s * std::max(1, quality_.lightSamples / kLampsOfAudit) : 0;
-    return kShareToPlan * (settings_.timeBudget_s - job_.elapsed_s() - audit_s);
+        settings_.quality.audit > 0 ? trials_.audit_s * std::max(1, quality_.lightSamples / kLampsOfAudit) : 0;
+    return kShareToPlan * (settings_.quality.timeBudget_s - job_.elapsed_s() - audit_s);
   }
 
   void choose(const LightQuality& quality) {
@@ -187,18 +187,19 @@ class BudgetedFrame {
   }
 
   void tell(double planned_s) {
-    log_.report(Severity::Note, "time-budget", {},
-                fmt::format("{} for {:.3g} s: trials in {} of {} buckets expect a mean error of {:.2g} %; shading "
-                            "begins after {:.3g} s and takes about {:.2g} s",
-                            wordsFor(quality_), settings_.timeBudget_s, trials_.tried.size(), trials_.seen.size(),
-                            100 * trials_.model.error(quality_), job_.elapsed_s(), trials_.model.shadeCost(quality_)));
+    log_.report(
+        Severity::Note, "time-budget", {},
+        fmt::format("{} for {:.3g} s: trials in {} of {} buckets expect a mean error of {:.2g} %; shading "
+                    "begins after {:.3g} s and takes about {:.2g} s",
+                    wordsFor(quality_), settings_.quality.timeBudget_s, trials_.tried.size(), trials_.seen.size(),
+                    100 * trials_.model.error(quality_), job_.elapsed_s(), trials_.model.shadeCost(quality_)));
     describeQuality(job_.scene().options, optionsOf(quality_), settings_);
-    if (settings_.onQuality) settings_.onQuality(quality_);
+    if (settings_.quality.onQuality) settings_.quality.onQuality(quality_);
     if (planned_s > 0) return;
     log_.report(
         Severity::Warning, "time-over", {},
         fmt::format("{:.3g} s are too short: hiding and trials alone took {:.3g} s; light has the coarsest settings",
-                    settings_.timeBudget_s, settings_.timeBudget_s - planned_s / kShareToPlan));
+                    settings_.quality.timeBudget_s, settings_.quality.timeBudget_s - planned_s / kShareToPlan));
   }
 
   FrameJob& job_;

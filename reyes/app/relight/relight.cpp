@@ -78,23 +78,23 @@ class Relight {
 
  private:
   const RenderSettings& fileOfShot() {
-    if (command_.hide) shot_.files = {(folder_.path() / "shot.dfb").string()};
+    if (command_.hide) shot_.input.files = {(folder_.path() / "shot.dfb").string()};
     return shot_;
   }
 
   int hide() {
     if (!command_.hide) return kDone;
     RenderSettings hide = command_.render;
-    hide.output = shot_.files.front();
-    hide.watcher = [this](const char* doing, float done) { relighting_.tell(doing, done); };
+    hide.picture.output = shot_.input.files.front();
+    hide.report.watcher = [this](const char* doing, float done) { relighting_.tell(doing, done); };
     const int code = command_.hide(hide);
-    return fs::exists(hide.output) ? kDone : code;
+    return fs::exists(hide.picture.output) ? kDone : code;
   }
 
   int serve() {
     const OrderlyEnd orderly;
     const bool isPrepared = relighting_.prepare();
-    const int code = exitCodeOf(log_, shot_.strict);
+    const int code = exitCodeOf(log_, shot_.report.strict);
     if (!isPrepared || interrupted()) return code;
     relighting_.start();
     prepared_.open(true);
@@ -260,9 +260,9 @@ class Relight {
 }  // namespace
 
 int relightCommand(const RelightCommand& command) {
-  Log log(command.render.verbosity);
+  Log log(command.render.report.verbosity);
   const RenderSettings settings = asGranted(command.render, log);
-  const ThreadLimit threads(settings.threads);
+  const ThreadLimit threads(settings.resources.threads);
   Stats stats;
   try {
     return Relight(command, settings, stats, log).run();
@@ -271,7 +271,7 @@ int relightCommand(const RelightCommand& command) {
   } catch (const std::runtime_error& e) {
     log.report(Severity::Error, "relight-server", {}, e.what());
   }
-  return exitCodeOf(log, settings.strict);
+  return exitCodeOf(log, settings.report.strict);
 }
 
 }  // namespace tomales

@@ -9,7 +9,7 @@ struct RelightCommand {
   int port = 0;              ///< 0: any that is free.
   std::string folder = ".";  ///< Edits are saved and loaded here.
   bool opens = true;         ///< A browser is opened.
-  /// Hides a scene to RenderSettings::output, and returns an exit code; empty: the shot is hidden already.
+  /// Hides a scene to PictureSettings::output, and returns an exit code; empty: the shot is hidden already.
   std::function<int(const RenderSettings&)> hide{};
 };
 

@@ -38,7 +38,7 @@ bool mayBeLinearElsewhere(const EditState& a, const EditState& b) {
 
 Relighting::Relighting(const RenderSettings& settings, Stats& stats, Log& log)
     : settings_(settings), stats_(stats), log_(log), folder_(std::filesystem::temp_directory_path()) {
-  settings_.watcher = [this](const char* doing, float done) { tell(doing, done); };
+  settings_.report.watcher = [this](const char* doing, float done) { tell(doing, done); };
 }
 
 Relighting::~Relighting() {
@@ -59,7 +59,7 @@ void Relighting::tell(const char* doing, float done) {
 }
 
 bool Relighting::prepare() {
-  if (settings_.irradiance.empty()) {
+  if (settings_.stored.irradiance.empty()) {
     auto job = ShotJob::open(settings_, stats_, log_);
     if (!job) return false;
     job->prepareToShow();
@@ -67,11 +67,11 @@ bool Relighting::prepare() {
     job.reset();
     if (gathers) {
       RenderSettings gather = settings_;
-      gather.output = (folder_.path() / "shot.icf").string();
-      gather.byLight = true;
+      gather.picture.output = (folder_.path() / "shot.icf").string();
+      gather.stored.byLight = true;
       if ((job = ShotJob::open(gather, stats_, log_))) job->gatherIrradiance();
       job.reset();
-      settings_.irradiance = gather.output;
+      settings_.stored.irradiance = gather.picture.output;
     }
   }
   if (interrupted() || !openFiles()) return false;
@@ -102,7 +102,8 @@ bool Relighting::openFiles() {
     const std::lock_guard lock(mutex_);
     files_ = std::move(files);
   }
-  const int64_t budget_bytes = settings_.memoryLimit ? *settings_.memoryLimit / 2 : kTilesHeld_bytes;
+  const int64_t budget_bytes =
+      settings_.resources.memoryLimit ? *settings_.resources.memoryLimit / 2 : kTilesHeld_bytes;
   tiles_ = std::make_unique<TileStore>(files_->dfb().shot().frame.tileCount(), budget_bytes,
                                        [this](size_t index) { return files_->load(index, log_); });
   return true;
@@ -110,12 +111,12 @@ bool Relighting::openFiles() {
 
 // An edit of the command line is where the page begins, so that it is part of what the page saves.
 void Relighting::takeGivenEdits() {
-  if (settings_.edits.empty()) return;
+  if (settings_.input.edits.empty()) return;
   try {
-    present_ = stateOfRib(settings_.edits, *editable_);
-    settings_.edits.clear();
+    present_ = stateOfRib(settings_.input.edits, *editable_);
+    settings_.input.edits.clear();
   } catch (const BadRequest& e) {
-    log_.report(Severity::Warning, "relight-edit", wholeFile(settings_.edits.front()),
+    log_.report(Severity::Warning, "relight-edit", wholeFile(settings_.input.edits.front()),
                 fmt::format("stays below what the page changes, and is no part of what it saves: {}", e.what()));
   }
 }

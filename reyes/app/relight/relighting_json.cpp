@@ -65,7 +65,7 @@ Json Relighting::description() const {
     layers.push_back({{"name", list_[i].name}, {"lights", list_[i].handles}});
   for (const EditableObject& o : editable_->objects())
     objects.push_back({{"name", o.name}, {"color", {o.color.x, o.color.y, o.color.z}}, {"lights", o.lights}});
-  Json out = {{"file", settings_.files.front()},
+  Json out = {{"file", settings_.input.files.front()},
               {"width", window_.width()},
               {"height", window_.height()},
               {"exposure", editable_->exposure()},

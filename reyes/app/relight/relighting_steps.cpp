@@ -35,7 +35,7 @@ ShotJob& Relighting::jobFor(const EditState& edit, const std::string& variable) 
   if (job_ && text == textOfJob_) return *job_;
   job_.reset();  // it gives the records back
   RenderSettings settings = settings_;
-  settings.edits.push_back(fileOfEdit(edit));
+  settings.input.edits.push_back(fileOfEdit(edit));
   job_ = ShotJob::open(files_, settings, stats_, log_);
   if (!job_) throw std::runtime_error("the edit cannot be applied");
   job_->prepareToShow(variable);
@@ -182,21 +182,22 @@ void Relighting::gather(const Step& step) {
              height = static_cast<float>(files_->dfb().shot().scene.options.yResolution);
   const PixelRect& p = step.pixels;
   RenderSettings settings = settings_;
-  settings.edits.push_back(fileOfEdit(step.edit));
-  settings.crop = {static_cast<float>(p.x0) / width, static_cast<float>(p.x1) / width,
-                   static_cast<float>(p.y0) / height, static_cast<float>(p.y1) / height};
-  settings.output = (folder_.path() / fmt::format("gathered-{}.icf", gathered_.size())).string();
+  settings.input.edits.push_back(fileOfEdit(step.edit));
+  settings.picture.crop = {static_cast<float>(p.x0) / width, static_cast<float>(p.x1) / width,
+                           static_cast<float>(p.y0) / height, static_cast<float>(p.y1) / height};
+  settings.picture.output = (folder_.path() / fmt::format("gathered-{}.icf", gathered_.size())).string();
   job_.reset();
   if (auto job = ShotJob::open(files_, settings, stats_, log_)) {
     job->gatherIrradiance();
   }
-  const std::string before = settings_.irradiance;
-  if (std::filesystem::exists(settings.output)) settings_.irradiance = settings.output;
+  const std::string before = settings_.stored.irradiance;
+  if (std::filesystem::exists(settings.picture.output)) settings_.stored.irradiance = settings.picture.output;
   if (!openFiles()) throw std::runtime_error("what was gathered cannot be read");
   sketch_->forgetRays();
-  if (before.starts_with(folder_.path().string()) && before != settings_.irradiance) std::filesystem::remove(before);
+  if (before.starts_with(folder_.path().string()) && before != settings_.stored.irradiance)
+    std::filesystem::remove(before);
   const std::lock_guard lock(mutex_);
-  gatheredFile_ = settings_.irradiance;
+  gatheredFile_ = settings_.stored.irradiance;
   gathered_.push_back({p.x0 - window_.x0, p.y0 - window_.y0, p.x1 - window_.x0, p.y1 - window_.y0});
   for (Layer& layer : list_) layer.parts.forgetAll();
   for (SharedTiles& shared : shared_) shared = {};

@@ -50,19 +50,20 @@ RunReport::RunReport(const RenderSettings& settings, Log& log) : settings_(setti
 }
 
 void RunReport::openLog() {
-  if (settings_.logFile.empty()) return;
+  if (settings_.report.logFile.empty()) return;
   std::string why = kIsRead;
-  if (isAmong(settings_.logFile, settings_.files) || !log_.alsoTo(settings_.logFile, why))
-    return log_.report(Severity::Output, "log-write", {}, "\"" + settings_.logFile + "\" could not be written: " + why);
+  if (isAmong(settings_.report.logFile, settings_.input.files) || !log_.alsoTo(settings_.report.logFile, why))
+    return log_.report(Severity::Output, "log-write", {},
+                       "\"" + settings_.report.logFile + "\" could not be written: " + why);
   log_.report(Severity::Info, "run", {},
               fmt::format("version {} ({}) on {}, process {}: {}", kVersion, sourceCommit(), hostName(), ::getpid(),
-                          settings_.commandLine));
+                          settings_.report.commandLine));
 }
 
-bool RunReport::appends() const { return settings_.statsFile.ends_with(".jsonl"); }
-bool RunReport::isPerFrame() const { return appends() || settings_.statsFile.find('#') != std::string::npos; }
+bool RunReport::appends() const { return settings_.report.statsFile.ends_with(".jsonl"); }
+bool RunReport::isPerFrame() const { return appends() || settings_.report.statsFile.find('#') != std::string::npos; }
 
-std::string RunReport::statsFile() const { return withFrameNumber(settings_.statsFile, frame_.value_or(0)); }
+std::string RunReport::statsFile() const { return withFrameNumber(settings_.report.statsFile, frame_.value_or(0)); }
 
 RunFigures RunReport::figures() const {
   RunFigures out{frame_, secondsSince(start_), processCpuSeconds() - cpuStart_, std::max(peak_, peakResidentBytes()),
@@ -72,10 +73,10 @@ RunFigures RunReport::figures() const {
 }
 
 void RunReport::write() {
-  if (settings_.statsFile.empty()) return;
+  if (settings_.report.statsFile.empty()) return;
   const std::string file = statsFile(), text = statsText(settings_, *stats_, figures(), appends() ? -1 : 2);
   std::string why = kIsRead;
-  if (isAmong(file, settings_.files) || !(appends() ? appendTo(file, text, why) : writeFile(file, text, why)))
+  if (isAmong(file, settings_.input.files) || !(appends() ? appendTo(file, text, why) : writeFile(file, text, why)))
     log_.report(Severity::Output, "stats-write", {}, "\"" + file + "\" could not be written: " + why);
 }
 
@@ -86,7 +87,7 @@ void RunReport::flush() {
 void RunReport::end(const SourceLoc& where) {
   write();
   say(where);
-  if (isPerFrame() && settings_.profileShaders) printShaderProfile(*stats_);
+  if (isPerFrame() && settings_.report.profileShaders) printShaderProfile(*stats_);
   isPerFrame() ? startFigures() : startFrame();
 }
 
@@ -98,7 +99,7 @@ void RunReport::say(const SourceLoc& where) {
   log_.report(
       Severity::Info, kFrameDone, where,
       fmt::format("frame {} of \"{}\" wrote {}; it took {:.2f} s ({:.2f} CPU s) and {:.0f} MB on {}",
-                  frame_.value_or(0), settings_.files.empty() ? "" : settings_.files.front(),
+                  frame_.value_or(0), settings_.input.files.empty() ? "" : settings_.input.files.front(),
                   outputs.empty() ? "nothing" : outputs, secondsSince(frameStart_),
                   processCpuSeconds() - frameCpuStart_, static_cast<double>(peakResidentBytes()) / 1e6, hostName()));
 }
@@ -108,7 +109,7 @@ void RunReport::skip() { isPerFrame() ? startFigures() : startFrame(); }
 void RunReport::finish() {
   if (isPerFrame()) return;
   write();
-  if (settings_.profileShaders) printShaderProfile(*stats_);
+  if (settings_.report.profileShaders) printShaderProfile(*stats_);
 }
 
 void RunReport::startFrame() {

@@ -109,8 +109,8 @@ Json countersOf(const Stats& s) {
 
 Json statsJson(const RenderSettings& settings, const Stats& stats, const RunFigures& figures) {
   Json out{{"version", kVersion},
-           {"command", settings.commandLine},
-           {"scene", settings.files.empty() ? "" : settings.files.front()},
+           {"command", settings.report.commandLine},
+           {"scene", settings.input.files.empty() ? "" : settings.input.files.front()},
            {"frame", figures.frame ? Json(*figures.frame) : Json(nullptr)},
            {"outputs", stats.outputs()},
            {"host", hostName()},
@@ -125,7 +125,7 @@ Json statsJson(const RenderSettings& settings, const Stats& stats, const RunFigu
              {"deep_frame", stats.memoryBytes.deepFrame.load()},
              {"raytrace", stats.raytrace.bytes.load()}}}};
   out.update(countersOf(stats));
-  if (audits(settings)) out["audit"] = auditOf(stats);
+  if (settings.quality.audits()) out["audit"] = auditOf(stats);
   out["warnings"] = warningsOf(figures.messages);
   return out;
 }

@@ -27,7 +27,7 @@ TEST(Outputs, TakeTheNameOfTheCommandLineAndStandBesideIt) {
   Options o =
       displaysOf({{"maps/lamp.z", "shadow"}, {"m.exr", "file"}, {"m_id.exr", "openexr"}, {"passes/z.tif", "tiff"}});
   RenderSettings settings;
-  settings.output = "shots/look.##.png";
+  settings.picture.output = "shots/look.##.png";
   o.frame = 5;
   Log log(Log::Verbosity::Quiet);
   nameOutputs(o, settings, log);
@@ -40,8 +40,8 @@ TEST(Outputs, TakeTheNameOfTheCommandLineAndStandBesideIt) {
 TEST(Outputs, OfOnePictureKeepTheMapsThatLaterFramesRead) {
   Options o = displaysOf({{"m.exr", "file"}, {"lamp.z", "shadow"}, {"z.exr", "file"}});
   RenderSettings settings;
-  settings.output = "look.exr";
-  settings.onePicture = true;
+  settings.picture.output = "look.exr";
+  settings.picture.onePicture = true;
   Log log(Log::Verbosity::Quiet);
   nameOutputs(o, settings, log);
   EXPECT_EQ(namesIn(o), (std::vector<std::string>{"look.exr", "lamp.z"}));
@@ -50,8 +50,8 @@ TEST(Outputs, OfOnePictureKeepTheMapsThatLaterFramesRead) {
 TEST(Outputs, ThatMakeRequestsReadKeepTheirNames) {
   Options o = displaysOf({{"./face.tif", "tiff"}, {"m.exr", "file"}});
   RenderSettings settings;
-  settings.output = "look.exr";
-  settings.sources = {"face.tif"};
+  settings.picture.output = "look.exr";
+  settings.input.sources = {"face.tif"};
   Log log(Log::Verbosity::Quiet);
   nameOutputs(o, settings, log);
   EXPECT_EQ(namesIn(o), (std::vector<std::string>{"./face.tif", "look.exr"}));
@@ -84,7 +84,7 @@ TEST(Outputs, ThatTheUserNamesComeBeforeOthersOfThatNameWithoutAWarning) {
   Options o = displaysOf({{"box.exr", "openexr"}, {"box.png", "png"}});
   Log log(Log::Verbosity::Quiet);
   RenderSettings settings;
-  settings.output = "look.png";
+  settings.picture.output = "look.png";
   nameOutputs(o, settings, log);
   ASSERT_EQ(o.displays.size(), 1u);
   EXPECT_EQ(o.displays[0].name, "look.png");

@@ -31,7 +31,7 @@ TEST(Overrides, ShadingRateReachesEveryObjectAndSharingStays) {
   Scene scene = sceneOf(kTwoSpheres);
   ASSERT_EQ(scene.objects.size(), 3u);
   RenderSettings settings;
-  settings.shadingRate = 4.0f;
+  settings.picture.shadingRate = 4.0f;
   applyOverrides(scene, settings);
   for (const Object& object : scene.objects) {
     EXPECT_EQ(object.attributes->shadingRate, 4);
@@ -49,7 +49,7 @@ GiMode modeOf(const std::string& lights, const char* choice) {
   ShaderRegistry registry(log);
   registry.addLibrary(tomales_builtin_shaders(), "built-in");
   RenderSettings settings;
-  settings.gi = giMethodNamed(choice);
+  settings.light.gi = giMethodNamed(choice);
   return methodOf(settings, ShadingSystem(scene, registry, nullptr, log, stats)).mode;
 }
 
@@ -74,7 +74,7 @@ TEST(Overrides, AGiModeAsksForAnIndirectLight) {
   RenderSettings settings;
   applyOverrides(scene, settings);
   EXPECT_FALSE(scene.options.wantsIndirect);
-  settings.gi = giMethodNamed("gather");
+  settings.light.gi = giMethodNamed("gather");
   applyOverrides(scene, settings);
   EXPECT_TRUE(scene.options.wantsIndirect);
   EXPECT_EQ(scene.lights.size(), 1u) << "it is added where lights are bound";
@@ -85,8 +85,8 @@ TEST(Overrides, ADraftIsCoarseButForWhatIsAskedBesides) {
       "PixelSamples 4 4\nWorldBegin\nLightSource \"indirectlight\" 1 \"samples\" [600]\nShadingRate 0.5\nDisplacement "
       "\"bumpy\"\nSphere 1 -1 1 360\nWorldEnd\n");
   RenderSettings settings;
-  settings.draft = true;
-  settings.pixelSamples = {{3, 5}};
+  settings.picture.draft = true;
+  settings.picture.pixelSamples = {{3, 5}};
   applyOverrides(scene, settings);
   EXPECT_EQ(scene.objects[0].attributes->shadingRate, 8);
   EXPECT_EQ(scene.objects[0].attributes->displacement, nullptr);
@@ -97,8 +97,8 @@ TEST(Overrides, ADraftIsCoarseButForWhatIsAskedBesides) {
 TEST(Overrides, AFrameOfMapsKeepsItsSizeAndAllOfItsView) {
   Scene scene = sceneOf("Display \"lamp.z\" \"shadow\" \"z\" Format 64 64 1 WorldBegin\nSphere 1 -1 1 360\nWorldEnd\n");
   RenderSettings settings;
-  settings.format = {{320, 200}};
-  settings.crop = {{0.25f, 0.5f, 0, 1}};
+  settings.picture.format = {{320, 200}};
+  settings.picture.crop = {{0.25f, 0.5f, 0, 1}};
   applyOverrides(scene, settings);
   EXPECT_EQ(scene.options.xResolution, 64);
   EXPECT_EQ(scene.options.cropWindow[1], 1.0f);
@@ -107,10 +107,10 @@ TEST(Overrides, AFrameOfMapsKeepsItsSizeAndAllOfItsView) {
 TEST(Overrides, PictureSizesComeFromTheCommandLine) {
   Scene scene = sceneOf(kTwoSpheres);
   RenderSettings settings;
-  settings.format = {{320, 200}};
-  settings.crop = {{0.25f, 0.5f, 0, 1}};
-  settings.pixelSamples = {{3, 5}};
-  settings.bucketSize = 7;
+  settings.picture.format = {{320, 200}};
+  settings.picture.crop = {{0.25f, 0.5f, 0, 1}};
+  settings.picture.pixelSamples = {{3, 5}};
+  settings.resources.bucketSize = 7;
   applyOverrides(scene, settings);
   EXPECT_EQ(scene.options.xResolution, 320);
   EXPECT_EQ(scene.options.cropWindow[1], 0.5f);
