@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "reyes/app/frame/empty_frame.h"
-#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/frame_stages.h"
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/input_file.h"
@@ -70,7 +70,7 @@ void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSe
                         if (!file->write(index, tile)) full = true;
                       },
                       {}};
-  const bool complete = job.hide(shot.frame, sink);
+  const bool complete = hideFrame(job, shot.frame, sink);
   if (full)
     return unwritten(file->error() + "; finished buckets are in \"" + file->unfinishedPath() +
                      "\", and --resume adds the others");

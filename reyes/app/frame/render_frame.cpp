@@ -6,7 +6,9 @@
 #include "gi/icf.h"
 #include "reyes/app/frame/bucket_file.h"
 #include "reyes/app/frame/empty_frame.h"
-#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/frame_light.h"
+#include "reyes/app/frame/frame_picture.h"
+#include "reyes/app/frame/frame_stages.h"
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/tile_store.h"
@@ -84,7 +86,7 @@ bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob&
   }
   IrradianceShot given = file->takeShot();
   moveToCamera(given, scene.cameraFromWorldAtOpen());
-  if (!settings.stored.appendIrradiance) job.checkRecords(given.settings, settings.stored.irradiance);
+  if (!settings.stored.appendIrradiance) checkRecords(given.settings, settings.stored.irradiance, job, log);
   job.services()->useCaches(std::move(given.caches));
   return true;
 }
@@ -119,7 +121,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
   if (streams || given) job.prepareRays();
   if (given && job.services() && !useIrradiance(scene, settings, job, log)) return;
   if (streams) {
-    job.hideAndWrite(layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
+    hideAndWritePicture(job, layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
   } else {
     // The geometry that rays will meet needs room too, and nobody knows yet how much.
     TileStore store(layout.tileCount(),
@@ -131,7 +133,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
                           if (!store.keep(i, tile)) spill(i, tile);
                         },
                         settings.picture.resume ? find : nullptr};
-    job.hide(layout, sink);
+    hideFrame(job, layout, sink);
     returnFreeMemory();  // frees the grids
     afterStage();
     if (settings.resources.memoryLimit && job.method().makesMaps)
@@ -141,10 +143,10 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
       store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);
       returnFreeMemory();
     }
-    job.light(layout, store.reader(), gathers);
+    FrameLight(job, layout, store.reader()).make(gathers);
     if (settings.quality.isPilot) return file.forget();
     afterStage();
-    job.write(layout, [&](size_t i) { return store.take(i); });
+    writePicture(job, layout, [&](size_t i) { return store.take(i); });
   }
   if (settings.resources.memoryLimit)
     reportMemory(*settings.resources.memoryLimit,

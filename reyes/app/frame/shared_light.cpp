@@ -36,11 +36,11 @@ void makeSharedLight(Scene& scene, ShaderRegistry& shaders, const RenderSettings
   job.prepareRays();
   const RayTools tools = *job.rayTools();
   if (pass)
-    makeAtlasPass(*pass, part, tools, settings, job.lightProgress(), stats, log);
+    makeAtlasPass(*pass, part, tools, settings, job.meter().makingMaps(), stats, log);
   else if (method.mode == GiMode::Atlas)
-    prepareAtlas(scene, *tools.rays, *tools.shading, settings, job.lightProgress(), nullptr, stats, log);
+    prepareAtlas(scene, *tools.rays, *tools.shading, settings, job.meter().makingMaps(), nullptr, stats, log);
   else
-    prepareRadiosity(tools, job.camera(), settings, job.lightProgress(), nullptr, stats, log);
+    prepareRadiosity(tools, job.camera(), settings, job.meter().makingMaps(), nullptr, stats, log);
 }
 
 std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& settings, Log& log) {

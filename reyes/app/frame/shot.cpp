@@ -4,6 +4,8 @@
 
 #include <atomic>
 
+#include "reyes/app/frame/frame_light.h"
+#include "reyes/app/frame/frame_picture.h"
 #include "reyes/app/frame/frame_shaders.h"
 #include "reyes/app/frame/hide.h"
 #include "reyes/app/frame/outputs.h"
@@ -165,11 +167,10 @@ void ShotJob::shadePicture() {
   job_->setShares(0, gathers ? 0.6f : 0);
   if (!gathers) {
     warnOfStaleLight();
-    if (files_->hasIrradiance()) job_->checkRecords(files_->irradiance().settings, settings_.stored.irradiance);
+    if (files_->hasIrradiance()) checkRecords(files_->irradiance().settings, settings_.stored.irradiance, *job_, log_);
   }
-  job_->light(
-      shot_.frame, [this](size_t index) { return read(index); }, gathers);
-  job_->write(shot_.frame, [this](size_t index) { return files_->load(index, log_); });
+  FrameLight(*job_, shot_.frame, [this](size_t index) { return read(index); }).make(gathers);
+  writePicture(*job_, shot_.frame, [this](size_t index) { return files_->load(index, log_); });
   world_->report();
 }
 
@@ -182,8 +183,7 @@ void ShotJob::prepareToShow(const std::string& more) {
 }
 
 void ShotJob::choose(const std::string* lights, bool indirect) {
-  shownLights_ = lights;
-  showsIndirect_ = indirect;
+  shown_ = {lights, indirect};
   const std::vector<std::string>& groups = shareGroups();
   if (groups.empty()) return;
   std::vector<vec3> gains = lightEdits_.gains, chosen;
@@ -197,10 +197,10 @@ void ShotJob::choose(const std::string* lights, bool indirect) {
 
 void ShotJob::show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
                    const std::atomic<bool>& cancelled) {
-  job_->show(shot_.frame, tiles, {window, shownLights_, showsIndirect_}, viewer, cancelled);
+  showWindow(*job_, shot_.frame, window, tiles, shown_, viewer, cancelled);
 }
 
-void ShotJob::shadeApart(std::span<DeepTile> tiles) { job_->shadeApart(tiles, shownLights_, showsIndirect_); }
+void ShotJob::shadeApart(std::span<DeepTile> tiles) { tomales::shadeApart(*job_, tiles, shown_); }
 
 void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
   const PixelRect& crop = shot_.frame.crop;
@@ -266,9 +266,9 @@ void ShotJob::gatherIrradiance() {
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
   job_->setShares(0, 0.8f);
   // Points outside the crop that have lost records, because those of the crop reached there, are gathered too.
-  job_->gather(shot_.frame, [&](size_t index) {
+  FrameLight(*job_, shot_.frame, [&](size_t index) {
     return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? read(index) : nullptr;
-  });
+  }).gather();
   const bool written = !settings_.stored.keepsAnswers || (recordAnswers(*out) && copyAnswers(inCrop, *out));
   IrradianceShot shot{interrupted() ? 0 : files_->dfb().shotSum(),
                       job_->giSettings(),
@@ -301,7 +301,7 @@ bool ShotJob::recordAnswers(IcfWriter& out) {
   const auto store = [&](size_t index, DeepTile&& tile) {
     if (!out.writeAnswers(index, tile.answers)) good = false;
   };
-  job_->shade(tilesOf(shot_.frame, shot_.scene.options), {startRecording, store});
+  shadeFrame(*job_, tilesOf(shot_.frame, shot_.scene.options), {startRecording, store});
   return good;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <set>
 
-#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/frame_stages.h"
 #include "reyes/app/frame/light_edits.h"
 #include "reyes/app/frame/ray_world.h"
 #include "reyes/app/frame/shot_files.h"
@@ -71,8 +71,7 @@ class ShotJob {
   Shot shot_;
   std::vector<std::shared_ptr<const Attributes>> attributesOfFile_{};  ///< Before edits; indexed by shade group.
   LightEdits lightEdits_;
-  const std::string* shownLights_ = nullptr;  ///< The lights that choose() has been given.
-  bool showsIndirect_ = true;
+  ShownLight shown_;          ///< What choose() has been given.
   bool gathers_ = false;      ///< True if records are made for a file.
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
   std::unique_ptr<RayWorld> world_;

@@ -32,30 +32,26 @@ bool smudgesAreNear(const AuditReport& report, const ErrorTarget& target) {
 
 class TargetSearch {
  public:
-  TargetSearch(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
-               Stats& stats, Log& log)
-      : job_(job),
-        layout_(layout),
-        tiles_(tiles),
-        settings_(settings),
-        target_(targetOf(settings.quality)),
-        stats_(stats),
-        log_(log) {}
+  explicit TargetSearch(FrameLight& light)
+      : light_(light),
+        job_(light.job()),
+        settings_(job_.settings()),
+        target_(targetOf(settings_.quality)),
+        log_(job_.log()) {}
 
   void run() {
     const TrialPlan plan{.seed = seedOfTrials(settings_),
                          .likely = [&](const ErrorModel& m) { return m.cheapest(target_ * kMargin); }};
-    TrialsResult trials = makeTrials(job_, layout_, tiles_, plan, stats_);
+    TrialsResult trials = makeTrials(light_, plan);
     if (interrupted()) return;
     ErrorModel& model = trials.model;
     LightQuality quality = model.cheapest(target_ * kMargin);
     tellChoice(trials, quality);
     for (int attempt = 1;; ++attempt) {
       job_.setQuality(quality);
-      job_.gather(layout_, tiles_);
+      light_.gather();
       if (interrupted()) return;
-      const AuditReport report =
-          job_.audit(layout_, tiles_, hashCombine(seedOfTrials(settings_), static_cast<uint32_t>(attempt)));
+      const AuditReport report = light_.audit(hashCombine(seedOfTrials(settings_), static_cast<uint32_t>(attempt)));
       if (interrupted()) return;
       // More rays in the picture do not quieten the audit.
       const bool isNear = errorIsNear(report, target_) && smudgesAreNear(report, target_);
@@ -88,19 +84,17 @@ class TargetSearch {
   }
 
   void finish(const LightQuality& quality, const AuditReport& report, int attempts) {
-    job_.tellAudit(report);
+    light_.tellAudit(report);
     describeQuality(job_.scene().options, optionsOf(quality), settings_);
     tellMissed(report, settings_.quality,
                fmt::format("{}, after {} of at most {} attempts", optionsOf(quality), attempts, kMostAttempts), log_);
     if (settings_.quality.onQuality) settings_.quality.onQuality(quality);
   }
 
+  FrameLight& light_;
   FrameJob& job_;
-  const DeepFrame& layout_;
-  const TileReader& tiles_;
   const RenderSettings& settings_;
   const ErrorTarget target_;
-  Stats& stats_;
   Log& log_;
 };
 
@@ -134,9 +128,6 @@ void tellMissed(const AuditReport& report, const QualitySettings& settings, cons
   if (!missed.empty()) log.report(Severity::Warning, "target-missed", {}, fmt::format("{}, with {}", missed, with));
 }
 
-void reachTargetError(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
-                      Stats& stats, Log& log) {
-  TargetSearch(job, layout, tiles, settings, stats, log).run();
-}
+void reachTargetError(FrameLight& light) { TargetSearch(light).run(); }
 
 }  // namespace tomales

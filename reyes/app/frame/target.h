@@ -2,15 +2,14 @@
 // buckets (trials.h) give the constants of a model (error_model.h).
 // docs/decisions/0159
 #pragma once
-#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/frame_light.h"
 
 namespace tomales {
 
-/// Does what FrameJob::gather() and audit() do, with settings of its own choice. Pre: as for those. The picture is
+/// Does what FrameLight::gather() and audit() do, with settings of its own choice. Pre: as for those. The picture is
 /// audited at pixels that the trials have not seen, and lit again where the model was wrong. It counts rays and never
 /// reads a clock, so the picture is the same bits for any number of threads.
-void reachTargetError(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
-                      Stats& stats, Log& log);
+void reachTargetError(FrameLight& light);
 
 /// Returns the seed of the random numbers of trials and audits.
 uint32_t seedOfTrials(const RenderSettings& settings);

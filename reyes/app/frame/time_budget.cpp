@@ -33,9 +33,8 @@ constexpr double kBrief_s = 60;  ///< Trials are brief where less time is left.
 
 class BudgetedFrame {
  public:
-  BudgetedFrame(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
-                Stats& stats, Log& log)
-      : job_(job), layout_(layout), tiles_(tiles), settings_(settings), log_(log), trials_(makeTrials(stats)) {}
+  explicit BudgetedFrame(FrameLight& light)
+      : light_(light), job_(light.job()), settings_(job_.settings()), log_(job_.log()), trials_(makeTrials()) {}
 
   void run() {
     const double planned_s = left_s();
@@ -51,13 +50,13 @@ class BudgetedFrame {
   }
 
  private:
-  TrialsResult makeTrials(Stats& stats) {
-    job_.writeSketch(layout_, tiles_);
+  TrialsResult makeTrials() {
+    writeSketch(light_);
     const auto remaining_s = [&] { return std::max(0.0, settings_.quality.timeBudget_s - job_.elapsed_s()); };
     const TrialPlan plan{CostUnit::Seconds, remaining_s() < kBrief_s, seedOfTrials(settings_),
                          [=](const ErrorModel& m) { return m.best(kShareToPlan * remaining_s()); },
                          [=] { return kShareOfNarrowTrial * remaining_s(); }};
-    return tomales::makeTrials(job_, layout_, tiles_, plan, stats);
+    return tomales::makeTrials(light_, plan);
   }
 
   /// Returns the time that gathering and shading may take from now on; negative if there is nothing left.
@@ -81,7 +80,7 @@ class BudgetedFrame {
     for (int round = 1;; ++round) {
       choose(next);
       const double before_s = job_.elapsed_s();
-      job_.gatherShown(layout_, tiles_);
+      light_.gatherShown();
       if (interrupted()) return;
       const double took_s = job_.elapsed_s() - before_s;
       tellStep("gathering", quality_, model.gatherCost(quality_), took_s);
@@ -97,7 +96,7 @@ class BudgetedFrame {
       next = bestAfter(quality_, std::max(0.0, left_s()));
       if (model.error(next) > model.error(quality_)) next = quality_;  // the probe took too long
     }
-    job_.endGather(layout_, tiles_);
+    light_.endGather();
   }
 
   /// Records of other widths are more or fewer, which costs what the rounds have learnt.
@@ -133,9 +132,9 @@ class BudgetedFrame {
     few.samples = fewer;
     const size_t count = bucketsOfProbe();
     const std::span<const size_t> which = std::span(trials_.tried).first(count);
-    const QualityTrial cheap = secondsToGather(job_, layout_, tiles_, which, few);
+    const QualityTrial cheap = secondsToGather(light_, which, few);
     if (interrupted()) return;
-    const QualityTrial dear = secondsToGather(job_, layout_, tiles_, which, many);
+    const QualityTrial dear = secondsToGather(light_, which, many);
     log_.report(Severity::Info, "time-budget", {},
                 fmt::format("after {:.3g} s: {} buckets took {:.3g} s with {} and {:.3g} s with {}", job_.elapsed_s(),
                             count, cheap.gatherCost + cheap.bounceCost, optionsOf(few),
@@ -162,7 +161,7 @@ class BudgetedFrame {
       job_.setLightSamples(few.lightSamples);
     else
       job_.setQuality(few);
-    const double took_s = secondsToShade(job_, tiles_, trials_.seen);
+    const double took_s = secondsToShade(light_, trials_.seen);
     tellStep("shading", few, trials_.model.shadeCost(few), took_s);
     trials_.model.correctShadeCost(few, took_s);
   }
@@ -202,9 +201,8 @@ class BudgetedFrame {
                     settings_.quality.timeBudget_s, settings_.quality.timeBudget_s - planned_s / kShareToPlan));
   }
 
+  FrameLight& light_;
   FrameJob& job_;
-  const DeepFrame& layout_;
-  const TileReader& tiles_;
   const RenderSettings& settings_;
   Log& log_;
   TrialsResult trials_;
@@ -213,9 +211,6 @@ class BudgetedFrame {
 
 }  // namespace
 
-void useTimeBudget(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const RenderSettings& settings,
-                   Stats& stats, Log& log) {
-  BudgetedFrame(job, layout, tiles, settings, stats, log).run();
-}
+void useTimeBudget(FrameLight& light) { BudgetedFrame(light).run(); }
 
 }  // namespace tomales

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "reyes/app/frame/audit.h"
+#include "reyes/app/frame/frame_stages.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/rng.h"
 
@@ -43,30 +45,47 @@ std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& lay
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// Returns the number of points of each bucket that sees something.
+std::map<size_t, double> pointsIn(const FrameLight& light) {
+  std::map<size_t, double> out;
+  for (size_t t = 0; t < light.layout().tileCount(); ++t)
+    if (const auto tile = light.tiles()(t); tile && !tile->fragments.empty()) out[t] = pointsOf(*tile);
+  return out;
+}
+
+std::vector<size_t> bucketsOf(const std::map<size_t, double>& points) {
+  std::vector<size_t> out;
+  for (const auto& [bucket, count] : points) out.push_back(bucket);
+  return out;
+}
+
+/// Returns the light of these buckets alone.
+FrameLight within(const FrameLight& light, std::span<const size_t> which) {
+  const auto read = [tiles = light.tiles(), buckets = std::set(which.begin(), which.end())](size_t t) {
+    return buckets.contains(t) ? tiles(t) : nullptr;
+  };
+  return {light.job(), light.layout(), read};
+}
+
 class Trials {
  public:
-  Trials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan, Stats& stats)
-      : job_(job), layout_(layout), plan_(plan), stats_(stats) {
-    for (size_t t = 0; t < layout.tileCount(); ++t)
-      if (const auto tile = tiles(t); tile && !tile->fragments.empty()) {
-        seen_.push_back(t);
-        points_[t] = pointsOf(*tile);
-      }
-    some_ = someOf(seen_, layout, plan.seed);
-    tiles_ = [&tiles, some = some_](size_t t) {
-      return std::binary_search(some.begin(), some.end(), t) ? tiles(t) : nullptr;
-    };
-  }
+  Trials(const FrameLight& light, const TrialPlan& plan)
+      : job_(light.job()),
+        plan_(plan),
+        points_(pointsIn(light)),
+        seen_(bucketsOf(points_)),
+        some_(someOf(seen_, light.layout(), plan.seed)),
+        light_(within(light, some_)) {}
 
   TrialsResult run() {
     const bool paths = job_.method().isReference, records = job_.method().caches;
     const LightQuality& base = paths ? kBaseOfPaths : records ? kBaseOfRecords : kBaseOfLamps;
     const LightQuality& finer = paths ? kFinerPaths : records ? kFinerRecords : kFinerLamps;
-    AuditPlan plan = job_.auditPlan(plan_.seed);
+    AuditPlan plan = light_.auditPlan(plan_.seed);
     plan.lightSamples = finer.lightSamples;
     plan.smudgeSizes = kSmudgeSizesOfTrials;
     if (plan_.isBrief) plan.pixels = kPixelsOfBriefTrials;
-    Audit audit(layout_, tiles_, job_.scene(), job_.shading(), plan, interrupted());
+    Audit audit(light_.layout(), light_.tiles(), job_.scene(), job_.shading(), plan, interrupted());
     const QualityTrial first = trial(base, audit), second = trial(finer, audit);
     const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords, audit)) : std::nullopt;
     ErrorModel model(first, second, third);
@@ -99,7 +118,7 @@ class Trials {
   QualityTrial trialOf(const LightQuality& quality, Audit& audit) {
     QualityTrial out{quality};
     job_.setQuality(quality);
-    const double gathering = costOf([&] { job_.gatherRecords(layout_, tiles_); });
+    const double gathering = costOf([&] { light_.gatherRecords(); });
     if (job_.services()) out.bounceCost = inUnit(job_.services()->bounceCost());
     out.gatherCost = inFrame() * std::max(0.0, gathering - out.bounceCost);
     out.shadeCost = shadeCost(audit);
@@ -118,7 +137,7 @@ class Trials {
     double all = 0, some = 0;
     for (const auto& [tile, points] : points_) all += points;
     for (const size_t t : some_) some += points_.at(t);
-    if (plan_.unit == CostUnit::Seconds) return all / std::max(1.0, some) * secondsToShade(job_, tiles_, some_);
+    if (plan_.unit == CostUnit::Seconds) return all / std::max(1.0, some) * secondsToShade(light_, some_);
     return all / std::max(1.0, audit.pointCount()) * costOf([&] { audit.shade(job_.shadeContext()); });
   }
 
@@ -128,21 +147,19 @@ class Trials {
 
   template <class Work>
   double costOf(const Work& work) {
-    const double rays = stats_.lightRays(), time_s = seconds();
+    const double rays = job_.stats().lightRays(), time_s = seconds();
     work();
-    const double moreRays = stats_.lightRays() - rays, more_s = seconds() - time_s;
+    const double moreRays = job_.stats().lightRays() - rays, more_s = seconds() - time_s;
     lightRays_ += moreRays;
     light_s_ += more_s;
     return plan_.unit == CostUnit::Seconds ? more_s : moreRays;
   }
 
   FrameJob& job_;
-  const DeepFrame& layout_;
   const TrialPlan plan_;
-  Stats& stats_;
-  TileReader tiles_;                 ///< Reads the buckets that are tried.
-  std::map<size_t, double> points_;  ///< Number of points of each tile that sees something.
-  std::vector<size_t> seen_, some_;
+  const std::map<size_t, double> points_;
+  const std::vector<size_t> seen_, some_;
+  FrameLight light_;  ///< That of the buckets that are tried.
   double audit_s_ = 0, light_s_ = 0, lightRays_ = 0;
 };
 
@@ -154,33 +171,31 @@ std::string TrialsResult::timeOf(double rays) const {
   return time_s < 6000 ? fmt::format("{:.0f} min", time_s / 60) : fmt::format("{:.0f} h", time_s / 3600);
 }
 
-QualityTrial secondsToGather(FrameJob& job, const DeepFrame& layout, const TileReader& tiles,
-                             std::span<const size_t> which, const LightQuality& quality) {
+QualityTrial secondsToGather(const FrameLight& light, std::span<const size_t> which, const LightQuality& quality) {
   QualityTrial out{quality};
-  job.setQuality(quality);
+  light.job().setQuality(quality);
   const double start_s = seconds();
-  job.gatherRecords(layout, [&](size_t t) { return std::ranges::count(which, t) > 0 ? tiles(t) : nullptr; });
-  if (job.services()) out.bounceCost = job.services()->bounceCost().time_s;
+  within(light, which).gatherRecords();
+  if (light.job().services()) out.bounceCost = light.job().services()->bounceCost().time_s;
   out.gatherCost = std::max(0.0, seconds() - start_s - out.bounceCost);
   return out;
 }
 
-double secondsToShade(FrameJob& job, const TileReader& tiles, std::span<const size_t> which) {
+double secondsToShade(const FrameLight& light, std::span<const size_t> which) {
   constexpr size_t kAtOnce = 64;
   const double start_s = seconds();
   for (size_t first = 0; first < which.size() && !interrupted(); first += kAtOnce) {
     std::vector<DeepTile> copies;
     for (const size_t t : which.subspan(first, std::min(kAtOnce, which.size() - first)))
-      if (const auto tile = tiles(t)) copies.push_back(*tile);
-    job.shadeApart(copies, nullptr, true);
+      if (const auto tile = light.tiles()(t)) copies.push_back(*tile);
+    shadeApart(light.job(), copies, {});
   }
   return seconds() - start_s;
 }
 
-TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,
-                        Stats& stats) {
-  const StageTimer timer(stats, "trials");
-  return Trials(job, layout, tiles, plan, stats).run();
+TrialsResult makeTrials(const FrameLight& light, const TrialPlan& plan) {
+  const StageTimer timer(light.job().stats(), "trials");
+  return Trials(light, plan).run();
 }
 
 }  // namespace tomales

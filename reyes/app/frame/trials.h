@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reyes/app/frame/error_model.h"
-#include "reyes/app/frame/frame_job.h"
+#include "reyes/app/frame/frame_light.h"
 
 namespace tomales {
 
@@ -36,13 +36,11 @@ struct TrialsResult {
 };
 
 /// Gathers in these buckets alone, and returns the wall time that it took as the costs of the trial.
-QualityTrial secondsToGather(FrameJob& job, const DeepFrame& layout, const TileReader& tiles,
-                             std::span<const size_t> which, const LightQuality& quality);
+QualityTrial secondsToGather(const FrameLight& light, std::span<const size_t> which, const LightQuality& quality);
 /// Shades these tiles as the picture will be, forgets them, and returns the wall time that it took.
-double secondsToShade(FrameJob& job, const TileReader& tiles, std::span<const size_t> which);
+double secondsToShade(const FrameLight& light, std::span<const size_t> which);
 
 /// Lights and audits the buckets two to four times. The gathered records stay with the job until its next setQuality().
-TrialsResult makeTrials(FrameJob& job, const DeepFrame& layout, const TileReader& tiles, const TrialPlan& plan,
-                        Stats& stats);
+TrialsResult makeTrials(const FrameLight& light, const TrialPlan& plan);
 
 }  // namespace tomales

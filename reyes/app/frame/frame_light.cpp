@@ -1,0 +1,131 @@
+#include "reyes/app/frame/frame_light.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "reyes/app/frame/atlas_job.h"
+#include "reyes/app/frame/limits.h"
+#include "reyes/app/frame/overrides.h"
+#include "reyes/app/frame/provenance.h"
+#include "reyes/app/frame/target.h"
+#include "reyes/app/frame/time_budget.h"
+#include "reyes/app/watch/interrupt.h"
+#include "reyes/app/watch/preview.h"
+#include "reyes/app/watch/sketch.h"
+
+namespace tomales {
+
+void FrameLight::make(bool gathers) {
+  const QualitySettings& quality = job_.settings().quality;
+  const bool steers = quality.chooses() && !interrupted() && isSteered();
+  if (quality.isPilot && !steers) return;  // this pilot has nothing to choose
+  if (steers && quality.targetError > 0) return reachTargetError(*this);
+  if (steers)
+    useTimeBudget(*this);
+  else if (gathers)
+    gather();
+  if (!quality.audits() || interrupted()) return;
+  const AuditReport report = audit(lightSeedOf(job_.settings()));
+  if (interrupted()) return;
+  tellAudit(report);
+  if (quality.isHeld && quality.targetError > 0)
+    tellMissed(report, quality, optionsOf(job_.quality()) + ", which hold for the shot", job_.log());
+}
+
+/// Tells whether rays and records decide the error of the light; says so if not.
+bool FrameLight::isSteered() const {
+  const GiMethod& method = job_.method();
+  if (method.mode == GiMode::None || method.caches || (method.isReference && !job_.counts())) return true;
+  job_.log().report(
+      Severity::Warning, "target-unused", {},
+      fmt::format("--target-error and --time-budget choose rays and records, and the light of --gi {} comes from {}: "
+                  "the picture is made as without them",
+                  method.name, job_.counts() ? "photons" : "maps"));
+  return false;
+}
+
+void FrameLight::gather() {
+  gatherShown();
+  endGather();
+}
+
+void FrameLight::gatherShown() {
+  if (!needsGather() || interrupted()) return;
+  const StageTimer timer(job_.stats(), "gather");
+  const auto progress = job_.meter().gathering(job_.makesMaps());
+  progress(0);
+  std::function<void(int)> show;
+  if (Preview* preview = job_.preview(layout_))
+    show = [this, preview, context = job_.shadeContext()](int stride) mutable {
+      context.sketch = true;
+      preview->show(sketch(layout_, tiles_, stride, job_.scene(), job_.shading(), context, interrupted()));
+    };
+  gatherRecords(progress, show);
+  if (!interrupted()) progress(1);
+}
+
+void FrameLight::endGather() {
+  if (!needsGather()) return;
+  GiServices& services = *job_.services();
+  warnOfNoise(services.caches(), job_.log());
+  if (!interrupted()) services.tellBouncesLeft(job_.log());
+  if (job_.rays()) warnOfThinWalls(*job_.rays(), job_.log());
+  if (!job_.settings().stored.bakedFolder.empty() && job_.gathers() && !interrupted())
+    bakeGathered(services, layout_, tiles_, job_.scene(), job_.shading(), job_.settings(), job_.log());
+}
+
+void FrameLight::gatherRecords(const std::function<void(float)>& progress, const std::function<void(int)>& covered) {
+  if (needsGather() && !interrupted()) job_.services()->gatherPass(layout_, tiles_, progress, &interrupted(), covered);
+}
+
+AuditPlan FrameLight::auditPlan(uint32_t seed) const {
+  AuditPlan plan;
+  if (const int pixels = job_.settings().quality.audit; pixels > 0) plan.pixels = static_cast<size_t>(pixels);
+  plan.seed = seed;
+  plan.indirect = false;
+  for (size_t g = 0; g < job_.scene().groups.size() && job_.mode() != GiMode::None; ++g)
+    plan.indirect |= job_.shading().indirectQuery(static_cast<int>(g)) != nullptr;
+  return plan;
+}
+
+AuditReport FrameLight::audit(uint32_t seed) {
+  const StageTimer timer(job_.stats(), "audit");
+  job_.meter().begin("auditing");
+  return Audit(layout_, tiles_, job_.scene(), job_.shading(), auditPlan(seed), interrupted()).of(job_.shadeContext());
+}
+
+void FrameLight::tellAudit(const AuditReport& report) {
+  const std::string sentence = sentenceOf(report);
+  job_.log().report(Severity::Note, "audit", {}, sentence);
+  describeAudit(job_.scene().options, sentence, job_.settings());
+  recordAudit(report, job_.stats());
+}
+
+void writeSketch(const FrameLight& light) {
+  constexpr int kStride = 4;
+  FrameJob& job = light.job();
+  const Options& options = job.scene().options;
+  const DisplayCall& first = options.displays.front();
+  if (job.settings().quality.isPilot || first.type == "null" ||
+      !driverOf(first, options, pluginTrust(job.settings())).empty())
+    return;
+  ShadeContext context = job.shadeContext();
+  context.lightSamples = 1;
+  context.indirect = false;
+  context.sketch = true;
+  const std::filesystem::path file(fileOf(first));
+  job.setSketchFile((file.parent_path() / (file.stem().string() + ".sketch.exr")).string());
+  writeImage(job.sketchFile(),
+             sketch(light.layout(), light.tiles(), kStride, job.scene(), job.shading(), context, interrupted()), false,
+             job.log());
+}
+
+void checkRecords(const GiSettings& gathered, const std::string& file, const FrameJob& job, Log& log) {
+  if (job.method().caches && gathered.mode == GiMode::None)
+    log.report(
+        Severity::Warning, "icf-without-light", {std::make_shared<std::string>(file), 0},
+        "was gathered with --gi none: all indirect light is gathered while shading (with --gi none it is left out)");
+}
+
+}  // namespace tomales

@@ -1,0 +1,29 @@
+// Stages of a prepared frame that leave no picture in a file.
+#pragma once
+#include "reyes/app/frame/frame_job.h"
+
+namespace tomales {
+
+/// Hides all buckets and opens what that needs. Returns false if it was interrupted.
+bool hideFrame(FrameJob& job, const DeepFrame& layout, const TileSink& sink);
+/// Shades some tiles. Returns false if it was interrupted.
+bool shadeFrame(FrameJob& job, std::span<const uint32_t> tiles, const ShadeSteps& steps);
+
+/// The light in which a part of a frame is shown.
+struct ShownLight {
+  const std::string* lights = nullptr;  ///< ShadeContext::lights.
+  bool indirect = true;
+};
+/// The tiles of showWindow(), from any thread.
+struct ShownTiles {
+  std::function<bool(size_t index, DeepTile& tile)> load;  ///< See ShadeSteps::load.
+  std::function<void(size_t index, const DeepTile& tile)> shaded;
+};
+/// Shades the window of the frame for the viewer alone, before exposure and imager. It can be called again and again.
+/// If it is cancelled, the viewer may get no rows.
+void showWindow(FrameJob& job, const DeepFrame& layout, const PixelRect& window, const ShownTiles& tiles,
+                const ShownLight& light, const RowViewer& viewer, const std::atomic<bool>& cancelled);
+/// Shades tiles that are no picture.
+void shadeApart(FrameJob& job, std::span<DeepTile> tiles, const ShownLight& light);
+
+}  // namespace tomales
