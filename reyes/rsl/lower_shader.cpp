@@ -71,8 +71,8 @@ void Lowering::beginColor() {
   code_.body.insert(code_.body.end(), std::make_move_iterator(body.begin()), std::make_move_iterator(body.end()));
 }
 
-// Shaders of rings assign Oi = 0 alone where nothing is to be seen (RenderMan Companion, listing 16.26), and Cs must not
-// shine there.
+// Shaders of rings assign Oi = 0 alone where nothing is to be seen (RenderMan Companion, listing 16.26), and Cs must
+// not shine there.
 void Lowering::hideUncoloured() {
   const int32_t Ci = global(Global::Ci), Oi = global(Global::Oi);
   bool clears = false;
