@@ -45,6 +45,7 @@ struct KnownLight {
   const BrightSpots* spots = nullptr;  ///< Some further rays are aimed at these.
   const HitRadiance* hits = nullptr;   ///< The radiance at the hits of rays.
 };
+
 /// Returns the highlights that diffuse rays bring. Where photons bring the light of lamps by mirrors and glass,
 /// highlights of these would bring it again.
 inline HitHighlights highlightsOfHits(bool mirrored) {

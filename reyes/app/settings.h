@@ -34,7 +34,7 @@ struct PictureSettings {
   bool onePicture = false;    ///< Displays other than `output` are left out.
   bool overwrite = false;     ///< A crop may take the place of a picture that holds more.
   std::string outputRoot;     ///< Files that the RIB names are written below it; empty: anywhere.
-  bool resume = false;        ///< What an interrupted run has left is taken over.
+  bool resume = false;        ///< Finished work is kept, and that of an interrupted run taken over.
   bool skipFinished = false;  ///< Frames whose pictures hold what would be rendered are left as they are.
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
@@ -58,7 +58,7 @@ struct LightSettings {
   int64_t photons = 1'000'000;   ///< Number to emit for --gi atlas and the caustics of the reference; the most for
                                  ///< --gi progressive.
   double photonNoise = 0;        ///< Counted photons end when their noise is less than this share of their light.
-  bool hitList = true;           ///< Rays leave coarse surfaces by lists of hits (GatherPoint::edgeLength).
+  bool hitList = true;           ///< Rays leave surfaces by lists of hits, else by a bias alone (Ray::offset).
   std::optional<bool> fullGeometry;  ///< Rays see displaced micropolygons; if not given, for the reference alone.
 };
 

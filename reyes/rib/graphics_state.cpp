@@ -140,6 +140,7 @@ Expansion withLights(Expansion contents, const std::vector<int>& lights) {
   return contents;
 }
 
+/// Returns the lights of `late` that these attributes lack.
 std::vector<int> lacking(const Attributes& attributes, std::span<const World::LateLight> late) {
   const std::set<int> has(attributes.lights.begin(), attributes.lights.end());
   std::vector<int> out;
@@ -154,6 +155,7 @@ std::vector<int> lacking(const Attributes& attributes, std::span<const World::La
 // with the attributes of its place, and have their own copies: they get the lights when they come.
 void GraphicsState::lightEarlierObjects() {
   const std::span<const World::LateLight> late = world->lateLights;
+  // The late lights that come after the object or procedural of this number.
   const auto after = [late](size_t number, size_t World::LateLight::*before) {
     return std::span(std::ranges::upper_bound(late, number, {}, before), late.end());
   };

@@ -5,8 +5,7 @@
 
 namespace tomales::test {
 
-/// Returns the path of a file in the folder that this process has for itself (tests/unit_main.cpp). TempDir() of
-/// GoogleTest 1.12 is /tmp, where tests that run at the same time would write the same files.
+/// Returns the path of a file in the folder that this process has for itself (tests/unit_main.cpp).
 inline std::string temporary(const std::string& name) {
   return (std::filesystem::temp_directory_path() / name).string();
 }

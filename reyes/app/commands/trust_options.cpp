@@ -1,6 +1,8 @@
 // Options that say whose code may run, and where files are looked for.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reyes/app/commands/options.h"
 
 namespace tomales {

@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// Returns settings.atlasFolder, or that of the scene's indirect lights, below settings.outputRoot unless it is only
-/// read; empty if neither is set. Throws WriteError.
+/// Returns StoredLightSettings::atlasFolder, or that of the scene's indirect lights, below PictureSettings::outputRoot
+/// unless it is only read; empty if neither is set. Throws WriteError.
 std::string atlasFolder(const RenderSettings& settings, const ShadingSystem& shading);
 
 AtlasSettings atlasSettings(const RenderSettings& settings, const Scene& scene, const ShadingSystem& shading);
@@ -34,10 +34,11 @@ void makeAtlasPass(AtlasPass pass, WorkPart part, const RayTools& tools, const R
 /// Returns the file of a part of the photons.
 std::filesystem::path photonPart(const std::filesystem::path& atlas, WorkPart part);
 
-/// Opens the light of settings.bakedFolder, for GiMode::Baked. Returns null after an error, which has been reported.
+/// Opens the light of StoredLightSettings::bakedFolder, for GiMode::Baked. Returns null after an error, which has been
+/// reported.
 std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const ShadingSystem& shading,
                                                  const RenderSettings& settings, Log& log);
-/// Writes the light that has been gathered to settings.bakedFolder. Errors are reported.
+/// Writes the light that has been gathered to StoredLightSettings::bakedFolder. Errors are reported.
 void bakeGathered(const GiServices& services, const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
                   const ShadingSystem& shading, const RenderSettings& settings, Log& log);
 

@@ -1,6 +1,5 @@
 // A frame that is prepared: its shaders are bound, and rays and global illumination are built if the scene asks for
-// them. Its stages are hiding (frame_stages.h), light (frame_light.h)
-// and the picture (frame_picture.h).
+// them. Its stages are hiding (frame_stages.h), light (frame_light.h) and the picture (frame_picture.h).
 #pragma once
 #include <chrono>
 
@@ -49,7 +48,6 @@ class FrameJob {
   bool counts() const { return counts_; }
   /// Tells whether light has to be gathered or counted, where records are given or not.
   bool gathersBeside(bool recordsGiven) const { return counts_ || (gathers_ && !recordsGiven); }
-  bool makesMaps() const { return mode() == GiMode::Atlas || mode() == GiMode::Radiosity; }
   const GiMethod& method() const { return *method_; }
   GiMode mode() const { return method_->mode; }
   GiSettings giSettings() const;

@@ -6,7 +6,6 @@
 
 #include "reyes/app/frame/atlas_job.h"
 #include "reyes/app/frame/limits.h"
-#include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/target.h"
 #include "reyes/app/frame/time_budget.h"
@@ -53,12 +52,14 @@ void FrameLight::gather() {
 void FrameLight::gatherShown() {
   if (!needsGather() || interrupted()) return;
   const StageTimer timer(job_.stats(), "gather");
-  const auto progress = job_.meter().gathering(job_.makesMaps());
+  const bool afterMaps = job_.mode() == GiMode::Atlas || job_.mode() == GiMode::Radiosity;
+  const auto progress = job_.meter().gathering(afterMaps);
   progress(0);
   std::function<void(int)> show;
+  ShadeContext context = job_.shadeContext();
+  context.sketch = true;
   if (Preview* preview = job_.preview(layout_))
-    show = [this, preview, context = job_.shadeContext()](int stride) mutable {
-      context.sketch = true;
+    show = [&, preview](int stride) {
       preview->show(sketch(layout_, tiles_, stride, job_.scene(), job_.shading(), context, interrupted()));
     };
   gatherRecords(progress, show);

@@ -1,5 +1,8 @@
 // The progress of a frame, of which each stage has a share.
 #pragma once
+#include <functional>
+#include <utility>
+
 #include "reyes/app/watch/progress.h"
 
 namespace tomales {

@@ -1,7 +1,8 @@
 #include "reyes/app/frame/frame_picture.h"
 
-#include <fmt/format.h>
-
+#include <atomic>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "reyes/app/frame/turns_timer.h"

@@ -4,11 +4,11 @@
 
 namespace tomales {
 
-/// Writes the picture of tiles that are hidden. If hiding was interrupted, writing is not again.
+/// Writes the picture of tiles that are hidden. After an interrupt it still writes what is there; a second one ends it.
 void writePicture(FrameJob& job, const DeepFrame& layout,
                   const std::function<std::optional<DeepTile>(size_t tile)>& load);
-/// Writes the picture of tiles that are hidden, too, as its rows need them. `find` returns the tiles of an interrupted
-/// run; `keep` keeps those of this one.
+/// Hides and shades tiles as the rows of the picture need them, and writes it. `find` returns the tiles of an
+/// interrupted run; `keep` keeps those of this one.
 void hideAndWritePicture(FrameJob& job, const DeepFrame& layout,
                          const std::function<std::optional<DeepTile>(size_t tile)>& find,
                          const std::function<void(size_t tile, const DeepTile&)>& keep);

@@ -15,13 +15,13 @@ ShadeContext contextOf(const FrameJob& job, const ShownLight& light) {
 
 }  // namespace
 
-bool hideFrame(FrameJob& job, const DeepFrame& layout, const TileSink& sink) {
+bool hideBuckets(FrameJob& job, const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(job.stats(), "hide");
-  const FrameControl control{job.meter().hiding(job.gathers()), &interrupted(), job.settings().picture.seed};
+  const FrameControl control{job.meter().hiding(job.gathersBeside(false)), &interrupted(), job.settings().picture.seed};
   return hideTiles(layout, job.scene(), job.shading(), control, job.stats(), job.log(), sink);
 }
 
-bool shadeFrame(FrameJob& job, std::span<const uint32_t> tiles, const ShadeSteps& steps) {
+bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const ShadeSteps& steps) {
   const StageTimer timer(job.stats(), "shade");
   const FrameControl control{job.meter().shading(), &interrupted(), job.settings().picture.seed};
   return shadeTiles(tiles, steps, job.scene(), job.shading(), job.shadeContext(), control);

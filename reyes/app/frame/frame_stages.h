@@ -5,9 +5,9 @@
 namespace tomales {
 
 /// Hides all buckets and opens what that needs. Returns false if it was interrupted.
-bool hideFrame(FrameJob& job, const DeepFrame& layout, const TileSink& sink);
-/// Shades some tiles. Returns false if it was interrupted.
-bool shadeFrame(FrameJob& job, std::span<const uint32_t> tiles, const ShadeSteps& steps);
+bool hideBuckets(FrameJob& job, const DeepFrame& layout, const TileSink& sink);
+/// Shades some buckets. Returns false if it was interrupted.
+bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const ShadeSteps& steps);
 
 /// The light in which a part of a frame is shown.
 struct ShownLight {

@@ -70,7 +70,7 @@ void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSe
                         if (!file->write(index, tile)) full = true;
                       },
                       {}};
-  const bool complete = hideFrame(job, shot.frame, sink);
+  const bool complete = hideBuckets(job, shot.frame, sink);
   if (full)
     return unwritten(file->error() + "; finished buckets are in \"" + file->unfinishedPath() +
                      "\", and --resume adds the others");

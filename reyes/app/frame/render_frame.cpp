@@ -133,7 +133,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
                           if (!store.keep(i, tile)) spill(i, tile);
                         },
                         settings.picture.resume ? find : nullptr};
-    hideFrame(job, layout, sink);
+    hideBuckets(job, layout, sink);
     returnFreeMemory();  // frees the grids
     afterStage();
     if (settings.resources.memoryLimit && job.method().makesMaps)

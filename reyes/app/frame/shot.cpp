@@ -301,7 +301,7 @@ bool ShotJob::recordAnswers(IcfWriter& out) {
   const auto store = [&](size_t index, DeepTile&& tile) {
     if (!out.writeAnswers(index, tile.answers)) good = false;
   };
-  shadeFrame(*job_, tilesOf(shot_.frame, shot_.scene.options), {startRecording, store});
+  shadeBuckets(*job_, tilesOf(shot_.frame, shot_.scene.options), {startRecording, store});
   return good;
 }
 

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "reyes/base/temporary_folder.h"
-#include "tests/unit/temporary.h"
 
 namespace tomales {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(CandidateFiles, OfAnotherMachinesFoldersAreFoundByTheEndsOfTheirNames) {
-  const TemporaryFolder temporary(test::temporary(""));
+  const TemporaryFolder temporary(testing::TempDir());
   const fs::path bowl = fs::weakly_canonical(temporary.path()) / "bowl";
   for (const char* folder : {"maps", "rib", "rib/maps"}) fs::create_directories(bowl / folder);
   for (const char* file : {"maps/a.tx", "rib/maps/b.tif", "maps/b.tx", "rib/c.tx"}) std::ofstream(bowl / file) << "x";
