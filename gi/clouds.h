@@ -23,7 +23,8 @@ class CloudFiles final : public CloudServices {
   bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) override;
   bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) override;
   bool photons(const CloudQuery&, const TmPhotonOptions&, TmVec3 E, std::string& problem) override;
-  bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, std::string& problem) override;
+  bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, float* coarse,
+                 std::string& problem) override;
   bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) override;
 
   /// Tells whether anything has been baked yet.

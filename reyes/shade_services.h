@@ -301,8 +301,8 @@ class CloudServices {
   /// Gives E/pi from a photon map.
   virtual bool photons(const CloudQuery&, const TmPhotonOptions&, TmVec3 E, std::string& problem) = 0;
   /// Gives the share of the hemisphere around N that is covered, weighted by the cosine, and (unless x is null) the
-  /// mean radiance that arrives from it.
-  virtual bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance,
+  /// mean radiance that arrives from it. `coarse` is the share where disks are too large for a point that is so near.
+  virtual bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, float* coarse,
                          std::string& problem) = 0;
   /// Gives baked light that leaves after diffusion, as E/pi.
   virtual bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) = 0;

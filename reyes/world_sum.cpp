@@ -15,6 +15,12 @@ namespace fs = std::filesystem;
 /// A checksum to which shaders add facts about the files that they name, and not their locations.
 struct WorldSum : ContentSum {
   std::map<std::string, std::string> searchPaths{};
+  std::map<fs::path, uint64_t> stamps{};  ///< Of files that have been looked for: many lights name one shader.
+  uint64_t stampOf(const fs::path& file) {
+    const auto [it, isNew] = stamps.try_emplace(file, 0);
+    if (isNew) it->second = fileStamp(file);
+    return it->second;
+  }
 };
 
 /// Adds every file that the name may stand for, along the search path and in `beside`.
@@ -23,7 +29,7 @@ void addFile(WorldSum& sum, const std::string& name, const char* kind, const std
   folders.insert(folders.begin(), ".");
   if (beside != ".") folders.push_back(beside);
   for (const fs::path folder : folders) {
-    uint64_t stamp = name.empty() ? 0 : fileStamp(folder / name);
+    uint64_t stamp = name.empty() ? 0 : sum.stampOf(folder / name);
     if (stamp != 0) each(sum, stamp);
   }
 }

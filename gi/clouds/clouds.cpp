@@ -199,7 +199,7 @@ const CloudFiles::Opened<Data>& CloudFiles::openedWhole(std::map<Key, Opened<Dat
   return it->second;
 }
 
-bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* covered, TmVec3 radiance,
+bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* covered, TmVec3 radiance, float* coarse,
                            std::string& problem) {
   const Opened<Disks>& file =
       openedWhole(disks_, std::pair(q.file, query.channel), q.file,
@@ -210,8 +210,9 @@ bool CloudFiles::occlusion(const CloudQuery& q, const DisksQuery& query, float* 
   if (!problem.empty()) return false;
   for (int i = 0; i < q.count; ++i) {
     if (!q.active[i] || at(q.N, i) == vec3(0)) continue;
-    const HemisphereView seen = file.data->seenFrom(at(q.P, i), at(q.N, i), query);
+    const HemisphereView seen = file.data->seenFrom(at(q.P, i), at(q.N, i), query, q.radius[i]);
     covered[i] = seen.covered;
+    coarse[i] = seen.coarse;
     if (radiance.x) set(radiance, i, seen.radiance);
   }
   return true;

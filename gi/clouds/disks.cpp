@@ -10,8 +10,14 @@ constexpr int kLinesOfSight = 1024;
 constexpr float kGoldenAngle = 2.399963f;
 // The squared radius of the disk that stands for a group, over the area that the group covers (LineOfSight::meet).
 constexpr float kSquaredReach = 0.625f;
-// A disk nearer than this share of its radius belongs to the point itself or to its neighbours.
+// A disk nearer than this share of its radius, or of that of the micropolygon that looks, belongs to the point itself
+// or to its neighbours.
 constexpr float kOwnPlane = 0.3f;
+// The middle of a micropolygon that spans a curved surface lies below that, by d, and a level line of sight leaves the
+// surface only beyond the radius. So backs that are nearer than that are the surface's own.
+constexpr float kOwnBack = 1.0f;
+// A disk that is so much larger than a near micropolygon shows as a blotch.
+constexpr float kMuchLarger = 3.0f;
 
 }  // namespace
 
@@ -78,8 +84,14 @@ uint32_t Disks::build(uint32_t begin, uint32_t end) {
 /// One line of sight through the tree.
 class Disks::LineOfSight {
  public:
-  LineOfSight(const Disks& disks, const vec3& P, const vec3& d, const DisksQuery& query)
-      : disks_(disks), P_(P), d_(d), over_(1.0f / d), query_(query), reach_(query.falloff.maxDistance) {}
+  LineOfSight(const Disks& disks, const vec3& P, float radius, const vec3& d, const DisksQuery& query)
+      : disks_(disks),
+        P_(P),
+        d_(d),
+        over_(1.0f / d),
+        radius_(radius),
+        query_(query),
+        reach_(query.falloff.maxDistance) {}
 
   void walk() {
     uint32_t open[64];  // a tree that halves 2^32 disks is no deeper
@@ -104,11 +116,18 @@ class Disks::LineOfSight {
 
   float covered = 0;
   vec3 light{0.0f};
+  bool coarse = false;
 
  private:
   bool crosses(const Bound3& b) const {
     const vec3 a = (b.lo - P_) * over_, c = (b.hi - P_) * over_, first = glm::min(a, c), last = glm::max(a, c);
     return std::max({first.x, first.y, first.z, 0.0f}) <= std::min({last.x, last.y, last.z, reach_});
+  }
+
+  /// Returns the distance up to which what is met is the receiver's own surface.
+  float own(float diskRadius, bool back) const {
+    if (query_.falloff.bias >= 0) return query_.falloff.bias;
+    return std::max(kOwnPlane * diskRadius, (back ? kOwnBack : kOwnPlane) * radius_);
   }
 
   /// Meets a group as a disk across its direction. The disk reaches the corners of a rectangle of the group's covered
@@ -120,45 +139,47 @@ class Disks::LineOfSight {
                 facing = std::clamp(-dot(sum.front, d_), -all, all);
     const float front = 0.5f * (all + facing), back = 0.5f * (all - facing),
                 across = std::max(front, back);  // on a closed surface the fronts hide the backs
-    if (!(across > 0) || !(t > std::max(query_.falloff.bias, 0.0f)) || dot(way, way) - t * t > kSquaredReach * across)
-      return;
+    if (!(across > 0) || !(t > own(0, back > front)) || dot(way, way) - t * t > kSquaredReach * across) return;
     add(t, 1 / (kPi * kSquaredReach), front / across, back / across,
-        glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across);
+        glm::max(0.5f * (all / sum.area * sum.light - sum.lightFront * d_), vec3(0)) / across, false);
   }
 
   void meet(const Disk& disk) {
     const vec3 way = disk.P - P_, n = disk.N == vec3(0) ? -d_ : disk.N;
-    const float least = query_.falloff.bias >= 0 ? query_.falloff.bias : kOwnPlane * disk.radius,
-                r2 = disk.radius * disk.radius;
+    const float r2 = disk.radius * disk.radius;
     const float facing = dot(n, d_), t = dot(n, way) / facing;
     const vec3 off = t * d_ - way;
-    if (!(t > least) || !(dot(off, off) <= r2)) return;
+    if (!(t > own(disk.radius, facing > 0)) || !(dot(off, off) <= r2)) return;
     const float front = facing < 0 ? 1.0f : 0.0f;
-    add(t, std::min(1.0f, disk.area / (kPi * r2)), front, 1 - front, front * disk.light);
+    add(t, std::min(1.0f, disk.area / (kPi * r2)), front, 1 - front, front * disk.light,
+        radius_ > 0 && disk.radius > kMuchLarger * radius_ && t < disk.radius);
   }
 
   /// `share` is that of the disk that counts, since disks overlap.
-  void add(float t, float share, float front, float back, const vec3& sends) {
+  void add(float t, float share, float front, float back, const vec3& sends, bool isCoarse) {
     const HitSides sides = query_.falloff.sides;
     const float shown = sides == HitSides::Both ? 1.0f : sides == HitSides::Front ? front : back;
     if (t > reach_ || !(shown > 0)) return;
     if (!query_.clamp) {
       covered += share * shown * query_.falloff.coveredAt(t);
       light += share * sends;
+      coarse = coarse || isCoarse;
       return;
     }
     reach_ = t;
     covered = shown * query_.falloff.coveredAt(t);
     light = sends;
+    coarse = isCoarse;
   }
 
   const Disks& disks_;
   const vec3 P_, d_, over_;
+  const float radius_;  ///< That of the receiver.
   const DisksQuery& query_;
   float reach_;  ///< Distance beyond which disks do not count.
 };
 
-HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& query) const {
+HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& query, float radius) const {
   vec3 tangent, bitangent;
   orthonormalBasis(N, tangent, bitangent);
   const float spread = std::sin(std::clamp(query.coneAngle, 0.0f, kPi / 2));
@@ -166,10 +187,11 @@ HemisphereView Disks::seenFrom(const vec3& P, const vec3& N, const DisksQuery& q
   for (const vec3& whole : directions_) {
     const vec2 d = spread * vec2(whole);
     const vec3 local(d, std::sqrt(std::max(0.0f, 1 - dot(d, d))));
-    LineOfSight sight(*this, P, local.x * tangent + local.y * bitangent + local.z * N, query);
+    LineOfSight sight(*this, P, radius, local.x * tangent + local.y * bitangent + local.z * N, query);
     sight.walk();
     out.covered += sight.covered / kLinesOfSight;
     out.radiance += sight.light / static_cast<float>(kLinesOfSight);
+    out.coarse += sight.coarse ? 1.0f / kLinesOfSight : 0.0f;
   }
   out.covered = std::min(1.0f, out.covered);
   return out;

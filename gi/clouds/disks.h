@@ -13,6 +13,7 @@ namespace tomales {
 struct HemisphereView {
   float covered = 0;
   vec3 radiance{0.0f};
+  float coarse = 0;  ///< Where disks are nearer than they are large, and much larger than the micropolygon that looks.
 };
 
 class Disks {
@@ -23,8 +24,8 @@ class Disks {
   Disks(const PointCloud& cloud, const std::string& channel);
   bool sends() const { return sends_; }
 
-  /// Averages what is seen from P. N: unit.
-  HemisphereView seenFrom(const vec3& P, const vec3& N, const DisksQuery& query) const;
+  /// Averages what is seen from P, the middle of a micropolygon of this radius. N: unit.
+  HemisphereView seenFrom(const vec3& P, const vec3& N, const DisksQuery& query, float radius = 0) const;
 
  private:
   struct Disk {

@@ -116,6 +116,27 @@ int32_t subsurface(void* host, const TmGrid* all, const char* file, const TmSubs
 
 }  // namespace
 
+namespace {
+
+/// Share of what the points see that large disks may be before they show.
+constexpr float kCoarseShare = 0.1f;
+
+void warnOfCoarseDisks(Batch& batch, const TmGrid* g, const char* file, const float* coarse) {
+  float sum = 0, points = 0;
+  forActive(g, [&](int i) {
+    sum += coarse[i];
+    ++points;
+  });
+  if (!(sum > kCoarseShare * points)) return;
+  batch.report(Severity::Warning, "point-cloud-coarse",
+               fmt::format("point cloud \"{}\": its disks are far larger than the micropolygons beside them, so light "
+                           "leaks and shadows are blotchy; bake it with a smaller ShadingRate",
+                           file),
+               file);
+}
+
+}  // namespace
+
 bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmConstVec3 N,
                       const DisksQuery& disks, float* covered, TmVec3 radiance) {
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
@@ -128,7 +149,12 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   if (far.bias > 0) far.bias *= scale;
   if (far.falloffMode != 1) far.falloff /= scale;
   std::string problem;
-  return batch.scene.clouds->occlusion(query, inFile, covered, radiance, problem) || refuse(batch, file, problem);
+  float* coarse = batch.arena.floats(g->count);
+  std::fill_n(coarse, g->count, 0.0f);
+  if (!batch.scene.clouds->occlusion(query, inFile, covered, radiance, coarse, problem))
+    return refuse(batch, file, problem);
+  warnOfCoarseDisks(batch, g, file, coarse);
+  return true;
 }
 
 void addCloudServices(TmServices& services) {

@@ -39,11 +39,35 @@ LampReceiver receiverOf(const Batch& batch, int i) {
   return {batch.points->position(i), batch.points->inAir() ? vec3(0.0f) : batch.points->facingNormal(i)};
 }
 
-/// Draws the lamps of all points, run by run.
+/// Draws a lamp of each cluster of each point.
+std::vector<DrawnLamp> drawnOf(const Batch& batch, const LightSet& lamps, const LightCuts& cuts) {
+  const size_t n = cuts.clusters.size();
+  std::vector<uint32_t> index(n), stream(n);
+  for (int i = 0; i < batch.points->count(); ++i) {
+    const SampleName name = batch.points->name(i);
+    for (uint32_t k = cuts.first[static_cast<size_t>(i)]; k < cuts.first[static_cast<size_t>(i) + 1]; ++k) {
+      index[k] = name.sequence;
+      stream[k] = hashCombine(name.key, randomStream("lamp"), cuts.clusters[k].node, batch.context.seed);
+    }
+  }
+  std::vector<float> xi(n);
+  sobol1(index, stream, xi);
+  std::vector<DrawnLamp> out(n);
+  for (int i = 0; i < batch.points->count(); ++i) {
+    const std::span<const LampCluster> clusters = cuts.at(i);
+    const size_t first = cuts.first[static_cast<size_t>(i)];
+    if (!clusters.empty())
+      lamps.tree.draw(receiverOf(batch, i), clusters, std::span(xi).subspan(first, clusters.size()),
+                      std::span(out).subspan(first, clusters.size()));
+  }
+  return out;
+}
+
+/// Deals out the lamps of all points, run by run.
 class Drawing {
  public:
   Drawing(const Batch& batch, const LightSet& lamps, const LightCuts& cuts)
-      : batch_(batch), lamps_(lamps), cuts_(cuts), at_(cuts.first.size() - 1), cluster_(at_.size(), 0) {
+      : cuts_(cuts), drawn_(drawnOf(batch, lamps, cuts)), at_(cuts.first.size() - 1), next_(cuts.first) {
     for (size_t i = 0; i < at_.size(); ++i) {
       int samples = 0;
       for (const LampCluster& c : cuts.at(static_cast<int>(i))) samples += c.samples;
@@ -55,48 +79,38 @@ class Drawing {
   const std::vector<LampOfPoint>& next() {
     for (size_t i = 0; i < at_.size(); ++i) {
       LampOfPoint& l = at_[i];
-      if (l.lamp != kNoLamp && ++l.sample == l.samples) {
-        l.lamp = kNoLamp;
-        ++cluster_[i];
-      }
-      const std::span<const LampCluster> clusters = cuts_.at(static_cast<int>(i));
-      if (l.lamp == kNoLamp && cluster_[i] < clusters.size()) l = drawn(static_cast<int>(i), clusters[cluster_[i]]);
+      if (l.lamp != kNoLamp && ++l.sample < l.samples) continue;
+      l.lamp = kNoLamp;
+      if (next_[i] == cuts_.first[i + 1]) continue;
+      const DrawnLamp& drawn = drawn_[next_[i]];
+      const int samples = cuts_.clusters[next_[i]++].samples;
+      l = {drawn.lamp, 0, samples, drawn.probability * static_cast<float>(samples)};
     }
     return at_;
   }
 
  private:
-  LampOfPoint drawn(int i, const LampCluster& cluster) const {
-    const SampleName name = batch_.points->name(i);
-    const uint32_t stream = hashCombine(name.key, randomStream("lamp"), cluster.node, batch_.context.seed);
-    float probability = 1;
-    const uint32_t lamp =
-        lamps_.tree.draw(receiverOf(batch_, i), cluster.node, double{sobol1(name.sequence, stream)}, probability);
-    return {lamp, 0, cluster.samples, probability * static_cast<float>(cluster.samples)};
-  }
-
-  const Batch& batch_;
-  const LightSet& lamps_;
   const LightCuts& cuts_;
+  std::vector<DrawnLamp> drawn_;  ///< Of each cluster.
   std::vector<LampOfPoint> at_;
-  std::vector<size_t> cluster_;
+  std::vector<uint32_t> next_;  ///< The cluster that each point takes next.
   int runs_ = 0;
 };
 
 /// Returns the parameters of the light, with the numbers of each point's lamp where lamps differ.
 std::vector<TmValue> paramsOf(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps) {
   std::vector<TmValue> out = drawn.lights[0]->bound->values;
+  std::vector<float*> columns;
   for (const int p : drawn.varying) {
-    const auto k = static_cast<size_t>(p);
-    for (int c = 0; c < floatsOf(typeOf(drawn.lights[0]->bound->shader->params[p])); ++c) {
-      float* values = batch.arena.floats(batch.tm.count);
-      for (int i = 0; i < batch.tm.count; ++i) {
-        const uint32_t lamp = lamps[static_cast<size_t>(i) % lamps.size()].lamp;
-        values[i] = drawn.lights[lamp == kNoLamp ? 0 : lamp]->bound->values[k].c[c][0];
-      }
-      out[k].c[c] = values;
-    }
-    out[k].step = 1;
+    TmValue& value = out[static_cast<size_t>(p)];
+    for (int c = 0; c < floatsOf(typeOf(drawn.lights[0]->bound->shader->params[p])); ++c)
+      value.c[c] = columns.emplace_back(batch.arena.floats(batch.tm.count));
+    value.step = 1;
+  }
+  for (int i = 0; i < batch.tm.count; ++i) {
+    const uint32_t lamp = lamps[static_cast<size_t>(i) % lamps.size()].lamp;
+    const float* numbers = drawn.numbers.data() + columns.size() * (lamp == kNoLamp ? 0 : lamp);
+    for (float* column : columns) column[i] = *numbers++;
   }
   return out;
 }

@@ -84,6 +84,15 @@ std::vector<int> varyingOf(const std::vector<const BoundLight*>& lights) {
   return out;
 }
 
+std::vector<float> numbersOf(const std::vector<const BoundLight*>& lights, const std::vector<int>& varying) {
+  std::vector<float> out;
+  for (const BoundLight* l : lights)
+    for (const int p : varying)
+      for (int k = 0; k < floatsOf(typeOf(l->bound->shader->params[p])); ++k)
+        out.push_back(l->bound->values[static_cast<size_t>(p)].c[k][0]);
+  return out;
+}
+
 LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* services) {
   std::vector<TreeLamp> lamps;
   float brightest = 0;
@@ -93,7 +102,8 @@ LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* servi
   }
   for (TreeLamp& lamp : lamps) lamp.power = std::max({lamp.power, kDark * brightest, 1e-30f});
   std::vector<int> varying = varyingOf(lights);
-  return {std::move(lights), std::move(varying), LightTree(std::move(lamps))};
+  std::vector<float> numbers = numbersOf(lights, varying);
+  return {std::move(lights), std::move(varying), std::move(numbers), LightTree(std::move(lamps))};
 }
 
 std::unique_ptr<const LightSets> setsOf(const std::vector<const BoundLight*>& lights, const BoundScene& scene) {

@@ -22,6 +22,8 @@ constexpr size_t kFewLights = 4, kFewWithoutShadows = 32;
 struct LightSet {
   std::vector<const BoundLight*> lights;  ///< Indexed as the tree's lamps.
   std::vector<int> varying;               ///< The parameters whose values differ.
+  /// All numbers of these parameters, lamp by lamp. A point takes those of a lamp from one place.
+  std::vector<float> numbers;
   LightTree tree;
 };
 

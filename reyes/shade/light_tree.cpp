@@ -6,8 +6,12 @@
 namespace tomales {
 namespace {
 
-/// Least cosine that counts. Lamps behind a surface may shine through it, so they keep some importance.
+/// Lamps behind a surface may shine through it, so they keep this share of what they would bring from in front.
 constexpr float kBehind = 0.1f;
+/// Least cosine that counts for a draw: bumps may turn a surface to a lamp that grazes it.
+constexpr float kGrazing = 0.02f;
+/// Least squared distance, so that light is finite at a lamp.
+constexpr float kNearest = 1e-20f;
 /// A side of a division holds at least so many of its lamps; else the median divides, and the tree stays flat.
 constexpr size_t kLeastSide = 16;
 
@@ -19,6 +23,33 @@ struct Refinable {
   }
 };
 
+/// A draw on its way down the tree.
+struct Descent {
+  double xi;
+  float probability;
+  uint32_t node;
+  size_t number;
+};
+
+/// The places of some lamps, weighed by their powers.
+struct Places {
+  double power = 0;
+  glm::dvec3 mean{0}, variance{0};
+};
+
+/// A lamp is spread evenly over its bound.
+Places placesOf(const TreeLamp& lamp) {
+  const glm::dvec3 size(lamp.bound.size());
+  return {double{lamp.power}, glm::dvec3(lamp.bound.center()), size * size / 12.0};
+}
+
+Places joined(const Places& a, const Places& b) {
+  const double power = a.power + b.power, share = b.power / power;
+  const glm::dvec3 apart = b.mean - a.mean;
+  return {power, a.mean + share * apart,
+          (1 - share) * a.variance + share * b.variance + share * (1 - share) * apart * apart};
+}
+
 }  // namespace
 
 LightTree::LightTree(std::vector<TreeLamp> lamps) : lamps_(std::move(lamps)), leafOf_(lamps_.size()) {
@@ -26,6 +57,36 @@ LightTree::LightTree(std::vector<TreeLamp> lamps) : lamps_(std::move(lamps)), le
   std::iota(order.begin(), order.end(), 0U);
   nodes_.reserve(2 * lamps_.size());
   if (!order.empty()) build(order);
+  fillParts();
+}
+
+void LightTree::fillParts() {
+  std::vector<Places> places(nodes_.size());
+  parts_.reserve(nodes_.size() / 2);
+  for (uint32_t n = static_cast<uint32_t>(nodes_.size()); n-- > 0;) {  // from the leaves up
+    Node& node = nodes_[n];
+    if (node.right == 0) {
+      places[n] = placesOf(lamps_[node.below]);
+      continue;
+    }
+    places[n] = joined(places[n + 1], places[node.right]);
+    node.below = static_cast<uint32_t>(parts_.size());
+    Parts& parts = parts_.emplace_back();
+    size_t k = 0;
+    const auto add = [&](uint32_t part) {
+      for (int axis = 0; axis < 3; ++axis) {
+        parts.mean[static_cast<size_t>(axis)][k] = static_cast<float>(places[part].mean[axis]);
+        parts.variance[static_cast<size_t>(axis)][k] = static_cast<float>(places[part].variance[axis]);
+      }
+      parts.power[k] = nodes_[part].power;
+      parts.node[k++] = part;
+    };
+    for (const uint32_t child : {n + 1, node.right}) {
+      const bool leaf = nodes_[child].right == 0;
+      add(leaf ? child : child + 1);
+      if (!leaf) add(nodes_[child].right);
+    }
+  }
 }
 
 uint32_t LightTree::build(std::span<uint32_t> order) {
@@ -52,7 +113,8 @@ uint32_t LightTree::build(std::span<uint32_t> order) {
     }
     const auto count = static_cast<size_t>(middle - order.begin());
     build(order.first(count));
-    nodes_[index].right = build(order.subspan(count));
+    const uint32_t right = build(order.subspan(count));  // before nodes_[index], which moves meanwhile
+    nodes_[index].right = right;
   } else {
     leafOf_[order[0]] = index;
   }
@@ -60,12 +122,12 @@ uint32_t LightTree::build(std::span<uint32_t> order) {
   return index;
 }
 
-float LightTree::estimate(const LampReceiver& at, const Node& node) const {
+float LightTree::bound(const LampReceiver& at, const Node& node) const {
   const vec3 to = node.center - at.P;
   const float distance2 = dot(to, to), distance = std::sqrt(distance2), r = node.radius;
   float cosine = 1;  // that of the sphere's point that is farthest in front
   if (at.N != vec3(0.0f) && distance > r) cosine = std::clamp((dot(at.N, to) + r) / distance, kBehind, 1.0f);
-  return node.power * cosine / std::max({distance2, r * r, 1e-20f});
+  return node.power * cosine / std::max({distance2, r * r, kNearest});
 }
 
 void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<LampCluster>& out) const {
@@ -76,7 +138,7 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
   float light = 0;
   int samples = 0;
   const auto add = [&](uint32_t node, int n) {
-    const float expected = estimate(at, nodes_[node]);
+    const float expected = bound(at, nodes_[node]);
     const bool whole = nodes_[node].right == 0 && n >= perLamp;
     heap.push_back({whole ? 0 : expected / static_cast<float>(n), expected, {node, n}});
     std::push_heap(heap.begin(), heap.end());
@@ -103,21 +165,55 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
   for (const Refinable& r : heap) out.push_back(r.cluster);
 }
 
-float LightTree::shareOfFirst(const LampReceiver& at, uint32_t node) const {
-  const float a = estimate(at, nodes_[node + 1]), b = estimate(at, nodes_[nodes_[node].right]);
-  return a + b > 0 ? a / (a + b) : 0.5f;  // lamps that are very dim and far off underflow
+// Where it is inlined, compilers unroll the loop before they make vectors of it.
+[[gnu::noinline]] std::array<float, LightTree::kParts> LightTree::importance(const LampReceiver& at,
+                                                                             const Parts& parts) {
+  std::array<float, kParts> out;
+  const auto& [mx, my, mz] = parts.mean;
+  const auto& [vx, vy, vz] = parts.variance;
+  const vec3 n2 = 2 / kPi * at.N * at.N;
+  for (size_t k = 0; k < kParts; ++k) {
+    const float x = mx[k] - at.P.x, y = my[k] - at.P.y, z = mz[k] - at.P.z;
+    const float along = at.N.x * x + at.N.y * y + at.N.z * z;
+    const float front = 0.5f * (along + std::sqrt(along * along + n2.x * vx[k] + n2.y * vy[k] + n2.z * vz[k]));
+    const float distance2 = std::max(std::max(x * x + y * y + z * z, vx[k] + vy[k] + vz[k]), kNearest),
+                distance = std::sqrt(distance2);
+    out[k] = parts.power[k] * std::max(front + kBehind * (front - along), kGrazing * distance) / (distance2 * distance);
+  }
+  if (!(out[0] + out[1] + out[2] + out[3] > 0))  // lamps that are very dim and far off underflow
+    for (size_t k = 0; k < kParts; ++k) out[k] = parts.power[k] > 0 ? 1.0f : 0.0f;
+  return out;
 }
 
-uint32_t LightTree::draw(const LampReceiver& at, uint32_t node, double xi, float& probability) const {
-  probability = 1;
-  while (nodes_[node].right != 0) {
-    const float first = shareOfFirst(at, node);
-    const bool isFirst = xi < double{first};
-    xi = std::min(isFirst ? xi / double{first} : (xi - double{first}) / (1 - double{first}), 1 - 0x1p-52);
-    probability *= isFirst ? first : 1 - first;
-    node = isFirst ? node + 1 : nodes_[node].right;
+void LightTree::draw(const LampReceiver& at, std::span<const LampCluster> clusters, std::span<const float> xi,
+                     std::span<DrawnLamp> out) const {
+  thread_local std::vector<Descent> open;
+  open.clear();
+  const auto put = [&](const Descent& d) {
+    const Node& node = nodes_[d.node];
+    if (node.right != 0) return true;
+    out[d.number] = {node.below, d.probability};
+    return false;
+  };
+  for (size_t i = 0; i < clusters.size(); ++i)
+    if (const Descent d{double{xi[i]}, 1, clusters[i].node, i}; put(d)) open.push_back(d);
+  while (!open.empty()) {
+    size_t left = 0;
+    for (Descent d : open) {
+      const Parts& parts = parts_[nodes_[d.node].below];
+      const std::array<float, kParts> light = importance(at, parts);
+      const std::array<float, kParts> before{0, light[0], light[0] + light[1], light[0] + light[1] + light[2]};
+      const float all = before[3] + light[3];
+      const double x = d.xi * double{all};
+      const auto k =
+          static_cast<size_t>(int{x >= double{before[1]}} + int{x >= double{before[2]}} + int{x >= double{before[3]}});
+      d.xi = std::min((x - double{before[k]}) / double{light[k]}, 1 - 0x1p-52);
+      d.probability *= light[k] / all;
+      d.node = parts.node[k];
+      if (put(d)) open[left++] = d;
+    }
+    open.resize(left);
   }
-  return nodes_[node].lamp;
 }
 
 float LightTree::expected(const LampReceiver& at, std::span<const LampCluster> cut, uint32_t lamp) const {
@@ -127,10 +223,12 @@ float LightTree::expected(const LampReceiver& at, std::span<const LampCluster> c
     if (leaf < node || leaf >= nodes_[node].end) continue;
     float probability = 1;
     while (nodes_[node].right != 0) {
-      const float first = shareOfFirst(at, node);
-      const bool isFirst = leaf < nodes_[node].right;
-      probability *= isFirst ? first : 1 - first;
-      node = isFirst ? node + 1 : nodes_[node].right;
+      const Parts& parts = parts_[nodes_[node].below];
+      const std::array<float, kParts> light = importance(at, parts);
+      size_t k = 0;
+      while (leaf >= nodes_[parts.node[k]].end) ++k;
+      probability *= light[k] / (light[0] + light[1] + light[2] + light[3]);
+      node = parts.node[k];
     }
     return probability * static_cast<float>(c.samples);
   }
@@ -143,7 +241,7 @@ void LightTree::meet(const vec3& P, const vec3& direction, std::vector<uint32_t>
     const vec3 to = n.center - P;
     const float along = dot(to, direction), r = 1.0001f * n.radius;
     const bool near = dot(to, to) <= r * r || (along > 0 && dot(to, to) - along * along <= r * r);
-    if (near && n.right == 0) lamps.push_back(n.lamp);
+    if (near && n.right == 0) lamps.push_back(n.below);
     node = near ? node + 1 : n.end;
   }
 }

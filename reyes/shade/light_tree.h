@@ -1,9 +1,12 @@
 // Noun: a binary tree over many lamps, each of a place and a power, from which few are drawn that stand for all at a
 // point. A cut through the tree (Walter et al. 2005, "Lightcuts") divides the lamps into clusters. From each cluster
 // one lamp is drawn by its importance (Estevez and Kulla 2018). Its light is divided by its probability, so that the
-// mean is right whatever the importance is. It knows no shadows, and of the surface its normal alone. Space: current.
-// Threads: const members may be called concurrently.
+// mean is right whatever the importance is. It knows no shadows, and of the surface its normal alone. What may be
+// bright is divided, so clusters are chosen by bounds. Whichever half of a cluster is brighter on the average is drawn
+// more often, so halves are weighed by the mean and the variance of their lamps' places. Space: current. Threads: const
+// members may be called concurrently.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,6 +32,12 @@ struct LampCluster {
   int samples;
 };
 
+/// A lamp that has been drawn from a cluster, and with which probability.
+struct DrawnLamp {
+  uint32_t lamp;
+  float probability;
+};
+
 class LightTree {
  public:
   explicit LightTree(std::vector<TreeLamp> lamps);
@@ -37,8 +46,9 @@ class LightTree {
   /// `perLamp`. Dividing ends earlier if no sample stands for more than kClusterShare of the light that is expected.
   /// `out` is overwritten.
   void cut(const LampReceiver& at, int most, int perLamp, std::vector<LampCluster>& out) const;
-  /// Draws a lamp of a cluster by a number in [0, 1).
-  uint32_t draw(const LampReceiver& at, uint32_t node, double xi, float& probability) const;
+  /// Draws a lamp of each cluster by a number in [0, 1). Many at once overlap in the processor.
+  void draw(const LampReceiver& at, std::span<const LampCluster> clusters, std::span<const float> xi,
+            std::span<DrawnLamp> out) const;
   /// Returns the expected number of samples that a cut gives to a lamp.
   float expected(const LampReceiver& at, std::span<const LampCluster> cut, uint32_t lamp) const;
   /// Adds the lamps whose bounds a ray from P along the unit direction meets, in the order of the tree.
@@ -55,15 +65,26 @@ class LightTree {
     float power;     ///< Power of its lamps together.
     uint32_t right;  ///< The second child; the first one follows its parent. A leaf's is 0.
     uint32_t end;    ///< The number behind the last node below it.
-    uint32_t lamp;   ///< The lamp of a leaf.
+    uint32_t below;  ///< The lamp of a leaf; the parts of another node.
+  };
+  static constexpr int kParts = 4;
+  /// What draws read of the nodes two steps below a node, or one step where that is a leaf: the places of their lamps,
+  /// weighed by powers. Side by side, so that one instruction computes with all of them.
+  struct alignas(64) Parts {
+    std::array<std::array<float, kParts>, 3> mean{}, variance{};
+    std::array<float, kParts> power{};  ///< 0 behind the last.
+    std::array<uint32_t, kParts> node{};
   };
   uint32_t build(std::span<uint32_t> order);
-  /// Returns the light that is expected of the lamps below a node.
-  float estimate(const LampReceiver& at, const Node& node) const;
-  float shareOfFirst(const LampReceiver& at, uint32_t node) const;
+  void fillParts();
+  /// Returns the light of the lamps below a node if all were near the surface's front.
+  float bound(const LampReceiver& at, const Node& node) const;
+  /// Returns the light of each part on the average, up to a factor that all parts share. One at least is positive.
+  static std::array<float, kParts> importance(const LampReceiver& at, const Parts& parts);
 
   std::vector<TreeLamp> lamps_;
   std::vector<Node> nodes_;
+  std::vector<Parts> parts_;      ///< Of all nodes but leaves.
   std::vector<uint32_t> leafOf_;  ///< The node of each lamp.
 };
 

@@ -49,7 +49,7 @@ void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
   ambientAsked_ = true;
   for (int i = 0; i < asking.count; ++i)
     if (asking.active[i]) set(out, i, vec3(0.0f));
-  for (const BoundLight* light : batch.group.lights) {
+  for (const BoundLight* light : alone(batch)) {
     if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch) || !shines(*light, batch) ||
         (group_ && light->group != *group_))
       continue;
@@ -204,7 +204,7 @@ void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves
                       TmVec3 color) const {
   const bool lit = bringsLights(batch.context.light) || bringsStored(batch.context.light);
   if (!lit || std::none_of(leaves, leaves + batch.points->count(), [](uint8_t l) { return l != 0; })) return;
-  for (const BoundLight* light : batch.group.lights) {
+  for (const BoundLight* light : alone(batch)) {
     if (!light->can(TM_LIGHT_SKY) || !light->visible || light->nonspecular || !isOn(*light, batch) ||
         !shines(*light, batch) || (group_ && light->group != *group_))
       continue;

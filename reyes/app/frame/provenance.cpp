@@ -67,9 +67,11 @@ uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
   const std::string path = pathOf(scene.options.searchPaths, "shader");
   std::set<const ShaderCall*> seen;
   std::vector<ShaderName> names;
+  std::set<std::tuple<std::string, TmKind, std::string>> known;  // ten thousand lights may name one shader
   const auto add = [&](const ShaderCall* call, TmKind kind) {
     if (!call || !seen.insert(call).second) return;
-    names.push_back({call->name, kind, call->where.folder().string()});
+    std::string beside = call->where.folder().string();
+    if (known.emplace(call->name, kind, beside).second) names.push_back({call->name, kind, std::move(beside)});
   };
   for (const auto& light : scene.lights) add(&light->shader, TM_LIGHT);
   if (scene.options.imager) add(&*scene.options.imager, TM_IMAGER);

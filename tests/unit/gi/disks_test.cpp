@@ -116,6 +116,27 @@ TEST(Disks, ANarrowConeSeesWhatItHolds) {
   EXPECT_NEAR(half.radiance.y, 3 * half.covered, 1e-3f);
 }
 
+TEST(Disks, AMicropolygonThatSpansABallDoesNotSeeTheBallFromWithin) {
+  const Disks disks(sphere(20000, {0, 0, 0}), "_radiosity");
+  const float radius = 0.2f, depth = radius * radius / 2;
+  const vec3 middle(0, 0, 1 - depth);
+  EXPECT_GT(disks.seenFrom(middle, kAxis, {}).covered, 0.9f) << "a point there does";
+  EXPECT_LT(disks.seenFrom(middle, kAxis, {}, radius).covered, 0.02f);
+  const Disks beside(wall(300, 60), "_radiosity");
+  EXPECT_NEAR(beside.seenFrom(vec3(0), kAxis, {}, radius).covered, 0.5f, 0.02f) << "it sees what is farther away";
+  DisksQuery query;
+  query.falloff.bias = 0.001f;
+  EXPECT_GT(disks.seenFrom(middle, kAxis, query, radius).covered, 0.9f) << "a bias that is given holds";
+}
+
+TEST(Disks, LargeOnesBesideASmallMicropolygonAreCoarse) {
+  const Disks disks(wall(10, 1), "_radiosity");  // of radius 0.14
+  const vec3 near(0.9f, 0, 0), forward(1, 0, 0);
+  EXPECT_GT(disks.seenFrom(near, forward, {}, 0.02f).coarse, 0.3f);
+  EXPECT_EQ(disks.seenFrom(near, forward, {}, 0.1f).coarse, 0) << "beside one that is about as large";
+  EXPECT_EQ(disks.seenFrom({0.5f, 0, 0}, forward, {}, 0.02f).coarse, 0) << "from farther away";
+}
+
 TEST(Disks, WithoutTheChannelNothingIsSent) {
   EXPECT_FALSE(Disks(wall(2, 1), "_colour").sends());
   EXPECT_TRUE(Disks(wall(2, 1), "_radiosity").sends());

@@ -13,6 +13,7 @@ class FakeClouds : public CloudServices {
     float radius, value;
   };
   std::vector<Baked> baked;
+  float shareOfLarge = 0;  ///< What occlusion() says of the disks.
 
   bool bake(const CloudQuery& q, const std::vector<CloudValue>& values, std::string& problem) override {
     if (q.file == "full.ptc") {
@@ -45,7 +46,7 @@ class FakeClouds : public CloudServices {
     return true;
   }
   /// Tells what it was asked.
-  bool occlusion(const CloudQuery& q, const DisksQuery& d, float* covered, TmVec3 radiance,
+  bool occlusion(const CloudQuery& q, const DisksQuery& d, float* covered, TmVec3 radiance, float* coarse,
                  std::string& problem) override {
     if (q.file != "known.ptc") {
       problem = "is not there";
@@ -54,6 +55,7 @@ class FakeClouds : public CloudServices {
     for (int i = 0; i < q.count; ++i) {
       if (!q.active[i]) continue;
       covered[i] = d.clamp ? 0.25f : 0.5f;
+      coarse[i] = shareOfLarge;
       if (d.falloff.maxDistance < 1e30f)
         covered[i] = 100 * d.falloff.maxDistance + 10 * d.falloff.bias + d.falloff.falloff;
       if (radiance.x) {
@@ -296,6 +298,20 @@ TEST_F(CloudCalls, WithoutItsCloudNothingIsCoveredAndTheUserIsTold) {
   system().setClouds(&clouds);
   expectColor(shade(row()).color(0), {0, 0, 0});
   EXPECT_EQ(log.worst(), Severity::Missing);
+}
+
+TEST_F(CloudCalls, DisksThatAreTooLargeForTheirNearnessAreToldOfOnce) {
+  surface("pointbased");
+  system().setClouds(&clouds);
+  clouds.shareOfLarge = 0.05f;
+  shade(row());
+  EXPECT_TRUE(log.entries().empty()) << "a few do not show";
+  clouds.shareOfLarge = 0.2f;
+  shade(row());
+  shade(row());
+  ASSERT_EQ(log.entries().size(), 1u);
+  EXPECT_EQ(log.entries()[0].code, "point-cloud-coarse");
+  EXPECT_EQ(log.worst(), Severity::Warning);
 }
 
 TEST_F(CloudCalls, ListsSetWhatTheyName) {

@@ -25,6 +25,12 @@ double lightOf(const TreeLamp& lamp, uint32_t number) {
   return double{lamp.power} * (1 + std::sin(static_cast<double>(number)));
 }
 
+DrawnLamp drawn(const LightTree& tree, const LampReceiver& at, const LampCluster& cluster, float xi) {
+  DrawnLamp out{};
+  tree.draw(at, std::span(&cluster, 1), std::span(&xi, 1), std::span(&out, 1));
+  return out;
+}
+
 TEST(LightTree, LightOverProbabilityOfDrawnLampsHasTheSumOfAllLampsAsItsMean) {
   const std::vector<TreeLamp> lamps = lampsIn(500, 0);
   const LightTree tree(lamps);
@@ -38,8 +44,7 @@ TEST(LightTree, LightOverProbabilityOfDrawnLampsHasTheSumOfAllLampsAsItsMean) {
     constexpr int kDraws = 1 << 14;
     for (const LampCluster& c : cut)
       for (int d = 0; d < kDraws; ++d) {
-        float probability = 0;
-        const uint32_t lamp = tree.draw(at, c.node, (d + 0.5) / kDraws, probability);
+        const auto [lamp, probability] = drawn(tree, at, c, (static_cast<float>(d) + 0.5f) / kDraws);
         EXPECT_NEAR(tree.expected(at, cut, lamp), probability, 1e-5f * probability);
         sum += lightOf(lamps[lamp], lamp) / double{probability} / kDraws;
       }
@@ -100,13 +105,45 @@ TEST(LightTree, TheImportanceOfALampIsItsLightAtThePoint) {
   EXPECT_NEAR(shareOfFirst(near, lampAt({4, 0, 3}, 5), {vec3(0), up}), (3.0 / 4) / (3.0 / 4 + 5 * 0.6 / 25), 1e-6);
   // What is behind keeps a tenth.
   EXPECT_NEAR(shareOfFirst(near, lampAt({0, 0, -3}, 5), {vec3(0), up}), (3.0 / 4) / (3.0 / 4 + 0.1 * 5 / 9), 1e-6);
-  // A lamp with extent shines by its highest point: (3 + r) / 5, r the radius of the sphere around its bound.
-  const double r = 0.5 * std::sqrt(3.0);
-  EXPECT_NEAR(shareOfFirst(near, lampAt({4, 0, 3}, 5, 0.5f), {vec3(0), up}),
-              (3.0 / 4) / (3.0 / 4 + 5 * (3 + r) / 5 / 25), 1e-6);
-  // Within that sphere the distance is its radius, and the cosine is 1.
-  EXPECT_NEAR(shareOfFirst(near, lampAt({0, 0, -0.25f}, 5, 0.5f), {vec3(0), up}), (3.0 / 4) / (3.0 / 4 + 5 / (r * r)),
+  // One that a bump may turn the surface to keeps a fiftieth.
+  EXPECT_NEAR(shareOfFirst(near, lampAt({4, 0, 0}, 5), {vec3(0), up}), (3.0 / 4) / (3.0 / 4 + 0.02 * 5 / 16), 1e-6);
+  // Heights of a lamp with extent vary by a twelfth around 3.
+  const double front = 0.5 * (3 + std::sqrt(9 + 2 / 3.14159265 / 12)), seen = front + 0.1 * (front - 3);
+  EXPECT_NEAR(shareOfFirst(near, lampAt({4, 0, 3}, 5, 0.5f), {vec3(0), up}), (3.0 / 4) / (3.0 / 4 + 5 * seen / 5 / 25),
               1e-6);
+  // Within the lamp the squared distance is its variance along three axes.
+  EXPECT_NEAR(shareOfFirst(near, lampAt({0, 0, 0}, 5, 0.5f), {vec3(0), anywhere}), (3.0 / 4) / (3.0 / 4 + 5 / 0.25),
+              1e-6);
+}
+
+TEST(LightTree, FewDrawnLampsOverAFloorBringItsLightWithinTwoPercent) {
+  std::vector<TreeLamp> lamps;
+  for (uint32_t i = 0; i < 3000; ++i) {
+    const auto at = [&](uint32_t k) { return unitFloat(hashCombine(i, k)); };
+    const vec3 place(60 * at(1) - 30, 60 * at(2) - 30, 1.5f + 3 * at(3));
+    lamps.push_back({{place, place}, 0.3f + at(4)});
+  }
+  const LightTree tree(lamps);
+  double off2 = 0;
+  constexpr int kPoints = 300;
+  for (uint32_t p = 0; p < kPoints; ++p) {
+    const LampReceiver at{{20 * unitFloat(hashCombine(p, 5U)) - 10, 20 * unitFloat(hashCombine(p, 6U)) - 10, 0},
+                          {0, 0, 1}};
+    const auto light = [&](uint32_t l) {
+      const glm::dvec3 to(lamps[l].bound.center() - at.P);
+      return double{lamps[l].power} * to.z / std::pow(dot(to, to), 1.5);
+    };
+    double all = 0, sum = 0;
+    for (uint32_t l = 0; l < lamps.size(); ++l) all += light(l);
+    std::vector<LampCluster> cut;
+    tree.cut(at, 32, 1, cut);
+    for (const LampCluster& c : cut) {
+      const auto [lamp, probability] = drawn(tree, at, c, unitFloat(hashCombine(p, c.node, 7U)));
+      sum += light(lamp) / double{probability};
+    }
+    off2 += (sum / all - 1) * (sum / all - 1);
+  }
+  EXPECT_LT(std::sqrt(off2 / kPoints), 0.02);
 }
 
 TEST(LightTree, EveryLampIsInOneClusterOfACut) {
@@ -149,13 +186,10 @@ TEST(LightTree, LampsThatLieTogetherAreOneCluster) {
     tree.cut(middle, 2, 1, cut);
     ASSERT_EQ(cut.size(), 2U);
     for (const LampCluster& c : cut) {
-      std::set<uint32_t> drawn;
-      for (int d = 0; d < 2000; ++d) {
-        float probability = 0;
-        drawn.insert(tree.draw(middle, c.node, (d + 0.5) / 2000, probability));
-      }
-      EXPECT_EQ(drawn.size(), 20U);
-      for (const uint32_t l : drawn) EXPECT_EQ(l % 2, *drawn.begin() % 2) << axis;
+      std::set<uint32_t> members;
+      for (int d = 0; d < 2000; ++d) members.insert(drawn(tree, middle, c, (static_cast<float>(d) + 0.5f) / 2000).lamp);
+      EXPECT_EQ(members.size(), 20U);
+      for (const uint32_t l : members) EXPECT_EQ(l % 2, *members.begin() % 2) << axis;
     }
   }
 }
@@ -176,10 +210,7 @@ TEST(LightTree, ACutEndsWhereNoClusterBringsMoreThanAHalfPercent) {
   int large = 0;
   for (const LampCluster& c : cut) {
     std::set<uint32_t> members;
-    for (int d = 0; d < 500; ++d) {
-      float probability = 0;
-      members.insert(tree.draw(at, c.node, (d + 0.5) / 500, probability));
-    }
+    for (int d = 0; d < 500; ++d) members.insert(drawn(tree, at, c, (static_cast<float>(d) + 0.5f) / 500).lamp);
     double sum = 0;
     for (const uint32_t l : members) sum += light[l];
     // The tree knows a cluster by its middle and its radius, so its light is known to a factor.
