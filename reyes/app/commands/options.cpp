@@ -234,6 +234,7 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("-t", s.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
   app.add_option("--stats", s.statsFile, "Statistics as JSON; # is the frame's number; .jsonl gets a line each")
       ->type_name("FILE.json");
+  app.add_flag("--stats-header", s.statsHeader, "Statistics in the headers of OpenEXR pictures too");
   app.add_option("--log", s.logFile, "Append all messages, with the time, and what each frame took")->type_name("FILE");
   app.add_flag("--profile-shaders", s.profileShaders, "Points and time of each shader, at the end");
   app.add_flag("--progress", s.progress, "Show progress: a bar on a terminal, else lines for render farms");
