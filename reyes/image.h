@@ -136,6 +136,11 @@ inline constexpr const char *kContents = "tomales:contents", *kShot = "tomales:s
 /// The header's text that tells which share of its buckets a picture holds: kAllFinished, or less where the frame was
 /// interrupted. DisplayFile::close() writes the share over it.
 constexpr const char *kFinishedShare = "tomales:finished", *kAllFinished = "1.000";
+/// The header's text for statistics of the frame, which are known after its last pixel. It begins as so many blanks.
+constexpr const char* kStatistics = "tomales:statistics";
+constexpr size_t kStatisticsRoom = 8192;
+/// Writes `text` over the blanks, in each part of a finished OpenEXR file. Returns false if there is no room for it.
+bool fillStatistics(const std::string& file, const std::string& text);
 /// Adds a named text to the header of a Display's file if its format has room for texts.
 void addHeader(DisplayCall& display, const std::string& name, const std::string& text);
 

@@ -79,6 +79,14 @@ struct Lobes {
                 base = luminance(rsl::mix(m.specular0, Color{1, 1, 1}, F));
     coatShare = coat > 0 ? coat / (coat + base) : 0;
   }
+  /// Returns the share of the lobes in what the viewer sees in even light, about, if the matte part is white: noise of
+  /// highlights on dark paint is dark.
+  float shareOfLobes() const {
+    const float F = fresnelWeight(nv), glossy = luminance(rsl::mix(material.specular0, Color{1, 1, 1}, F)) +
+                                                material.coat * rsl::mix(0.04f, 1, F);
+    const float all = glossy + material.matte;
+    return all > 0 ? std::min(1.0f, std::max(0.0f, glossy / all)) : 0;  // NaN becomes 0
+  }
   /// BRDF times cosine times pi, for light that is E/pi; 0 below the surface.
   Color value(Vec3 L) const {
     const float nl = rsl::dot(N, L);

@@ -71,12 +71,16 @@ struct Inputs {
 
 /// One batch of points with their materials.
 class Glossy {
+  /// Times the directions that lights want which a point draws that shows nothing but its lobes, as metal does. With
+  /// more, the noise of the lights' own samples is all that is left.
+  static constexpr int kMostTimes = 4;
+
  public:
   /// `rays`: directions that mirror the scene, at least; 0: lights alone.
   Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const Inputs& inputs, int rays)
       : b_(b),
         g_(b.g),
-        isLit_(g_->call->lobeSamples(g_->host, g_) > 0),
+        counted_(static_cast<int>(g_->call->lobeSamples(g_->host, g_))),
         mirrors_(rays > 0),
         least_(b_.rayDepth() > 0 ? std::min(rays, 1) : rays),
         drawn_(directions()),
@@ -84,9 +88,14 @@ class Glossy {
         xi0_(g_),
         xi1_(g_),
         density_(g_),
+        claimed_(g_),
         cl_(g_) {
     lobes_.reserve(static_cast<size_t>(g_->count));
-    for (int i = 0; i < g_->count; ++i) lobes_.emplace_back(N[i], V[i], Material(inputs(g_, i)));
+    number_.reserve(static_cast<size_t>(g_->count));
+    for (int i = 0; i < g_->count; ++i) {
+      lobes_.emplace_back(N[i], V[i], Material(inputs(g_, i)));
+      number_.push_back(directionsOf(lobes_.back()));
+    }
   }
   const Lobes& operator[](int i) const { return lobes_[static_cast<size_t>(i)]; }
   bool isAnyMatte() const {
@@ -99,24 +108,21 @@ class Glossy {
     for (int i : b_) {
       const Vec3 L = rsl::get(sample.direction, i);
       if (rsl::dot((*this)[i].N, L) <= 0) continue;
-      const float other = density_[i] > 0 ? static_cast<float>(drawn_) * (*this)[i].density(L) / density_[i] : 0.0f;
+      const float other = density_[i] > 0 ? static_cast<float>(counted_) * (*this)[i].density(L) / density_[i] : 0.0f;
       sum.set(i, sum[i] + rsl::get(sample.Cl, i) * (*this)[i].value(L) / (1 + other * other));
     }
   }
   /// Adds what arrives along directions of the lobes: light, and the scene where it is mirrored. Both come along the
   /// same directions, so that where few directions happen to find the sky, more find what hides it.
   void addLobeSamples(rsl::Vec3Array& ofLights, rsl::Vec3Array& ofScene) {
-    Reflections seen(b_, drawn_, least_);
+    Reflections seen(b_, number_, drawn_, least_);
     for (int k = 0; k < drawn_; ++k) {
       draw(k);
-      if (isLit_) {
-        g_->call->lightAlong(g_->host, g_, L_, density_.data(), k, drawn_, cl_);
-        for (int i : b_) ofLights.set(i, ofLights[i] + cl_[i] * (*this)[i].value(L_[i]));
-      }
+      if (counted_ > 0) addLights(k, ofLights);
       if (!mirrors_) continue;
       for (int i : b_)
         if (density_[i] > 0) {
-          const float weight = 1 / (rsl::kPi * density_[i] * static_cast<float>(drawn_));
+          const float weight = 1 / (rsl::kPi * density_[i] * static_cast<float>(numberOf(i)));
           seen.add(i, L_[i], weight * (*this)[i].value(L_[i]), xi0_[i], xi1_[i]);
         }
       if ((k + 1) % Reflections::kTogether == 0 || k + 1 == drawn_) seen.trace(ofScene);
@@ -129,25 +135,43 @@ class Glossy {
     g_->call->stratified(g_->host, g_, k, drawn_, xi0_.data(), xi1_.data());
     for (int i : b_) {
       const Vec3 L = (*this)[i].draw(xi0_[i], xi1_[i]);
-      density_[i] = (*this)[i].density(L);
+      density_[i] = k < numberOf(i) ? (*this)[i].density(L) : 0.0f;
       L_.set(i, density_[i] > 0 ? L : Vec3{});
     }
   }
 
-  /// Returns the number of directions. A mirrored scene has more detail than lights have, so it takes twice the
-  /// directions that lights want, but not in repeated reflections, where rays would multiply.
-  int directions() const {
-    const int ofLights = static_cast<int>(g_->call->lobeSamples(g_->host, g_));
-    return std::max(least_, mirrors_ && b_.rayDepth() == 0 ? 2 * ofLights : ofLights);
+  /// Adds the light along direction k, which is weighted as one of counted_ directions.
+  void addLights(int k, rsl::Vec3Array& sum) {
+    const float counted = static_cast<float>(counted_);
+    for (int i : b_) claimed_[i] = density_[i] * counted / static_cast<float>(drawn_);
+    g_->call->lightAlong(g_->host, g_, L_, claimed_.data(), k, drawn_, cl_);
+    for (int i : b_) sum.set(i, sum[i] + counted / static_cast<float>(numberOf(i)) * cl_[i] * (*this)[i].value(L_[i]));
+  }
+  int numberOf(int i) const { return number_[static_cast<size_t>(i)]; }
+
+  /// Returns the greatest number of directions. In repeated reflections there are only those that lights want, because
+  /// rays would multiply.
+  int directions() const { return std::max(least_, b_.rayDepth() > 0 ? counted_ : kMostTimes * counted_); }
+  /// Returns the number of directions of one point. The noise of the lobes grows with their share in what is seen, and
+  /// the number of directions with its square. A mirrored scene has more detail than lights have.
+  int directionsOf(const Lobes& lobes) const {
+    if (b_.rayDepth() > 0) return drawn_;
+    const float share = lobes.shareOfLobes(), wanted = kMostTimes * share * share * static_cast<float>(counted_);
+    return std::clamp(static_cast<int>(std::ceil(wanted)), std::max(least_, mirrors_ ? 2 * counted_ : counted_),
+                      drawn_);
   }
 
   const rsl::Batch& b_;
   const TmGrid* const g_;
-  const bool isLit_, mirrors_;
+  /// The power heuristic counts so many directions of a point, however many it draws: more of them remove noise of the
+  /// sky, but small lamps are better found by their own samples.
+  const int counted_;
+  const bool mirrors_;
   const int least_, drawn_;
   std::vector<Lobes> lobes_;
+  std::vector<int> number_;  ///< How many of the drawn_ directions each point has.
   rsl::Vec3Array L_;
-  rsl::Array xi0_, xi1_, density_;
+  rsl::Array xi0_, xi1_, density_, claimed_;
   rsl::Vec3Array cl_;
 };
 

@@ -19,10 +19,12 @@ class Reflections {
   /// Sobol points is as even as all.
   static constexpr int kTogether = 64;
 
-  /// `directions`: how many each point draws; `least` of them are shaded even where little is reflected.
-  Reflections(const rsl::Batch& b, int directions, int least)
+  /// `number`: how many directions each point draws, at most `directions`; `least` of them are shaded even where little
+  /// is reflected. `number` must outlive this.
+  Reflections(const rsl::Batch& b, const std::vector<int>& number, int directions, int least)
       : b_(b),
-        least_(static_cast<float>(least) / static_cast<float>(directions)),
+        number_(number),
+        least_(least),
         points_(static_cast<size_t>(b.g->count)),
         L_(b.g),
         options_(tmRayDefaults()) {
@@ -44,7 +46,7 @@ class Reflections {
   void trace(rsl::Vec3Array& sum) {
     const int sent = options_.number;
     int most = 0;
-    for (Point& p : points_) p.shaded = shareOf(p);
+    for (int i : b_) points_[static_cast<size_t>(i)].shaded = shareOf(i);
     forgetMisses();
     for (Point& p : points_) {
       std::stable_sort(p.drawn.begin(), p.drawn.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
@@ -85,12 +87,14 @@ class Reflections {
   }
   /// Returns how many directions are shaded. The variance of what is mirrored grows with the square of its weight, and
   /// so does the number of rays that keeps it below a limit.
-  size_t shareOf(const Point& p) const {
+  size_t shareOf(int i) const {
+    const Point& p = points_[static_cast<size_t>(i)];
+    if (p.drawn.empty()) return 0;
+    const float number = static_cast<float>(number_[static_cast<size_t>(i)]), size = static_cast<float>(p.drawn.size());
     float reflected = 0;
     for (const Direction& d : p.drawn) reflected += 2 * d.brightness();
-    const float ofAll = static_cast<float>(options_.drawn) / static_cast<float>(p.drawn.size());
-    const float share = std::min(1.0f, reflected * ofAll);
-    return static_cast<size_t>(std::ceil(std::max(least_, share * share) * static_cast<float>(p.drawn.size())));
+    const float share = std::min(1.0f, reflected * number / size);
+    return static_cast<size_t>(std::ceil(std::max(static_cast<float>(least_) / number, share * share) * size));
   }
   const Direction* directionOf(int i, int k) const {
     const Point& p = points_[static_cast<size_t>(i)];
@@ -134,7 +138,8 @@ class Reflections {
   }
 
   const rsl::Batch& b_;
-  const float least_;
+  const std::vector<int>& number_;
+  const int least_;
   std::vector<Point> points_;
   rsl::Vec3Array L_;
   TmRayOptions options_;

@@ -114,6 +114,7 @@ struct ResourceSettings {
 struct ReportSettings {
   /// A name with '#' makes one file for each frame. A name ending in .jsonl gets a line for each.
   std::string statsFile;
+  bool statsHeader = false;     ///< Statistics go to the headers of OpenEXR pictures too.
   std::string logFile;          ///< Messages are appended there too; empty: none.
   bool profileShaders = false;  ///< True to say at the end what each shader has cost.
   bool progress = false;

@@ -1,5 +1,6 @@
 #include "reyes/image/image_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -42,21 +43,39 @@ void FormatWriter::write(const DeepRows&) { throw std::runtime_error("only OpenE
 
 namespace {
 
-/// Writes the share over kAllFinished in the headers of an OpenEXR file. A header is written before the pixels, when
-/// nobody knows yet how many come. An attribute is its name, its type, the number of its bytes, and these.
-void tellShare(int file, float finished) {
+/// Writes a text over one of the same length in all headers of an OpenEXR file. A header is written before the pixels,
+/// when nobody knows yet what they will be. An attribute is its name, its type, the number of its bytes, and these.
+/// Returns whether the file has it.
+bool overwrite(int file, const std::string& name, const std::string& old, const std::string& text) {
   constexpr size_t kMostHeaderBytes = 16 << 20;
   std::string head(kMostHeaderBytes, '\0');
   const ssize_t size = ::pread(file, head.data(), head.size(), 0);
   head.resize(size > 0 ? static_cast<size_t>(size) : 0);
-  const std::string all = kAllFinished;
-  const std::string before = kFinishedShare + std::string("\0string\0", 8) + std::string("\5\0\0\0", 4);
-  const std::string share = fmt::format("{:.3f}", std::min(finished, 0.999f));
-  for (size_t at = head.find(before + all); at != std::string::npos; at = head.find(before + all, at + 1))
-    if (::pwrite(file, share.data(), share.size(), static_cast<off_t>(at + before.size())) < 0) return;
+  std::string before = name + std::string("\0string\0", 8);
+  for (int shift = 0; shift < 32; shift += 8) before += static_cast<char>(old.size() >> shift & 0xff);
+  bool any = false;
+  for (size_t at = head.find(before + old); at != std::string::npos; at = head.find(before + old, at + 1)) {
+    if (::pwrite(file, text.data(), text.size(), static_cast<off_t>(at + before.size())) < 0) return false;
+    any = true;
+  }
+  return any;
+}
+
+void tellShare(int file, float finished) {
+  overwrite(file, kFinishedShare, kAllFinished, fmt::format("{:.3f}", std::min(finished, 0.999f)));
 }
 
 }  // namespace
+
+bool fillStatistics(const std::string& file, const std::string& text) {
+  if (text.size() > kStatisticsRoom) return false;
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const std::string blanks(kStatisticsRoom, ' ');
+  const bool done = overwrite(descriptor, kStatistics, blanks, text + blanks.substr(text.size()));
+  ::close(descriptor);
+  return done;
+}
 
 struct PictureFile::Impl {
   Impl(const std::string& target, const Image& whole, const FileFormat& f)

@@ -5,6 +5,14 @@
 
 namespace tomales {
 
+namespace {
+
+/// What a sample of a sky counts for in the power heuristic. A sky's samples are spread over the hemisphere, so few of
+/// them fall into a lobe, and the lobe's own samples tell more of it than as many samples of the sky.
+constexpr float kWorthOfSkySample = 0.25f;
+
+}  // namespace
+
 bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY); }
 
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
@@ -27,7 +35,7 @@ bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const Emitt
 void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
   for (int i = 0; i < g.count; ++i) {
     set(g.L, i, light.sky->sample(get(g.P, i), batch.points->facingNormal(i), {g.xi0[i], g.xi1[i]}, points.density[i]));
-    points.meetDensity[i] = points.density[i];
+    points.meetDensity[i] = kWorthOfSkySample * points.density[i];
   }
 }
 
@@ -54,7 +62,7 @@ bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirec
     return true;
   }
   for (int i = 0; i < g.count; ++i)
-    points.density[i] = light.sky->density(get(g.P, i), batch.points->facingNormal(i), get(g.L, i));
+    points.density[i] = kWorthOfSkySample * light.sky->density(get(g.P, i), batch.points->facingNormal(i), get(g.L, i));
   return true;
 }
 

@@ -53,8 +53,9 @@ struct LightSample {
   ShadowRays rays;          ///< The sample's shadow rays.
   uint8_t* pending;         ///< 1 where a shadow ray is still to be traced. Null if the light casts no shadows.
   int question = 0;         ///< The number of its shadow rays among those of the light (ray_answers.h).
-  const float* density = nullptr;   ///< The density over solid angle of all samples of the light together, where
-                                    ///< along() finds it too; else 0. Null if it is 0 everywhere.
+  const float* density = nullptr;   ///< The density over solid angle of all samples of the light together, as the
+                                    ///< power heuristic counts them, where along() finds it too; else 0. Null if it is
+                                    ///< 0 everywhere.
   ShadowTally* tally = nullptr;     ///< Null if every shadow ray is traced.
   TmVec3 far{};                     ///< L at full length, for points and their neighbours.
   const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.

@@ -1,15 +1,17 @@
 """Measures what metal and gloss cost at the noise of plastic, on a knot under a sky, and counts fireflies in the gallery.
 
     tests/bench/gloss.py build/release/tomales [another tomales ...]
+    tests/bench/gloss.py build/release/tomales [another tomales ...] --materials for the balls of scenes/shading/materials.rib, all of one surface
     tests/bench/gloss.py build/release/tomales --gallery [PART ...] with parts of the scenes' paths
 
-Noise is the root mean square of the difference of two light seeds on the knot, divided by sqrt(2) and by the mean colour there. Time at equal noise
+Noise is the root mean square of the difference of two light seeds on the knot, divided by sqrt(2) and by the mean colour there. Colours above 1 count as 1. Time at equal noise
 is CPU seconds times the square of the noise, as a multiple of plastic's. For the gallery, this counts the pixels that are brighter than 10 times the
 median of their 5 x 5 neighbours. It lists those that are also more than twice as bright as with another light seed, because these are no thin bright
 objects.
 """
 import math
 import pathlib
+import re
 import resource
 import shutil
 import statistics
@@ -88,9 +90,27 @@ def render(program, folder, *arguments):
 
 
 def noise(a, b, mask):
-    squares = sum((x - y) ** 2 for p in mask for x, y in zip(a[p][:3], b[p][:3])) / (3 * len(mask))
-    mean = sum(x + y for p in mask for x, y in zip(a[p][:3], b[p][:3])) / (6 * len(mask))
-    return math.sqrt(squares / 2) / mean
+    """`mask` lists pixels. Colours above 1 count as 1."""
+    pairs = [(min(x, 1), min(y, 1)) for p in mask for x, y in zip(a[p][:3], b[p][:3])]
+    return math.sqrt(sum((x - y) ** 2 for x, y in pairs) / len(pairs) / 2) / (sum(x + y for x, y in pairs) / len(pairs) / 2)
+
+
+def compare(programs, folder, mask, scenes, *options):
+    """Prints a row for each scene of {surface: text}, the first of which others are compared with. Of two runs, the least CPU time counts."""
+    print(f"{'surface':24}" + "".join(f"{'CPU s':>10}{'noise':>9}{'equal':>8}" for _ in programs))
+    first = {}
+    for name, text in scenes.items():
+        (folder / "scene.rib").write_text(text)
+        cost = {program: [] for program in programs}
+        for k in (1, 2):
+            for n, program in enumerate(programs):
+                cost[program].append(render(program, folder, "scene.rib", "--light-seed", str(k), "-o", f"{n}-{k}.exr", *options))
+        line = f"{name:24}"
+        for n, program in enumerate(programs):
+            found = noise(pixels(folder / f"{n}-1.exr"), pixels(folder / f"{n}-2.exr"), mask)
+            effort = min(cost[program]) * found ** 2
+            line += f"{min(cost[program]):10.1f}{100 * found:8.2f}%{effort / first.setdefault(program, effort):8.2f}"
+        print(line, flush=True)
 
 
 def knots(programs, folder):
@@ -98,17 +118,23 @@ def knots(programs, folder):
     (folder / "mask.rib").write_text(SCENE.format(lights="", floor="null", surface='"constant"'))
     render(programs[0], folder, "mask.rib", "-o", "mask.exr")
     mask = [p for p, v in pixels(folder / "mask.exr").items() if v[0] > 0.8]
-    print(f"{'surface':24}" + "".join(f"{'CPU s':>10}{'noise':>9}{'equal':>8}" for _ in programs))
-    first = {}
-    for name, surface in SURFACES.items():
-        (folder / "scene.rib").write_text(SCENE.format(lights=SKY, floor="matte", surface=surface))
-        line = f"{name:24}"
-        for program in programs:
-            cost = [render(program, folder, "scene.rib", "--light-seed", str(k), "-o", f"{k}.exr") for k in (1, 2)]
-            found = noise(pixels(folder / "1.exr"), pixels(folder / "2.exr"), mask)
-            effort = statistics.mean(cost) * found ** 2
-            line += f"{statistics.mean(cost):10.1f}{100 * found:8.2f}%{effort / first.setdefault(program, effort):8.2f}"
-        print(line, flush=True)
+    compare(programs, folder, mask, {name: SCENE.format(lights=SKY, floor="matte", surface=surface) for name, surface in SURFACES.items()})
+
+
+def materials(programs, folder):
+    def balls(text, surface, *, lights=True):
+        table, rest = text.split("TransformBegin # back row")
+        rest = re.sub(r"^ *(Color|Displacement|Attribute \"displacementbound\") .*", "", re.sub(r'Surface .*', f"Surface {surface}", rest), flags=re.M)
+        if not lights:
+            table = re.sub(r"AttributeBegin\n    Attribute \"visibility\" \"int camera\" .*?AttributeEnd|LightSource.*?$|Illuminate.*?$|Imager.*?$", "", table, flags=re.M | re.S)
+            table = table.replace('"matte"', '"null"').replace("[0.75 0.25 0.12]", "[1 1 1]")
+        return f"{table}TransformBegin # back row{rest}"
+    text = (ROOT / "scenes/shading/materials.rib").read_text().replace("../../docs", str(ROOT / "docs"))
+    small = ("--format", "240x150", "--one-picture")
+    (folder / "mask.rib").write_text(balls(text, '"constant"', lights=False))
+    render(programs[0], folder, "mask.rib", "-o", "mask.exr", *small)
+    mask = [p for p, v in pixels(folder / "mask.exr").items() if v[0] > 0.8]
+    compare(programs, folder, mask, {name: balls(text, surface) for name, surface in SURFACES.items()}, *small)
 
 
 def fireflies(picture, other):
@@ -143,9 +169,9 @@ def gallery(program, parts):
             print(f"{picture.name}: {bright}, of which by chance {len(chance)} {chance or ''}", flush=True)
 
 
-programs = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:]]
+programs = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:] if p != "--materials"]
 if "--gallery" in sys.argv:
     gallery(programs[0], sys.argv[3:])
 else:
     with tempfile.TemporaryDirectory() as place:
-        knots(programs, pathlib.Path(place))
+        (materials if "--materials" in sys.argv else knots)(programs, pathlib.Path(place))

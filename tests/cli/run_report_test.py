@@ -53,6 +53,16 @@ run = read("run.json")
 t.expect(run["geometry"]["micropolygons_diced"] == sum(f["geometry"]["micropolygons_diced"] for f in together.values()), "one file sums up the run")
 t.expect(len(run["outputs"]) == 6 and run["host"] == socket.gethostname(), "with all its pictures and the host")
 
+# On request the pictures hold them too, in all their parts.
+t.run("turn.rib", "--stats-header", "-t", "2")
+for n in (1, 2, 3):
+    for name in (f"f{n}.exr", f"f{n}_z.exr"):
+        told = re.search(rb"tomales:statistics\0string\0\x00\x20\0\0({.{8191})", (t.folder / name).read_bytes(), re.S)
+        figures = json.loads(told[1]) if told else {}
+        t.expect(figures.get("geometry") == together[n]["geometry"] and figures.get("cpu_s", 0) > 0, f"{name} has the frame's figures in its header")
+t.run("turn.rib")
+t.expect(b"tomales:statistics" not in (t.folder / "f1.exr").read_bytes(), "and has none unasked")
+
 # A history grows by a line for each frame.
 for _ in range(2):
     t.run("turn.rib", "--frames", "1,3", "--stats", "history.jsonl")

@@ -115,6 +115,7 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("-t", s.resources.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
   app.add_option("--stats", s.report.statsFile, "Statistics as JSON; # is the frame's number; .jsonl gets a line each")
       ->type_name("FILE.json");
+  app.add_flag("--stats-header", s.report.statsHeader, "Statistics in the headers of OpenEXR pictures too");
   app.add_option("--log", s.report.logFile, "Append all messages, with the time, and what each frame took")
       ->type_name("FILE");
   app.add_flag("--profile-shaders", s.report.profileShaders, "Points and time of each shader, at the end");

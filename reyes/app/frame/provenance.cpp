@@ -134,6 +134,7 @@ void describeOutputs(Options& options, const std::string& contents, const Render
   addToPictures(options, kFrame, std::to_string(options.frame), settings);
   addToPictures(options, kFinishedShare, kAllFinished, settings);
   addToPictures(options, kSettings, settingsText(settings), settings);
+  if (settings.report.statsHeader) addToPictures(options, kStatistics, std::string(kStatisticsRoom, ' '), settings);
   if (!contents.empty()) addToPictures(options, kContents, contents, settings);
 }
 

@@ -10,6 +10,7 @@
 #include "reyes/base/appended_file.h"
 #include "reyes/base/process.h"
 #include "reyes/base/unfinished_file.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
@@ -61,7 +62,10 @@ void RunReport::openLog() {
 }
 
 bool RunReport::appends() const { return settings_.report.statsFile.ends_with(".jsonl"); }
-bool RunReport::isPerFrame() const { return appends() || settings_.report.statsFile.find('#') != std::string::npos; }
+bool RunReport::isPerFrame() const {
+  return appends() || settings_.report.statsFile.find('#') != std::string::npos ||
+         (settings_.report.statsHeader && settings_.report.statsFile.empty());
+}
 
 std::string RunReport::statsFile() const { return withFrameNumber(settings_.report.statsFile, frame_.value_or(0)); }
 
@@ -86,9 +90,16 @@ void RunReport::flush() {
 
 void RunReport::end(const SourceLoc& where) {
   write();
+  if (settings_.report.statsHeader) fillHeaders();
   say(where);
   if (isPerFrame() && settings_.report.profileShaders) printShaderProfile(*stats_);
   isPerFrame() ? startFigures() : startFrame();
+}
+
+void RunReport::fillHeaders() const {
+  const std::vector<std::string> all = stats_->outputs();
+  const std::string text = statsOfHeader(settings_, *stats_, figures());
+  for (size_t k = outputsSaid_; k < all.size(); ++k) fillStatistics(all[k], text);
 }
 
 void RunReport::say(const SourceLoc& where) {

@@ -48,6 +48,7 @@ class RunReport {
   RunFigures figures() const;
   void startFrame();
   void startFigures();
+  void fillHeaders() const;
   void say(const SourceLoc& where);
 
   const RenderSettings& settings_;

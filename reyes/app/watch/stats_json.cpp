@@ -9,6 +9,7 @@
 #include "reyes/app/build_info.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
+#include "reyes/image.h"
 
 namespace tomales {
 namespace {
@@ -135,6 +136,14 @@ Json statsJson(const RenderSettings& settings, const Stats& stats, const RunFigu
 std::string statsText(const RenderSettings& settings, const Stats& stats, const RunFigures& figures, int indent) {
   // Text of the user may hold bytes that are no UTF-8; they must not stop the report.
   return statsJson(settings, stats, figures).dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string statsOfHeader(const RenderSettings& settings, const Stats& stats, const RunFigures& figures) {
+  Json all = statsJson(settings, stats, figures);
+  for (const char* key : {"version", "command", "scene", "frame", "outputs", "warnings"}) all.erase(key);
+  const auto text = [&] { return all.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  if (text().size() > kStatisticsRoom) all["shade"].erase("by_shader");
+  return text();
 }
 
 void printShaderProfile(const Stats& stats) {

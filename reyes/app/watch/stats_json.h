@@ -9,6 +9,10 @@ namespace tomales {
 /// `indent` is that of nlohmann::json::dump(): negative for a single line.
 std::string statsText(const RenderSettings& settings, const Stats& stats, const RunFigures& figures, int indent);
 
+/// Returns the same on one line of at most kStatisticsRoom bytes, without messages and the command's paths, and without
+/// the figures of single shaders if these are too many.
+std::string statsOfHeader(const RenderSettings& settings, const Stats& stats, const RunFigures& figures);
+
 /// Prints a table of the cost of each shader, the most expensive first, to standard output. Times include lights and
 /// rays that it asked for, and are summed over threads.
 void printShaderProfile(const Stats& stats);

@@ -119,6 +119,25 @@ TEST_F(Disney, ASharpLobeUnderASkyIsFreeOfNoise) {
   EXPECT_LT(std::sqrt(square), 0.06);
 }
 
+// Metal shows nothing but its lobes, so that it draws more directions of them than paint does.
+TEST_F(Disney, MetalBelowAHalfHiddenSkyHasLittleNoise) {
+  services.visible = [](const vec3&, const vec3& d) { return d.x > 0.02f * glm::length(d) ? 0.0f : 1.0f; };
+  light("environmentlight", {number("samples", 32)});
+  const auto noiseOf = [&](float metal) {
+    shading.reset();
+    scene.objects.clear();
+    surface("disney", {number("metallic", metal), number("roughness", 0.35f)});
+    const ShadedPoints seen = shade(points(std::vector<vec3>(400, vec3(0, 0, 5))));
+    double mean = 0, square = 0;
+    for (int i = 0; i < 400; ++i) {
+      mean += double{seen.color(i).x} / 400;
+      square += double{seen.color(i).x * seen.color(i).x} / 400;
+    }
+    return std::sqrt(square - mean * mean) / mean;
+  };
+  EXPECT_LT(noiseOf(1), 1.5 * noiseOf(0));
+}
+
 // White things hide half of a white sky: where few directions find the sky, more find what hides it.
 TEST_F(Disney, WhatHidesAWhiteSkyIsMirroredAlongTheSameDirections) {
   const auto hidden = [](const vec3& d) { return d.x > 0.02f; };
@@ -162,15 +181,16 @@ TEST_F(Disney, WhatIsMirroredInPartIsRightInTheMean) {
 }
 
 TEST_F(Disney, BitsDoNotDependOnTheCompanyOfAPoint) {
-  surface("disney", {number("metallic", 1), number("reflections", 8)});
+  surface("disney", {number("reflections", 8)});
   light("environmentlight");
   primvar("roughness", ValueType::Float);
+  primvar("metallic", ValueType::Float);
   services.seen = [](const vec3& d) { return d * d; };
   ShadePoints all = points(std::vector<vec3>(300, vec3(0.3f, 0.4f, 5)));
-  for (int i = 0; i < 300; ++i) all.primvar(0)[i] = static_cast<float>(i) / 300;
+  for (int i = 0; i < 300; ++i) all.primvar(0)[i] = all.primvar(1)[i] = static_cast<float>(i) / 300;
   const ShadedPoints together = shade(all);
   for (const int i : {0, 100, 299}) {
-    ShadePoints alone(0, 1);
+    ShadePoints alone(0, 2);
     alone.add(all.key(i));
     for (int c = 0; c < all.channelCount(); ++c) alone.channel(c)[0] = all.channel(c)[i];
     EXPECT_EQ(shade(alone).color(0), together.color(i)) << i;

@@ -96,5 +96,19 @@ TEST_F(WideHighlight, OfFewSamplesHasLittleNoiseWhereTheLobeIsNarrow) {
   EXPECT_LT(std::sqrt(squares), 0.15) << "by the cosine alone it would be 3";
 }
 
+// Few samples of a sky fall into a lobe, so its own directions count more.
+TEST_F(WideHighlight, OfAHalfHiddenSkyIsFoundByTheLobe) {
+  light("environmentlight");
+  services.visible = [](const vec3&, const vec3& toward) { return toward.x < 0 ? 1.0f : 0.0f; };
+  surface("plastic", {number("Kd", 0), number("Ka", 0), number("Ks", 1), number("roughness", 0.02f)});
+  ShadeContext context;
+  context.lightSamples = 64;
+  const ShadedPoints out = shade(points(std::vector<vec3>(400, vec3(0, 0, 5))), context);
+  const double e = kSharpness / 0.02, expected = 4 / (e + 2);
+  double squares = 0;
+  for (int i = 0; i < 400; ++i) squares += std::pow(out.color(i).x / expected - 1, 2) / 400;
+  EXPECT_LT(std::sqrt(squares), 0.025);
+}
+
 }  // namespace
 }  // namespace tomales
