@@ -114,10 +114,6 @@ int32_t subsurface(void* host, const TmGrid* all, const char* file, const TmSubs
   return isKnown || refuse(batch, file, problem);
 }
 
-}  // namespace
-
-namespace {
-
 /// Share of what the points see that large disks may be before they show.
 constexpr float kCoarseShare = 0.1f;
 
