@@ -116,7 +116,8 @@ class Glossy {
   /// same directions, so that where few directions happen to find the sky, more find what hides it.
   void addLobeSamples(rsl::Vec3Array& ofLights, rsl::Vec3Array& ofScene) {
     Reflections seen(b_, number_, drawn_, least_);
-    for (int k = 0; k < drawn_; ++k) {
+    const int most = number_.empty() ? 0 : *std::max_element(number_.begin(), number_.end());
+    for (int k = 0; k < most; ++k) {
       draw(k);
       if (counted_ > 0) addLights(k, ofLights);
       if (!mirrors_) continue;
@@ -125,7 +126,7 @@ class Glossy {
           const float weight = 1 / (rsl::kPi * density_[i] * static_cast<float>(numberOf(i)));
           seen.add(i, L_[i], weight * (*this)[i].value(L_[i]), xi0_[i], xi1_[i]);
         }
-      if ((k + 1) % Reflections::kTogether == 0 || k + 1 == drawn_) seen.trace(ofScene);
+      if ((k + 1) % Reflections::kTogether == 0 || k + 1 == most) seen.trace(ofScene);
     }
   }
 

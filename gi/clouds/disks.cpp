@@ -13,7 +13,7 @@ constexpr float kSquaredReach = 0.625f;
 // A disk nearer than this share of its radius, or of that of the micropolygon that looks, belongs to the point itself
 // or to its neighbours.
 constexpr float kOwnPlane = 0.3f;
-// The middle of a micropolygon that spans a curved surface lies below that, by d, and a level line of sight leaves the
+// The middle of a micropolygon that spans a curved surface lies below that, and a level line of sight leaves the
 // surface only beyond the radius. So backs that are nearer than that are the surface's own.
 constexpr float kOwnBack = 1.0f;
 // A disk that is so much larger than a near micropolygon shows as a blotch.

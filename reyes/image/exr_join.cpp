@@ -20,8 +20,8 @@
 namespace tomales {
 namespace {
 
-/// Attributes that say which part of the frame a tile is, and so differ between tiles of one frame.
-constexpr const char* kOfTile[] = {"dataWindow", "chunkCount"};
+/// Attributes that say which part of the frame a tile is, and what it took, and so differ between tiles of one frame.
+constexpr const char* kOfTile[] = {"dataWindow", "chunkCount", kStatistics};
 
 /// Messages for attributes that differ between tiles; other attributes are only named.
 constexpr std::pair<const char*, const char*> kMeanings[] = {
@@ -247,6 +247,7 @@ std::vector<Imf::Header> headersOf(const PictureTile& tile, const PixelRect& who
   for (int p = 0; p < tile.in->parts(); ++p) {
     Imf::Header header = tile.in->header(p);
     header.erase("chunkCount");
+    header.erase(kStatistics);
     header.dataWindow() = {{whole.x0, whole.y0}, {whole.x1 - 1, whole.y1 - 1}};
     out.push_back(header);
   }

@@ -55,7 +55,8 @@ bool overwrite(int file, const std::string& name, const std::string& old, const 
   for (int shift = 0; shift < 32; shift += 8) before += static_cast<char>(old.size() >> shift & 0xff);
   bool any = false;
   for (size_t at = head.find(before + old); at != std::string::npos; at = head.find(before + old, at + 1)) {
-    if (::pwrite(file, text.data(), text.size(), static_cast<off_t>(at + before.size())) < 0) return false;
+    if (::pwrite(file, text.data(), text.size(), static_cast<off_t>(at + before.size())) != std::ssize(text))
+      return false;
     any = true;
   }
   return any;

@@ -114,16 +114,14 @@ int32_t subsurface(void* host, const TmGrid* all, const char* file, const TmSubs
   return isKnown || refuse(batch, file, problem);
 }
 
-/// Share of what the points see that large disks may be before they show.
-constexpr float kCoarseShare = 0.1f;
+/// Share of what a point sees that large disks may be before they show.
+constexpr float kCoarseShare = 0.5f;
 
+/// One point decides, so that the message does not depend on batches.
 void warnOfCoarseDisks(Batch& batch, const TmGrid* g, const char* file, const float* coarse) {
-  float sum = 0, points = 0;
-  forActive(g, [&](int i) {
-    sum += coarse[i];
-    ++points;
-  });
-  if (!(sum > kCoarseShare * points)) return;
+  bool shows = false;
+  forActive(g, [&](int i) { shows = shows || coarse[i] > kCoarseShare; });
+  if (!shows) return;
   batch.report(Severity::Warning, "point-cloud-coarse",
                fmt::format("point cloud \"{}\": its disks are far larger than the micropolygons beside them, so light "
                            "leaks and shadows are blotchy; bake it with a smaller ShadingRate",
@@ -138,6 +136,11 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
   CloudQuery query;
   if (!toFile(batch, g, file, P, N, tmCloudDefaults(), query)) return false;
+  float *coarse = batch.arena.floats(g->count), *none = batch.arena.floats(g->count);
+  std::fill_n(coarse, g->count, 0.0f);
+  std::fill_n(none, g->count, 0.0f);
+  // Hits of rays lie on the surface itself, and their radius is that of the ray.
+  if (batch.context.kind != RayKind::Camera) query.radius = none;
   DisksQuery inFile = disks;
   const float scale = 1 / lengthScale(batch.scene.cameraFromWorld);
   HemisphereQuery& far = inFile.falloff;
@@ -145,8 +148,6 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   if (far.bias > 0) far.bias *= scale;
   if (far.falloffMode != 1) far.falloff /= scale;
   std::string problem;
-  float* coarse = batch.arena.floats(g->count);
-  std::fill_n(coarse, g->count, 0.0f);
   if (!batch.scene.clouds->occlusion(query, inFile, covered, radiance, coarse, problem))
     return refuse(batch, file, problem);
   warnOfCoarseDisks(batch, g, file, coarse);

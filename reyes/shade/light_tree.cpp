@@ -122,7 +122,7 @@ uint32_t LightTree::build(std::span<uint32_t> order) {
   return index;
 }
 
-float LightTree::bound(const LampReceiver& at, const Node& node) const {
+float LightTree::atBest(const LampReceiver& at, const Node& node) const {
   const vec3 to = node.center - at.P;
   const float distance2 = dot(to, to), distance = std::sqrt(distance2), r = node.radius;
   float cosine = 1;  // that of the sphere's point that is farthest in front
@@ -138,7 +138,7 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
   float light = 0;
   int samples = 0;
   const auto add = [&](uint32_t node, int n) {
-    const float expected = bound(at, nodes_[node]);
+    const float expected = atBest(at, nodes_[node]);
     const bool whole = nodes_[node].right == 0 && n >= perLamp;
     heap.push_back({whole ? 0 : expected / static_cast<float>(n), expected, {node, n}});
     std::push_heap(heap.begin(), heap.end());
@@ -178,7 +178,7 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
     const float front = 0.5f * (along + std::sqrt(along * along + n2.x * vx[k] + n2.y * vy[k] + n2.z * vz[k]));
     const float distance2 = std::max(std::max(x * x + y * y + z * z, vx[k] + vy[k] + vz[k]), kNearest),
                 distance = std::sqrt(distance2);
-    out[k] = parts.power[k] * std::max(front + kBehind * (front - along), kGrazing * distance) / (distance2 * distance);
+    out[k] = parts.power[k] / distance2 * std::max((front + kBehind * (front - along)) / distance, kGrazing);
   }
   if (!(out[0] + out[1] + out[2] + out[3] > 0))  // lamps that are very dim and far off underflow
     for (size_t k = 0; k < kParts; ++k) out[k] = parts.power[k] > 0 ? 1.0f : 0.0f;

@@ -2,9 +2,9 @@
 // point. A cut through the tree (Walter et al. 2005, "Lightcuts") divides the lamps into clusters. From each cluster
 // one lamp is drawn by its importance (Estevez and Kulla 2018). Its light is divided by its probability, so that the
 // mean is right whatever the importance is. It knows no shadows, and of the surface its normal alone. What may be
-// bright is divided, so clusters are chosen by bounds. Whichever half of a cluster is brighter on the average is drawn
-// more often, so halves are weighed by the mean and the variance of their lamps' places. Space: current. Threads: const
-// members may be called concurrently.
+// bright is divided, so clusters are chosen by the most that they may bring. Whichever part of a cluster is brighter on
+// the average is drawn more often, so parts are weighed by the mean and the variance of their lamps' places. Space:
+// current. Threads: const members may be called concurrently.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -78,7 +78,7 @@ class LightTree {
   uint32_t build(std::span<uint32_t> order);
   void fillParts();
   /// Returns the light of the lamps below a node if all were near the surface's front.
-  float bound(const LampReceiver& at, const Node& node) const;
+  float atBest(const LampReceiver& at, const Node& node) const;
   /// Returns the light of each part on the average, up to a factor that all parts share. One at least is positive.
   static std::array<float, kParts> importance(const LampReceiver& at, const Parts& parts);
 

@@ -52,8 +52,10 @@ typedef struct TmServices {
    *   f(L) Cl / (1 + (m p(L) / d)^2)  over illuminance() at the points themselves, with d of lightDensity(); wholly
    *                                   where d is 0, and
    *   f(L) Cl                         over these directions, with Cl of lightAlong().
-   * lightDensity: `light` is TmIlluminance::light; 0 where lightAlong() would not find the light. lightAlong: L of unit
-   * length, sample number 0..m-1, density p(L), 0 for none. stratified: numbers in [0,1) for sample number `sample`. */
+   * A shader may count another number than the m that it draws, in both sums alike, as `disney` does; and d counts a
+   * sample of a sky as less than one (docs/decisions/0191). lightDensity: `light` is TmIlluminance::light; 0 where
+   * lightAlong() would not find the light. lightAlong: L of unit length, sample number 0..m-1, density p(L), 0 for
+   * none. stratified: numbers in [0,1) for sample number `sample`. */
   int32_t (*lobeSamples)(void* host, const TmGrid*);
   void (*lightDensity)(void* host, const TmGrid*, int32_t light, float* out);
   void (*lightAlong)(void* host, const TmGrid*, TmConstVec3 L, const float* density, int32_t sample, int32_t samples,

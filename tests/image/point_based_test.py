@@ -1,5 +1,5 @@
 """Compares light of baked points (indirectdiffuse() with "pointbased") with paths of one bounce: in a closed box with a ball, and for a ball on a
-plane; then with lookups that are coarser or finer than the bake. With sizes it prints a table instead.
+plane; then with lookups that are coarser or finer than the bake.
 
     tests/image/point_based_test.py build/release/tomales [SIZE]
 """

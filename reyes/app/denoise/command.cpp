@@ -122,7 +122,8 @@ void denoisePictures(const DenoiseCommand& command) {
   const Denoised result = denoise(halvesOf(a, b, command));
   const std::string stated = fmt::format("root mean square error {:.2f} % of the mean, {:.2f} % before",
                                          100 * result.after, 100 * result.before);
-  replaceChannels(command.first, command.output, pictureOf(result, a), {{kDenoised, stated}, {kContents, ""}});
+  replaceChannels(command.first, command.output, pictureOf(result, a),
+                  {{kDenoised, stated}, {kContents, ""}, {kStatistics, ""}});
   fmt::print("{}: {}\n", command.output, stated);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/turns_timer.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/pixel_report.h"
@@ -153,6 +154,7 @@ void PictureWriter::finish(const TileFill& fill) {
   Preview* preview = job_.preview(frame_);
   const RowViewer viewer = preview ? [=](const Image& rows) { preview->show(rows); } : RowViewer{};
   const RenderSettings& settings = job_.settings();
+  makeRoomForStatistics(job_.scene().options, settings);
   writeFrame(frame_, fill, viewer, job_.scene(), job_.shading(),
              {{}, &interrupted(), settings.picture.seed, pluginTrust(settings)}, job_.stats(), job_.log());
   if (job_.services()) job_.services()->reportAtlas(job_.stats());

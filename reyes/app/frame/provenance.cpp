@@ -134,8 +134,11 @@ void describeOutputs(Options& options, const std::string& contents, const Render
   addToPictures(options, kFrame, std::to_string(options.frame), settings);
   addToPictures(options, kFinishedShare, kAllFinished, settings);
   addToPictures(options, kSettings, settingsText(settings), settings);
-  if (settings.report.statsHeader) addToPictures(options, kStatistics, std::string(kStatisticsRoom, ' '), settings);
   if (!contents.empty()) addToPictures(options, kContents, contents, settings);
+}
+
+void makeRoomForStatistics(Options& options, const RenderSettings& settings) {
+  if (settings.report.statsHeader) addToPictures(options, kStatistics, std::string(kStatisticsRoom, ' '), settings);
 }
 
 std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<SourceFile>& edits) {

@@ -16,6 +16,9 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
 
 /// Adds program, scene, frame, settings and, unless it is empty, contents to the headers of the frame's pictures.
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings);
+/// Makes room for statistics in the headers of the frame's pictures, if the command line asks for them. Call it where
+/// the files are opened: a .dfb keeps the options, and has no statistics.
+void makeRoomForStatistics(Options& options, const RenderSettings& settings);
 
 /// Names what a picture of a shot depends on beside settings: its RIB files, `irradiance`, which is the sum of the
 /// cache that it is shaded with, and the files of edits.

@@ -143,6 +143,7 @@ std::string statsOfHeader(const RenderSettings& settings, const Stats& stats, co
   for (const char* key : {"version", "command", "scene", "frame", "outputs", "warnings"}) all.erase(key);
   const auto text = [&] { return all.dump(-1, ' ', false, Json::error_handler_t::replace); };
   if (text().size() > kStatisticsRoom) all["shade"].erase("by_shader");
+  if (text().size() > kStatisticsRoom) all.erase("audit");
   return text();
 }
 
