@@ -177,8 +177,8 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
     const float along = at.N.x * x + at.N.y * y + at.N.z * z;
     const float front = 0.5f * (along + std::sqrt(along * along + n2.x * vx[k] + n2.y * vy[k] + n2.z * vz[k]));
     const float distance2 = std::max(std::max(x * x + y * y + z * z, vx[k] + vy[k] + vz[k]), kNearest),
-                distance = std::sqrt(distance2);
-    out[k] = parts.power[k] / distance2 * std::max((front + kBehind * (front - along)) / distance, kGrazing);
+                near = 1 / std::sqrt(distance2);
+    out[k] = parts.power[k] * near * near * std::max((front + kBehind * (front - along)) * near, kGrazing);
   }
   if (!(out[0] + out[1] + out[2] + out[3] > 0))  // lamps that are very dim and far off underflow
     for (size_t k = 0; k < kParts; ++k) out[k] = parts.power[k] > 0 ? 1.0f : 0.0f;
