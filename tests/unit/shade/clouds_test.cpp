@@ -14,6 +14,7 @@ class FakeClouds : public CloudServices {
   };
   std::vector<Baked> baked;
   float shareOfLarge = 0;  ///< What occlusion() says of the disks.
+  float radiusAsked = -1;  ///< That of the last point of occlusion().
 
   bool bake(const CloudQuery& q, const std::vector<CloudValue>& values, std::string& problem) override {
     if (q.file == "full.ptc") {
@@ -56,6 +57,7 @@ class FakeClouds : public CloudServices {
       if (!q.active[i]) continue;
       covered[i] = d.clamp ? 0.25f : 0.5f;
       coarse[i] = shareOfLarge;
+      radiusAsked = q.radius[i];
       if (d.falloff.maxDistance < 1e30f)
         covered[i] = 100 * d.falloff.maxDistance + 10 * d.falloff.bias + d.falloff.falloff;
       if (radiance.x) {
@@ -303,15 +305,26 @@ TEST_F(CloudCalls, WithoutItsCloudNothingIsCoveredAndTheUserIsTold) {
 TEST_F(CloudCalls, DisksThatAreTooLargeForTheirNearnessAreToldOfOnce) {
   surface("pointbased");
   system().setClouds(&clouds);
-  clouds.shareOfLarge = 0.05f;
+  clouds.shareOfLarge = 0.4f;
   shade(row());
   EXPECT_TRUE(log.entries().empty()) << "a few do not show";
-  clouds.shareOfLarge = 0.2f;
+  clouds.shareOfLarge = 0.6f;
   shade(row());
   shade(row());
   ASSERT_EQ(log.entries().size(), 1u);
   EXPECT_EQ(log.entries()[0].code, "point-cloud-coarse");
   EXPECT_EQ(log.worst(), Severity::Warning);
+}
+
+TEST_F(CloudCalls, DisksAreSeenFromMicropolygonsOfTheirSizeAndFromHitsOfRaysOfNone) {
+  surface("pointbased");
+  system().setClouds(&clouds);
+  shade(row());
+  EXPECT_GT(clouds.radiusAsked, 0);
+  ShadeContext hit;
+  hit.kind = RayKind::Diffuse;
+  shade(row(), hit);
+  EXPECT_EQ(clouds.radiusAsked, 0);
 }
 
 TEST_F(CloudCalls, ListsSetWhatTheyName) {
