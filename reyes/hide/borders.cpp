@@ -154,7 +154,7 @@ Plan planOf(const Grid::Piece& piece, const Object& o, const Camera& camera, boo
     if (!(piece.openEdges & kEdges[e])) continue;
     const auto ends = o.shape().straightEdge(piece.patch, kEdges[e]);
     if (ends && (*ends)[0] == (*ends)[1]) continue;
-    const auto line = ends && still ? lineOf(*ends, o.cameraFromObject.keys.front(), camera) : std::nullopt;
+    const auto line = ends && still ? lineOf(*ends, o.cameraFromObject.at(o.keyTimes.front()), camera) : std::nullopt;
     if (line)
       plan.lines[e] = *line;
     else

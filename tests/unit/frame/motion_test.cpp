@@ -5,13 +5,13 @@ namespace tomales {
 namespace {
 using namespace test;
 
-/// A square of one unit that moves over 64 x 64 pixels, ten of them a unit, for the shutter 0..1.
-DeepFrame moved(const std::string& motion) {
+/// A square of one unit that moves over 64 x 64 pixels, ten of them a unit.
+DeepFrame moved(const std::string& motion, const std::string& shutter = "Shutter 0 1") {
   return hideRib(
       "Format 64 64 1 PixelSamples 10 10 PixelFilter \"box\" 1 1 Projection \"orthographic\" ScreenWindow -3.2 3.2 "
-      "-3.2 3.2 Shutter 0 1 "
-      "Translate 0 0 1 WorldBegin " +
-      motion + " Polygon \"P\" [-0.5 -0.5 0 0.5 -0.5 0 0.5 0.5 0 -0.5 0.5 0] WorldEnd");
+      "-3.2 3.2 " +
+      shutter + " Translate 0 0 1 WorldBegin " + motion +
+      " Polygon \"P\" [-0.5 -0.5 0 0.5 -0.5 0 0.5 0.5 0 -0.5 0.5 0] WorldEnd");
 }
 
 double shareOf(const DeepFrame& frame, int x, int y) {
@@ -57,6 +57,18 @@ TEST(MotionOfFrames, KeysThatAllLieOnOneSideOfTheShutterHoldTheNearest) {
     const DeepFrame frame = moved(motion);
     EXPECT_EQ(shareOf(frame, 42, 32), 1) << motion;
     EXPECT_EQ(shareOf(frame, 30, 32), 0) << motion;
+  }
+}
+
+TEST(MotionOfFrames, WithoutBlurEverythingStandsWhereItIsWhenTheShutterOpens) {
+  for (const char* shutter : {"Shutter 0.25 0.25", "Shutter 0.25 1 Hider \"hidden\" \"int samplemotion\" 0"}) {
+    const DeepFrame frame = moved("MotionBegin [0 1] Translate -1.5 0 0 Translate 1.5 0 0 MotionEnd", shutter);
+    // The middle is at -0.75, the sides are at -1.25 and -0.25.
+    EXPECT_EQ(shareOf(frame, 18, 32), 0) << shutter;
+    for (int x = 20; x < 29; ++x) EXPECT_EQ(shareOf(frame, x, 32), 1) << shutter << ' ' << x;
+    EXPECT_EQ(shareOf(frame, 30, 32), 0) << shutter;
+    EXPECT_NEAR(shareOf(frame, 19, 32), 0.5, 0.05) << shutter;
+    EXPECT_NEAR(shareOf(frame, 29, 32), 0.5, 0.05) << shutter;
   }
 }
 
