@@ -45,7 +45,7 @@ namespace tomales::compiler {
   /* How Noise3F changes along a direction: its gradient . direction. Likewise each component of Noise3T. */         \
   OP(Slope3F, "f=tt", "PK") OP(Slope3T, "t=tt", "PK")                                                                \
   /* Matrices (RISpec 15.4) */                                                                                       \
-  OP(MatrixOf, "m=f", "PK") /* the number on the diagonal, 1 last */                                                 \
+  OP(MatrixOf, "m=f", "PK") /* the number on the diagonal */                                                         \
   OP(MakeMatrix, "m=ffffffffffffffff", "PK") OP(MatrixProduct, "m=mm", "PK") OP(MatrixInverse, "m=m", "PK")          \
   OP(Determinant, "f=m", "PK") OP(TranslateMatrix, "m=mt", "PK") OP(RotateMatrix, "m=mft", "PK")                     \
   OP(ScaleMatrix, "m=mt", "PK") OP(TransformPoint, "t=mt", "PK") OP(TransformVector, "t=mt", "PK")                   \

@@ -35,7 +35,7 @@ RSL_INLINE void placesOf(const Lanes& row, const Lanes& column, int b, float* pl
 RSL_KERNEL(MatrixOf) {
   for (int b = 0; b < blocks; ++b) {
     MatrixBlock m;
-    for (int i = 0; i < 3; ++i) copyBlock(m.at[i][i], planeOf(in[0], b));
+    for (int i = 0; i < 4; ++i) copyBlock(m.at[i][i], planeOf(in[0], b));
     m.write(out, b);
   }
 }

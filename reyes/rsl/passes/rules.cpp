@@ -79,6 +79,17 @@ class Rule {
     return each(Op::Select, {compute(Op::Less, {c_.zero, number}, Shape::Number), value, c_.zero});
   }
 
+  /// Returns the change of a transformed point. The point is divided by its weight w = p . c + m33, where c is the last
+  /// column of the matrix. So its change is (d M - y (d . c)) / w.
+  int32_t changeOfPoint() {
+    const auto weightOf = [&](float row) {
+      return compute(Op::MatrixElement, {in(0), constant(row), constant(3)}, Shape::Number);
+    };
+    const int32_t column = compute(Op::MakeTriple, {weightOf(0), weightOf(1), weightOf(2)}, Shape::Triple);
+    const int32_t turned = compute(Op::TransformVector, {in(0), d(1)}, Shape::Triple);
+    return div(sub(turned, mul(y(), dot(d(1), column))), add(dot(in(1), column), weightOf(3)));
+  }
+
   /// Returns the registers of the change; empty if there is no short rule.
   std::vector<int32_t> change() {
     switch (c_.i.op) {
@@ -121,7 +132,7 @@ class Rule {
       case Op::Faceforward:  // plus or minus N
         return {none(d(0)) ? c_.zero : compute(Op::Faceforward, {d(0), in(1), in(2)}, Shape::Triple)};
       case Op::TransformPoint:
-        return {none(d(1)) ? c_.zero : compute(Op::TransformVector, {in(0), d(1)}, Shape::Triple)};
+        return {none(d(1)) ? c_.zero : changeOfPoint()};
       case Op::TransformVector:
       case Op::TransformNormal:
         return {none(d(1)) ? c_.zero : compute(c_.i.op, {in(0), d(1)}, Shape::Triple)};

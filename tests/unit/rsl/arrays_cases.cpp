@@ -42,7 +42,7 @@ Cases arrayCases() {
          return Vec3{i, 2 * i, 3};
        }},
       {"texts", "string a[2] = {\"one\", \"two\"}; if (a[1] == \"two\") x = 1;", 1},
-      {"matrices", "matrix a[2]; a[0] = 2; a[1] = 3; w = vector (transform(a[1], P));",
+      {"matrices", "matrix a[2]; a[0] = 2; a[1] = 3; w = vtransform(a[1], vector P);",
        [](float i) {
          return Vec3{3 * i, 6 * i, 9};
        }},

@@ -83,8 +83,16 @@ Cases derivativeCases() {
        kAnalytic},
       {"distance", "x = Du(distance(P, point (0, 0, 3)));",
        [](float i) { return 4 * i / std::max(1e-9f, std::sqrt(5 * i * i)); }, kAnalytic},
-      {"a transformation by a matrix", "matrix m = translate((matrix 2), vector (1, 2, 3)); w = Du(transform(m, P));",
+      {"a transformation by a matrix", "matrix m = scale((matrix 1), point (2, 2, 2)); w = Du(transform(m, P));",
        Vec3{8, 0, 0}, kAnalytic},
+      {"a transformation by a multiple of the identity",
+       "matrix m = translate((matrix 2), vector (1, 2, 3)); w = Du(transform(m, P));", Vec3{4, 0, 0}, kAnalytic},
+      {"a projection",
+       "matrix m = matrix (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0); w = Du(transform(m, point (s, 1, s + 2)));",
+       [](float i) {
+         return 4 / ((i + 2) * (i + 2)) * Vec3{2, -1, 0};
+       },
+       kAnalytic},
       {"a space", "w = Du(transform(\"world\", P));", Vec3{8, 0, 0}, {.tolerance = 1e-3f}},
       {"both sides of a choice", "x = Du(s < 3 ? s : s * s);", [](float i) { return i < 3 ? 4 : 8 * i; }, kAnalytic},
       {"through if", "float a; if (s < 3) a = s; else a = s * s; x = Du(a);", [](float i) { return i < 3 ? 4 : 8 * i; },

@@ -53,7 +53,7 @@ Cases parameterCases() {
        [](float i) { return i > 2 ? 1.0f : 3.0f; },
        {.parameters = "float p = 3;"}},
       {"a matrix of a number",
-       "w = vector transform(p, point (1, 2, s));",
+       "w = vtransform(p, vector (1, 2, s));",
        [](float i) {
          return Vec3{2, 4, 2 * i};
        },

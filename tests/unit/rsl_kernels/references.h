@@ -144,7 +144,7 @@ void visitNoise(Visit& visit) {
 template <class Visit>
 void visitMatrices(Visit& visit) {
   using rsl::Matrix, rsl::Vec3;
-  visit.bits(Op::MatrixOf, [](float x) { return Matrix{{{x, 0, 0, 0}, {0, x, 0, 0}, {0, 0, x, 0}, {0, 0, 0, 1}}}; });
+  visit.bits(Op::MatrixOf, [](float x) { return Matrix{{{x, 0, 0, 0}, {0, x, 0, 0}, {0, 0, x, 0}, {0, 0, 0, x}}}; });
   visit.bits(Op::MakeMatrix, [](float a, float b, float c, float d, float e, float f, float g, float h, float i,
                                 float j, float k, float l, float m, float n, float o, float p) {
     return Matrix{{{a, b, c, d}, {e, f, g, h}, {i, j, k, l}, {m, n, o, p}}};
