@@ -1,5 +1,6 @@
 // Surface shaders that assign P. The part of such a shader that moves the points is run as the displacement of an
-// object that has no displacement shader.
+// object that has no displacement shader. Also what displacement shaders compute for surfaces: vertices must have room
+// for it before they are diced.
 #pragma once
 #include "reyes/scene.h"
 

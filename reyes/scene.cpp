@@ -3,6 +3,7 @@
 #include "reyes/base/parallel.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
+#include "reyes/displacement_outputs.h"
 
 namespace tomales {
 namespace {
@@ -141,6 +142,7 @@ ShadeGroup Scene::groupFor(const Object& o, int index) const {
                .subtracted = o.subtracted};
   if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
   for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
+  for (Primvar& p : displacementOutputs(*o.attributes)) g.primvars.push_back(std::move(p));
   return g;
 }
 

@@ -1,5 +1,6 @@
 #include "reyes/base/rng.h"
 #include "reyes/dice/evaluated.h"
+#include "reyes/displacement_outputs.h"
 #include "reyes/scattered.h"
 
 namespace tomales {
@@ -100,6 +101,7 @@ Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, in
   prefetch(prim, pieces, [](const PatchPiece& p) { return p.patch; });
   int floats = 0;
   for (const Primvar& p : prim.primvars()) floats += p.width;
+  for (const Primvar& p : displacementOutputs(*o.attributes)) floats += p.width;
 
   Grid g;
   g.object = object;

@@ -43,6 +43,9 @@ class Batch {
   /// value. Returns false and leaves `out` alone if neither does. Inactive points get any value.
   bool stepsOf(const TmGrid* g, bool alongV, const float* value, float* out) const;
 
+  /// Returns values of the primitive variables at the points and their neighbours. Pre: points is set.
+  const float* primvar(int offset) const { return (wide_ ? wide_->points : *points).primvar(offset); }
+
   /// Calls the shader. Returns false, after a report, if it has thrown.
   bool run(const BoundShader& shader, const TmGrid& tmGrid);
   /// Makes points where the shader returned NaN or infinity opaque and black, with a warning.

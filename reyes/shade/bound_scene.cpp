@@ -4,6 +4,7 @@
 
 #include "reyes/base/checksum.h"
 #include "reyes/dialect.h"
+#include "reyes/displacement_outputs.h"
 #include "reyes/rsl_host.h"
 #include "reyes/shade/binder.h"
 #include "reyes/shade/parameter_values.h"
@@ -40,6 +41,9 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
 
 void findPrimvars(BoundGroup& g) {
   for (const Primvar& p : g.group->primvars) {
+    if (p.name.starts_with(kOfDisplacement) && g.displacement)
+      if (const int output = g.displacement->output(p.name.substr(kOfDisplacement.size()), p.type); output >= 0)
+        g.displacementOutputs.push_back({output, g.primvarFloats, p.width});
     if (p.name == "Cs" && p.width == 3) g.CsOffset = g.primvarFloats;
     if (p.name == "Os" && p.width == 3) g.OsOffset = g.primvarFloats;
     if (p.name == "s" && p.width == 1) g.sOffset = g.primvarFloats;

@@ -59,6 +59,7 @@ struct BoundGroup {
       indirectSurface;  ///< indirectSurface is for rays that hit it (Attribute "indirect" "surface").
   BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< Each may be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
+  std::vector<Override> displacementOutputs;  ///< Outputs of the displacement, and where points hold them.
   std::vector<const BoundLight*> lights;
   /// The choice among these lights; groups that have the same lights share it.
   std::shared_ptr<const LightChoice> choice;

@@ -97,6 +97,11 @@ void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Overri
   grid = &g;
   const int n = g.vertexCount();
   setCommon(n, shader, overrides, [&](int offset) { return g.primvar(offset); });
+  for (const Override& o : group.displacementOutputs) {
+    TmValue& value = params_[static_cast<size_t>(o.param)];
+    for (int k = 0; k < o.width; ++k) value.c[k] = g.primvar(o.primvarOffset + k);
+    value.step = 1;
+  }
   tm.P = {g.P(0, 0), g.P(0, 1), g.P(0, 2)};
   tm.N = {g.N(0), g.N(1), g.N(2)};
   tm.u = g.u();

@@ -39,8 +39,10 @@ int32_t tell(Batch& batch, const std::vector<float>& numbers, TmType as, int32_t
   return 1;
 }
 
-/// Finds a parameter of a shader among the values of one run. Outputs that are not stored have no value.
-int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view name, int32_t* type, TmValue* out) {
+/// Finds a parameter of a shader among the values of one run. An output has none unless the shader has ended: what it
+/// begins with, a further parameter of that name in shaders of RSL, is no answer.
+int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view name, int32_t* type, TmValue* out,
+             bool ended = false) {
   if (!shader) return 0;
   if (name == "__shadername") {
     *type = TM_STRING;
@@ -49,7 +51,8 @@ int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view 
   }
   for (int i = 0; i < shader->shader->paramCount; ++i) {
     const TmParamDecl& decl = shader->shader->params[i];
-    if (decl.name != name || (isOutput(decl) && !values[i].c[0])) continue;
+    if (decl.name != name) continue;
+    if (isOutput(decl) && !(ended && values[i].c[0])) return 0;
     *type = TM_TYPE_OF(decl.type);
     *out = values[i];
     return 1;
@@ -59,6 +62,20 @@ int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view 
 
 int32_t tell(const BoundShaderPtr& shader, std::string_view name, int32_t* type, TmValue* out) {
   return shader ? tell(shader.get(), shader->values.data(), name, type, out) : 0;
+}
+
+/// Finds what the displacement shader has computed at the points. It has run at those that the camera sees alone.
+int32_t tellDisplaced(const Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+  if (batch.context.kind != RayKind::Camera) return 0;
+  for (const Override& o : batch.group.displacementOutputs) {
+    const TmParamDecl& decl = batch.group.displacement->shader->params[o.param];
+    if (decl.name != name) continue;
+    *type = TM_TYPE_OF(decl.type);
+    *out = {{}, 1, 1, nullptr};
+    for (int k = 0; k < o.width; ++k) out->c[k] = batch.primvar(o.primvarOffset + k);
+    return 1;
+  }
+  return 0;
 }
 
 int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
@@ -173,8 +190,8 @@ int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char
       return kindIs(TM_SURFACE) ? tell(batch.own, batch.tm.params, name, type, out)
                                 : tell(group.surface, name, type, out);
     case TM_OF_DISPLACEMENT:
-      return kindIs(TM_DISPLACEMENT) ? tell(batch.own, batch.tm.params, name, type, out)
-                                     : tell(group.displacement, name, type, out);
+      if (kindIs(TM_DISPLACEMENT)) return tell(batch.own, batch.tm.params, name, type, out);
+      return tellDisplaced(batch, name, type, out) || tell(group.displacement, name, type, out);
     case TM_OF_ATMOSPHERE:
       return tell(group.atmosphere, name, type, out);
     case TM_OF_INCIDENT:
@@ -183,7 +200,7 @@ int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char
     case TM_OF_LIGHT: {
       if (light < 0) return tell(batch.running, g->params, name, type, out);
       const LightSample* sample = lightNumbered(batch, light);
-      return sample && sample->params ? tell(sample->light->bound.get(), sample->params, name, type, out) : 0;
+      return sample && sample->params ? tell(sample->light->bound.get(), sample->params, name, type, out, true) : 0;
     }
     case TM_OF_ATTRIBUTES:
       return tellAttribute(batch, name, type, out);

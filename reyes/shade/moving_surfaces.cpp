@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "reyes/base/search_path.h"
+#include "reyes/displacement_outputs.h"
 #include "reyes/scene_changes.h"
 #include "reyes/shade/binder.h"
 #include "reyes/shader_registry.h"
@@ -16,6 +17,17 @@ class MovingSurfaces {
   MovingSurfaces(std::string searchPath, ShaderRegistry& registry, Log& log)
       : path_(std::move(searchPath)), registry_(registry), log_(log) {}
 
+  void prepare(Attributes& a) {
+    displace(a);
+    for (const Param& output : outputsOf(a.displacement)) a.user[std::string(kOfDisplacement) + output.name] = output;
+  }
+
+  /// Tells whether such attributes change.
+  bool changes(const Attributes& a) {
+    return displacementOf(a.surface) != nullptr || !outputsOf(a.displacement).empty();
+  }
+
+ private:
   void displace(Attributes& a) {
     if (!a.surface || (a.displacement && a.displacement->name.starts_with(kOfSurface)))
       return;  // a shot has it already
@@ -32,6 +44,7 @@ class MovingSurfaces {
 
   /// Returns null if the surface leaves points where they are.
   std::shared_ptr<const ShaderCall> displacementOf(const std::shared_ptr<const ShaderCall>& surface) {
+    if (!surface) return nullptr;
     const std::lock_guard lock(mutex_);
     const auto [it, isNew] = known_.try_emplace(surface);
     if (!isNew) return it->second;
@@ -42,12 +55,36 @@ class MovingSurfaces {
     return it->second = std::move(call);
   }
 
- private:
+  /// Returns what surfaces may ask of a displacement shader; nothing of a surface that moves points.
+  std::vector<Param> outputsOf(const std::shared_ptr<const ShaderCall>& displacement) {
+    static const std::map<int32_t, ValueType> kTypes = {{TM_FLOAT, ValueType::Float},
+                                                        {TM_COLOR, ValueType::Color},
+                                                        {TM_POINT, ValueType::Point},
+                                                        {TM_VECTOR, ValueType::Vector},
+                                                        {TM_NORMAL, ValueType::Normal}};
+    if (!displacement || displacement->name.starts_with(kOfSurface)) return {};
+    const std::lock_guard lock(mutex_);
+    const auto [it, isNew] = outputs_.try_emplace(displacement);
+    std::vector<Param>& out = it->second;
+    if (!isNew) return out;
+    const ShaderName name = nameOf(*displacement, TM_DISPLACEMENT);
+    const TmShader* shader = registry_.find(name.name, name.kind, path_, name.beside);
+    for (int i = 0; shader && i < shader->paramCount; ++i) {
+      const TmParamDecl& decl = shader->params[i];
+      const auto type = kTypes.find(TM_TYPE_OF(decl.type));
+      if (!isOutput(decl) || decl.arrayLength > 1 || type == kTypes.end()) continue;
+      out.emplace_back().name = decl.name;
+      out.back().type = type->second;
+    }
+    return out;
+  }
+
   const std::string path_;
   ShaderRegistry& registry_;
   Log& log_;
   std::mutex mutex_;
   std::map<std::shared_ptr<const ShaderCall>, std::shared_ptr<const ShaderCall>> known_;
+  std::map<std::shared_ptr<const ShaderCall>, std::vector<Param>> outputs_;
 };
 
 }  // namespace
@@ -56,13 +93,15 @@ void displaceByMovingSurfaces(Scene& scene, ShaderRegistry& registry, Log& log) 
   const std::string path = pathOf(scene.options.searchPaths, "shader");
   const auto surfaces = std::make_shared<MovingSurfaces>(path, registry, log);
   std::vector<ShaderName> names;
-  for (size_t g = 0; g < scene.groups.size(); ++g)
-    if (const auto& call = scene.groups[g].attributes->surface) names.push_back(nameOf(*call, TM_SURFACE));
+  for (size_t g = 0; g < scene.groups.size(); ++g) {
+    const Attributes& a = *scene.groups[g].attributes;
+    if (a.surface) names.push_back(nameOf(*a.surface, TM_SURFACE));
+    if (a.displacement) names.push_back(nameOf(*a.displacement, TM_DISPLACEMENT));
+  }
   registry.prepare(names, path);
   bool any = !scene.procedurals.empty();
-  for (size_t g = 0; g < scene.groups.size(); ++g)
-    if (const auto& call = scene.groups[g].attributes->surface) any |= surfaces->displacementOf(call) != nullptr;
-  if (any) changeAttributes(scene, [surfaces](Attributes& a) { surfaces->displace(a); });
+  for (size_t g = 0; g < scene.groups.size(); ++g) any |= surfaces->changes(*scene.groups[g].attributes);
+  if (any) changeAttributes(scene, [surfaces](Attributes& a) { surfaces->prepare(a); });
 }
 
 }  // namespace tomales

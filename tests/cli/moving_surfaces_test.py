@@ -77,4 +77,31 @@ t.expect(not result.stderr, f"is edited without a message ({result.stderr[:200]}
 t.write("named.rib", scene('Displacement "surface:bumpy" "height" [.07] Surface "turned"'))
 t.expect_run("a displacement that is named after a surface", ["named.rib", "-o", "named.exr"], 0)
 t.expect(farthest(twice, pixels(t.folder / "named.exr")) < 1e-5, "moves what the surface would")
+
+# A surface may ask its displacement for what that has computed, point by point.
+t.write("carved.sl", "displacement carved(output varying float depth = 0; output varying color tint = 0) "
+        "{ depth = .05 * sin(20 * s); P -= depth * normalize(N); N = calculatenormal(P); tint = color(s, t, .5); }")
+t.write("asking.sl", 'surface asking() { float depth = 7; color tint = 7; float told = displacement("depth", depth) + displacement("tint", tint);'
+        "Oi = 1; Ci = color(20 * depth - sin(20 * s), comp(tint, 0) - s, told); }")
+t.write("telling.sl", 'surface telling(output varying float told = 0) { told = 5; Oi = 1; Ci = 0; illuminance(P, N, PI) Ci += Cl; }')
+t.write("hearing.sl", 'light hearing() { float told = 7; float known = surface("told", told); solar(vector "shader" (0, 0, 1), 0) Cl = color(known, told, 0); }')
+CARVED = 'Displacement "carved" Surface "asking"'
+
+
+def told(picture):
+    return [p[:3] for (x, y), p in picture.items() if (x - 47.5) ** 2 + (y - 47.5) ** 2 < 20**2]
+
+
+carved, said = render("carved", scene(CARVED))
+t.expect(not said, f"without a message ({said[:200]})")
+t.expect(all(max(abs(a), abs(b), abs(c - 2)) < 0.02 for a, b, c in told(carved)), f"tells each point of its depth and colour ({told(carved)[:2]})")
+late, _ = render("carved_late", scene(CARVED, 'Procedural "DelayedReadArchive" ["inside.rib"] [-1.2 1.2 -1.2 1.2 -1.2 1.2]'))
+t.expect(farthest(carved, late) < 1e-5, "in an archive that is read late too")
+t.run("hide", "carved.rib", "-o", "carved.dfb")
+t.run("shade", "carved.dfb", "-o", "carved_later.exr")
+t.expect(farthest(carved, pixels(t.folder / "carved_later.exr")) == 0, "and in steps")
+silent, _ = render("silent", scene('Surface "asking"'))
+t.expect(all(abs(a - 140) < 2 and c == 0 for a, b, c in told(silent)), f"nothing is told where nothing is displaced ({told(silent)[:2]})")
+heard, _ = render("heard", scene('LightSource "hearing" 9 Illuminate 1 0 Surface "telling"'), 0)
+t.expect(all(a == 0 and abs(b - 7) < 1e-4 and c == 0 for a, b, c in told(heard)), f"lights do not hear what a surface computes, and are told so ({told(heard)[:2]})")
 t.finish()
