@@ -88,30 +88,48 @@ class Evaluator {
 
   std::string either() {
     std::string value = both();
-    while (take("||")) {
-      const std::string other = both();
-      value = truth(isTrue(value) || isTrue(other));
-    }
+    while (take("||")) value = truth(isTrue(value) | isTrue(unless(isTrue(value), &Evaluator::both)));
     return value;
   }
   std::string both() {
-    std::string value = comparison();
-    while (take("&&")) {
-      const std::string other = comparison();
-      value = truth(isTrue(value) && isTrue(other));
-    }
+    std::string value = equality();
+    while (take("&&")) value = truth(isTrue(value) & isTrue(unless(!isTrue(value), &Evaluator::equality)));
     return value;
+  }
+  /// Reads an operand of which nothing depends if `known`: in "defined(a) && $a > 2" there may be no a.
+  std::string unless(bool known, std::string (Evaluator::*operand)()) {
+    idle_ += known;
+    std::string value = (this->*operand)();
+    idle_ -= known;
+    return value;
+  }
+  std::string equality() {
+    std::string a = comparison();
+    for (;;) {
+      if (take("=~"))
+        a = truth(matches(a, comparison()));
+      else if (take("=="))
+        a = truth(order(a, comparison()) == 0);
+      else if (take("!="))
+        a = truth(order(a, comparison()) != 0);
+      else
+        return a;
+    }
   }
   std::string comparison() {
     std::string a = sum();
-    if (take("=~")) return truth(matches(a, sum()));
-    if (take("==")) return truth(order(a, sum()) == 0);
-    if (take("!=")) return truth(order(a, sum()) != 0);
-    if (take("<=")) return truth(order(a, sum()) <= 0);
-    if (take(">=")) return truth(order(a, sum()) >= 0);
-    if (take("<")) return truth(order(a, sum()) < 0);
-    if (take(">")) return truth(order(a, sum()) > 0);
-    return a;
+    for (;;) {
+      if (take("<="))
+        a = truth(order(a, sum()) <= 0);
+      else if (take(">="))
+        a = truth(order(a, sum()) >= 0);
+      else if (take("<"))
+        a = truth(order(a, sum()) < 0);
+      else if (take(">"))
+        a = truth(order(a, sum()) > 0);
+      else
+        return a;
+    }
   }
   std::string sum() {
     std::string value = product();
@@ -205,16 +223,19 @@ class Evaluator {
   }
   std::string variable(const std::string& name) {
     if (auto value = variables_(name)) return *value;
+    if (idle_ > 0) return "0";
     throw ExpressionError(fmt::format("there is no variable \"{}\"", name));
   }
-  static double number(const std::string& value) {
+  double number(const std::string& value) const {
     if (const auto n = asNumber(value)) return *n;
+    if (idle_ > 0) return 0;
     throw ExpressionError(fmt::format("\"{}\" is not a number", value));
   }
 
   std::string_view rest_;
   const Variables& variables_;
   int depth_ = 0;
+  int idle_ = 0;  ///< More than 0 while what is read does not count.
 };
 
 }  // namespace

@@ -42,13 +42,20 @@ TEST(Expression, FollowsItsGrammar) {
                            "1e-3 < 1e+3",
                            "6 / 4 == 1.5",
                            "$Option:user:empty == ''",
+                           "!defined(m) || $m == 1",
+                           "1 || hero + 1",
+                           "!(defined(m) && $m + 1 > 2)",
+                           "1 != 1 == 0",
+                           "1 < 2 == 1",
                            "true"})
     EXPECT_TRUE(isTrue(text)) << text;
-  for (const char* text : {"0", "''", "false", "$n != 3", "$name =~ 'x*'", "1 && 0", "!$n"})
+  for (const char* text :
+       {"0", "''", "false", "$n != 3", "$name =~ 'x*'", "1 && 0", "!$n", "defined(m) && $m == 1", "0 && ($m || 1)"})
     EXPECT_FALSE(isTrue(text)) << text;
-  for (const std::string& text : {std::string(""), std::string("1 +"), std::string("$m"), std::string("(1"),
-                                  std::string("1 2"), std::string("'a"), std::string("hero + 1"), std::string("&"),
-                                  std::string(100000, '('), std::string(100000, '!')})
+  for (const std::string& text :
+       {std::string(""), std::string("1 +"), std::string("$m"), std::string("0 || $m"), std::string("1 && $m"),
+        std::string("(1"), std::string("1 2"), std::string("'a"), std::string("hero + 1"), std::string("&"),
+        std::string(100000, '('), std::string(100000, '!')})
     EXPECT_THROW(isTrue(text), rib::ExpressionError) << text.substr(0, 20);
 }
 
