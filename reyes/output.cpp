@@ -5,23 +5,13 @@
 #include <algorithm>
 #include <map>
 
+#include "reyes/display_mode.h"
+
 namespace tomales {
 namespace {
 
-std::vector<std::string> namesIn(const std::string& mode) {
-  if (!mode.empty() && mode.find_first_not_of("rgbaz") == std::string::npos) {
-    std::vector<std::string> letters;
-    for (const char c : mode) letters.emplace_back(1, c);
-    return letters;
-  }
-  std::vector<std::string> out{""};
-  for (const char c : mode)
-    if (c == ',' || c == ' ')
-      out.emplace_back();
-    else
-      out.back() += c;
-  std::erase(out, "");
-  return out;
+bool isOfLetters(const std::string& mode) {
+  return !mode.empty() && mode.find_first_not_of("rgbaz") == std::string::npos;
 }
 
 /// A request whose parameters say how a channel is written.
@@ -103,12 +93,20 @@ class Planner {
     Selection selection;
     const std::string mode = writesShadowMap(display) ? "z" : display.mode;
     if (!writesDeep(display))
-      for (const std::string& name : namesIn(mode)) select(name, display, selection);
+      for (const std::string& name : channelNames(mode)) selectNamed(name, mode, display, selection);
     if (selection.empty() && !writesDeep(display)) {
       warn(display, "display-mode", fmt::format("no channels \"{}\"; rgba is written", display.mode));
       for (const char* name : {"Ci", "a"}) select(name, display, selection);
     }
     out_.displays.push_back(std::move(selection));
+  }
+
+  /// Selects a channel, or the letters of a mode "bar" unless that is a channel. In a list, as in "rgba,diffuse", only
+  /// those of colour and opacity are letters.
+  void selectNamed(const std::string& name, const std::string& mode, const DisplayCall& display, Selection& selection) {
+    const bool letters = isOfLetters(name) && (name == mode || name.starts_with("rgb"));
+    if (!letters || options_.channels.contains(name)) return select(name, display, selection);
+    for (const char letter : name) select(std::string(1, letter), display, selection);
   }
 
   void select(const std::string& name, const DisplayCall& display, Selection& selection) {

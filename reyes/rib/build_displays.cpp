@@ -1,10 +1,12 @@
 // Displays, their channels, and the hider (RISpec 3.2 section 4.1.3; PRMan's DisplayChannel).
 #include <fmt/format.h>
 
+#include "reyes/display_mode.h"
 #include "reyes/rib/dictionary.h"
 #include "reyes/rib/handlers.h"
 #include "reyes/rib/refusals.h"
 #include "reyes/rib/ris.h"
+#include "reyes/surface_variables.h"
 
 namespace tomales::rib {
 namespace {
@@ -45,14 +47,21 @@ std::optional<ValueType> channelType(const Declaration& d) {
   return fits ? std::optional(type) : std::nullopt;
 }
 
-// Declares the variable that a mode "float name" shows, as BMRT and Aqsis do.
-void declareChannel(GraphicsState& s, DisplayCall& call) {
-  std::string name;
-  const auto declaration = standardNames().find(call.mode, "", name);
-  const auto type = declaration ? channelType(*declaration) : std::nullopt;
-  if (!type || name == call.mode) return;
-  s.globals.options.channels.try_emplace(name, ChannelCall{name, *type, {}, call.where});
-  call.mode = name;
+// Declares the variable that a mode "float name" shows, as BMRT and Aqsis do, and those that Declare has declared:
+// before PRMan 11 there was no DisplayChannel.
+void declareChannels(GraphicsState& s, DisplayCall& call) {
+  const auto declare = [&](const std::string& token) {
+    std::string name;
+    const auto declaration = standardNames().find(token, "", name);
+    const auto type = declaration ? channelType(*declaration) : std::nullopt;
+    if (!type || name == token) return std::string();
+    s.globals.options.channels.try_emplace(name, ChannelCall{name, *type, {}, call.where});
+    return name;
+  };
+  if (const std::string name = declare(call.mode); !name.empty()) call.mode = name;
+  for (const std::string& name : channelNames(call.mode))
+    if (const auto it = s.globals.declared.find(name); it != s.globals.declared.end() && !surfaceVariable(name))
+      declare(it->second + ' ' + name);
 }
 
 // Adds a display. By RISpec 3.2 a name with a leading '+' adds one, and any other replaces them all.
@@ -67,7 +76,7 @@ void display(GraphicsState& s, const Request& r) {
     s.warn(r, "rib-display", "\"" + call.name + "\" names no file; ri.pic, the default of RenderMan, is used");
     call.name = DisplayCall().name;
   }
-  declareChannel(s, call);
+  declareChannels(s, call);
   if (const auto it = s.globals.quantized.find(call.mode);
       it != s.globals.quantized.end() && !findParam(call.params, "quantize"))
     call.params.insert(call.params.end(), it->second.begin(), it->second.end());

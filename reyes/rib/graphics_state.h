@@ -70,7 +70,8 @@ struct Globals {
   /// headers of frames set both again, and no path may be mapped twice.
   std::map<std::string, std::string> unmappedPaths;
   Patterns patterns;
-  std::map<std::string, ParamList> quantized;  ///< Parameters of Quantize by variable, for Displays that show it.
+  std::map<std::string, std::string> declared;  ///< What Declare says of names, for Displays that show them.
+  std::map<std::string, ParamList> quantized;   ///< Parameters of Quantize by variable, for Displays that show it.
 };
 
 enum class Block { Frame, World, Attribute, Transform, Solid, Instance };

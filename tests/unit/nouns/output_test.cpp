@@ -38,6 +38,19 @@ TEST_F(Output, LettersAndNamesSelectTheSamePicture) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+TEST_F(Output, ListsMayHaveLettersOfColourAndOpacity) {
+  EXPECT_EQ(names(showing("rgba,N"), log), "R G B A N.X N.Y N.Z ");
+  EXPECT_EQ(names(showing("s,rgb"), log), "s R G B ");
+  EXPECT_TRUE(log.entries().empty());
+}
+
+TEST_F(Output, AChannelThatIsSpelledOfLettersIsTheChannel) {
+  Options o = showing("bar");
+  EXPECT_EQ(names(o, log), "B A R ");
+  o.channels["bar"] = {"bar", ValueType::Float, {}, {}};
+  EXPECT_EQ(names(o, log), "bar ");
+}
+
 TEST_F(Output, ColoursHaveComponentsRgbAndVectorsXyz) {
   EXPECT_EQ(names(showing("Ci,N,s,albedo"), log), "R G B N.X N.Y N.Z s albedo.R albedo.G albedo.B ");
 }

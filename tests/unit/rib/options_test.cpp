@@ -254,6 +254,17 @@ TEST(Display, MayDeclareWhatItShowsAndQuantizeMayNameIt) {
   EXPECT_TRUE(o.displays[1].params.empty());
 }
 
+TEST(Display, ShowsWhatDeclareDeclares) {
+  const Reading r(
+      "Declare \"mask\" \"varying float\" Declare \"N\" \"varying color\" Declare \"label\" \"uniform string\" "
+      "Display \"a.tif\" \"tiff\" \"mask\" Display \"+b.tif\" \"tiff\" \"Ci,N,label\"" +
+      inWorld(""));
+  const Options& o = r.scene().options;
+  EXPECT_EQ(o.channels.at("mask").type, ValueType::Float);
+  EXPECT_EQ(o.channels.size(), 1u)
+      << "what surfaces have by themselves needs no declaration, and pictures hold no text";
+}
+
 TEST(Projection, WhoseFieldOfViewHasNoNumberHasThatOfTheSpecification) {
   const Reading r("Projection \"perspective\" \"uniform string fov\" [\"wide\"]" + inWorld(""));
   EXPECT_EQ(r.scene().options.fov_degrees, 90);

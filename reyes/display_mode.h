@@ -1,0 +1,20 @@
+// The mode of a Display: which channels it shows.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace tomales {
+
+/// Returns the names in a mode, which commas or blanks part.
+inline std::vector<std::string> channelNames(const std::string& mode) {
+  std::vector<std::string> out{""};
+  for (const char c : mode)
+    if (c == ',' || c == ' ')
+      out.emplace_back();
+    else
+      out.back() += c;
+  std::erase(out, "");
+  return out;
+}
+
+}  // namespace tomales
