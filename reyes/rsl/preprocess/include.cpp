@@ -94,8 +94,10 @@ ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::st
     if (isPermitted(real)) return readFile(path);
     out.failure = "it is outside of the folders from which files may be included";
   }
-  if (const std::string_view own = standard_ ? standardHeader(wanted) : std::string_view(); !own.empty())
-    return asFile(wanted, std::string(own));
+  // Collections of shaders name such headers as they lie there: "../include/normals.h".
+  for (const std::string& header : {wanted, fs::path(wanted).filename().string()})
+    if (const std::string_view own = standard_ ? standardHeader(header) : std::string_view(); !own.empty())
+      return asFile(wanted, std::string(own));
   if (fs::path(wanted).extension() == ".h" && fs::path(wanted).filename() == wanted)
     for (const std::string& folder : collections_)
       if (const std::string path = fs::path(folder) / wanted; realPath(path) == path) return readFile(path);

@@ -53,6 +53,12 @@ TEST_F(Includes, InQuotesLookBesideTheFileThenInTheFoldersThenAtOurOwn) {
   EXPECT_EQ(read("#include \"normals.h\"\n1"), "own 1");
 }
 
+TEST_F(Includes, OfAnotherFolderMayBeOurOwn) {
+  EXPECT_NE(read("#include \"../include/normals.h\"\n1").find("shadingnormal"), std::string::npos);
+  write("own/deep/normals.h", "own");
+  EXPECT_EQ(read("#include \"deep/normals.h\"\n1"), "own 1");
+}
+
 TEST_F(Includes, InAnglesLookInTheFoldersAlone) {
   write("own/x.h", "own");
   EXPECT_EQ(read("#include <x.h>\n"),
