@@ -1,4 +1,5 @@
 // Light: illuminance and gather, which are loops, and the statements by which light shaders tell where they shine.
+#include <algorithm>
 #include <iterator>
 
 #include "reyes/rsl/lowering.h"
@@ -66,6 +67,18 @@ void Lowering::gather(const Stmt& s) {
     i.blocks.push_back(std::move(hit));
     i.blocks.push_back(std::move(miss));
   });
+}
+
+int Lowering::lightsOf(const Stmt& s) {
+  if (s.kind == StmtKind::Illuminate || s.kind == StmtKind::Solar) return 1;
+  int sum = 0, most = 0;
+  for (const StmtPtr& inner : s.body) {
+    const int lights = lightsOf(*inner);
+    sum += lights;
+    most = std::max(most, lights);
+  }
+  if (s.kind == StmtKind::If) return most;
+  return s.kind == StmtKind::While || s.kind == StmtKind::For ? 2 * sum : sum;
 }
 
 void Lowering::illuminate(const Stmt& s) {

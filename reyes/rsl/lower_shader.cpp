@@ -56,6 +56,9 @@ void Lowering::shader(const Shader& s) {
     statement(*s.body);
   }
   if (s.kind == ShaderKind::Surface) beginColor();
+  if (s.kind == ShaderKind::Light && lightsOf(*s.body) > 1)
+    messages_.warning(s.place,
+                      "a light shines from one place: where several illuminate() or solar() run, the last counts");
 }
 
 // RISpec leaves open what Ci and Oi hold at first. Here Oi is Os. Ci is Cs in shaders that never assign it, and black

@@ -62,6 +62,8 @@ class Lowering {
 
   void illuminance(const Stmt& s);
   void illuminate(const Stmt& s);
+  /// Returns how many places from which a light shines may count at one point; those of a loop count twice.
+  static int lightsOf(const Stmt& s);
   void solar(const Stmt& s);
   void gather(const Stmt& s);
 

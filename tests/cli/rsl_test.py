@@ -145,6 +145,13 @@ for edges, warns in EDGES.items():
     t.write("edges.sl", f"#define HALF 0.5\nsurface edges() {{ Oi = 1; Ci = smoothstep({edges}); }}\n")
     said = t.expect_run(f"compile of smoothstep({edges})", ["compile", "edges.sl"], 0).stderr
     t.expect(("edges.sl:2:32: warning: smoothstep() whose first edge" in said) == warns, f"{'warns' if warns else 'does not warn'} of a hard step")
+LIGHT = "light many(float k = 0) {{ {} }}"
+SHINE = "illuminate(point \"shader\" (0, 0, 0)) Cl = 1; "
+for body, warns in ((SHINE, False), (2 * SHINE, True), (f"if (k > 0) {SHINE} else {SHINE}", False), (f"float i; for (i = 0; i < 3; i += 1) {SHINE}", True),
+                    (f"if (k > 0) {{ {SHINE} }} solar(vector \"shader\" (0, 0, 1), 0) Cl = 1;", True)):
+    t.write("many.sl", LIGHT.format(body))
+    said = t.expect_run("compile of a light", ["compile", "many.sl"], 0).stderr
+    t.expect(("the last counts" in said) == warns, f"that {'may shine from several places' if warns else 'shines from one place'}: {body}")
 t.expect_run("compile of a shader that lacks a function", ["compile", "lacking.sl"], 3, "lacking.sl:1:26: warning", "company_noise")
 t.expect_run("compile of a file that is not there", ["compile", "nosuch.sl"], 2, "nosuch.sl")
 t.expect_run("compile of nothing", ["compile"], 1)
