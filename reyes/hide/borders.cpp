@@ -16,6 +16,9 @@ constexpr float kShareOfCell = 1 / 128.0f;
 // Displaced borders that turn away from the eye reach out by this share of what others do, or of a pixel if that is
 // more. Past the horizon more would show as a dark line around the body.
 constexpr float kShareAway = 0.1f;
+// Displaced borders reach out by at most so many times the width of their cell. It is narrow where it turns away from
+// the eye, at the outline: there the neighbour lies behind, and a body must not grow by what would close a crack.
+constexpr float kMostOfCell = 4;
 /// Raster coordinates up to this are on the lattice.
 constexpr float kFarthest_px = 4096;
 constexpr PatchEdge kEdges[] = {kEdgeU0, kEdgeU1, kEdgeV0, kEdgeV1};
@@ -112,7 +115,8 @@ float reachAt(const Grid& g, const Border& b, const float* x, const float* y, in
 void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, const Reach& reach, float facing,
                 std::vector<vec2>& push) {
   const float most_px = std::max(borderReach_px(0), reach.least_px);
-  const float away_px = reach.least_px > kLeastReach_px ? kShareAway * std::max(1.0f, reach.least_px) : most_px;
+  const bool displaced = reach.least_px > kLeastReach_px;
+  const float away_px = displaced ? kShareAway * std::max(1.0f, reach.least_px) : most_px;
   for (int k = 0; k <= b.count; ++k) {
     const int v = b.first + k * b.step;
     const vec2 outward{x[v] - x[v + b.inward], y[v] - y[v + b.inward]};
@@ -123,7 +127,8 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
     const float slant = std::max(slantOf(outward / length, x, y, b, k), kLeastSlant);
     const bool faces = facing * areaSign(x, y, b, k) > 0;
     const float along = reachAt(g, b, x, y, k, reach, length) / slant;
-    push[static_cast<size_t>(v)] += outward * (std::min(along, faces ? most_px : away_px) / length);
+    const float limit = displaced ? std::max(away_px, std::min(most_px, kMostOfCell * length)) : most_px;
+    push[static_cast<size_t>(v)] += outward * (std::min(along, faces ? limit : away_px) / length);
   }
 }
 
