@@ -142,17 +142,18 @@ void testColors(const ShadetestCommand& command, const Trial& trial, const std::
   const double time_ns = timeOf(trial);
   const Image image = picture();
   const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
-  vec3 low(kInfinity), high(-kInfinity), mean(0);
+  vec3 low(kInfinity), high(-kInfinity);
+  glm::dvec3 sum(0);  // a sum of floats may leave the mean above the greatest
   for (size_t i = 0; i < count; ++i) {
     const float* pixel = image.pixels.data() + i * image.channels.size();
     const vec3 c(pixel[0], pixel[1], pixel[2]);
     low = glm::min(low, c);
     high = glm::max(high, c);
-    mean += c / static_cast<float>(count);
+    sum += c;
   }
   std::puts(fmt::format("nanoseconds a point: {:.1f}", time_ns / static_cast<double>(count)).c_str());
   say("Ci least", low);
-  say("Ci mean", mean);
+  say("Ci mean", vec3(sum / static_cast<double>(count)));
   say("Ci greatest", high);
   if (!command.output.empty()) writeImage(command.output, image, isForScreens(command.output), log);
 }
