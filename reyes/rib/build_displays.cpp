@@ -119,9 +119,12 @@ void depthFilter(GraphicsState& s, const Request& r, const std::string& name) {
 void hider(GraphicsState& s, const Request& r) {
   Options& o = s.globals.options;
   o.hider = r.args[0].strings[0];
-  if (o.hider != "hidden" && o.hider != "stochastic")
+  if (o.hider != "hidden" && o.hider != "stochastic") {
+    const std::string reason = reasonFor("Hider " + o.hider);
     s.warnOnce("hider " + o.hider, r, "rib-unsupported",
-               "Hider \"" + o.hider + "\" is not supported" + reasonFor("Hider " + o.hider));
+               "Hider \"" + o.hider + "\" is not supported" +
+                   (reason.empty() ? ": the picture is rendered as by \"hidden\"" : reason));
+  }
   for (const Param& p : r.params)
     if (p.name == "jitter")
       o.jitter = p.number(1) != 0;

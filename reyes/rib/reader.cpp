@@ -40,7 +40,7 @@ void declare(const Request& r, Dictionary& dictionary, Log& log) {
 bool Reader::readFile(const std::string& path) {
   const auto stream = ByteStream::open(path);
   if (stream) return readTop(*stream, path == "-" ? "standard input" : path);
-  log_.report(Severity::Error, "rib-open", wholeFile(path), "the file cannot be opened");
+  log_.report(Severity::Error, "rib-open", wholeFile(path), ByteStream::refusal(path));
   return false;
 }
 

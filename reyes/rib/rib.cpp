@@ -16,7 +16,7 @@ class PlainParse {
   bool read(rib::ByteStream* stream, const std::string& name) {
     const SourceLoc whole{std::make_shared<const std::string>(name), 0};
     if (!stream) {
-      log_.report(Severity::Error, "rib-open", whole, "the file cannot be opened");
+      log_.report(Severity::Error, "rib-open", whole, rib::ByteStream::refusal(name));
       return false;
     }
     rib::Parser parser(*stream, name, dictionary_, log_);

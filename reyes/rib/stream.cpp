@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <new>
 
+#include "reyes/base/input_file.h"
 #include "reyes/base/stop.h"
 #include "reyes/rib/zip_member.h"
 
@@ -28,6 +29,11 @@ struct ByteStream::Inflater {
 
 ByteStream::ByteStream(Source source) : source_(std::move(source)), raw_(std::make_unique<char[]>(kBufferSize)) {}
 ByteStream::~ByteStream() = default;
+
+std::string ByteStream::refusal(const std::string& path) {
+  const std::string problem = inputProblem(path);
+  return "the file cannot be opened" + (problem.empty() ? "" : ": " + problem);
+}
 
 std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
   std::error_code ignored;

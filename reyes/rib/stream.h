@@ -20,6 +20,8 @@ class ByteStream {
   /// Returns null if `path` cannot be opened or is a folder. "-" is standard input, "a.zip!b.rib" a member of a zip
   /// file.
   static std::unique_ptr<ByteStream> open(const std::string& path);
+  /// Returns a message about a path that open() refuses.
+  static std::string refusal(const std::string& path);
   /// `text` must outlive the stream.
   static std::unique_ptr<ByteStream> fromMemory(const std::string& text);
   /// Reads the answer of a program: the byte 0377 in place of a token closes it (RISpec 3.2 appendix C).
