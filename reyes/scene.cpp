@@ -108,7 +108,10 @@ bool Scene::cameraFromNamed(const std::string& name, mat4& out) const {
 float Scene::displacementBoundOf(const Attributes& a, const mat4& cameraFromObject) const {
   if (!a.displacement) return 0;
   mat4 cameraFromBoundSpace = cameraFromObject;
-  if (a.displacementBoundSpace != "object") cameraFromNamed(a.displacementBoundSpace, cameraFromBoundSpace);
+  if (a.displacementBoundSpace == "shader")
+    cameraFromBoundSpace = cameraFromWorldAtOpen() * a.displacement->worldFromShader.at(options.shutterOpen);
+  else if (a.displacementBoundSpace != "object")
+    cameraFromNamed(a.displacementBoundSpace, cameraFromBoundSpace);
   return a.displacementBound * largestScale(cameraFromBoundSpace);
 }
 

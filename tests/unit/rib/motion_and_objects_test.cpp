@@ -83,6 +83,18 @@ TEST(Motion, DisplacementIsBoundWhereWhatGrowsIsLargest) {
   }
 }
 
+TEST(Displacement, IsBoundInTheSpaceThatIsNamed) {
+  const std::pair<const char*, float> bounds[] = {
+      {"object", 0.2f}, {"shader", 1.0f}, {"world", 0.5f}, {"camera", 0.5f}, {"named", 2.0f}};
+  for (const auto& [space, bound] : bounds) {
+    const Reading r(
+        inWorld("TransformBegin Scale 4 4 4 CoordinateSystem \"named\" TransformEnd Scale 2 2 2 Displacement \"bumpy\" "
+                "Attribute \"displacementbound\" \"float sphere\" [0.5] \"string coordinatesystem\" [\"" +
+                std::string(space) + "\"] Scale 0.2 0.2 0.2 " + kSphere));
+    EXPECT_NEAR(r.object(0).displacementBound, bound, 1e-6f) << space;
+  }
+}
+
 TEST(Motion, KeepsTheFirstShapeWhereTopologiesDiffer) {
   const Reading r(
       inWorld("MotionBegin [0 1]\nPolygon \"P\" [0 0 0 1 0 0 0 1 0]\n"
