@@ -6,6 +6,7 @@
 
 #include "reyes/base/stop.h"
 #include "reyes/frame/piece_node.h"
+#include "reyes/frame/procedural_bound.h"
 #include "reyes/scattered.h"
 
 namespace tomales {
@@ -245,6 +246,7 @@ class ProceduralNode : public OpeningNode {
     } catch (const Stopped&) {  // the bucket is given up like all others that are not finished
       return {};
     }
+    checkProceduralBound(procedural_, inside, context_.log);
     std::set<PrimPtr> shapes;
     for (const Object& o : inside.objects) shapes.insert(o.shapes.begin(), o.shapes.end());
     bytes_ = bytesOf(shapes);

@@ -36,6 +36,7 @@ PrimPtr heightField(int n) {
 struct Squares {
   Scene scene;
   std::atomic<int> opened{0};
+  int toldOfBounds = 0;
 
   Squares() {
     scene.options.xResolution = scene.options.yResolution = 128;
@@ -65,7 +66,9 @@ struct Squares {
     registry.addLibrary(tomales_builtin_shaders(), "built-in");
     scene.freeze();
     ShadingSystem shading(scene, registry, nullptr, log, stats);
-    return hideFrame(scene, shading, {}, stats, log);
+    DeepFrame frame = hideFrame(scene, shading, {}, stats, log);
+    toldOfBounds = log.count("rib-bound");
+    return frame;
   }
 };
 
@@ -81,6 +84,17 @@ TEST(Procedural, OffScreenOrHiddenIsNeverOpened) {
   squares.add({0, 0, 0.5f});
   squares.hide(stats);
   EXPECT_EQ(squares.opened, 1) << "the nearer square hides the bound of the other";
+}
+
+TEST(Procedural, ThatReachesBeyondItsBoundIsToldOf) {
+  for (const auto& [right, told] : {std::pair(1.0f, 0), {0.995f, 0}, {0.5f, 1}}) {
+    Squares squares;
+    squares.add({0.25f, 0.25f, 1});
+    squares.scene.procedurals.back().bound.hi.x = right;
+    Stats stats;
+    squares.hide(stats);
+    EXPECT_EQ(squares.toldOfBounds, told) << right;
+  }
 }
 
 TEST(Procedural, GeometryIsDroppedBehindTheLastBucket) {

@@ -1,0 +1,51 @@
+#include "reyes/frame/procedural_bound.h"
+
+#include <fmt/format.h>
+
+namespace tomales {
+namespace {
+
+constexpr uint32_t kMostPatches = 64;  ///< Patches of an object that are looked at, evenly chosen.
+constexpr float kTolerance = 0.01f;    ///< Share of the bound's size by which contents may pass it.
+
+/// Returns a box around some points of the object.
+Bound3 someOf(const Object& o, const mat4& m) {
+  constexpr int kSide = 5, kPoints = kSide * kSide;  // quadrics turn by a quarter from one to the next
+  constexpr int kRoom = (kPoints + kLanes - 1) / kLanes * kLanes;
+  float u[kRoom], v[kRoom], a[12][kRoom];
+  for (int i = 0; i < kPoints; ++i) {
+    u[i] = static_cast<float>(i % kSide) / (kSide - 1);
+    v[i] = static_cast<float>(i / kSide) / (kSide - 1);
+  }
+  const Prim& prim = o.shape();
+  Bound3 out;
+  for (uint32_t patch = 0, step = 1 + prim.patchCount() / kMostPatches; patch < prim.patchCount(); patch += step) {
+    prim.evaluate(patch, kPoints, u, v, {a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11]});
+    for (int i = 0; i < kPoints; ++i)
+      if (const vec3 p{a[0][i], a[1][i], a[2][i]}; isFinite(p)) out.extend(transformPoint(m, p));
+  }
+  return out;
+}
+
+}  // namespace
+
+void checkProceduralBound(const Procedural& p, const Expansion& inside, Log& log) {
+  const float time = p.keyTimes.front();
+  const mat4 fromCamera = glm::inverse(p.cameraFromObject.at(time));
+  Bound3 seen;
+  for (const Object& o : inside.objects) seen.extend(someOf(o, fromCamera * o.cameraFromObject.at(time)));
+  const Bound3 allowed = p.bound.grown(kTolerance * glm::length(p.bound.size()));
+  if (seen.empty() ||
+      (glm::all(glm::greaterThanEqual(seen.lo, allowed.lo)) && glm::all(glm::lessThanEqual(seen.hi, allowed.hi))))
+    return;
+  Bound3 needed = p.bound;
+  needed.extend(seen);
+  log.report(
+      Severity::Warning, "rib-bound", p.where,
+      fmt::format("a procedural reaches beyond its bound, and parts of it may be cut off; it needs [{:.4g} {:.4g} "
+                  "{:.4g} {:.4g} {:.4g} {:.4g}] or more",
+                  needed.lo.x, needed.hi.x, needed.lo.y, needed.hi.y, needed.lo.z, needed.hi.z),
+      p.where.text());
+}
+
+}  // namespace tomales
