@@ -13,6 +13,7 @@
 #include "reyes/base/log.h"
 #include "reyes/base/math.h"
 #include "reyes/base/value.h"
+#include "reyes/light_list.h"
 
 namespace tomales {
 
@@ -174,9 +175,9 @@ struct Attributes {
   HitMode diffuseHitMode = HitMode::Shader, specularHitMode = HitMode::Shader, transmissionHitMode = HitMode::Shader;
   std::shared_ptr<const ShaderCall> surface, displacement, atmosphere;  ///< null for the default surface, or none
   std::shared_ptr<const ShaderCall> interior,
-      exterior;  ///< Volume shaders of the space that rays cross after leaving the surface inwards and outwards.
-  std::vector<int> lights;      ///< Indices in Scene::lights of lights that are switched on.
-  int areaLight = -1;           ///< Index of the light that this geometry emits for; -1 if there is none.
+      exterior;        ///< Volume shaders of the space that rays cross after leaving the surface inwards and outwards.
+  LightList lights;    ///< Indices in Scene::lights of lights that are switched on.
+  int areaLight = -1;  ///< Index of the light that this geometry emits for; -1 if there is none.
   float displacementBound = 0;  ///< Radius in the space below.
   std::string displacementBoundSpace = "object";
   Visibility visibility;

@@ -77,6 +77,18 @@ void fields(A& a, Options& x) {
 }
 
 template <class A>
+void fields(A& a, LightList::Run& x) {
+  auto& [first, end] = x;
+  each(a, first, end);
+}
+
+template <class A>
+void fields(A& a, LightList& x) {
+  auto& [runs] = x;
+  each(a, runs);
+}
+
+template <class A>
 void fields(A& a, DetailShare& x) {
   auto& [lo, hi] = x;
   each(a, lo, hi);

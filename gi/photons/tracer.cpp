@@ -8,10 +8,7 @@
 
 namespace tomales {
 
-bool isOnFor(const ShadeGroup& group, int light) {
-  const std::vector<int>& on = group.attributes->lights;
-  return std::find(on.begin(), on.end(), light) != on.end();
-}
+bool isOnFor(const ShadeGroup& group, int light) { return group.attributes->lights.contains(light); }
 
 PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const PhotonSettings& settings, Log& log)

@@ -20,7 +20,7 @@ int addLight(GraphicsState& s, const Request& r, bool area) {
   light->castsShadows = area || s.scope.lightsCastShadows;
   light->index = static_cast<int>(s.globals.lights.size());
   s.globals.lights.push_back(light);
-  s.scope.edit().lights.push_back(light->index);
+  s.scope.edit().lights.switchOn(light->index);
   return light->index;
 }
 
@@ -40,9 +40,11 @@ void illuminate(GraphicsState& s, const Request& r) {
     s.warn(r, "rib-unknown-light", "no light has the handle \"" + r.args[0].strings[0] + "\"; ignored");
     return;
   }
-  std::vector<int>& on = s.scope.edit().lights;
-  std::erase(on, (*it)->index);
-  if (r.args[1].number() != 0) on.push_back((*it)->index);
+  LightList& on = s.scope.edit().lights;
+  if (r.args[1].number() != 0)
+    on.switchOn((*it)->index);
+  else
+    on.switchOff((*it)->index);
 }
 
 std::shared_ptr<const ShaderCall> shaderOrNone(const GraphicsState& s, const Request& r) {

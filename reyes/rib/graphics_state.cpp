@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -104,8 +103,7 @@ void GraphicsState::enterWorld(const SourceLoc& where) {
 
 void GraphicsState::switchOnEverywhere(int light) {
   const auto switchOn = [light](Scope& s) {
-    if (const auto& on = s.attributes->lights; std::find(on.begin(), on.end(), light) == on.end())
-      s.edit().lights.push_back(light);
+    if (!s.attributes->lights.contains(light)) s.edit().lights.switchOn(light);
   };
   switchOn(scope);
   for (Saved& saved : stack_) switchOn(saved.scope);
@@ -120,7 +118,7 @@ std::shared_ptr<const Attributes> withLights(const std::shared_ptr<const Attribu
                                              const std::vector<int>& lights) {
   if (lights.empty()) return attributes;
   auto copy = std::make_shared<Attributes>(*attributes);
-  copy->lights.insert(copy->lights.end(), lights.begin(), lights.end());
+  for (const int light : lights) copy->lights.switchOn(light);
   return copy;
 }
 
@@ -142,10 +140,9 @@ Expansion withLights(Expansion contents, const std::vector<int>& lights) {
 
 /// Returns the lights of `late` that these attributes lack.
 std::vector<int> lacking(const Attributes& attributes, std::span<const World::LateLight> late) {
-  const std::set<int> has(attributes.lights.begin(), attributes.lights.end());
   std::vector<int> out;
   for (const World::LateLight& l : late)
-    if (!has.contains(l.light)) out.push_back(l.light);
+    if (!attributes.lights.contains(l.light)) out.push_back(l.light);
   return out;
 }
 

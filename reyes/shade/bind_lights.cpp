@@ -98,13 +98,8 @@ void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
 /// Returns true if the role is set for all points. (A shader with an output of that role sets it point by point.)
 bool isSaid(const BoundShader& light, TmRole role) { return light.output(role) < 0 && light.number(role, 0) != 0; }
 
-bool hasGeometry(const LightCall& call, const Scene& scene) {
-  return std::any_of(scene.groups.begin(), scene.groups.end(),
-                     [&](const ShadeGroup& g) { return g.attributes->areaLight == call.index; });
-}
-
 /// Warns if only one of AreaLightSource and TM_LIGHT_AREA says that the light has an area.
-void warnOfArea(const BoundLight& light, const LightCall& call, const Scene& scene, Log& log) {
+void warnOfArea(const BoundLight& light, const LightCall& call, bool hasGeometry, Log& log) {
   const auto warn = [&](const char* code, Severity severity, const std::string& problem) {
     log.report(severity, code, call.shader.where, light.bound->user + ": " + problem);
   };
@@ -114,7 +109,7 @@ void warnOfArea(const BoundLight& light, const LightCall& call, const Scene& sce
   if (!call.area && light.can(TM_LIGHT_AREA))
     warn("light-area", Severity::Missing,
          fmt::format("\"{}\" needs AreaLightSource and geometry; it casts no light", call.shader.name));
-  if (call.area && light.can(TM_LIGHT_AREA) && !hasGeometry(call, scene))
+  if (call.area && light.can(TM_LIGHT_AREA) && !hasGeometry)
     warn("light-no-geometry", Severity::Warning, "no geometry follows the AreaLightSource; it casts no light");
 }
 
@@ -169,7 +164,7 @@ std::unique_ptr<BoundLight> Binder::light(const LightCall& call, int index) {
   setLighting(*light, log_);
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);
   setShadows(*light, shadowMaps_, log_);
-  warnOfArea(*light, call, scene_, log_);
+  warnOfArea(*light, call, haveGeometry_.contains(call.index), log_);
   if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound);
   if (light->takesFoundPortals()) light->sky->setPortals(foundPortals(scene_));
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))

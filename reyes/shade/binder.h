@@ -23,7 +23,9 @@ class Binder {
         registry_(registry),
         log_(log),
         path_(pathOf(scene.options.searchPaths, "shader")),
-        cameraFromWorld_(scene.cameraFromWorldAtOpen()) {}
+        cameraFromWorld_(scene.cameraFromWorldAtOpen()) {
+    for (const ShadeGroup& g : scene.groups) haveGeometry_.insert(g.attributes->areaLight);
+  }
 
   BoundShaderPtr surface(const std::shared_ptr<const ShaderCall>& call, const SourceLoc& object,
                          const std::string& user) {
@@ -74,6 +76,7 @@ class Binder {
   Log& log_;
   const std::string path_;
   const mat4 cameraFromWorld_;
+  std::set<int> haveGeometry_;  ///< The area lights that some object belongs to.
   std::map<const ShaderCall*, BoundShaderPtr> bound_;
   std::set<const ShaderCall*> expected_;
   std::vector<ShaderName> names_;  ///< The shaders that are expected since the last prepare().

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "reyes/base/checksum.h"
 #include "reyes/dialect.h"
 #include "reyes/displacement_outputs.h"
 #include "reyes/rsl_host.h"
@@ -125,6 +124,7 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
   for (const auto& call : scene.lights) lights.push_back(binder_->light(*call, static_cast<int>(lights.size())));
   connectFilters(*this);
   if (scene.options.wantsIndirect) addIndirectLight();
+  listLights();
   stored.bound = storedLight();
   pixels.group = &picture;
   pixels.object = "the picture";
@@ -143,7 +143,16 @@ void BoundScene::addIndirectLight() {
                   [](const auto& l) { return l && l->can(TM_LIGHT_INDIRECT) && !l->filters; }))
     return;
   lights.push_back(binder_->addedIndirectLight(static_cast<int>(lights.size())));
-  added = lights.back().get();
+  if (lights.back()) added = lights.back()->index;
+}
+
+void BoundScene::listLights() {
+  for (const auto& light : lights) {
+    if (!light) continue;
+    known.switchOn(light->index);
+    if (light->can(TM_LIGHT_INDIRECT)) indirect.switchOn(light->index);
+    if (light->maxVariation != 0) interpolated.switchOn(light->index);
+  }
 }
 
 void BoundScene::takeFoundPortals() {
@@ -183,18 +192,15 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) {
   if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars, log);
   if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars, log);
   findPrimvars(g);
-  for (int index : a.lights)
-    if (index >= 0 && index < static_cast<int>(lights.size()) && lights[static_cast<size_t>(index)])
-      g.lights.push_back(lights[static_cast<size_t>(index)].get());
-  if (added) g.lights.push_back(added);
-  std::shared_ptr<const LightChoice>& choice = choices_[checksum(std::as_bytes(std::span(g.lights)))];
+  g.lights = a.lights.among(known);
+  if (added) g.lights.switchOn(*added);
+  std::shared_ptr<const LightChoice>& choice = choices_[g.lights];
   if (!choice) choice = std::make_shared<LightChoice>();
   g.choice = choice;
-  for (const BoundLight* light : g.lights)
-    if (light->can(TM_LIGHT_INDIRECT) && a.indirect.receive && !g.indirect) {
-      g.indirect = light->query;
-      if (a.irradianceMaxError) g.indirect->maxError = *a.irradianceMaxError;
-    }
+  if (const LightList asked = g.lights.among(indirect); a.indirect.receive && !asked.empty()) {
+    g.indirect = light(*asked.begin()).query;
+    if (a.irradianceMaxError) g.indirect->maxError = *a.irradianceMaxError;
+  }
   g.variables = bindVariables(output_, g);
   return g;
 }

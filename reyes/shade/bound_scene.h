@@ -60,7 +60,7 @@ struct BoundGroup {
   BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< Each may be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<Override> displacementOutputs;  ///< Outputs of the displacement, and where points hold them.
-  std::vector<const BoundLight*> lights;
+  LightList lights;  ///< Indices in BoundScene::lights. Lights of unknown shaders are left out.
   /// The choice among these lights; groups that have the same lights share it.
   std::shared_ptr<const LightChoice> choice;
   std::optional<IndirectQuery> indirect;
@@ -77,6 +77,8 @@ struct BoundScene {
   ~BoundScene();
   /// Binds the groups of the scene that are not bound yet.
   void bindNewGroups();
+  /// Returns a light of some group.
+  const BoundLight& light(int index) const { return *lights[static_cast<size_t>(index)]; }
   /// Gives the openings that the scene has by now to all skies that take them.
   void takeFoundPortals();
 
@@ -93,9 +95,13 @@ struct BoundScene {
   ShadowMaps shadowMaps;
   Skies skies;
   std::vector<std::unique_ptr<BoundLight>> lights;  ///< Indexed as Scene::lights; null for an unknown shader.
-  const BoundLight* added = nullptr;  ///< The light that Options::wantsIndirect has added for all objects; else null.
-  BoundLight stored;                  ///< Stands for all lights where Illumination is not Lights.
-  StableVector<BoundGroup> groups;    ///< Indexed as Scene::groups.
+  std::optional<int> added;  ///< Index of the light that Options::wantsIndirect has added for all objects.
+  /// Those with a known shader; among them, indirect lights, and those whose answers may be interpolated
+  /// (BoundLight::maxVariation). Where few lights are wanted, it is quicker to ask a group for each of these than to
+  /// look at all lights of the group.
+  LightList known, indirect, interpolated;
+  BoundLight stored;                     ///< Stands for all lights where Illumination is not Lights.
+  StableVector<BoundGroup> groups;       ///< Indexed as Scene::groups.
   std::atomic<bool> hasVolumes = false;  ///< Some group is a Volume.
   BoundShaderPtr imager;                 ///< May be null.
   ShadeGroup picture{std::make_shared<const Attributes>(), mat4(1.0f), {}, -1};
@@ -104,10 +110,10 @@ struct BoundScene {
  private:
   BoundGroup bound(const ShadeGroup& group);
   void addIndirectLight();
+  void listLights();
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
-  /// Indexed by the checksum of their lists of lights.
-  std::map<uint64_t, std::shared_ptr<const LightChoice>> choices_;
+  std::map<LightList, std::shared_ptr<const LightChoice>> choices_;  ///< Indexed by their lights.
   bool grows_ = false;  ///< True if procedurals may add groups while the frame is rendered.
 };
 

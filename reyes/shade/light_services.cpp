@@ -30,8 +30,8 @@ float shadowBias(const Options& options, uint32_t name) {
 
 /// Returns null if no light is running, or none of this group.
 const BoundLight* runningLight(const Batch& batch) {
-  for (const BoundLight* light : batch.group.lights)
-    if (light->bound.get() == batch.running) return light;
+  for (const int light : batch.group.lights)
+    if (batch.scene.light(light).bound.get() == batch.running) return &batch.scene.light(light);
   return nullptr;
 }
 
@@ -125,11 +125,11 @@ int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   if (out->structBytes < offsetof(TmIlluminance, nonspecular)) return 0;  // no room for the answer
   Batch& place = placeOf(batch, g, query);
   const std::string_view category = query.category ? query.category : "";
-  const auto& lights = place.lights.alone(place);
-  std::vector<LightSample>& samples =
-      place.lights.samples(place, std::any_of(lights.begin(), lights.end(), [&](const BoundLight* light) {
-                             return light->can(TM_LIGHT_INDIRECT) && inCategory(light->category, category);
-                           }));
+  const LightList& indirect = place.scene.indirect;
+  std::vector<LightSample>& samples = place.lights.samples(
+      place, std::any_of(indirect.begin(), indirect.end(), [&](int light) {
+        return place.group.lights.contains(light) && inCategory(place.scene.light(light).category, category);
+      }));
   auto next = static_cast<size_t>(std::max(query.next, 0));
   while (next < samples.size() && !inCategory(samples[next].light->category, category)) ++next;
   if (next >= samples.size()) return 0;

@@ -106,11 +106,12 @@ LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* servi
   return {std::move(lights), std::move(varying), std::move(numbers), LightTree(std::move(lamps))};
 }
 
-std::unique_ptr<const LightSets> setsOf(const std::vector<const BoundLight*>& lights, const BoundScene& scene) {
+std::unique_ptr<const LightSets> setsOf(const LightList& lights, const BoundScene& scene) {
   std::map<std::string, std::vector<const BoundLight*>> byKey;
-  for (const BoundLight* l : lights)
-    if (mayBeDrawn(*l) && !boundOf(*l, scene.services).empty() && isFinite(vec3(powerOf(*l, scene.services))))
-      byKey[keyOf(*l)].push_back(l);
+  for (const int index : lights)
+    if (const BoundLight& l = scene.light(index);
+        mayBeDrawn(l) && !boundOf(l, scene.services).empty() && isFinite(vec3(powerOf(l, scene.services))))
+      byKey[keyOf(l)].push_back(&l);
   std::erase_if(byKey, [&](const auto& entry) {
     const size_t few = entry.second[0]->shadows ? kFewLights : kFewWithoutShadows;
     return entry.second.size() <= few * static_cast<size_t>(scene.lightCut);
@@ -120,20 +121,20 @@ std::unique_ptr<const LightSets> setsOf(const std::vector<const BoundLight*>& li
   std::vector<std::vector<const BoundLight*>> sets;
   for (auto& [key, members] : byKey) sets.push_back(std::move(members));
   std::sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a[0]->index < b[0]->index; });
-  std::vector<const BoundLight*> drawn;
+  std::vector<int> drawn;
   for (auto& members : sets) {
-    drawn.insert(drawn.end(), members.begin(), members.end());
+    for (const BoundLight* l : members) drawn.push_back(l->index);
     out->sets.push_back(setOf(std::move(members), scene.services));
   }
   std::sort(drawn.begin(), drawn.end());
-  for (const BoundLight* l : lights)
-    if (!std::binary_search(drawn.begin(), drawn.end(), l)) out->alone.push_back(l);
+  for (const int index : lights)
+    if (!std::binary_search(drawn.begin(), drawn.end(), index)) out->alone.switchOn(index);
   return out;
 }
 
 }  // namespace
 
-const LightSets* LightChoice::sets(const BoundScene& scene, const std::vector<const BoundLight*>& lights) const {
+const LightSets* LightChoice::sets(const BoundScene& scene, const LightList& lights) const {
   if (scene.lightCut == 0 || lights.size() <= kFewLights * static_cast<size_t>(scene.lightCut)) return nullptr;
   std::call_once(once_, [&] { sets_ = setsOf(lights, scene); });
   return sets_.get();

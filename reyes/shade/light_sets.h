@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "reyes/light_list.h"
 #include "reyes/shade/light_tree.h"
 #include "reyes/shader_api.h"
 
@@ -28,7 +29,7 @@ struct LightSet {
 };
 
 struct LightSets {
-  std::vector<const BoundLight*> alone;  ///< Lights that run at every point.
+  LightList alone;  ///< Lights that run at every point.
   std::vector<LightSet> sets;
 };
 
@@ -37,7 +38,7 @@ struct LightSets {
 class LightChoice {
  public:
   /// Returns null if all lights run. `lights` are the same each time.
-  const LightSets* sets(const BoundScene& scene, const std::vector<const BoundLight*>& lights) const;
+  const LightSets* sets(const BoundScene& scene, const LightList& lights) const;
 
  private:
   mutable std::once_flag once_;

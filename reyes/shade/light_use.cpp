@@ -57,15 +57,15 @@ void LightUse::add(const Batch& batch) {
   if (context.kind != RayKind::Camera || context.sketch || context.rehearsal || context.light != Illumination::Lights ||
       !batch.lights.asked())
     return;
-  const auto& lights = batch.group.lights;
-  if (std::none_of(lights.begin(), lights.end(), [](const BoundLight* l) { return isDirect(*l); })) {
+  const LightList& lights = batch.group.lights;
+  if (std::none_of(lights.begin(), lights.end(), [&](int light) { return isDirect(batch.scene.light(light)); })) {
     const std::lock_guard lock(mutex_);
     unlit_.insert(&batch.group);
   }
-  for (const BoundLight* light : batch.lights.alone(batch)) {
-    Lamp& lamp = lamps_[static_cast<size_t>(light->index)];
+  for (const int light : batch.lights.alone(batch)) {
+    Lamp& lamp = lamps_[static_cast<size_t>(light)];
     lamp.asked.store(true, std::memory_order_relaxed);
-    if (light->can(TM_LIGHT_AMBIENT)) lamp.comes.store(true, std::memory_order_relaxed);
+    if (batch.scene.light(light).can(TM_LIGHT_AMBIENT)) lamp.comes.store(true, std::memory_order_relaxed);
   }
   for (const LightSample& sample : batch.lights.evaluated()) {
     if (sample.drawn) continue;  // few of many lights say nothing of each

@@ -40,7 +40,7 @@ const LightSets* Lights::setsOf(const Batch& batch) const {
                                                          : batch.group.choice->sets(batch.scene, batch.group.lights);
 }
 
-const std::vector<const BoundLight*>& Lights::alone(const Batch& batch) const {
+const LightList& Lights::alone(const Batch& batch) const {
   const LightSets* sets = setsOf(batch);
   return sets ? sets->alone : batch.group.lights;
 }
@@ -49,12 +49,13 @@ void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
   ambientAsked_ = true;
   for (int i = 0; i < asking.count; ++i)
     if (asking.active[i]) set(out, i, vec3(0.0f));
-  for (const BoundLight* light : alone(batch)) {
-    if (!light->can(TM_LIGHT_AMBIENT) || !applies(*light, batch) || !shines(*light, batch) ||
-        (group_ && light->group != *group_))
+  for (const int index : alone(batch)) {
+    const BoundLight& light = batch.scene.light(index);
+    if (!light.can(TM_LIGHT_AMBIENT) || !applies(light, batch) || !shines(light, batch) ||
+        (group_ && light.group != *group_))
       continue;
-    const TmGrid g = lightGrid(batch, *light);
-    if (!batch.run(*light->bound, g)) continue;
+    const TmGrid g = lightGrid(batch, light);
+    if (!batch.run(*light.bound, g)) continue;
     for (int i = 0; i < g.count; ++i)
       if (asking.active[i]) set(out, i, get(out, i) + get(g.Cl, i));
   }
@@ -66,11 +67,11 @@ std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
   evaluated_ = true;
   indirectEvaluated_ |= indirect;
   const LightSets* sets = setsOf(batch);
-  for (const BoundLight* light : alone(batch))
-    if ((light->can(TM_LIGHT_INDIRECT) ? runsIndirect : runsDirect) && !light->can(TM_LIGHT_AMBIENT) &&
-        applies(*light, batch) && shines(*light, batch) &&
-        (!request_ || inCategory(light->category, request_->category)))
-      evaluate(batch, *light);
+  for (const int index : alone(batch))
+    if (const BoundLight& light = batch.scene.light(index);
+        (light.can(TM_LIGHT_INDIRECT) ? runsIndirect : runsDirect) && !light.can(TM_LIGHT_AMBIENT) &&
+        applies(light, batch) && shines(light, batch) && (!request_ || inCategory(light.category, request_->category)))
+      evaluate(batch, light);
   for (size_t k = 0; sets && runsDirect && k < sets->sets.size(); ++k)
     if (const BoundLight& first = *sets->sets[k].lights[0];
         applies(first, batch) && (!request_ || inCategory(first.category, request_->category)))
@@ -171,9 +172,10 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
 
 template <class Body>
 void Lights::forEachWithExtent(Batch& batch, const Body& body) const {
-  for (const BoundLight* light : alone(batch))
-    if (hasExtent(*light) && !light->nonspecular && applies(*light, batch) && (!group_ || light->group == *group_))
-      body(*light);
+  for (const int index : alone(batch))
+    if (const BoundLight& light = batch.scene.light(index);
+        hasExtent(light) && !light.nonspecular && applies(light, batch) && (!group_ || light.group == *group_))
+      body(light);
 }
 
 template <class Body>
@@ -204,15 +206,16 @@ void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves
                       TmVec3 color) const {
   const bool lit = bringsLights(batch.context.light) || bringsStored(batch.context.light);
   if (!lit || std::none_of(leaves, leaves + batch.points->count(), [](uint8_t l) { return l != 0; })) return;
-  for (const BoundLight* light : alone(batch)) {
-    if (!light->can(TM_LIGHT_SKY) || !light->visible || light->nonspecular || !isOn(*light, batch) ||
-        !shines(*light, batch) || (group_ && light->group != *group_))
+  for (const int index : alone(batch)) {
+    const BoundLight& light = batch.scene.light(index);
+    if (!light.can(TM_LIGHT_SKY) || !light.visible || light.nonspecular || !isOn(light, batch) ||
+        !shines(light, batch) || (group_ && light.group != *group_))
       continue;
-    TmGrid g = lightGrid(batch, *light);
+    TmGrid g = lightGrid(batch, light);
     g.active = leaves;
     for (int i = 0; i < g.count; ++i) set(g.L, i, get(direction, i));
-    if (!batch.run(*light->bound, g)) continue;
-    darkenNonFinite(batch, *light->bound, g);
+    if (!batch.run(*light.bound, g)) continue;
+    darkenNonFinite(batch, *light.bound, g);
     forActive(&g, [&](int i) { set(color, i, get(color, i) + (1.0f - get(opacity, i)) * get(g.Cl, i)); });
   }
 }

@@ -80,7 +80,7 @@ class Lights {
   /// Tells whether the shader has asked for the light that arrives.
   bool asked() const { return evaluated_ || ambientAsked_; }
   /// Returns the lights that run at every point of the batch: all, or those that no set holds.
-  const std::vector<const BoundLight*>& alone(const Batch& batch) const;
+  const LightList& alone(const Batch& batch) const;
   /// Returns the samples that have been asked for so far, of all groups.
   const std::vector<LightSample>& evaluated() const { return samples_; }
   /// Traces the pending shadow rays at the points of `want`, except those where the tally of a light with a shadow

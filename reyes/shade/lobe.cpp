@@ -97,9 +97,12 @@ class Highlight {
   }
 
   void addLightSamples() {
-    const auto filters = [](const BoundLight* light) { return light->filters; };
+    const LightList& indirect = batch_.scene.indirect;
+    const auto filters = [this](int light) {
+      return batch_.scene.light(light).filters && batch_.group.lights.contains(light);
+    };
     for (LightSample& sample :
-         batch_.lights.samples(batch_, !follows_ || std::ranges::any_of(batch_.group.lights, filters))) {
+         batch_.lights.samples(batch_, !follows_ || std::any_of(indirect.begin(), indirect.end(), filters))) {
       if (sample.light->nonspecular) continue;
       const bool isStored = sample.light == &batch_.scene.stored;
       if (isStored || sample.light->can(TM_LIGHT_INDIRECT)) {
@@ -133,10 +136,11 @@ class Highlight {
   /// alone.
   void addPaths() {
     if (!follows_ || !batch_.context.indirect || !batch_.group.group->attributes->indirect.receive) return;
-    for (const BoundLight* light : batch_.group.lights)
-      if (light->can(TM_LIGHT_INDIRECT) && !light->filters && !light->nonspecular && applies(*light, batch_) &&
-          (!batch_.lights.group() || light->group == *batch_.lights.group()))
-        addPathsOf(*light);
+    for (const int index : batch_.group.lights.among(batch_.scene.indirect))
+      if (const BoundLight& light = batch_.scene.light(index);
+          !light.filters && !light.nonspecular && applies(light, batch_) &&
+          (!batch_.lights.group() || light.group == *batch_.lights.group()))
+        addPathsOf(light);
   }
 
  private:

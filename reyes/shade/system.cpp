@@ -126,8 +126,10 @@ bool ShadingSystem::asksHemispheres(int group) const {
   const bool allowed = g.group->attributes->irradianceMaxError.value_or(0.0f) > 0;
   return g.surface->can(TM_OCCLUDED) || g.surface->can(TM_INTERPOLATED_UNASKED) ||
          (allowed && g.surface->can(TM_INTERPOLATED)) ||
-         std::any_of(g.lights.begin(), g.lights.end(),
-                     [&](const BoundLight* l) { return l->maxVariation < 0 ? allowed : l->maxVariation > 0; });
+         std::any_of(impl_->interpolated.begin(), impl_->interpolated.end(), [&](int light) {
+           const float most = impl_->light(light).maxVariation;
+           return (most < 0 ? allowed : most > 0) && g.lights.contains(light);
+         });
 }
 
 bool ShadingSystem::needsRays() const {

@@ -24,7 +24,7 @@ class MovedLight {
 
   /// Returns how much the light differs between the two ends of the way, as a share of its mean. The picture shows the
   /// light at the first end, so on average it is off by half of that.
-  float change(std::span<const int> lights, const std::vector<Place>& first, const std::vector<Place>& last) const {
+  float change(const LightList& lights, const std::vector<Place>& first, const std::vector<Place>& last) const {
     std::vector<float> a(first.size(), 0), b(first.size(), 0);
     for (const int l : lights) {
       add(l, first, a);

@@ -33,7 +33,7 @@ class SceneBuilder {
     l->shader = call(shader, std::move(params));
     l->index = static_cast<int>(scene.lights.size());
     l->castsShadows = shader == "pointlight" && shadows;
-    lights.push_back(l->index);
+    lights.switchOn(l->index);
     scene.lights.push_back(std::move(l));
   }
   void add(PrimPtr prim, const vec3& color, const vec3& center = vec3(0)) {
@@ -61,7 +61,7 @@ class SceneBuilder {
   }
 
   Scene scene;
-  std::vector<int> lights;
+  LightList lights;
   bool shadows = false;
 };
 

@@ -16,7 +16,7 @@ struct Table {
     lamp->area = true;
     lamp->index = 0;
     b.scene.lights.push_back(lamp);
-    b.lights.push_back(0);
+    b.lights.switchOn(0);
     b.quad({-4, -4, 5}, {4, -4, 5}, {4, 4, 5}, {-4, 4, 5}, vec3(1));
     attributes(b, 0).surface = std::make_shared<ShaderCall>(call("metal", {floatParam("roughness", roughness)}));
     if (disk) {

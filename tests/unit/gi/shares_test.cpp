@@ -117,7 +117,7 @@ SceneBuilder room() {
   b.scene.lights.back()->handle = "right";
   for (Object& o : b.scene.objects) {
     auto attributes = std::make_shared<Attributes>(*o.attributes);
-    attributes->lights.push_back(2);
+    attributes->lights.switchOn(2);
     o.attributes = attributes;
   }
   return b;

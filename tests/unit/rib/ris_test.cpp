@@ -28,7 +28,7 @@ TEST(Ris, AreaLightsEmitAlongTheirZAndStaySwitchedOn) {
                  r.attributes(0).visibility.diffuse);
     EXPECT_EQ(r.attributes(1).areaLight, -1);
     EXPECT_TRUE(r.attributes(1).visibility.transmission);
-    EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0});
+    EXPECT_EQ(r.attributes(1).lights, LightList{0});
     if (kind == std::string("PxrSphereLight")) continue;
     std::vector<float> x(12);
     const float half = .5f;
@@ -41,17 +41,17 @@ TEST(Ris, AreaLightsEmitAlongTheirZAndStaySwitchedOn) {
 TEST(Ris, LightsOutlastTheirBlock) {
   const Reading r(inWorld("AttributeBegin AttributeBegin Light \"PxrDistantLight\" \"sun\" " + kSphere +
                           "AttributeEnd " + kSphere + "Illuminate \"sun\" 0 " + kSphere + "AttributeEnd " + kSphere));
-  for (const size_t i : {0u, 1u, 3u}) EXPECT_EQ(r.attributes(i).lights, std::vector<int>{0}) << i;
+  for (const size_t i : {0u, 1u, 3u}) EXPECT_EQ(r.attributes(i).lights, LightList{0}) << i;
   EXPECT_TRUE(r.attributes(2).lights.empty());
 }
 
 TEST(Ris, LightsShineOnObjectsBeforeThemToo) {
   const Reading r(inWorld(kSphere + "AttributeBegin Light \"PxrDomeLight\" \"sky\" AttributeEnd\n" + kSphere +
                           "Illuminate \"sky\" 0\n" + kSphere + "Light \"PxrDistantLight\" \"sun\"\n" + kSphere));
-  EXPECT_EQ(r.attributes(0).lights, (std::vector<int>{0, 1}));
-  EXPECT_EQ(r.attributes(1).lights, (std::vector<int>{0, 1}));
-  EXPECT_EQ(r.attributes(2).lights, std::vector<int>{1}) << "what Illuminate has switched off stays off";
-  EXPECT_EQ(r.attributes(3).lights, std::vector<int>{1});
+  EXPECT_EQ(r.attributes(0).lights, (LightList{0, 1}));
+  EXPECT_EQ(r.attributes(1).lights, (LightList{0, 1}));
+  EXPECT_EQ(r.attributes(2).lights, LightList{1}) << "what Illuminate has switched off stays off";
+  EXPECT_EQ(r.attributes(3).lights, LightList{1});
 }
 
 TEST(Ris, LightsShineOnProceduralsBeforeThemToo) {
@@ -60,7 +60,7 @@ TEST(Ris, LightsShineOnProceduralsBeforeThemToo) {
                   inWorld("Procedural \"DelayedReadArchive\" [\"outer\"] [-1 1 -1 1 -1 1]\n"
                           "Light \"PxrDistantLight\" \"sun\"\n"));
   ASSERT_EQ(r.scene().objects.size(), 2u);
-  for (const size_t i : {0u, 1u}) EXPECT_EQ(r.attributes(i).lights, std::vector<int>{0}) << i;
+  for (const size_t i : {0u, 1u}) EXPECT_EQ(r.attributes(i).lights, LightList{0}) << i;
 }
 
 TEST(Ris, IntegratorsTurnIndirectLightOn) {
@@ -162,7 +162,7 @@ TEST(Ris, LightsOfPRMan20ShineFromTheGeometryThatFollows) {
       ASSERT_EQ(r.scene().lights.size(), 1u) << light << shape;
       EXPECT_EQ(findParam(r.scene().lights[0]->shader.params, "intensity")->number(0), 6);
       EXPECT_EQ(r.attributes(0).areaLight, 0);
-      EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0}) << "it shines beyond its block";
+      EXPECT_EQ(r.attributes(1).lights, LightList{0}) << "it shines beyond its block";
       EXPECT_EQ(r.codes(), "rib-substitute@2 ");
     }
 }
@@ -189,7 +189,7 @@ TEST(Ris, LightsInObjectsShineFromEachInstance) {
               "AttributeBegin Translate 0 0 5 ObjectInstance \"lamp\" AttributeEnd ObjectInstance \"lamp\" " +
               kSphere));
   EXPECT_EQ(r.scene().lights.size(), 2u);
-  EXPECT_EQ(r.attributes(2).lights, (std::vector<int>{0, 1}));
+  EXPECT_EQ(r.attributes(2).lights, (LightList{0, 1}));
 }
 
 TEST(Ris, OptionsAndAttributesOfTheCategoryRiAreTheRequestsOfThatName) {

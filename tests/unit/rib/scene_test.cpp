@@ -104,33 +104,6 @@ TEST(Shaders, OfBeforeTheWorldMoveIntoItsSpace) {
   expectNear(transformPoint(r.attributes(0).displacement->worldFromShader.at(0), {0, 0, 0}), {0, 0, 1});
 }
 
-TEST(Lights, OutsideTheWorldKeepTheirPlace) {
-  const Reading r("LightSource \"pointlight\" 1 Translate 0 0 5 " +
-                  inWorld("Translate 0 2 0 LightSource \"spotlight\" 2 " + kSphere));
-  ASSERT_EQ(r.scene().lights.size(), 2u);
-  expectNear(transformPoint(r.scene().lights[0]->shader.worldFromShader.at(0), {0, 0, 0}), {0, 0, -5});
-  expectNear(transformPoint(r.scene().lights[1]->shader.worldFromShader.at(0), {0, 0, 0}), {0, 2, 0});
-  EXPECT_EQ(r.attributes(0).lights, (std::vector<int>{0, 1}));
-  EXPECT_EQ(r.scene().lights[1]->index, 1);
-}
-
-TEST(Lights, AreSwitchedByIlluminateWithinTheScope) {
-  const Reading r(
-      inWorld("LightSource \"pointlight\" 1 AttributeBegin LightSource \"pointlight\" \"key\" Illuminate 1 0 " +
-              kSphere + "AttributeEnd " + kSphere + "Illuminate \"key\" 1 " + kSphere));
-  EXPECT_EQ(r.attributes(0).lights, std::vector<int>{1});
-  EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0});
-  EXPECT_EQ(r.attributes(2).lights, (std::vector<int>{0, 1}));
-}
-
-TEST(Lights, CastShadowsByTheAttributeWhateverTheirShadersAsk) {
-  const Reading r(inWorld(
-      R"(LightSource "spotlight" 1 "shadowname" "raytrace" LightSource "spotlight" 2 "shadowname" "a.shad"
-    AttributeBegin Attribute "light" "shadows" "on" LightSource "pointlight" 3 AttributeEnd LightSource "pointlight" 4)"));
-  const bool expected[] = {false, false, true, false};
-  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(r.scene().lights.at(i)->castsShadows, expected[i]) << i;
-}
-
 TEST(Shaders, NullSurfaceIsSeenByNobodyUntilTheNextSurface) {
   const Reading r(inWorld("AreaLightSource \"arealight\" 1 Surface \"null\" " + kSphere +
                           "Surface \"matte\" Atmosphere \"fog\" \"distance\" 9 " + kSphere + "Atmosphere \"null\" " +
@@ -160,17 +133,6 @@ TEST(Attributes, BoundDisplacementIsTheDisplacementBoundOfOldScenes) {
   const Reading r(inWorld("Attribute \"bound\" \"displacement\" [0.25] " + kSphere));
   EXPECT_EQ(r.codes(), "");
   EXPECT_EQ(r.attributes(0).displacementBound, 0.25f);
-}
-
-TEST(Lights, OfAreaBelongToTheGeometryThatFollows) {
-  const Reading r(inWorld(kSphere + "AttributeBegin AreaLightSource \"arealight\" 3 \"intensity\" 2 " + kSphere +
-                          "AttributeEnd " + kSphere));
-  ASSERT_EQ(r.scene().lights.size(), 1u);
-  EXPECT_TRUE(r.scene().lights[0]->area && r.scene().lights[0]->castsShadows);
-  EXPECT_EQ(r.attributes(0).areaLight, -1);
-  EXPECT_EQ(r.attributes(1).areaLight, 0);
-  EXPECT_EQ(r.attributes(1).lights, std::vector<int>{0});
-  EXPECT_EQ(r.attributes(2).areaLight, -1);
 }
 
 TEST(ShadingRate, IsMultipliedByRelativeRatesDownTheBlocks) {

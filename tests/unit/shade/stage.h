@@ -163,7 +163,7 @@ class Stage : public ::testing::Test {
     l->handle = name;
     l->area = area;
     l->index = static_cast<int>(scene.lights.size());
-    attributes.lights.push_back(l->index);
+    attributes.lights.switchOn(l->index);
     scene.lights.push_back(l);
     return *l;
   }

@@ -1,0 +1,48 @@
+#include "reyes/light_list.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tomales {
+
+size_t LightList::size() const {
+  size_t out = 0;
+  for (const Run& run : runs_) out += static_cast<size_t>(run.end - run.first);
+  return out;
+}
+
+bool LightList::contains(int light) const {
+  return std::any_of(runs_.begin(), runs_.end(),
+                     [light](const Run& run) { return light >= run.first && light < run.end; });
+}
+
+void LightList::append(Run run) {
+  if (run.first >= run.end) return;
+  if (!runs_.empty() && runs_.back().end == run.first)
+    runs_.back().end = run.end;
+  else
+    runs_.push_back(run);
+}
+
+void LightList::switchOn(int light) {
+  switchOff(light);
+  append({light, light + 1});
+}
+
+void LightList::switchOff(int light) {
+  if (!contains(light)) return;
+  for (const Run& run : std::exchange(runs_, {})) {
+    append({run.first, std::min(run.end, light)});
+    append({std::max(run.first, light + 1), run.end});
+  }
+}
+
+LightList LightList::among(const LightList& ascending) const {
+  LightList out;
+  for (const Run& run : runs_)
+    for (const Run& other : ascending.runs_)
+      out.append({std::max(run.first, other.first), std::min(run.end, other.end)});
+  return out;
+}
+
+}  // namespace tomales
