@@ -16,6 +16,13 @@ bool LightList::contains(int light) const {
                      [light](const Run& run) { return light >= run.first && light < run.end; });
 }
 
+bool LightList::begins(const LightList& longer) const {
+  if (empty()) return true;
+  const size_t whole = runs_.size() - 1;
+  return longer.runs_.size() > whole && std::equal(runs_.begin(), runs_.end() - 1, longer.runs_.begin()) &&
+         runs_[whole].first == longer.runs_[whole].first && runs_[whole].end <= longer.runs_[whole].end;
+}
+
 void LightList::append(Run run) {
   if (run.first >= run.end) return;
   if (!runs_.empty() && runs_.back().end == run.first)

@@ -58,6 +58,9 @@ class LightList {
   bool empty() const { return runs_.empty(); }
   size_t size() const;
   bool contains(int light) const;
+  /// Tells whether the other list begins with the lights of this one, in their order.
+  bool begins(const LightList& longer) const;
+  /// Lists that begin with another one follow it.
   auto operator<=>(const LightList&) const = default;
 
   /// Puts the light at the end, wherever it was before.

@@ -128,7 +128,9 @@ BoundScene::BoundScene(const Scene& s, ShaderRegistry& registry, Log& l, Stats& 
   stored.bound = storedLight();
   pixels.group = &picture;
   pixels.object = "the picture";
+  pixels.choice = std::make_shared<LightChoice>(LightList());
   imager = binder_->imager(scene.options.imager, pixels.object);
+  shareChoices();
   bindNewGroups();
   grows_ = !scene.procedurals.empty();
   if (!grows_) warnAboutUnwritten(output_, *this);
@@ -152,6 +154,24 @@ void BoundScene::listLights() {
     known.switchOn(light->index);
     if (light->can(TM_LIGHT_INDIRECT)) indirect.switchOn(light->index);
     if (light->maxVariation != 0) interpolated.switchOn(light->index);
+  }
+}
+
+std::shared_ptr<const LightChoice> BoundScene::choiceAmong(LightList on,
+                                                           std::shared_ptr<const LightChoice> longest) const {
+  if (added) on.switchOn(*added);
+  return std::make_shared<LightChoice>(std::move(on), std::move(longest));
+}
+
+// Each of many lamps with geometry has a list, with which the next one's begins. Lists that procedurals bring later
+// share none, because it depends on threads which of them come first.
+void BoundScene::shareChoices() {
+  for (const ShadeGroup& group : scene.groups) choices_.try_emplace(group.attributes->lights.among(known));
+  auto longest = choices_.rend();
+  for (auto it = choices_.rbegin(); it != choices_.rend(); ++it) {
+    const bool shares = longest != choices_.rend() && it->first.begins(longest->first);
+    it->second = choiceAmong(it->first, shares ? longest->second : nullptr);
+    if (!shares) longest = it;
   }
 }
 
@@ -192,12 +212,11 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) {
   if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars, log);
   if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars, log);
   findPrimvars(g);
-  g.lights = a.lights.among(known);
-  if (added) g.lights.switchOn(*added);
-  std::shared_ptr<const LightChoice>& choice = choices_[g.lights];
-  if (!choice) choice = std::make_shared<LightChoice>();
+  LightList on = a.lights.among(known);
+  std::shared_ptr<const LightChoice>& choice = choices_[on];
+  if (!choice) choice = choiceAmong(std::move(on), nullptr);
   g.choice = choice;
-  if (const LightList asked = g.lights.among(indirect); a.indirect.receive && !asked.empty()) {
+  if (const LightList asked = g.lights().among(indirect); a.indirect.receive && !asked.empty()) {
     g.indirect = light(*asked.begin()).query;
     if (a.irradianceMaxError) g.indirect->maxError = *a.irradianceMaxError;
   }

@@ -60,9 +60,9 @@ struct BoundGroup {
   BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< Each may be null.
   std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
   std::vector<Override> displacementOutputs;  ///< Outputs of the displacement, and where points hold them.
-  LightList lights;  ///< Indices in BoundScene::lights. Lights of unknown shaders are left out.
-  /// The choice among these lights; groups that have the same lights share it.
-  std::shared_ptr<const LightChoice> choice;
+  std::shared_ptr<const LightChoice> choice;  ///< Groups that have the same lights share it.
+  /// Returns indices in BoundScene::lights. Lights of unknown shaders are left out.
+  const LightList& lights() const { return choice->lights(); }
   std::optional<IndirectQuery> indirect;
   std::vector<BoundVariable> variables;  ///< Indexed as FrameOutput::variables.
   /// Returns the surface for rays that gather diffuse light.
@@ -111,9 +111,11 @@ struct BoundScene {
   BoundGroup bound(const ShadeGroup& group);
   void addIndirectLight();
   void listLights();
+  void shareChoices();
+  std::shared_ptr<const LightChoice> choiceAmong(LightList on, std::shared_ptr<const LightChoice> longest) const;
   std::unique_ptr<Binder> binder_;
   FrameOutput output_;
-  std::map<LightList, std::shared_ptr<const LightChoice>> choices_;  ///< Indexed by their lights.
+  std::map<LightList, std::shared_ptr<const LightChoice>> choices_;  ///< Indexed by their lights but `added`.
   bool grows_ = false;  ///< True if procedurals may add groups while the frame is rendered.
 };
 

@@ -35,12 +35,12 @@ EmitterPoints from(const EmitterPoints& p, int i) {
   return {from(p.P, i), from(p.N, i), p.density + i, p.meetDensity + i};
 }
 
-LampReceiver receiverOf(const Batch& batch, int i) {
-  return {batch.points->position(i), batch.points->inAir() ? vec3(0.0f) : batch.points->facingNormal(i)};
+LampReceiver receiverOf(const Batch& batch, int i, uint32_t lamps) {
+  return {batch.points->position(i), batch.points->inAir() ? vec3(0.0f) : batch.points->facingNormal(i), lamps};
 }
 
 /// Draws a lamp of each cluster of each point.
-std::vector<DrawnLamp> drawnOf(const Batch& batch, const LightSet& lamps, const LightCuts& cuts) {
+std::vector<DrawnLamp> drawnOf(const Batch& batch, const LightsOfSet& lamps, const LightCuts& cuts) {
   const size_t n = cuts.clusters.size();
   std::vector<uint32_t> index(n), stream(n);
   for (int i = 0; i < batch.points->count(); ++i) {
@@ -57,8 +57,8 @@ std::vector<DrawnLamp> drawnOf(const Batch& batch, const LightSet& lamps, const 
     const std::span<const LampCluster> clusters = cuts.at(i);
     const size_t first = cuts.first[static_cast<size_t>(i)];
     if (!clusters.empty())
-      lamps.tree.draw(receiverOf(batch, i), clusters, std::span(xi).subspan(first, clusters.size()),
-                      std::span(out).subspan(first, clusters.size()));
+      lamps.set->tree.draw(receiverOf(batch, i, lamps.count), clusters, std::span(xi).subspan(first, clusters.size()),
+                           std::span(out).subspan(first, clusters.size()));
   }
   return out;
 }
@@ -66,7 +66,7 @@ std::vector<DrawnLamp> drawnOf(const Batch& batch, const LightSet& lamps, const 
 /// Deals out the lamps of all points, run by run.
 class Drawing {
  public:
-  Drawing(const Batch& batch, const LightSet& lamps, const LightCuts& cuts)
+  Drawing(const Batch& batch, const LightsOfSet& lamps, const LightCuts& cuts)
       : cuts_(cuts), drawn_(drawnOf(batch, lamps, cuts)), at_(cuts.first.size() - 1), next_(cuts.first) {
     for (size_t i = 0; i < at_.size(); ++i) {
       int samples = 0;
@@ -149,7 +149,8 @@ void sampleEmitters(Batch& batch, const LightSet& drawn, const std::vector<LampO
 
 }  // namespace
 
-const LightCuts& Lights::cutsOf(Batch& batch, const LightSet& set) {
+const LightCuts& Lights::cutsOf(Batch& batch, const LightsOfSet& some) {
+  const LightSet& set = *some.set;
   const auto [it, isNew] = cuts_.try_emplace(&set);
   LightCuts& cuts = it->second;
   if (!isNew) return cuts;
@@ -159,17 +160,18 @@ const LightCuts& Lights::cutsOf(Batch& batch, const LightSet& set) {
   cuts.first.push_back(0);
   for (int i = 0; i < batch.points->count(); ++i) {
     cut.clear();
-    if (batch.tm.active[i]) set.tree.cut(receiverOf(batch, i), most, perLamp, cut);
+    if (batch.tm.active[i]) set.tree.cut(receiverOf(batch, i, some.count), most, perLamp, cut);
     cuts.clusters.insert(cuts.clusters.end(), cut.begin(), cut.end());
     cuts.first.push_back(static_cast<uint32_t>(cuts.clusters.size()));
   }
   return cuts;
 }
 
-void Lights::evaluateDrawn(Batch& batch, const LightSet& lamps) {
+void Lights::evaluateDrawn(Batch& batch, const LightsOfSet& some) {
+  const LightSet& lamps = *some.set;
   const BoundLight& first = *lamps.lights[0];
   const bool area = first.can(TM_LIGHT_AREA);
-  Drawing drawing(batch, lamps, cutsOf(batch, lamps));
+  Drawing drawing(batch, some, cutsOf(batch, some));
   for (int run = 0; run < drawing.runs(); ++run) {
     TmGrid g = lightGrid(batch, first);
     const std::vector<LampOfPoint>& at = drawing.next();
@@ -218,9 +220,10 @@ void Lights::evaluateDrawn(Batch& batch, const LightSet& lamps) {
   }
 }
 
-void Lights::alongDrawn(Batch& batch, const LightSet& lamps, const LobeDirections& lobe, TmVec3 Cl) {
+void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirections& lobe, TmVec3 Cl) {
+  const LightSet& lamps = *some.set;
   const BoundLight& first = *lamps.lights[0];
-  const LightCuts& cuts = cutsOf(batch, lamps);
+  const LightCuts& cuts = cutsOf(batch, some);
   const ShadeServices& services = *batch.scene.services;
   const int n = batch.points->count();
   std::vector<std::vector<uint32_t>> near(static_cast<size_t>(n));
@@ -229,6 +232,7 @@ void Lights::alongDrawn(Batch& batch, const LightSet& lamps, const LobeDirection
     if (!batch.tm.active[i] || !(lobe.density[i] > 0)) continue;
     std::vector<uint32_t>& met = near[static_cast<size_t>(i)];
     lamps.tree.meet(batch.points->position(i), get(lobe.L, i), met);
+    std::erase_if(met, [&](uint32_t lamp) { return lamp >= some.count; });
     runs = std::max(runs, met.size());
   }
   for (size_t run = 0; run < runs; ++run) {
@@ -248,7 +252,7 @@ void Lights::alongDrawn(Batch& batch, const LightSet& lamps, const LobeDirection
       any = true;
       at[static_cast<size_t>(i)].lamp = lamp;
       set(g.L, i, get(g.Pl, i) - get(g.P, i));
-      const float a = points.density[i] * lamps.tree.expected(receiverOf(batch, i), cuts.at(i), lamp),
+      const float a = points.density[i] * lamps.tree.expected(receiverOf(batch, i, some.count), cuts.at(i), lamp),
                   b = static_cast<float>(lobe.samples) * lobe.density[i];
       points.density[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
     }

@@ -30,7 +30,7 @@ float shadowBias(const Options& options, uint32_t name) {
 
 /// Returns null if no light is running, or none of this group.
 const BoundLight* runningLight(const Batch& batch) {
-  for (const int light : batch.group.lights)
+  for (const int light : batch.group.lights())
     if (batch.scene.light(light).bound.get() == batch.running) return &batch.scene.light(light);
   return nullptr;
 }
@@ -128,7 +128,7 @@ int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   const LightList& indirect = place.scene.indirect;
   std::vector<LightSample>& samples = place.lights.samples(
       place, std::any_of(indirect.begin(), indirect.end(), [&](int light) {
-        return place.group.lights.contains(light) && inCategory(place.scene.light(light).category, category);
+        return place.group.lights().contains(light) && inCategory(place.scene.light(light).category, category);
       }));
   auto next = static_cast<size_t>(std::max(query.next, 0));
   while (next < samples.size() && !inCategory(samples[next].light->category, category)) ++next;

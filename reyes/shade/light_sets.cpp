@@ -106,37 +106,57 @@ LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* servi
   return {std::move(lights), std::move(varying), std::move(numbers), LightTree(std::move(lamps))};
 }
 
-std::unique_ptr<const LightSets> setsOf(const LightList& lights, const BoundScene& scene) {
+/// Tells whether so many lights are drawn from, and do not all run.
+bool isMany(size_t count, const BoundLight& light, int lightCut) {
+  return count > (light.shadows ? kFewLights : kFewWithoutShadows) * static_cast<size_t>(lightCut);
+}
+
+SharedSets setsOf(const LightList& lights, const BoundScene& scene) {
   std::map<std::string, std::vector<const BoundLight*>> byKey;
   for (const int index : lights)
     if (const BoundLight& l = scene.light(index);
         mayBeDrawn(l) && !boundOf(l, scene.services).empty() && isFinite(vec3(powerOf(l, scene.services))))
       byKey[keyOf(l)].push_back(&l);
-  std::erase_if(byKey, [&](const auto& entry) {
-    const size_t few = entry.second[0]->shadows ? kFewLights : kFewWithoutShadows;
-    return entry.second.size() <= few * static_cast<size_t>(scene.lightCut);
-  });
-  if (byKey.empty()) return nullptr;
-  auto out = std::make_unique<LightSets>();
   std::vector<std::vector<const BoundLight*>> sets;
-  for (auto& [key, members] : byKey) sets.push_back(std::move(members));
+  for (auto& [key, members] : byKey)
+    if (isMany(members.size(), *members[0], scene.lightCut)) sets.push_back(std::move(members));
   std::sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a[0]->index < b[0]->index; });
-  std::vector<int> drawn;
+  SharedSets out{{}, std::vector<int>(scene.lights.size(), -1)};
   for (auto& members : sets) {
-    for (const BoundLight* l : members) drawn.push_back(l->index);
-    out->sets.push_back(setOf(std::move(members), scene.services));
+    for (const BoundLight* l : members) out.setOf[static_cast<size_t>(l->index)] = static_cast<int>(out.sets.size());
+    out.sets.push_back(setOf(std::move(members), scene.services));
   }
-  std::sort(drawn.begin(), drawn.end());
-  for (const int index : lights)
-    if (!std::binary_search(drawn.begin(), drawn.end(), index)) out->alone.switchOn(index);
+  return out;
+}
+
+/// Returns what these lights are in sets that were made for a list that begins with them; null if all run.
+std::unique_ptr<const LightSets> partOf(const SharedSets& shared, const LightList& lights, int lightCut) {
+  auto out = std::make_unique<LightSets>();
+  std::vector<bool> drawn;
+  for (const LightSet& set : shared.sets) {
+    const auto isOn = [&](const BoundLight* l) { return lights.contains(l->index); };
+    const auto count = std::partition_point(set.lights.begin(), set.lights.end(), isOn) - set.lights.begin();
+    drawn.push_back(isMany(static_cast<size_t>(count), *set.lights[0], lightCut));
+    if (drawn.back()) out->sets.push_back({&set, static_cast<uint32_t>(count)});
+  }
+  if (out->sets.empty()) return nullptr;
+  for (const int light : lights)
+    if (const int set = shared.setOf[static_cast<size_t>(light)]; set < 0 || !drawn[static_cast<size_t>(set)])
+      out->alone.switchOn(light);
   return out;
 }
 
 }  // namespace
 
-const LightSets* LightChoice::sets(const BoundScene& scene, const LightList& lights) const {
-  if (scene.lightCut == 0 || lights.size() <= kFewLights * static_cast<size_t>(scene.lightCut)) return nullptr;
-  std::call_once(once_, [&] { sets_ = setsOf(lights, scene); });
+const SharedSets& LightChoice::shared(const BoundScene& scene) const {
+  if (longest_) return longest_->shared(scene);
+  std::call_once(made_, [&] { shared_ = setsOf(lights_, scene); });
+  return shared_;
+}
+
+const LightSets* LightChoice::sets(const BoundScene& scene) const {
+  if (scene.lightCut == 0 || lights_.size() <= kFewLights * static_cast<size_t>(scene.lightCut)) return nullptr;
+  std::call_once(chosen_, [&] { sets_ = partOf(shared(scene), lights_, scene.lightCut); });
   return sets_.get();
 }
 

@@ -28,20 +28,41 @@ struct LightSet {
   LightTree tree;
 };
 
+/// Sets for all lists that their list begins with.
+struct SharedSets {
+  std::vector<LightSet> sets;
+  std::vector<int> setOf;  ///< The set of each light of the scene; -1 if there is none.
+};
+
+/// The first so many lights of a set.
+struct LightsOfSet {
+  const LightSet* set;
+  uint32_t count;
+};
+
 struct LightSets {
   LightList alone;  ///< Lights that run at every point.
-  std::vector<LightSet> sets;
+  std::vector<LightsOfSet> sets;
 };
 
 /// The sets of the lights of some groups of objects. They are made when light is first asked for, because the places of
 /// lamps with geometry are known by then.
 class LightChoice {
  public:
-  /// Returns null if all lights run. `lights` are the same each time.
-  const LightSets* sets(const BoundScene& scene, const LightList& lights) const;
+  /// `longest`: the choice among a list that begins with these lights, whose sets it shares; null if it has its own.
+  explicit LightChoice(LightList lights, std::shared_ptr<const LightChoice> longest = nullptr)
+      : lights_(std::move(lights)), longest_(std::move(longest)) {}
+  const LightList& lights() const { return lights_; }
+  /// Returns null if all lights run.
+  const LightSets* sets(const BoundScene& scene) const;
 
  private:
-  mutable std::once_flag once_;
+  const SharedSets& shared(const BoundScene& scene) const;
+
+  const LightList lights_;
+  const std::shared_ptr<const LightChoice> longest_;
+  mutable std::once_flag made_, chosen_;
+  mutable SharedSets shared_;
   mutable std::unique_ptr<const LightSets> sets_;
 };
 

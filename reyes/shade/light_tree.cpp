@@ -98,7 +98,8 @@ uint32_t LightTree::build(std::span<uint32_t> order) {
     centers.extend(lamps_[l].bound.center());
     power += lamps_[l].power;
   }
-  nodes_.push_back({bound.center(), 0.5f * glm::length(bound.size()), power, 0, 0, order[0]});
+  nodes_.push_back({bound.center(), 0.5f * glm::length(bound.size()), power, 0, 0, order[0],
+                    *std::min_element(order.begin(), order.end())});
   if (order.size() > 1) {
     const vec3 size = centers.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -132,12 +133,13 @@ float LightTree::atBest(const LampReceiver& at, const Node& node) const {
 
 void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<LampCluster>& out) const {
   out.clear();
-  if (nodes_.empty()) return;
+  if (nodes_.empty() || at.lamps == 0) return;
   thread_local std::vector<Refinable> heap;
   heap.clear();
   float light = 0;
   int samples = 0;
   const auto add = [&](uint32_t node, int n) {
+    if (nodes_[node].first >= at.lamps) return;
     const float expected = atBest(at, nodes_[node]);
     const bool whole = nodes_[node].right == 0 && n >= perLamp;
     heap.push_back({whole ? 0 : expected / static_cast<float>(n), expected, {node, n}});
@@ -185,6 +187,15 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
   return out;
 }
 
+std::array<float, LightTree::kParts> LightTree::importanceBelow(const LampReceiver& at, const Node& node) const {
+  const Parts& all = parts_[node.below];
+  if (at.lamps >= lamps_.size()) return importance(at, all);
+  Parts lit = all;
+  for (size_t k = 0; k < kParts; ++k)
+    if (nodes_[lit.node[k]].first >= at.lamps) lit.power[k] = 0;
+  return importance(at, lit);
+}
+
 void LightTree::draw(const LampReceiver& at, std::span<const LampCluster> clusters, std::span<const float> xi,
                      std::span<DrawnLamp> out) const {
   thread_local std::vector<Descent> open;
@@ -200,8 +211,9 @@ void LightTree::draw(const LampReceiver& at, std::span<const LampCluster> cluste
   while (!open.empty()) {
     size_t left = 0;
     for (Descent d : open) {
-      const Parts& parts = parts_[nodes_[d.node].below];
-      const std::array<float, kParts> light = importance(at, parts);
+      const Node& node = nodes_[d.node];
+      const Parts& parts = parts_[node.below];
+      const std::array<float, kParts> light = importanceBelow(at, node);
       const std::array<float, kParts> before{0, light[0], light[0] + light[1], light[0] + light[1] + light[2]};
       const float all = before[3] + light[3];
       const double x = d.xi * double{all};
@@ -224,7 +236,7 @@ float LightTree::expected(const LampReceiver& at, std::span<const LampCluster> c
     float probability = 1;
     while (nodes_[node].right != 0) {
       const Parts& parts = parts_[nodes_[node].below];
-      const std::array<float, kParts> light = importance(at, parts);
+      const std::array<float, kParts> light = importanceBelow(at, nodes_[node]);
       size_t k = 0;
       while (leaf >= nodes_[parts.node[k]].end) ++k;
       probability *= light[k] / (light[0] + light[1] + light[2] + light[3]);

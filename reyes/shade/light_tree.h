@@ -21,9 +21,11 @@ struct TreeLamp {
   float power;
 };
 
-/// A point that asks; N is 0 where light counts from all around.
+/// A point that asks; N is 0 where light counts from all around. Only the first `lamps` of a tree's lamps shine there,
+/// so that lists of lamps that begin alike share a tree.
 struct LampReceiver {
   vec3 P, N;
+  uint32_t lamps = ~0U;
 };
 
 /// Lamps of which one is drawn, or one lamp with some samples.
@@ -44,7 +46,7 @@ class LightTree {
 
   /// Divides the lamps into clusters. Together these have at most `most` samples, and a cluster of one lamp has at most
   /// `perLamp`. Dividing ends earlier if no sample stands for more than kClusterShare of the light that is expected.
-  /// `out` is overwritten.
+  /// `out` is overwritten. It is empty if no lamp shines there.
   void cut(const LampReceiver& at, int most, int perLamp, std::vector<LampCluster>& out) const;
   /// Draws a lamp of each cluster by a number in [0, 1). Many at once overlap in the processor.
   void draw(const LampReceiver& at, std::span<const LampCluster> clusters, std::span<const float> xi,
@@ -66,6 +68,7 @@ class LightTree {
     uint32_t right;  ///< The second child; the first one follows its parent. A leaf's is 0.
     uint32_t end;    ///< The number behind the last node below it.
     uint32_t below;  ///< The lamp of a leaf; the parts of another node.
+    uint32_t first;  ///< The least number of its lamps.
   };
   static constexpr int kParts = 4;
   /// What draws read of the nodes two steps below a node, or one step where that is a leaf: the places of their lamps,
@@ -81,6 +84,8 @@ class LightTree {
   float atBest(const LampReceiver& at, const Node& node) const;
   /// Returns the light of each part on the average, up to a factor that all parts share. One at least is positive.
   static std::array<float, kParts> importance(const LampReceiver& at, const Parts& parts);
+  /// Returns the same of the parts of a node where lamps shine; 0 where none do.
+  std::array<float, kParts> importanceBelow(const LampReceiver& at, const Node& node) const;
 
   std::vector<TreeLamp> lamps_;
   std::vector<Node> nodes_;

@@ -57,7 +57,7 @@ void LightUse::add(const Batch& batch) {
   if (context.kind != RayKind::Camera || context.sketch || context.rehearsal || context.light != Illumination::Lights ||
       !batch.lights.asked())
     return;
-  const LightList& lights = batch.group.lights;
+  const LightList& lights = batch.group.lights();
   if (std::none_of(lights.begin(), lights.end(), [&](int light) { return isDirect(batch.scene.light(light)); })) {
     const std::lock_guard lock(mutex_);
     unlit_.insert(&batch.group);

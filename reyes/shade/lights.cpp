@@ -36,13 +36,12 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 
 const LightSets* Lights::setsOf(const Batch& batch) const {
-  return group_ || batch.context.lights || !batch.points ? nullptr
-                                                         : batch.group.choice->sets(batch.scene, batch.group.lights);
+  return group_ || batch.context.lights || !batch.points ? nullptr : batch.group.choice->sets(batch.scene);
 }
 
 const LightList& Lights::alone(const Batch& batch) const {
   const LightSets* sets = setsOf(batch);
-  return sets ? sets->alone : batch.group.lights;
+  return sets ? sets->alone : batch.group.lights();
 }
 
 void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
@@ -73,7 +72,7 @@ std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
         applies(light, batch) && shines(light, batch) && (!request_ || inCategory(light.category, request_->category)))
       evaluate(batch, light);
   for (size_t k = 0; sets && runsDirect && k < sets->sets.size(); ++k)
-    if (const BoundLight& first = *sets->sets[k].lights[0];
+    if (const BoundLight& first = *sets->sets[k].set->lights[0];
         applies(first, batch) && (!request_ || inCategory(first.category, request_->category)))
       evaluateDrawn(batch, sets->sets[k]);
   if (!group_) return samples_;
@@ -182,7 +181,7 @@ template <class Body>
 void Lights::forEachSetWithExtent(Batch& batch, const Body& body) const {
   const LightSets* sets = setsOf(batch);
   for (size_t k = 0; sets && k < sets->sets.size(); ++k)
-    if (const BoundLight& first = *sets->sets[k].lights[0];
+    if (const BoundLight& first = *sets->sets[k].set->lights[0];
         hasExtent(first) && !first.nonspecular && applies(first, batch))
       body(sets->sets[k]);
 }
@@ -190,7 +189,8 @@ void Lights::forEachSetWithExtent(Batch& batch, const Body& body) const {
 int Lights::mostSamples(Batch& batch) const {
   int most = 0;
   forEachWithExtent(batch, [&](const BoundLight& light) { most = std::max(most, samplesOf(light, batch)); });
-  forEachSetWithExtent(batch, [&](const LightSet& set) { most = std::max(most, samplesOf(*set.lights[0], batch)); });
+  forEachSetWithExtent(batch,
+                       [&](const LightsOfSet& some) { most = std::max(most, samplesOf(*some.set->lights[0], batch)); });
   return most;
 }
 
@@ -198,7 +198,7 @@ void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
   forEachWithExtent(batch, [&](const BoundLight& light) {
     if (shines(light, batch)) alongOne(batch, light, lobe, Cl);
   });
-  forEachSetWithExtent(batch, [&](const LightSet& set) { alongDrawn(batch, set, lobe, Cl); });
+  forEachSetWithExtent(batch, [&](const LightsOfSet& some) { alongDrawn(batch, some, lobe, Cl); });
   ++lobes_;
 }
 

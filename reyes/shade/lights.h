@@ -107,9 +107,9 @@ class Lights {
               const LobeDirections& lobe, TmVec3 Cl);
   // drawn_lights.cpp
   const LightSets* setsOf(const Batch& batch) const;  ///< Null if all lights run.
-  const LightCuts& cutsOf(Batch& batch, const LightSet& set);
-  void evaluateDrawn(Batch& batch, const LightSet& set);
-  void alongDrawn(Batch& batch, const LightSet& set, const LobeDirections& lobe, TmVec3 Cl);
+  const LightCuts& cutsOf(Batch& batch, const LightsOfSet& some);
+  void evaluateDrawn(Batch& batch, const LightsOfSet& some);
+  void alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirections& lobe, TmVec3 Cl);
   void substitute(Batch& batch);
   void tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const;
   template <class Body>

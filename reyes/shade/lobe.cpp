@@ -99,7 +99,7 @@ class Highlight {
   void addLightSamples() {
     const LightList& indirect = batch_.scene.indirect;
     const auto filters = [this](int light) {
-      return batch_.scene.light(light).filters && batch_.group.lights.contains(light);
+      return batch_.scene.light(light).filters && batch_.group.lights().contains(light);
     };
     for (LightSample& sample :
          batch_.lights.samples(batch_, !follows_ || std::any_of(indirect.begin(), indirect.end(), filters))) {
@@ -136,7 +136,7 @@ class Highlight {
   /// alone.
   void addPaths() {
     if (!follows_ || !batch_.context.indirect || !batch_.group.group->attributes->indirect.receive) return;
-    for (const int index : batch_.group.lights.among(batch_.scene.indirect))
+    for (const int index : batch_.group.lights().among(batch_.scene.indirect))
       if (const BoundLight& light = batch_.scene.light(index);
           !light.filters && !light.nonspecular && applies(light, batch_) &&
           (!batch_.lights.group() || light.group == *batch_.lights.group()))

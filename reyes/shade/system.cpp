@@ -128,7 +128,7 @@ bool ShadingSystem::asksHemispheres(int group) const {
          (allowed && g.surface->can(TM_INTERPOLATED)) ||
          std::any_of(impl_->interpolated.begin(), impl_->interpolated.end(), [&](int light) {
            const float most = impl_->light(light).maxVariation;
-           return (most < 0 ? allowed : most > 0) && g.lights.contains(light);
+           return (most < 0 ? allowed : most > 0) && g.lights().contains(light);
          });
 }
 

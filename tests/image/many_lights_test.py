@@ -87,6 +87,13 @@ with tempfile.TemporaryDirectory() as name:
             drawn = render(folder, lamps, world, option=few)
             expect(abs(mean(drawn) / mean(truth) - 1) < 0.005, f"{kind} on {surface}: the mean of the picture stays ({100 * (mean(drawn) / mean(truth) - 1):.2f} %)")
             expect(0 < mean_error(drawn, truth) < 0.05, f"{kind} on {surface}: {100 * mean_error(drawn, truth):.2f} % from all lamps")
+            # Half of the lamps come after the floor and shine on the balls alone. Floor and balls draw from one tree.
+            middle = lamps.rindex("AttributeBegin" if "Area" in lamps else "LightSource", 0, lamps.index(f'light" {SIDE * SIDE // 2} "'))
+            split = lamps[:middle] + FLOOR.replace("matte", surface) + lamps[middle:] + BALLS
+            half, drawn = render(folder, split, "", option=all_of_them), render(folder, split, "", option=few)
+            expect(mean(half) < 0.8 * mean(truth), f"{kind} on {surface}: later lamps do not light the floor")
+            expect(abs(mean(drawn) / mean(half) - 1) < 0.005, f"{kind} on {surface}: nor when some are drawn ({100 * (mean(drawn) / mean(half) - 1):.2f} % off)")
+            expect(0 < mean_error(drawn, half) < 0.05, f"{kind} on {surface}: {100 * mean_error(drawn, half):.2f} % from all that light it")
 
     world = FLOOR + BALLS
     one = render(folder, areas(), world, "-t", "1", option=few)

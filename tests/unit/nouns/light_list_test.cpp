@@ -47,6 +47,25 @@ TEST(LightList, DiffersByOrder) {
   EXPECT_NE((LightList{0, 1} < LightList{1, 0}), (LightList{1, 0} < LightList{0, 1}));
 }
 
+TEST(LightList, IsFollowedByThoseThatBeginWithIt) {
+  std::vector<LightList> lists;
+  for (uint32_t k = 0; k < 300; ++k) {
+    LightList list;
+    for (uint32_t step = 0; step < hashCombine(k, 3U) % 5; ++step)
+      list.switchOn(static_cast<int>(hashCombine(k, step, 4U) % 4));
+    lists.push_back(list);
+  }
+  for (const LightList& a : lists)
+    for (const LightList& b : lists) {
+      const std::vector<int> x = numbers(a), y = numbers(b);
+      const bool begins = x.size() <= y.size() && std::equal(x.begin(), x.end(), y.begin());
+      ASSERT_EQ(a.begins(b), begins);
+      ASSERT_TRUE(!begins || a <= b);
+      for (const LightList& c : lists)
+        ASSERT_TRUE(!begins || !(a < c && c < b) || a.begins(c)) << "nothing else comes between";
+    }
+}
+
 TEST(LightList, KeepsItsOrderAmongOthers) {
   EXPECT_EQ((LightList{7, 8, 2, 3, 4, 0}).among({0, 3, 4, 5, 8}), (LightList{8, 3, 4, 0}));
   EXPECT_EQ((LightList{5, 3, 4}).among({3, 5}), (LightList{5, 3}));

@@ -52,6 +52,29 @@ TEST(LightTree, LightOverProbabilityOfDrawnLampsHasTheSumOfAllLampsAsItsMean) {
   }
 }
 
+TEST(LightTree, TheFirstLampsAreDrawnAsIfThereWereNoOthers) {
+  const std::vector<TreeLamp> lamps = lampsIn(200, 0.1f);
+  const LightTree tree(lamps);
+  for (const uint32_t count : {1u, 7u, 130u, 199u, 200u}) {
+    const LampReceiver at{{3, 1, 2}, {0, 1, 0}, count};
+    std::vector<LampCluster> cut;
+    tree.cut(at, 20, 1, cut);
+    EXPECT_LE(cut.size(), 20u);
+    double expected = 0;
+    for (uint32_t lamp = 0; lamp < count; ++lamp) {
+      const float n = tree.expected(at, cut, lamp);
+      EXPECT_GT(n, 0) << lamp << " of " << count;
+      expected += double{n};
+    }
+    EXPECT_NEAR(expected, static_cast<double>(cut.size()), 1e-4) << "no draw is lost to other lamps";
+    for (const LampCluster& cluster : cut)
+      for (int k = 0; k < 50; ++k) EXPECT_LT(drawn(tree, at, cluster, (static_cast<float>(k) + 0.5f) / 50).lamp, count);
+  }
+  std::vector<LampCluster> none{{0, 1}};
+  tree.cut({{3, 1, 2}, {0, 1, 0}, 0}, 20, 1, none);
+  EXPECT_TRUE(none.empty());
+}
+
 TEST(LightTree, ALampThatOutshinesTheOthersIsDrawnForCertainAndHasMoreSamples) {
   std::vector<TreeLamp> lamps = lampsIn(200, 0.01f);
   lamps[77].power = 1000;
