@@ -33,6 +33,16 @@ ChartCurve gatherCurve(const std::string& name, const Arguments& method, double 
   return out;
 }
 
+/// Paths bring what photons do not, so both grow.
+ChartCurve tracedCurve() {
+  constexpr const char *kPaths[] = {"4", "16", "64", "128", "256"},
+                       *kPhotons[] = {"30000", "100000", "300000", "1000000", "3000000"};
+  ChartCurve out{"reference", {}};
+  for (size_t k = 0; k < std::size(kPaths); ++k)
+    add(out.settings.emplace_back(kTraced), {"--photons", kPhotons[k], "--samples", kPaths[k]});
+  return out;
+}
+
 /// With this allowed error, `ward` makes as many records as `screen` at maxerror 1 (docs/measured/irradiance_cache.md),
 /// and so does `hessian`.
 constexpr double kWard = 1.4;
@@ -74,7 +84,9 @@ std::vector<ChartSweep> allSweeps() {
        true,
        {errorFunctionCurve("screen", 1), errorFunctionCurve("ward", kWard), errorFunctionCurve("hessian", 1),
         gatherCurve("radiosity, one bounce", {"--gi", "radiosity"}), gatherCurve(kAtlasName, kAtlas),
-        varied("reference", kTraced, "--samples", {"4", "16", "64", "128", "256"})}},
+        varied("progressive", {"--gi", "progressive"}, "--photons",
+               {"30000", "100000", "300000", "1000000", "3000000"}),
+        tracedCurve()}},
       {"maxerror",
        "error allowed in irradiance interpolation",
        kIndirect,
