@@ -33,7 +33,9 @@ void checkProceduralBound(const Procedural& p, const Expansion& inside, Log& log
   const float time = p.keyTimes.front();
   const mat4 fromCamera = glm::inverse(p.cameraFromObject.at(time));
   Bound3 seen;
-  for (const Object& o : inside.objects) seen.extend(someOf(o, fromCamera * o.cameraFromObject.at(time)));
+  for (const Object& o : inside.objects)
+    if (o.solid < 0)  // another part of its solid may cut off what passes the bound
+      seen.extend(someOf(o, fromCamera * o.cameraFromObject.at(time)));
   const Bound3 allowed = p.bound.grown(kTolerance * glm::length(p.bound.size()));
   if (seen.empty() ||
       (glm::all(glm::greaterThanEqual(seen.lo, allowed.lo)) && glm::all(glm::lessThanEqual(seen.hi, allowed.hi))))
